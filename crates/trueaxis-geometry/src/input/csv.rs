@@ -1,0 +1,139 @@
+use super::{Diagnostics, Place};
+
+/// One column of numbers with the name that stands above it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CsvColumn {
+    /// The heading, such as `EXX_um`.
+    pub name: String,
+    /// The place of the heading.
+    pub place: Place,
+    /// The numbers, one a row.
+    pub values: Vec<f64>,
+}
+
+/// A table of finite numbers under named columns, with the line of every row.
+///
+/// ```
+/// use trueaxis_geometry::input::{CsvTable, Diagnostics};
+/// let mut problems = Diagnostics::new();
+/// let table = CsvTable::parse("x.csv", "# made by hand\nposition_mm,EXX_um\n0,1.5\n10,2\n", &mut problems);
+/// assert_eq!(table.columns[1].values, [1.5, 2.0]);
+/// assert_eq!(table.row_place(1).line, 4);
+/// assert!(!problems.has_errors());
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct CsvTable {
+    /// The file as the user named it.
+    pub file: String,
+    /// All columns, of equal length.
+    pub columns: Vec<CsvColumn>,
+    lines: Vec<usize>,
+}
+
+impl CsvTable {
+    /// Reads a text: `#` comments, one line of headings, rows of numbers.
+    ///
+    /// Rows with problems are left out of the table *and* reported, so a table with errors must
+    /// not be used.
+    pub fn parse(file: &str, text: &str, problems: &mut Diagnostics) -> Self {
+        let mut table = Self { file: file.to_owned(), ..Self::default() };
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let rows = text.lines().enumerate().map(|(i, line)| (i + 1, line));
+        for (number, line) in rows.filter(|(_, l)| !l.trim().is_empty() && !l.starts_with('#')) {
+            if table.columns.is_empty() {
+                table.read_headings(number, line, problems);
+            } else {
+                table.read_row(number, line, problems);
+            }
+        }
+        if table.columns.is_empty() {
+            problems.error(
+                "empty-table",
+                Place::whole(file),
+                "the table has no line of headings".to_owned(),
+                "the first line names the columns, such as position_mm,EXX_um",
+            );
+        }
+        table
+    }
+
+    /// The column of that name.
+    pub fn column(&self, name: &str) -> Option<&CsvColumn> {
+        self.columns.iter().find(|c| c.name == name)
+    }
+
+    /// How many rows of numbers.
+    pub fn rows(&self) -> usize {
+        self.lines.len()
+    }
+
+    /// The place of a row, counted from 0.
+    pub fn row_place(&self, row: usize) -> Place {
+        Place { file: self.file.clone(), line: self.lines[row], column: 1 }
+    }
+
+    fn read_headings(&mut self, line: usize, text: &str, problems: &mut Diagnostics) {
+        for (column, name) in fields(text) {
+            let place = Place { file: self.file.clone(), line, column };
+            if self.column(name).is_some() {
+                problems.error(
+                    "duplicate-column",
+                    place.clone(),
+                    format!("two columns are named `{name}`"),
+                    "give each column its own name",
+                );
+            }
+            self.columns.push(CsvColumn { name: name.to_owned(), place, values: Vec::new() });
+        }
+    }
+
+    fn read_row(&mut self, line: usize, text: &str, problems: &mut Diagnostics) {
+        let mut row = Vec::with_capacity(self.columns.len());
+        for (column, field) in fields(text) {
+            match field.parse::<f64>() {
+                Ok(value) if value.is_finite() => row.push(value),
+                _ => {
+                    let place = Place { file: self.file.clone(), line, column };
+                    let message = format!("`{field}` is not a finite number");
+                    problems.error("not-a-number", place, message, "write a number such as -1.5");
+                    return;
+                }
+            }
+        }
+        if row.len() != self.columns.len() {
+            let place = Place { file: self.file.clone(), line, column: 1 };
+            let message =
+                format!("{} fields stand under {} headings", row.len(), self.columns.len());
+            problems.error("ragged-row", place, message, "one number under each heading");
+            return;
+        }
+        self.lines.push(line);
+        for (column, value) in self.columns.iter_mut().zip(row) {
+            column.values.push(value);
+        }
+    }
+}
+
+/// The trimmed fields of a line with the column (from 1, in characters) where each begins.
+fn fields(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    let mut column = 1;
+    text.trim_end_matches(['\r', '\n']).split(',').map(move |field| {
+        let lead = field.chars().take_while(|c| c.is_whitespace()).count();
+        let start = column + lead;
+        column += field.chars().count() + 1;
+        (start, field.trim())
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_bad_row_is_reported_with_its_place() {
+        let mut problems = Diagnostics::new();
+        CsvTable::parse("t.csv", "a,b\n1, x\n1\nnan,2\n3,4\n", &mut problems);
+        let places: Vec<_> = problems.iter().map(|d| d.place.to_string()).collect();
+        assert_eq!(places, ["t.csv:2:4", "t.csv:3:1", "t.csv:4:1"]);
+    }
+}

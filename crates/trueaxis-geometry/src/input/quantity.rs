@@ -1,0 +1,307 @@
+use std::fmt;
+
+/// What a quantity measures; the unit that programs hold it in stands in brackets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dimension {
+    /// \[mm\]
+    Length,
+    /// \[rad\]
+    Angle,
+    /// \[s\]
+    Time,
+    /// \[°C\]
+    Temperature,
+    /// \[mm/s\]
+    Velocity,
+    /// \[mm/s²\]
+    Acceleration,
+    /// \[mm/s³\]
+    Jerk,
+    /// \[rad/s\]
+    AngularVelocity,
+    /// \[rad/s²\]
+    AngularAcceleration,
+    /// \[rad/s³\]
+    AngularJerk,
+    /// \[1/K\]
+    Expansion,
+    /// A plain number \[1\]
+    Ratio,
+}
+
+const DEG: f64 = std::f64::consts::PI / 180.0;
+const TURN: f64 = std::f64::consts::TAU;
+
+/// Every unit that is read: dimension, factor to the inner unit, spellings.
+const UNITS: &[(Dimension, f64, &[&str])] = &[
+    (Dimension::Length, 1.0, &["mm"]),
+    (Dimension::Length, 1e-3, &["um", "µm", "μm"]),
+    (Dimension::Length, 1e-6, &["nm"]),
+    (Dimension::Length, 10.0, &["cm"]),
+    (Dimension::Length, 1e3, &["m"]),
+    (Dimension::Length, 25.4, &["in"]),
+    (Dimension::Angle, 1.0, &["rad"]),
+    (Dimension::Angle, 1e-3, &["mrad", "mm/m"]),
+    (Dimension::Angle, 1e-6, &["urad", "µrad", "μrad", "um/m", "µm/m", "μm/m"]),
+    (Dimension::Angle, DEG, &["deg", "°"]),
+    (Dimension::Angle, DEG / 60.0, &["arcmin"]),
+    (Dimension::Angle, DEG / 3600.0, &["arcsec", "″"]),
+    (Dimension::Time, 1.0, &["s"]),
+    (Dimension::Time, 1e-3, &["ms"]),
+    (Dimension::Time, 60.0, &["min"]),
+    (Dimension::Time, 3600.0, &["h"]),
+    (Dimension::Temperature, 1.0, &["degC", "°C", "celsius"]),
+    (Dimension::Velocity, 1.0, &["mm/s"]),
+    (Dimension::Velocity, 1.0 / 60.0, &["mm/min"]),
+    (Dimension::Velocity, 1e3 / 60.0, &["m/min"]),
+    (Dimension::Velocity, 1e3, &["m/s"]),
+    (Dimension::Acceleration, 1.0, &["mm/s^2", "mm/s²"]),
+    (Dimension::Acceleration, 1e3, &["m/s^2", "m/s²"]),
+    (Dimension::Jerk, 1.0, &["mm/s^3", "mm/s³"]),
+    (Dimension::Jerk, 1e3, &["m/s^3", "m/s³"]),
+    (Dimension::AngularVelocity, 1.0, &["rad/s"]),
+    (Dimension::AngularVelocity, DEG, &["deg/s", "°/s"]),
+    (Dimension::AngularVelocity, DEG / 60.0, &["deg/min", "°/min"]),
+    (Dimension::AngularVelocity, TURN / 60.0, &["rpm", "1/min"]),
+    (Dimension::AngularAcceleration, 1.0, &["rad/s^2", "rad/s²"]),
+    (Dimension::AngularAcceleration, DEG, &["deg/s^2", "deg/s²", "°/s^2", "°/s²"]),
+    (Dimension::AngularJerk, 1.0, &["rad/s^3", "rad/s³"]),
+    (Dimension::AngularJerk, DEG, &["deg/s^3", "deg/s³", "°/s^3", "°/s³"]),
+    (Dimension::Expansion, 1.0, &["1/K"]),
+    (
+        Dimension::Expansion,
+        1e-6,
+        &["um/(m·K)", "µm/(m·K)", "μm/(m·K)", "um/(m K)", "um/m/K", "ppm/K"],
+    ),
+    (Dimension::Ratio, 1.0, &[""]),
+    (Dimension::Ratio, 1e-2, &["%"]),
+];
+
+impl Dimension {
+    /// The units that may be written, the inner one first: for hints.
+    pub fn units(self) -> String {
+        let names: Vec<_> =
+            UNITS.iter().filter(|(d, ..)| *d == self).map(|(_, _, names)| names[0]).collect();
+        names.join(", ")
+    }
+}
+
+impl fmt::Display for Dimension {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Length => "a length",
+            Self::Angle => "an angle",
+            Self::Time => "a time",
+            Self::Temperature => "a temperature",
+            Self::Velocity => "a velocity",
+            Self::Acceleration => "an acceleration",
+            Self::Jerk => "a jerk",
+            Self::AngularVelocity => "an angular velocity",
+            Self::AngularAcceleration => "an angular acceleration",
+            Self::AngularJerk => "an angular jerk",
+            Self::Expansion => "a coefficient of expansion",
+            Self::Ratio => "a plain number",
+        })
+    }
+}
+
+/// A value and, if one was written, its standard uncertainty, both in the inner unit.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Measured {
+    /// The value.
+    pub value: f64,
+    /// The standard uncertainty u (GUM), `None` if none was stated.
+    pub u: Option<f64>,
+}
+
+/// Why a text is no quantity of the dimension that was asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub enum QuantityError {
+    /// There is no number at the start.
+    NotANumber(String),
+    /// NaN, infinite, or too large for a double.
+    NotFinite(String),
+    /// A number without a unit.
+    NoUnit(Dimension),
+    /// No unit of that name exists.
+    UnknownUnit(String, Dimension),
+    /// A unit of something else: degrees where mm is due.
+    WrongDimension {
+        /// The unit as written.
+        unit: String,
+        /// What it measures.
+        found: Dimension,
+        /// What is due here.
+        expected: Dimension,
+    },
+    /// An uncertainty below zero.
+    NegativeUncertainty,
+}
+
+impl QuantityError {
+    /// A stable name for programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::NotANumber(_) => "not-a-number",
+            Self::NotFinite(_) => "not-finite",
+            Self::NoUnit(_) => "missing-unit",
+            Self::UnknownUnit(..) => "unknown-unit",
+            Self::WrongDimension { .. } => "wrong-unit",
+            Self::NegativeUncertainty => "negative-uncertainty",
+        }
+    }
+
+    /// What to write instead.
+    pub fn hint(&self) -> String {
+        match self {
+            Self::NotANumber(_) | Self::NotFinite(_) => {
+                "write a finite number and its unit, such as \"12.5 mm\"".to_owned()
+            }
+            Self::NoUnit(d) | Self::UnknownUnit(_, d) => format!("units of {d}: {}", d.units()),
+            Self::WrongDimension { expected, .. } => {
+                format!("units of {expected}: {}", expected.units())
+            }
+            Self::NegativeUncertainty => "a standard uncertainty is zero or positive".to_owned(),
+        }
+    }
+}
+
+impl fmt::Display for QuantityError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotANumber(text) => write!(f, "`{text}` is not a number"),
+            Self::NotFinite(text) => write!(f, "`{text}` is not a finite number"),
+            Self::NoUnit(d) => write!(f, "{d} needs a unit"),
+            Self::UnknownUnit(unit, d) => write!(f, "`{unit}` is no unit of {d}"),
+            Self::WrongDimension { unit, found, expected } => {
+                write!(f, "`{unit}` is a unit of {found}, but {expected} is due here")
+            }
+            Self::NegativeUncertainty => f.write_str("the uncertainty is negative"),
+        }
+    }
+}
+
+impl std::error::Error for QuantityError {}
+
+/// Reads one quantity such as `"12 urad"` and returns it in the inner unit.
+///
+/// ```
+/// use trueaxis_geometry::input::{Dimension, parse_quantity};
+/// assert_eq!(parse_quantity("30 m/min", Dimension::Velocity), Ok(500.0));
+/// assert!(parse_quantity("30", Dimension::Length).is_err());
+/// assert!(parse_quantity("30 deg", Dimension::Length).is_err());
+/// ```
+///
+/// # Errors
+/// Whatever is not one finite number followed by a unit of that dimension.
+pub fn parse_quantity(text: &str, dimension: Dimension) -> Result<f64, QuantityError> {
+    let text = text.trim();
+    let (number, unit) = split_number(text);
+    let value = parse_number(number, text)?;
+    Ok(value * factor(unit.trim(), dimension)?)
+}
+
+/// Reads a quantity that may carry a standard uncertainty: `"12 urad ± 1 urad"`, `"12 ± 1 urad"`.
+///
+/// ```
+/// use trueaxis_geometry::input::{Dimension, parse_measured};
+/// let squareness = parse_measured("12 ± 1 mrad", Dimension::Angle)?;
+/// assert_eq!((squareness.value, squareness.u), (0.012, Some(0.001)));
+/// # Ok::<(), trueaxis_geometry::input::QuantityError>(())
+/// ```
+///
+/// # Errors
+/// As [`parse_quantity`], and a negative uncertainty.
+pub fn parse_measured(text: &str, dimension: Dimension) -> Result<Measured, QuantityError> {
+    let Some((left, right)) = text.split_once('±').or_else(|| text.split_once("+-")) else {
+        return Ok(Measured { value: parse_quantity(text, dimension)?, u: None });
+    };
+    let u = parse_quantity(right, dimension)?;
+    if u < 0.0 {
+        return Err(QuantityError::NegativeUncertainty);
+    }
+    // "12 ± 1 urad": the unit behind the uncertainty holds for both.
+    let left = left.trim();
+    let value = match split_number(left) {
+        (number, "") => {
+            let (_, unit) = split_number(right.trim());
+            parse_number(number, left)? * factor(unit.trim(), dimension)?
+        }
+        _ => parse_quantity(left, dimension)?,
+    };
+    Ok(Measured { value, u: Some(u) })
+}
+
+/// The longest leading part that looks like a number, and the rest.
+fn split_number(text: &str) -> (&str, &str) {
+    let mut end = 0;
+    let mut previous = ' ';
+    for (i, c) in text.char_indices() {
+        let sign_of_exponent = matches!(c, '+' | '-') && matches!(previous, 'e' | 'E');
+        let leading_sign = matches!(c, '+' | '-') && i == 0;
+        let exponent = matches!(c, 'e' | 'E')
+            && previous.is_ascii_digit()
+            && text[i + 1..].starts_with(|n: char| n.is_ascii_digit() || n == '+' || n == '-');
+        if !(c.is_ascii_digit() || c == '.' || leading_sign || exponent || sign_of_exponent) {
+            break;
+        }
+        previous = c;
+        end = i + c.len_utf8();
+    }
+    text.split_at(end)
+}
+
+fn parse_number(number: &str, whole: &str) -> Result<f64, QuantityError> {
+    let word = whole.trim_start_matches(['+', '-']).to_ascii_lowercase();
+    if ["nan", "inf"].iter().any(|w| word.starts_with(w)) {
+        return Err(QuantityError::NotFinite(whole.to_owned()));
+    }
+    let value: f64 = number.parse().map_err(|_| QuantityError::NotANumber(whole.to_owned()))?;
+    if value.is_finite() { Ok(value) } else { Err(QuantityError::NotFinite(whole.to_owned())) }
+}
+
+fn factor(unit: &str, expected: Dimension) -> Result<f64, QuantityError> {
+    let mut other = None;
+    for &(dimension, factor, names) in UNITS {
+        if names.contains(&unit) {
+            if dimension == expected {
+                return Ok(factor);
+            }
+            other = Some(dimension);
+        }
+    }
+    Err(match other {
+        _ if unit.is_empty() => QuantityError::NoUnit(expected),
+        Some(found) => QuantityError::WrongDimension { unit: unit.to_owned(), found, expected },
+        None => QuantityError::UnknownUnit(unit.to_owned(), expected),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_and_units() {
+        assert_eq!(parse_quantity("-1.5e3 um", Dimension::Length), Ok(-1.5));
+        assert_eq!(parse_quantity("3mm", Dimension::Length), Ok(3.0));
+        assert_eq!(parse_quantity("180°", Dimension::Angle), Ok(std::f64::consts::PI));
+        assert_eq!(parse_quantity("10.8 um/(m·K)", Dimension::Expansion), Ok(10.8e-6));
+        assert_eq!(parse_quantity("6 1/min", Dimension::AngularVelocity), Ok(TURN / 10.0));
+    }
+
+    #[test]
+    fn refusals_say_what_is_wrong() {
+        use QuantityError as E;
+        assert!(matches!(parse_quantity("nan mm", Dimension::Length), Err(E::NotFinite(_))));
+        assert!(matches!(parse_quantity("1e999 mm", Dimension::Length), Err(E::NotFinite(_))));
+        assert!(matches!(parse_quantity("mm", Dimension::Length), Err(E::NotANumber(_))));
+        assert!(matches!(parse_quantity("1", Dimension::Angle), Err(E::NoUnit(_))));
+        assert!(matches!(parse_quantity("1 furlong", Dimension::Length), Err(E::UnknownUnit(..))));
+        assert!(matches!(
+            parse_quantity("1 deg", Dimension::Length),
+            Err(E::WrongDimension { found: Dimension::Angle, .. })
+        ));
+        assert_eq!(parse_measured("1 ± -2 mm", Dimension::Length), Err(E::NegativeUncertainty));
+    }
+}

@@ -1,0 +1,342 @@
+use super::{
+    Diagnostics, Dimension, Measured, Place, QuantityError, parse_measured, parse_quantity,
+};
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+use std::ops::Range;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// A TOML text under reading: every problem is kept, with its place, until [`Source::finish`].
+///
+/// ```
+/// use trueaxis_geometry::input::{Dimension, Source};
+/// let source = Source::new("tool.toml", "length = '100 mm'\nwidht = '3 mm'");
+/// let length = source.read(|root| root.quantity("length", Dimension::Length));
+/// assert_eq!(length, Some(100.0));
+/// let problems = source.finish();
+/// assert_eq!(problems.iter().next().unwrap().code, "unknown-key");
+/// ```
+#[derive(Debug)]
+pub struct Source<'a> {
+    file: &'a str,
+    text: &'a str,
+    problems: RefCell<Diagnostics>,
+}
+
+impl<'a> Source<'a> {
+    /// A text and the name of its file.
+    pub fn new(file: &'a str, text: &'a str) -> Self {
+        Self { file, text, problems: RefCell::default() }
+    }
+
+    /// Parses the text and hands its root to `reader`; syntax errors are kept as problems.
+    pub fn read<T>(&self, reader: impl FnOnce(&Section<'_>) -> T) -> T {
+        let (root, errors) = DeTable::parse_recoverable(self.text);
+        for error in errors {
+            let at = error.span().unwrap_or(0..0);
+            let message = error.message().to_owned();
+            self.error(
+                "toml-syntax",
+                at,
+                message,
+                "the file is TOML 1.1, see the shipped machines",
+            );
+        }
+        let section = Section::new(self, String::new(), root.span(), root.get_ref());
+        let result = reader(&section);
+        section.report_unknown_keys();
+        result
+    }
+
+    /// All that was found.
+    pub fn finish(self) -> Diagnostics {
+        self.problems.into_inner()
+    }
+
+    fn error(&self, code: &'static str, span: Range<usize>, message: String, hint: &str) {
+        let place = Place::of(self.file, self.text, span.start);
+        self.problems.borrow_mut().error(code, place, message, hint);
+    }
+}
+
+/// A value of a TOML file with its key path and place.
+#[derive(Debug, Clone, Copy)]
+pub struct Item<'s> {
+    source: &'s Source<'s>,
+    value: &'s Spanned<DeValue<'s>>,
+}
+
+impl<'s> Item<'s> {
+    /// Where the value stands.
+    pub fn place(&self) -> Place {
+        Place::of(self.source.file, self.source.text, self.value.span().start)
+    }
+
+    /// Reports a problem with this value.
+    pub fn error(&self, code: &'static str, message: String, hint: &str) {
+        self.source.error(code, self.value.span(), message, hint);
+    }
+
+    /// Reports something that somebody should look at.
+    pub fn warn(&self, code: &'static str, message: String, hint: &str) {
+        self.source.problems.borrow_mut().warn(code, self.place(), message, hint);
+    }
+
+    /// The string, or a problem.
+    pub fn text(&self) -> Option<&'s str> {
+        let text = self.value.get_ref().as_str();
+        if text.is_none() {
+            self.expected("a text in quotes");
+        }
+        text
+    }
+
+    /// The string, if it is one.
+    pub fn as_text(&self) -> Option<&'s str> {
+        self.value.get_ref().as_str()
+    }
+
+    /// A quantity in its inner unit, or a problem.
+    pub fn quantity(&self, dimension: Dimension) -> Option<f64> {
+        match self.value.get_ref() {
+            DeValue::String(text) => self.accept(parse_quantity(text, dimension)),
+            _ => self.plain_number(dimension),
+        }
+    }
+
+    /// A quantity with an optional standard uncertainty, or a problem.
+    pub fn measured(&self, dimension: Dimension) -> Option<Measured> {
+        match self.value.get_ref() {
+            DeValue::String(text) => self.accept(parse_measured(text, dimension)),
+            _ => self.plain_number(dimension).map(|value| Measured { value, u: None }),
+        }
+    }
+
+    /// A plain number (integer or float), or a problem.
+    pub fn number(&self) -> Option<f64> {
+        let parsed = match self.value.get_ref() {
+            DeValue::Integer(i) => {
+                i64::from_str_radix(i.as_str(), i.radix()).ok().map(|v| v as f64)
+            }
+            DeValue::Float(f) => f.as_str().parse::<f64>().ok(),
+            _ => {
+                self.expected("a number");
+                return None;
+            }
+        };
+        match parsed {
+            Some(value) if value.is_finite() => Some(value),
+            _ => {
+                self.error(
+                    "not-finite",
+                    "the number is not finite".into(),
+                    "write a finite number",
+                );
+                None
+            }
+        }
+    }
+
+    /// A whole number of at least 0, or a problem.
+    pub fn count(&self) -> Option<usize> {
+        let value = self.number()?;
+        // Exact in a double and small enough that no loop over it is forever.
+        if value.fract() == 0.0 && (0.0..=1e12).contains(&value) {
+            return Some(value as usize);
+        }
+        self.expected("a whole number from 0 on");
+        None
+    }
+
+    /// `true` or `false`, or a problem.
+    pub fn flag(&self) -> Option<bool> {
+        let flag = self.value.get_ref().as_bool();
+        if flag.is_none() {
+            self.expected("true or false");
+        }
+        flag
+    }
+
+    /// The elements of an array, or a problem.
+    pub fn list(&self) -> Option<Vec<Item<'s>>> {
+        let DeValue::Array(array) = self.value.get_ref() else {
+            self.expected("a list in brackets");
+            return None;
+        };
+        Some(array.iter().map(|value| Item { source: self.source, value }).collect())
+    }
+
+    /// Whether this is a list.
+    pub fn is_list(&self) -> bool {
+        self.value.get_ref().is_array()
+    }
+
+    /// Whether this is a table.
+    pub fn is_table(&self) -> bool {
+        self.value.get_ref().is_table()
+    }
+
+    /// Reads the value as a table; afterwards its unknown keys are problems.
+    pub fn section<T>(&self, name: &str, reader: impl FnOnce(&Section<'s>) -> T) -> Option<T> {
+        let DeValue::Table(table) = self.value.get_ref() else {
+            self.expected("a table");
+            return None;
+        };
+        let section = Section::new(self.source, name.to_owned(), self.value.span(), table);
+        let result = reader(&section);
+        section.report_unknown_keys();
+        Some(result)
+    }
+
+    fn plain_number(&self, dimension: Dimension) -> Option<f64> {
+        let value = self.number()?;
+        if dimension == Dimension::Ratio {
+            return Some(value);
+        }
+        self.accept(Err(QuantityError::NoUnit(dimension)))
+    }
+
+    fn accept<T>(&self, parsed: Result<T, QuantityError>) -> Option<T> {
+        parsed.map_err(|e| self.error(e.code(), e.to_string(), &e.hint())).ok()
+    }
+
+    fn expected(&self, what: &str) {
+        let found = match self.value.get_ref() {
+            DeValue::String(_) => "a text",
+            DeValue::Integer(_) | DeValue::Float(_) => "a number",
+            DeValue::Boolean(_) => "true or false",
+            DeValue::Datetime(_) => "a date",
+            DeValue::Array(_) => "a list",
+            DeValue::Table(_) => "a table",
+        };
+        self.error("wrong-type", format!("{what} is due here, not {found}"), "");
+    }
+
+    /// A date as it was written, or a text.
+    pub fn date_or_text(&self) -> Option<String> {
+        match self.value.get_ref() {
+            DeValue::Datetime(date) => Some(date.to_string()),
+            _ => self.text().map(str::to_owned),
+        }
+    }
+}
+
+/// A table of a TOML file; it remembers which keys were asked for and reports the others.
+#[derive(Debug)]
+pub struct Section<'s> {
+    source: &'s Source<'s>,
+    name: String,
+    span: Range<usize>,
+    table: &'s DeTable<'s>,
+    asked: RefCell<BTreeSet<String>>,
+}
+
+impl<'s> Section<'s> {
+    fn new(
+        source: &'s Source<'s>,
+        name: String,
+        span: Range<usize>,
+        table: &'s DeTable<'s>,
+    ) -> Self {
+        Self { source, name, span, table, asked: RefCell::default() }
+    }
+
+    /// The name of the section, such as `axis.X`.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Where the section begins.
+    pub fn place(&self) -> Place {
+        Place::of(self.source.file, self.source.text, self.span.start)
+    }
+
+    /// Reports a problem with the section as a whole.
+    pub fn error(&self, code: &'static str, message: String, hint: &str) {
+        self.source.error(code, self.span.clone(), message, hint);
+    }
+
+    /// Reports something about the section that somebody should look at.
+    pub fn warn(&self, code: &'static str, message: String, hint: &str) {
+        self.source.problems.borrow_mut().warn(code, self.place(), message, hint);
+    }
+
+    /// Takes over problems that were found elsewhere (a CSV table named here).
+    pub fn take_over(&self, problems: Diagnostics) {
+        self.source.problems.borrow_mut().append(problems);
+    }
+
+    /// The value of a key, if it is there.
+    pub fn get(&self, key: &str) -> Option<Item<'s>> {
+        self.asked.borrow_mut().insert(key.to_owned());
+        self.table.get(key).map(|value| Item { source: self.source, value })
+    }
+
+    /// The value of a key; a problem if it is missing.
+    pub fn require(&self, key: &str, hint: &str) -> Option<Item<'s>> {
+        let item = self.get(key);
+        if item.is_none() {
+            let place = if self.name.is_empty() { "the file".into() } else { self.heading() };
+            self.error("missing-key", format!("{place} lacks `{key}`"), hint);
+        }
+        item
+    }
+
+    /// An optional text.
+    pub fn text(&self, key: &str) -> Option<&'s str> {
+        self.get(key)?.text()
+    }
+
+    /// An optional quantity in its inner unit.
+    pub fn quantity(&self, key: &str, dimension: Dimension) -> Option<f64> {
+        self.get(key)?.quantity(dimension)
+    }
+
+    /// An optional sub-section.
+    pub fn section<T>(&self, key: &str, reader: impl FnOnce(&Section<'s>) -> T) -> Option<T> {
+        self.get(key)?.section(&self.path(key), reader)
+    }
+
+    /// Every key with its place and value, in the order of the file; all count as known.
+    pub fn entries(&self) -> Vec<(&'s str, Place, Item<'s>)> {
+        let mut entries: Vec<_> = self.table.iter().collect();
+        entries.sort_by_key(|(key, _)| key.span().start);
+        entries
+            .into_iter()
+            .map(|(key, value)| {
+                let name: &'s str = key.get_ref();
+                self.asked.borrow_mut().insert(name.to_owned());
+                let place = Place::of(self.source.file, self.source.text, key.span().start);
+                (name, place, Item { source: self.source, value })
+            })
+            .collect()
+    }
+
+    /// Reports a problem at a place that [`Section::entries`] gave.
+    pub fn error_at(&self, place: Place, code: &'static str, message: String, hint: &str) {
+        self.source.problems.borrow_mut().error(code, place, message, hint);
+    }
+
+    /// The key path of a sub-key.
+    pub fn path(&self, key: &str) -> String {
+        if self.name.is_empty() { key.to_owned() } else { format!("{}.{key}", self.name) }
+    }
+
+    fn heading(&self) -> String {
+        format!("[{}]", self.name)
+    }
+
+    fn report_unknown_keys(&self) {
+        let asked = self.asked.borrow();
+        for (key, _) in self.table.iter().filter(|(k, _)| !asked.contains(k.get_ref().as_ref())) {
+            let known = asked.iter().map(String::as_str).collect::<Vec<_>>().join(", ");
+            self.source.error(
+                "unknown-key",
+                key.span(),
+                format!("`{}` is not known here", self.path(key.get_ref())),
+                &format!("known here: {known}"),
+            );
+        }
+    }
+}

@@ -1,0 +1,32 @@
+//! Where things are, and what people wrote about it.
+//!
+//! Two small vocabularies that every other crate shares:
+//!
+//! - [`frame`]: points, directions and poses whose *frames are in their types*, so that a
+//!   workpiece point cannot be added to a machine point by accident.
+//! - [`input`]: text from people: quantities with units (`"12 urad"`), TOML sections that report
+//!   every problem with its place, diagnostics.
+//!
+//! Inside the programs lengths are mm, angles rad, times s, temperatures °C. µm, µrad, deg and
+//! m/min exist only in text.
+//!
+//! ```
+//! use trueaxis_geometry::frame::{Direction, Point, Pose, Tool, Workpiece};
+//! use trueaxis_geometry::Vec3;
+//!
+//! // A tool that stands 100 mm above the part, not tilted; its tip is 100 mm below the holder.
+//! let workpiece_from_tool: Pose<Workpiece, Tool> = Pose::shift(Vec3::new(0.0, 0.0, 100.0));
+//! let tip = workpiece_from_tool * Point::<Tool>::new(0.0, 0.0, -100.0);
+//! assert_eq!(tip.vector(), Vec3::zeros());
+//! assert_eq!((workpiece_from_tool * Direction::<Tool>::Z).vector(), Vec3::z());
+//! ```
+//!
+//! It does not know what a machine, a program or a part is.
+
+pub mod frame;
+pub mod input;
+
+/// A column vector of three components; its unit and frame are in the name of the variable.
+pub type Vec3 = nalgebra::Vector3<f64>;
+/// A 3×3 matrix that acts on column vectors.
+pub type Mat3 = nalgebra::Matrix3<f64>;
