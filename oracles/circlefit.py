@@ -143,7 +143,7 @@ def mcc(p):
         return x, y, max(D), max(D) - min(D)
 
 
-def mic(p, near=None):
+def mic(p, near=None, ties=None):
     """all local maxima of min distance that lie at a Delaunay-triangle interior; largest (or nearest to `near`)"""
     p = np.asarray(p, float)
     o, q = shift(p)
@@ -170,6 +170,9 @@ def mic(p, near=None):
     i3, cen, r = i3[m], cen[m], r[m]
     if near is None:
         k = np.argmax(r)
+        if ties is not None:       # (radius deficit, distance of centres) of the other local maxima
+            ties += [(float(r[k] - r[j]), float(dist(cen[k], cen[j]))) for j in range(len(r))
+                     if dist(cen[k], cen[j]) > 1e-7 * scale]
     else:
         k = np.argmin(dist(cen, np.asarray(near) - o))
     with mp.workdps(40):
@@ -257,6 +260,7 @@ def mzc_brute(p, box=None):
     n = len(q)
     lo, hi = q.min(0), q.max(0)
     best = [np.inf, None]
+    cand = []
 
     def test(cen):
         ok = np.isfinite(cen).all(1)
@@ -270,6 +274,8 @@ def mzc_brute(p, box=None):
             w = d.max(1) - d.min(1)
             if len(w):
                 k = np.argmin(w)
+                for j in np.argsort(w)[:50]:
+                    cand.append((w[j], cen[i + j] + o))
                 if w[k] < best[0]:
                     best[0], best[1] = w[k], cen[i + k] + o
 
@@ -286,4 +292,7 @@ def mzc_brute(p, box=None):
             x = (k[i] * dv[i + 1:, 1] - dv[i, 1] * k[i + 1:]) / det
             y = (dv[i, 0] * k[i + 1:] - k[i] * dv[i + 1:, 0]) / det
         test(np.stack([x, y], -1))
+    wmax = best[0] + 1e-7 * max(best[0], 1e-3)
+    ties = [float(np.hypot(*(c - best[1]))) for w, c in cand if w <= wmax and np.hypot(*(c - best[1])) > 1e-6]
+    best.append(max(ties) if ties else 0.0)
     return best

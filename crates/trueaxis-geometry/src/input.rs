@@ -10,5 +10,5 @@ mod section;
 
 pub use csv::{CsvColumn, CsvTable};
 pub use diagnostic::{Diagnostic, Diagnostics, Place, Severity};
-pub use quantity::{Dimension, Measured, QuantityError, parse_measured, parse_quantity};
+pub use quantity::{Dimension, Measured, QuantityError, Unit, parse_measured, parse_quantity};
 pub use section::{Item, Section, Source};

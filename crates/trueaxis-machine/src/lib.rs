@@ -1,1 +1,25 @@
-//! Placeholder.
+//! Where is the tool really?
+//!
+//! ```text
+//!     machine.toml ──MachineFile──> Machine ──errors_at──> ErrorValues ──pose──> workpiece_from_tool
+//!                                      └──────solve <── tip and tool axis wanted
+//! ```
+//!
+//! A [`Machine`] is a chain of bodies from the workpiece over the bed to the tool, each with its
+//! place, its axis and its errors by ISO 230-1 name. It gives the nominal and the actual pose of
+//! the tool in the workpiece ([`Machine::pose`], [`Machine::deviation`]) and the axis positions for
+//! a wanted tool pose ([`Machine::solve`]).
+//!
+//! It does not read NC programs, does not know parts, and opens no file: texts come in as strings.
+
+/// Axes: what they carry, which way they move, how far and how fast.
+pub mod axis;
+pub mod chain;
+mod deviation;
+pub mod errors;
+pub mod file;
+mod tool;
+
+pub use chain::{ErrorFrame, ErrorModel, Machine, Squareness};
+pub use deviation::Deviation;
+pub use tool::ToolAssembly;

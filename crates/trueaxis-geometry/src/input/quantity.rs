@@ -1,3 +1,4 @@
+use std::f64::consts::PI;
 use std::fmt;
 
 /// What a quantity measures; the unit that programs hold it in stands in brackets.
@@ -29,59 +30,100 @@ pub enum Dimension {
     Ratio,
 }
 
-const DEG: f64 = std::f64::consts::PI / 180.0;
-const TURN: f64 = std::f64::consts::TAU;
-
-/// Every unit that is read: dimension, factor to the inner unit, spellings.
-const UNITS: &[(Dimension, f64, &[&str])] = &[
-    (Dimension::Length, 1.0, &["mm"]),
-    (Dimension::Length, 1e-3, &["um", "µm", "μm"]),
-    (Dimension::Length, 1e-6, &["nm"]),
-    (Dimension::Length, 10.0, &["cm"]),
-    (Dimension::Length, 1e3, &["m"]),
-    (Dimension::Length, 25.4, &["in"]),
-    (Dimension::Angle, 1.0, &["rad"]),
-    (Dimension::Angle, 1e-3, &["mrad", "mm/m"]),
-    (Dimension::Angle, 1e-6, &["urad", "µrad", "μrad", "um/m", "µm/m", "μm/m"]),
-    (Dimension::Angle, DEG, &["deg", "°"]),
-    (Dimension::Angle, DEG / 60.0, &["arcmin"]),
-    (Dimension::Angle, DEG / 3600.0, &["arcsec", "″"]),
-    (Dimension::Time, 1.0, &["s"]),
-    (Dimension::Time, 1e-3, &["ms"]),
-    (Dimension::Time, 60.0, &["min"]),
-    (Dimension::Time, 3600.0, &["h"]),
-    (Dimension::Temperature, 1.0, &["degC", "°C", "celsius"]),
-    (Dimension::Velocity, 1.0, &["mm/s"]),
-    (Dimension::Velocity, 1.0 / 60.0, &["mm/min"]),
-    (Dimension::Velocity, 1e3 / 60.0, &["m/min"]),
-    (Dimension::Velocity, 1e3, &["m/s"]),
-    (Dimension::Acceleration, 1.0, &["mm/s^2", "mm/s²"]),
-    (Dimension::Acceleration, 1e3, &["m/s^2", "m/s²"]),
-    (Dimension::Jerk, 1.0, &["mm/s^3", "mm/s³"]),
-    (Dimension::Jerk, 1e3, &["m/s^3", "m/s³"]),
-    (Dimension::AngularVelocity, 1.0, &["rad/s"]),
-    (Dimension::AngularVelocity, DEG, &["deg/s", "°/s"]),
-    (Dimension::AngularVelocity, DEG / 60.0, &["deg/min", "°/min"]),
-    (Dimension::AngularVelocity, TURN / 60.0, &["rpm", "1/min"]),
-    (Dimension::AngularAcceleration, 1.0, &["rad/s^2", "rad/s²"]),
-    (Dimension::AngularAcceleration, DEG, &["deg/s^2", "deg/s²", "°/s^2", "°/s²"]),
-    (Dimension::AngularJerk, 1.0, &["rad/s^3", "rad/s³"]),
-    (Dimension::AngularJerk, DEG, &["deg/s^3", "deg/s³", "°/s^3", "°/s³"]),
-    (Dimension::Expansion, 1.0, &["1/K"]),
+/// Every unit that is read: dimension, spellings, and value in the inner unit as a quotient, so
+/// that "12 um" is the double nearest to 0.012 and "30 m/min" is 500 mm/s exactly.
+const UNITS: &[(Dimension, &[&str], (f64, f64))] = &[
+    (Dimension::Length, &["mm"], (1.0, 1.0)),
+    (Dimension::Length, &["um", "µm", "μm"], (1.0, 1e3)),
+    (Dimension::Length, &["nm"], (1.0, 1e6)),
+    (Dimension::Length, &["cm"], (10.0, 1.0)),
+    (Dimension::Length, &["m"], (1e3, 1.0)),
+    (Dimension::Length, &["in"], (25.4, 1.0)),
+    (Dimension::Angle, &["rad"], (1.0, 1.0)),
+    (Dimension::Angle, &["mrad", "mm/m"], (1.0, 1e3)),
+    (Dimension::Angle, &["urad", "µrad", "μrad", "um/m", "µm/m", "μm/m"], (1.0, 1e6)),
+    (Dimension::Angle, &["deg", "°"], (PI, 180.0)),
+    (Dimension::Angle, &["arcmin", "′"], (PI, 10_800.0)),
+    (Dimension::Angle, &["arcsec", "″"], (PI, 648_000.0)),
+    (Dimension::Time, &["s"], (1.0, 1.0)),
+    (Dimension::Time, &["ms"], (1.0, 1e3)),
+    (Dimension::Time, &["min"], (60.0, 1.0)),
+    (Dimension::Time, &["h"], (3600.0, 1.0)),
+    (Dimension::Temperature, &["degC", "°C", "celsius"], (1.0, 1.0)),
+    (Dimension::Velocity, &["mm/s"], (1.0, 1.0)),
+    (Dimension::Velocity, &["mm/min"], (1.0, 60.0)),
+    (Dimension::Velocity, &["m/min"], (1e3, 60.0)),
+    (Dimension::Velocity, &["m/s"], (1e3, 1.0)),
+    (Dimension::Acceleration, &["mm/s^2", "mm/s²"], (1.0, 1.0)),
+    (Dimension::Acceleration, &["m/s^2", "m/s²"], (1e3, 1.0)),
+    (Dimension::Jerk, &["mm/s^3", "mm/s³"], (1.0, 1.0)),
+    (Dimension::Jerk, &["m/s^3", "m/s³"], (1e3, 1.0)),
+    (Dimension::AngularVelocity, &["rad/s"], (1.0, 1.0)),
+    (Dimension::AngularVelocity, &["deg/s", "°/s"], (PI, 180.0)),
+    (Dimension::AngularVelocity, &["deg/min", "°/min"], (PI, 10_800.0)),
+    (Dimension::AngularVelocity, &["rpm", "1/min"], (PI, 30.0)),
+    (Dimension::AngularAcceleration, &["rad/s^2", "rad/s²"], (1.0, 1.0)),
+    (Dimension::AngularAcceleration, &["deg/s^2", "deg/s²", "°/s^2", "°/s²"], (PI, 180.0)),
+    (Dimension::AngularJerk, &["rad/s^3", "rad/s³"], (1.0, 1.0)),
+    (Dimension::AngularJerk, &["deg/s^3", "deg/s³", "°/s^3", "°/s³"], (PI, 180.0)),
+    (Dimension::Expansion, &["1/K"], (1.0, 1.0)),
     (
         Dimension::Expansion,
-        1e-6,
         &["um/(m·K)", "µm/(m·K)", "μm/(m·K)", "um/(m K)", "um/m/K", "ppm/K"],
+        (1.0, 1e6),
     ),
-    (Dimension::Ratio, 1.0, &[""]),
-    (Dimension::Ratio, 1e-2, &["%"]),
+    (Dimension::Ratio, &[""], (1.0, 1.0)),
+    (Dimension::Ratio, &["%"], (1.0, 100.0)),
 ];
+
+/// A unit by name: what it measures and how to bring a number of it to the inner unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unit {
+    numerator: f64,
+    denominator: f64,
+}
+
+impl Unit {
+    /// Finds a unit of a dimension.
+    ///
+    /// ```
+    /// use trueaxis_geometry::input::{Dimension, Unit};
+    /// assert_eq!(Unit::find("um", Dimension::Length)?.to_inner(250.0), 0.25);
+    /// # Ok::<(), trueaxis_geometry::input::QuantityError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// No unit, an unknown one, or one of another dimension.
+    pub fn find(name: &str, dimension: Dimension) -> Result<Self, QuantityError> {
+        let mut other = None;
+        for &(found, names, (numerator, denominator)) in UNITS {
+            if names.contains(&name) {
+                if found == dimension {
+                    return Ok(Self { numerator, denominator });
+                }
+                other = Some(found);
+            }
+        }
+        Err(match other {
+            _ if name.is_empty() => QuantityError::NoUnit(dimension),
+            Some(found) => {
+                QuantityError::WrongDimension { unit: name.to_owned(), found, expected: dimension }
+            }
+            None => QuantityError::UnknownUnit(name.to_owned(), dimension),
+        })
+    }
+
+    /// A number of this unit in the inner unit (mm, rad, s, °C).
+    pub fn to_inner(self, number: f64) -> f64 {
+        number * self.numerator / self.denominator
+    }
+}
 
 impl Dimension {
     /// The units that may be written, the inner one first: for hints.
     pub fn units(self) -> String {
         let names: Vec<_> =
-            UNITS.iter().filter(|(d, ..)| *d == self).map(|(_, _, names)| names[0]).collect();
+            UNITS.iter().filter(|(d, ..)| *d == self).map(|(_, names, _)| names[0]).collect();
         names.join(", ")
     }
 }
@@ -198,7 +240,7 @@ pub fn parse_quantity(text: &str, dimension: Dimension) -> Result<f64, QuantityE
     let text = text.trim();
     let (number, unit) = split_number(text);
     let value = parse_number(number, text)?;
-    Ok(value * factor(unit.trim(), dimension)?)
+    Ok(Unit::find(unit.trim(), dimension)?.to_inner(value))
 }
 
 /// Reads a quantity that may carry a standard uncertainty: `"12 urad ± 1 urad"`, `"12 ± 1 urad"`.
@@ -225,7 +267,7 @@ pub fn parse_measured(text: &str, dimension: Dimension) -> Result<Measured, Quan
     let value = match split_number(left) {
         (number, "") => {
             let (_, unit) = split_number(right.trim());
-            parse_number(number, left)? * factor(unit.trim(), dimension)?
+            Unit::find(unit.trim(), dimension)?.to_inner(parse_number(number, left)?)
         }
         _ => parse_quantity(left, dimension)?,
     };
@@ -260,23 +302,6 @@ fn parse_number(number: &str, whole: &str) -> Result<f64, QuantityError> {
     if value.is_finite() { Ok(value) } else { Err(QuantityError::NotFinite(whole.to_owned())) }
 }
 
-fn factor(unit: &str, expected: Dimension) -> Result<f64, QuantityError> {
-    let mut other = None;
-    for &(dimension, factor, names) in UNITS {
-        if names.contains(&unit) {
-            if dimension == expected {
-                return Ok(factor);
-            }
-            other = Some(dimension);
-        }
-    }
-    Err(match other {
-        _ if unit.is_empty() => QuantityError::NoUnit(expected),
-        Some(found) => QuantityError::WrongDimension { unit: unit.to_owned(), found, expected },
-        None => QuantityError::UnknownUnit(unit.to_owned(), expected),
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -287,7 +312,7 @@ mod tests {
         assert_eq!(parse_quantity("3mm", Dimension::Length), Ok(3.0));
         assert_eq!(parse_quantity("180°", Dimension::Angle), Ok(std::f64::consts::PI));
         assert_eq!(parse_quantity("10.8 um/(m·K)", Dimension::Expansion), Ok(10.8e-6));
-        assert_eq!(parse_quantity("6 1/min", Dimension::AngularVelocity), Ok(TURN / 10.0));
+        assert_eq!(parse_quantity("6 1/min", Dimension::AngularVelocity), Ok(PI / 5.0));
     }
 
     #[test]

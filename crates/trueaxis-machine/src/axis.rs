@@ -1,0 +1,104 @@
+use crate::errors::BodyName;
+use trueaxis_geometry::Vec3;
+
+/// At most this many axes; commands are arrays of this length.
+pub const MAX_AXES: usize = 6;
+
+/// Programmed axis positions in mm and rad, in the order of [`crate::Machine::axes`]; unused
+/// entries are 0.
+pub type Command = [f64; MAX_AXES];
+
+/// From which side each position is reached: +1 rising, −1 falling, 0 not known (mean of both).
+pub type Approach = [f64; MAX_AXES];
+
+/// What an axis carries on its side of the chain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Carries {
+    /// The workpiece: written with a prime (`C'`).
+    Workpiece,
+    /// The tool.
+    Tool,
+}
+
+/// Straight or turning.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AxisKind {
+    /// Moves along its direction, mm.
+    Linear,
+    /// Turns about its direction, rad.
+    Rotary,
+}
+
+/// How far an axis can go, mm or rad.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Travel {
+    /// Between two ends.
+    Between(f64, f64),
+    /// Rotary without end.
+    Unlimited,
+    /// Not stated in the machine file.
+    Unknown,
+}
+
+impl Travel {
+    /// Whether a position lies within the travel; the rounding of a file's numbers is allowed.
+    pub fn contains(&self, q: f64) -> bool {
+        match *self {
+            Self::Between(from, to) => {
+                let slack = 1e-9 * from.abs().max(to.abs()).max(1.0);
+                (from - slack..=to + slack).contains(&q)
+            }
+            Self::Unlimited | Self::Unknown => q.is_finite(),
+        }
+    }
+}
+
+/// The greatest velocity, acceleration and jerk, where stated; mm or rad, and s.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Limits {
+    /// mm/s or rad/s.
+    pub velocity: Option<f64>,
+    /// mm/s² or rad/s².
+    pub acceleration: Option<f64>,
+    /// mm/s³ or rad/s³.
+    pub jerk: Option<f64>,
+}
+
+/// One axis of the machine.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
+    /// Its ISO 841 letter.
+    pub name: BodyName,
+    /// Straight or turning.
+    pub kind: AxisKind,
+    /// Unit vector of the positive direction, in the frame of its body at zero.
+    pub direction: Vec3,
+    /// What it carries.
+    pub carries: Carries,
+    /// +1 if a positive command moves the *body* in the positive direction, else −1.
+    pub sense: f64,
+    /// How far it goes.
+    pub travel: Travel,
+    /// How fast it goes.
+    pub limits: Limits,
+}
+
+/// The sense of ISO 841: a positive command moves the *tool relative to the workpiece* in the
+/// positive direction, so an axis that carries the workpiece moves it the other way.
+///
+/// This is the only place where that sign is made.
+pub fn iso_841_sense(carries: Carries) -> f64 {
+    match carries {
+        Carries::Tool => 1.0,
+        Carries::Workpiece => -1.0,
+    }
+}
+
+/// The direction that ISO 841 gives a letter: X, U and A along or about x, and so on.
+pub fn iso_841_direction(name: BodyName) -> Vec3 {
+    match name.letter() {
+        'X' | 'U' | 'A' => Vec3::x(),
+        'Y' | 'V' | 'B' => Vec3::y(),
+        _ => Vec3::z(),
+    }
+}

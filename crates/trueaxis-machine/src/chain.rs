@@ -1,0 +1,326 @@
+//! The chain: what stands on what, and the pose of the tool in the workpiece.
+//!
+//! One link, the only place where errors enter (docs/model.md eq. 1):
+//!
+//! ```text
+//!     parent_from_link = P · Λ · J(q) · E(q) · M         linear; rotary in the moving frame
+//!     parent_from_link = P · Λ · E(q) · J(q) · M         rotary in the fixed frame (ISO 230-7)
+//! ```
+//!
+//! P placement, Λ location errors, J nominal motion, E error motions, M mounting (fixed, behind
+//! the motion; identity for axes).
+
+use crate::axis::{Approach, Axis, AxisKind, Command};
+use crate::errors::{
+    BodyErrors, BodyName, Component, ErrorIndex, ErrorKind, ErrorName, ErrorValues, OutsideTable,
+    Rotation, Six, StatedError,
+};
+use trueaxis_geometry::frame::{Bed, Body, Pose, Tool, Workpiece, rotation};
+use trueaxis_geometry::{Mat3, Vec3};
+
+/// A pose between two bodies of the chain; which two stands in the variable's name.
+pub type Link = Pose<Body, Body>;
+
+/// In which frame the error motions of a rotary axis are stated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ErrorFrame {
+    /// Not turning with the axis, as ISO 230-7 measures them.
+    #[default]
+    Fixed,
+    /// Turning with the axis, as the papers write them.
+    Moving,
+}
+
+/// What the squareness of a linear axis turns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Squareness {
+    /// Everything that the axis carries (document 000).
+    #[default]
+    Carried,
+    /// The direction of motion only.
+    Direction,
+}
+
+/// How small errors enter the chain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct ErrorModel {
+    /// Exact rotations or the papers' small angles.
+    pub rotation: Rotation,
+    /// What a squareness turns.
+    pub squareness: Squareness,
+}
+
+/// One body of the chain: the workpiece, an axis or the tool.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChainBody {
+    /// Its name.
+    pub name: BodyName,
+    /// P: its place on its predecessor (towards the bed) at zero, without errors.
+    pub placement: Link,
+    /// Index of its axis in [`Machine::axes`]; `None` for the workpiece and the tool.
+    pub axis: Option<usize>,
+    /// Frame of its error motions.
+    pub error_frame: ErrorFrame,
+    /// M: what stands on it fixed, behind motion and errors (fixture, part zero).
+    pub mounting: Link,
+    /// Stated location errors, X Y Z A B C.
+    pub location: [Option<StatedError>; 6],
+    /// Stated error motions, X Y Z A B C.
+    pub motion: [Option<StatedError>; 6],
+}
+
+impl ChainBody {
+    /// A body without placement, mounting and errors.
+    pub fn new(name: BodyName, axis: Option<usize>) -> Self {
+        Self {
+            name,
+            placement: Pose::identity(),
+            axis,
+            error_frame: ErrorFrame::Fixed,
+            mounting: Pose::identity(),
+            location: Default::default(),
+            motion: Default::default(),
+        }
+    }
+
+    /// The stated error of a kind and direction.
+    pub fn stated(&self, kind: ErrorKind, component: Component) -> Option<&StatedError> {
+        match kind {
+            ErrorKind::Location => self.location[component as usize].as_ref(),
+            ErrorKind::Motion => self.motion[component as usize].as_ref(),
+        }
+    }
+}
+
+/// A checked machine tool: its chain, its axes, its errors.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Machine {
+    pub(crate) name: String,
+    pub(crate) source: String,
+    pub(crate) axes: Vec<Axis>,
+    /// From the workpiece to the tool.
+    pub(crate) bodies: Vec<ChainBody>,
+    /// How many of them stand between the workpiece and the bed, the workpiece included.
+    pub(crate) workpiece_side: usize,
+    pub(crate) model: ErrorModel,
+    /// The tip in the frame of the tool, mm.
+    pub(crate) tip_mm: Vec3,
+    pub(crate) tools: Vec<crate::tool::ToolAssembly>,
+}
+
+/// The command lies where an error table says nothing.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{name}: {source}")]
+pub struct ErrorTableLeft {
+    /// The error whose table ends.
+    pub name: ErrorName,
+    /// Where.
+    pub source: OutsideTable,
+}
+
+impl Machine {
+    /// The name of the machine.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Where its data come from.
+    pub fn source(&self) -> &str {
+        &self.source
+    }
+
+    /// Its axes, in chain order from the workpiece to the tool.
+    pub fn axes(&self) -> &[Axis] {
+        &self.axes
+    }
+
+    /// Its bodies, in chain order from the workpiece to the tool (without the bed).
+    pub fn bodies(&self) -> &[ChainBody] {
+        &self.bodies
+    }
+
+    /// How many of [`Machine::bodies`] stand on the workpiece side of the bed.
+    pub fn workpiece_side(&self) -> usize {
+        self.workpiece_side
+    }
+
+    /// How errors enter.
+    pub fn model(&self) -> ErrorModel {
+        self.model
+    }
+
+    /// The tip of the tool in the frame of the tool, mm.
+    pub fn tip_mm(&self) -> Vec3 {
+        self.tip_mm
+    }
+
+    /// The tool assemblies that the machine file lists.
+    pub fn tools(&self) -> &[crate::tool::ToolAssembly] {
+        &self.tools
+    }
+
+    /// The same machine with another tool tip, mm in the frame of the tool.
+    pub fn with_tip(mut self, tip_mm: Vec3) -> Self {
+        self.tip_mm = tip_mm;
+        self
+    }
+
+    /// The same machine with the part zero elsewhere: the fixed pose behind the workpiece's errors.
+    pub fn with_mounting(mut self, mounting: Link) -> Self {
+        self.bodies[0].mounting = mounting;
+        self
+    }
+
+    /// The same machine under another error model.
+    pub fn with_model(mut self, model: ErrorModel) -> Self {
+        self.model = model;
+        self
+    }
+
+    /// The index of an axis by its letter.
+    pub fn axis_index(&self, name: BodyName) -> Option<usize> {
+        self.axes.iter().position(|a| a.name == name)
+    }
+
+    /// The chain from the workpiece to the tool in the long form: `w C' A' b X Y Z t`.
+    pub fn chain_text(&self) -> String {
+        let mut words: Vec<String> = self
+            .bodies
+            .iter()
+            .enumerate()
+            .map(|(i, body)| {
+                let prime = if body.axis.is_some() && i < self.workpiece_side { "'" } else { "" };
+                format!("{}{prime}", body.name)
+            })
+            .collect();
+        words.insert(self.workpiece_side, "b".to_owned());
+        words.join(" ")
+    }
+
+    /// Every error that the machine file states, in chain order.
+    pub fn stated_errors(&self) -> Vec<(ErrorIndex, ErrorName)> {
+        let mut stated = Vec::new();
+        for (body, b) in self.bodies.iter().enumerate() {
+            for kind in [ErrorKind::Location, ErrorKind::Motion] {
+                for component in Component::ALL {
+                    if b.stated(kind, component).is_some() {
+                        let name = ErrorName { body: b.name, kind, component };
+                        stated.push((ErrorIndex { body, kind, component }, name));
+                    }
+                }
+            }
+        }
+        stated
+    }
+
+    /// The value of every error at a command.
+    ///
+    /// # Errors
+    /// A command outside an error table that has no value there.
+    pub fn errors_at(
+        &self,
+        command: &Command,
+        approach: &Approach,
+    ) -> Result<ErrorValues, ErrorTableLeft> {
+        let mut values = ErrorValues::default();
+        for (body, out) in self.bodies.iter().zip(&mut values.bodies) {
+            let (q, side) = body.axis.map_or((0.0, 0.0), |i| (command[i], approach[i]));
+            for component in Component::ALL {
+                let i = component as usize;
+                let at = |kind, stated: &Option<StatedError>| match stated {
+                    None => Ok(0.0),
+                    Some(error) => error.at(q, side).map_err(|source| ErrorTableLeft {
+                        name: ErrorName { body: body.name, kind, component },
+                        source,
+                    }),
+                };
+                out.location.0[i] = at(ErrorKind::Location, &body.location[i])?;
+                out.motion.0[i] = at(ErrorKind::Motion, &body.motion[i])?;
+            }
+        }
+        Ok(values)
+    }
+
+    /// The standard uncertainty of every error at a command; 0 where none is stated.
+    pub fn uncertainties_at(&self, command: &Command) -> ErrorValues {
+        let mut values = ErrorValues::default();
+        for (body, out) in self.bodies.iter().zip(&mut values.bodies) {
+            let q = body.axis.map_or(0.0, |i| command[i]);
+            let u = |stated: &Option<StatedError>| stated.as_ref().map_or(0.0, |e| e.u_at(q));
+            for i in 0..6 {
+                out.location.0[i] = u(&body.location[i]);
+                out.motion.0[i] = u(&body.motion[i]);
+            }
+        }
+        values
+    }
+
+    /// The pose of the tool in the workpiece with these errors; all zero gives the nominal pose.
+    ///
+    /// ```text
+    ///     workpiece_from_tool = (bed_from_workpiece)⁻¹ · bed_from_tool       docs/model.md eq. 2
+    /// ```
+    pub fn pose(&self, command: &Command, errors: &ErrorValues) -> Pose<Workpiece, Tool> {
+        let (bed_from_workpiece, bed_from_tool) = self.ends(command, errors);
+        (bed_from_workpiece.inverse() * bed_from_tool).relabel()
+    }
+
+    /// The pose of every body in the machine frame, in chain order.
+    pub fn body_poses(&self, command: &Command, errors: &ErrorValues) -> Vec<Pose<Bed, Body>> {
+        let mut poses = vec![Pose::identity(); self.bodies.len()];
+        let outwards = (0..self.workpiece_side).rev();
+        let mut bed_from_body = Link::identity();
+        for i in outwards {
+            bed_from_body = bed_from_body * self.link(i, command, &errors.bodies[i]);
+            poses[i] = bed_from_body.relabel();
+        }
+        bed_from_body = Link::identity();
+        for (i, pose) in poses.iter_mut().enumerate().skip(self.workpiece_side) {
+            bed_from_body = bed_from_body * self.link(i, command, &errors.bodies[i]);
+            *pose = bed_from_body.relabel();
+        }
+        poses
+    }
+
+    fn ends(&self, command: &Command, errors: &ErrorValues) -> (Link, Link) {
+        let product = |acc: Link, i: usize| acc * self.link(i, command, &errors.bodies[i]);
+        let from_workpiece = (0..self.workpiece_side).rev().fold(Link::identity(), product);
+        let from_tool = (self.workpiece_side..self.bodies.len()).fold(Link::identity(), product);
+        (from_workpiece, from_tool)
+    }
+
+    /// `parent_from_link`, the equation at the top of this file.
+    pub(crate) fn link(&self, i: usize, command: &Command, errors: &BodyErrors) -> Link {
+        let body = &self.bodies[i];
+        let location_error = self.error_pose(&errors.location);
+        let error_motion = self.error_pose(&errors.motion);
+        let Some(axis) = body.axis else {
+            return body.placement * location_error * body.mounting;
+        };
+        let joint = nominal_motion(&self.axes[axis], command[axis]);
+        let moved = match (self.axes[axis].kind, body.error_frame, self.model.squareness) {
+            (AxisKind::Linear, _, Squareness::Direction) => {
+                // Only the direction of motion is tilted; what is carried keeps its attitude.
+                let tilted = Link::shift(location_error.linear() * joint.shift_mm());
+                Link::shift(errors.location.shift_mm()) * tilted * error_motion
+            }
+            (AxisKind::Rotary, ErrorFrame::Fixed, _) => location_error * error_motion * joint,
+            _ => location_error * joint * error_motion,
+        };
+        body.placement * moved * body.mounting
+    }
+
+    /// `shift(EX, EY, EZ) · turn(EA, EB, EC)`.
+    fn error_pose(&self, six: &Six) -> Link {
+        let linear = Mat3::identity() + six.rotation_minus_identity(self.model.rotation);
+        Pose::new(linear, six.shift_mm())
+    }
+}
+
+/// J(q): the motion of a body at a command, without errors.
+pub(crate) fn nominal_motion(axis: &Axis, q: f64) -> Link {
+    match axis.kind {
+        AxisKind::Linear => Pose::shift(axis.direction * (axis.sense * q)),
+        AxisKind::Rotary => Pose::new(rotation(axis.direction, axis.sense * q), Vec3::zeros()),
+    }
+}

@@ -1,0 +1,13 @@
+//! The errors of a machine: their names, their curves, their values at a position.
+
+mod curve;
+mod name;
+mod spline;
+mod stated;
+mod values;
+
+pub use curve::{Curve, Harmonic, Outside, OutsideTable};
+pub use name::{BodyName, Component, ErrorKind, ErrorName};
+pub use spline::{Interpolation, Spline, SplineError};
+pub use stated::{Measurement, StatedError, Uncertainty};
+pub use values::{BodyErrors, ErrorIndex, ErrorValues, MAX_BODIES, Rotation, Six};

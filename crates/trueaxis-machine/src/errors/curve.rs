@@ -1,0 +1,110 @@
+use super::Spline;
+
+/// What an error table answers outside its first and last position.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outside {
+    /// Nothing: the command is refused.
+    Error,
+    /// The value at the end.
+    Clamp,
+    /// The straight line along the slope at the end.
+    Extend,
+}
+
+/// A command lies outside an error table that has no value there.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error("position {at} lies outside the error table, which covers {from} .. {to}")]
+pub struct OutsideTable {
+    /// The command, mm or rad.
+    pub at: f64,
+    /// The first position of the table, mm or rad.
+    pub from: f64,
+    /// The last position of the table, mm or rad.
+    pub to: f64,
+}
+
+/// An error as a function of the programmed position q (mm or rad); its value is in mm or rad.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Curve {
+    /// The same everywhere.
+    Constant(f64),
+    /// `Σ cₖ ((q − origin)/scale)ᵏ`
+    Polynomial {
+        /// c₀, c₁, … in mm or rad.
+        coefficients: Vec<f64>,
+        /// Where the argument is zero, mm or rad.
+        origin: f64,
+        /// Where the argument is one above the origin, mm or rad; not zero.
+        scale: f64,
+    },
+    /// `mean + Σ a cos kq + b sin kq`, for rotary axes.
+    Fourier {
+        /// The mean over a turn.
+        mean: f64,
+        /// The harmonics.
+        terms: Vec<Harmonic>,
+    },
+    /// Interpolated between measured positions.
+    Table {
+        /// The interpolant.
+        spline: Spline,
+        /// What holds beyond its ends.
+        outside: Outside,
+    },
+}
+
+/// One harmonic of a Fourier series.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Harmonic {
+    /// Periods per turn.
+    pub order: f64,
+    /// Amplitude of cos kq.
+    pub cosine: f64,
+    /// Amplitude of sin kq.
+    pub sine: f64,
+}
+
+impl Curve {
+    /// The error at a programmed position.
+    ///
+    /// # Errors
+    /// A position that a table with [`Outside::Error`] does not cover.
+    ///
+    /// # Example
+    /// ```
+    /// use trueaxis_machine::errors::Curve;
+    /// // EXX = 12 µm · q/100 mm − 5 µm · (q/100 mm)²; at 200 mm: 24 − 20 = 4 µm
+    /// let exx = Curve::Polynomial { coefficients: vec![0.0, 0.012, -0.005], origin: 0.0, scale: 100.0 };
+    /// assert!((exx.at(200.0)? - 0.004).abs() < 1e-15);
+    /// # Ok::<(), trueaxis_machine::errors::OutsideTable>(())
+    /// ```
+    pub fn at(&self, q: f64) -> Result<f64, OutsideTable> {
+        Ok(match self {
+            Self::Constant(value) => *value,
+            Self::Polynomial { coefficients, origin, scale } => {
+                let x = (q - origin) / scale;
+                coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c)
+            }
+            Self::Fourier { mean, terms } => terms.iter().fold(*mean, |sum, t| {
+                let (sin, cos) = (t.order * q).sin_cos();
+                sum + t.cosine * cos + t.sine * sin
+            }),
+            Self::Table { spline, outside } => return table_at(spline, *outside, q),
+        })
+    }
+}
+
+fn table_at(spline: &Spline, outside: Outside, q: f64) -> Result<f64, OutsideTable> {
+    let (from, to) = spline.range();
+    // A rounding step beyond the end (360° in rad) is still the end.
+    let slack = 1e-12 * from.abs().max(to.abs());
+    let inside = q.clamp(from, to);
+    if (q - inside).abs() <= slack {
+        return Ok(spline.at(inside));
+    }
+    match outside {
+        Outside::Error => Err(OutsideTable { at: q, from, to }),
+        Outside::Clamp => Ok(spline.at(inside)),
+        Outside::Extend => Ok(spline.at(inside) + spline.slope_at(inside) * (q - inside)),
+    }
+}

@@ -1,0 +1,131 @@
+use super::Component;
+use trueaxis_geometry::{Mat3, Vec3};
+
+/// At most six axes, the workpiece and the tool.
+pub const MAX_BODIES: usize = 8;
+
+/// Six errors of one body, in mm and rad, in the order X Y Z A B C.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Six(pub [f64; 6]);
+
+impl Six {
+    /// The shift in mm.
+    pub fn shift_mm(&self) -> Vec3 {
+        Vec3::new(self.0[0], self.0[1], self.0[2])
+    }
+
+    /// The angles in rad about X, Y and Z.
+    pub fn angles_rad(&self) -> Vec3 {
+        Vec3::new(self.0[3], self.0[4], self.0[5])
+    }
+
+    /// `R − I` of the rotation: `R = Rz(EC)·Ry(EB)·Rx(EA)` exactly, or `I + [ε]×`.
+    ///
+    /// The difference is formed without subtracting 1 from a cosine, so that a microradian keeps
+    /// all its digits.
+    pub fn rotation_minus_identity(&self, rotation: Rotation) -> Mat3 {
+        let [_, _, _, a, b, c] = self.0;
+        if rotation == Rotation::SmallAngle {
+            return Mat3::new(0.0, -c, b, c, 0.0, -a, -b, a, 0.0);
+        }
+        let ((sa, ca), (sb, cb), (sc, cc)) = (a.sin_cos(), b.sin_cos(), c.sin_cos());
+        let (va, vb, vc) = (versine(a), versine(b), versine(c));
+        Mat3::new(
+            vb * vc - vb - vc,
+            sa * sb * cc - ca * sc,
+            ca * sb * cc + sa * sc,
+            cb * sc,
+            sa * sb * sc + va * vc - va - vc,
+            ca * sb * sc - sa * cc,
+            -sb,
+            sa * cb,
+            va * vb - va - vb,
+        )
+    }
+}
+
+/// 1 − cos x without loss of digits.
+fn versine(x: f64) -> f64 {
+    let s = (0.5 * x).sin();
+    2.0 * s * s
+}
+
+/// How the angles of an error become a matrix.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Rotation {
+    /// `Rz(EC)·Ry(EB)·Rx(EA)`.
+    #[default]
+    Exact,
+    /// `I + [ε]×`, as the papers write it.
+    SmallAngle,
+}
+
+/// The errors of one body relative to its predecessor at one position.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct BodyErrors {
+    /// Λ: constant.
+    pub location: Six,
+    /// E: at this position.
+    pub motion: Six,
+}
+
+/// The value of every error of the machine at one position; bodies in chain order.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ErrorValues {
+    /// One entry per body of [`crate::Machine::bodies`]; the rest is zero.
+    pub bodies: [BodyErrors; MAX_BODIES],
+}
+
+/// Which entry of [`ErrorValues`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ErrorIndex {
+    /// The body, in chain order.
+    pub body: usize,
+    /// Constant or function of position.
+    pub kind: super::ErrorKind,
+    /// The direction.
+    pub component: Component,
+}
+
+impl ErrorValues {
+    /// One value, in mm or rad.
+    pub fn get(&self, index: ErrorIndex) -> f64 {
+        self.six(index).0[index.component as usize]
+    }
+
+    /// Sets one value, in mm or rad.
+    pub fn set(&mut self, index: ErrorIndex, value: f64) {
+        let body = &mut self.bodies[index.body];
+        let six = match index.kind {
+            super::ErrorKind::Location => &mut body.location,
+            super::ErrorKind::Motion => &mut body.motion,
+        };
+        six.0[index.component as usize] = value;
+    }
+
+    /// Only this error, all others zero.
+    pub fn only(&self, index: ErrorIndex) -> Self {
+        let mut alone = Self::default();
+        alone.set(index, self.get(index));
+        alone
+    }
+
+    /// All errors times a factor.
+    pub fn scaled(&self, factor: f64) -> Self {
+        let mut scaled = *self;
+        for body in &mut scaled.bodies {
+            for value in body.location.0.iter_mut().chain(&mut body.motion.0) {
+                *value *= factor;
+            }
+        }
+        scaled
+    }
+
+    fn six(&self, index: ErrorIndex) -> &Six {
+        let body = &self.bodies[index.body];
+        match index.kind {
+            super::ErrorKind::Location => &body.location,
+            super::ErrorKind::Motion => &body.motion,
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! The shipped machines, for the tests.
+
+// Each test program uses a part of this file.
+#![allow(dead_code)]
+
+use std::path::{Path, PathBuf};
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::{AxisKind, Command, Travel};
+use trueaxis_machine::file::Tables;
+
+/// The folders of `machines/` that carry five-axis machines with a known oracle.
+pub const FIVE_AXIS: [&str; 6] =
+    ["xkas2525", "i5-engraver", "lei-hsu-mill", "head-table", "nutating-head", "wyxzcat-gantry"];
+
+struct Folder(PathBuf);
+
+impl Tables for Folder {
+    fn text(&self, name: &str) -> Result<String, String> {
+        std::fs::read_to_string(self.0.join(name)).map_err(|e| e.to_string())
+    }
+}
+
+pub fn machine(name: &str) -> Machine {
+    machine_of(name, |text| text)
+}
+
+/// A shipped machine after a change of its text.
+pub fn machine_of(name: &str, change: impl Fn(String) -> String) -> Machine {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines").join(name);
+    let path = folder.join("machine.toml");
+    let text = change(std::fs::read_to_string(&path).expect("a shipped machine file"));
+    let (machine, problems) = Machine::check("machine.toml", &text, &Folder(folder));
+    let list: Vec<String> = problems.iter().map(ToString::to_string).collect();
+    machine.unwrap_or_else(|| panic!("{name}: {}", list.join("\n")))
+}
+
+/// A committed table of numbers: headings and rows.
+pub fn golden(path: &str) -> (Vec<String>, Vec<Vec<f64>>) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(path);
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path:?}: {e}"));
+    let mut lines = text.lines().filter(|l| !l.starts_with('#'));
+    let heads = lines.next().expect("headings").split(',').map(str::to_owned).collect();
+    let row = |l: &str| l.split(',').map(|f| f.parse().expect("a number")).collect();
+    (heads, lines.map(row).collect())
+}
+
+/// A number of a row in its inner unit: degrees of a rotary axis become rad.
+pub fn command(machine: &Machine, heads: &[String], row: &[f64]) -> Command {
+    let mut command = Command::default();
+    for (slot, axis) in command.iter_mut().zip(machine.axes()) {
+        let column = heads.iter().position(|h| *h == axis.name.to_string()).expect("a column");
+        *slot = match axis.kind {
+            AxisKind::Linear => row[column],
+            AxisKind::Rotary => row[column].to_radians(),
+        };
+    }
+    command
+}
+
+/// A command within the travel from numbers in 0..1; where no travel is stated, ±300 mm, ±100°.
+pub fn command_within_travel(machine: &Machine, unit: [f64; 6]) -> Command {
+    let mut command = Command::default();
+    for ((slot, axis), t) in command.iter_mut().zip(machine.axes()).zip(unit) {
+        let (from, to) = match (axis.travel, axis.kind) {
+            (Travel::Between(from, to), _) => (from, to),
+            (Travel::Unlimited, _) => (-std::f64::consts::PI, std::f64::consts::PI),
+            (Travel::Unknown, AxisKind::Linear) => (-300.0, 300.0),
+            (Travel::Unknown, AxisKind::Rotary) => (-1.7, 1.7),
+        };
+        *slot = from + (to - from) * t;
+    }
+    command
+}
