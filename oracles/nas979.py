@@ -208,7 +208,10 @@ def full(E, Ev, mz_pos=(1,)):
         s = "@%d" % (k + 1)
         c0 = [float(v) for v in lsc_vec(P[k])[0]]
         r["iso_roundness_mzc" + s] = float(mzc_fast(P[k], c0)[1])
-        r["iso_roundness_mic" + s] = mic_mcc_fast(P[k], c0, -1)[1]
+        if k == 1:          # exact: the largest of all inscribed circles
+            r["iso_roundness_mic" + s] = mic_exact(P[k])[1]
+        else:
+            r["iso_roundness_mic" + s] = mic_mcc_fast(P[k], c0, -1)[1]
         r["iso_roundness_mcc" + s] = mic_mcc_fast(P[k], c0, +1)[1]
     return main_names(r)
 
@@ -250,9 +253,40 @@ def mzc_fast(q, c0):
     return c, d.max() - d.min()
 
 
+TRI = None
+
+
+def mic_exact(q):
+    """largest inscribed circle over all point triples (float64); returns centre, max - min, second-best deficit"""
+    global TRI
+    if TRI is None:
+        from itertools import combinations
+        TRI = np.array(list(combinations(range(len(q)), 3)))
+    a, b, c = q[TRI[:, 0]], q[TRI[:, 1]], q[TRI[:, 2]]
+    # centre in the triangle <=> acute
+    l = [((u - v) ** 2).sum(1) for u, v in ((b, c), (c, a), (a, b))]
+    m = np.maximum(np.maximum(l[0], l[1]), l[2])
+    ok = 2 * m <= sum(l) + 1e-6
+    a, cen = a[ok], cf.circ3(a[ok], b[ok], c[ok])
+    r = cf.dist(a, cen)
+    ok = cf.near_min(q, cen) >= r - 1e-10
+    cen, r = cen[ok], r[ok]
+    k = np.argmax(r)
+    d = np.hypot(*(q - cen[k]).T)
+    far = cf.dist(cen, cen[k]) > 1e-6
+    return cen[k], float(d.max() - d.min()), (float(r[k] - r[far].max()) if far.any() else None)
+
+
 def mic_mcc_fast(q, c0, sign):
     n = len(q)
     one = np.ones(n)
+    if sign > 0:             # circle on the farthest pair as diameter, if it encloses all
+        dd = ((q[:, None] - q[None]) ** 2).sum(-1)
+        i, j = np.unravel_index(np.argmax(dd), dd.shape)
+        c = (q[i] + q[j]) / 2
+        d = np.hypot(*(q - c).T)
+        if d.max() <= np.sqrt(dd[i, j]) / 2 + 1e-12:
+            return c, float(d.max() - d.min())
     if sign < 0:     # max r: r <= e - u b
         c = iterate_lp(q, np.array(c0), lambda u, e: ([0, 0, -1], np.c_[u, one], e))
     else:            # min R: e - u b <= R
@@ -324,7 +358,7 @@ def run(setting, mc, blame):
         c0 = [float(v) for v in lsc_vec(P[k])[0]]
         L = cf.lsc(P[k])
         Z = cf.mzc(P[k], c0)
-        I, C = cf.mic(P[k], near=(0, 0)), cf.mcc(P[k])
+        I, C = cf.mic(P[k]), cf.mcc(P[k])
         br = cf.mzc_brute(P[k][::1], box=((0, 0), 0.5)) if k == 1 and blame else None
         s = {"position": k + 1, "z_mm": float(HS[k] - F["h1"]), "nominal_radius_mm": float(RSEC[k]),
              "lsc": {"cx": float(L[0]), "cy": float(L[1]), "r": float(L[2]), "width": float(L[3])},
@@ -397,13 +431,20 @@ def run(setting, mc, blame):
     out["indices_all_positions_mm"] = {k: v for k, v in ind.items() if "@" in k}
     out["sensitivity_mm_per_sigma"] = sens if blame else None
     if blame:
-        bl = {}
+        bl, amb = {}, []
         for i in range(72):
             nme = factor(i)[0]
             (la, ma), (lw, mw) = isolate(i, LOC, mot)
             a, w = full(*errors(cmd, la, ma)), full(*errors(cmd, lw, mw))
             bl[nme] = {k: {"alone_mm": a[k], "without_mm": w[k]} for k in NAMES}
+            for kind, x in (("alone", (la, ma)), ("without", (lw, mw))):
+                e, _ = errors(cmd, *x)
+                if np.ptp(e[1]) > 1e-9:
+                    g = mic_exact(sect_points(e)[1])[2]
+                    if g is not None and g < 1e-7:
+                        amb.append("%s %s" % (nme, kind))
         out["blame"] = bl
+        out["mic_ambiguous"] = amb
     else:
         del out["sensitivity_mm_per_sigma"]
     return cmd, E, Ev, out
@@ -421,6 +462,8 @@ def main():
                       "units": "mm, deg; u = standard uncertainty (0.5 um / 1 urad per constant and per curve)",
                       "names": "index@k = the same index at position k (z -60, -35, -10, 0); without @: roundness and "
                                "coaxiality at 2, paper_angularity = max over azimuth of E(50)-E(0) (= @3)",
+                      "mic_ambiguous": "blame entries in which a second inscribed circle with another centre has a radius "
+                                       "within 1e-7 mm: the MIC roundness there depends on which is taken (here the larger)",
                       "monte_carlo": "numpy default_rng(20240979); MZC/MIC/MCC from the first %d samples" % min(MCZ, NMC)},
            "heights_mm": list(HS), "m": M, "tool_diameter_mm": F["D"]}
     doc.update(res)

@@ -1,1 +1,1 @@
-//! House rules as one test.
+//! House rules as one test: `cargo test -p tidy`. CONTRIBUTING.md says why.

@@ -1,2 +1,50 @@
-//! The command.
-fn main() {}
+//! The command `trueaxis`: one file per command, each belongs to one verb of the loop.
+//!
+//! Results go to standard output (with `--format json` one document and nothing else), progress
+//! and diagnostics to standard error. Exit status: 0 done, 1 the verdict is "no", 2 unusable
+//! input or arguments.
+
+mod arguments;
+mod check;
+mod output;
+mod pose;
+mod predict;
+mod solve;
+
+use clap::{Parser, Subcommand};
+use output::Outcome;
+use std::process::ExitCode;
+
+/// Where is the tool really, and is the part good?
+#[derive(Parser)]
+#[command(version, about, max_term_width = 100)]
+struct Command {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+#[derive(Subcommand)]
+enum Verb {
+    /// Describe: check a machine file and say what the machine is and what it lacks
+    Check(check::Arguments),
+    /// Describe: nominal and actual pose of the tool, and the share of every error
+    Pose(pose::Arguments),
+    /// Describe: axis positions for a wanted tool tip and direction
+    Solve(solve::Arguments),
+    /// Predict: will the test piece be good, and which error costs how much of it
+    Predict(predict::Arguments),
+}
+
+fn main() -> ExitCode {
+    let outcome = match Command::parse().verb {
+        Verb::Check(arguments) => check::run(&arguments),
+        Verb::Pose(arguments) => pose::run(&arguments),
+        Verb::Solve(arguments) => solve::run(&arguments),
+        Verb::Predict(arguments) => predict::run(&arguments),
+    };
+    match outcome {
+        Outcome::Done => ExitCode::SUCCESS,
+        Outcome::No => ExitCode::from(1),
+        Outcome::Unusable => ExitCode::from(2),
+    }
+}

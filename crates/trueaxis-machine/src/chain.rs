@@ -165,8 +165,10 @@ impl Machine {
         self
     }
 
-    /// The same machine with the part zero elsewhere: the fixed pose behind the workpiece's errors.
-    pub fn with_mounting(mut self, mounting: Link) -> Self {
+    /// The same machine with the workpiece elsewhere: its place on its parent, and the fixed pose
+    /// of the part zero behind the errors of the mounting.
+    pub fn with_workpiece(mut self, placement: Link, mounting: Link) -> Self {
+        self.bodies[0].placement = placement;
         self.bodies[0].mounting = mounting;
         self
     }

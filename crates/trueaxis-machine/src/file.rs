@@ -2,7 +2,9 @@
 
 mod chain_text;
 mod error_text;
+mod geometry_check;
 mod place_text;
+mod table_text;
 
 pub use chain_text::ChainText;
 pub use place_text::{read_direction, read_pose, read_vector_mm};
@@ -75,14 +77,14 @@ impl Machine {
 
 fn read_machine(root: &Section<'_>, tables: &dyn Tables) -> Option<Machine> {
     let hint = "every machine file has [machine] with name and chain";
-    root.require("machine", hint)?;
-    let head = root.section("machine", read_head)?;
-    let (chain, frame) = (head.chain, head.error_frame);
-    let Some(chain) = chain else {
+    root.require("machine", hint);
+    let head = root.section("machine", read_head);
+    let Some((head, chain)) = head.and_then(|h| h.chain.clone().map(|chain| (h, chain))) else {
         // Without a chain nothing else can be checked; do not call it unknown.
         root.entries();
         return None;
     };
+    let frame = head.error_frame;
     let mut bodies = make_bodies(&chain, frame);
     let axes = read_axes(root, &chain, &mut bodies);
     root.section("workpiece", |s| read_workpiece(s, &mut bodies[0]));
@@ -90,7 +92,7 @@ fn read_machine(root: &Section<'_>, tables: &dyn Tables) -> Option<Machine> {
     let tool = root.section("tool", |s| read_tool(s, &mut bodies[last])).unwrap_or_default();
     root.section("location", |s| error_text::read_location(s, &mut bodies));
     root.section("motion", |s| read_motions(s, &axes, &mut bodies, tables));
-    Some(Machine {
+    let machine = Machine {
         name: head.name,
         source: head.source,
         axes,
@@ -99,10 +101,15 @@ fn read_machine(root: &Section<'_>, tables: &dyn Tables) -> Option<Machine> {
         model: head.model,
         tip_mm: tool.tip_mm,
         tools: tool.assemblies,
-    })
+    };
+    if let Some(item) = head.chain_item {
+        geometry_check::warn_about_directions(&machine, &item);
+    }
+    Some(machine)
 }
 
-struct Head {
+struct Head<'s> {
+    chain_item: Option<Item<'s>>,
     name: String,
     source: String,
     chain: Option<ChainText>,
@@ -110,10 +117,11 @@ struct Head {
     error_frame: ErrorFrame,
 }
 
-fn read_head(section: &Section<'_>) -> Head {
+fn read_head<'s>(section: &Section<'s>) -> Head<'s> {
     let name = section.require("name", "give the machine a name").and_then(|i| i.text());
     let hint = "such as chain = \"w C' A' b X Y Z t\"";
-    let chain = section.require("chain", hint).and_then(|item| {
+    let chain_item = section.require("chain", hint);
+    let chain = chain_item.and_then(|item| {
         let chain = ChainText::parse(item.text()?);
         match &chain {
             Err(fault) => item.error("bad-chain", fault.clone(), hint),
@@ -136,6 +144,7 @@ fn read_head(section: &Section<'_>) -> Head {
         &[("carried", Squareness::Carried), ("direction", Squareness::Direction)],
     );
     Head {
+        chain_item,
         name: name.unwrap_or_default().to_owned(),
         source: section.text("source").unwrap_or_default().to_owned(),
         chain,
@@ -211,8 +220,9 @@ fn read_axis(section: &Section<'_>, axis: &mut Axis, body: &mut ChainBody) {
     }
     if let Some(item) = section.get("sense") {
         match item.number() {
+            None => {}
             Some(sense) if sense.abs() == 1.0 => axis.sense = sense,
-            _ => item.error(
+            Some(_) => item.error(
                 "bad-sense",
                 "the sense of an axis is 1 or -1".into(),
                 "1: a positive command moves the body in the positive direction; without it ISO 841",
@@ -245,7 +255,8 @@ fn positive(section: &Section<'_>, key: &str, dimension: Dimension) -> Option<f6
     let item = section.get(key)?;
     let value = item.quantity(dimension)?;
     if value <= 0.0 {
-        item.error("not-positive", format!("`{key}` must be above zero"), "");
+        let hint = "leave it out if it is not known";
+        item.error("not-positive", format!("`{key}` must be above zero"), hint);
         return None;
     }
     Some(value)
@@ -319,7 +330,15 @@ fn read_tool(section: &Section<'_>, body: &mut ChainBody) -> ToolSide {
 fn read_assembly(name: &str, section: &Section<'_>) -> Option<ToolAssembly> {
     let length = section.require("length", "from the gauge line to the tip, such as \"100 mm\"");
     let diameter_mm = positive(section, "diameter", Dimension::Length);
-    let corner_radius_mm = section.quantity("corner_radius", Dimension::Length);
+    let corner_radius_mm = section.get("corner_radius").and_then(|item| {
+        let radius = item.quantity(Dimension::Length)?;
+        let largest = diameter_mm.map_or(f64::INFINITY, |d| 0.5 * d * (1.0 + 1e-12));
+        if !(0.0..=largest).contains(&radius) {
+            let message = "a corner radius lies between zero and half the diameter".to_owned();
+            item.error("bad-tool", message, "half the diameter for a ball, 0 for a sharp corner");
+        }
+        Some(radius)
+    });
     let holder = section.text("holder").map(str::to_owned);
     let length_mm = length?.quantity(Dimension::Length)?;
     Some(ToolAssembly { name: name.to_owned(), length_mm, diameter_mm, corner_radius_mm, holder })

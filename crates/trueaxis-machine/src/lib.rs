@@ -14,12 +14,15 @@
 
 /// Axes: what they carry, which way they move, how far and how fast.
 pub mod axis;
+pub mod batch;
 pub mod chain;
 mod deviation;
 pub mod errors;
 pub mod file;
+mod inverse;
 mod tool;
 
 pub use chain::{ErrorFrame, ErrorModel, Machine, Squareness};
 pub use deviation::Deviation;
+pub use inverse::{FollowError, FollowFault, Singularity, Solution, Solutions, SolveError, Target};
 pub use tool::ToolAssembly;

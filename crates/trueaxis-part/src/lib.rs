@@ -1,1 +1,43 @@
-//! Placeholder.
+//! Is the part good?
+//!
+//! ```text
+//! TestPieceFile ──read──> TestPiece ──tool_positions──> the ideal path of the tool
+//!       │                     │
+//!       │                     └─evaluate(CutSurface)──> indices in mm ─┐
+//!       │                              │                               │
+//!       │                              └ fit::circle: LSC MZC MIC MCC  │
+//!       └──────────────────────── Tolerances ──judge───────────────────┴──> Verdict
+//! ```
+//!
+//! ```
+//! use trueaxis_geometry::input::Source;
+//! use trueaxis_part::TestPieceFile;
+//! use trueaxis_part::testpiece::CutSurface;
+//! use trueaxis_part::tolerance::{Acceptance, Outcome};
+//!
+//! let text = include_str!("../../../testpieces/nas979-gbt33150.toml");
+//! let source = Source::new("nas979-gbt33150.toml", text);
+//! let file = source.read(|root| TestPieceFile::read(root)).expect("the shipped file is good");
+//! let piece = file.piece();
+//!
+//! // A faultless machine cuts a faultless cone.
+//! let ideal = piece.ideal_deviation_mm();
+//! let mut indices_mm = vec![0.0; piece.index_names().len()];
+//! piece.evaluate(&CutSurface::about_ideal_axis(&ideal), &mut piece.scratch(), &mut indices_mm)?;
+//! assert!(indices_mm.iter().all(|v| *v < 1e-12));
+//! let verdict = file.tolerances.judge(piece.index_names(), &indices_mm, Acceptance::Simple)?;
+//! assert_eq!(verdict.outcome, Outcome::Pass);
+//! # Ok::<(), trueaxis_part::Error>(())
+//! ```
+//!
+//! It knows nothing of machines and programs: it says where the tool should be and judges where
+//! it was. It opens no file.
+
+mod error;
+mod file;
+pub mod fit;
+pub mod testpiece;
+pub mod tolerance;
+
+pub use error::Error;
+pub use file::{Shape, TestPieceFile};

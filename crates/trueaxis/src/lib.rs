@@ -1,1 +1,22 @@
-//! The loop.
+//! The loop: describe · simulate · predict · plan (and measure) · identify · compensate · verify.
+//!
+//! One machine file goes through all of it. So far:
+//!
+//! - *describe*: [`machine`] (a checked machine tool, its poses and errors) and [`files`];
+//! - *predict*: [`predict`](mod@predict): is the test piece that this machine cuts within its
+//!   tolerances, how sure is that, and which error is to blame;
+//! - [`report`]: the prediction as text, JSON and one self-contained HTML page.
+//!
+//! The nouns live in crates of their own and are handed on here: [`geometry`], [`machine`],
+//! [`part`].
+
+pub mod files;
+pub mod predict;
+pub mod report;
+
+pub use trueaxis_geometry as geometry;
+pub use trueaxis_machine as machine;
+pub use trueaxis_part as part;
+
+/// The version that reports state.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -39,9 +39,17 @@ impl CsvTable {
         let mut table = Self { file: file.to_owned(), ..Self::default() };
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let rows = text.lines().enumerate().map(|(i, line)| (i + 1, line));
-        for (number, line) in rows.filter(|(_, l)| !l.trim().is_empty() && !l.starts_with('#')) {
+        let is_comment = |l: &str| l.trim_start().is_empty() || l.trim_start().starts_with('#');
+        for (number, line) in rows.filter(|(_, l)| !is_comment(l)) {
             if table.columns.is_empty() {
                 table.read_headings(number, line, problems);
+                if let Some(separator) = foreign_separator(line) {
+                    let place = Place { file: file.to_owned(), line: number, column: 1 };
+                    let message = format!("the columns are separated by {separator}");
+                    let hint = "separate them by commas, and write decimals with a point";
+                    problems.error("bad-separator", place, message, hint);
+                    return table;
+                }
             } else {
                 table.read_row(number, line, problems);
             }
@@ -114,6 +122,13 @@ impl CsvTable {
     }
 }
 
+/// What stands between the headings, if it is not a comma.
+fn foreign_separator(headings: &str) -> Option<&'static str> {
+    let separators = [(';', "semicolons"), ('\t', "tabs")];
+    let found = separators.into_iter().find(|(c, _)| headings.trim().contains(*c))?;
+    (!headings.contains(',')).then_some(found.1)
+}
+
 /// The trimmed fields of a line with the column (from 1, in characters) where each begins.
 fn fields(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut column = 1;
@@ -135,5 +150,16 @@ mod tests {
         CsvTable::parse("t.csv", "a,b\n1, x\n1\nnan,2\n3,4\n", &mut problems);
         let places: Vec<_> = problems.iter().map(|d| d.place.to_string()).collect();
         assert_eq!(places, ["t.csv:2:4", "t.csv:3:1", "t.csv:4:1"]);
+    }
+
+    #[test]
+    fn semicolons_are_one_problem_and_comments_may_be_indented() {
+        let codes = |text: &str| {
+            let mut problems = Diagnostics::new();
+            CsvTable::parse("t.csv", text, &mut problems);
+            problems.iter().map(|d| d.code).collect::<Vec<_>>()
+        };
+        assert_eq!(codes("a;b\n1;2\n3;4\n"), ["bad-separator"]);
+        assert!(codes("  # by hand\na,b\n1,2\n").is_empty());
     }
 }

@@ -76,6 +76,10 @@ const UNITS: &[(Dimension, &[&str], (f64, f64))] = &[
     (Dimension::Ratio, &["%"], (1.0, 100.0)),
 ];
 
+/// No quantity of a machine, a part or a program is larger than this in its inner unit (mm, rad,
+/// mm/s³ …). Larger numbers are slips of the pen, and their products would end at infinity.
+const LARGEST: f64 = 1e12;
+
 /// A unit by name: what it measures and how to bring a number of it to the inner unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {
@@ -116,6 +120,29 @@ impl Unit {
     /// A number of this unit in the inner unit (mm, rad, s, °C).
     pub fn to_inner(self, number: f64) -> f64 {
         number * self.numerator / self.denominator
+    }
+
+    /// A number from people in the inner unit.
+    ///
+    /// ```
+    /// use trueaxis_geometry::input::{Dimension, Unit};
+    /// let metre = Unit::find("m", Dimension::Length)?;
+    /// assert_eq!(metre.checked(2.0), Ok(2000.0));
+    /// assert!(metre.checked(1e308).is_err()); // 1e311 mm is no double
+    /// # Ok::<(), trueaxis_geometry::input::QuantityError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Not finite, or beyond 10¹² of the inner unit: no length, angle or time of a machine is.
+    pub fn checked(self, number: f64) -> Result<f64, QuantityError> {
+        let inner = self.to_inner(number);
+        if !number.is_finite() {
+            return Err(QuantityError::NotFinite(number.to_string()));
+        }
+        if inner.abs() > LARGEST {
+            return Err(QuantityError::TooLarge(format!("{number:e}")));
+        }
+        Ok(inner)
     }
 }
 
@@ -163,6 +190,8 @@ pub enum QuantityError {
     NotANumber(String),
     /// NaN, infinite, or too large for a double.
     NotFinite(String),
+    /// Finite, but larger than any quantity of a machine (10¹² mm, rad …).
+    TooLarge(String),
     /// A number without a unit.
     NoUnit(Dimension),
     /// No unit of that name exists.
@@ -186,6 +215,7 @@ impl QuantityError {
         match self {
             Self::NotANumber(_) => "not-a-number",
             Self::NotFinite(_) => "not-finite",
+            Self::TooLarge(_) => "too-large",
             Self::NoUnit(_) => "missing-unit",
             Self::UnknownUnit(..) => "unknown-unit",
             Self::WrongDimension { .. } => "wrong-unit",
@@ -199,6 +229,7 @@ impl QuantityError {
             Self::NotANumber(_) | Self::NotFinite(_) => {
                 "write a finite number and its unit, such as \"12.5 mm\"".to_owned()
             }
+            Self::TooLarge(_) => "check the exponent and the unit".to_owned(),
             Self::NoUnit(d) | Self::UnknownUnit(_, d) => format!("units of {d}: {}", d.units()),
             Self::WrongDimension { expected, .. } => {
                 format!("units of {expected}: {}", expected.units())
@@ -213,6 +244,9 @@ impl fmt::Display for QuantityError {
         match self {
             Self::NotANumber(text) => write!(f, "`{text}` is not a number"),
             Self::NotFinite(text) => write!(f, "`{text}` is not a finite number"),
+            Self::TooLarge(text) => {
+                write!(f, "`{text}` is larger than any quantity of a machine")
+            }
             Self::NoUnit(d) => write!(f, "{d} needs a unit"),
             Self::UnknownUnit(unit, d) => write!(f, "`{unit}` is no unit of {d}"),
             Self::WrongDimension { unit, found, expected } => {
@@ -240,7 +274,7 @@ pub fn parse_quantity(text: &str, dimension: Dimension) -> Result<f64, QuantityE
     let text = text.trim();
     let (number, unit) = split_number(text);
     let value = parse_number(number, text)?;
-    Ok(Unit::find(unit.trim(), dimension)?.to_inner(value))
+    Unit::find(unit.trim(), dimension)?.checked(value)
 }
 
 /// Reads a quantity that may carry a standard uncertainty: `"12 urad ± 1 urad"`, `"12 ± 1 urad"`.
@@ -267,7 +301,7 @@ pub fn parse_measured(text: &str, dimension: Dimension) -> Result<Measured, Quan
     let value = match split_number(left) {
         (number, "") => {
             let (_, unit) = split_number(right.trim());
-            Unit::find(unit.trim(), dimension)?.to_inner(parse_number(number, left)?)
+            Unit::find(unit.trim(), dimension)?.checked(parse_number(number, left)?)?
         }
         _ => parse_quantity(left, dimension)?,
     };
@@ -320,6 +354,7 @@ mod tests {
         use QuantityError as E;
         assert!(matches!(parse_quantity("nan mm", Dimension::Length), Err(E::NotFinite(_))));
         assert!(matches!(parse_quantity("1e999 mm", Dimension::Length), Err(E::NotFinite(_))));
+        assert!(matches!(parse_quantity("1e308 m", Dimension::Length), Err(E::TooLarge(_))));
         assert!(matches!(parse_quantity("mm", Dimension::Length), Err(E::NotANumber(_))));
         assert!(matches!(parse_quantity("1", Dimension::Angle), Err(E::NoUnit(_))));
         assert!(matches!(parse_quantity("1 furlong", Dimension::Length), Err(E::UnknownUnit(..))));

@@ -1,7 +1,7 @@
 use super::{
-    Diagnostics, Dimension, Measured, Place, QuantityError, parse_measured, parse_quantity,
+    Diagnostics, Dimension, Measured, Place, QuantityError, Unit, parse_measured, parse_quantity,
 };
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 use std::ops::Range;
 use toml::Spanned;
@@ -21,13 +21,37 @@ use toml::de::{DeTable, DeValue};
 pub struct Source<'a> {
     file: &'a str,
     text: &'a str,
+    /// Byte offset where each line begins.
+    line_starts: Vec<usize>,
+    /// The last place that was asked for, as byte offset and column: most questions come in the
+    /// order of the text, so that a file of one long line is not counted anew for every key.
+    last: Cell<(usize, usize)>,
     problems: RefCell<Diagnostics>,
 }
 
 impl<'a> Source<'a> {
     /// A text and the name of its file.
     pub fn new(file: &'a str, text: &'a str) -> Self {
-        Self { file, text, problems: RefCell::default() }
+        let line_starts =
+            std::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i + 1)).collect();
+        Self { file, text, line_starts, last: Cell::new((0, 1)), problems: RefCell::default() }
+    }
+
+    /// As [`Place::of`], in a time that does not grow with the file.
+    fn place(&self, offset: usize) -> Place {
+        let mut offset = offset.min(self.text.len());
+        while !self.text.is_char_boundary(offset) {
+            offset -= 1;
+        }
+        let line = self.line_starts.partition_point(|start| *start <= offset);
+        let start = self.line_starts[line - 1];
+        let (from, known) = match self.last.get() {
+            last if (start..=offset).contains(&last.0) => last,
+            _ => (start, 1),
+        };
+        let column = known + self.text[from..offset].chars().count();
+        self.last.set((offset, column));
+        Place { file: self.file.to_owned(), line, column }
     }
 
     /// Parses the text and hands its root to `reader`; syntax errors are kept as problems.
@@ -55,7 +79,7 @@ impl<'a> Source<'a> {
     }
 
     fn error(&self, code: &'static str, span: Range<usize>, message: String, hint: &str) {
-        let place = Place::of(self.file, self.text, span.start);
+        let place = self.place(span.start);
         self.problems.borrow_mut().error(code, place, message, hint);
     }
 }
@@ -70,7 +94,7 @@ pub struct Item<'s> {
 impl<'s> Item<'s> {
     /// Where the value stands.
     pub fn place(&self) -> Place {
-        Place::of(self.source.file, self.source.text, self.value.span().start)
+        self.source.place(self.value.span().start)
     }
 
     /// Reports a problem with this value.
@@ -87,7 +111,7 @@ impl<'s> Item<'s> {
     pub fn text(&self) -> Option<&'s str> {
         let text = self.value.get_ref().as_str();
         if text.is_none() {
-            self.expected("a text in quotes");
+            self.expected("a text in quotes", "write it in quotes, such as \"100 mm\"");
         }
         text
     }
@@ -116,12 +140,13 @@ impl<'s> Item<'s> {
     /// A plain number (integer or float), or a problem.
     pub fn number(&self) -> Option<f64> {
         let parsed = match self.value.get_ref() {
-            DeValue::Integer(i) => {
-                i64::from_str_radix(i.as_str(), i.radix()).ok().map(|v| v as f64)
-            }
+            // Beyond 64 bits an integer is read as a float: too large for its place, yet finite.
+            DeValue::Integer(i) => i64::from_str_radix(i.as_str(), i.radix())
+                .map_or_else(|_| i.as_str().parse::<f64>(), |v| Ok(v as f64))
+                .ok(),
             DeValue::Float(f) => f.as_str().parse::<f64>().ok(),
             _ => {
-                self.expected("a number");
+                self.expected("a number", "write a plain number without quotes, such as 1");
                 return None;
             }
         };
@@ -145,7 +170,7 @@ impl<'s> Item<'s> {
         if value.fract() == 0.0 && (0.0..=1e12).contains(&value) {
             return Some(value as usize);
         }
-        self.expected("a whole number from 0 on");
+        self.expected("a whole number from 0 on", "write a number such as 0 or 12");
         None
     }
 
@@ -153,7 +178,7 @@ impl<'s> Item<'s> {
     pub fn flag(&self) -> Option<bool> {
         let flag = self.value.get_ref().as_bool();
         if flag.is_none() {
-            self.expected("true or false");
+            self.expected("true or false", "write true or false without quotes");
         }
         flag
     }
@@ -161,7 +186,7 @@ impl<'s> Item<'s> {
     /// The elements of an array, or a problem.
     pub fn list(&self) -> Option<Vec<Item<'s>>> {
         let DeValue::Array(array) = self.value.get_ref() else {
-            self.expected("a list in brackets");
+            self.expected("a list in brackets", "write [\"…\", \"…\"]");
             return None;
         };
         Some(array.iter().map(|value| Item { source: self.source, value }).collect())
@@ -180,7 +205,10 @@ impl<'s> Item<'s> {
     /// Reads the value as a table; afterwards its unknown keys are problems.
     pub fn section<T>(&self, name: &str, reader: impl FnOnce(&Section<'s>) -> T) -> Option<T> {
         let DeValue::Table(table) = self.value.get_ref() else {
-            self.expected("a table");
+            self.expected(
+                "a table",
+                "write it as a section in [brackets] or as { key = \"value\" }",
+            );
             return None;
         };
         let section = Section::new(self.source, name.to_owned(), self.value.span(), table);
@@ -191,17 +219,18 @@ impl<'s> Item<'s> {
 
     fn plain_number(&self, dimension: Dimension) -> Option<f64> {
         let value = self.number()?;
-        if dimension == Dimension::Ratio {
-            return Some(value);
-        }
-        self.accept(Err(QuantityError::NoUnit(dimension)))
+        // Plain numbers only stand for plain numbers: everything else needs its unit.
+        self.accept(match dimension {
+            Dimension::Ratio => Unit::find("", dimension).and_then(|one| one.checked(value)),
+            _ => Err(QuantityError::NoUnit(dimension)),
+        })
     }
 
     fn accept<T>(&self, parsed: Result<T, QuantityError>) -> Option<T> {
         parsed.map_err(|e| self.error(e.code(), e.to_string(), &e.hint())).ok()
     }
 
-    fn expected(&self, what: &str) {
+    fn expected(&self, what: &str, hint: &str) {
         let found = match self.value.get_ref() {
             DeValue::String(_) => "a text",
             DeValue::Integer(_) | DeValue::Float(_) => "a number",
@@ -210,7 +239,7 @@ impl<'s> Item<'s> {
             DeValue::Array(_) => "a list",
             DeValue::Table(_) => "a table",
         };
-        self.error("wrong-type", format!("{what} is due here, not {found}"), "");
+        self.error("wrong-type", format!("{what} is due here, not {found}"), hint);
     }
 
     /// A date as it was written, or a text.
@@ -249,7 +278,7 @@ impl<'s> Section<'s> {
 
     /// Where the section begins.
     pub fn place(&self) -> Place {
-        Place::of(self.source.file, self.source.text, self.span.start)
+        self.source.place(self.span.start)
     }
 
     /// Reports a problem with the section as a whole.
@@ -307,7 +336,7 @@ impl<'s> Section<'s> {
             .map(|(key, value)| {
                 let name: &'s str = key.get_ref();
                 self.asked.borrow_mut().insert(name.to_owned());
-                let place = Place::of(self.source.file, self.source.text, key.span().start);
+                let place = self.source.place(key.span().start);
                 (name, place, Item { source: self.source, value })
             })
             .collect()

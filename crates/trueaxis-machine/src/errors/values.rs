@@ -129,3 +129,15 @@ impl ErrorValues {
         }
     }
 }
+
+impl ErrorIndex {
+    /// Every entry of [`ErrorValues`]: bodies in chain order, constants before error motions.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let kinds = [super::ErrorKind::Location, super::ErrorKind::Motion];
+        (0..MAX_BODIES).flat_map(move |body| {
+            kinds.into_iter().flat_map(move |kind| {
+                Component::ALL.into_iter().map(move |component| Self { body, kind, component })
+            })
+        })
+    }
+}

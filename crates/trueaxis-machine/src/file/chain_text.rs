@@ -27,6 +27,7 @@ impl ChainText {
     /// # Errors
     /// A sentence that says what is wrong with the text.
     pub fn parse(text: &str) -> Result<Self, String> {
+        let text = text.trim();
         let parsed =
             if text.contains(char::is_whitespace) { parse_long(text) } else { parse_short(text) }?;
         check(&parsed.axes)?;
@@ -161,6 +162,7 @@ mod tests {
     fn short_forms_print_the_long_one() {
         let long = |text: &str| ChainText::parse(text).unwrap().long_form();
         assert_eq!(long("ZX'Y'A'C'"), "w C' A' X' Y' b Z t");
+        assert_eq!(long(" WYXZCAT\n"), "w b Y X Z C A t");
         assert_eq!(long("w C A b X Y Z t"), "w C' A' b X Y Z t");
         assert_eq!(long("w X Y Z C A t"), "w b X Y Z C A t");
         assert_eq!(long("w X' Y' Z' b t"), "w X' Y' Z' b t");

@@ -2,23 +2,23 @@
 //! Fourier series or tables.
 
 use super::Tables;
+use super::table_text::{ErrorTable, TableCurves, TableHabits, headings_place, position_dimension};
 use crate::axis::{Axis, AxisKind, Travel};
 use crate::chain::ChainBody;
 use crate::errors::{
-    Component, Curve, ErrorKind, ErrorName, Harmonic, Interpolation, Measurement, Outside, Spline,
-    SplineError, StatedError, Uncertainty,
+    Component, Curve, ErrorKind, ErrorName, Harmonic, Interpolation, Measurement, Outside,
+    StatedError, Uncertainty,
 };
-use trueaxis_geometry::input::{CsvColumn, CsvTable, Diagnostics, Dimension, Item, Section, Unit};
+use trueaxis_geometry::input::{CsvTable, Diagnostics, Dimension, Item, Section};
 
-fn dimension_of(component: Component) -> Dimension {
+/// Fast harmonics are noise: above this order a series says nothing about an axis.
+const HIGHEST_ORDER: f64 = 1e4;
+/// No error polynomial reaches this within the travel, mm or rad.
+const HIGHEST_ERROR: f64 = 1e12;
+
+/// What an error is measured in.
+pub fn dimension_of(component: Component) -> Dimension {
     if component.is_rotation() { Dimension::Angle } else { Dimension::Length }
-}
-
-fn position_dimension(kind: AxisKind) -> Dimension {
-    match kind {
-        AxisKind::Linear => Dimension::Length,
-        AxisKind::Rotary => Dimension::Angle,
-    }
 }
 
 /// `[location]`: `EC0Y = "12 ± 1 urad"`.
@@ -56,8 +56,7 @@ pub fn read_location(section: &Section<'_>, bodies: &mut [ChainBody]) {
 struct MotionReader<'a> {
     axis: &'a Axis,
     tables: &'a dyn Tables,
-    interpolation: Interpolation,
-    outside: Outside,
+    habits: TableHabits,
     u: [Option<f64>; 2],
     measured: Measurement,
 }
@@ -67,8 +66,10 @@ pub fn read_motion(section: &Section<'_>, axis: &Axis, body: &mut ChainBody, tab
     let reader = MotionReader {
         axis,
         tables,
-        interpolation: read_interpolation(section).unwrap_or(Interpolation::NotAKnot),
-        outside: read_outside(section).unwrap_or(Outside::Error),
+        habits: TableHabits {
+            interpolation: read_interpolation(section).unwrap_or(Interpolation::NotAKnot),
+            outside: read_outside(section).unwrap_or(Outside::Error),
+        },
         u: read_uncertainties(section),
         measured: read_measurement(section),
     };
@@ -121,45 +122,87 @@ impl MotionReader<'_> {
             return Some(stated);
         }
         item.section(&name.to_string(), |section| {
-            let u = section.quantity("u", dimension).and_then(|u| not_negative(section, u));
-            let u = u.map(Uncertainty::Constant).or_else(|| self.general_u(name.component));
-            let reversal = section.quantity("reversal", dimension).map(Curve::Constant);
+            let u = section.get("u").and_then(|item| not_negative(&item, dimension));
+            let mut u = u.map(Uncertainty::Constant);
+            let mut reversal = section.quantity("reversal", dimension).map(Curve::Constant);
             let has_measurement = section.get("measured").is_some();
             let own = read_measurement(section);
             let measured = if has_measurement { own } else { self.measured.clone() };
-            let mean = self.read_shape(section, name.component)?;
-            Some(StatedError { mean, reversal, u, measured })
+            let shape = self.read_shape(section, name.component)?;
+            for (what, twice) in [
+                ("uncertainty", u.is_some() && shape.u.is_some()),
+                ("reversal", reversal.is_some() && shape.reversal.is_some()),
+            ] {
+                if twice {
+                    let message = format!("{name}: its {what} is stated twice");
+                    section.error("duplicate-error", message, "in the table or here, not both");
+                }
+            }
+            u = u.or(shape.u).or_else(|| self.general_u(name.component));
+            reversal = reversal.or(shape.reversal);
+            Some(StatedError { mean: shape.mean, reversal, u, measured })
         })?
     }
 
-    fn read_shape(&self, section: &Section<'_>, component: Component) -> Option<Curve> {
+    fn read_shape(&self, section: &Section<'_>, component: Component) -> Option<TableCurves> {
         let dimension = dimension_of(component);
         let shapes = ["constant", "polynomial", "fourier", "table"];
         let given: Vec<_> = shapes.iter().filter(|s| section.get(s).is_some()).collect();
         if given.len() != 1 {
+            // Which of them belong here cannot be told: do not call them unknown too.
+            for key in ["scale", "origin", "interpolation", "outside"] {
+                section.get(key);
+            }
             let message = format!("an error motion has one shape, here are {}", given.len());
             section.error("bad-curve", message, "give one of constant, polynomial, fourier, table");
             return None;
         }
-        match *given[0] {
+        let mean = match *given[0] {
             "constant" => section.quantity("constant", dimension).map(Curve::Constant),
             "polynomial" => self.read_polynomial(section, dimension),
             "fourier" => self.read_fourier(section, dimension),
-            _ => self.read_own_table(section, component),
-        }
+            _ => return self.read_own_table(section, component),
+        };
+        Some(TableCurves { mean: mean?, reversal: None, u: None })
+    }
+
+    /// The greatest distance of a position from the origin, mm or rad; 1 m or a turn if no travel
+    /// is stated.
+    fn furthest_from(&self, origin: f64) -> f64 {
+        let (low, high) = match (self.axis.travel, self.axis.kind) {
+            (Travel::Between(low, high), _) => (low, high),
+            (_, AxisKind::Linear) => (-1e3, 1e3),
+            (_, AxisKind::Rotary) => (-std::f64::consts::TAU, std::f64::consts::TAU),
+        };
+        (low - origin).abs().max((high - origin).abs())
     }
 
     fn read_polynomial(&self, section: &Section<'_>, dimension: Dimension) -> Option<Curve> {
         let position = position_dimension(self.axis.kind);
+        let origin = section.get("origin").map_or(Some(0.0), |i| i.quantity(position));
+        let hint = "the position above the origin where the argument is 1, such as \"100 mm\"";
+        let item = section.require("scale", hint);
         let items = section.get("polynomial")?.list()?;
         let coefficients: Vec<_> = items.iter().map(|i| i.quantity(dimension)).collect();
-        let coefficients: Vec<f64> = coefficients.into_iter().collect::<Option<_>>()?;
-        let origin = section.get("origin").map_or(Some(0.0), |i| i.quantity(position))?;
-        let hint = "the position above the origin where the argument is 1, such as \"100 mm\"";
-        let item = section.require("scale", hint)?;
+        let coefficients: Option<Vec<f64>> = coefficients.into_iter().collect();
+        let (origin, item) = (origin?, item?);
         let scale = item.quantity(position)?;
         if scale == 0.0 {
             item.error("bad-curve", "the scale of a polynomial is not zero".into(), hint);
+            return None;
+        }
+        let coefficients = coefficients?;
+        if coefficients.is_empty() {
+            let hint = "[\"0 um\", \"3 um\"] is 3 um times the argument";
+            section.error("bad-curve", "the polynomial has no coefficients".into(), hint);
+            return None;
+        }
+        // Σ |cₖ| |x|ᵏ at the far end of the travel: no value in it is larger.
+        let x = self.furthest_from(origin) / scale.abs();
+        let highest = coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c.abs());
+        if !(highest <= HIGHEST_ERROR) {
+            let message = format!("the polynomial grows to {highest:.0e} within the travel");
+            section.error("too-large", message, "check its scale and its coefficients");
             return None;
         }
         Some(Curve::Polynomial { coefficients, origin, scale })
@@ -182,30 +225,39 @@ impl MotionReader<'_> {
         })?
     }
 
-    fn read_own_table(&self, section: &Section<'_>, component: Component) -> Option<Curve> {
+    fn read_own_table(&self, section: &Section<'_>, component: Component) -> Option<TableCurves> {
         let item = section.get("table")?;
-        let interpolation = read_interpolation(section).unwrap_or(self.interpolation);
-        let outside = read_outside(section).unwrap_or(self.outside);
+        let habits = TableHabits {
+            interpolation: read_interpolation(section).unwrap_or(self.habits.interpolation),
+            outside: read_outside(section).unwrap_or(self.habits.outside),
+        };
         let table = self.load(section, &item)?;
         let mut problems = Diagnostics::new();
-        let wanted = format!("E{}{}", component.letter(), self.axis.name);
-        let curve = (|| {
-            let positions = self.positions(&table, &mut problems)?;
-            let column = table.columns.iter().find(|c| heading(&c.name).0 == wanted);
-            let Some(column) = column else {
-                let place = trueaxis_geometry::input::Place::whole(&table.file);
-                let message = format!("the table has no column {wanted}_…");
-                problems.error("missing-column", place, message, "such as EXX_um or EAX_urad");
-                return None;
-            };
-            let values = in_inner_unit(column, dimension_of(component), &mut problems)?;
-            let spline =
-                self.spline(&table, (&positions, &values), interpolation, &mut problems)?;
-            self.check_cover(&table, &spline, outside, &mut problems);
-            Some(Curve::Table { spline, outside })
-        })();
+        let read = ErrorTable::read(self.axis, &table, habits, Some(component), &mut problems);
+        if read.as_ref().is_some_and(|r| r.lacks(component)) {
+            let place = headings_place(&table);
+            let message =
+                format!("the table has no column E{}{}_…", component.letter(), self.axis.name);
+            problems.error("missing-column", place, message, "such as EXX_um or EAX_urad");
+        }
+        let curves = read.and_then(|r| r.curves(component, &mut problems));
         section.take_over(problems);
-        curve
+        curves
+    }
+
+    fn read_columns(&self, section: &Section<'_>, table: &CsvTable, body: &mut ChainBody) {
+        let mut problems = Diagnostics::new();
+        let read = ErrorTable::read(self.axis, table, self.habits, None, &mut problems);
+        for component in Component::ALL {
+            let curves = read.as_ref().and_then(|r| r.curves(component, &mut problems));
+            body.motion[component as usize] = curves.map(|c| StatedError {
+                mean: c.mean,
+                reversal: c.reversal,
+                u: c.u.or_else(|| self.general_u(component)),
+                measured: self.measured.clone(),
+            });
+        }
+        section.take_over(problems);
     }
 
     fn load(&self, section: &Section<'_>, item: &Item<'_>) -> Option<CsvTable> {
@@ -224,202 +276,6 @@ impl MotionReader<'_> {
         section.take_over(problems);
         usable.then_some(table)
     }
-
-    fn positions(&self, table: &CsvTable, problems: &mut Diagnostics) -> Option<Vec<f64>> {
-        let column = table.columns.iter().find(|c| heading(&c.name).0 == "position");
-        let Some(column) = column else {
-            let place = trueaxis_geometry::input::Place::whole(&table.file);
-            let message = "the table has no column of positions".to_owned();
-            problems.error("missing-column", place, message, "name it position_mm or position_deg");
-            return None;
-        };
-        in_inner_unit(column, position_dimension(self.axis.kind), problems)
-    }
-
-    fn spline(
-        &self,
-        table: &CsvTable,
-        (positions, values): (&[f64], &[f64]),
-        interpolation: Interpolation,
-        problems: &mut Diagnostics,
-    ) -> Option<Spline> {
-        Spline::new(positions, values, interpolation)
-            .map_err(|error| {
-                let place = match error {
-                    SplineError::NotIncreasing(row) => table.row_place(row),
-                    _ => trueaxis_geometry::input::Place::whole(&table.file),
-                };
-                let hint = "sort the rows by position, each position once";
-                problems.error("bad-table", place, error.to_string(), hint);
-            })
-            .ok()
-    }
-
-    /// A table that ends before the travel does would refuse commands in the middle of a job.
-    fn check_cover(
-        &self,
-        table: &CsvTable,
-        spline: &Spline,
-        outside: Outside,
-        problems: &mut Diagnostics,
-    ) {
-        let (from, to) = spline.range();
-        let (low, high) = match self.axis.travel {
-            Travel::Between(low, high) => (low, high),
-            _ => return,
-        };
-        let slack = 1e-9 * low.abs().max(high.abs()).max(1.0);
-        if from <= low + slack && to >= high - slack {
-            return;
-        }
-        let unit = |v: f64| match self.axis.kind {
-            AxisKind::Linear => format!("{v} mm"),
-            AxisKind::Rotary => format!("{} deg", v.to_degrees()),
-        };
-        let message = format!(
-            "the table covers {} .. {} of the travel {} .. {} of {}",
-            unit(from),
-            unit(to),
-            unit(low),
-            unit(high),
-            self.axis.name
-        );
-        let place = trueaxis_geometry::input::Place::whole(&table.file);
-        let hint = "measure the rest, shorten the travel, or say outside = \"clamp\" or \"extend\"";
-        if outside == Outside::Error {
-            problems.error("table-too-short", place, message, hint);
-        } else {
-            problems.warn("table-too-short", place, message, "the ends are extrapolated there");
-        }
-    }
-
-    fn read_columns(&self, section: &Section<'_>, table: &CsvTable, body: &mut ChainBody) {
-        let mut problems = Diagnostics::new();
-        if let Some(positions) = self.positions(table, &mut problems) {
-            let mut found = Columns::default();
-            for column in table.columns.iter().filter(|c| heading(&c.name).0 != "position") {
-                self.sort_column(column, &mut found, &mut problems);
-            }
-            for component in Component::ALL {
-                let columns = &found.0[component as usize];
-                let stated = self.state(table, &positions, (component, columns), &mut problems);
-                body.motion[component as usize] = stated;
-            }
-        }
-        section.take_over(problems);
-    }
-
-    fn sort_column(&self, column: &CsvColumn, found: &mut Columns, problems: &mut Diagnostics) {
-        let (mut name, _) = heading(&column.name);
-        let is_u = name.starts_with("u_");
-        name = name.strip_prefix("u_").unwrap_or(name);
-        let (name, role) = match (name.strip_suffix("_up"), name.strip_suffix("_down")) {
-            _ if is_u => (name, Role::Uncertainty),
-            (Some(up), _) => (up, Role::Up),
-            (_, Some(down)) => (down, Role::Down),
-            _ => (name, Role::Mean),
-        };
-        let parsed = ErrorName::parse(name)
-            .filter(|n| n.kind == ErrorKind::Motion && n.body == self.axis.name);
-        let Some(parsed) = parsed else {
-            let message = format!("`{}` is no error motion of {}", column.name, self.axis.name);
-            let hint = format!(
-                "columns are EX{0}_um … EC{0}_urad, EX{0}_up_um and EX{0}_down_um, u_EX{0}_um",
-                self.axis.name
-            );
-            problems.error("unknown-error-name", column.place.clone(), message, &hint);
-            return;
-        };
-        let values = in_inner_unit(column, dimension_of(parsed.component), problems);
-        found.0[parsed.component as usize][role as usize] = values;
-    }
-
-    fn state(
-        &self,
-        table: &CsvTable,
-        positions: &[f64],
-        (component, columns): (Component, &[Option<Vec<f64>>; 4]),
-        problems: &mut Diagnostics,
-    ) -> Option<StatedError> {
-        let [mean, up, down, u] = columns;
-        let (mean, reversal) = match (mean, up, down) {
-            (Some(mean), None, None) => (mean.clone(), None),
-            (None, Some(up), Some(down)) => {
-                let mean = up.iter().zip(down).map(|(u, d)| 0.5 * (u + d)).collect();
-                let reversal: Vec<f64> = up.iter().zip(down).map(|(u, d)| u - d).collect();
-                (mean, Some(reversal))
-            }
-            (None, None, None) => return None,
-            _ => {
-                let place = trueaxis_geometry::input::Place::whole(&table.file);
-                let message = format!(
-                    "E{}{}: one column, or _up and _down",
-                    component.letter(),
-                    self.axis.name
-                );
-                problems.error("bad-table", place, message, "give the mean or both directions");
-                return None;
-            }
-        };
-        let outside = self.outside;
-        let spline = self.spline(table, (positions, &mean), self.interpolation, problems)?;
-        self.check_cover(table, &spline, outside, problems);
-        let reversal = match reversal {
-            None => None,
-            Some(values) => {
-                let spline =
-                    self.spline(table, (positions, &values), self.interpolation, problems)?;
-                Some(Curve::Table { spline, outside })
-            }
-        };
-        let u = match u {
-            Some(u) if u.iter().any(|u| *u < 0.0) => {
-                let place = trueaxis_geometry::input::Place::whole(&table.file);
-                let message = "a standard uncertainty is negative".to_owned();
-                problems.error("negative-uncertainty", place, message, "it is zero or positive");
-                None
-            }
-            Some(u) => {
-                let line = self.spline(table, (positions, u), Interpolation::Linear, problems)?;
-                Some(Uncertainty::Table(line))
-            }
-            None => self.general_u(component),
-        };
-        let mean = Curve::Table { spline, outside };
-        Some(StatedError { mean, reversal, u, measured: self.measured.clone() })
-    }
-}
-
-/// Per component: mean, rising, falling, uncertainty.
-#[derive(Default)]
-struct Columns([[Option<Vec<f64>>; 4]; 6]);
-
-#[derive(Clone, Copy)]
-enum Role {
-    Mean,
-    Up,
-    Down,
-    Uncertainty,
-}
-
-/// `EXX_um` is `EXX` in `um`.
-fn heading(name: &str) -> (&str, &str) {
-    name.rsplit_once('_').unwrap_or((name, ""))
-}
-
-fn in_inner_unit(
-    column: &CsvColumn,
-    dimension: Dimension,
-    problems: &mut Diagnostics,
-) -> Option<Vec<f64>> {
-    match Unit::find(heading(&column.name).1, dimension) {
-        Ok(unit) => Some(column.values.iter().map(|&v| unit.to_inner(v)).collect()),
-        Err(e) => {
-            let message = format!("column `{}`: {e}", column.name);
-            problems.error(e.code(), column.place.clone(), message, &e.hint());
-            None
-        }
-    }
 }
 
 fn harmonic(item: &Item<'_>, dimension: Dimension, hint: &str) -> Option<Harmonic> {
@@ -430,8 +286,9 @@ fn harmonic(item: &Item<'_>, dimension: Dimension, hint: &str) -> Option<Harmoni
     };
     let (order, cosine, sine) =
         (order.number()?, cosine.quantity(dimension)?, sine.quantity(dimension)?);
-    if order < 1.0 || order.fract() != 0.0 {
-        item.error("bad-curve", "the order is a whole number from 1 on".into(), hint);
+    if !(1.0..=HIGHEST_ORDER).contains(&order) || order.fract() != 0.0 {
+        let message = format!("the order is a whole number from 1 to {HIGHEST_ORDER}");
+        item.error("bad-curve", message, hint);
         return None;
     }
     Some(Harmonic { order, cosine, sine })
@@ -473,15 +330,14 @@ fn read_uncertainties(section: &Section<'_>) -> [Option<f64>; 2] {
         item.error("bad-uncertainty", "two values are due here".into(), "[\"0.5 um\", \"1 urad\"]");
         return [None; 2];
     };
-    let shift = shift.quantity(Dimension::Length).and_then(|u| not_negative(section, u));
-    let turn = turn.quantity(Dimension::Angle).and_then(|u| not_negative(section, u));
-    [shift, turn]
+    [not_negative(shift, Dimension::Length), not_negative(turn, Dimension::Angle)]
 }
 
-fn not_negative(section: &Section<'_>, u: f64) -> Option<f64> {
+fn not_negative(item: &Item<'_>, dimension: Dimension) -> Option<f64> {
+    let u = item.quantity(dimension)?;
     if u < 0.0 {
         let hint = "a standard uncertainty is zero or positive";
-        section.error("negative-uncertainty", "the uncertainty is negative".into(), hint);
+        item.error("negative-uncertainty", "the uncertainty is negative".into(), hint);
         return None;
     }
     Some(u)

@@ -3,7 +3,7 @@
 use crate::chain::Link;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Pose, rotation};
-use trueaxis_geometry::input::{Dimension, Item, Unit, parse_quantity};
+use trueaxis_geometry::input::{Dimension, Item, QuantityError, Unit, parse_quantity};
 
 const HINT: &str = "write \"x y z mm\", \"shift x y z mm\" or \"turn Z 15 deg\", or a list of these \
                     from left to right";
@@ -76,8 +76,14 @@ fn vector(item: &Item<'_>, words: &[&str]) -> Option<Vec3> {
     };
     let mut vector = Vec3::zeros();
     for (slot, number) in vector.iter_mut().zip(numbers) {
-        match parse_quantity(number, Dimension::Ratio) {
-            Ok(value) => *slot = unit.to_inner(value),
+        let value = parse_quantity(number, Dimension::Ratio).and_then(|v| unit.checked(v));
+        match value {
+            Ok(value) => *slot = value,
+            Err(QuantityError::TooLarge(_)) => {
+                let e = QuantityError::TooLarge(number.to_owned());
+                item.error(e.code(), e.to_string(), &e.hint());
+                return None;
+            }
             Err(_) => return refuse(item, format!("`{number}` is not a finite number")),
         }
     }

@@ -1,0 +1,220 @@
+use crate::arguments::{self, MachineArguments, argument};
+use crate::output::{Format, Outcome, report, show, show_json};
+use clap::Args;
+use serde_json::{Map, Value, json};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use trueaxis::files;
+use trueaxis::geometry::Vec3;
+use trueaxis::geometry::frame::{Direction, Point, Workpiece};
+use trueaxis::geometry::input::{CsvTable, Diagnostics};
+use trueaxis::machine::axis::Command;
+use trueaxis::machine::{FollowFault, Machine, Solutions, SolveError, Target};
+
+/// The tool pose to reach.
+#[derive(Args)]
+#[command(after_help = "Example:\n  trueaxis solve machines/i5-engraver/machine.toml \
+                        --tip \"10 20 30\" --axis \"0.3 -0.2 0.93\"")]
+pub struct Arguments {
+    #[command(flatten)]
+    machine: MachineArguments,
+    /// Tool tip in the workpiece frame, mm
+    #[arg(
+        long,
+        value_name = "\"x y z\"",
+        required_unless_present = "path",
+        allow_hyphen_values = true
+    )]
+    tip: Option<String>,
+    /// Tool axis from the tip to the spindle, of any length
+    #[arg(
+        long,
+        value_name = "\"i j k\"",
+        required_unless_present = "path",
+        allow_hyphen_values = true
+    )]
+    axis: Option<String>,
+    /// Where the axes stand now; the nearest way from there is best
+    #[arg(long, value_name = "\"A=.. C=..\"", allow_hyphen_values = true)]
+    from: Option<String>,
+    /// A whole path: CSV with tip_x_mm,tip_y_mm,tip_z_mm,axis_i,axis_j,axis_k; one best branch
+    #[arg(long, value_name = "PATH.csv", conflicts_with_all = ["tip", "axis"])]
+    path: Option<PathBuf>,
+    /// For people or for programs
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+pub fn run(arguments: &Arguments) -> Outcome {
+    let mut problems = Diagnostics::new();
+    let answer = answer(arguments, &mut problems);
+    if report(problems) {
+        return Outcome::Unusable;
+    }
+    let Some(answer) = answer else { return Outcome::Unusable };
+    match answer {
+        Answer::Text(text) => show(&text),
+        Answer::Json(document) => show_json(&document),
+    }
+    Outcome::Done
+}
+
+enum Answer {
+    Text(String),
+    Json(Value),
+}
+
+fn answer(arguments: &Arguments, problems: &mut Diagnostics) -> Option<Answer> {
+    let machine = arguments.machine.read(problems)?;
+    let from = match &arguments.from {
+        Some(text) => arguments::command(&machine, "--from", text, problems)?,
+        None => Command::default(),
+    };
+    if let Some(path) = &arguments.path {
+        return follow(&machine, path, &from, arguments.format, problems);
+    }
+    let tip = arguments::vector("--tip", arguments.tip.as_deref().unwrap_or_default(), problems);
+    let axis = arguments::vector("--axis", arguments.axis.as_deref().unwrap_or_default(), problems);
+    let axis = axis.and_then(|v| direction(v, problems));
+    let target = Target { tip: Point::from_vector(tip?), axis: axis? };
+    let solved = machine.solve(&target, &from).map_err(|e| refuse(&e, "--axis", problems)).ok()?;
+    Some(match arguments.format {
+        Format::Json => Answer::Json(document(&machine, &solved)),
+        Format::Text => Answer::Text(table(&machine, &solved)),
+    })
+}
+
+fn direction(vector: Vec3, problems: &mut Diagnostics) -> Option<Direction<Workpiece>> {
+    let direction = Direction::of(vector);
+    if direction.is_none() {
+        let message = "the tool axis has no length".to_owned();
+        problems.error("zero-axis", argument("--axis"), message, "write \"0 0 1\" for upright");
+    }
+    direction
+}
+
+fn refuse(error: &SolveError, place: &str, problems: &mut Diagnostics) {
+    let (code, hint) = match error {
+        SolveError::Unreachable { .. } => {
+            ("unreachable-direction", "tilt the part, or ask for the closest direction")
+        }
+        SolveError::TipUnreachable { .. } => {
+            ("unreachable-tip", "the linear axes of this machine do not span space here")
+        }
+        SolveError::NotFinite => ("not-finite", "write finite numbers"),
+    };
+    problems.error(code, argument(place), error.to_string(), hint);
+}
+
+fn axes_json(machine: &Machine, command: &Command) -> Map<String, Value> {
+    let named = machine.axes().iter().zip(command).enumerate();
+    // + 0.0: no minus before a zero.
+    let shown = |i: usize, q: f64| arguments::to_shown(machine, i, q) + 0.0;
+    named.map(|(i, (axis, q))| (axis.name.to_string(), json!(shown(i, *q)))).collect()
+}
+
+fn document(machine: &Machine, solved: &Solutions) -> Value {
+    let entries: Vec<Value> = solved
+        .solutions
+        .iter()
+        .map(|s| {
+            json!({
+                "axes": axes_json(machine, &s.command),
+                "within_limits": s.within_travel,
+                "rotary_travel_deg": s.rotary_travel_rad.to_degrees(),
+            })
+        })
+        .collect();
+    json!({
+        "schema": "trueaxis/solve/1",
+        "solutions": entries,
+        "singular": solved.singular.is_some(),
+        "held_axis": solved.singular.map(|s| s.axis.to_string()),
+    })
+}
+
+fn table(machine: &Machine, solved: &Solutions) -> String {
+    let mut text = String::new();
+    for axis in machine.axes() {
+        let _ = write!(text, "{:>14}", axis.name.to_string());
+    }
+    text += "   rotary travel, deg\n";
+    for solution in &solved.solutions {
+        for (i, q) in solution.command.iter().take(machine.axes().len()).enumerate() {
+            let _ = write!(text, "{:>14.6}", arguments::to_shown(machine, i, *q) + 0.0);
+        }
+        let mark = if solution.within_travel { "" } else { "   outside the travel" };
+        let _ = writeln!(text, "   {:.6}{mark}", solution.rotary_travel_rad.to_degrees());
+    }
+    if let Some(singular) = &solved.singular {
+        let _ = writeln!(text, "singular pose: {singular}");
+    }
+    text
+}
+
+const COLUMNS: [&str; 6] = ["tip_x_mm", "tip_y_mm", "tip_z_mm", "axis_i", "axis_j", "axis_k"];
+
+fn follow(
+    machine: &Machine,
+    path: &Path,
+    from: &Command,
+    format: Format,
+    problems: &mut Diagnostics,
+) -> Option<Answer> {
+    let text = files::text(path, "a CSV table of tool poses", problems)?;
+    let table = CsvTable::parse(&path.display().to_string(), &text, problems);
+    let targets = targets(&table, problems)?;
+    let commands = machine.follow(&targets, from).map_err(|error| {
+        let hint = match &error.fault {
+            FollowFault::Solve(_) => "tilt the part or change the path there",
+            _ => "move the part, or split the path where the rotary axes may turn back",
+        };
+        problems.error("path-not-possible", table.row_place(error.index), error.to_string(), hint);
+    });
+    let commands = commands.ok()?;
+    Some(match format {
+        Format::Json => {
+            let rows: Vec<Value> =
+                commands.iter().map(|c| json!({ "axes": axes_json(machine, c) })).collect();
+            Answer::Json(json!({ "schema": "trueaxis/solve/1", "rows": rows }))
+        }
+        Format::Text => {
+            let names: Vec<String> = machine.axes().iter().map(|a| a.name.to_string()).collect();
+            let mut csv = names.join(",") + "\n";
+            for command in &commands {
+                let values = command.iter().take(names.len()).enumerate();
+                let values = values.map(|(i, q)| arguments::to_shown(machine, i, *q).to_string());
+                csv += &(values.collect::<Vec<_>>().join(",") + "\n");
+            }
+            Answer::Text(csv)
+        }
+    })
+}
+
+fn targets(table: &CsvTable, problems: &mut Diagnostics) -> Option<Vec<Target>> {
+    let mut columns = Vec::new();
+    for name in COLUMNS {
+        match table.column(name) {
+            Some(column) => columns.push(&column.values),
+            None => {
+                let place = argument(&table.file);
+                let message = format!("the table has no column `{name}`");
+                problems.error("missing-column", place, message, &COLUMNS.join(","));
+            }
+        }
+    }
+    if problems.has_errors() {
+        return None;
+    }
+    let mut targets = Vec::new();
+    for row in 0..table.rows() {
+        let at = |i: usize| columns[i][row];
+        let Some(axis) = Direction::of(Vec3::new(at(3), at(4), at(5))) else {
+            let message = "the tool axis has no length".to_owned();
+            problems.error("zero-axis", table.row_place(row), message, "write 0,0,1 for upright");
+            continue;
+        };
+        targets.push(Target { tip: Point::new(at(0), at(1), at(2)), axis });
+    }
+    (!problems.has_errors()).then_some(targets)
+}

@@ -1,0 +1,117 @@
+//! Whole turns, and which solution is best.
+
+use super::Solution;
+use crate::Machine;
+use crate::axis::{Command, Travel};
+use std::f64::consts::{PI, TAU};
+
+/// Angles that differ by less count as equal, in rad.
+pub(super) const TIE_RAD: f64 = 1e-9;
+
+/// Closer than this to −180° is 180°, in rad.
+const SEAM_RAD: f64 = 1e-13;
+
+/// The same angle in (−π, π]; what rounding leaves beside −π is π, −0 is 0.
+pub(super) fn principal(q: f64) -> f64 {
+    let turned = q - TAU * (q / TAU).round();
+    if turned <= -PI + SEAM_RAD { PI } else { turned.min(PI) + 0.0 }
+}
+
+/// The turn of `q` nearest to `near`; `q` itself if two are equally near.
+pub(super) fn nearest(q: f64, near: f64) -> f64 {
+    let turns = (near - q) / TAU;
+    let whole = (turns.abs() - 0.5 - TIE_RAD).ceil().max(0.0);
+    q + TAU * whole.copysign(turns)
+}
+
+/// The other turns of `q` to offer: all inside a travel, the nearest one of an endless axis.
+pub(super) fn others(travel: Travel, q: f64, from: f64) -> Vec<f64> {
+    match travel {
+        Travel::Unknown => Vec::new(),
+        Travel::Unlimited => {
+            let near = nearest(q, from);
+            if (near - q).abs() > 1.0 { vec![near] } else { Vec::new() }
+        }
+        Travel::Between(low, high) => {
+            let first = ((low - q) / TAU - TIE_RAD).ceil();
+            (0..)
+                .map(|k| first + f64::from(k))
+                .take_while(|k| q + TAU * k <= high + TIE_RAD * high.abs().max(1.0))
+                .filter(|k| *k != 0.0)
+                .map(|k| q + TAU * k)
+                .filter(|q| travel.contains(*q))
+                .collect()
+        }
+    }
+}
+
+/// Solutions with their marks, best first, those outside the travel last.
+pub(super) fn in_order(machine: &Machine, commands: Vec<Command>, from: &Command) -> Vec<Solution> {
+    let rotary: Vec<usize> = machine.rotary_axes().collect();
+    let solution = |command: Command| Solution {
+        command,
+        within_travel: machine.within_travel(&command),
+        rotary_travel_rad: rotary
+            .iter()
+            .map(|&i| (command[i] - from[i]).powi(2))
+            .sum::<f64>()
+            .sqrt(),
+    };
+    let mut rest: Vec<Solution> = commands.into_iter().map(solution).collect();
+    let mut ordered = Vec::with_capacity(rest.len());
+    // Comparing within a tolerance is no order to sort by; taking the best again and again is one.
+    while let Some(best) = best(&rest, &rotary, from) {
+        ordered.push(rest.remove(best));
+    }
+    ordered
+}
+
+fn best(solutions: &[Solution], rotary: &[usize], from: &Command) -> Option<usize> {
+    let first = |s: &Solution| rotary.first().map_or(0.0, |&i| s.command[i]);
+    let second = |s: &Solution| rotary.get(1).map_or(0.0, |&i| s.command[i]);
+    let first_from = rotary.first().map_or(0.0, |&i| from[i]);
+    let keys: [&dyn Fn(&Solution) -> f64; 6] = [
+        &|s| f64::from(u8::from(!s.within_travel)),
+        &|s| s.rotary_travel_rad,
+        &|s| (first(s) - first_from).abs(),
+        &|s| f64::from(u8::from(second(s) < -TIE_RAD)),
+        &|s| first(s),
+        &|s| second(s),
+    ];
+    let mut left: Vec<usize> = (0..solutions.len()).collect();
+    for key in keys {
+        let least = left.iter().map(|&i| key(&solutions[i])).fold(f64::INFINITY, f64::min);
+        left.retain(|&i| key(&solutions[i]) <= least + TIE_RAD);
+    }
+    left.first().copied()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn principal_angles_have_one_seam() {
+        assert_eq!(principal(-PI), PI);
+        assert_eq!(principal(-PI + 1e-15), PI);
+        assert_eq!(principal(PI), PI);
+        assert_eq!(principal(-0.0).to_bits(), 0.0_f64.to_bits());
+        assert!((principal(3.5 * PI) + 0.5 * PI).abs() < 1e-15);
+    }
+
+    #[test]
+    fn turns_inside_a_travel() {
+        let degrees = |travel: Travel, q: f64, from: f64| -> Vec<f64> {
+            let turned = others(travel, q.to_radians(), from.to_radians());
+            turned.into_iter().map(|q| q.to_degrees().round()).collect()
+        };
+        let twice = Travel::Between(-TAU, TAU);
+        assert_eq!(degrees(twice, 90.0, 0.0), [-270.0]);
+        assert_eq!(degrees(twice, 0.0, 0.0), [-360.0, 360.0]);
+        assert_eq!(degrees(Travel::Between(-PI, PI), 180.0, 0.0), [-180.0]);
+        assert_eq!(degrees(Travel::Unlimited, 90.0, 700.0), [810.0]);
+        assert_eq!(degrees(Travel::Unlimited, 90.0, 270.0), []);
+        assert_eq!(degrees(Travel::Unlimited, -90.0, 90.0), []);
+        assert_eq!(degrees(Travel::Unknown, 90.0, 700.0), []);
+    }
+}

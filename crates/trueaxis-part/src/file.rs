@@ -1,0 +1,230 @@
+//! The file of a test piece: dimensions, path, tolerances, and where each comes from.
+
+use crate::testpiece::cone::{Cone, ConeSize, INDICES};
+use crate::testpiece::{IndexName, NasMounting, TestPiece};
+use crate::tolerance::{Tolerance, Tolerances};
+use trueaxis_geometry::input::{Dimension, Item, Section};
+
+/// The shapes that a file can describe; a new test piece is a new variant.
+#[derive(Debug, Clone)]
+pub enum Shape {
+    /// `[cone]`
+    Cone(Cone),
+}
+
+/// A test piece as a user wrote it, checked.
+///
+/// # Example
+/// ```
+/// use trueaxis_geometry::input::Source;
+/// use trueaxis_part::TestPieceFile;
+/// let text = r#"
+/// name = "our cone"
+/// [cone]
+/// half_angle = "15 deg"
+/// base_diameter = "250 mm"
+/// height = "60 mm"
+/// sections = ["0 mm", "25 mm", "50 mm"]
+/// roundness_at = "25 mm"
+/// [tool]
+/// diameter = "20 mm"
+/// [tolerance]
+/// roundness_mzc = "0.1 mm"
+/// "#;
+/// let source = Source::new("our-cone.toml", text);
+/// let file = source.read(|root| TestPieceFile::read(root)).expect("all there");
+/// assert_eq!(file.tolerances.limit_mm("roundness_mzc_mm"), Some(0.1));
+/// assert_eq!(file.piece().position_count(), 72);
+/// ```
+#[derive(Debug, Clone)]
+pub struct TestPieceFile {
+    /// What the shop calls it.
+    pub name: String,
+    /// Where the dimensions come from.
+    pub source: String,
+    /// What it is.
+    pub shape: Shape,
+    /// How it stands on its fixture, if the file says so.
+    pub mounting: Option<NasMounting>,
+    /// How much is allowed.
+    pub tolerances: Tolerances,
+}
+
+/// Tool positions around a cone if the file does not say.
+const DEFAULT_POSITIONS: usize = 72;
+
+impl TestPieceFile {
+    /// Reads and checks the root of a file; every problem is kept in its `Source`.
+    ///
+    /// `None` if the test piece cannot be used; the source then holds at least one error.
+    pub fn read(root: &Section<'_>) -> Option<Self> {
+        let name = root.require("name", "what the shop calls the piece").and_then(|i| i.text());
+        let source = root.text("source").unwrap_or_default().to_owned();
+        let tool = root
+            .require("tool", "the end mill: [tool] with diameter = \"20 mm\"")
+            .and_then(|item| item.section("tool", |s| length(s, "diameter")))
+            .flatten();
+        let cone = root
+            .require("cone", "the shape: [cone] with half_angle, base_diameter, height …")
+            .and_then(|item| item.section("cone", |s| cone_size(s, tool)))
+            .flatten();
+        let checked = cone.and_then(|size| match Cone::new(name.unwrap_or_default(), size) {
+            Ok(cone) => Some(cone),
+            Err(error) => {
+                root.error("impossible-shape", error.to_string(), "check [cone] and [tool]");
+                None
+            }
+        });
+        let height = checked.as_ref().map_or(0.0, |c| c.size().height_mm);
+        let mounting = match root.get("mounting") {
+            Some(item) => item.section("mounting", |s| mounting(s, height)).flatten().map(Some),
+            None => Some(None),
+        };
+        let tolerances = root
+            .require("tolerance", "[tolerance] with roundness_mzc = \"0.1 mm\" …")
+            .and_then(|item| item.section("tolerance", tolerances))
+            .flatten();
+        Some(Self {
+            name: name?.to_owned(),
+            source,
+            shape: Shape::Cone(checked?),
+            mounting: mounting?,
+            tolerances: tolerances?,
+        })
+    }
+
+    /// The piece as the loop uses it.
+    pub fn piece(&self) -> &dyn TestPiece {
+        match &self.shape {
+            Shape::Cone(cone) => cone,
+        }
+    }
+}
+
+fn length(section: &Section<'_>, key: &str) -> Option<f64> {
+    section.require(key, "a length such as \"60 mm\"")?.quantity(Dimension::Length)
+}
+
+fn angle(section: &Section<'_>, key: &str) -> Option<f64> {
+    section.require(key, "an angle such as \"15 deg\"")?.quantity(Dimension::Angle)
+}
+
+fn lengths(item: &Item<'_>) -> Option<Vec<f64>> {
+    // All are read before the first failure counts, so that every problem is reported.
+    let all: Vec<_> = item.list()?.iter().map(|i| i.quantity(Dimension::Length)).collect();
+    all.into_iter().collect()
+}
+
+fn cone_size(section: &Section<'_>, tool_diameter_mm: Option<f64>) -> Option<ConeSize> {
+    let half_angle_rad = angle(section, "half_angle");
+    let base_diameter_mm = length(section, "base_diameter");
+    let height_mm = length(section, "height");
+    let heights = section
+        .require("sections", "heights above the base, the first 0: [\"0 mm\", \"25 mm\"]")
+        .and_then(|item| lengths(&item));
+    let roundness_height_mm = length(section, "roundness_at");
+    let angular = match section.get("angularity_over") {
+        Some(item) => lengths(&item),
+        None => heights.clone(),
+    };
+    let positions = match section.get("positions") {
+        Some(item) => item.count(),
+        None => Some(DEFAULT_POSITIONS),
+    };
+    Some(ConeSize {
+        half_angle_rad: half_angle_rad?,
+        base_diameter_mm: base_diameter_mm?,
+        height_mm: height_mm?,
+        tool_diameter_mm: tool_diameter_mm?,
+        positions: positions?,
+        heights_mm: heights?,
+        roundness_height_mm: roundness_height_mm?,
+        angularity_heights_mm: angular?,
+    })
+}
+
+fn mounting(section: &Section<'_>, cone_height_mm: f64) -> Option<NasMounting> {
+    let pedestal_height_mm = length(section, "pedestal_height");
+    let fixture_height_mm = length(section, "fixture_height");
+    let fixture_length_mm = length(section, "fixture_length");
+    let inclination_rad = angle(section, "inclination");
+    let rotation_rad = match section.get("rotation") {
+        Some(item) => item.quantity(Dimension::Angle),
+        None => Some(0.0),
+    };
+    Some(NasMounting {
+        cone_height_mm,
+        pedestal_height_mm: pedestal_height_mm?,
+        fixture_height_mm: fixture_height_mm?,
+        fixture_length_mm: fixture_length_mm?,
+        inclination_rad: inclination_rad?,
+        rotation_rad: rotation_rad?,
+    })
+}
+
+/// Reads `[tolerance]`: every key is an index, with or without its `_mm`.
+///
+/// `None` if one of them cannot be used.
+fn tolerances(section: &Section<'_>) -> Option<Tolerances> {
+    let mut good = Vec::new();
+    let mut complete = true;
+    for (key, place, item) in section.entries() {
+        let Some(index) = find(key) else {
+            let known = INDICES.map(|i| i.key.trim_end_matches("_mm")).join(", ");
+            section.error_at(
+                place,
+                "unknown-index",
+                format!("`{key}` is no index of this test piece"),
+                &format!("indices: {known}"),
+            );
+            complete = false;
+            continue;
+        };
+        if good.iter().any(|t: &Tolerance| t.index == index) {
+            let message = format!("`{}` is given twice, with and without `_mm`", index.key);
+            section.error_at(place, "duplicate-index", message, "keep one of them");
+            complete = false;
+        } else if let Some(tolerance) = tolerance(section, &item, index) {
+            good.push(tolerance);
+        } else {
+            complete = false;
+        }
+    }
+    for index in INDICES.iter().filter(|i| i.decisive) {
+        if complete && !good.iter().any(|t| t.index == *index) {
+            section.warn(
+                "missing-tolerance",
+                format!("`{}` decides, but has no tolerance", index.key),
+                "without one the verdict does not look at it",
+            );
+        }
+    }
+    complete.then_some(Tolerances(good))
+}
+
+fn find(key: &str) -> Option<IndexName> {
+    INDICES.into_iter().find(|i| i.key == key || i.key.trim_end_matches("_mm") == key)
+}
+
+/// `"0.1 mm"`, or a table with `limit` and `source`.
+fn tolerance(section: &Section<'_>, item: &Item<'_>, index: IndexName) -> Option<Tolerance> {
+    let (limit, source) = if item.is_table() {
+        item.section(&section.path(index.key), |s| {
+            let limit = s.require("limit", "a length such as \"0.1 mm\"");
+            let value = limit.as_ref().and_then(|i| i.quantity(Dimension::Length));
+            (value.zip(limit), s.text("source").unwrap_or_default().to_owned())
+        })?
+    } else {
+        (item.quantity(Dimension::Length).map(|v| (v, *item)), String::new())
+    };
+    let (limit_mm, place) = limit?;
+    if limit_mm <= 0.0 {
+        place.error(
+            "tolerance-not-positive",
+            format!("a tolerance of {limit_mm} mm can never be kept"),
+            "a tolerance is more than 0",
+        );
+        return None;
+    }
+    Some(Tolerance { index, limit_mm, source })
+}

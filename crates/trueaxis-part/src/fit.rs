@@ -1,0 +1,3 @@
+//! Associated features: the ideal geometry that represents measured points.
+
+pub mod circle;

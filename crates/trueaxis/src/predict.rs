@@ -1,0 +1,270 @@
+//! Predict: the part that this machine will cut, before it is cut.
+//!
+//! ```text
+//!     Study ──Cutting::new──> commands ──deviations──> [E_v] ──TestPiece::evaluate──> indices
+//!       │                                     └─ errors changed: blame, sensitivity, Monte Carlo
+//!       └─ tolerances ──judge──> verdict
+//! ```
+
+mod blame;
+mod correction;
+mod cutting;
+mod judge;
+mod monte_carlo;
+mod sensitivity;
+mod study;
+
+pub use blame::{Blame, Share, blame};
+pub use correction::{Correction, corrections};
+pub use cutting::{Cutting, DatumAxis, Reference};
+pub use judge::{Bench, Judge};
+pub use monte_carlo::{Sampling, Spread, monte_carlo};
+pub use sensitivity::{Sensitivity, propagate, sensitivities};
+pub use study::{Decision, Published, PublishedRow, Study, Variant, read_study};
+
+use trueaxis_geometry::Vec3;
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::Command;
+use trueaxis_machine::chain::ErrorTableLeft;
+use trueaxis_machine::{FollowError, FollowFault, SolveError};
+use trueaxis_part::testpiece::{IndexName, PartSection};
+use trueaxis_part::tolerance::{Outcome, Verdict};
+
+/// The pose of the tool when the part zero was found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Setting {
+    /// The zero is where it should be: no error of the machine went into it.
+    Perfect,
+    /// Touched with the tip, the rotary axes standing at these positions (rad).
+    Touched {
+        /// Only the rotary entries count; the linear axes follow from the zero.
+        rotary: Command,
+    },
+}
+
+impl Default for Setting {
+    /// C = A = 0, as in document 000.
+    fn default() -> Self {
+        Self::Touched { rotary: Command::default() }
+    }
+}
+
+/// Why a part cannot be predicted.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The path cannot be followed.
+    #[error("{0}")]
+    Path(#[source] FollowError),
+    /// The setting point cannot be reached.
+    #[error("the tool-setting point: {0}")]
+    Setting(#[source] SolveError),
+    /// The setting point lies outside the travel.
+    #[error("the tool-setting point lies outside the travel with these rotary positions")]
+    SettingOutOfTravel,
+    /// The reference hole cannot be bored.
+    #[error("the reference hole: {0}")]
+    Hole(#[source] FollowError),
+    /// A command lies where an error table says nothing.
+    #[error("{}{source}", position.map_or(String::new(), |p| format!("tool position {p}: ")))]
+    Table {
+        /// The tool position, counted from 0; none for the setting point.
+        position: Option<usize>,
+        /// Which table.
+        source: ErrorTableLeft,
+    },
+    /// The points cannot be evaluated.
+    #[error("{0}")]
+    Evaluation(#[source] trueaxis_part::Error),
+    /// A Monte Carlo run needs at least two samples.
+    #[error("a Monte Carlo run needs at least 2 samples, not {0}")]
+    TooFewSamples(usize),
+}
+
+impl Error {
+    /// A stable name for programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Path(e) | Self::Hole(e) => match e.fault {
+                FollowFault::Solve(_) => "unreachable-direction",
+                _ => "path-leaves-travel",
+            },
+            Self::Setting(_) => "unreachable-direction",
+            Self::SettingOutOfTravel => "path-leaves-travel",
+            Self::Table { .. } => "outside-table",
+            Self::Evaluation(_) => "not-evaluable",
+            Self::TooFewSamples(_) => "bad-sampling",
+        }
+    }
+}
+
+/// One index of the part.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Index {
+    /// Which one.
+    pub name: IndexName,
+    /// Its value, mm.
+    pub value_mm: f64,
+    /// Its standard uncertainty by linear propagation, mm.
+    pub u_mm: f64,
+    /// What the Monte Carlo run says, if there was one.
+    pub spread: Option<Spread>,
+}
+
+/// The same part under another setting point or datum.
+#[derive(Debug, Clone, PartialEq)]
+pub struct VariantResult {
+    /// What is different.
+    pub name: String,
+    /// All indices, mm, in the order of [`Prediction::indices`].
+    pub indices_mm: Vec<f64>,
+}
+
+/// One height of the part with the uncertainty of its indices.
+#[derive(Debug, Clone)]
+pub struct SectionResult {
+    /// Profile, fitted circles, indices.
+    pub section: PartSection,
+    /// Standard uncertainty of each of its indices by linear propagation, mm.
+    pub u_mm: Vec<f64>,
+}
+
+/// All that was found out about the part.
+#[derive(Debug, Clone)]
+pub struct Prediction {
+    /// Every index of the test piece.
+    pub indices: Vec<Index>,
+    /// The indices against their tolerances.
+    pub verdict: Verdict,
+    /// The command at the tool-setting point.
+    pub setting_command: Command,
+    /// The commands of the path.
+    pub commands: Vec<Command>,
+    /// The deviation E_v at every contact point, mm, position after position.
+    pub deviations_mm: Vec<Vec3>,
+    /// The profiles, from the base upwards.
+    pub sections: Vec<SectionResult>,
+    /// Who is to blame.
+    pub blame: Blame,
+    /// What each location error does to each index.
+    pub sensitivities: Vec<Sensitivity>,
+    /// Single corrections that would make a failing part pass; empty if it passes.
+    pub corrections: Vec<Correction>,
+    /// Other setting points and datums.
+    pub variants: Vec<VariantResult>,
+    /// What the reader of the numbers should know.
+    pub warnings: Vec<String>,
+}
+
+/// Predicts the part of a study: the whole walk from machine to verdict.
+///
+/// `progress` is called with the number of Monte Carlo samples done.
+///
+/// # Errors
+/// A path, setting point or reference hole that the machine cannot do, with its place.
+///
+/// # Source
+/// Document 000 (Wu et al. 2022) with its errata; docs/model.md eq. 18 to 33.
+pub fn predict(study: &Study, progress: &(dyn Fn(usize) + Sync)) -> Result<Prediction, Error> {
+    let (machine, piece) = (&study.machine, study.piece());
+    let cutting = Cutting::new(machine, piece, &study.reference)?;
+    let judge = Judge { cutting: &cutting, piece };
+    let (deviations_mm, sections) = sections(machine, &judge)?;
+    let indices = indices(study, &judge, progress)?;
+    let verdict = study.judge(&indices).map_err(Error::Evaluation)?;
+    let corrections = match verdict.outcome {
+        Outcome::Fail => corrections(machine, &judge, &|values| study.would_pass(values))?,
+        _ => Vec::new(),
+    };
+    Ok(Prediction {
+        warnings: warnings(study, &indices),
+        setting_command: *cutting.setting_command(),
+        commands: cutting.commands().copied().collect(),
+        blame: blame(machine, &judge)?,
+        sensitivities: sensitivities(machine, &judge)?,
+        variants: variants(study)?,
+        indices,
+        verdict,
+        deviations_mm,
+        sections,
+        corrections,
+    })
+}
+
+fn sections(
+    machine: &Machine,
+    judge: &Judge<'_>,
+) -> Result<(Vec<Vec3>, Vec<SectionResult>), Error> {
+    let (deviations_mm, sections) = judge.sections(&|errors, _| *errors)?;
+    let count = judge.index_count();
+    let u = propagate(machine, &|change| {
+        let (_, sections) = judge.sections(change)?;
+        let values = sections.iter().flat_map(|s| s.indices_mm.iter());
+        Ok(values.map(|v| v.unwrap_or(0.0)).collect())
+    })?;
+    let u_of = |i: usize| u.get(i * count..(i + 1) * count).map_or(vec![0.0; count], <[_]>::to_vec);
+    let results = sections.into_iter().enumerate();
+    let results = results.map(|(i, section)| SectionResult { section, u_mm: u_of(i) }).collect();
+    Ok((deviations_mm, results))
+}
+
+fn indices(
+    study: &Study,
+    judge: &Judge<'_>,
+    progress: &(dyn Fn(usize) + Sync),
+) -> Result<Vec<Index>, Error> {
+    let values = judge.once(&|errors, _| *errors)?;
+    let mut u = propagate(&study.machine, &|change| judge.once(change))?;
+    u.resize(values.len(), 0.0); // no stated error: nothing was propagated
+    let spreads = match study.sampling {
+        Some(sampling) => Some(monte_carlo(&study.machine, judge, sampling, progress)?),
+        None => None,
+    };
+    let names = judge.piece.index_names().iter();
+    Ok(names
+        .enumerate()
+        .map(|(i, name)| Index {
+            name: *name,
+            value_mm: values[i],
+            u_mm: u[i],
+            spread: spreads.as_ref().map(|s| s[i]),
+        })
+        .collect())
+}
+
+fn variants(study: &Study) -> Result<Vec<VariantResult>, Error> {
+    let (machine, piece) = (&study.machine, study.piece());
+    study
+        .variants
+        .iter()
+        .map(|variant| {
+            let cutting = Cutting::new(machine, piece, &variant.reference)?;
+            let indices_mm = Judge { cutting: &cutting, piece }.once(&|errors, _| *errors)?;
+            Ok(VariantResult { name: variant.name.clone(), indices_mm })
+        })
+        .collect()
+}
+
+/// Linear propagation and Monte Carlo may differ where an index has kinks: say so.
+fn warnings(study: &Study, indices: &[Index]) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if study.machine.stated_errors().is_empty() {
+        warnings.push("the machine file states no errors: this is the nominal part".to_owned());
+    }
+    let missing = |i: &Index| i.u_mm == 0.0;
+    if !study.machine.stated_errors().is_empty() && indices.iter().all(missing) {
+        warnings.push("the machine file states no uncertainties: u is 0 throughout".to_owned());
+    }
+    for index in indices {
+        let Some(spread) = index.spread else { continue };
+        if (spread.u_mm - index.u_mm).abs() > 0.15 * index.u_mm.max(spread.u_mm) {
+            warnings.push(format!(
+                "{}: u is {:.2} µm by linear propagation, {:.2} µm by Monte Carlo; the index has \
+                 a kink here, trust the latter",
+                index.name.key,
+                index.u_mm * 1e3,
+                spread.u_mm * 1e3
+            ));
+        }
+    }
+    warnings
+}

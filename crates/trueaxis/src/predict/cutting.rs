@@ -1,0 +1,192 @@
+//! The test piece on the machine: commands once, deviations for any set of errors.
+
+use super::{Error, Setting};
+use trueaxis_geometry::Vec3;
+use trueaxis_geometry::frame::{Direction, Point};
+use trueaxis_machine::axis::{Approach, Command, MAX_AXES};
+use trueaxis_machine::errors::ErrorValues;
+use trueaxis_machine::{Machine, Target};
+use trueaxis_part::testpiece::{Datum, TestPiece, ToolPosition};
+
+/// Which axis of the part coaxiality and angularity are judged against.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum DatumAxis {
+    /// The ideal z axis of the workpiece through the set zero (document 000).
+    #[default]
+    Ideal,
+    /// A reference hole bored along that axis on the same machine, to this depth below the zero.
+    ReferenceHole {
+        /// Length of the hole, mm.
+        depth_mm: f64,
+    },
+}
+
+/// How the part zero was found and against what the part is judged.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Reference {
+    /// The pose of the tool when the part zero was touched.
+    pub setting: Setting,
+    /// The datum of coaxiality and angularity.
+    pub datum: DatumAxis,
+}
+
+/// One command with the errors that the machine has there and how well they are known.
+#[derive(Debug, Clone)]
+struct Stop {
+    command: Command,
+    errors: ErrorValues,
+    u: ErrorValues,
+}
+
+/// The nominal errors at a stop, and their standard uncertainties, become the errors to cut with.
+pub type Change<'a> = dyn Fn(&ErrorValues, &ErrorValues) -> ErrorValues + Sync + 'a;
+
+/// The cut of a test piece: everything that does not depend on the values of the errors.
+pub struct Cutting<'a> {
+    machine: &'a Machine,
+    positions: Vec<ToolPosition>,
+    stops: Vec<Stop>,
+    setting: Option<Stop>,
+    setting_command: Command,
+    /// Top and bottom of the reference hole.
+    hole: Option<([Stop; 2], f64)>,
+}
+
+impl<'a> Cutting<'a> {
+    /// Finds the commands of the path and of the setting point on the nominal machine.
+    ///
+    /// # Errors
+    /// A tool direction that the machine cannot reach, a path that leaves the travel or an error
+    /// table, each with the tool position.
+    pub fn new(
+        machine: &'a Machine,
+        piece: &dyn TestPiece,
+        reference: &Reference,
+    ) -> Result<Self, Error> {
+        let positions = piece.tool_positions();
+        let setting_command = setting_command(machine, &reference.setting)?;
+        let path: Vec<Target> =
+            positions.iter().map(|p| Target { tip: p.tip, axis: p.axis }).collect();
+        let commands = machine.follow(&path, &setting_command).map_err(Error::Path)?;
+        let mut approach = Approach::default();
+        let mut last = setting_command;
+        let mut stops = Vec::with_capacity(commands.len());
+        for (i, command) in commands.into_iter().enumerate() {
+            update_approach(&mut approach, &last, &command);
+            stops.push(stop(machine, command, &approach, Some(i))?);
+            last = command;
+        }
+        let setting = match reference.setting {
+            Setting::Perfect => None,
+            Setting::Touched { .. } => {
+                Some(stop(machine, setting_command, &Approach::default(), None)?)
+            }
+        };
+        let hole = match reference.datum {
+            DatumAxis::Ideal => None,
+            DatumAxis::ReferenceHole { depth_mm } => {
+                Some((bore(machine, &setting_command, depth_mm)?, depth_mm))
+            }
+        };
+        Ok(Self { machine, positions, stops, setting, setting_command, hole })
+    }
+
+    /// The ideal tool positions.
+    pub fn positions(&self) -> &[ToolPosition] {
+        &self.positions
+    }
+
+    /// The commands of the path.
+    pub fn commands(&self) -> impl ExactSizeIterator<Item = &Command> {
+        self.stops.iter().map(|s| &s.command)
+    }
+
+    /// The command at the tool-setting point.
+    pub fn setting_command(&self) -> &Command {
+        &self.setting_command
+    }
+
+    /// How many contact points there are.
+    pub fn contacts(&self) -> usize {
+        self.positions.iter().map(|p| p.contacts.len()).sum()
+    }
+
+    /// Cuts the part with changed errors: the deviation of the tool axis at every contact point, in
+    /// the workpiece frame, in mm, position after position; and the datum that the machine bored.
+    ///
+    /// ```text
+    ///     E_v = d_tip(q) + s · d_axis(q) − d_tip(q₀)                        docs/model.md eq. 20
+    /// ```
+    ///
+    /// s is the distance of the contact from the tip along the tool axis, q₀ the setting command:
+    /// the zero was set with the same wrong machine, so its error there is taken off once.
+    pub fn cut(&self, change: &Change<'_>, deviations_mm: &mut Vec<Vec3>) -> Datum {
+        let at =
+            |stop: &Stop| self.machine.deviation(&stop.command, &change(&stop.errors, &stop.u));
+        let zero = self.setting.as_ref().map_or(Vec3::zeros(), |s| at(s).tip_mm);
+        deviations_mm.clear();
+        for (position, stop) in self.positions.iter().zip(&self.stops) {
+            let deviation = at(stop);
+            for contact in &position.contacts {
+                let along = deviation.axis * contact.along_axis_mm;
+                deviations_mm.push(deviation.tip_mm + along - zero);
+            }
+        }
+        let Some((ends, depth_mm)) = &self.hole else { return Datum::IDEAL };
+        let [top, bottom] = ends.each_ref().map(|stop| at(stop).tip_mm - zero);
+        bored_datum(top, bottom, *depth_mm)
+    }
+}
+
+/// The datum of a hole whose axis passes through two displaced points, `depth_mm` apart.
+///
+/// Its height stays that of the set zero: a hole has none. docs/model.md eq. 29.
+fn bored_datum(top: Vec3, bottom: Vec3, depth_mm: f64) -> Datum {
+    let lean = (top - bottom) / depth_mm;
+    Datum { shift_mm: Vec3::new(top.x, top.y, 0.0), tilt_rad: Vec3::new(-lean.y, lean.x, 0.0) }
+}
+
+fn stop(
+    machine: &Machine,
+    command: Command,
+    approach: &Approach,
+    position: Option<usize>,
+) -> Result<Stop, Error> {
+    let errors = machine
+        .errors_at(&command, approach)
+        .map_err(|source| Error::Table { position, source })?;
+    Ok(Stop { command, errors, u: machine.uncertainties_at(&command) })
+}
+
+/// An axis keeps its side until it turns round.
+fn update_approach(approach: &mut Approach, last: &Command, next: &Command) {
+    for i in 0..MAX_AXES {
+        let step = next[i] - last[i];
+        if step.abs() > 1e-12 {
+            approach[i] = step.signum();
+        }
+    }
+}
+
+/// The command that brings the nominal tip to the part zero with the rotary axes as asked.
+fn setting_command(machine: &Machine, setting: &Setting) -> Result<Command, Error> {
+    let rotary = match setting {
+        Setting::Perfect => Command::default(),
+        Setting::Touched { rotary } => *rotary,
+    };
+    let axis = machine.pose(&rotary, &ErrorValues::default()) * Direction::Z;
+    let target = Target { tip: Point::ORIGIN, axis };
+    let solved = machine.solve(&target, &rotary).map_err(Error::Setting)?;
+    // The branch with the rotary axes where they were asked to be travels nothing, so it is first
+    // among those within the travel.
+    let best = solved.solutions.first().filter(|s| s.within_travel && s.rotary_travel_rad < 1e-6);
+    best.map(|s| s.command).ok_or(Error::SettingOutOfTravel)
+}
+
+fn bore(machine: &Machine, from: &Command, depth_mm: f64) -> Result<[Stop; 2], Error> {
+    let path =
+        [0.0, -depth_mm].map(|z| Target { tip: Point::new(0.0, 0.0, z), axis: Direction::Z });
+    let commands = machine.follow(&path, from).map_err(Error::Hole)?;
+    let at = |i: usize| stop(machine, commands[i], &Approach::default(), None);
+    Ok([at(0)?, at(1)?])
+}

@@ -1,0 +1,163 @@
+//! The indices of many machines whose errors are drawn within their uncertainties.
+
+use super::Error;
+use super::judge::{Bench, Judge};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use rand_distr::{Distribution, StandardNormal};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use trueaxis_machine::Machine;
+use trueaxis_machine::errors::{ErrorIndex, ErrorValues};
+
+/// Samples that one thread draws in a row; fixed, so that the sums below do not depend on the
+/// number of threads.
+const CHUNK: usize = 256;
+/// Quantiles come from at most this many samples (the first ones: they are as random as any).
+const KEPT: usize = 1 << 20;
+
+/// How many machines, and the seed that makes a run repeatable to the bit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Sampling {
+    /// Number of samples.
+    pub samples: usize,
+    /// Seed; sample k draws from the k-th stream of the generator.
+    pub seed: u64,
+}
+
+impl Default for Sampling {
+    /// 10 000 samples: u of an index to about 1 %.
+    fn default() -> Self {
+        Self { samples: 10_000, seed: 1 }
+    }
+}
+
+/// What the samples of one index say.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spread {
+    /// Mean, mm.
+    pub mean_mm: f64,
+    /// Standard deviation, mm.
+    pub u_mm: f64,
+    /// 2.5 % quantile, mm.
+    pub low_mm: f64,
+    /// 97.5 % quantile, mm.
+    pub high_mm: f64,
+}
+
+/// Draws the errors and evaluates the part, as often as asked.
+///
+/// `progress` is called with the number of samples done, from any thread.
+///
+/// # Errors
+/// As [`Judge::indices`]; fewer than two samples.
+///
+/// # Source
+/// JCGM 101:2008, 5.9 and 7; one standard-normal factor per stated error (fully correlated along
+/// a curve). The generator is ChaCha8, one stream per sample, so that the same seed gives the same
+/// bits at any number of threads.
+pub fn monte_carlo(
+    machine: &Machine,
+    judge: &Judge<'_>,
+    sampling: Sampling,
+    progress: &(dyn Fn(usize) + Sync),
+) -> Result<Vec<Spread>, Error> {
+    if sampling.samples < 2 {
+        return Err(Error::TooFewSamples(sampling.samples));
+    }
+    let stated: Vec<ErrorIndex> = machine.stated_errors().into_iter().map(|(i, _)| i).collect();
+    let done = AtomicUsize::new(0);
+    let chunks = sampling.samples.div_ceil(CHUNK);
+    // Each chunk keeps its own sums; they are added up in order afterwards. Memory stays bounded:
+    // only the first KEPT samples are kept one by one.
+    let results: Vec<Chunk> = (0..chunks)
+        .into_par_iter()
+        .map_init(Bench::default, |bench, c| {
+            let range = c * CHUNK..((c + 1) * CHUNK).min(sampling.samples);
+            let length = range.len();
+            let chunk = draw_chunk(judge, &stated, (sampling.seed, range), bench);
+            progress(done.fetch_add(length, Ordering::Relaxed) + length);
+            chunk
+        })
+        .collect::<Result<_, _>>()?;
+    Ok(summarise(&results, sampling.samples, judge.index_count()))
+}
+
+/// Sums of a run of samples.
+struct Chunk {
+    count: f64,
+    mean: Vec<f64>,
+    /// Sum of squares about the mean.
+    squares: Vec<f64>,
+    /// The samples themselves, index after index, if they are among the first.
+    kept: Vec<f64>,
+}
+
+fn draw_chunk(
+    judge: &Judge<'_>,
+    stated: &[ErrorIndex],
+    (seed, range): (u64, std::ops::Range<usize>),
+    bench: &mut Bench,
+) -> Result<Chunk, Error> {
+    let n = judge.index_count();
+    let mut chunk = Chunk { count: 0.0, mean: vec![0.0; n], squares: vec![0.0; n], kept: vec![] };
+    let mut indices = vec![0.0; n];
+    for sample in range {
+        let factors = draw(stated, seed, sample);
+        judge.indices(&|values, u| displaced(stated, &factors, values, u), bench, &mut indices)?;
+        chunk.count += 1.0;
+        for ((mean, squares), &x) in chunk.mean.iter_mut().zip(&mut chunk.squares).zip(&indices) {
+            // Welford's update: no difference of large sums.
+            let before = x - *mean;
+            *mean += before / chunk.count;
+            *squares += before * (x - *mean);
+        }
+        if sample < KEPT {
+            chunk.kept.extend_from_slice(&indices);
+        }
+    }
+    Ok(chunk)
+}
+
+/// One standard-normal factor per stated error.
+fn draw(stated: &[ErrorIndex], seed: u64, sample: usize) -> Vec<f64> {
+    let mut generator = ChaCha8Rng::seed_from_u64(seed);
+    generator.set_stream(sample as u64);
+    stated.iter().map(|_| StandardNormal.sample(&mut generator)).collect()
+}
+
+fn displaced(
+    stated: &[ErrorIndex],
+    factors: &[f64],
+    values: &ErrorValues,
+    u: &ErrorValues,
+) -> ErrorValues {
+    let mut drawn = *values;
+    for (&index, z) in stated.iter().zip(factors) {
+        drawn.set(index, values.get(index) + z * u.get(index));
+    }
+    drawn
+}
+
+fn summarise(chunks: &[Chunk], samples: usize, n: usize) -> Vec<Spread> {
+    let kept = samples.min(KEPT);
+    (0..n)
+        .map(|i| {
+            let (mut count, mut mean, mut squares) = (0.0, 0.0, 0.0);
+            for chunk in chunks {
+                // Chan's rule for joining two sets of samples.
+                let total = count + chunk.count;
+                let gap = chunk.mean[i] - mean;
+                mean += gap * chunk.count / total;
+                squares += chunk.squares[i] + gap * gap * count * chunk.count / total;
+                count = total;
+            }
+            let mut values: Vec<f64> = Vec::with_capacity(kept);
+            values.extend(chunks.iter().flat_map(|c| c.kept.iter().skip(i).step_by(n)));
+            values.sort_by(f64::total_cmp);
+            let quantile = |q: f64| values[((values.len() - 1) as f64 * q).round() as usize];
+            let u_mm = (squares / (count - 1.0)).sqrt();
+            Spread { mean_mm: mean, u_mm, low_mm: quantile(0.025), high_mm: quantile(0.975) }
+        })
+        .collect()
+}

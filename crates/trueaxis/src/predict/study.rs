@@ -1,0 +1,348 @@
+//! The study file: which machine, which test piece, how the zero was set, what is asked.
+
+use super::cutting::{DatumAxis, Reference};
+use super::monte_carlo::Sampling;
+use super::{Index, Setting};
+use crate::files;
+use std::path::{Path, PathBuf};
+use trueaxis_geometry::Vec3;
+use trueaxis_geometry::input::{Diagnostics, Dimension, Section, Source};
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::{AxisKind, Command};
+use trueaxis_machine::errors::BodyName;
+use trueaxis_machine::file::read_pose;
+use trueaxis_part::TestPieceFile;
+use trueaxis_part::testpiece::TestPiece;
+use trueaxis_part::tolerance::{Acceptance, Outcome, Verdict};
+
+/// Another way to set the zero or to choose the datum, to be shown beside.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Variant {
+    /// What is different.
+    pub name: String,
+    /// How.
+    pub reference: Reference,
+}
+
+/// Figures that somebody published or measured, to be shown beside the prediction.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Published {
+    /// What they are, and of which part.
+    pub source: String,
+    /// One line per index: its key, what was measured, and what the source predicted, mm.
+    pub rows: Vec<PublishedRow>,
+}
+
+/// One published index.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PublishedRow {
+    /// The index of ours that it is compared with.
+    pub key: String,
+    /// Measured values, mm.
+    pub measured_mm: Vec<f64>,
+    /// Predicted by the source, mm.
+    pub predicted_mm: Option<f64>,
+}
+
+/// How the uncertainty enters the verdict.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Decision {
+    /// Value against tolerance.
+    Simple,
+    /// ISO 14253-1 with U = k·u.
+    Guarded {
+        /// The coverage factor k.
+        coverage: f64,
+    },
+}
+
+/// A question to the machine: will this test piece be good?
+#[derive(Debug)]
+pub struct Study {
+    /// Its name.
+    pub name: String,
+    /// The study file.
+    pub path: PathBuf,
+    /// The machine with its tool and the mounted part.
+    pub machine: Machine,
+    /// The machine file.
+    pub machine_path: PathBuf,
+    /// The test piece and its tolerances.
+    pub test_piece: TestPieceFile,
+    /// How the zero was set, and the datum.
+    pub reference: Reference,
+    /// What else to look at.
+    pub variants: Vec<Variant>,
+    /// The rule of the verdict.
+    pub decision: Decision,
+    /// The Monte Carlo run, if one is wanted.
+    pub sampling: Option<Sampling>,
+    /// Figures to compare with.
+    pub published: Option<Published>,
+}
+
+impl Study {
+    /// The test piece.
+    pub fn piece(&self) -> &dyn TestPiece {
+        self.test_piece.piece()
+    }
+
+    /// The verdict on predicted indices.
+    ///
+    /// # Errors
+    /// Indices that are not finite.
+    pub fn judge(&self, indices: &[Index]) -> Result<Verdict, trueaxis_part::Error> {
+        let values: Vec<f64> = indices.iter().map(|i| i.value_mm).collect();
+        let expanded: Vec<f64> = match self.decision {
+            Decision::Simple => Vec::new(),
+            Decision::Guarded { coverage } => indices.iter().map(|i| coverage * i.u_mm).collect(),
+        };
+        let acceptance = match self.decision {
+            Decision::Simple => Acceptance::Simple,
+            Decision::Guarded { .. } => Acceptance::GuardBand { expanded_mm: &expanded },
+        };
+        self.test_piece.tolerances.judge(self.piece().index_names(), &values, acceptance)
+    }
+
+    /// Whether a part with these indices would be accepted by simple acceptance.
+    pub fn would_pass(&self, indices_mm: &[f64]) -> bool {
+        let names = self.piece().index_names();
+        let verdict = self.test_piece.tolerances.judge(names, indices_mm, Acceptance::Simple);
+        verdict.is_ok_and(|v| v.outcome == Outcome::Pass)
+    }
+}
+
+/// Reads a study file and everything that it names; all problems at once.
+pub fn read_study(path: &Path) -> (Option<Study>, Diagnostics) {
+    let mut problems = Diagnostics::new();
+    let Some(text) = files::text(path, "a study file (TOML)", &mut problems) else {
+        return (None, problems);
+    };
+    let file = path.display().to_string();
+    let source = Source::new(&file, &text);
+    let study = source.read(|root| read(root, path));
+    problems.append(source.finish());
+    (study.filter(|_| !problems.has_errors()), problems)
+}
+
+fn read(root: &Section<'_>, path: &Path) -> Option<Study> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let name = root.require("name", "give the study a name").and_then(|i| i.text());
+    let hint = "the machine file, relative to the study file";
+    let machine_path = root.require("machine", hint).and_then(|i| i.text());
+    let machine_path = machine_path.map(|p| folder.join(p));
+    let machine = machine_path.as_deref().and_then(|p| {
+        let (machine, problems) = files::machine(p);
+        root.take_over(problems);
+        machine
+    });
+    let hint = "the file of the test piece, relative to the study file";
+    let piece_path = root.require("test_piece", hint).and_then(|i| i.text());
+    let test_piece = piece_path.and_then(|p| read_piece(root, &folder.join(p)));
+    let decision = root.section("decision", read_decision);
+    let sampling = root.section("monte_carlo", read_sampling);
+    let published = root.section("published", read_published);
+    let (Some(machine), Some(test_piece)) = (machine, test_piece) else {
+        // The rest needs both; do not call it unknown.
+        root.entries();
+        return None;
+    };
+    let machine = read_tool(root, machine);
+    let machine = read_mounting(root, machine, &test_piece)?;
+    let reference = read_reference(root, &machine);
+    let variants = root.section("compare", |s| read_variants(s, &machine, &reference));
+    Some(Study {
+        name: name?.to_owned(),
+        path: path.to_owned(),
+        machine_path: machine_path?,
+        machine,
+        test_piece,
+        variants: variants.unwrap_or_default(),
+        reference,
+        decision: decision.unwrap_or(Some(Decision::Simple))?,
+        sampling: sampling.unwrap_or(Some(Sampling::default())).filter(|s| s.samples > 0),
+        published,
+    })
+}
+
+fn read_piece(root: &Section<'_>, path: &Path) -> Option<TestPieceFile> {
+    let mut problems = Diagnostics::new();
+    let text = files::text(path, "a test piece file (TOML)", &mut problems);
+    let piece = text.and_then(|text| {
+        let file = path.display().to_string();
+        let source = Source::new(&file, &text);
+        let piece = source.read(TestPieceFile::read);
+        problems.append(source.finish());
+        piece
+    });
+    root.take_over(problems);
+    piece
+}
+
+/// `[tool] name = "…"` or `length = "…"`; without it the tool of the machine file.
+fn read_tool(root: &Section<'_>, machine: Machine) -> Machine {
+    let tip = root.section("tool", |s| {
+        let length = s.quantity("length", Dimension::Length);
+        let named = s.get("name").and_then(|item| {
+            let name = item.text()?;
+            let tool = machine.tools().iter().find(|t| t.name == name);
+            if tool.is_none() {
+                let known: Vec<_> = machine.tools().iter().map(|t| t.name.as_str()).collect();
+                let message = format!("the machine file has no tool `{name}`");
+                item.error("unknown-tool", message, &format!("its tools: {}", known.join(", ")));
+            }
+            tool.map(|t| t.length_mm)
+        });
+        length.or(named).map(|length_mm| Vec3::new(0.0, 0.0, -length_mm))
+    });
+    match tip.flatten() {
+        Some(tip) => machine.with_tip(tip),
+        None => machine,
+    }
+}
+
+/// `[mounting] fixture = "3100 1250 -1200 mm"`: the fixture of the test piece there; without it
+/// the workpiece stands where the machine file has it.
+fn read_mounting(root: &Section<'_>, machine: Machine, piece: &TestPieceFile) -> Option<Machine> {
+    if let Some(item) = root.get("mounting") {
+        let fixture = item.section("mounting", |s| {
+            let hint = "where the fixture stands: fixture = \"3100 1250 -1200 mm\"";
+            s.require("fixture", hint).and_then(|i| read_pose(&i))
+        })??;
+        let Some(mounting) = piece.mounting else {
+            let hint = "give it a [mounting], or mount the workpiece in the machine file";
+            item.error("no-mounting", "the test piece says not how it is mounted".into(), hint);
+            return None;
+        };
+        return Some(machine.with_workpiece(fixture, mounting.fixture_from_workpiece().relabel()));
+    }
+    if let Some(mounting) = piece.mounting {
+        let wanted = mounting.fixture_from_workpiece();
+        let have = &machine.bodies()[0].mounting;
+        if (wanted.linear() - have.linear()).amax() > 1e-9 {
+            root.warn(
+                "other-mounting",
+                "the machine file mounts the workpiece at another angle than the test piece".into(),
+                "the machine file counts; with [mounting] fixture = \"…\" the test piece would",
+            );
+        }
+    }
+    Some(machine)
+}
+
+fn read_reference(root: &Section<'_>, machine: &Machine) -> Reference {
+    let setting = root.section("setting", |s| read_setting(s, machine));
+    let datum = root.section("datum", read_datum);
+    Reference {
+        setting: setting.flatten().unwrap_or_default(),
+        datum: datum.flatten().unwrap_or_default(),
+    }
+}
+
+/// `C = "90 deg"`, `A = "10 deg"`, or `perfect = true`.
+fn read_setting(section: &Section<'_>, machine: &Machine) -> Option<Setting> {
+    let perfect = section.get("perfect").and_then(|i| i.flag()).unwrap_or(false);
+    let mut rotary = Command::default();
+    for (key, place, item) in section.entries() {
+        if matches!(key, "perfect" | "reference_hole_depth") {
+            continue;
+        }
+        let axis = key.chars().next().filter(|_| key.len() == 1).and_then(BodyName::new);
+        let index = axis.and_then(|name| machine.axis_index(name));
+        let index = index.filter(|&i| machine.axes()[i].kind == AxisKind::Rotary);
+        let Some(index) = index else {
+            let message = format!("the machine has no rotary axis `{key}`");
+            let hint = "the setting point fixes the rotary axes; the linear ones follow from it";
+            section.error_at(place, "unknown-axis", message, hint);
+            continue;
+        };
+        rotary[index] = item.quantity(Dimension::Angle).unwrap_or(0.0);
+    }
+    Some(if perfect { Setting::Perfect } else { Setting::Touched { rotary } })
+}
+
+/// `reference_hole_depth = "40 mm"`.
+fn read_datum(section: &Section<'_>) -> Option<DatumAxis> {
+    let item = section.get("reference_hole_depth")?;
+    let depth_mm = item.quantity(Dimension::Length)?;
+    if depth_mm <= 0.0 {
+        let hint = "its axis comes from two points of the hole";
+        item.error("not-positive", "a reference hole has a depth".into(), hint);
+        return None;
+    }
+    Some(DatumAxis::ReferenceHole { depth_mm })
+}
+
+/// `[compare."zero touched with the tool tilted"] C = "90 deg", A = "10 deg"`.
+fn read_variants(section: &Section<'_>, machine: &Machine, studied: &Reference) -> Vec<Variant> {
+    let mut variants = Vec::new();
+    for (name, _, item) in section.entries() {
+        let reference = item.section(&section.path(name), |s| {
+            let datum = read_datum(s);
+            let moved = s.entries().iter().any(|(key, ..)| *key != "reference_hole_depth");
+            let setting = if moved { read_setting(s, machine) } else { None };
+            Reference {
+                setting: setting.unwrap_or(studied.setting),
+                datum: datum.unwrap_or(studied.datum),
+            }
+        });
+        if let Some(reference) = reference {
+            variants.push(Variant { name: name.to_owned(), reference });
+        }
+    }
+    variants
+}
+
+/// `rule = "simple"` or `rule = "ISO 14253-1"` with `coverage = 2`.
+fn read_decision(section: &Section<'_>) -> Option<Decision> {
+    let coverage = section.get("coverage").map_or(Some(2.0), |i| i.number());
+    let item = section.require("rule", "rule = \"simple\" or \"ISO 14253-1\"")?;
+    match item.text()? {
+        "simple" => Some(Decision::Simple),
+        "ISO 14253-1" => {
+            let coverage = coverage?;
+            if coverage <= 0.0 {
+                item.error("not-positive", "the coverage factor is above zero".into(), "k = 2");
+                return None;
+            }
+            Some(Decision::Guarded { coverage })
+        }
+        other => {
+            let hint = "write simple or ISO 14253-1";
+            item.error("unknown-word", format!("`{other}` is no rule of decision"), hint);
+            None
+        }
+    }
+}
+
+/// `samples = 100000`, `seed = 7`; 0 samples: no run.
+fn read_sampling(section: &Section<'_>) -> Option<Sampling> {
+    let default = Sampling::default();
+    let samples = section.get("samples").map_or(Some(default.samples), |i| i.count())?;
+    let seed = section.get("seed").map_or(Some(default.seed as usize), |i| i.count())?;
+    if samples == 1 {
+        section.error("too-few-samples", "one sample has no spread".into(), "0, or 2 and more");
+        return None;
+    }
+    Some(Sampling { samples, seed: seed as u64 })
+}
+
+/// `source = "…"`, and per index `roundness_mzc = { measured = ["0.038 mm", …], predicted = … }`.
+fn read_published(section: &Section<'_>) -> Published {
+    let source = section.text("source").unwrap_or_default().to_owned();
+    let mut rows = Vec::new();
+    for (key, _, item) in section.entries() {
+        if key == "source" {
+            continue;
+        }
+        let row = item.section(&section.path(key), |s| {
+            let measured = s.get("measured").and_then(|i| i.list()).unwrap_or_default();
+            let measured_mm =
+                measured.iter().filter_map(|i| i.quantity(Dimension::Length)).collect();
+            let predicted_mm = s.quantity("predicted", Dimension::Length);
+            PublishedRow { key: key.to_owned(), measured_mm, predicted_mm }
+        });
+        rows.extend(row);
+    }
+    Published { source, rows }
+}

@@ -1,0 +1,411 @@
+//! One self-contained page: opens offline, no script, no file from elsewhere.
+
+use super::page::STYLE;
+use super::plots::{
+    Bar, ConeMap, Curve, DrawingError, FittedCircle, Labels, Profile, bars, cone_map, curves, polar,
+};
+use super::{command_words, decisive, feature, ranked, relief, shown, title, unit};
+use crate::predict::{Prediction, SectionResult, Study};
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+use trueaxis_part::Shape;
+use trueaxis_part::tolerance::Outcome;
+
+/// Bars per index.
+const BARS: usize = 10;
+
+/// The report as the text of an HTML file.
+///
+/// # Errors
+/// A picture that the drawing library refuses.
+pub fn html(study: &Study, prediction: &Prediction) -> Result<String, DrawingError> {
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (study.name) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                main {
+                    h1 { (study.name) }
+                    p.soft {
+                        (study.machine.name()) " · " code { (study.machine.chain_text()) } " · "
+                        (study.test_piece.name)
+                    }
+                    (verdict(prediction))
+                    (index_section(prediction))
+                    (section_pictures(prediction)?)
+                    (map_section(study, prediction)?)
+                    (motion_section(study, prediction)?)
+                    (blame_section(prediction)?)
+                    (correction_section(prediction))
+                    (sensitivity_section(prediction))
+                    (variant_section(prediction))
+                    (published_section(study, prediction))
+                    (input_section(study, prediction))
+                }
+            }
+        }
+    };
+    Ok(page.into_string())
+}
+
+fn um(mm: f64) -> String {
+    format!("{:.2}", mm * 1e3)
+}
+
+fn class(outcome: Outcome) -> &'static str {
+    match outcome {
+        Outcome::Pass => "pass",
+        Outcome::Fail => "fail",
+        Outcome::Undecided => "undecided",
+    }
+}
+
+fn verdict(prediction: &Prediction) -> Markup {
+    let outcome = prediction.verdict.outcome;
+    let words = match outcome {
+        Outcome::Pass => "the part will be in tolerance",
+        Outcome::Fail => "the part will be out of tolerance",
+        Outcome::Undecided => "the tolerance lies within the uncertainty",
+    };
+    html! {
+        section class={ "verdict " (class(outcome)) } {
+            strong { (class(outcome).to_uppercase()) }
+            span { (words) }
+        }
+        @for warning in &prediction.warnings { section { "Warning: " (warning) } }
+    }
+}
+
+fn index_section(prediction: &Prediction) -> Markup {
+    let judged = |key: &str| prediction.verdict.judgements.iter().find(|j| j.index.key == key);
+    html! {
+        section {
+            h2 { "Indices" }
+            p.soft { "All in µm; u is a standard uncertainty. The bold indices decide, after ISO; \
+                      those of the paper stand beside them." }
+            div.scroll { table {
+                thead { tr {
+                    th { "index" } th { "value" } th { "u, linear" } th { "u, Monte Carlo" }
+                    th { "95 % interval" } th { "allowed" } th { "used" } th { "" }
+                } }
+                tbody { @for index in &prediction.indices {
+                    tr.decisive[index.name.decisive] {
+                        td { (title(&index.name)) }
+                        td { (um(index.value_mm)) }
+                        td { (um(index.u_mm)) }
+                        @if let Some(s) = index.spread {
+                            td { (um(s.u_mm)) } td { (um(s.low_mm)) " … " (um(s.high_mm)) }
+                        } @else { td {} td {} }
+                        @if let Some(j) = judged(index.name.key) {
+                            td { (um(j.limit_mm)) }
+                            td { (format!("{:.0} %", j.used_ratio * 100.0)) }
+                            td class=(class(j.outcome)) { (class(j.outcome)) }
+                        } @else { td {} td {} td {} }
+                    }
+                } }
+            } }
+            h2 style="margin-top:1rem" { "At every position" }
+            div.scroll { table {
+                thead { tr {
+                    th { "position" } th { "z, mm" }
+                    @for index in &prediction.indices {
+                        @if index.name.key.starts_with("roundness") || index.name.key.starts_with("coaxiality") {
+                            th { (title(&index.name)) }
+                        }
+                    }
+                } }
+                tbody { @for (i, result) in prediction.sections.iter().enumerate() { tr {
+                    td { (i + 1) } td { (format!("{:.0}", result.section.z_mm)) }
+                    @for (index, value) in prediction.indices.iter().zip(&result.section.indices_mm) {
+                        @if index.name.key.starts_with("roundness") || index.name.key.starts_with("coaxiality") {
+                            td { @if let Some(value) = value { (um(*value)) } }
+                        }
+                    }
+                } } }
+            } }
+        }
+    }
+}
+
+fn section_pictures(prediction: &Prediction) -> Result<Markup, DrawingError> {
+    let lines: Vec<Curve> = prediction
+        .sections
+        .iter()
+        .enumerate()
+        .map(|(i, result)| {
+            let section = &result.section;
+            let points = section.azimuth_rad.iter().zip(&section.deviation_mm);
+            Curve {
+                label: format!("position {}, z = {:.0} mm", i + 1, section.z_mm),
+                points: points.map(|(a, e)| (a.to_degrees(), e * 1e3)).collect(),
+            }
+        })
+        .collect();
+    let labels = Labels { x: "azimuth, deg", y: "E, µm (positive: material left)" };
+    let chart = curves((1000, 340), &labels, &lines)?;
+    let pictures: Vec<String> =
+        prediction.sections.iter().map(polar_picture).collect::<Result<_, _>>()?;
+    Ok(html! {
+        section {
+            h2 { "Error along the azimuth" }
+            (PreEscaped(chart))
+        }
+        section {
+            h2 { "Sections, magnified" }
+            div.grid {
+                @for (i, picture) in pictures.iter().enumerate() {
+                    figure {
+                        (PreEscaped(picture))
+                        figcaption {
+                            "Position " (i + 1) ", z = "
+                            (format!("{:.0}", prediction.sections[i].section.z_mm)) " mm; nominal radius "
+                            (format!("{:.3}", prediction.sections[i].section.radius_mm)) " mm"
+                        }
+                    }
+                }
+            }
+        }
+    })
+}
+
+fn polar_picture(result: &SectionResult) -> Result<String, DrawingError> {
+    let section = &result.section;
+    let points: Vec<(f64, f64)> = section
+        .azimuth_rad
+        .iter()
+        .zip(&section.profile_mm)
+        .map(|(azimuth, p)| (*azimuth, p[0].hypot(p[1]) - section.radius_mm))
+        .collect();
+    let c = &section.circles;
+    let zone =
+        |label: &str, zone: &trueaxis_part::fit::circle::Zone, radius: f64, dashed| FittedCircle {
+            label: label.to_owned(),
+            centre_mm: zone.center_mm,
+            excess_mm: radius - section.radius_mm,
+            dashed,
+        };
+    let width = um(c.mzc.width_mm());
+    let circles = [
+        zone("least-squares circle", &c.lsc, c.lsc.radius_mm, true),
+        zone("minimum zone, inner", &c.mzc, c.mzc.inner_mm, false),
+        zone(&format!("minimum zone, outer: {width} µm"), &c.mzc, c.mzc.outer_mm, false),
+    ];
+    polar(460, &Profile { points: &points, circles: &circles })
+}
+
+fn map_section(study: &Study, prediction: &Prediction) -> Result<Markup, DrawingError> {
+    let Shape::Cone(cone) = &study.test_piece.shape;
+    let Some(first) = prediction.sections.first() else { return Ok(html! {}) };
+    let heights: Vec<f64> = prediction.sections.iter().map(|s| s.section.height_mm).collect();
+    let errors: Vec<Vec<f64>> =
+        prediction.sections.iter().map(|s| s.section.deviation_mm.clone()).collect();
+    let picture = cone_map(
+        (1000, 430),
+        &ConeMap {
+            half_angle_rad: cone.size().half_angle_rad,
+            base_radius_mm: 0.5 * cone.size().base_diameter_mm,
+            azimuths_rad: &first.section.azimuth_rad,
+            heights_mm: &heights,
+            error_mm: &errors,
+        },
+    )?;
+    Ok(html! {
+        section {
+            h2 { "Error on the cone, unrolled" }
+            (PreEscaped(picture))
+        }
+    })
+}
+
+fn motion_section(study: &Study, prediction: &Prediction) -> Result<Markup, DrawingError> {
+    let axes = study.machine.axes();
+    let mut pictures = Vec::new();
+    for (i, axis) in axes.iter().enumerate() {
+        let commands = prediction.commands.iter().enumerate();
+        let points = commands.map(|(k, c)| (k as f64, shown(axis, c[i]))).collect();
+        let y = format!("{}, {}", axis.name, unit(axis));
+        let labels = Labels { x: "tool position", y: &y };
+        let line = Curve { label: axis.name.to_string(), points };
+        pictures.push(curves((480, 260), &labels, &[line])?);
+    }
+    Ok(html! {
+        section {
+            h2 { "Axis motions" }
+            p.soft { "Zero set at " (command_words(axes, &prediction.setting_command)) "." }
+            div.grid { @for picture in &pictures { (PreEscaped(picture)) } }
+        }
+    })
+}
+
+fn blame_section(prediction: &Prediction) -> Result<Markup, DrawingError> {
+    if prediction.blame.errors.is_empty() {
+        return Ok(html! {});
+    }
+    let mut pictures = Vec::new();
+    for (i, index) in decisive(prediction) {
+        let mut rows = Vec::new();
+        for share in ranked(prediction, i, &prediction.blame.errors, BARS) {
+            rows.push(Bar {
+                label: share.of.to_string(),
+                alone_mm: share.alone_mm[i],
+                relief_mm: relief(prediction, i, share),
+            });
+        }
+        pictures.push((title(&index.name), bars(500, &rows)?));
+    }
+    let groups = group_table(prediction);
+    Ok(html! {
+        section {
+            h2 { "Who is to blame" }
+            div.grid { @for (name, picture) in &pictures {
+                figure { figcaption { (name) } (PreEscaped(picture)) }
+            } }
+            (groups)
+        }
+    })
+}
+
+fn group_table(prediction: &Prediction) -> Markup {
+    let kinds = prediction.blame.kinds.iter().map(|s| {
+        let word = match s.of {
+            trueaxis_machine::errors::ErrorKind::Location => "all location errors",
+            trueaxis_machine::errors::ErrorKind::Motion => "all error motions",
+        };
+        (word.to_owned(), &s.alone_mm, &s.without_mm)
+    });
+    let bodies = prediction.blame.bodies.iter();
+    let bodies = bodies.map(|s| (format!("all errors of {}", s.of), &s.alone_mm, &s.without_mm));
+    let rows: Vec<_> = kinds.chain(bodies).collect();
+    html! {
+        div.scroll { table {
+            thead { tr {
+                th { "group, µm: alone / rest without it" }
+                @for (_, index) in decisive(prediction) { th { (title(&index.name)) } }
+            } }
+            tbody { @for (name, alone, without) in &rows { tr {
+                td { (name) }
+                @for (i, _) in decisive(prediction) { td { (um(alone[i])) " / " (um(without[i])) } }
+            } } }
+        } }
+    }
+}
+
+fn correction_section(prediction: &Prediction) -> Markup {
+    if prediction.corrections.is_empty() {
+        return html! {};
+    }
+    html! {
+        section {
+            h2 { "One correction that would do" }
+            p.soft { "The smallest first; a microradian counts as a micrometre." }
+            div.scroll { table {
+                thead { tr { th { "location error" } th { "change" }
+                    @for (_, index) in decisive(prediction) { th { (title(&index.name)) ", µm" } } } }
+                tbody { @for correction in prediction.corrections.iter().take(8) { tr {
+                    td { code { (correction.error) } }
+                    td { @if correction.error.component.is_rotation() {
+                        (format!("{:+.1} µrad", correction.change * 1e6))
+                    } @else { (format!("{:+.1} µm", correction.change * 1e3)) } }
+                    @for (i, _) in decisive(prediction) { td { (um(correction.indices_mm[i])) } }
+                } } }
+            } }
+        }
+    }
+}
+
+fn sensitivity_section(prediction: &Prediction) -> Markup {
+    let felt = |s: &&crate::predict::Sensitivity| {
+        decisive(prediction).any(|(i, _)| s.slope[i].abs() > 1e-9)
+    };
+    html! {
+        section {
+            h2 { "Sensitivity to location errors" }
+            p.soft { "µm of the index per µm (shifts) or per µrad (rotations)." }
+            div.scroll { table {
+                thead { tr { th { "location error" }
+                    @for (_, index) in decisive(prediction) { th { (title(&index.name)) } } } }
+                tbody { @for s in prediction.sensitivities.iter().filter(felt) { tr {
+                    td { code { (s.error) } }
+                    @for (i, _) in decisive(prediction) {
+                        @let scale = if s.error.component.is_rotation() { 1e-3 } else { 1.0 };
+                        td { (format!("{:+.4}", s.slope[i] * scale)) }
+                    }
+                } } }
+            } }
+        }
+    }
+}
+
+fn variant_section(prediction: &Prediction) -> Markup {
+    if prediction.variants.is_empty() {
+        return html! {};
+    }
+    html! {
+        section {
+            h2 { "Setting point and datum" }
+            div.scroll { table {
+                thead { tr { th { "the same part, µm" }
+                    @for (_, index) in decisive(prediction) { th { (feature(&index.name)) } } } }
+                tbody {
+                    tr { td { "as studied" }
+                        @for (_, index) in decisive(prediction) { td { (um(index.value_mm)) } } }
+                    @for variant in &prediction.variants { tr {
+                        td { (variant.name) }
+                        @for (i, _) in decisive(prediction) { td { (um(variant.indices_mm[i])) } }
+                    } }
+                }
+            } }
+        }
+    }
+}
+
+fn published_section(study: &Study, prediction: &Prediction) -> Markup {
+    let Some(published) = &study.published else { return html! {} };
+    let ours = |key: &str| prediction.indices.iter().find(|i| i.name.key == key);
+    html! {
+        section {
+            h2 { "Beside published figures" }
+            p.soft { (published.source) }
+            div.scroll { table {
+                thead { tr { th { "index, µm" } th { "here" } th { "published prediction" }
+                    th { "measured" } th { "mean of the measured" } } }
+                tbody { @for row in &published.rows { tr {
+                    td { (ours(&row.key).map_or(row.key.clone(), |i| title(&i.name))) }
+                    td { @if let Some(index) = ours(&row.key) { (um(index.value_mm)) } }
+                    td { @if let Some(value) = row.predicted_mm { (um(value)) } }
+                    td { (row.measured_mm.iter().map(|m| um(*m)).collect::<Vec<_>>().join(", ")) }
+                    td { @if !row.measured_mm.is_empty() {
+                        (um(row.measured_mm.iter().sum::<f64>() / row.measured_mm.len() as f64))
+                    } }
+                } } }
+            } }
+        }
+    }
+}
+
+fn input_section(study: &Study, prediction: &Prediction) -> Markup {
+    let stated = study.machine.stated_errors().len();
+    html! {
+        section {
+            h2 { "Inputs" }
+            div.scroll { table { tbody {
+                tr { td { "study" } td { code { (study.path.display()) } } }
+                tr { td { "machine" } td { code { (study.machine_path.display()) } } }
+                tr { td { "source of the machine" } td { (study.machine.source()) } }
+                tr { td { "stated errors" } td { (stated) } }
+                tr { td { "test piece" } td { (study.test_piece.name) } }
+                tr { td { "source of the test piece" } td { (study.test_piece.source) } }
+                tr { td { "tool positions × heights" }
+                    td { (prediction.commands.len()) " × " (prediction.sections.len()) } }
+                @if let Some(s) = study.sampling {
+                    tr { td { "Monte Carlo" } td { (s.samples) " samples, seed " (s.seed) } }
+                }
+                tr { td { "made by" } td { "trueaxis " (crate::VERSION) } }
+            } } }
+        }
+    }
+}
