@@ -13,7 +13,7 @@
 #[path = "batch_plain/mod.rs"]
 mod plain;
 
-use plain::{PlainDeviation, PlainMachine};
+use plain::{Exact, PlainDeviation, PlainMachine, SmallAngle};
 use std::time::Instant;
 use trueaxis_machine::Machine;
 use trueaxis_machine::batch::{Commands, CompiledMachine, DeviationTable, InstructionSet};
@@ -145,8 +145,8 @@ fn pool(threads: usize) -> rayon::ThreadPool {
 
 fn main() {
     let machine = machine();
-    let plain = PlainMachine::of(&machine, plain::exact);
-    let small_angle = PlainMachine::of(&machine, plain::small_angle);
+    let plain = PlainMachine::of::<Exact>(&machine);
+    let small_angle = PlainMachine::of::<SmallAngle>(&machine);
     let compiled = CompiledMachine::new(&machine);
     let columns = commands();
     let slices: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
@@ -158,8 +158,8 @@ fn main() {
         let sum: f64 = (0..SLOW_POSES).map(f).sum();
         std::hint::black_box(sum);
     };
-    let exact = |i| sum_of(&plain.deviation(&command(i)));
-    let small = |i| sum_of(&small_angle.deviation(&command(i)));
+    let exact = |i| sum_of(&plain.deviation::<Exact>(&command(i)));
+    let small = |i| sum_of(&small_angle.deviation::<SmallAngle>(&command(i)));
     let scalar = |i| {
         let errors = machine.errors_at(&command(i), &[0.0; 6]).expect("within the tables");
         machine.deviation(&command(i), &errors).tip_mm.x
@@ -192,8 +192,13 @@ fn main() {
 }
 
 fn print(candidates: &[Candidate<'_>]) {
-    println!("ns per pose: median of {ROUNDS} rounds (least); ratio of the medians to the first row");
-    println!("{:<36}{:>20}{:>8}{:>22}{:>8}{:>12}", "", "clock", "ratio", "core", "ratio", "M poses/s");
+    println!(
+        "ns per pose: median of {ROUNDS} rounds (least); ratio of the medians to the first row"
+    );
+    println!(
+        "{:<36}{:>20}{:>8}{:>22}{:>8}{:>12}",
+        "", "clock", "ratio", "core", "ratio", "M poses/s"
+    );
     let plain = candidates[0].summary();
     for candidate in candidates {
         let [clock, core] = candidate.summary();

@@ -77,12 +77,14 @@ impl fmt::Display for Singularity {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SolveError {
     /// A number of the target or of the starting position is no number or too large.
-    #[error("the target or the starting position has a coordinate that is not finite")]
+    #[error(
+        "the target or the starting position has a coordinate that is not a finite number; correct it"
+    )]
     NotFinite,
     /// No angle of the rotary axes points the tool there.
     #[error(
-        "the tool axis misses the wanted direction by {:.6} deg: {}; the closest is ({:.9} {:.9} \
-         {:.9})",
+        "the tool axis misses the wanted direction by {:.6} deg: {}; tilt the path or \
+         the part towards the closest, ({:.9} {:.9} {:.9})",
         .missed_by_rad.to_degrees(), turned_by(.turning), .closest.vector().x,
         .closest.vector().y, .closest.vector().z
     )]
@@ -97,7 +99,7 @@ pub enum SolveError {
     /// The linear axes do not span the space at this pose, and the tip lies off what they span.
     #[error(
         "the tip stays {missed_by_mm:.6} mm away: at this attitude {} cannot move it in all three \
-         directions", listed(.moving)
+         directions; move the target or the part by that much", listed(.moving)
     )]
     TipUnreachable {
         /// How far.

@@ -11,7 +11,7 @@ use trueaxis_geometry::frame::{Direction, Point, Workpiece};
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::errors::ErrorValues;
 use trueaxis_machine::file::NoTables;
-use trueaxis_machine::{FollowFault, Machine, SolveError, Target};
+use trueaxis_machine::{FollowFault, Machine, Solution, SolveError, Target};
 
 /// Where the nominal tool is.
 fn tool_at(machine: &Machine, command: &Command) -> Target {
@@ -77,10 +77,15 @@ impl Worst {
     /// Solves for the tool of a command and compares both ways.
     fn judge(&mut self, machine: &Machine, command: &Command) {
         let wanted = tool_at(machine, command);
-        let found = machine
-            .solve(&wanted, command)
-            .unwrap_or_else(|e| panic!("{} at {command:?}: {e}", machine.chain_text()));
-        for solution in &found.solutions {
+        let found = match machine.solve(&wanted, command) {
+            Ok(found) => found,
+            // Two linear axes forgive no noise of an angle that the tool axis does not determine.
+            Err(SolveError::TipUnreachable { .. }) if determined(machine, command) < 1e-2 => return,
+            Err(error) => panic!("{} at {command:?}: {error}", machine.chain_text()),
+        };
+        // No machine is 100 m long; a double ends at 1e-11 mm there.
+        let is_real = |s: &&Solution| s.command.iter().all(|q| q.abs() < 1e5);
+        for solution in found.solutions.iter().filter(is_real) {
             let reached = tool_at(machine, &solution.command);
             self.tip_mm = self.tip_mm.max((reached.tip - wanted.tip).amax());
             let axis = reached.axis.vector() - wanted.axis.vector();
@@ -168,23 +173,15 @@ fn over_random_poses(name: &str) {
     assert!(worst.holds(), "{name}: {worst:?}");
 }
 
-macro_rules! law_of_machine {
-    ($($test:ident: $name:literal)*) => {$(
-        #[test]
-        fn $test() {
-            over_random_poses($name);
-        }
-    )*};
-}
-
-law_of_machine! {
-    law_there_and_back_xkas2525: "xkas2525"
-    law_there_and_back_i5_engraver: "i5-engraver"
-    law_there_and_back_lei_hsu_mill: "lei-hsu-mill"
-    law_there_and_back_head_table: "head-table"
-    law_there_and_back_nutating_head: "nutating-head"
-    law_there_and_back_wyxzcat_gantry: "wyxzcat-gantry"
-    law_there_and_back_three_axis_mill: "three-axis-mill"
+#[test]
+fn law_there_and_back_on_every_machine() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../machines");
+    let entries = std::fs::read_dir(folder).expect("the shipped machines");
+    let names = entries.map(|e| e.expect("a folder").file_name().into_string().expect("a name"));
+    std::thread::scope(|scope| {
+        let runs: Vec<_> = names.map(|n| scope.spawn(move || over_random_poses(&n))).collect();
+        assert!(runs.len() >= 7);
+    });
 }
 
 /// A chain of any order with tilted placements and axes in any direction.
@@ -226,18 +223,12 @@ fn any_machine() -> impl Strategy<Value = Machine> {
 
 /// Whether linear axes nearly coincide: their commands would be kilometres. No machine is built so.
 fn close_to_parallel(machine: &Machine, command: &Command) -> bool {
-    let pose = |c: &Command| tool_at(machine, c).tip.vector();
-    let zero = pose(command);
-    let linear = (0..machine.axes().len()).filter(|&i| machine.axes()[i].kind == AxisKind::Linear);
-    let steps: Vec<Vec3> = linear
-        .map(|i| {
-            let mut moved = *command;
-            moved[i] += 100.0;
-            (pose(&moved) - zero) / 100.0
-        })
-        .collect();
     let mut basis: Vec<Vec3> = Vec::new();
-    for step in steps {
+    let axes = machine.axes().iter().enumerate();
+    for (i, _) in axes.filter(|(_, axis)| axis.kind == AxisKind::Linear) {
+        let mut moved = *command;
+        moved[i] += 100.0;
+        let step = (tool_at(machine, &moved).tip - tool_at(machine, command).tip) / 100.0;
         let across = basis.iter().fold(step, |s, b| s - *b * b.dot(&s));
         if across.norm() > 1e-9 && across.norm() < 0.05 {
             return true;

@@ -183,7 +183,8 @@ proptest! {
             return Ok(());
         };
         prop_assert!((c.mcc.radius_mm - brute_circumscribed(&points)).abs() < 1e-9);
-        prop_assert!((c.mic.radius_mm - brute_inscribed(&points)).abs() < 1e-9);
+        let brute = brute_inscribed(&points);
+        prop_assert!((c.mic.radius_mm - brute).abs() < 1e-9, "{} {} {:?}", c.mic.radius_mm, brute, points);
         let near = c.mcc.center_mm[0].hypot(c.mcc.center_mm[1]);
         prop_assert!(c.mzc.width_mm() <= brute_zone(&points, c.mcc.radius_mm - near) + 1e-9);
         prop_assert!(c.mzc.width_mm() >= brute_zone(&points, 1e9) - 1e-9);

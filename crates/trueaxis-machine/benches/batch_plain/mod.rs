@@ -1,20 +1,30 @@
 //! The computation as one writes it first: homogeneous matrices, link by link.
 
-use nalgebra::{Matrix4, Vector3, Vector4};
+use nalgebra::{Matrix4, Rotation3, Unit, Vector3, Vector4};
 use trueaxis_machine::axis::{Axis, AxisKind, Command};
+use trueaxis_machine::chain::ChainBody;
 use trueaxis_machine::errors::{Curve, StatedError};
 use trueaxis_machine::{ErrorFrame, Machine};
 
 /// Six errors to a matrix.
-pub type ErrorMatrix = fn(&[f64; 6]) -> Matrix4<f64>;
+pub trait ErrorMatrix {
+    /// The matrix.
+    fn of(errors: &[f64; 6]) -> Matrix4<f64>;
+}
 
-/// One body with its constant matrices and its splines.
+/// `shift · Rz(c)·Ry(b)·Rx(a)`
+pub struct Exact;
+
+/// `shift · (I + [ε]×)`: cheaper than the same computation, shown beside it.
+pub struct SmallAngle;
+
+/// One body; what stands between two axes and never moves is one matrix.
 struct PlainBody {
+    /// Mounting of the body before and placement of this one.
     placement: Matrix4<f64>,
-    mounting: Matrix4<f64>,
-    /// Placement and location errors.
+    /// The same with the location errors.
     actual_placement: Matrix4<f64>,
-    axis: Option<(usize, Axis)>,
+    axis: Option<PlainAxis>,
     is_moving: bool,
     splines: Option<PlainSplines>,
 }
@@ -64,44 +74,105 @@ pub struct PlainDeviation {
     pub axis: Vector3<f64>,
 }
 
-/// A machine as a list of matrices.
-pub struct PlainMachine {
-    workpiece: Vec<PlainBody>,
-    tool: Vec<PlainBody>,
-    tip: Vector4<f64>,
-    error: ErrorMatrix,
+/// An axis with its direction as nalgebra wants it.
+struct PlainAxis {
+    index: usize,
+    kind: AxisKind,
+    direction: Unit<Vector3<f64>>,
+    sense: f64,
 }
 
-impl PlainMachine {
-    /// Takes the matrices out of a machine.
-    pub fn of(machine: &Machine, error: ErrorMatrix) -> Self {
+impl PlainAxis {
+    fn of(axis: &Axis, index: usize) -> Self {
+        let direction = Unit::new_unchecked(axis.direction);
+        Self { index, kind: axis.kind, direction, sense: axis.sense }
+    }
+
+    fn joint(&self, q: f64) -> Matrix4<f64> {
+        let q = self.sense * q;
+        match self.kind {
+            AxisKind::Linear => Matrix4::new_translation(&(self.direction.into_inner() * q)),
+            AxisKind::Rotary => Rotation3::from_axis_angle(&self.direction, q).to_homogeneous(),
+        }
+    }
+}
+
+/// One side of the bed, from the bed outwards.
+struct PlainSide {
+    bodies: Vec<PlainBody>,
+    /// The mounting of the last body.
+    end: Matrix4<f64>,
+}
+
+impl PlainSide {
+    fn of<'a, E: ErrorMatrix>(
+        machine: &Machine,
+        bodies: impl Iterator<Item = &'a ChainBody>,
+    ) -> Self {
         let location = |stated: &Option<StatedError>| match stated.as_ref().map(|s| &s.mean) {
             Some(Curve::Constant(value)) => *value,
             _ => 0.0,
         };
-        let mut workpiece: Vec<PlainBody> = machine
-            .bodies()
-            .iter()
-            .map(|body| (body, matrix(body.placement.linear(), body.placement.shift_mm())))
-            .map(|(body, placement)| PlainBody {
+        let mut side = Self { bodies: Vec::new(), end: Matrix4::identity() };
+        for body in bodies {
+            let placement = side.end * matrix(body.placement.linear(), body.placement.shift_mm());
+            side.bodies.push(PlainBody {
                 placement,
-                mounting: matrix(body.mounting.linear(), body.mounting.shift_mm()),
-                actual_placement: placement * error(&body.location.each_ref().map(location)),
-                axis: body.axis.map(|i| (i, machine.axes()[i].clone())),
+                actual_placement: placement * E::of(&body.location.each_ref().map(location)),
+                axis: body.axis.map(|i| PlainAxis::of(&machine.axes()[i], i)),
                 is_moving: body.error_frame == ErrorFrame::Moving,
                 splines: PlainSplines::of(&body.motion),
-            })
-            .collect();
-        let tool = workpiece.split_off(machine.workpiece_side());
-        workpiece.reverse();
+            });
+            side.end = matrix(body.mounting.linear(), body.mounting.shift_mm());
+        }
+        side
+    }
+
+    /// Nominal and actual product.
+    fn products<E: ErrorMatrix>(&self, command: &Command) -> [Matrix4<f64>; 2] {
+        let [mut nominal, mut actual] = [Matrix4::<f64>::identity(); 2];
+        for body in &self.bodies {
+            nominal *= body.placement;
+            actual *= body.actual_placement;
+            let Some(axis) = &body.axis else { continue };
+            let q = command[axis.index];
+            let joint = axis.joint(q);
+            nominal *= joint;
+            let Some(splines) = &body.splines else {
+                actual *= joint;
+                continue;
+            };
+            let motion = E::of(&splines.at(q));
+            let is_fixed = axis.kind == AxisKind::Rotary && !body.is_moving;
+            actual *= if is_fixed { motion * joint } else { joint * motion };
+        }
+        [nominal * self.end, actual * self.end]
+    }
+}
+
+/// A machine as matrices.
+pub struct PlainMachine {
+    workpiece: PlainSide,
+    tool: PlainSide,
+    tip: Vector4<f64>,
+}
+
+impl PlainMachine {
+    /// Takes the matrices out of a machine.
+    pub fn of<E: ErrorMatrix>(machine: &Machine) -> Self {
+        let (workpiece, tool) = machine.bodies().split_at(machine.workpiece_side());
         let tip = machine.tip_mm();
-        Self { workpiece, tool, tip: Vector4::new(tip.x, tip.y, tip.z, 1.0), error }
+        Self {
+            workpiece: PlainSide::of::<E>(machine, workpiece.iter().rev()),
+            tool: PlainSide::of::<E>(machine, tool.iter()),
+            tip: Vector4::new(tip.x, tip.y, tip.z, 1.0),
+        }
     }
 
     /// Nominal and actual product, and their difference.
-    pub fn deviation(&self, command: &Command) -> PlainDeviation {
-        let [nominal_workpiece, actual_workpiece] = product(&self.workpiece, command, self.error);
-        let [nominal_tool, actual_tool] = product(&self.tool, command, self.error);
+    pub fn deviation<E: ErrorMatrix>(&self, command: &Command) -> PlainDeviation {
+        let [nominal_workpiece, actual_workpiece] = self.workpiece.products::<E>(command);
+        let [nominal_tool, actual_tool] = self.tool.products::<E>(command);
         let nominal = rigid_inverse(&nominal_workpiece) * nominal_tool;
         let actual = rigid_inverse(&actual_workpiece) * actual_tool;
         let z = Vector4::new(0.0, 0.0, 1.0, 0.0);
@@ -115,35 +186,6 @@ impl PlainMachine {
     }
 }
 
-fn product(bodies: &[PlainBody], command: &Command, error: ErrorMatrix) -> [Matrix4<f64>; 2] {
-    let mut products = [Matrix4::identity(); 2];
-    for body in bodies {
-        let (mut nominal, mut actual) = (body.placement, body.actual_placement);
-        if let Some((index, axis)) = &body.axis {
-            let q = command[*index];
-            let joint = joint(axis, q);
-            let motion = body.splines.as_ref().map_or(Matrix4::identity(), |s| error(&s.at(q)));
-            nominal *= joint;
-            actual *= if axis.kind == AxisKind::Rotary && !body.is_moving {
-                motion * joint
-            } else {
-                joint * motion
-            };
-        }
-        products[0] *= nominal * body.mounting;
-        products[1] *= actual * body.mounting;
-    }
-    products
-}
-
-fn joint(axis: &Axis, q: f64) -> Matrix4<f64> {
-    let q = axis.sense * q;
-    match axis.kind {
-        AxisKind::Linear => Matrix4::new_translation(&(axis.direction * q)),
-        AxisKind::Rotary => Matrix4::new_rotation(axis.direction * q),
-    }
-}
-
 fn matrix(linear: &nalgebra::Matrix3<f64>, shift: &Vector3<f64>) -> Matrix4<f64> {
     linear.to_homogeneous().append_translation(shift)
 }
@@ -154,8 +196,9 @@ fn rigid_inverse(pose: &Matrix4<f64>) -> Matrix4<f64> {
     matrix(&back, &-shift)
 }
 
-/// `shift · Rz(c)·Ry(b)·Rx(a)`
-pub fn exact(&[x, y, z, a, b, c]: &[f64; 6]) -> Matrix4<f64> {
+impl ErrorMatrix for Exact {
+    #[inline]
+    fn of(&[x, y, z, a, b, c]: &[f64; 6]) -> Matrix4<f64> {
     let ((sa, ca), (sb, cb), (sc, cc)) = (a.sin_cos(), b.sin_cos(), c.sin_cos());
     Matrix4::new(
         cb * cc,
@@ -175,9 +218,11 @@ pub fn exact(&[x, y, z, a, b, c]: &[f64; 6]) -> Matrix4<f64> {
         0.0,
         1.0,
     )
+    }
 }
 
-/// `shift · (I + [ε]×)`: cheaper than the same computation, shown beside it.
-pub fn small_angle(&[x, y, z, a, b, c]: &[f64; 6]) -> Matrix4<f64> {
+impl ErrorMatrix for SmallAngle {
+    #[inline]
+    fn of(&[x, y, z, a, b, c]: &[f64; 6]) -> Matrix4<f64> {
     Matrix4::new(1.0, -c, b, x, c, 1.0, -a, y, -b, a, 1.0, z, 0.0, 0.0, 0.0, 1.0)
 }

@@ -225,11 +225,7 @@ fn difference<const W: usize, L: Lanes<W>>(a: [L; 3], b: [L; 3]) -> [L; 3] {
 /// `v + m·u`
 #[inline(always)]
 fn plus_product<const W: usize, L: Lanes<W>>(v: [L; 3], m: &[[L; 3]; 3], u: [L; 3]) -> [L; 3] {
-    [
-        plus_dot(v[0], &m[0], &u),
-        plus_dot(v[1], &m[1], &u),
-        plus_dot(v[2], &m[2], &u),
-    ]
+    [plus_dot(v[0], &m[0], &u), plus_dot(v[1], &m[1], &u), plus_dot(v[2], &m[2], &u)]
 }
 
 #[inline(always)]

@@ -73,10 +73,8 @@ pub fn read_motion(section: &Section<'_>, axis: &Axis, body: &mut ChainBody, tab
         u: read_uncertainties(section),
         measured: read_measurement(section),
     };
-    if let Some(item) = section.get("table") {
-        if let Some(table) = reader.load(section, &item) {
-            reader.read_columns(section, &table, body);
-        }
+    if let Some(table) = section.get("table").and_then(|item| reader.load(section, &item)) {
+        reader.read_columns(section, &table, body);
     }
     let general = ["table", "interpolation", "outside", "u", "measured"];
     for (key, place, item) in section.entries() {
@@ -200,7 +198,8 @@ impl MotionReader<'_> {
         // Σ |cₖ| |x|ᵏ at the far end of the travel: no value in it is larger.
         let x = self.furthest_from(origin) / scale.abs();
         let highest = coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c.abs());
-        if !(highest <= HIGHEST_ERROR) {
+        // Not a number, too, is refused: 0 · ∞ where the scale is next to nothing.
+        if highest.is_nan() || highest > HIGHEST_ERROR {
             let message = format!("the polynomial grows to {highest:.0e} within the travel");
             section.error("too-large", message, "check its scale and its coefficients");
             return None;

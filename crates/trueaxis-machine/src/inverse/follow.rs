@@ -33,7 +33,7 @@ pub enum FollowFault {
     #[error(transparent)]
     Solve(#[from] SolveError),
     /// Every way to reach it leaves the travel; this is the one that leaves it least.
-    #[error("{axis} leaves its travel by {}", amount(*.kind, *.beyond))]
+    #[error("{axis} leaves its travel by {}; move or turn the part", amount(*.kind, *.beyond))]
     LeavesTravel {
         /// The axis that leaves its travel farthest: move the part or choose a longer axis.
         axis: BodyName,

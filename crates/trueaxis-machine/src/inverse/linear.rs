@@ -12,8 +12,9 @@ use super::{SolveError, Solver, Target};
 use crate::axis::Command;
 use trueaxis_geometry::Vec3;
 
-/// Sine of the angle below which an axis counts as dependent on those before it.
-const DEPENDENT: f64 = 1e-6;
+/// Sine of the angle below which an axis counts as dependent on those before it: there 1 mm of the
+/// tip would cost more than 1 m of the axis.
+const DEPENDENT: f64 = 1e-3;
 
 /// The tip must be met within this where fewer than three directions are at hand, in mm.
 const MET_MM: f64 = 1e-9;

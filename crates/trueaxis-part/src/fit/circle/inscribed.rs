@@ -14,7 +14,7 @@
 //! no room for a circle of the radius found:
 //!
 //! ```text
-//! D = ρ cos g − √(r² − ρ² sin² g)      ρ the farthest point, r the radius found
+//! D = ρ cos g − √(r² − ρ² sin² g)      r the radius found, ρ the farthest (or nearest) point
 //! ```
 
 use super::{Cloud, Polar, cross};
@@ -170,13 +170,18 @@ impl Lift {
     fn reach(&self, polar: &Polar, value: f64, angles: &mut Vec<f64>) -> Option<f64> {
         let gap = polar.half_gap(angles);
         let square = self.radius * (self.radius + 2.0 * value);
-        let far = polar.max;
-        let room = square - (far * gap.sin) * (far * gap.sin);
-        // Centres between the points are at most `far` away; up to there the bound must hold.
-        if room <= 0.0 || far * gap.cos + room.sqrt() < far {
+        let room = |q: f64| square - (q * gap.sin) * (q * gap.sin);
+        let (near, far) = (polar.min, polar.max);
+        if room(far) <= 0.0 {
             return None;
         }
-        Some((far * gap.cos - room.sqrt()).max(0.0))
+        // Some point, nearest or farthest, is at most a half gap off the way; centres between
+        // the points are at most `far` away, and up to there the bound must hold for both.
+        if [near, far].iter().any(|&q| q * gap.cos + room(q).max(0.0).sqrt() < far) {
+            return None;
+        }
+        let reach = |q: f64| q * gap.cos - room(q).max(0.0).sqrt();
+        Some(reach(near).max(reach(far)).max(0.0))
     }
 
     /// The best of all corners at most `slack` lower than the best.

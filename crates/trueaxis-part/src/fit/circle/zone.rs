@@ -50,7 +50,7 @@ pub(super) fn center(cloud: &Cloud, polar: &mut Polar, angles: &mut Vec<f64>) ->
         let [a, b, c, d] = turn;
         let center = meet([(cloud.point(a), cloud.point(c)), (cloud.point(b), cloud.point(d))])?;
         polar.about(cloud, center);
-        let (outer, inner) = if half < 0.0 { ([a, c], [b, d]) } else { ([b, d], [a, c]) };
+        let (outer, inner) = if half >= 0.0 { ([a, c], [b, d]) } else { ([b, d], [a, c]) };
         let noise = 8.0 * f64::EPSILON * polar.max.max(cloud.size);
         let touches = polar.max - polar.distance[outer[0]] <= noise
             && polar.distance[inner[0]] - polar.min <= noise;
