@@ -103,12 +103,13 @@ fn lost_equations() -> Vec<String> {
 
 /// Traces of the machine that somebody worked on.
 fn foreign_places() -> Vec<String> {
-    let words = ["/wo\u{72}k/", "/roo\u{74}/", "/home/", "C:\\Users"];
+    // Written in two halves, so that this file does not break its own rule.
+    let words = [["/wo", "rk/"], ["/ro", "ot/"], ["/ho", "me/"]].map(|halves| halves.concat());
     let kinds = ["rs", "md", "toml", "csv", "py", "json", "sh", "html"];
     let mut found = Vec::new();
     for path in files(&root()).into_iter().filter(|p| has_extension(p, &kinds)) {
         let text = read(&path);
-        for word in words.iter().filter(|w| text.contains(**w)) {
+        for word in words.iter().filter(|w| text.contains(*w)) {
             found.push(format!("{}: contains {word}", shown(&path)));
         }
     }

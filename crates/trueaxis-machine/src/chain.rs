@@ -12,8 +12,8 @@
 
 use crate::axis::{Approach, Axis, AxisKind, Command};
 use crate::errors::{
-    BodyErrors, BodyName, Component, ErrorIndex, ErrorKind, ErrorName, ErrorValues, OutsideTable,
-    Rotation, Six, StatedError,
+    BodyErrors, BodyName, Component, Curve, ErrorIndex, ErrorKind, ErrorName, ErrorValues,
+    OutsideTable, Rotation, Six, StatedError,
 };
 use trueaxis_geometry::frame::{Bed, Body, Pose, Tool, Workpiece, rotation};
 use trueaxis_geometry::{Mat3, Vec3};
@@ -171,6 +171,21 @@ impl Machine {
         self.bodies[0].placement = placement;
         self.bodies[0].mounting = mounting;
         self
+    }
+
+    /// The same machine with another value of a location error, mm or rad; its uncertainty stays.
+    ///
+    /// `None` if the chain has no such body or the name is that of an error motion.
+    pub fn with_location(mut self, name: ErrorName, value: f64) -> Option<Self> {
+        let body = self.bodies.iter_mut().find(|b| b.name == name.body)?;
+        if name.kind != ErrorKind::Location {
+            return None;
+        }
+        let slot = &mut body.location[name.component as usize];
+        let mut stated = slot.take().unwrap_or_else(|| StatedError::constant(value, None));
+        stated.mean = Curve::Constant(value);
+        *slot = Some(stated);
+        Some(self)
     }
 
     /// The same machine under another error model.

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::LazyLock;
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::frame::{Direction, Point, Workpiece};
+use trueaxis_geometry::frame::{Direction, Point};
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::errors::ErrorValues;
 use trueaxis_machine::file::NoTables;
@@ -169,7 +169,6 @@ fn over_random_poses(name: &str) {
         }
         worst.judge(&machine, &command);
     }
-    println!("{name}: {worst:?}");
     assert!(worst.holds(), "{name}: {worst:?}");
 }
 
@@ -249,7 +248,9 @@ proptest! {
     ) {
         for unit in poses {
             let command = command_within_travel(&machine, unit);
-            prop_assume!(!close_to_parallel(&machine, &command));
+            if close_to_parallel(&machine, &command) {
+                continue;
+            }
             let mut worst = Worst::default();
             worst.judge(&machine, &command);
             prop_assert!(worst.holds(), "{} {command:?}: {worst:?}", machine.chain_text());
@@ -307,8 +308,8 @@ fn oracle_all_branches() {
                 worst_mm = worst_mm.max(nearest.1);
             }
         }
-        println!("{name}: {worst_deg:.1e} deg, {worst_mm:.1e} mm in {cases} cases");
-        assert!(cases >= 30 && worst_deg < 1e-10 && worst_mm < 1e-9, "{name}");
+        let good = cases >= 30 && worst_deg < 1e-10 && worst_mm < 1e-9;
+        assert!(good, "{name}: {worst_deg:e} deg, {worst_mm:e} mm");
     }
 }
 
@@ -325,23 +326,17 @@ fn frustum() -> Vec<Target> {
         .collect()
 }
 
-/// Rows of azimuth, X, Y, Z, C, A.
-fn frustum_commands(machine: &Machine) -> Vec<Command> {
-    let (heads, rows) = golden("../../../trueaxis/tests/data/nas979-xkas2525.csv");
-    rows.iter().map(|row| library::command(machine, &heads, row)).collect()
-}
-
 #[test]
 fn oracle_frustum_of_document_000() {
     let machine = machine("xkas2525");
     let commands = machine.follow(&frustum(), &[0.0; 6]).expect("a way");
-    let wanted = frustum_commands(&machine);
+    let (heads, rows) = golden("../../../trueaxis/tests/data/nas979-xkas2525.csv");
+    let wanted: Vec<_> = rows.iter().map(|row| library::command(&machine, &heads, row)).collect();
     assert_eq!(commands.len(), wanted.len());
     let worst = commands.iter().zip(&wanted).fold([0.0_f64; 2], |worst, (ours, theirs)| {
         let off = |i: usize| (ours[i] - theirs[i]).abs();
         [worst[0].max(off(0)).max(off(1)).max(off(2)), worst[1].max(off(3)).max(off(4))]
     });
-    println!("frustum: {:.1e} mm, {:.1e} deg", worst[0], worst[1].to_degrees());
     assert!(worst[0] < 1e-9 && worst[1].to_degrees() < 1e-11, "{worst:?}");
 }
 
@@ -438,7 +433,7 @@ fn reach_of_a_nutating_head_ends_at_the_horizontal() {
 }
 
 #[test]
-fn without_rotary_axes_only_one_direction() {
+fn fewer_than_two_rotary_axes() {
     let machine = machine("three-axis-mill");
     let up = target([1.0, 2.0, 3.0], [0.0, 0.0, 2.0]);
     let found = machine.solve(&up, &[0.0; 6]).expect("reachable");
@@ -447,10 +442,7 @@ fn without_rotary_axes_only_one_direction() {
     let error = machine.solve(&tilted, &[0.0; 6]).expect_err("45 deg off");
     let text = error.to_string();
     assert!(text.contains("45.000000 deg") && text.contains("no rotary axis"), "{text}");
-}
-
-#[test]
-fn one_rotary_axis_turns_on_its_circle() {
+    // With one rotary axis: the directions on its circle.
     let machine = from_text("[machine]\nname = \"four axes\"\nchain = \"w A' b X Y Z t\"");
     let wanted = target([0.0; 3], [0.0, -1.0, 1.0]);
     close(&angles(&machine, &wanted, &[0.0; 6]), &[&[45.0]]);
@@ -461,12 +453,6 @@ fn one_rotary_axis_turns_on_its_circle() {
 
 #[test]
 fn redundant_axes_stay_where_they_were() {
-    let chain = "w C' b W X Y Z B A t";
-    assert!(
-        Machine::check("m", &format!("[machine]\nname=\"7\"\nchain=\"{chain}\""), &NoTables)
-            .0
-            .is_none()
-    );
     let machine = from_text("[machine]\nname = \"six\"\nchain = \"w C' b W X Y Z B t\"");
     let from = at(&machine, &[('W', 40.0)]);
     let found = machine.solve(&target([1.0, 2.0, 3.0], [1.0, 0.0, 1.0]), &from).expect("reachable");
@@ -524,12 +510,10 @@ fn dependent_linear_axes() {
 fn no_number_is_refused() {
     let machine = machine("xkas2525");
     let good = target([0.0; 3], [0.0, 0.0, 1.0]);
-    for bad in [f64::NAN, f64::INFINITY, 1e308] {
-        let tip = Point::<Workpiece>::new(0.0, bad, 0.0);
+    for bad in [f64::NAN, f64::INFINITY] {
+        let tip = Point::new(bad, 0.0, 0.0);
         let found = machine.solve(&Target { tip, ..good }, &[0.0; 6]);
-        let finite = found.iter().flat_map(|f| &f.solutions).flat_map(|s| s.command);
-        assert!(finite.clone().all(f64::is_finite));
-        assert!(bad == 1e308 || found == Err(SolveError::NotFinite));
+        assert_eq!(found, Err(SolveError::NotFinite));
     }
     let from = [f64::NAN, 0.0, 0.0, 0.0, 0.0, 0.0];
     assert_eq!(machine.solve(&good, &from), Err(SolveError::NotFinite));
@@ -555,8 +539,7 @@ fn path_through_the_pole_holds_the_idle_axis() {
     assert!(commands.iter().all(|c| (c[3].to_degrees() - 40.0).abs() < 1e-9));
     // Nothing but the pole: the angle of the start.
     let from = at(&machine, &[('C', 77.0)]);
-    let commands = machine.follow(&path[..1], &from).expect("a way");
-    assert!((commands[0][3].to_degrees() - 77.0).abs() < 1e-9);
+    assert_eq!(machine.follow(&path[..1], &from).expect("a way")[0][3], from[3]);
     assert_eq!(machine.follow(&[], &from), Ok(Vec::new()));
 }
 
@@ -564,10 +547,8 @@ fn path_through_the_pole_holds_the_idle_axis() {
 fn endless_axes_unwind_without_end() {
     for name in ["i5-engraver", "lei-hsu-mill"] {
         let machine = machine(name);
-        let path: Vec<Target> = (0..=360)
-            .map(|i| f64::from(i * 10).to_radians())
-            .map(|c| target([0.0; 3], [0.3 * c.cos(), 0.3 * c.sin(), 1.0]))
-            .collect();
+        let leaning = |c: f64| target([0.0; 3], [0.3 * c.cos(), 0.3 * c.sin(), 1.0]);
+        let path: Vec<_> = (0..=360).map(|i| leaning(f64::from(i * 10).to_radians())).collect();
         let commands = machine.follow(&path, &[0.0; 6]).expect("a way");
         let c = rotary(&machine)[0];
         assert!(((commands[360][c] - commands[0][c]).abs() - 10.0 * TAU).abs() < 1e-9);

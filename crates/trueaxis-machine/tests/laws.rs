@@ -8,11 +8,13 @@ use proptest::test_runner::RngSeed;
 use std::f64::consts::TAU;
 use std::path::Path;
 use std::time::{Duration, Instant};
-use trueaxis_geometry::Vec3;
+use trueaxis_geometry::frame::rotation;
 use trueaxis_geometry::input::{Diagnostics, Severity};
+use trueaxis_geometry::{Mat3, Vec3};
 use trueaxis_machine::axis::Command;
 use trueaxis_machine::errors::{
-    Component, Curve, ErrorIndex, ErrorKind, ErrorValues, Interpolation, Outside, Rotation, Spline,
+    Component, Curve, ErrorIndex, ErrorKind, ErrorValues, Interpolation, Outside, Rotation, Six,
+    Spline,
 };
 use trueaxis_machine::file::Tables;
 use trueaxis_machine::{ErrorModel, Machine, Squareness};
@@ -229,6 +231,26 @@ fn law_the_matrices_say_the_same() {
                 let axis = (pose.linear() * Vec3::z()).normalize();
                 assert!((axis - at.nominal_axis.vector() - at.axis).amax() < 2e-15);
             }
+        }
+    }
+}
+
+/// conventions.md: `Rz(EC)·Ry(EB)·Rx(EA)`; another order differs in the second order.
+#[test]
+fn law_an_error_turns_about_x_then_y_then_z() {
+    let mut random = Random(13);
+    for reach in [1e-6, 1e-3, 1.0, 10.0] {
+        for _ in 0..2000 {
+            let [a, b, c] = std::array::from_fn(|_| random.within(reach));
+            let six = Six([1.0, 2.0, 3.0, a, b, c]);
+            let product =
+                rotation(Vec3::z(), c) * (rotation(Vec3::y(), b) * rotation(Vec3::x(), a));
+            let ours = six.rotation_minus_identity(Rotation::Exact);
+            assert!((ours + Mat3::identity() - product).amax() < 1e-15);
+            // [ε]× v = ε × v
+            let v = Vec3::new(0.3, -0.5, 0.8);
+            let small = six.rotation_minus_identity(Rotation::SmallAngle) * v;
+            assert!((small - six.angles_rad().cross(&v)).amax() < 1e-15);
         }
     }
 }

@@ -20,3 +20,8 @@ pub use trueaxis_part as part;
 
 /// The version that reports state.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// The examples of the README are tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;

@@ -199,30 +199,31 @@ fn rigid_inverse(pose: &Matrix4<f64>) -> Matrix4<f64> {
 impl ErrorMatrix for Exact {
     #[inline]
     fn of(&[x, y, z, a, b, c]: &[f64; 6]) -> Matrix4<f64> {
-    let ((sa, ca), (sb, cb), (sc, cc)) = (a.sin_cos(), b.sin_cos(), c.sin_cos());
-    Matrix4::new(
-        cb * cc,
-        sa * sb * cc - ca * sc,
-        ca * sb * cc + sa * sc,
-        x,
-        cb * sc,
-        sa * sb * sc + ca * cc,
-        ca * sb * sc - sa * cc,
-        y,
-        -sb,
-        sa * cb,
-        ca * cb,
-        z,
-        0.0,
-        0.0,
-        0.0,
-        1.0,
-    )
+        let ((sa, ca), (sb, cb), (sc, cc)) = (a.sin_cos(), b.sin_cos(), c.sin_cos());
+        Matrix4::new(
+            cb * cc,
+            sa * sb * cc - ca * sc,
+            ca * sb * cc + sa * sc,
+            x,
+            cb * sc,
+            sa * sb * sc + ca * cc,
+            ca * sb * sc - sa * cc,
+            y,
+            -sb,
+            sa * cb,
+            ca * cb,
+            z,
+            0.0,
+            0.0,
+            0.0,
+            1.0,
+        )
     }
 }
 
 impl ErrorMatrix for SmallAngle {
     #[inline]
     fn of(&[x, y, z, a, b, c]: &[f64; 6]) -> Matrix4<f64> {
-    Matrix4::new(1.0, -c, b, x, c, 1.0, -a, y, -b, a, 1.0, z, 0.0, 0.0, 0.0, 1.0)
+        Matrix4::new(1.0, -c, b, x, c, 1.0, -a, y, -b, a, 1.0, z, 0.0, 0.0, 0.0, 1.0)
+    }
 }

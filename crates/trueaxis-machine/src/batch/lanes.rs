@@ -125,10 +125,15 @@ impl<const W: usize> Lanes<W> for Plain<W> {
     fn errors(rows: &[Row], row: &[u32; W], h: Self) -> [Self; 6] {
         let mut errors = [[0.0; W]; 6];
         for i in 0..W {
-            let c = &rows[row[i] as usize].0;
-            let h = h.0[i];
-            for (k, error) in errors.iter_mut().enumerate() {
-                error[i] = ((c[k] * h + c[8 + k]) * h + c[16 + k]) * h + c[24 + k];
+            let [cubes, rest @ ..] = rows[row[i] as usize].0.as_chunks::<8>().0 else { continue };
+            let mut sums = *cubes;
+            for powers in rest {
+                for (sum, c) in sums.iter_mut().zip(powers) {
+                    *sum = *sum * h.0[i] + c;
+                }
+            }
+            for (error, sum) in errors.iter_mut().zip(sums) {
+                error[i] = sum;
             }
         }
         errors.map(Self)
@@ -139,5 +144,5 @@ pub(super) fn run_portable(
     job: &Job<'_>,
     out: &mut DeviationColumns<'_>,
 ) -> Result<(), BatchError> {
-    kernel::run::<4, Plain<4>>(job, out)
+    kernel::run::<8, Plain<8>>(job, out)
 }

@@ -9,7 +9,7 @@ use trueaxis_geometry::Vec3;
 use trueaxis_geometry::input::{Diagnostics, Dimension, Section, Source};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
-use trueaxis_machine::errors::BodyName;
+use trueaxis_machine::errors::{BodyName, ErrorKind, ErrorName};
 use trueaxis_machine::file::read_pose;
 use trueaxis_part::TestPieceFile;
 use trueaxis_part::testpiece::TestPiece;
@@ -147,7 +147,7 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Study> {
         root.entries();
         return None;
     };
-    let machine = read_tool(root, machine);
+    let machine = read_what_if(root, read_tool(root, machine));
     let machine = read_mounting(root, machine, &test_piece)?;
     let reference = read_reference(root, &machine);
     let variants = root.section("compare", |s| read_variants(s, &machine, &reference));
@@ -199,6 +199,32 @@ fn read_tool(root: &Section<'_>, machine: Machine) -> Machine {
         Some(tip) => machine.with_tip(tip),
         None => machine,
     }
+}
+
+/// `[what_if] EA0A = "-450 urad"`: location errors that are replaced in this study.
+fn read_what_if(root: &Section<'_>, machine: Machine) -> Machine {
+    let mut changed = machine;
+    root.section("what_if", |s| {
+        for (key, place, item) in s.entries() {
+            let name = ErrorName::parse(key).filter(|n| n.kind == ErrorKind::Location);
+            let Some(name) = name else {
+                let message = format!("`{key}` is no location error of ISO 230-1");
+                s.error_at(place, "unknown-error-name", message, "such as EC0Y, EX0C, EA0t");
+                continue;
+            };
+            let rotation = name.component.is_rotation();
+            let dimension = if rotation { Dimension::Angle } else { Dimension::Length };
+            let Some(value) = item.quantity(dimension) else { continue };
+            match changed.clone().with_location(name, value) {
+                Some(machine) => changed = machine,
+                None => {
+                    let message = format!("{name}: the chain has no body {}", name.body);
+                    s.error_at(place, "unknown-body", message, "name a body of the chain, w or t");
+                }
+            }
+        }
+    });
+    changed
 }
 
 /// `[mounting] fixture = "3100 1250 -1200 mm"`: the fixture of the test piece there; without it

@@ -2,7 +2,8 @@
 
 use super::page::STYLE;
 use super::plots::{
-    Bar, ConeMap, Curve, DrawingError, FittedCircle, Labels, Profile, bars, cone_map, curves, polar,
+    Bar, COLOURS, ConeMap, Curve, DrawingError, FittedCircle, Labels, Profile, bars, cone_map,
+    curves, polar,
 };
 use super::{command_words, decisive, feature, ranked, relief, shown, title, unit};
 use crate::predict::{Prediction, SectionResult, Study};
@@ -109,7 +110,7 @@ fn index_section(prediction: &Prediction) -> Markup {
                 } }
             } }
             h2 style="margin-top:1rem" { "At every position" }
-            div.scroll { table {
+            div.scroll { table.small {
                 thead { tr {
                     th { "position" } th { "z, mm" }
                     @for index in &prediction.indices {
@@ -187,6 +188,7 @@ fn polar_picture(result: &SectionResult) -> Result<String, DrawingError> {
             centre_mm: zone.center_mm,
             excess_mm: radius - section.radius_mm,
             dashed,
+            colour: if dashed { COLOURS[1] } else { COLOURS[2] },
         };
     let width = um(c.mzc.width_mm());
     let circles = [

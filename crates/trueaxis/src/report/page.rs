@@ -14,14 +14,15 @@ section { background:var(--paper); border:1px solid var(--line); border-radius:1
   padding:18px 20px; margin:16px 0; }
 .verdict { display:flex; gap:16px; align-items:baseline; border-left:8px solid; }
 .verdict strong { font-size:1.5rem; }
-.pass { border-color:var(--pass); } .pass strong, td.pass { color:var(--pass); }
-.fail { border-color:var(--fail); } .fail strong, td.fail { color:var(--fail); }
-.undecided { border-color:var(--open); } .undecided strong, td.undecided { color:var(--open); }
+.verdict.pass { border-color:var(--pass); } .pass strong, td.pass { color:var(--pass); }
+.verdict.fail { border-color:var(--fail); } .fail strong, td.fail { color:var(--fail); }
+.verdict.undecided { border-color:var(--open); } .undecided strong, td.undecided { color:var(--open); }
 .grid { display:grid; grid-template-columns:repeat(auto-fit, minmax(330px, 1fr)); gap:16px; }
 .scroll { overflow-x:auto; }
 table { border-collapse:collapse; width:100%; font-variant-numeric:tabular-nums; font-size:.93rem; }
 th, td { text-align:right; padding:4px 10px; border-bottom:1px solid var(--line); }
 th:first-child, td:first-child { text-align:left; }
+table.small { font-size:.82rem; } table.small th, table.small td { padding:4px 6px; }
 thead th { color:var(--soft); font-weight:600; border-bottom:2px solid var(--line); }
 tr.decisive td:first-child { font-weight:600; }
 td.pass, td.fail, td.undecided { font-weight:600; }

@@ -29,6 +29,21 @@ pub const COLOURS: [RGBColor; 7] = [
 const INK: RGBColor = RGBColor(40, 46, 54);
 const FAINT: RGBColor = RGBColor(200, 206, 212);
 const FONT: &str = "sans-serif";
+/// The library rounds to whole pixels: draw this much larger and let the view box scale it back.
+const SHARP: u32 = 4;
+
+/// A length of the picture in the pixels of the drawing.
+const fn px(length: i32) -> i32 {
+    length * SHARP as i32
+}
+
+fn pen(colour: RGBColor, width: u32) -> ShapeStyle {
+    colour.stroke_width(width * SHARP)
+}
+
+fn ink(size: i32) -> TextStyle<'static> {
+    (FONT, px(size)).into_font().color(&INK)
+}
 
 /// A named curve.
 pub struct Curve {
@@ -51,6 +66,7 @@ fn draw(
     paint: impl FnOnce(&Area<'_>) -> Result<(), DrawingError>,
 ) -> Result<String, DrawingError> {
     let mut svg = String::new();
+    let size = (size.0 * SHARP, size.1 * SHARP);
     {
         let area = SVGBackend::with_string(&mut svg, size).into_drawing_area();
         area.fill(&WHITE).map_err(drawing_error)?;
@@ -90,10 +106,11 @@ pub fn curves(
     draw(size, |area| {
         let xs = range(curves.iter().flat_map(|c| c.points.iter().map(|p| p.0)), 0.0);
         let ys = range(curves.iter().flat_map(|c| c.points.iter().map(|p| p.1)), 0.08);
+        let (x_span, y_span) = (xs.end - xs.start, ys.end - ys.start);
         let mut chart = ChartBuilder::on(area)
-            .margin(12)
-            .x_label_area_size(38)
-            .y_label_area_size(66)
+            .margin(px(12))
+            .x_label_area_size(px(38))
+            .y_label_area_size(px(66))
             .build_cartesian_2d(xs, ys)
             .map_err(drawing_error)?;
         chart
@@ -101,17 +118,22 @@ pub fn curves(
             .x_desc(labels.x)
             .y_desc(labels.y)
             .light_line_style(WHITE)
-            .bold_line_style(FAINT.mix(0.6))
-            .axis_style(INK)
-            .label_style((FONT, 13).into_font().color(&INK))
+            .axis_style(pen(INK, 1))
+            .bold_line_style(pen(FAINT, 1))
+            .set_all_tick_mark_size(px(4))
+            .x_label_formatter(&|x| tick(*x, x_span))
+            .y_label_formatter(&|y| tick(*y, y_span))
+            .label_style(ink(13))
             .draw()
             .map_err(drawing_error)?;
         for (i, curve) in curves.iter().enumerate() {
             let colour = COLOURS[i % COLOURS.len()];
-            let line = LineSeries::new(curve.points.iter().copied(), colour.stroke_width(2));
-            chart.draw_series(line).map_err(drawing_error)?.label(&curve.label).legend(
-                move |(x, y)| PathElement::new([(x, y), (x + 16, y)], colour.stroke_width(3)),
-            );
+            let line = LineSeries::new(curve.points.iter().copied(), pen(colour, 2));
+            chart
+                .draw_series(line)
+                .map_err(drawing_error)?
+                .label(&curve.label)
+                .legend(move |(x, y)| PathElement::new([(x, y), (x + px(16), y)], pen(colour, 3)));
         }
         if curves.len() > 1 {
             chart
@@ -119,12 +141,21 @@ pub fn curves(
                 .position(SeriesLabelPosition::UpperRight)
                 .background_style(WHITE.mix(0.85))
                 .border_style(FAINT)
-                .label_font((FONT, 13).into_font().color(&INK))
+                .margin(px(6))
+                .legend_area_size(px(22))
+                .label_font(ink(13))
                 .draw()
                 .map_err(drawing_error)?;
         }
         Ok(())
     })
+}
+
+/// A number on an axis, with as many digits as its span needs.
+fn tick(value: f64, span: f64) -> String {
+    let digits = (2.0 - span.max(1e-9).log10()).ceil().clamp(0.0, 6.0) as usize;
+    let text = format!("{value:.digits$}");
+    if text.trim_start_matches(['-', '0', '.']).is_empty() { "0".to_owned() } else { text }
 }
 
 /// A circle that was fitted to a profile.
@@ -137,6 +168,8 @@ pub struct FittedCircle {
     pub excess_mm: f64,
     /// Drawn dashed.
     pub dashed: bool,
+    /// Its colour.
+    pub colour: RGBColor,
 }
 
 /// The profile of a section, its deviations magnified, with fitted circles.
@@ -157,8 +190,8 @@ pub fn polar(size: u32, profile: &Profile<'_>) -> Result<String, DrawingError> {
     let per_mm = 0.34 / most;
     let ring_mm = round_step(most / 2.5);
     draw((size, size), |area| {
-        let flat = plane(area, size);
-        let base = 0.58;
+        let flat = plane(area, size * SHARP);
+        let base = 0.53;
         let place = |azimuth: f64, radial_mm: f64| {
             let r = base + radial_mm * per_mm;
             (r * azimuth.cos(), r * azimuth.sin())
@@ -169,13 +202,13 @@ pub fn polar(size: u32, profile: &Profile<'_>) -> Result<String, DrawingError> {
         let rings = (most / ring_mm).ceil() as i32 + 1;
         for i in -rings..=rings {
             let radial = f64::from(i) * ring_mm;
-            if base + radial * per_mm > 0.02 && radial * per_mm < 0.4 {
-                let style = if i == 0 { INK.stroke_width(1) } else { FAINT.stroke_width(1) };
+            if base + radial * per_mm > 0.02 && radial * per_mm < 0.36 {
+                let style = if i == 0 { pen(INK, 1) } else { pen(FAINT, 1) };
                 flat.draw(&PathElement::new(ring(radial), style)).map_err(drawing_error)?;
             }
         }
         azimuth_ticks(&flat)?;
-        for (i, circle) in profile.circles.iter().enumerate() {
+        for circle in profile.circles {
             let [cx, cy] = circle.centre_mm;
             let points: Vec<_> = (0..=360)
                 .map(|k| {
@@ -184,15 +217,14 @@ pub fn polar(size: u32, profile: &Profile<'_>) -> Result<String, DrawingError> {
                     place(azimuth, shift + circle.excess_mm)
                 })
                 .collect();
-            let colour = COLOURS[1 + i % (COLOURS.len() - 1)];
             for piece in pieces(&points, circle.dashed) {
-                let path = PathElement::new(piece, colour.stroke_width(2));
+                let path = PathElement::new(piece, pen(circle.colour, 2));
                 flat.draw(&path).map_err(drawing_error)?;
             }
         }
         let mut outline: Vec<_> = profile.points.iter().map(|p| place(p.0, p.1)).collect();
         outline.extend(outline.first().copied());
-        let path = PathElement::new(outline, COLOURS[0].stroke_width(3));
+        let path = PathElement::new(outline, pen(COLOURS[0], 3));
         flat.draw(&path).map_err(drawing_error)?;
         polar_legend(area, size, ring_mm, profile.circles)
     })
@@ -219,7 +251,7 @@ fn azimuth_ticks(flat: &Flat<'_>) -> Result<(), DrawingError> {
     for i in 0..12 {
         let azimuth = TAU * f64::from(i) / 12.0;
         let at = |r: f64| (r * azimuth.cos(), r * azimuth.sin());
-        let tick = PathElement::new([at(0.10), at(0.93)], FAINT.stroke_width(1));
+        let tick = PathElement::new([at(0.10), at(0.88)], pen(FAINT, 1));
         flat.draw(&tick).map_err(drawing_error)?;
         let style = TextStyle::from((FONT, 12).into_font()).color(&INK).pos(
             plotters::style::text_anchor::Pos::new(
@@ -227,7 +259,7 @@ fn azimuth_ticks(flat: &Flat<'_>) -> Result<(), DrawingError> {
                 plotters::style::text_anchor::VPos::Center,
             ),
         );
-        let text = Text::new(format!("{}°", i * 30), at(0.97), style);
+        let text = Text::new(format!("{}°", i * 30), at(0.93), style);
         flat.draw(&text).map_err(drawing_error)?;
     }
     Ok(())
@@ -244,7 +276,7 @@ fn polar_legend(
     area.draw(&Text::new(ring, (8, 8), font.clone())).map_err(drawing_error)?;
     for (i, circle) in circles.iter().enumerate() {
         let y = size as i32 - 18 * (circles.len() - i) as i32;
-        let colour = COLOURS[1 + i % (COLOURS.len() - 1)];
+        let colour = circle.colour;
         let line = PathElement::new([(8, y + 6), (26, y + 6)], colour.stroke_width(3));
         area.draw(&line).map_err(drawing_error)?;
         area.draw(&Text::new(circle.label.clone(), (32, y), font.clone()))
@@ -288,7 +320,7 @@ pub fn cone_map(size: (u32, u32), map: &ConeMap<'_>) -> Result<String, DrawingEr
     draw(size, |area| {
         let count = map.azimuths_rad.len();
         let fields = (0..count).flat_map(|j| (1..map.heights_mm.len()).map(move |k| (j, k)));
-        let unrolled = Unrolled::new(map, size);
+        let unrolled = Unrolled::new(map, (size.0 * SHARP, size.1 * SHARP));
         for (j, k) in fields {
             let next = map.azimuths_rad.get(j + 1).copied().unwrap_or(TAU);
             let corners = [
@@ -306,11 +338,11 @@ pub fn cone_map(size: (u32, u32), map: &ConeMap<'_>) -> Result<String, DrawingEr
             let field = Polygon::new(corners, heat(mean / most).filled());
             area.draw(&field).map_err(drawing_error)?;
         }
-        let font = (FONT, 13).into_font().color(&INK);
+        let font = ink(13);
         for i in 0..=4 {
             let azimuth = TAU * f64::from(i) / 4.0;
             let (x, y) = unrolled.place(azimuth, map.heights_mm.first().copied().unwrap_or(0.0));
-            let text = Text::new(format!("{}°", i * 90), (x - 10, y + 4), font.clone());
+            let text = Text::new(format!("{}°", i * 90), (x - px(10), y + px(4)), font.clone());
             area.draw(&text).map_err(drawing_error)?;
         }
         colour_bar(area, size, most)
@@ -342,10 +374,14 @@ impl Unrolled {
             .collect();
         let (xs, ys) =
             (range(corners.iter().map(|c| c.0), 0.0), range(corners.iter().map(|c| c.1), 0.0));
-        let (width, height) = (f64::from(width) - 60.0, f64::from(height) - 90.0);
+        let (width, height) =
+            (f64::from(width) - f64::from(px(60)), f64::from(height) - f64::from(px(90)));
         unrolled.scale = (width / (xs.end - xs.start)).min(height / (ys.end - ys.start));
         let middle = 0.5 * (xs.start + xs.end) * unrolled.scale;
-        unrolled.shift = (30.0 + 0.5 * width - middle, 20.0 - ys.start * unrolled.scale);
+        unrolled.shift = (
+            f64::from(px(30)) + 0.5 * width - middle,
+            f64::from(px(20)) - ys.start * unrolled.scale,
+        );
         unrolled
     }
 
@@ -376,18 +412,18 @@ fn heat(t: f64) -> RGBColor {
 }
 
 fn colour_bar(area: &Area<'_>, (width, height): (u32, u32), most: f64) -> Result<(), DrawingError> {
-    let (left, right) = (width as i32 / 4, width as i32 * 3 / 4);
-    let y = height as i32 - 40;
-    for x in left..right {
+    let (left, right) = (px(width as i32 / 4), px(width as i32 * 3 / 4));
+    let y = px(height as i32 - 40);
+    for x in (left..right).step_by(SHARP as usize) {
         let t = 2.0 * f64::from(x - left) / f64::from(right - left) - 1.0;
-        let strip = Rectangle::new([(x, y), (x + 1, y + 12)], heat(t).filled());
+        let strip = Rectangle::new([(x, y), (x + px(2), y + px(12))], heat(t).filled());
         area.draw(&strip).map_err(drawing_error)?;
     }
-    let font = (FONT, 13).into_font().color(&INK);
-    let ends = [(left - 20, -most, " cut too deep"), (right - 40, most, " left standing")];
+    let font = ink(13);
+    let ends = [(left - px(20), -most, " cut too deep"), (right - px(40), most, " left standing")];
     for (x, value, words) in ends {
         let text = format!("{:+.1} µm{words}", value * 1e3);
-        area.draw(&Text::new(text, (x, y + 16), font.clone())).map_err(drawing_error)?;
+        area.draw(&Text::new(text, (x, y + px(16)), font.clone())).map_err(drawing_error)?;
     }
     Ok(())
 }
@@ -408,32 +444,32 @@ pub struct Bar {
 /// What the drawing library says.
 pub fn bars(width: u32, bars: &[Bar]) -> Result<String, DrawingError> {
     let row = 26;
-    let size = (width, bars.len() as u32 * row as u32 + 44);
+    let height = bars.len() as i32 * row + 44;
     let all = bars.iter().flat_map(|b| [b.alone_mm * 1e3, b.relief_mm * 1e3, 0.0]);
     let span = range(all, 0.02);
-    draw(size, |area| {
-        let (left, right) = (64.0, f64::from(width) - 70.0);
+    draw((width, height as u32), |area| {
+        let (left, right) = (f64::from(px(64)), f64::from(px(width as i32 - 84)));
         let x = |um: f64| {
             (left + (um - span.start) / (span.end - span.start) * (right - left)).round() as i32
         };
-        let font = (FONT, 13).into_font().color(&INK);
-        let zero = PathElement::new([(x(0.0), 4), (x(0.0), size.1 as i32 - 36)], INK);
-        area.draw(&zero).map_err(drawing_error)?;
+        let font = ink(13);
+        let zero = [(x(0.0), px(4)), (x(0.0), px(height - 36))];
+        area.draw(&PathElement::new(zero, pen(INK, 1))).map_err(drawing_error)?;
         for (i, bar) in bars.iter().enumerate() {
-            let y = 6 + row * i as i32;
-            area.draw(&Text::new(bar.label.clone(), (8, y + 3), font.clone()))
+            let y = px(6 + row * i as i32);
+            area.draw(&Text::new(bar.label.clone(), (px(8), y + px(3)), font.clone()))
                 .map_err(drawing_error)?;
             let values = [(bar.alone_mm, COLOURS[0], 0), (bar.relief_mm, COLOURS[4], 10)];
             for (value, colour, drop) in values {
-                let ends = [(x(0.0), y + drop), (x(value * 1e3), y + drop + 9)];
+                let ends = [(x(0.0), y + px(drop)), (x(value * 1e3), y + px(drop + 9))];
                 area.draw(&Rectangle::new(ends, colour.filled())).map_err(drawing_error)?;
             }
             let most = bar.alone_mm.max(bar.relief_mm).max(0.0) * 1e3;
             let text = format!("{:.1} / {:+.1}", bar.alone_mm * 1e3, bar.relief_mm * 1e3);
-            area.draw(&Text::new(text, (x(most) + 6, y + 3), font.clone()))
+            area.draw(&Text::new(text, (x(most) + px(6), y + px(3)), font.clone()))
                 .map_err(drawing_error)?;
         }
         let legend = "µm: blue, this error alone; orange, what the index loses without it";
-        area.draw(&Text::new(legend, (8, size.1 as i32 - 24), font)).map_err(drawing_error)
+        area.draw(&Text::new(legend, (px(8), px(height - 24)), font)).map_err(drawing_error)
     })
 }
