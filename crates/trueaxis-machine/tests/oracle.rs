@@ -35,7 +35,6 @@ fn compare(machine: &Machine, file: &str) {
         let nominal_tip = nominal * Point::from_vector(machine.tip_mm());
         assert!((nominal_tip.vector() - ours.nominal_tip.vector()).amax() < 1e-9);
     }
-    println!("{file}: {tip_mm:.1e} mm, {axis:.1e}, {tip_um:.1e} µm, {axis_urad:.1e} µrad");
     assert!(tip_mm < 1e-9 && axis < 1e-12, "{file}: nominal pose {tip_mm:e} {axis:e}");
     assert!(tip_um < 1e-9 && axis_urad < 1e-9, "{file}: deviation {tip_um:e} {axis_urad:e}");
 }

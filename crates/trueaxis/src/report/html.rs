@@ -192,9 +192,9 @@ fn polar_picture(result: &SectionResult) -> Result<String, DrawingError> {
         };
     let width = um(c.mzc.width_mm());
     let circles = [
-        zone("least-squares circle", &c.lsc, c.lsc.radius_mm, true),
-        zone("minimum zone, inner", &c.mzc, c.mzc.inner_mm, false),
-        zone(&format!("minimum zone, outer: {width} µm"), &c.mzc, c.mzc.outer_mm, false),
+        zone("least squares", &c.lsc, c.lsc.radius_mm, true),
+        zone("", &c.mzc, c.mzc.inner_mm, false),
+        zone(&format!("minimum zone, {width} µm"), &c.mzc, c.mzc.outer_mm, false),
     ];
     polar(460, &Profile { points: &points, circles: &circles })
 }

@@ -2,6 +2,7 @@
 
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 use std::f64::consts::{PI, TAU};
 
 /// A picture that could not be drawn.
@@ -153,14 +154,14 @@ pub fn curves(
 
 /// A number on an axis, with as many digits as its span needs.
 fn tick(value: f64, span: f64) -> String {
-    let digits = (2.0 - span.max(1e-9).log10()).ceil().clamp(0.0, 6.0) as usize;
+    let digits = (1.0 - span.max(1e-9).log10()).ceil().clamp(0.0, 6.0) as usize;
     let text = format!("{value:.digits$}");
     if text.trim_start_matches(['-', '0', '.']).is_empty() { "0".to_owned() } else { text }
 }
 
 /// A circle that was fitted to a profile.
 pub struct FittedCircle {
-    /// Shown in the legend.
+    /// Shown in the legend; empty: not shown.
     pub label: String,
     /// Centre, mm.
     pub centre_mm: [f64; 2],
@@ -253,12 +254,7 @@ fn azimuth_ticks(flat: &Flat<'_>) -> Result<(), DrawingError> {
         let at = |r: f64| (r * azimuth.cos(), r * azimuth.sin());
         let tick = PathElement::new([at(0.10), at(0.88)], pen(FAINT, 1));
         flat.draw(&tick).map_err(drawing_error)?;
-        let style = TextStyle::from((FONT, 12).into_font()).color(&INK).pos(
-            plotters::style::text_anchor::Pos::new(
-                plotters::style::text_anchor::HPos::Center,
-                plotters::style::text_anchor::VPos::Center,
-            ),
-        );
+        let style = ink(12).pos(Pos::new(HPos::Center, VPos::Center));
         let text = Text::new(format!("{}°", i * 30), at(0.93), style);
         flat.draw(&text).map_err(drawing_error)?;
     }
@@ -271,16 +267,16 @@ fn polar_legend(
     ring_mm: f64,
     circles: &[FittedCircle],
 ) -> Result<(), DrawingError> {
-    let font = (FONT, 13).into_font().color(&INK);
+    let font = ink(13);
     let ring = format!("ring: {} µm", shown(ring_mm * 1e3));
-    area.draw(&Text::new(ring, (8, 8), font.clone())).map_err(drawing_error)?;
-    for (i, circle) in circles.iter().enumerate() {
-        let y = size as i32 - 18 * (circles.len() - i) as i32;
-        let colour = circle.colour;
-        let line = PathElement::new([(8, y + 6), (26, y + 6)], colour.stroke_width(3));
-        area.draw(&line).map_err(drawing_error)?;
-        area.draw(&Text::new(circle.label.clone(), (32, y), font.clone()))
-            .map_err(drawing_error)?;
+    area.draw(&Text::new(ring, (px(8), px(8)), font.clone())).map_err(drawing_error)?;
+    let named: Vec<_> = circles.iter().filter(|c| !c.label.is_empty()).collect();
+    for (i, circle) in named.iter().enumerate() {
+        let y = px(size as i32 - 18 * (named.len() - i) as i32);
+        let ends = [(px(8), y + px(6)), (px(26), y + px(6))];
+        area.draw(&PathElement::new(ends, pen(circle.colour, 3))).map_err(drawing_error)?;
+        let text = Text::new(circle.label.clone(), (px(32), y), font.clone());
+        area.draw(&text).map_err(drawing_error)?;
     }
     Ok(())
 }
