@@ -155,9 +155,12 @@ fn forbidden_arrows() -> Vec<String> {
     found
 }
 
+/// Lists what breaks the rule.
+type Rule = fn() -> Vec<String>;
+
 #[test]
 fn house_rules() {
-    let rules: [(&str, fn() -> Vec<String>); 8] = [
+    let rules: [(&str, Rule); 8] = [
         ("files are short", long_files),
         ("names say what is inside", vague_names),
         ("no panic without `// why:`", unexplained_panics),

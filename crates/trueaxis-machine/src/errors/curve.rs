@@ -1,6 +1,6 @@
 use super::Spline;
 
-/// What an error table answers outside its first and last position.
+/// What an error table answers outside its first and last position; a periodic one repeats.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outside {
     /// Nothing: the command is refused.
@@ -95,9 +95,12 @@ impl Curve {
 }
 
 fn table_at(spline: &Spline, outside: Outside, q: f64) -> Result<f64, OutsideTable> {
+    if spline.is_periodic() {
+        return Ok(spline.at(q));
+    }
     let (from, to) = spline.range();
-    // A rounding step beyond the end (360° in rad) is still the end.
-    let slack = 1e-12 * from.abs().max(to.abs());
+    // Numbers of a file are rounded (±105° as 1.832595714 rad): the same slack as for a travel.
+    let slack = 1e-9 * from.abs().max(to.abs()).max(1.0);
     let inside = q.clamp(from, to);
     if (q - inside).abs() <= slack {
         return Ok(spline.at(inside));
@@ -106,5 +109,25 @@ fn table_at(spline: &Spline, outside: Outside, q: f64) -> Result<f64, OutsideTab
         Outside::Error => Err(OutsideTable { at: q, from, to }),
         Outside::Clamp => Ok(spline.at(inside)),
         Outside::Extend => Ok(spline.at(inside) + spline.slope_at(inside) * (q - inside)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::errors::Interpolation;
+    use std::f64::consts::TAU;
+
+    #[test]
+    fn a_periodic_table_repeats_turn_after_turn() {
+        let x: Vec<f64> = (0..=12).map(|i| TAU * f64::from(i) / 12.0).collect();
+        let y: Vec<f64> = (0..=12).map(|i| f64::from(i % 12)).collect();
+        let spline = Spline::new(&x, &y, Interpolation::Periodic).expect("a closed table");
+        let table = Curve::Table { spline, outside: Outside::Error };
+        let at = |degrees: f64| table.at(degrees.to_radians()).expect("everywhere");
+        for turn in [-720.0, -360.0, 360.0, 1080.0] {
+            assert!((at(30.0 + turn) - 1.0).abs() < 1e-12);
+            assert!((at(97.0 + turn) - at(97.0)).abs() < 1e-12);
+        }
     }
 }

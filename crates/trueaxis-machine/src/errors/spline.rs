@@ -39,6 +39,7 @@ pub enum SplineError {
 pub struct Spline {
     knots: Vec<f64>,
     pieces: Vec<[f64; 4]>,
+    periodic: bool,
 }
 
 impl Spline {
@@ -86,19 +87,21 @@ impl Spline {
             Interpolation::Periodic => second_derivatives_periodic(x, y)?,
         };
         let pieces = (0..x.len() - 1).map(|i| piece(x, y, &second, i)).collect();
-        Ok(Self { knots: x.to_vec(), pieces })
+        Ok(Self { knots: x.to_vec(), pieces, periodic: interpolation == Interpolation::Periodic })
     }
 
-    /// The value; outside the knots the first or last piece goes on.
+    /// The value; outside the knots a periodic table repeats, else the first or last piece goes on.
     pub fn at(&self, x: f64) -> f64 {
+        let x = self.wrapped(x);
         let i = self.interval(x);
         let h = x - self.knots[i];
         let [c0, c1, c2, c3] = self.pieces[i];
         ((c3 * h + c2) * h + c1) * h + c0
     }
 
-    /// The first derivative; outside the knots that of the first or last piece.
+    /// The first derivative; outside the knots as [`Spline::at`].
     pub fn slope_at(&self, x: f64) -> f64 {
+        let x = self.wrapped(x);
         let i = self.interval(x);
         let h = x - self.knots[i];
         let [_, c1, c2, c3] = self.pieces[i];
@@ -118,6 +121,19 @@ impl Spline {
     /// The four coefficients (rising powers of the distance from the left knot) of each piece.
     pub fn pieces(&self) -> &[[f64; 4]] {
         &self.pieces
+    }
+
+    /// Whether the table repeats after its last knot.
+    pub fn is_periodic(&self) -> bool {
+        self.periodic
+    }
+
+    fn wrapped(&self, x: f64) -> f64 {
+        let (from, to) = self.range();
+        if !self.periodic || (from..=to).contains(&x) {
+            return x;
+        }
+        from + (x - from).rem_euclid(to - from)
     }
 
     fn interval(&self, x: f64) -> usize {

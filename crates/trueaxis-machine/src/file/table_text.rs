@@ -157,7 +157,9 @@ impl<'a> ErrorTable<'a> {
     /// A table that ends before the travel does would refuse commands in the middle of a job.
     fn check_cover(&self, problems: &mut Diagnostics) {
         let (from, to) = (self.positions[0], self.positions[self.positions.len() - 1]);
-        let periodic = self.habits.interpolation == Interpolation::Periodic;
+        if self.habits.interpolation == Interpolation::Periodic {
+            return;
+        }
         let travel = match self.axis.travel {
             Travel::Between(low, high) => {
                 let slack = 1e-9 * low.abs().max(high.abs()).max(1.0);
@@ -166,8 +168,8 @@ impl<'a> ErrorTable<'a> {
                 }
                 format!("{} .. {}", self.in_words(low), self.in_words(high))
             }
-            Travel::Unlimited if !periodic => "without end".to_owned(),
-            Travel::Unlimited | Travel::Unknown => return,
+            Travel::Unlimited => "without end".to_owned(),
+            Travel::Unknown => return,
         };
         let message = format!(
             "the table covers {} .. {} of the travel {travel} of {}",
