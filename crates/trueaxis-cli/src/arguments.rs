@@ -1,10 +1,12 @@
 //! Words of the command line: positions, vectors, tools.
 
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use trueaxis::files;
 use trueaxis::geometry::Vec3;
-use trueaxis::geometry::input::{Diagnostics, Dimension, Place, parse_quantity};
+use trueaxis::geometry::input::{
+    CsvTable, Diagnostics, Dimension, Place, QuantityError, parse_quantity,
+};
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{Approach, AxisKind, Command};
 use trueaxis::machine::errors::BodyName;
@@ -14,13 +16,13 @@ use trueaxis::machine::errors::BodyName;
 pub struct MachineArguments {
     /// The machine file
     #[arg(value_name = "MACHINE.toml")]
-    pub machine: PathBuf,
+    machine: PathBuf,
     /// Length of the tool from the holder to the tip, mm, instead of the machine file's tool
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]
-    pub tool_length: Option<f64>,
+    tool_length: Option<String>,
     /// A tool assembly of the machine file, by its name
     #[arg(long, value_name = "NAME", conflicts_with = "tool_length")]
-    pub tool: Option<String>,
+    tool: Option<String>,
 }
 
 impl MachineArguments {
@@ -29,38 +31,48 @@ impl MachineArguments {
         let (machine, found) = files::machine(&self.machine);
         problems.append(found);
         let machine = machine?;
-        if let Some(name) = &self.tool {
-            return with_tool(machine, name, problems);
-        }
-        match self.tool_length {
-            None => Some(machine),
-            Some(length) if length.is_finite() => {
-                Some(machine.with_tip(Vec3::new(0.0, 0.0, -length)))
-            }
-            Some(_) => {
-                let message = "the tool length is not a finite number".to_owned();
-                problems.error("not-finite", argument("--tool-length"), message, "give it in mm");
-                None
-            }
-        }
+        let length_mm = match (&self.tool, &self.tool_length) {
+            (Some(name), _) => named_tool(&machine, name, problems)?,
+            (None, Some(text)) => tool_length(text, problems)?,
+            (None, None) => return Some(machine),
+        };
+        Some(machine.with_tip(Vec3::new(0.0, 0.0, -length_mm)))
     }
 }
 
-fn with_tool(machine: Machine, name: &str, problems: &mut Diagnostics) -> Option<Machine> {
-    let Some(tool) = machine.tools().iter().find(|t| t.name == name) else {
+fn named_tool(machine: &Machine, name: &str, problems: &mut Diagnostics) -> Option<f64> {
+    let tool = machine.tools().iter().find(|t| t.name == name);
+    if tool.is_none() {
         let known: Vec<_> = machine.tools().iter().map(|t| t.name.as_str()).collect();
         let message = format!("the machine file has no tool `{name}`");
-        let hint = format!("its tools: {}", known.join(", "));
+        let hint = match known.is_empty() {
+            true => "it has no [tool.library]; give --tool-length instead".to_owned(),
+            false => format!("its tools: {}", known.join(", ")),
+        };
         problems.error("unknown-tool", argument("--tool"), message, &hint);
-        return None;
+    }
+    tool.map(|t| t.length_mm)
+}
+
+fn tool_length(text: &str, problems: &mut Diagnostics) -> Option<f64> {
+    let refuse = |e: QuantityError| {
+        let hint = "a plain number, in mm: --tool-length 100";
+        problems.error(e.code(), argument("--tool-length"), e.to_string(), hint);
     };
-    let tip = Vec3::new(0.0, 0.0, -tool.length_mm);
-    Some(machine.with_tip(tip))
+    parse_quantity(text, Dimension::Ratio).map_err(refuse).ok()
 }
 
 /// The place of a problem in an argument.
 pub fn argument(name: &str) -> Place {
     Place::whole(name)
+}
+
+/// The words of a list: between commas or semicolons if there are any, else between blanks. So a
+/// decimal comma (`1,5 2`) never passes for two numbers.
+fn words(text: &str) -> Vec<&str> {
+    let separated = text.contains([',', ';']);
+    let between = |c: char| if separated { matches!(c, ',' | ';') } else { c.is_whitespace() };
+    text.split(between).map(str::trim).filter(|w| !w.is_empty()).collect()
 }
 
 /// Reads `X=10 Y=20 A=30`: mm and degrees; axes not named are 0.
@@ -73,36 +85,45 @@ pub fn command(
     let mut command = Command::default();
     let mut named = Vec::new();
     let mut sound = true;
-    for word in text.split([' ', ',', ';']).filter(|w| !w.is_empty()) {
-        match assignment(machine, word) {
-            Ok((axis, value)) if !named.contains(&axis) => {
-                named.push(axis);
-                command[axis] = value;
-            }
-            Ok(_) => {
-                sound = false;
-                let message = format!("`{word}`: the axis is named twice");
-                problems.error("duplicate-axis", argument(name), message, "name each axis once");
-            }
-            Err((code, message)) => {
-                sound = false;
-                let hint = format!("write \"{}\", in mm and degrees", example(machine));
-                problems.error(code, argument(name), message, &hint);
-            }
+    for word in words(text) {
+        let read = assignment(machine, word).and_then(|(axis, value)| {
+            once(&mut named, axis, word)?;
+            command[axis] = value;
+            Ok(())
+        });
+        if let Err((code, message)) = read {
+            sound = false;
+            let hint = format!("write \"{}\", in mm and degrees", example(machine));
+            problems.error(code, argument(name), message, &hint);
         }
     }
     sound.then_some(command)
 }
 
-fn assignment(machine: &Machine, word: &str) -> Result<(usize, f64), (&'static str, String)> {
-    let Some((axis, number)) = word.split_once('=') else {
-        return Err(("bad-position", format!("`{word}` is no axis position")));
-    };
-    let index = axis_index(machine, axis)
-        .ok_or_else(|| ("unknown-axis", format!("the machine has no axis `{axis}`")))?;
+type Refusal = (&'static str, String);
+
+fn once(named: &mut Vec<usize>, axis: usize, word: &str) -> Result<(), Refusal> {
+    if named.contains(&axis) {
+        return Err(("duplicate-axis", format!("`{word}`: the axis is named twice")));
+    }
+    named.push(axis);
+    Ok(())
+}
+
+fn assignment(machine: &Machine, word: &str) -> Result<(usize, f64), Refusal> {
+    let (index, number) = axis_and_rest(machine, word)?;
     let value = parse_quantity(number, Dimension::Ratio)
         .map_err(|e| (e.code(), format!("`{word}`: {e}")))?;
     Ok((index, to_inner(machine, index, value)))
+}
+
+fn axis_and_rest<'w>(machine: &Machine, word: &'w str) -> Result<(usize, &'w str), Refusal> {
+    let Some((axis, rest)) = word.split_once('=') else {
+        return Err(("bad-position", format!("`{word}` is not an axis, =, and a value")));
+    };
+    let index = axis_index(machine, axis.trim())
+        .ok_or_else(|| ("unknown-axis", format!("the machine has no axis `{axis}`")))?;
+    Ok((index, rest.trim()))
 }
 
 /// The index of an axis by its letter as text.
@@ -122,10 +143,17 @@ pub fn to_inner(machine: &Machine, axis: usize, number: f64) -> f64 {
 
 /// An axis position in mm or degrees.
 pub fn to_shown(machine: &Machine, axis: usize, value: f64) -> f64 {
-    match machine.axes()[axis].kind {
+    let shown = match machine.axes()[axis].kind {
         AxisKind::Linear => value,
         AxisKind::Rotary => value.to_degrees(),
-    }
+    };
+    shown + 0.0 // no minus before a zero
+}
+
+/// The axes that a position puts outside their travel.
+pub fn beyond_travel(machine: &Machine, command: &Command) -> Vec<BodyName> {
+    let axes = machine.axes().iter().zip(command);
+    axes.filter(|(axis, q)| !axis.travel.contains(**q)).map(|(axis, _)| axis.name).collect()
 }
 
 fn example(machine: &Machine) -> String {
@@ -133,23 +161,39 @@ fn example(machine: &Machine) -> String {
     words.join(" ")
 }
 
+/// Reads a CSV table of positions or poses; one without rows is a mistake, not an empty answer.
+pub fn table(path: &Path, what: &str, problems: &mut Diagnostics) -> Option<CsvTable> {
+    let text = files::text(path, what, problems)?;
+    let mut found = Diagnostics::new();
+    let table = CsvTable::parse(&path.display().to_string(), &text, &mut found);
+    let readable = found.iter().all(|d| !matches!(d.code, "bad-separator" | "empty-table"));
+    if table.rows() == 0 && !found.has_errors() {
+        let message = "the table has headings, but no row".to_owned();
+        found.error("empty-table", argument(&table.file), message, "one row for each position");
+    }
+    problems.append(found);
+    readable.then_some(table)
+}
+
 /// Reads `X=+ C=-`: the direction in which each axis reaches its position.
 pub fn approach(machine: &Machine, text: &str, problems: &mut Diagnostics) -> Option<Approach> {
     let mut approach = Approach::default();
+    let mut named = Vec::new();
     let mut sound = true;
-    for word in text.split_whitespace() {
-        let side = match word.split_once('=') {
-            Some((axis, "+")) => axis_index(machine, axis).map(|i| (i, 1.0)),
-            Some((axis, "-")) => axis_index(machine, axis).map(|i| (i, -1.0)),
-            _ => None,
-        };
-        match side {
-            Some((axis, sign)) => approach[axis] = sign,
-            None => {
-                sound = false;
-                let message = format!("`{word}` is no direction of approach of an axis");
-                problems.error("bad-approach", argument("--approach"), message, "\"X=+ C=-\"");
-            }
+    for word in words(text) {
+        let read = axis_and_rest(machine, word).and_then(|(axis, side)| {
+            once(&mut named, axis, word)?;
+            approach[axis] = match side {
+                "+" => 1.0,
+                "-" => -1.0,
+                _ => return Err(("bad-approach", format!("`{word}` is neither + nor -"))),
+            };
+            Ok(())
+        });
+        if let Err((code, message)) = read {
+            sound = false;
+            let hint = "+ rising, - falling: \"X=+ C=-\"";
+            problems.error(code, argument("--approach"), message, hint);
         }
     }
     sound.then_some(approach)
@@ -157,17 +201,32 @@ pub fn approach(machine: &Machine, text: &str, problems: &mut Diagnostics) -> Op
 
 /// Reads `x y z`: three finite numbers.
 pub fn vector(name: &str, text: &str, problems: &mut Diagnostics) -> Option<Vec3> {
-    let numbers: Vec<_> = text
-        .split([' ', ',', ';'])
-        .filter(|w| !w.is_empty())
-        .map(|w| parse_quantity(w, Dimension::Ratio))
-        .collect();
-    match &numbers[..] {
-        [Ok(x), Ok(y), Ok(z)] => Some(Vec3::new(*x, *y, *z)),
-        _ => {
-            let message = format!("`{text}` is not three finite numbers");
-            problems.error("bad-vector", argument(name), message, "write \"10 20 30\"");
-            None
-        }
+    let words = words(text);
+    let mut refuse = |code, message| {
+        let hint = "three plain numbers, such as \"10 20 30\"";
+        problems.error(code, argument(name), message, hint);
+    };
+    let [x, y, z] = &words[..] else {
+        refuse("bad-vector", format!("`{text}` is {} numbers, not three", words.len()));
+        return None;
+    };
+    let mut number = |word: &str| {
+        parse_quantity(word, Dimension::Ratio).map_err(|e| refuse(e.code(), e.to_string())).ok()
+    };
+    // All three first, so that every problem is told.
+    let (x, y, z) = (number(x), number(y), number(z));
+    Some(Vec3::new(x?, y?, z?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_decimal_comma_is_not_two_numbers() {
+        assert_eq!(words("1,5 2"), ["1", "5 2"]);
+        assert_eq!(words("1, 2; 3"), ["1", "2", "3"]);
+        assert_eq!(words(" 1\t2\n3 "), ["1", "2", "3"]);
+        assert!(vector("--tip", "1,5 2", &mut Diagnostics::new()).is_none());
     }
 }

@@ -1,4 +1,5 @@
-use crate::output::{Format, Outcome, diagnostic_json, report, show, show_json};
+use crate::numbers::{fixed, rounded};
+use crate::output::{Answer, Format, Outcome, diagnostic_json, report, show};
 use clap::Args;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -10,7 +11,12 @@ use trueaxis::machine::errors::{Component, Curve, ErrorKind, ErrorName};
 
 /// The machine file to check.
 #[derive(Args)]
-#[command(after_help = "Example:\n  trueaxis check machines/xkas2525/machine.toml")]
+#[command(after_help = "\
+Example:
+  trueaxis check machines/xkas2525/machine.toml
+
+Exit status: 0 the file can be used (also with warnings), 2 it cannot. With --format json the
+document is printed in both cases: its \"usable\" says which, its \"diagnostics\" say why.")]
 pub struct Arguments {
     /// The machine file
     #[arg(value_name = "MACHINE.toml")]
@@ -22,19 +28,14 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments) -> Outcome {
     let (machine, problems) = files::machine(&arguments.machine);
-    if arguments.format == Format::Json {
-        let usable = machine.is_some();
-        let diagnostics: Vec<Value> = problems.iter().map(diagnostic_json).collect();
-        show_json(&document(machine.as_ref(), &diagnostics));
-        return if usable { Outcome::Done } else { Outcome::Unusable };
-    }
-    let Some(machine) = machine else {
-        report(problems);
-        return Outcome::Unusable;
+    let diagnostics: Vec<Value> = problems.iter().map(diagnostic_json).collect();
+    let unusable = report(problems) || machine.is_none();
+    let shown = match (arguments.format, &machine) {
+        (Format::Json, _) => show(&Answer::Json(document(machine.as_ref(), &diagnostics))),
+        (Format::Text, Some(machine)) => show(&Answer::Text(describe(machine))),
+        (Format::Text, None) => Outcome::Unusable,
     };
-    report(problems);
-    show(&describe(&machine));
-    Outcome::Done
+    if unusable { Outcome::Unusable } else { shown }
 }
 
 fn describe(machine: &Machine) -> String {
@@ -43,36 +44,67 @@ fn describe(machine: &Machine) -> String {
     let _ = writeln!(text, "{}", machine.name());
     let _ = writeln!(text, "  chain   {}", machine.chain_text());
     if !machine.source().is_empty() {
-        let _ = writeln!(text, "  source  {}", machine.source());
+        text += &wrapped("  source  ", machine.source());
+    }
+    let tools: Vec<_> = machine
+        .tools()
+        .iter()
+        .map(|t| format!("{} ({} mm)", t.name, rounded(t.length_mm)))
+        .collect();
+    if !tools.is_empty() {
+        text += &wrapped("  tools   ", &tools.join(", "));
     }
     let _ = writeln!(
         text,
-        "\n  axis  carries    direction               travel                  fastest"
+        "\n  {:<5} {:<10} {:<23} {:<23} fastest",
+        "axis", "carries", "direction", "travel"
     );
     for axis in machine.axes() {
         let _ = writeln!(text, "{}", axis_line(axis));
     }
-    let stated = machine.stated_errors();
-    let count = |kind| stated.iter().filter(|(_, n)| n.kind == kind).count();
-    let _ = writeln!(
-        text,
-        "\n  errors  {} location errors, {} error motions",
-        count(ErrorKind::Location),
-        count(ErrorKind::Motion)
-    );
-    for axis in machine.axes() {
-        let _ = writeln!(text, "    {}  {}", axis.name, motions_line(machine, axis));
-    }
+    text += &errors_text(machine);
     let lacking = lacks(machine);
     if lacking.is_empty() {
         text += "\n  It lacks nothing that a prediction needs.\n";
     } else {
         text += "\n  It lacks\n";
         for line in lacking {
-            let _ = writeln!(text, "    - {line}");
+            text += &wrapped("    - ", &line);
         }
     }
     text
+}
+
+/// Terminals are at least this wide.
+const WIDTH: usize = 100;
+
+fn errors_text(machine: &Machine) -> String {
+    let stated = machine.stated_errors();
+    let of = |kind| stated.iter().filter(|(_, n)| n.kind == kind).count();
+    let (locations, motions) = (of(ErrorKind::Location), of(ErrorKind::Motion));
+    let mut text = format!("\n  errors  {locations} location errors, {motions} error motions\n");
+    for axis in machine.axes() {
+        text += &wrapped(&format!("    {}  ", axis.name), &motions_line(machine, axis));
+    }
+    text
+}
+
+/// A long line in several, all under the beginning of the first.
+fn wrapped(head: &str, words: &str) -> String {
+    let mut text = head.to_owned();
+    let mut width = head.len();
+    for (i, word) in words.split(' ').enumerate() {
+        if i > 0 && width + 1 + word.chars().count() > WIDTH {
+            text += &format!("\n{:1$}", "", head.len());
+            width = head.len();
+        } else if i > 0 {
+            text += " ";
+            width += 1;
+        }
+        text += word;
+        width += word.chars().count();
+    }
+    text + "\n"
 }
 
 fn axis_line(axis: &Axis) -> String {
@@ -81,26 +113,22 @@ fn axis_line(axis: &Axis) -> String {
         Carries::Tool => "tool",
     };
     let d = axis.direction;
-    let direction = format!("({:.4} {:.4} {:.4})", d.x, d.y, d.z);
+    let [x, y, z] = [d.x, d.y, d.z].map(|v| fixed(v, 4));
+    let direction = format!("({x} {y} {z})");
     let (scale, unit) = shown_unit(axis.kind);
     let travel = match axis.travel {
         Travel::Between(from, to) => {
-            format!("{} .. {} {unit}", round(from * scale), round(to * scale))
+            format!("{} .. {} {unit}", rounded(from * scale), rounded(to * scale))
         }
         Travel::Unlimited => "unlimited".to_owned(),
         Travel::Unknown => "not stated".to_owned(),
     };
     let fastest = match axis.limits.velocity {
-        Some(v) if axis.kind == AxisKind::Linear => format!("{} m/min", round(v * 0.06)),
-        Some(v) => format!("{} deg/s", round(v.to_degrees())),
+        Some(v) if axis.kind == AxisKind::Linear => format!("{} m/min", rounded(v * 0.06)),
+        Some(v) => format!("{} deg/s", rounded(v.to_degrees())),
         None => "not stated".to_owned(),
     };
-    format!("  {:<5} {carries:<10} {direction:<23} {travel:<23} {fastest}", axis.name)
-}
-
-/// Twelve significant digits: hides the rounding of degrees to radians and back.
-fn round(value: f64) -> f64 {
-    format!("{value:.11e}").parse().unwrap_or(value)
+    format!("  {:<5} {carries:<10} {direction:<23} {travel:<23} {fastest}", axis.name.to_string())
 }
 
 fn shown_unit(kind: AxisKind) -> (f64, &'static str) {
@@ -186,6 +214,7 @@ fn document(machine: Option<&Machine>, diagnostics: &[Value]) -> Value {
         });
     };
     let axes: Vec<Value> = machine.axes().iter().map(axis_json).collect();
+    let tools: Vec<&str> = machine.tools().iter().map(|t| t.name.as_str()).collect();
     let errors: Vec<String> = machine.stated_errors().iter().map(|(_, n)| n.to_string()).collect();
     json!({
         "schema": "trueaxis/check/1",
@@ -194,6 +223,7 @@ fn document(machine: Option<&Machine>, diagnostics: &[Value]) -> Value {
         "chain": machine.chain_text(),
         "source": machine.source(),
         "axes": axes,
+        "tools": tools,
         "errors": errors,
         "lacks": lacks(machine),
         "diagnostics": diagnostics,
@@ -203,7 +233,7 @@ fn document(machine: Option<&Machine>, diagnostics: &[Value]) -> Value {
 fn axis_json(axis: &Axis) -> Value {
     let (scale, unit) = shown_unit(axis.kind);
     let travel = match axis.travel {
-        Travel::Between(from, to) => json!([from * scale, to * scale]),
+        Travel::Between(from, to) => json!([rounded(from * scale), rounded(to * scale)]),
         Travel::Unlimited => json!("unlimited"),
         Travel::Unknown => Value::Null,
     };

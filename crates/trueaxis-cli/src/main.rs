@@ -6,6 +6,7 @@
 
 mod arguments;
 mod check;
+mod numbers;
 mod output;
 mod pose;
 mod predict;
@@ -15,9 +16,17 @@ use clap::{Parser, Subcommand};
 use output::Outcome;
 use std::process::ExitCode;
 
-/// Where is the tool really, and is the part good?
+/// TrueAxis: where is the tool really, and is the part good?
 #[derive(Parser)]
-#[command(version, about, max_term_width = 100)]
+#[command(name = "trueaxis", version, max_term_width = 100, arg_required_else_help = true)]
+#[command(after_help = "\
+Examples:
+  trueaxis check machines/xkas2525/machine.toml
+  trueaxis pose machines/xkas2525/machine.toml --at \"X=3000 Y=1200 Z=-700 C=-90 A=15\"
+  trueaxis solve machines/i5-engraver/machine.toml --tip \"10 20 30\" --axis \"0.3 -0.2 0.93\"
+  trueaxis predict examples/03_predict/nas979-on-xkas2525.toml
+
+Exit status: 0 done, 1 the verdict is no, 2 unusable input or arguments.")]
 struct Command {
     #[command(subcommand)]
     verb: Verb,

@@ -5,11 +5,16 @@ use serde_json::Value;
 use std::io::{ErrorKind, Write};
 use trueaxis::geometry::input::{Diagnostic, Diagnostics, Severity};
 
+/// More diagnostics than this say nothing new to a reader; a table of a million rows can have a
+/// million of them.
+const MOST_SHOWN: usize = 100;
+
 /// How a command ended.
+#[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
     /// Done; where there is a verdict, it is "yes".
     Done,
-    /// The verdict is "no": not in tolerance, problems found.
+    /// The verdict is "no": not in tolerance.
     No,
     /// Unusable input; diagnostics were shown.
     Unusable,
@@ -20,48 +25,85 @@ pub enum Outcome {
 pub enum Format {
     /// Tables for people
     Text,
-    /// One JSON document, see docs/conventions.md
+    /// One JSON document on standard output, nothing else there
     Json,
 }
 
-/// Writes the result to standard output.
-pub fn show(text: &str) {
-    let mut stdout = std::io::stdout().lock();
-    let written = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush());
-    if let Err(error) = written {
-        // `trueaxis … | head` closes the pipe early; that is no fault of ours.
-        if error.kind() != ErrorKind::BrokenPipe {
-            tell(&format!("error: standard output: {error}"));
-        }
+/// What a command found out.
+pub enum Answer {
+    /// For people, or a CSV table.
+    Text(String),
+    /// One document.
+    Json(Value),
+}
+
+/// Shows the diagnostics, then the answer if there was no error.
+pub fn finish(problems: Diagnostics, answer: Option<Answer>) -> Outcome {
+    let errors = report(problems);
+    match answer {
+        Some(answer) if !errors => show(&answer),
+        _ => Outcome::Unusable,
     }
 }
 
-/// Writes one JSON document to standard output.
-pub fn show_json(document: &Value) {
-    show(&format!("{document:#}\n"));
+/// Writes the answer to standard output.
+pub fn show(answer: &Answer) -> Outcome {
+    let text = match answer {
+        Answer::Text(text) => text,
+        Answer::Json(document) => &format!("{document:#}\n"),
+    };
+    let mut stdout = std::io::stdout().lock();
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        // `trueaxis … | head` closes the pipe early; that is no fault of ours.
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            tell(&format!("error[unwritable-output]: standard output: {error}"));
+            Outcome::Unusable
+        }
+        _ => Outcome::Done,
+    }
 }
 
 /// Writes a line to standard error.
 pub fn tell(line: &str) {
     // Nobody is left to tell if standard error is gone.
-    let _ = writeln!(std::io::stderr(), "{line}");
+    let _ = writeln!(std::io::stderr(), "{}", visible(line));
+}
+
+/// Text from files and arguments must not steer the terminal.
+fn visible(text: &str) -> String {
+    let mut shown = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '\n' => shown.push(c),
+            c if c.is_control() => shown.extend(c.escape_default()),
+            c => shown.push(c),
+        }
+    }
+    shown
 }
 
 /// Shows all diagnostics on standard error; `true` if there was an error among them.
 pub fn report(problems: Diagnostics) -> bool {
-    let errors = problems.has_errors();
-    let sorted = problems.sorted();
+    let mut sorted = problems.sorted();
+    let errors = sorted.iter().filter(|d| d.severity == Severity::Error).count();
+    let hidden = sorted.len().saturating_sub(MOST_SHOWN);
+    if hidden > 0 {
+        // Errors stay before warnings do.
+        sorted.sort_by(|a, b| b.severity.cmp(&a.severity).then_with(|| a.place.cmp(&b.place)));
+        sorted.truncate(MOST_SHOWN);
+    }
     for diagnostic in &sorted {
         tell(&format!("{diagnostic}\n"));
     }
-    if errors {
-        let count = sorted.iter().filter(|d| d.severity == Severity::Error).count();
-        tell(&format!(
-            "{count} error{} found; nothing was written",
-            if count == 1 { "" } else { "s" }
-        ));
+    if hidden > 0 {
+        tell(&format!("… and {hidden} more\n"));
     }
-    errors
+    match errors {
+        0 => {}
+        1 => tell("1 error found; nothing was written"),
+        _ => tell(&format!("{errors} errors found; nothing was written")),
+    }
+    errors > 0
 }
 
 /// A diagnostic as JSON.
@@ -75,4 +117,14 @@ pub fn diagnostic_json(diagnostic: &Diagnostic) -> Value {
         "message": diagnostic.message,
         "hint": diagnostic.hint,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn escape_sequences_are_shown_not_obeyed() {
+        assert_eq!(visible("a\u{1b}[31m\r\nb µ"), "a\\u{1b}[31m\\r\nb µ");
+    }
 }

@@ -1,20 +1,26 @@
 use crate::arguments::{self, MachineArguments, argument};
-use crate::output::{Format, Outcome, report, show, show_json};
+use crate::numbers::{exact, fixed};
+use crate::output::{Answer, Format, Outcome, finish};
 use clap::Args;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use trueaxis::files;
 use trueaxis::geometry::Vec3;
 use trueaxis::geometry::frame::{Direction, Point, Workpiece};
 use trueaxis::geometry::input::{CsvTable, Diagnostics};
 use trueaxis::machine::axis::Command;
-use trueaxis::machine::{FollowFault, Machine, Solutions, SolveError, Target};
+use trueaxis::machine::{FollowError, FollowFault, Machine, Solutions, SolveError, Target};
 
 /// The tool pose to reach.
 #[derive(Args)]
-#[command(after_help = "Example:\n  trueaxis solve machines/i5-engraver/machine.toml \
-                        --tip \"10 20 30\" --axis \"0.3 -0.2 0.93\"")]
+#[command(after_help = "\
+Examples:
+  trueaxis solve machines/i5-engraver/machine.toml --tip \"10 20 30\" --axis \"0.3 -0.2 0.93\"
+  trueaxis solve machines/i5-engraver/machine.toml --path examples/01_describe/path.csv
+
+All solutions of the nominal machine, the best first; those outside the travel stand last. In a
+singular pose the axis without effect keeps its angle of --from.
+Exit status: 0 done, 2 unusable input, such as a direction that the machine cannot reach.")]
 pub struct Arguments {
     #[command(flatten)]
     machine: MachineArguments,
@@ -48,36 +54,28 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Outcome {
     let mut problems = Diagnostics::new();
     let answer = answer(arguments, &mut problems);
-    if report(problems) {
-        return Outcome::Unusable;
-    }
-    let Some(answer) = answer else { return Outcome::Unusable };
-    match answer {
-        Answer::Text(text) => show(&text),
-        Answer::Json(document) => show_json(&document),
-    }
-    Outcome::Done
-}
-
-enum Answer {
-    Text(String),
-    Json(Value),
+    finish(problems, answer)
 }
 
 fn answer(arguments: &Arguments, problems: &mut Diagnostics) -> Option<Answer> {
     let machine = arguments.machine.read(problems)?;
     let from = match &arguments.from {
-        Some(text) => arguments::command(&machine, "--from", text, problems)?,
-        None => Command::default(),
+        Some(text) => arguments::command(&machine, "--from", text, problems),
+        None => Some(Command::default()),
     };
     if let Some(path) = &arguments.path {
-        return follow(&machine, path, &from, arguments.format, problems);
+        return follow(&machine, path, &from?, arguments.format, problems);
     }
     let tip = arguments::vector("--tip", arguments.tip.as_deref().unwrap_or_default(), problems);
     let axis = arguments::vector("--axis", arguments.axis.as_deref().unwrap_or_default(), problems);
     let axis = axis.and_then(|v| direction(v, problems));
     let target = Target { tip: Point::from_vector(tip?), axis: axis? };
-    let solved = machine.solve(&target, &from).map_err(|e| refuse(&e, "--axis", problems)).ok()?;
+    let solved = machine.solve(&target, &from?).map_err(|e| refuse(&e, problems)).ok()?;
+    if !solved.solutions.iter().any(|s| s.within_travel) {
+        let message = "no solution lies within the travel of all axes".to_owned();
+        let hint = "move or tilt the part, or take another tool";
+        problems.warn("outside-travel", argument("--tip"), message, hint);
+    }
     Some(match arguments.format {
         Format::Json => Answer::Json(document(&machine, &solved)),
         Format::Text => Answer::Text(table(&machine, &solved)),
@@ -93,24 +91,23 @@ fn direction(vector: Vec3, problems: &mut Diagnostics) -> Option<Direction<Workp
     direction
 }
 
-fn refuse(error: &SolveError, place: &str, problems: &mut Diagnostics) {
-    let (code, hint) = match error {
+fn refuse(error: &SolveError, problems: &mut Diagnostics) {
+    let (code, place, hint) = match error {
         SolveError::Unreachable { .. } => {
-            ("unreachable-direction", "tilt the part, or ask for the closest direction")
+            ("unreachable-direction", "--axis", "tilt the part, or ask for the closest direction")
         }
         SolveError::TipUnreachable { .. } => {
-            ("unreachable-tip", "the linear axes of this machine do not span space here")
+            ("unreachable-tip", "--tip", "the linear axes of this machine do not span space here")
         }
-        SolveError::NotFinite => ("not-finite", "write finite numbers"),
+        SolveError::NotFinite => ("not-finite", "--tip", "write finite numbers"),
     };
     problems.error(code, argument(place), error.to_string(), hint);
 }
 
 fn axes_json(machine: &Machine, command: &Command) -> Map<String, Value> {
     let named = machine.axes().iter().zip(command).enumerate();
-    // + 0.0: no minus before a zero.
-    let shown = |i: usize, q: f64| arguments::to_shown(machine, i, q) + 0.0;
-    named.map(|(i, (axis, q))| (axis.name.to_string(), json!(shown(i, *q)))).collect()
+    let shown = |i: usize, q: f64| json!(arguments::to_shown(machine, i, q));
+    named.map(|(i, (axis, q))| (axis.name.to_string(), shown(i, *q))).collect()
 }
 
 fn document(machine: &Machine, solved: &Solutions) -> Value {
@@ -136,15 +133,17 @@ fn document(machine: &Machine, solved: &Solutions) -> Value {
 fn table(machine: &Machine, solved: &Solutions) -> String {
     let mut text = String::new();
     for axis in machine.axes() {
-        let _ = write!(text, "{:>14}", axis.name.to_string());
+        // Writing to a String cannot fail.
+        let _ = write!(text, " {:>13}", axis.name.to_string());
     }
     text += "   rotary travel, deg\n";
     for solution in &solved.solutions {
         for (i, q) in solution.command.iter().take(machine.axes().len()).enumerate() {
-            let _ = write!(text, "{:>14.6}", arguments::to_shown(machine, i, *q) + 0.0);
+            let _ = write!(text, " {:>13}", fixed(arguments::to_shown(machine, i, *q), 6));
         }
+        let travel = fixed(solution.rotary_travel_rad.to_degrees(), 6);
         let mark = if solution.within_travel { "" } else { "   outside the travel" };
-        let _ = writeln!(text, "   {:.6}{mark}", solution.rotary_travel_rad.to_degrees());
+        let _ = writeln!(text, "   {travel}{mark}");
     }
     if let Some(singular) = &solved.singular {
         let _ = writeln!(text, "singular pose: {singular}");
@@ -161,34 +160,42 @@ fn follow(
     format: Format,
     problems: &mut Diagnostics,
 ) -> Option<Answer> {
-    let text = files::text(path, "a CSV table of tool poses", problems)?;
-    let table = CsvTable::parse(&path.display().to_string(), &text, problems);
+    let table = arguments::table(path, "a CSV table of tool poses", problems)?;
     let targets = targets(&table, problems)?;
-    let commands = machine.follow(&targets, from).map_err(|error| {
+    let refuse = |error: FollowError| {
         let hint = match &error.fault {
             FollowFault::Solve(_) => "tilt the part or change the path there",
             _ => "move the part, or split the path where the rotary axes may turn back",
         };
-        problems.error("path-not-possible", table.row_place(error.index), error.to_string(), hint);
-    });
-    let commands = commands.ok()?;
+        let code = match &error.fault {
+            FollowFault::Solve(SolveError::Unreachable { .. }) => "unreachable-direction",
+            FollowFault::Solve(SolveError::TipUnreachable { .. }) => "unreachable-tip",
+            FollowFault::Solve(SolveError::NotFinite) => "not-finite",
+            FollowFault::LeavesTravel { .. } => "path-leaves-travel",
+            FollowFault::Jump { .. } => "path-jumps",
+        };
+        problems.error(code, table.row_place(error.index), error.fault.to_string(), hint);
+    };
+    let commands = machine.follow(&targets, from).map_err(refuse).ok()?;
     Some(match format {
         Format::Json => {
             let rows: Vec<Value> =
                 commands.iter().map(|c| json!({ "axes": axes_json(machine, c) })).collect();
             Answer::Json(json!({ "schema": "trueaxis/solve/1", "rows": rows }))
         }
-        Format::Text => {
-            let names: Vec<String> = machine.axes().iter().map(|a| a.name.to_string()).collect();
-            let mut csv = names.join(",") + "\n";
-            for command in &commands {
-                let values = command.iter().take(names.len()).enumerate();
-                let values = values.map(|(i, q)| arguments::to_shown(machine, i, *q).to_string());
-                csv += &(values.collect::<Vec<_>>().join(",") + "\n");
-            }
-            Answer::Text(csv)
-        }
+        Format::Text => Answer::Text(csv(machine, &commands)),
     })
+}
+
+fn csv(machine: &Machine, commands: &[Command]) -> String {
+    let names: Vec<String> = machine.axes().iter().map(|a| a.name.to_string()).collect();
+    let mut csv = names.join(",") + "\n";
+    for command in commands {
+        let values = command.iter().take(names.len()).enumerate();
+        let values = values.map(|(i, q)| exact(arguments::to_shown(machine, i, *q)));
+        csv += &(values.collect::<Vec<_>>().join(",") + "\n");
+    }
+    csv
 }
 
 fn targets(table: &CsvTable, problems: &mut Diagnostics) -> Option<Vec<Target>> {
@@ -202,6 +209,10 @@ fn targets(table: &CsvTable, problems: &mut Diagnostics) -> Option<Vec<Target>> 
                 problems.error("missing-column", place, message, &COLUMNS.join(","));
             }
         }
+    }
+    for column in table.columns.iter().filter(|c| !COLUMNS.contains(&c.name.as_str())) {
+        let message = format!("the column `{}` is not used", column.name);
+        problems.warn("unused-column", column.place.clone(), message, &COLUMNS.join(","));
     }
     if problems.has_errors() {
         return None;

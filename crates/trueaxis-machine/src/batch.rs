@@ -8,8 +8,9 @@
 //! Same result as [`Machine::deviation`], to 1e-9 mm on nominal tips and 1e-12 mm on deviations:
 //! the differences travel beside the nominal vectors here too, and no order of smallness is
 //! neglected. What the compiled form does not cover (small-angle model, squareness of the direction
-//! only, error motions above [`LARGEST_TURN_RAD`], commands beyond 10⁴ rad) is computed pose by
-//! pose with the machine itself, so every machine and every command has an answer.
+//! only, error motions above [`LARGEST_TURN_RAD`], commands beyond 10⁴ rad or beyond an extended
+//! table) is computed pose by pose with the machine itself, so every machine and every command has
+//! an answer.
 //!
 //! A pose's numbers depend on nothing but its own command: not on its neighbours, not on the
 //! number of threads.

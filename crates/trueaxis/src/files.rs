@@ -1,7 +1,7 @@
 //! Files in, files out: the only place of the loop that touches the disk.
 
 use std::fs;
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use trueaxis_geometry::input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
@@ -54,26 +54,34 @@ pub fn text(path: &Path, what: &str, problems: &mut Diagnostics) -> Option<Strin
 }
 
 fn read_text(path: &Path) -> io::Result<String> {
-    let length = fs::metadata(path)?.len();
-    if length > MAX_BYTES {
-        let message = format!("{length} bytes; texts of more than {MAX_BYTES} bytes are not read");
-        return Err(io::Error::new(io::ErrorKind::InvalidData, message));
+    let refuse = |message| Err(io::Error::new(io::ErrorKind::InvalidData, message));
+    let mut bytes = Vec::new();
+    // One byte more than allowed: a device or a pipe does not say its length.
+    fs::File::open(path)?.take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > MAX_BYTES {
+        return refuse(format!("texts of more than {MAX_BYTES} bytes are not read"));
     }
-    fs::read_to_string(path)
+    String::from_utf8(bytes).or_else(|error| {
+        let sound = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = sound.iter().filter(|b| **b == b'\n').count() + 1;
+        refuse(format!("line {line} is not UTF-8 text; save the file as UTF-8"))
+    })
 }
 
 /// Writes a file whole or not at all: into a temporary file beside it, then renamed.
 ///
 /// # Errors
-/// Whatever the disk says; an older file of that name is then still there.
+/// Whatever the disk says; an older file of that name is then still there. What is no ordinary
+/// file (a folder, a device) is not replaced.
 pub fn write(path: &Path, content: &[u8]) -> io::Result<()> {
-    let name = path
-        .file_name()
-        .ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"))?;
-    let mut hidden = std::ffi::OsString::from(".");
-    hidden.push(name);
-    hidden.push(format!(".{}.part", std::process::id()));
-    let part = path.with_file_name(hidden);
+    let refuse = |message| Err(io::Error::new(io::ErrorKind::InvalidInput, message));
+    if path.file_name().is_none() {
+        return refuse("the path names no file");
+    }
+    if fs::metadata(path).is_ok_and(|found| !found.is_file()) {
+        return refuse("what stands there is no ordinary file");
+    }
+    let part = path.with_file_name(format!(".trueaxis-{}.part", std::process::id()));
     let written = fs::File::create(&part).and_then(|mut file| {
         file.write_all(content)?;
         file.sync_all()

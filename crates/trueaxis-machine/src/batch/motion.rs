@@ -1,9 +1,9 @@
 //! The error motions of one axis, compiled.
 
-use super::pieces::{Knots, Row, cubic, is_piecewise_cubic};
+use super::pieces::{Knots, Row, cubic, is_piecewise_cubic, span};
 use crate::axis::{Axis, AxisKind, Travel};
 use crate::chain::ChainBody;
-use crate::errors::{Component, Curve, Outside};
+use crate::errors::{Component, Curve};
 
 /// Error motions may turn by so much; the sine and cosine of larger ones need more terms.
 ///
@@ -37,8 +37,7 @@ impl Range {
         };
         let mut range = Self { from: -largest, to: largest };
         for curve in curves(body).map(|part| part.curve) {
-            if let Curve::Table { spline, outside: Outside::Error } = curve {
-                let (from, to) = spline.range();
+            if let Some((from, to)) = span(curve, axis) {
                 range = range.within(from, to);
             }
             if let Curve::Fourier { terms, .. } = curve {
@@ -145,7 +144,7 @@ impl Motion {
         if cubics.is_empty() && others.is_empty() {
             return None;
         }
-        let knots = Knots::union(&cubics.iter().map(|part| part.curve).collect::<Vec<_>>());
+        let knots = Knots::union(&cubics.iter().map(|part| part.curve).collect::<Vec<_>>(), axis);
         let signs: &[f64] = if cubics.iter().chain(&others).any(|part| part.is_reversal) {
             &[-1.0, 0.0, 1.0]
         } else {

@@ -1,9 +1,14 @@
 //! Curves as cubics on the union of their knots.
 
+use crate::axis::{Axis, AxisKind, Travel};
 use crate::errors::{Curve, Outside, Spline};
+use std::f64::consts::TAU;
 
 /// Cells of the lookup of an uneven row of knots, at most.
 const MOST_CELLS: usize = 4096;
+
+/// Knots of a periodic table with its repetitions, at most.
+const MOST_KNOTS: usize = 4096;
 
 /// The six errors of an axis between two knots: `((c₃·h + c₂)·h + c₁)·h + c₀`, the powers from c₃
 /// down, each with its six errors and two unused places. Four cache lines.
@@ -75,9 +80,9 @@ impl Lookup {
 }
 
 impl Knots {
-    /// The union of the knots of some curves.
-    pub(super) fn union(curves: &[&Curve]) -> Self {
-        let mut knots: Vec<f64> = curves.iter().flat_map(|c| knots_of(c)).copied().collect();
+    /// The union of the knots of some curves; periodic tables repeat as far as the axis reaches.
+    pub(super) fn union(curves: &[&Curve], axis: &Axis) -> Self {
+        let mut knots: Vec<f64> = curves.iter().flat_map(|c| knots_of(c, axis)).collect();
         knots.sort_by(f64::total_cmp);
         let largest = knots.iter().fold(0.0_f64, |m, k| m.max(k.abs()));
         // The same position in two tables may differ by rounding.
@@ -120,11 +125,42 @@ impl Knots {
     }
 }
 
-fn knots_of(curve: &Curve) -> &[f64] {
-    match curve {
-        Curve::Table { spline, .. } => spline.knots(),
-        _ => &[],
+fn knots_of(curve: &Curve, axis: &Axis) -> Vec<f64> {
+    let Curve::Table { spline, .. } = curve else { return Vec::new() };
+    let (from, to) = spline.range();
+    let (below, above) = periods(spline, axis);
+    let period = |turn: i32| spline.knots().iter().map(move |k| k + f64::from(turn) * (to - from));
+    (-below..=above).flat_map(period).collect()
+}
+
+/// How many periods below and above a table its axis reaches.
+fn periods(spline: &Spline, axis: &Axis) -> (i32, i32) {
+    if !spline.is_periodic() {
+        return (0, 0);
     }
+    let (low, high) = match (axis.travel, axis.kind) {
+        (Travel::Between(low, high), _) => (low, high),
+        (_, AxisKind::Linear) => (-1e3, 1e3),
+        (_, AxisKind::Rotary) => (-2.0 * TAU, 2.0 * TAU),
+    };
+    let (from, to) = spline.range();
+    let most = (MOST_KNOTS / spline.knots().len()) as f64;
+    let periods = |distance: f64| (distance / (to - from)).ceil().clamp(0.0, most) as i32;
+    (periods(from - low), periods(high - to))
+}
+
+/// Where the cubics of a table hold; `None` if everywhere.
+///
+/// Beyond the ends of an extended table the scalar path has a step of its own (its slack).
+pub(super) fn span(curve: &Curve, axis: &Axis) -> Option<(f64, f64)> {
+    let Curve::Table { spline, outside } = curve else { return None };
+    let (from, to) = spline.range();
+    if spline.is_periodic() {
+        let (below, above) = periods(spline, axis);
+        let period = to - from;
+        return Some((from - f64::from(below) * period, to + f64::from(above) * period));
+    }
+    (*outside != Outside::Clamp).then_some((from, to))
 }
 
 /// Whether a curve is a cubic between its knots.
@@ -149,18 +185,23 @@ pub(super) fn cubic(curve: &Curve, ends: (f64, f64), about: f64) -> [f64; 4] {
             }
             moved(cubic, about - origin)
         }
-        Curve::Table { spline, outside } => table_cubic(spline, *outside, ends, about),
+        Curve::Table { spline, .. } => table_cubic(spline, ends, about),
         Curve::Fourier { .. } => [0.0; 4],
     }
 }
 
-fn table_cubic(spline: &Spline, outside: Outside, ends: (f64, f64), about: f64) -> [f64; 4] {
+fn table_cubic(spline: &Spline, ends: (f64, f64), about: f64) -> [f64; 4] {
     let (from, to) = spline.range();
     let middle = 0.5 * (ends.0 + ends.1);
+    let first = if spline.is_periodic() && middle.is_finite() {
+        ((middle - from) / (to - from)).floor() * (to - from)
+    } else {
+        0.0
+    };
+    let (middle, about) = (middle - first, about - first);
     let end = middle.clamp(from, to);
     if end != middle {
-        let slope = if outside == Outside::Extend { spline.slope_at(end) } else { 0.0 };
-        return moved([spline.at(end), slope, 0.0, 0.0], about - end);
+        return [spline.at(end), 0.0, 0.0, 0.0];
     }
     let knots = spline.knots();
     let piece = knots.partition_point(|&k| k <= middle).clamp(1, knots.len() - 1) - 1;

@@ -76,9 +76,9 @@ impl Component {
 /// Constant or function of the position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ErrorKind {
-    /// A constant: where and how the body sits on its predecessor (ISO 230-1, 3.5.12 f.).
+    /// A constant: where and how the body sits on its predecessor.
     Location,
-    /// A function of the programmed position of the axis (ISO 230-1, 3.4; ISO 230-7).
+    /// A function of the programmed position of the axis.
     Motion,
 }
 
@@ -93,7 +93,7 @@ pub enum ErrorKind {
 /// ```
 ///
 /// # Source
-/// ISO 230-1:2012, 3.4.2 and annex A: E, direction of the error, axis; a 0 between them marks a
+/// ISO 230-1:2012, annex A: E, direction of the error, axis; a 0 between them marks a
 /// location error. The errors of the mounting of the workpiece and of the tool holder have no
 /// name there; here they are `EX0w … EC0w` and `EX0t … EC0t`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

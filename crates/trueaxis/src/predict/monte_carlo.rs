@@ -53,7 +53,7 @@ pub struct Spread {
 /// As [`Judge::indices`]; fewer than two samples.
 ///
 /// # Source
-/// JCGM 101:2008, 5.9 and 7; one standard-normal factor per stated error (fully correlated along
+/// JCGM 101:2008, clause 7; one standard-normal factor per stated error (fully correlated along
 /// a curve). The generator is ChaCha8, one stream per sample, so that the same seed gives the same
 /// bits at any number of threads.
 pub fn monte_carlo(

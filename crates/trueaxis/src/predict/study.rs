@@ -6,7 +6,7 @@ use super::{Index, Setting};
 use crate::files;
 use std::path::{Path, PathBuf};
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{Diagnostics, Dimension, Section, Source};
+use trueaxis_geometry::input::{Diagnostics, Dimension, Item, Section, Source};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::errors::{BodyName, ErrorKind, ErrorName};
@@ -82,6 +82,9 @@ pub struct Study {
 }
 
 impl Study {
+    /// More drawn machines than this are a slip of the pen: their run would take days.
+    pub const MOST_SAMPLES: usize = 1_000_000_000;
+
     /// The test piece.
     pub fn piece(&self) -> &dyn TestPiece {
         self.test_piece.piece()
@@ -141,16 +144,16 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Study> {
     let test_piece = piece_path.and_then(|p| read_piece(root, &folder.join(p)));
     let decision = root.section("decision", read_decision);
     let sampling = root.section("monte_carlo", read_sampling);
-    let published = root.section("published", read_published);
+    let published = root.section("published", |s| read_published(s, test_piece.as_ref()));
     let (Some(machine), Some(test_piece)) = (machine, test_piece) else {
         // The rest needs both; do not call it unknown.
         root.entries();
         return None;
     };
     let machine = read_what_if(root, read_tool(root, machine));
-    let machine = read_mounting(root, machine, &test_piece)?;
     let reference = read_reference(root, &machine);
     let variants = root.section("compare", |s| read_variants(s, &machine, &reference));
+    let machine = read_mounting(root, machine, &test_piece)?;
     Some(Study {
         name: name?.to_owned(),
         path: path.to_owned(),
@@ -182,18 +185,15 @@ fn read_piece(root: &Section<'_>, path: &Path) -> Option<TestPieceFile> {
 /// `[tool] name = "…"` or `length = "…"`; without it the tool of the machine file.
 fn read_tool(root: &Section<'_>, machine: Machine) -> Machine {
     let tip = root.section("tool", |s| {
-        let length = s.quantity("length", Dimension::Length);
-        let named = s.get("name").and_then(|item| {
-            let name = item.text()?;
-            let tool = machine.tools().iter().find(|t| t.name == name);
-            if tool.is_none() {
-                let known: Vec<_> = machine.tools().iter().map(|t| t.name.as_str()).collect();
-                let message = format!("the machine file has no tool `{name}`");
-                item.error("unknown-tool", message, &format!("its tools: {}", known.join(", ")));
-            }
-            tool.map(|t| t.length_mm)
-        });
-        length.or(named).map(|length_mm| Vec3::new(0.0, 0.0, -length_mm))
+        let length = s.get("length");
+        let name = s.get("name");
+        if length.is_some() == name.is_some() {
+            let message = "the tool is given by its name or by its length".to_owned();
+            s.error("one-tool", message, "keep one of `name` and `length`");
+        }
+        let named = name.and_then(|item| named_length(&item, &machine));
+        let length_mm = length.and_then(|item| item.quantity(Dimension::Length)).or(named);
+        length_mm.map(|length_mm| Vec3::new(0.0, 0.0, -length_mm))
     });
     match tip.flatten() {
         Some(tip) => machine.with_tip(tip),
@@ -201,9 +201,25 @@ fn read_tool(root: &Section<'_>, machine: Machine) -> Machine {
     }
 }
 
+fn named_length(item: &Item<'_>, machine: &Machine) -> Option<f64> {
+    let name = item.text()?;
+    let tool = machine.tools().iter().find(|t| t.name == name);
+    if tool.is_none() {
+        let known: Vec<_> = machine.tools().iter().map(|t| t.name.as_str()).collect();
+        let message = format!("the machine file has no tool `{name}`");
+        let hint = match known.is_empty() {
+            true => "it has no [tool.library]; give a `length` instead".to_owned(),
+            false => format!("its tools: {}", known.join(", ")),
+        };
+        item.error("unknown-tool", message, &hint);
+    }
+    tool.map(|t| t.length_mm)
+}
+
 /// `[what_if] EA0A = "-450 urad"`: location errors that are replaced in this study.
 fn read_what_if(root: &Section<'_>, machine: Machine) -> Machine {
     let mut changed = machine;
+    let mut named = Vec::new();
     root.section("what_if", |s| {
         for (key, place, item) in s.entries() {
             let name = ErrorName::parse(key).filter(|n| n.kind == ErrorKind::Location);
@@ -212,6 +228,12 @@ fn read_what_if(root: &Section<'_>, machine: Machine) -> Machine {
                 s.error_at(place, "unknown-error-name", message, "such as EC0Y, EX0C, EA0t");
                 continue;
             };
+            if named.contains(&name) {
+                let message = format!("{name} is given twice");
+                s.error_at(place, "duplicate-error", message, "keep one of its spellings");
+                continue;
+            }
+            named.push(name);
             let rotation = name.component.is_rotation();
             let dimension = if rotation { Dimension::Angle } else { Dimension::Length };
             let Some(value) = item.quantity(dimension) else { continue };
@@ -257,7 +279,7 @@ fn read_mounting(root: &Section<'_>, machine: Machine, piece: &TestPieceFile) ->
 }
 
 fn read_reference(root: &Section<'_>, machine: &Machine) -> Reference {
-    let setting = root.section("setting", |s| read_setting(s, machine));
+    let setting = root.section("setting", |s| read_setting(s, machine, &[]));
     let datum = root.section("datum", read_datum);
     Reference {
         setting: setting.flatten().unwrap_or_default(),
@@ -265,12 +287,15 @@ fn read_reference(root: &Section<'_>, machine: &Machine) -> Reference {
     }
 }
 
-/// `C = "90 deg"`, `A = "10 deg"`, or `perfect = true`.
-fn read_setting(section: &Section<'_>, machine: &Machine) -> Option<Setting> {
+/// The key of the datum beside the keys of a setting point.
+const HOLE: &str = "reference_hole_depth";
+
+/// `C = "90 deg"`, `A = "10 deg"`, or `perfect = true`; `others` are keys that someone else reads.
+fn read_setting(section: &Section<'_>, machine: &Machine, others: &[&str]) -> Option<Setting> {
     let perfect = section.get("perfect").and_then(|i| i.flag()).unwrap_or(false);
     let mut rotary = Command::default();
     for (key, place, item) in section.entries() {
-        if matches!(key, "perfect" | "reference_hole_depth") {
+        if key == "perfect" || others.contains(&key) {
             continue;
         }
         let axis = key.chars().next().filter(|_| key.len() == 1).and_then(BodyName::new);
@@ -282,6 +307,11 @@ fn read_setting(section: &Section<'_>, machine: &Machine) -> Option<Setting> {
             section.error_at(place, "unknown-axis", message, hint);
             continue;
         };
+        if perfect {
+            let message = format!("a perfect zero does not depend on {key}");
+            let hint = "take out the axis, or perfect = true";
+            section.error_at(place, "contradiction", message, hint);
+        }
         rotary[index] = item.quantity(Dimension::Angle).unwrap_or(0.0);
     }
     Some(if perfect { Setting::Perfect } else { Setting::Touched { rotary } })
@@ -289,7 +319,7 @@ fn read_setting(section: &Section<'_>, machine: &Machine) -> Option<Setting> {
 
 /// `reference_hole_depth = "40 mm"`.
 fn read_datum(section: &Section<'_>) -> Option<DatumAxis> {
-    let item = section.get("reference_hole_depth")?;
+    let item = section.get(HOLE)?;
     let depth_mm = item.quantity(Dimension::Length)?;
     if depth_mm <= 0.0 {
         let hint = "its axis comes from two points of the hole";
@@ -305,8 +335,8 @@ fn read_variants(section: &Section<'_>, machine: &Machine, studied: &Reference) 
     for (name, _, item) in section.entries() {
         let reference = item.section(&section.path(name), |s| {
             let datum = read_datum(s);
-            let moved = s.entries().iter().any(|(key, ..)| *key != "reference_hole_depth");
-            let setting = if moved { read_setting(s, machine) } else { None };
+            let moved = s.entries().iter().any(|(key, ..)| *key != HOLE);
+            let setting = if moved { read_setting(s, machine, &[HOLE]) } else { None };
             Reference {
                 setting: setting.unwrap_or(studied.setting),
                 datum: datum.unwrap_or(studied.datum),
@@ -324,7 +354,13 @@ fn read_decision(section: &Section<'_>) -> Option<Decision> {
     let coverage = section.get("coverage").map_or(Some(2.0), |i| i.number());
     let item = section.require("rule", "rule = \"simple\" or \"ISO 14253-1\"")?;
     match item.text()? {
-        "simple" => Some(Decision::Simple),
+        "simple" => {
+            if let Some(unused) = section.get("coverage") {
+                let message = "the simple rule has no coverage factor".to_owned();
+                unused.error("contradiction", message, "take it out, or rule = \"ISO 14253-1\"");
+            }
+            Some(Decision::Simple)
+        }
         "ISO 14253-1" => {
             let coverage = coverage?;
             if coverage <= 0.0 {
@@ -344,7 +380,15 @@ fn read_decision(section: &Section<'_>) -> Option<Decision> {
 /// `samples = 100000`, `seed = 7`; 0 samples: no run.
 fn read_sampling(section: &Section<'_>) -> Option<Sampling> {
     let default = Sampling::default();
-    let samples = section.get("samples").map_or(Some(default.samples), |i| i.count())?;
+    let samples = section.get("samples").map_or(Some(default.samples), |item| {
+        let samples = item.count()?;
+        if samples > Study::MOST_SAMPLES {
+            let most = Study::MOST_SAMPLES;
+            let hint = format!("at most {most}; 10000 give u of an index to 1 %");
+            item.error("too-many-samples", "the run would take days".into(), &hint);
+        }
+        Some(samples)
+    })?;
     let seed = section.get("seed").map_or(Some(default.seed as usize), |i| i.count())?;
     if samples == 1 {
         section.error("too-few-samples", "one sample has no spread".into(), "0, or 2 and more");
@@ -354,12 +398,20 @@ fn read_sampling(section: &Section<'_>) -> Option<Sampling> {
 }
 
 /// `source = "…"`, and per index `roundness_mzc = { measured = ["0.038 mm", …], predicted = … }`.
-fn read_published(section: &Section<'_>) -> Published {
+fn read_published(section: &Section<'_>, piece: Option<&TestPieceFile>) -> Published {
     let source = section.text("source").unwrap_or_default().to_owned();
     let mut rows = Vec::new();
-    for (key, _, item) in section.entries() {
+    for (key, place, item) in section.entries() {
         if key == "source" {
             continue;
+        }
+        if let Some(piece) = piece {
+            let known: Vec<_> = piece.piece().index_names().iter().map(|n| n.key).collect();
+            if !known.contains(&key) {
+                let message = format!("the test piece has no index `{key}`");
+                let hint = format!("its indices: {}", known.join(", "));
+                section.error_at(place, "unknown-index", message, &hint);
+            }
         }
         let row = item.section(&section.path(key), |s| {
             let measured = s.get("measured").and_then(|i| i.list()).unwrap_or_default();
