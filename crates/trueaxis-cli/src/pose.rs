@@ -83,7 +83,7 @@ fn deviation(
     place: &Place,
     problems: &mut Diagnostics,
 ) -> Option<(ErrorValues, Deviation)> {
-    let refuse = |e: trueaxis::machine::chain::ErrorTableLeft| {
+    let refuse = |e: trueaxis::machine::chain::CommandFault| {
         let hint = "stay inside the table, or say outside = \"clamp\" or \"extend\" for it";
         problems.error("outside-table", place.clone(), e.to_string(), hint);
     };

@@ -29,7 +29,7 @@ pub use columns::{Commands, DeviationColumns, DeviationTable};
 pub use motion::LARGEST_TURN_RAD;
 
 use crate::axis::{Approach, AxisKind, Command, MAX_AXES};
-use crate::chain::{ErrorTableLeft, Machine, Squareness};
+use crate::chain::{CommandFault, Machine, Squareness};
 use crate::errors::{Curve, Rotation};
 use motion::{Motion, Range};
 use steps::Steps;
@@ -62,13 +62,13 @@ pub enum BatchError {
         /// The first such pose, counted from 0.
         index: usize,
     },
-    /// A command lies where an error table says nothing.
+    /// The machine has no errors at a command.
     #[error("pose {index}: {source}")]
-    TableLeft {
+    Refused {
         /// The first such pose, counted from 0.
         index: usize,
-        /// Which error, and where.
-        source: ErrorTableLeft,
+        /// Why.
+        source: CommandFault,
     },
     /// The processor lacks the instructions asked for.
     #[error("this processor lacks {0:?}")]
@@ -79,7 +79,7 @@ impl BatchError {
     /// The first pose without a result, if it is the fault of a pose.
     pub fn index(&self) -> Option<usize> {
         match self {
-            Self::NotFinite { index } | Self::TableLeft { index, .. } => Some(*index),
+            Self::NotFinite { index } | Self::Refused { index, .. } => Some(*index),
             _ => None,
         }
     }
@@ -287,7 +287,7 @@ impl CompiledMachine {
         let errors = self
             .machine
             .errors_at(&command, &approach)
-            .map_err(|source| BatchError::TableLeft { index, source })?;
+            .map_err(|source| BatchError::Refused { index, source })?;
         let deviation = self.machine.deviation(&command, &errors);
         if !out.set(i, &deviation) {
             return Err(BatchError::NotFinite { index });

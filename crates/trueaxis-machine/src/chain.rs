@@ -108,14 +108,40 @@ pub struct Machine {
     pub(crate) tools: Vec<crate::tool::ToolAssembly>,
 }
 
-/// The command lies where an error table says nothing.
+/// Commands beyond 10¹² mm or rad are mistakes (as every quantity of a file is), and their powers
+/// no numbers.
+const LARGEST_COMMAND: f64 = 1e12;
+
+/// Why a machine has no errors at a command.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("{name}: {source}")]
-pub struct ErrorTableLeft {
-    /// The error whose table ends.
-    pub name: ErrorName,
-    /// Where.
-    pub source: OutsideTable,
+pub enum CommandFault {
+    /// The command is no number that an axis could take.
+    #[error("{axis} is commanded to {at}, which is no position")]
+    NotFinite {
+        /// The axis.
+        axis: BodyName,
+        /// The command, mm or rad.
+        at: f64,
+    },
+    /// The command lies where an error table says nothing.
+    #[error("{}", table_left(.name, .source))]
+    TableLeft {
+        /// The error whose table ends.
+        name: ErrorName,
+        /// Where.
+        source: OutsideTable,
+    },
+}
+
+fn table_left(name: &ErrorName, left: &OutsideTable) -> String {
+    let (scale, unit) = match name.body.is_rotary() {
+        true => (180.0 / std::f64::consts::PI, "deg"),
+        false => (1.0, "mm"),
+    };
+    // Twelve digits hide the rounding of degrees to radians and back.
+    let [at, from, to] = [left.at, left.from, left.to]
+        .map(|v| format!("{:.11e}", v * scale).parse::<f64>().unwrap_or(v * scale));
+    format!("{name}: {at} {unit} lies outside the error table, which covers {from} .. {to} {unit}")
 }
 
 impl Machine {
@@ -233,12 +259,17 @@ impl Machine {
     /// The value of every error at a command.
     ///
     /// # Errors
-    /// A command outside an error table that has no value there.
+    /// A command that is not finite, or outside an error table that has no value there.
     pub fn errors_at(
         &self,
         command: &Command,
         approach: &Approach,
-    ) -> Result<ErrorValues, ErrorTableLeft> {
+    ) -> Result<ErrorValues, CommandFault> {
+        for (axis, &at) in self.axes.iter().zip(command) {
+            if at.is_nan() || at.abs() > LARGEST_COMMAND {
+                return Err(CommandFault::NotFinite { axis: axis.name, at });
+            }
+        }
         let mut values = ErrorValues::default();
         for (body, out) in self.bodies.iter().zip(&mut values.bodies) {
             let (q, side) = body.axis.map_or((0.0, 0.0), |i| (command[i], approach[i]));
@@ -246,7 +277,7 @@ impl Machine {
                 let i = component as usize;
                 let at = |kind, stated: &Option<StatedError>| match stated {
                     None => Ok(0.0),
-                    Some(error) => error.at(q, side).map_err(|source| ErrorTableLeft {
+                    Some(error) => error.at(q, side).map_err(|source| CommandFault::TableLeft {
                         name: ErrorName { body: body.name, kind, component },
                         source,
                     }),

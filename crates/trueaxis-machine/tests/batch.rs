@@ -8,6 +8,7 @@ use trueaxis_machine::axis::{Approach, AxisKind, Command};
 use trueaxis_machine::batch::{
     BatchError, Commands, CompiledMachine, DeviationTable, InstructionSet,
 };
+use trueaxis_machine::chain::CommandFault;
 use trueaxis_machine::file::Tables;
 
 const POSES: usize = 100_003;
@@ -333,8 +334,9 @@ fn the_first_pose_outside_a_table_is_named() {
     for set in sets().map(Some).chain([None]) {
         let error = run(&columns, set).unwrap_err();
         assert_eq!(error.index(), Some(30_001));
-        let BatchError::TableLeft { source, .. } = error else { panic!("{error}") };
-        assert_eq!(source.name.to_string(), "EXY");
+        let BatchError::Refused { source, .. } = error else { panic!("{error}") };
+        let CommandFault::TableLeft { name, .. } = source else { panic!("{source}") };
+        assert_eq!(name.to_string(), "EXY");
     }
     columns.positions[1][30_001] = 0.0;
     for set in sets().map(Some).chain([None]) {

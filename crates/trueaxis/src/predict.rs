@@ -25,7 +25,7 @@ pub use study::{Decision, Published, PublishedRow, Study, Variant, read_study};
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Command;
-use trueaxis_machine::chain::ErrorTableLeft;
+use trueaxis_machine::chain::CommandFault;
 use trueaxis_machine::{FollowError, FollowFault, SolveError};
 use trueaxis_part::testpiece::{IndexName, PartSection};
 use trueaxis_part::tolerance::{Outcome, Verdict};
@@ -70,7 +70,7 @@ pub enum Error {
         /// The tool position, counted from 0; none for the setting point.
         position: Option<usize>,
         /// Which table.
-        source: ErrorTableLeft,
+        source: CommandFault,
     },
     /// The points cannot be evaluated.
     #[error("{0}")]
