@@ -11,9 +11,9 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::errors::{BodyName, ErrorKind, ErrorName};
 use trueaxis_machine::file::read_pose;
-use trueaxis_part::TestPieceFile;
 use trueaxis_part::testpiece::TestPiece;
 use trueaxis_part::tolerance::{Acceptance, Outcome, Verdict};
+use trueaxis_part::{Shape, TestPieceFile};
 
 /// Another way to set the zero or to choose the datum, to be shown beside.
 #[derive(Debug, Clone, PartialEq)]
@@ -150,7 +150,7 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Study> {
         root.entries();
         return None;
     };
-    let machine = read_what_if(root, read_tool(root, machine));
+    let machine = read_what_if(root, read_tool(root, machine, &test_piece));
     let reference = read_reference(root, &machine);
     let variants = root.section("compare", |s| read_variants(s, &machine, &reference));
     let machine = read_mounting(root, machine, &test_piece)?;
@@ -183,7 +183,7 @@ fn read_piece(root: &Section<'_>, path: &Path) -> Option<TestPieceFile> {
 }
 
 /// `[tool] name = "…"` or `length = "…"`; without it the tool of the machine file.
-fn read_tool(root: &Section<'_>, machine: Machine) -> Machine {
+fn read_tool(root: &Section<'_>, machine: Machine, piece: &TestPieceFile) -> Machine {
     let tip = root.section("tool", |s| {
         let length = s.get("length");
         let name = s.get("name");
@@ -191,7 +191,7 @@ fn read_tool(root: &Section<'_>, machine: Machine) -> Machine {
             let message = "the tool is given by its name or by its length".to_owned();
             s.error("one-tool", message, "keep one of `name` and `length`");
         }
-        let named = name.and_then(|item| named_length(&item, &machine));
+        let named = name.and_then(|item| named_length(&item, &machine, piece));
         let length_mm = length.and_then(|item| item.quantity(Dimension::Length)).or(named);
         length_mm.map(|length_mm| Vec3::new(0.0, 0.0, -length_mm))
     });
@@ -201,7 +201,7 @@ fn read_tool(root: &Section<'_>, machine: Machine) -> Machine {
     }
 }
 
-fn named_length(item: &Item<'_>, machine: &Machine) -> Option<f64> {
+fn named_length(item: &Item<'_>, machine: &Machine, piece: &TestPieceFile) -> Option<f64> {
     let name = item.text()?;
     let tool = machine.tools().iter().find(|t| t.name == name);
     if tool.is_none() {
@@ -212,6 +212,13 @@ fn named_length(item: &Item<'_>, machine: &Machine) -> Option<f64> {
             false => format!("its tools: {}", known.join(", ")),
         };
         item.error("unknown-tool", message, &hint);
+    }
+    let Shape::Cone(cone) = &piece.shape;
+    let wanted = cone.size().tool_diameter_mm;
+    if let Some(other) = tool.and_then(|t| t.diameter_mm).filter(|d| *d != wanted) {
+        let message = format!("`{name}` has a diameter of {other} mm");
+        let hint = format!("the path of the test piece is made for {wanted} mm");
+        item.warn("other-diameter", message, &hint);
     }
     tool.map(|t| t.length_mm)
 }
