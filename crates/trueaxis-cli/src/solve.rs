@@ -214,7 +214,7 @@ fn targets(table: &CsvTable, problems: &mut Diagnostics) -> Option<Vec<Target>> 
         let message = format!("the column `{}` is not used", column.name);
         problems.warn("unused-column", column.place.clone(), message, &COLUMNS.join(","));
     }
-    if problems.has_errors() {
+    if columns.len() < COLUMNS.len() {
         return None;
     }
     let mut targets = Vec::new();

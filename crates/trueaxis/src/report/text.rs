@@ -1,7 +1,7 @@
 //! What the terminal shows.
 
 use super::{command_words, decisive, feature, ranked, relief, title};
-use crate::predict::{Prediction, Study};
+use crate::predict::{Prediction, Share, Study};
 use std::fmt::Write;
 use trueaxis_machine::errors::ErrorKind;
 use trueaxis_part::tolerance::{Judgement, Outcome};
@@ -95,36 +95,52 @@ fn verdict(out: &mut String, prediction: &Prediction) {
     line(out, "");
 }
 
-/// One column pair per decisive index: without the error, and the error alone.
+/// Side by side for every decisive index: the errors that matter most, then the groups.
 fn blame_table(out: &mut String, prediction: &Prediction) {
     if prediction.blame.errors.is_empty() {
         return;
     }
-    line(out, "who is to blame, µm: what the index loses without the error (the error alone)");
-    for (i, index) in decisive(prediction) {
-        let mut text = format!("  {:<11}", feature(&index.name));
-        for share in ranked(prediction, i, &prediction.blame.errors, BLAMED) {
-            let gain = relief(prediction, i, share) * 1e3;
-            let _ = write!(text, " {} {gain:+.1} ({:.1})", share.of, share.alone_mm[i] * 1e3);
+    line(
+        out,
+        "who is to blame, µm (alone: with this error only; gain: what the index loses without it)",
+    );
+    let mut head = String::from("  ");
+    for (_, index) in decisive(prediction) {
+        let _ = write!(head, "{:<10}{:>7}{:>7}    ", feature(&index.name), "alone", "gain");
+    }
+    line(out, &head);
+    for rank in 0..BLAMED.min(prediction.blame.errors.len()) {
+        let mut text = String::from("  ");
+        for (i, _) in decisive(prediction) {
+            let ranked = ranked(prediction, i, &prediction.blame.errors, BLAMED);
+            text += &share_cell(prediction, i, ranked[rank], &ranked[rank].of.to_string());
         }
         line(out, &text);
     }
-    for (i, index) in decisive(prediction) {
-        let mut text = format!("  {:<11}", feature(&index.name));
-        for share in &prediction.blame.kinds {
-            let word = match share.of {
-                ErrorKind::Location => "location errors alone",
-                ErrorKind::Motion => "error motions alone",
-            };
-            let _ = write!(text, " {word} {:.1} ", share.alone_mm[i] * 1e3);
-        }
-        for share in ranked(prediction, i, &prediction.blame.bodies, 7) {
-            let gain = relief(prediction, i, share) * 1e3;
-            let _ = write!(text, " {}: {gain:+.1}", share.of);
-        }
-        line(out, &text);
+    for share in &prediction.blame.kinds {
+        let word = match share.of {
+            ErrorKind::Location => "location",
+            ErrorKind::Motion => "motion",
+        };
+        group_line(out, prediction, share, word);
+    }
+    for share in &prediction.blame.bodies {
+        group_line(out, prediction, share, &format!("all {}", share.of));
     }
     line(out, "");
+}
+
+fn share_cell<T>(prediction: &Prediction, index: usize, share: &Share<T>, name: &str) -> String {
+    let gain = relief(prediction, index, share) * 1e3;
+    // + 0.0: no minus before a zero.
+    let gain = (gain * 10.0).round() / 10.0 + 0.0;
+    format!("{name:<10}{:>7.1}{gain:>+7.1}    ", share.alone_mm[index] * 1e3)
+}
+
+fn group_line<T>(out: &mut String, prediction: &Prediction, share: &Share<T>, name: &str) {
+    let cells: String =
+        decisive(prediction).map(|(i, _)| share_cell(prediction, i, share, name)).collect();
+    line(out, &format!("  {cells}"));
 }
 
 fn correction_table(out: &mut String, prediction: &Prediction) {
