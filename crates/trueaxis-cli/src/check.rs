@@ -138,22 +138,27 @@ fn shown_unit(kind: AxisKind) -> (f64, &'static str) {
     }
 }
 
+/// `EXX EYX table, EAX constant`.
 fn motions_line(machine: &Machine, axis: &Axis) -> String {
     let body = machine.bodies().iter().find(|b| b.name == axis.name);
-    let parts: Vec<String> = Component::ALL
-        .into_iter()
-        .filter_map(|component| {
-            let stated = body?.stated(ErrorKind::Motion, component)?;
-            let shape = match &stated.mean {
-                Curve::Constant(_) => "constant",
-                Curve::Polynomial { .. } => "polynomial",
-                Curve::Fourier { .. } => "Fourier",
-                Curve::Table { .. } => "table",
-            };
-            let name = ErrorName { body: axis.name, kind: ErrorKind::Motion, component };
-            Some(format!("{name} {shape}"))
-        })
-        .collect();
+    let mut groups: Vec<(&str, String)> = Vec::new();
+    for component in Component::ALL {
+        let Some(stated) = body.and_then(|b| b.stated(ErrorKind::Motion, component)) else {
+            continue;
+        };
+        let shape = match &stated.mean {
+            Curve::Constant(_) => "constant",
+            Curve::Polynomial { .. } => "polynomial",
+            Curve::Fourier { .. } => "Fourier",
+            Curve::Table { .. } => "table",
+        };
+        let name = ErrorName { body: axis.name, kind: ErrorKind::Motion, component };
+        match groups.last_mut().filter(|(last, _)| *last == shape) {
+            Some((_, names)) => *names += &format!(" {name}"),
+            None => groups.push((shape, name.to_string())),
+        }
+    }
+    let parts: Vec<_> = groups.iter().map(|(shape, names)| format!("{names} {shape}")).collect();
     if parts.is_empty() { "none stated".to_owned() } else { parts.join(", ") }
 }
 

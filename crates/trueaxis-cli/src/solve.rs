@@ -219,13 +219,13 @@ fn targets(table: &CsvTable, problems: &mut Diagnostics) -> Option<Vec<Target>> 
     }
     let mut targets = Vec::new();
     for row in 0..table.rows() {
-        let at = |i: usize| columns[i][row];
-        let Some(axis) = Direction::of(Vec3::new(at(3), at(4), at(5))) else {
+        let pose: Vec<f64> = columns.iter().map(|values| values[row]).collect();
+        let Some(axis) = Direction::of(Vec3::new(pose[3], pose[4], pose[5])) else {
             let message = "the tool axis has no length".to_owned();
             problems.error("zero-axis", table.row_place(row), message, "write 0,0,1 for upright");
             continue;
         };
-        targets.push(Target { tip: Point::new(at(0), at(1), at(2)), axis });
+        targets.push(Target { tip: Point::new(pose[0], pose[1], pose[2]), axis });
     }
     (!problems.has_errors()).then_some(targets)
 }

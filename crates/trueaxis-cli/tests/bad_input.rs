@@ -87,91 +87,90 @@ fn machine_files() {
     assert_eq!(trueaxis(&["check", &long]).status, 2);
 }
 
+/// Studies that cannot be read.
+const STUDIES: &[(&str, &[Expected])] = &[
+    ("study-misspelt-key.toml", &[("unknown-key", "study-misspelt-key.toml:6:1")]),
+    ("study-negative-samples.toml", &[("wrong-type", "study-negative-samples.toml:6:11")]),
+    ("study-one-sample.toml", &[("too-few-samples", "study-one-sample.toml:5:1")]),
+    ("study-too-many-samples.toml", &[("too-many-samples", "study-too-many-samples.toml:6:11")]),
+    ("study-missing-machine.toml", &[("unreadable-file", "no-such-machine.toml")]),
+    ("study-machine-is-folder.toml", &[("unreadable-file", "../../../../machines/xkas2525")]),
+    (
+        "study-tolerance-without-unit.toml",
+        &[
+            ("wrong-unit", "piece-tolerance-without-unit.toml:24:27"),
+            ("wrong-unit", "piece-tolerance-without-unit.toml:25:28"),
+            ("missing-unit", "piece-tolerance-without-unit.toml:26:29"),
+        ],
+    ),
+    ("study-unknown-tool.toml", &[("unknown-tool", "study-unknown-tool.toml:6:8")]),
+    ("study-two-tools.toml", &[("one-tool", "study-two-tools.toml:5:1")]),
+    (
+        "study-unknown-error.toml",
+        &[
+            ("unknown-error-name", "study-unknown-error.toml:6:1"),
+            ("unknown-body", "study-unknown-error.toml:7:1"),
+            ("wrong-unit", "study-unknown-error.toml:8:8"),
+        ],
+    ),
+    ("study-error-twice.toml", &[("duplicate-error", "study-error-twice.toml:7:1")]),
+    (
+        "study-setting-unknown-axis.toml",
+        &[
+            ("unknown-axis", "study-setting-unknown-axis.toml:6:1"),
+            ("unknown-axis", "study-setting-unknown-axis.toml:7:1"),
+            ("wrong-unit", "study-setting-unknown-axis.toml:8:5"),
+        ],
+    ),
+    ("study-setting-contradicts.toml", &[("contradiction", "study-setting-contradicts.toml:7:1")]),
+    ("study-setting-with-hole.toml", &[("unknown-axis", "study-setting-with-hole.toml:7:1")]),
+    ("study-unknown-index.toml", &[("unknown-index", "study-unknown-index.toml:7:1")]),
+    ("study-unknown-rule.toml", &[("unknown-word", "study-unknown-rule.toml:6:8")]),
+    (
+        "study-coverage-of-simple-rule.toml",
+        &[("contradiction", "study-coverage-of-simple-rule.toml:7:12")],
+    ),
+    // Only what is wrong is told: not that [setting] and [compare] were unknown.
+    (
+        "study-fixture-without-unit.toml",
+        &[("missing-unit", "study-fixture-without-unit.toml:6:11")],
+    ),
+    (
+        "study-everything-wrong.toml",
+        &[
+            ("unreadable-file", "no-such-machine.toml"),
+            ("unreadable-file", "no-such-piece.toml"),
+            ("unknown-word", "study-everything-wrong.toml:6:8"),
+            ("wrong-type", "study-everything-wrong.toml:9:11"),
+        ],
+    ),
+    (
+        "study-bad-parts.toml",
+        &[
+            ("missing-table", "machine-missing-csv.toml:10:9"),
+            ("missing-key", "piece-misspelt.toml:4:1"),
+            ("unknown-key", "piece-misspelt.toml:5:1"),
+        ],
+    ),
+];
+
+/// Studies that the machine cannot do.
+const IMPOSSIBLE: &[(&str, &[Expected])] = &[
+    ("study-far-fixture.toml", &[("path-leaves-travel", "study-far-fixture.toml")]),
+    (
+        "study-setting-out-of-travel.toml",
+        &[("path-leaves-travel", "study-setting-out-of-travel.toml")],
+    ),
+    ("study-little-tilt.toml", &[("path-leaves-travel", "study-little-tilt.toml")]),
+    ("study-steep-cone.toml", &[("path-leaves-travel", "study-steep-cone.toml")]),
+    ("study-three-axis.toml", &[("unreachable-direction", "study-three-axis.toml")]),
+];
+
 #[test]
 fn studies() {
     let folder = Folder::new("studies");
     let page = folder.path("report.html");
-    let cases: &[(&str, &[Expected])] = &[
-        ("study-misspelt-key.toml", &[("unknown-key", "study-misspelt-key.toml:6:1")]),
-        ("study-negative-samples.toml", &[("wrong-type", "study-negative-samples.toml:6:11")]),
-        ("study-one-sample.toml", &[("too-few-samples", "study-one-sample.toml:5:1")]),
-        (
-            "study-too-many-samples.toml",
-            &[("too-many-samples", "study-too-many-samples.toml:6:11")],
-        ),
-        ("study-missing-machine.toml", &[("unreadable-file", "no-such-machine.toml")]),
-        ("study-machine-is-folder.toml", &[("unreadable-file", "../../../../machines/xkas2525")]),
-        (
-            "study-tolerance-without-unit.toml",
-            &[
-                ("wrong-unit", "piece-tolerance-without-unit.toml:24:27"),
-                ("wrong-unit", "piece-tolerance-without-unit.toml:25:28"),
-                ("missing-unit", "piece-tolerance-without-unit.toml:26:29"),
-            ],
-        ),
-        ("study-unknown-tool.toml", &[("unknown-tool", "study-unknown-tool.toml:6:8")]),
-        ("study-two-tools.toml", &[("one-tool", "study-two-tools.toml:5:1")]),
-        (
-            "study-unknown-error.toml",
-            &[
-                ("unknown-error-name", "study-unknown-error.toml:6:1"),
-                ("unknown-body", "study-unknown-error.toml:7:1"),
-                ("wrong-unit", "study-unknown-error.toml:8:8"),
-            ],
-        ),
-        ("study-error-twice.toml", &[("duplicate-error", "study-error-twice.toml:7:1")]),
-        (
-            "study-setting-unknown-axis.toml",
-            &[
-                ("unknown-axis", "study-setting-unknown-axis.toml:6:1"),
-                ("unknown-axis", "study-setting-unknown-axis.toml:7:1"),
-                ("wrong-unit", "study-setting-unknown-axis.toml:8:5"),
-            ],
-        ),
-        (
-            "study-setting-contradicts.toml",
-            &[("contradiction", "study-setting-contradicts.toml:7:1")],
-        ),
-        ("study-setting-with-hole.toml", &[("unknown-axis", "study-setting-with-hole.toml:7:1")]),
-        ("study-unknown-index.toml", &[("unknown-index", "study-unknown-index.toml:7:1")]),
-        ("study-unknown-rule.toml", &[("unknown-word", "study-unknown-rule.toml:6:8")]),
-        (
-            "study-coverage-of-simple-rule.toml",
-            &[("contradiction", "study-coverage-of-simple-rule.toml:7:12")],
-        ),
-        // Only what is wrong is told: not that [setting] and [compare] were unknown.
-        (
-            "study-fixture-without-unit.toml",
-            &[("missing-unit", "study-fixture-without-unit.toml:6:11")],
-        ),
-        (
-            "study-everything-wrong.toml",
-            &[
-                ("unreadable-file", "no-such-machine.toml"),
-                ("unreadable-file", "no-such-piece.toml"),
-                ("unknown-word", "study-everything-wrong.toml:6:8"),
-                ("wrong-type", "study-everything-wrong.toml:9:11"),
-            ],
-        ),
-        (
-            "study-bad-parts.toml",
-            &[
-                ("missing-table", "machine-missing-csv.toml:10:9"),
-                ("missing-key", "piece-misspelt.toml:4:1"),
-                ("unknown-key", "piece-misspelt.toml:5:1"),
-            ],
-        ),
-        // The machine cannot do it.
-        ("study-far-fixture.toml", &[("path-leaves-travel", "study-far-fixture.toml")]),
-        (
-            "study-setting-out-of-travel.toml",
-            &[("path-leaves-travel", "study-setting-out-of-travel.toml")],
-        ),
-        ("study-little-tilt.toml", &[("path-leaves-travel", "study-little-tilt.toml")]),
-        ("study-steep-cone.toml", &[("path-leaves-travel", "study-steep-cone.toml")]),
-        ("study-three-axis.toml", &[("unreachable-direction", "study-three-axis.toml")]),
-    ];
-    for (file, expected) in cases {
+    for (file, expected) in STUDIES.iter().chain(IMPOSSIBLE) {
         let path = format!("{BAD}{file}");
         refused(&["predict", &path, "--report", &page], expected);
         refused(&["predict", &path, "--report", &page, "--format", "json"], expected);

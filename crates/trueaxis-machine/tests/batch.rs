@@ -2,7 +2,7 @@
 
 mod library;
 
-use library::{FIVE_AXIS, command_within_travel, machine, machine_of};
+use library::{FIVE_AXIS, Random, command_within_travel, machine, machine_of};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, AxisKind, Command};
 use trueaxis_machine::batch::{
@@ -12,19 +12,6 @@ use trueaxis_machine::chain::CommandFault;
 use trueaxis_machine::file::Tables;
 
 const POSES: usize = 100_003;
-
-/// splitmix64, 0..1.
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
 
 /// Commands and approaches, one row per pose.
 struct Poses {

@@ -2,7 +2,7 @@
 
 mod library;
 
-use library::{command_within_travel, golden, machine, machine_of};
+use library::{Random, command_within_travel, golden, machine, machine_of};
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::LazyLock;
@@ -136,19 +136,6 @@ fn determined(machine: &Machine, command: &Command) -> f64 {
         [] => 1.0,
         [one] => one.norm(),
         [first, second, ..] => first.cross(&second).norm(),
-    }
-}
-
-/// Random numbers in 0..1 (SplitMix64).
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     }
 }
 

@@ -2,62 +2,25 @@
 
 mod library;
 
-use library::{FIVE_AXIS, command_within_travel, machine, machine_of};
-use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
+use library::{FIVE_AXIS, Random, SHIPPED, checked, machine, machine_of};
 use std::f64::consts::TAU;
-use std::path::Path;
-use std::time::{Duration, Instant};
 use trueaxis_geometry::frame::rotation;
-use trueaxis_geometry::input::{Diagnostics, Severity};
 use trueaxis_geometry::{Mat3, Vec3};
 use trueaxis_machine::axis::Command;
 use trueaxis_machine::errors::{
     Component, Curve, ErrorIndex, ErrorKind, ErrorValues, Interpolation, Outside, Rotation, Six,
     Spline,
 };
-use trueaxis_machine::file::Tables;
 use trueaxis_machine::{ErrorModel, Machine, Squareness};
 
-const SHIPPED: [&str; 7] = [
-    "xkas2525",
-    "i5-engraver",
-    "lei-hsu-mill",
-    "head-table",
-    "nutating-head",
-    "wyxzcat-gantry",
-    "three-axis-mill",
-];
-
-/// Numbers in 0..1 that are the same in every run (splitmix64).
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+/// All errors of all bodies: ±20 µm and ±100 µrad.
+fn random_errors(random: &mut Random, machine: &Machine) -> ErrorValues {
+    let mut errors = ErrorValues::default();
+    for index in every_error(machine) {
+        let reach = if index.component.is_rotation() { 1e-4 } else { 0.02 };
+        errors.set(index, random.within(reach));
     }
-
-    fn within(&mut self, reach: f64) -> f64 {
-        reach * (2.0 * self.unit() - 1.0)
-    }
-
-    fn command(&mut self, machine: &Machine) -> Command {
-        command_within_travel(machine, std::array::from_fn(|_| self.unit()))
-    }
-
-    /// All errors of all bodies: ±20 µm and ±100 µrad.
-    fn errors(&mut self, machine: &Machine) -> ErrorValues {
-        let mut errors = ErrorValues::default();
-        for index in every_error(machine) {
-            let reach = if index.component.is_rotation() { 1e-4 } else { 0.02 };
-            errors.set(index, self.within(reach));
-        }
-        errors
-    }
+    errors
 }
 
 fn every_error(machine: &Machine) -> Vec<ErrorIndex> {
@@ -71,26 +34,6 @@ fn every_error(machine: &Machine) -> Vec<ErrorIndex> {
         }
     }
     all
-}
-
-/// The tables of a machine file by name.
-struct Texts<'a>(&'a [(&'a str, &'a str)]);
-
-impl Tables for Texts<'_> {
-    fn text(&self, name: &str) -> Result<String, String> {
-        let found = self.0.iter().find(|(n, _)| *n == name);
-        found.map(|(_, text)| (*text).to_owned()).ok_or_else(|| "not here".to_owned())
-    }
-}
-
-fn check(text: &str, csv: &str) -> (Option<Machine>, Diagnostics) {
-    Machine::check("m.toml", text, &Texts(&[("t.csv", csv)]))
-}
-
-fn checked(text: &str, csv: &str) -> Machine {
-    let (machine, problems) = check(text, csv);
-    let list: Vec<String> = problems.iter().map(ToString::to_string).collect();
-    machine.unwrap_or_else(|| panic!("{}\n{text}", list.join("\n")))
 }
 
 /// A table in X and Y below a Z head, with further lines.
@@ -161,7 +104,7 @@ fn law_errors_halved_difference_of_exact_and_linear_falls_by_four() {
         let mut judged = 0;
         for _ in 0..1500 {
             let command = random.command(&exact);
-            let errors = random.errors(&exact);
+            let errors = random_errors(&mut random, &exact);
             let [to_linear, to_small, of_axis] = [1.0, 0.5]
                 .map(|factor| {
                     let errors = errors.scaled(factor);
@@ -200,7 +143,7 @@ fn law_small_errors_superpose() {
             let mut judged = 0;
             for _ in 0..60 {
                 let command = random.command(&machine);
-                let errors = random.errors(&machine);
+                let errors = random_errors(&mut random, &machine);
                 let [whole, half] = [1.0, 0.5].map(|factor| {
                     let errors = errors.scaled(factor);
                     let alone = |i: &ErrorIndex| machine.deviation(&command, &errors.only(*i));
@@ -223,7 +166,8 @@ fn law_the_matrices_say_the_same() {
         for model in MODELS {
             let machine = machine(name).with_model(model);
             for _ in 0..200 {
-                let (command, errors) = (random.command(&machine), random.errors(&machine));
+                let (command, errors) =
+                    (random.command(&machine), random_errors(&mut random, &machine));
                 let at = machine.deviation(&command, &errors);
                 let pose = machine.pose(&command, &errors);
                 let tip = pose.linear() * machine.tip_mm() + pose.shift_mm();
@@ -296,7 +240,8 @@ fn law_the_sense_turns_the_motion_and_not_the_error() {
             });
             assert_eq!(flipped.axes()[i].sense, -axis.sense);
             for _ in 0..50 {
-                let (command, errors) = (random.command(&normal), random.errors(&normal));
+                let (command, errors) =
+                    (random.command(&normal), random_errors(&mut random, &normal));
                 let mut mirrored = command;
                 mirrored[i] = -command[i];
                 let there = normal.deviation(&command, &errors);
@@ -352,7 +297,7 @@ fn law_error_frames_coincide_at_zero_and_differ_elsewhere() {
         let (fixed, moving) = (of_frame("fixed"), of_frame("moving"));
         let rotary: Vec<usize> = (0..5).filter(|i| fixed.axes()[*i].name.is_rotary()).collect();
         for _ in 0..200 {
-            let errors = random.errors(&fixed);
+            let errors = random_errors(&mut random, &fixed);
             let mut command = random.command(&fixed);
             let both = |command: &Command| {
                 let tip = |m: &Machine| m.deviation(command, &errors).tip_mm;
@@ -377,7 +322,7 @@ fn law_the_whole_machine_may_stand_anywhere() {
             .replace("\"0 0 250 mm\"", &format!("[{turned}, \"shift 0 0 250 mm\"]"))
     });
     for _ in 0..2000 {
-        let (command, errors) = (random.command(&here), random.errors(&here));
+        let (command, errors) = (random.command(&here), random_errors(&mut random, &here));
         let (a, b) = (here.deviation(&command, &errors), elsewhere.deviation(&command, &errors));
         assert!((a.nominal_tip - b.nominal_tip).amax() < 1e-11);
         assert!((a.nominal_axis.vector() - b.nominal_axis.vector()).amax() < 1e-14);
@@ -604,245 +549,3 @@ fn law_periodic_splines_close_with_slope_and_curvature() {
 }
 
 // ---------------------------------------------------------------- the machine file
-
-/// What must hold whatever was read: a machine or an error, every place inside its file, hints.
-fn survives(text: &str, tables: &dyn Tables) {
-    let (machine, problems) = Machine::check("m.toml", text, tables);
-    assert_eq!(machine.is_some(), !problems.has_errors());
-    let lines: Vec<&str> = text.split('\n').collect();
-    for d in problems.iter() {
-        assert!(!d.place.file.is_empty() && !d.message.is_empty() && !d.hint.is_empty(), "{d}");
-        assert!(d.severity != Severity::Error || d.place.file != "m.toml" || d.place.line > 0);
-        if d.place.file == "m.toml" {
-            assert!(d.place.line <= lines.len(), "{d}");
-            assert!(d.place.column <= lines[d.place.line - 1].chars().count() + 1, "{d}");
-        }
-    }
-    let Some(machine) = machine else { return };
-    for t in [0.0, 0.3, 1.0] {
-        let command = command_within_travel(&machine, [t; 6]);
-        let Ok(errors) = machine.errors_at(&command, &[0.0; 6]) else { continue };
-        let at = machine.deviation(&command, &errors);
-        let all = [at.nominal_tip.vector(), at.nominal_axis.vector(), at.tip_mm, at.axis];
-        assert!(all.iter().flatten().all(|v| v.is_finite()), "{text}\n{at:?}");
-    }
-}
-
-/// A shipped machine file and its tables.
-struct Shipped {
-    text: String,
-    tables: Vec<(String, String)>,
-}
-
-impl Tables for Shipped {
-    fn text(&self, name: &str) -> Result<String, String> {
-        let found = self.tables.iter().find(|(n, _)| n == name);
-        found.map(|(_, text)| text.clone()).ok_or_else(|| "not here".to_owned())
-    }
-}
-
-fn shipped() -> Vec<Shipped> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines");
-    let read = |path: &Path| std::fs::read_to_string(path).expect("a shipped file");
-    let of_machine = |name: &&str| {
-        let folder = folder.join(name);
-        let tables = ["X.csv", "Y.csv", "Z.csv", "A.csv", "C.csv"]
-            .iter()
-            .filter(|t| folder.join(t).exists())
-            .map(|t| ((*t).to_owned(), read(&folder.join(t))))
-            .collect();
-        Shipped { text: read(&folder.join("machine.toml")), tables }
-    };
-    SHIPPED.iter().map(of_machine).collect()
-}
-
-#[test]
-fn law_the_reader_survives_truncation_at_every_character() {
-    for file in shipped() {
-        for (end, _) in file.text.char_indices() {
-            survives(&file.text[..end], &file);
-        }
-    }
-}
-
-#[test]
-fn law_the_reader_survives_truncated_and_broken_tables() {
-    let mut random = Random(12);
-    let mut file = shipped().swap_remove(0);
-    let whole = file.tables[0].1.clone();
-    let broken = ["", "nan", "1e400", ",", "\u{feff}", "µ", "\r", "#", "-", "1e308", "position_mm"];
-    for (end, _) in whole.char_indices().filter(|(i, _)| i % 3 == 0) {
-        file.tables[0].1 = whole[..end].to_owned();
-        survives(&file.text, &file);
-        let cut = end + (random.unit() * (whole.len() - end) as f64) as usize;
-        let word = broken[(random.unit() * broken.len() as f64) as usize];
-        file.tables[0].1 = format!("{}{word}{}", &whole[..end], &whole[cut..]);
-        survives(&file.text, &file);
-    }
-}
-
-#[test]
-fn law_the_reader_keeps_its_speed_in_long_files() {
-    let head = "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n[location]\n";
-    let many_lines: String =
-        (0..15_000).map(|i| format!("Q{i} = \"1 um\" # not an error\n")).collect();
-    let one_line: String = (0..15_000).map(|i| format!("Q{i} = \"1 um\", ")).collect();
-    let one_line = format!("EC0Y = {{ {one_line} }}\n[axis]\nX = {{ {one_line} }}\n");
-    for text in [many_lines, one_line] {
-        let begun = Instant::now();
-        let (machine, problems) = check(&format!("{head}{text}"), "");
-        assert!(machine.is_none() && problems.iter().count() >= 15_000 || problems.has_errors());
-        // It takes a tenth of a second; a reader that counts lines anew for every key, half a minute.
-        assert!(begun.elapsed() < Duration::from_secs(6), "{:?}", begun.elapsed());
-    }
-}
-
-/// Words that mean something to the reader, and words that break things.
-const WORDS: &[&str] = &[
-    "[machine]",
-    "[axis.X]",
-    "[[axis.X]]",
-    "[motion.C]",
-    "[location]",
-    "[tool]",
-    "chain",
-    "name",
-    "placement",
-    "mounting",
-    "direction",
-    "travel",
-    "sense",
-    "polynomial",
-    "fourier",
-    "terms",
-    "scale",
-    "table",
-    "outside",
-    "reversal",
-    "u",
-    "EXX",
-    "EC0Y",
-    "C0Y",
-    "EX0w",
-    "=",
-    "{",
-    "}",
-    "[",
-    "]",
-    ",",
-    ".",
-    "\"",
-    "'",
-    "'''",
-    "\"\"\"",
-    "\n",
-    "\r\n",
-    "\r",
-    "#",
-    " ",
-    "\t",
-    "\\",
-    "\u{0}",
-    "\u{feff}",
-    "µ",
-    "μ",
-    "±",
-    "°",
-    "′",
-    "’",
-    "🦀",
-    "nan",
-    "inf",
-    "-inf",
-    "1e308",
-    "-1e308",
-    "1e999",
-    "1e-320",
-    "-0.0",
-    "0x7fffffffffffffff",
-    "99999999999999999999999",
-    "2021-03-28",
-    "true",
-    "\"1e308 m\"",
-    "\"1e-320 mm\"",
-    "\"-0 mm\"",
-    "\"nan mm\"",
-    "\"5 deg\"",
-    "\"5 mm\"",
-    "\"0 0 0\"",
-    "\"0 1 1\"",
-    "\"w b X Y Z t\"",
-    "\"WYXZCAT\"",
-    "\"unlimited\"",
-    "\"t.csv\"",
-    "\"turn Z 10 deg\"",
-    "-1",
-    "1",
-    "0",
-    "1_000",
-    "1e12",
-    "\"1e12 mm\"",
-    "\"1e12 rad\"",
-    "\"1e-9 mm\"",
-];
-
-fn words() -> impl Strategy<Value = String> {
-    let word = prop_oneof![
-        8 => proptest::sample::select(WORDS).prop_map(str::to_owned),
-        1 => any::<char>().prop_map(|c| c.to_string()),
-    ];
-    proptest::collection::vec(word, 0..60).prop_map(|words| words.concat())
-}
-
-/// A change of a text: from, to (as shares of its length), and what stands there instead.
-fn edits() -> impl Strategy<Value = Vec<(f64, usize, String)>> {
-    let new = prop_oneof![proptest::sample::select(WORDS).prop_map(str::to_owned), words()];
-    proptest::collection::vec((0.0..1.0, 0..40usize, new), 1..4)
-}
-
-fn edited(text: &str, edits: &[(f64, usize, String)]) -> String {
-    let mut text: Vec<char> = text.chars().collect();
-    for (at, length, new) in edits {
-        let from = (*at * text.len() as f64) as usize;
-        let to = (from + length).min(text.len());
-        text.splice(from..to, new.chars());
-    }
-    text.into_iter().collect()
-}
-
-/// Every value of a machine file replaced by another one that looks alike.
-fn swapped_values(text: &str, which: usize, word: &str) -> String {
-    let values: Vec<usize> = text.match_indices(" = ").map(|(i, _)| i + 3).collect();
-    let from = values[which % values.len()];
-    let to = from + text[from..].find('\n').unwrap_or(text.len() - from);
-    format!("{}{word}{}", &text[..from], &text[to..])
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig { cases: 3000, rng_seed: RngSeed::Fixed(230), failure_persistence: None, ..Default::default() })]
-
-    #[test]
-    fn law_the_reader_survives_any_text(text in any::<String>(), words in words()) {
-        let tables = Texts(&[("t.csv", &text)]);
-        survives(&text, &tables);
-        survives(&words, &tables);
-        let head = "[machine]\nname = \"m\"\nchain = \"w C' b X Y Z A t\"\n";
-        survives(&format!("{head}{words}"), &tables);
-        survives(&format!("{head}[motion.X]\ntable = \"t.csv\"\n"), &Texts(&[("t.csv", &words)]));
-    }
-
-    #[test]
-    fn law_the_reader_survives_mutated_machines(
-        which in 0..SHIPPED.len(),
-        edits in edits(),
-        value in 0..1000usize,
-        word in proptest::sample::select(WORDS),
-    ) {
-        thread_local!(static FILES: Vec<Shipped> = shipped());
-        FILES.with(|files| {
-            let file = &files[which];
-            survives(&edited(&file.text, &edits), file);
-            survives(&swapped_values(&file.text, value, word), file);
-        });
-    }
-}

@@ -6,7 +6,7 @@
 
 mod library;
 
-use library::{command_within_travel, machine_of};
+use library::{Random, machine_of};
 use trueaxis_geometry::frame::Point;
 use trueaxis_geometry::{Mat3, Vec3};
 use trueaxis_machine::Machine;
@@ -19,31 +19,6 @@ const POSES: usize = 10_000;
 const MACHINES: usize = 20;
 const NEAR_MM: f64 = 1e-9;
 const NEAR: f64 = 1e-12;
-
-/// Numbers in 0..1 that are the same in every run (splitmix64).
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn within(&mut self, reach: f64) -> f64 {
-        reach * (2.0 * self.unit() - 1.0)
-    }
-
-    fn vector(&mut self, reach: f64) -> Vec3 {
-        Vec3::from_fn(|_, _| self.within(reach))
-    }
-
-    fn command(&mut self, machine: &Machine) -> Command {
-        command_within_travel(machine, std::array::from_fn(|_| self.unit()))
-    }
-}
 
 /// The worst differences of a law.
 #[derive(Default)]

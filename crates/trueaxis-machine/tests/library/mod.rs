@@ -4,6 +4,8 @@
 #![allow(dead_code)]
 
 use std::path::{Path, PathBuf};
+use trueaxis_geometry::Vec3;
+use trueaxis_geometry::input::Diagnostics;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
 use trueaxis_machine::file::Tables;
@@ -11,6 +13,17 @@ use trueaxis_machine::file::Tables;
 /// The folders of `machines/` that carry five-axis machines with a known oracle.
 pub const FIVE_AXIS: [&str; 6] =
     ["xkas2525", "i5-engraver", "lei-hsu-mill", "head-table", "nutating-head", "wyxzcat-gantry"];
+
+/// All folders of `machines/`.
+pub const SHIPPED: [&str; 7] = [
+    "xkas2525",
+    "i5-engraver",
+    "lei-hsu-mill",
+    "head-table",
+    "nutating-head",
+    "wyxzcat-gantry",
+    "three-axis-mill",
+];
 
 struct Folder(PathBuf);
 
@@ -32,6 +45,31 @@ pub fn machine_of(name: &str, change: impl Fn(String) -> String) -> Machine {
     let (machine, problems) = Machine::check("machine.toml", &text, &Folder(folder));
     let list: Vec<String> = problems.iter().map(ToString::to_string).collect();
     machine.unwrap_or_else(|| panic!("{name}: {}", list.join("\n")))
+}
+
+/// Numbers in 0..1 that are the same in every run (splitmix64).
+pub struct Random(pub u64);
+
+impl Random {
+    pub fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    pub fn within(&mut self, reach: f64) -> f64 {
+        reach * (2.0 * self.unit() - 1.0)
+    }
+
+    pub fn vector(&mut self, reach: f64) -> Vec3 {
+        Vec3::from_fn(|_, _| self.within(reach))
+    }
+
+    pub fn command(&mut self, machine: &Machine) -> Command {
+        command_within_travel(machine, std::array::from_fn(|_| self.unit()))
+    }
 }
 
 /// A committed table of numbers: headings and rows.
@@ -70,4 +108,24 @@ pub fn command_within_travel(machine: &Machine, unit: [f64; 6]) -> Command {
         *slot = from + (to - from) * t;
     }
     command
+}
+
+/// The tables of a machine file by name.
+pub struct Texts<'a>(pub &'a [(&'a str, &'a str)]);
+
+impl Tables for Texts<'_> {
+    fn text(&self, name: &str) -> Result<String, String> {
+        let found = self.0.iter().find(|(n, _)| *n == name);
+        found.map(|(_, text)| (*text).to_owned()).ok_or_else(|| "not here".to_owned())
+    }
+}
+
+pub fn check(text: &str, csv: &str) -> (Option<Machine>, Diagnostics) {
+    Machine::check("m.toml", text, &Texts(&[("t.csv", csv)]))
+}
+
+pub fn checked(text: &str, csv: &str) -> Machine {
+    let (machine, problems) = check(text, csv);
+    let list: Vec<String> = problems.iter().map(ToString::to_string).collect();
+    machine.unwrap_or_else(|| panic!("{}\n{text}", list.join("\n")))
 }
