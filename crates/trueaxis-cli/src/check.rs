@@ -181,6 +181,9 @@ fn lacks(machine: &Machine) -> Vec<String> {
     if !limits.is_empty() {
         lacking.push(format!("maximum velocity, acceleration or jerk of {limits}: no true timing"));
     }
+    if machine.tip_mm().norm() == 0.0 {
+        lacking.push("the length of the tool, taken as 0".to_owned());
+    }
     let stated = machine.stated_errors();
     if stated.is_empty() {
         lacking.push("errors: the actual machine is the nominal one".to_owned());

@@ -83,16 +83,22 @@ pub enum Error {
 impl Error {
     /// A stable name for programs.
     pub fn code(&self) -> &'static str {
+        let solving = |error: &SolveError| match error {
+            SolveError::Unreachable { .. } => "unreachable-direction",
+            SolveError::TipUnreachable { .. } => "unreachable-tip",
+            SolveError::NotFinite => "not-finite",
+        };
         match self {
-            Self::Path(e) | Self::Hole(e) => match e.fault {
-                FollowFault::Solve(_) => "unreachable-direction",
-                _ => "path-leaves-travel",
+            Self::Path(e) | Self::Hole(e) => match &e.fault {
+                FollowFault::Solve(fault) => solving(fault),
+                FollowFault::LeavesTravel { .. } => "path-leaves-travel",
+                FollowFault::Jump { .. } => "path-jumps",
             },
-            Self::Setting(_) => "unreachable-direction",
+            Self::Setting(fault) => solving(fault),
             Self::SettingOutOfTravel => "path-leaves-travel",
             Self::Table { .. } => "outside-table",
             Self::Evaluation(_) => "not-evaluable",
-            Self::TooFewSamples(_) => "bad-sampling",
+            Self::TooFewSamples(_) => "too-few-samples",
         }
     }
 }

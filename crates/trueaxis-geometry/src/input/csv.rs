@@ -59,7 +59,7 @@ impl CsvTable {
                 "empty-table",
                 Place::whole(file),
                 "the table has no line of headings".to_owned(),
-                "the first line names the columns, such as position_mm,EXX_um",
+                "the first line names the columns, each with its unit, such as position_mm,EXX_um",
             );
         }
         table
@@ -111,7 +111,7 @@ impl CsvTable {
         if row.len() != self.columns.len() {
             let place = Place { file: self.file.clone(), line, column: 1 };
             let message =
-                format!("{} fields stand under {} headings", row.len(), self.columns.len());
+                format!("number of fields: {}, of headings: {}", row.len(), self.columns.len());
             problems.error("ragged-row", place, message, "one number under each heading");
             return;
         }

@@ -170,7 +170,8 @@ impl<'s> Item<'s> {
         if value.fract() == 0.0 && (0.0..=1e12).contains(&value) {
             return Some(value as usize);
         }
-        self.expected("a whole number from 0 on", "write a number such as 0 or 12");
+        let message = format!("{value} is no whole number from 0 to 10^12");
+        self.error("bad-count", message, "write a number such as 0 or 12");
         None
     }
 

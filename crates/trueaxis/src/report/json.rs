@@ -98,7 +98,8 @@ fn judgements(prediction: &Prediction) -> Vec<Value> {
 
 fn command(axes: &[Axis], command: &Command) -> Value {
     let entries = axes.iter().zip(command);
-    entries.map(|(axis, q)| (axis.name.to_string(), json!(shown(axis, *q)))).collect()
+    // + 0.0: no minus before a zero.
+    entries.map(|(axis, q)| (axis.name.to_string(), json!(shown(axis, *q) + 0.0))).collect()
 }
 
 fn positions(prediction: &Prediction, names: &[IndexName]) -> Vec<Value> {

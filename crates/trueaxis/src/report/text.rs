@@ -133,8 +133,9 @@ fn blame_table(out: &mut String, prediction: &Prediction) {
 fn share_cell<T>(prediction: &Prediction, index: usize, share: &Share<T>, name: &str) -> String {
     let gain = relief(prediction, index, share) * 1e3;
     // + 0.0: no minus before a zero.
-    let gain = (gain * 10.0).round() / 10.0 + 0.0;
-    format!("{name:<10}{:>7.1}{gain:>+7.1}    ", share.alone_mm[index] * 1e3)
+    let tenth = |v: f64| (v * 10.0).round() / 10.0 + 0.0;
+    let (alone, gain) = (tenth(share.alone_mm[index] * 1e3), tenth(gain));
+    format!("{name:<10}{alone:>7.1}{gain:>+7.1}    ")
 }
 
 fn group_line<T>(out: &mut String, prediction: &Prediction, share: &Share<T>, name: &str) {
