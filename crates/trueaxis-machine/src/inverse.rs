@@ -128,7 +128,7 @@ impl Machine {
     ///
     /// ```text
     ///     R(a, θ1) · R(b, θ2) · v = u        a, b rotary axes, v tool axis at zero, u wanted
-    ///     Σ q_k · d_k = tip − tip(q_k = 0)   linear axes
+    ///     Σ q_k · d_k = tip − tip(q_k = 0)   linear axes; docs/model.md eq. 15 and 16
     /// ```
     ///
     /// One entry for each branch with angles in (−180°, 180°], and the other turns that lie inside
