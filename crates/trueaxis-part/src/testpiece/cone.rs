@@ -95,6 +95,8 @@ const MOST_POSITIONS: usize = 100_000;
 /// section radius = D_c/2 − H tan α + E_H / cos α
 /// ```
 ///
+/// docs/model.md eq. 18, 20, 21; the indices are eq. 22 to 28 there.
+///
 /// # Example
 /// ```
 /// use trueaxis_geometry::Vec3;

@@ -34,6 +34,8 @@ impl NasMounting {
     /// Rz(γ) · Trans((h1+h2) sin β, 0, h3 + l1 sin β / 2 + (h1+h2) cos β) · Ry(β)
     /// ```
     ///
+    /// docs/model.md eq. 19.
+    ///
     /// # Example
     /// ```
     /// use trueaxis_geometry::frame::Point;
