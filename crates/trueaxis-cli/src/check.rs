@@ -86,7 +86,31 @@ fn errors_text(machine: &Machine) -> String {
     for axis in machine.axes() {
         text += &wrapped(&format!("    {}  ", axis.name), &motions_line(machine, axis));
     }
+    for (measurement, names) in provenance(machine) {
+        text += &wrapped("    measured ", &format!("{measurement}: {}", names.join(" ")));
+    }
     text
+}
+
+/// Instrument, date and temperature, each with the errors that they hold for.
+fn provenance(machine: &Machine) -> Vec<(String, Vec<String>)> {
+    let mut groups: Vec<(String, Vec<String>)> = Vec::new();
+    for (index, name) in machine.stated_errors() {
+        let body = &machine.bodies()[index.body];
+        let Some(stated) = body.stated(name.kind, name.component) else { continue };
+        let measured = &stated.measured;
+        let temperature = measured.temperature_celsius.map(|t| format!("{} °C", rounded(t)));
+        let parts = [measured.instrument.clone(), measured.date.clone(), temperature];
+        let words = parts.into_iter().flatten().collect::<Vec<_>>().join(", ");
+        if words.is_empty() {
+            continue;
+        }
+        match groups.iter_mut().find(|(known, _)| *known == words) {
+            Some((_, names)) => names.push(name.to_string()),
+            None => groups.push((words, vec![name.to_string()])),
+        }
+    }
+    groups
 }
 
 /// A long line in several, all under the beginning of the first.
@@ -233,6 +257,10 @@ fn document(machine: Option<&Machine>, diagnostics: &[Value]) -> Value {
         "axes": axes,
         "tools": tools,
         "errors": errors,
+        "measured": provenance(machine)
+            .into_iter()
+            .map(|(measurement, errors)| json!({ "by": measurement, "errors": errors }))
+            .collect::<Vec<_>>(),
         "lacks": lacks(machine),
         "diagnostics": diagnostics,
     })
