@@ -71,6 +71,10 @@ fn answer(arguments: &Arguments, problems: &mut Diagnostics) -> Option<Answer> {
     let axis = axis.and_then(|v| direction(v, problems));
     let target = Target { tip: Point::from_vector(tip?), axis: axis? };
     let solved = machine.solve(&target, &from?).map_err(|e| refuse(&e, problems)).ok()?;
+    if let Some(singular) = &solved.singular {
+        let hint = "every angle of that axis points the tool the same way; choose it with --from";
+        problems.warn("singular-pose", argument("--axis"), singular.to_string(), hint);
+    }
     if !solved.solutions.iter().any(|s| s.within_travel) {
         let message = "no solution lies within the travel of all axes".to_owned();
         let hint = "move or tilt the part, or take another tool";
@@ -177,6 +181,7 @@ fn follow(
         problems.error(code, table.row_place(error.index), error.fault.to_string(), hint);
     };
     let commands = machine.follow(&targets, from).map_err(refuse).ok()?;
+    warn_of_poles(machine, &table, (&targets, &commands), problems);
     Some(match format {
         Format::Json => {
             let rows: Vec<Value> =
@@ -185,6 +190,26 @@ fn follow(
         }
         Format::Text => Answer::Text(csv(machine, &commands)),
     })
+}
+
+/// Names the first singular pose of a path, and how many there are.
+fn warn_of_poles(
+    machine: &Machine,
+    table: &CsvTable,
+    (targets, commands): (&[Target], &[Command]),
+    problems: &mut Diagnostics,
+) {
+    let singular =
+        targets.iter().zip(commands).enumerate().filter_map(|(row, (target, command))| {
+            let solved = machine.solve(target, command).ok()?;
+            Some((row, solved.singular?))
+        });
+    let all: Vec<_> = singular.collect();
+    if let Some((row, first)) = all.first() {
+        let message = format!("{first}; singular poses on the path: {}", all.len());
+        let hint = "the idle axis turns there while the tool stands";
+        problems.warn("singular-pose", table.row_place(*row), message, hint);
+    }
 }
 
 fn csv(machine: &Machine, commands: &[Command]) -> String {

@@ -90,7 +90,8 @@ fn machine_files() {
 /// Studies that cannot be read.
 const STUDIES: &[(&str, &[Expected])] = &[
     ("study-misspelt-key.toml", &[("unknown-key", "study-misspelt-key.toml:6:1")]),
-    ("study-negative-samples.toml", &[("wrong-type", "study-negative-samples.toml:6:11")]),
+    ("study-negative-samples.toml", &[("bad-count", "study-negative-samples.toml:6:11")]),
+    ("study-guarded-without-u.toml", &[("no-uncertainty", "study-guarded-without-u.toml:1:1")]),
     ("study-one-sample.toml", &[("too-few-samples", "study-one-sample.toml:5:1")]),
     ("study-too-many-samples.toml", &[("too-many-samples", "study-too-many-samples.toml:6:11")]),
     ("study-missing-machine.toml", &[("unreadable-file", "no-such-machine.toml")]),
@@ -141,7 +142,7 @@ const STUDIES: &[(&str, &[Expected])] = &[
             ("unreadable-file", "no-such-machine.toml"),
             ("unreadable-file", "no-such-piece.toml"),
             ("unknown-word", "study-everything-wrong.toml:6:8"),
-            ("wrong-type", "study-everything-wrong.toml:9:11"),
+            ("bad-count", "study-everything-wrong.toml:9:11"),
         ],
     ),
     (

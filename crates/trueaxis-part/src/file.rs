@@ -162,6 +162,30 @@ fn mounting(section: &Section<'_>, cone_height_mm: f64) -> Option<NasMounting> {
     })
 }
 
+impl Tolerances {
+    /// Reads the root of a tolerance file: `source` and `[tolerance]` as in a test piece file.
+    ///
+    /// # Example
+    /// ```
+    /// use trueaxis_geometry::input::Source;
+    /// use trueaxis_part::tolerance::Tolerances;
+    /// let text = "source = \"drawing 12\"\n[tolerance]\nroundness_mzc = \"0.05 mm\"";
+    /// let source = Source::new("ours.toml", text);
+    /// let allowed = source.read(Tolerances::read).expect("all there");
+    /// assert_eq!(allowed.limit_mm("roundness_mzc_mm"), Some(0.05));
+    /// ```
+    pub fn read(root: &Section<'_>) -> Option<Self> {
+        let source = root.text("source").unwrap_or_default();
+        let hint = "[tolerance] with roundness_mzc = \"0.1 mm\" …";
+        let item = root.require("tolerance", hint)?;
+        let mut tolerances = item.section("tolerance", tolerances)??;
+        for tolerance in tolerances.0.iter_mut().filter(|t| t.source.is_empty()) {
+            tolerance.source = source.to_owned();
+        }
+        Some(tolerances)
+    }
+}
+
 /// Reads `[tolerance]`: every key is an index, with or without its `_mm`.
 ///
 /// `None` if one of them cannot be used.

@@ -87,6 +87,26 @@ pub struct IndexName {
     pub decisive: bool,
 }
 
+impl IndexName {
+    /// What tables call it.
+    pub fn title(&self) -> &'static str {
+        match self.key {
+            "roundness_eq18_mm" => "roundness, paper Eq 18",
+            "angularity_eq19_mm" => "angularity, paper Eq 19",
+            "coaxiality_eq20_mm" => "coaxiality, paper Eq 20",
+            "coaxiality_diameter_mm" => "coaxiality, Eq 20 as diameter",
+            "roundness_lsc_mm" => "roundness, least squares",
+            "roundness_mzc_mm" => "roundness, minimum zone",
+            "roundness_mic_mm" => "roundness, maximum inscribed",
+            "roundness_mcc_mm" => "roundness, minimum circumscribed",
+            "coaxiality_lsc_mm" => "coaxiality, diameter",
+            "angularity_zone_mm" => "angularity, zone",
+            "volumetric_max_mm" => "greatest deviation of the tip",
+            other => other,
+        }
+    }
+}
+
 /// The memory of an evaluation; one per thread.
 #[derive(Debug, Clone, Default)]
 pub struct Scratch {

@@ -176,13 +176,13 @@ pub fn predict(study: &Study, progress: &(dyn Fn(usize) + Sync)) -> Result<Predi
     let judge = Judge { cutting: &cutting, piece };
     let (deviations_mm, sections) = sections(machine, &judge)?;
     let indices = indices(study, &judge, progress)?;
-    let verdict = study.judge(&indices).map_err(Error::Evaluation)?;
+    let verdict = verdict(study, &indices)?;
     let corrections = match verdict.outcome {
-        Outcome::Fail => corrections(machine, &judge, &|values| study.would_pass(values))?,
-        _ => Vec::new(),
+        Outcome::Pass => Vec::new(),
+        Outcome::Fail | Outcome::Undecided => remedies(study, &judge, &indices)?,
     };
     Ok(Prediction {
-        warnings: warnings(study, &indices),
+        warnings: warnings(study, &indices, &sections),
         setting_command: *cutting.setting_command(),
         commands: cutting.commands().copied().collect(),
         blame: blame(machine, &judge)?,
@@ -193,6 +193,21 @@ pub fn predict(study: &Study, progress: &(dyn Fn(usize) + Sync)) -> Result<Predi
         deviations_mm,
         sections,
         corrections,
+    })
+}
+
+fn verdict(study: &Study, indices: &[Index]) -> Result<Verdict, Error> {
+    let values: Vec<f64> = indices.iter().map(|i| i.value_mm).collect();
+    let expanded = study.expanded_mm(indices);
+    study.judge(&values, expanded.as_deref()).map_err(Error::Evaluation)
+}
+
+/// Single corrections after which the part would pass by the study's own rule; a correction shifts
+/// an error and leaves the uncertainties as they are.
+fn remedies(study: &Study, judge: &Judge<'_>, indices: &[Index]) -> Result<Vec<Correction>, Error> {
+    let expanded = study.expanded_mm(indices);
+    corrections(&study.machine, judge, &|values| {
+        study.judge(values, expanded.as_deref()).is_ok_and(|v| v.outcome == Outcome::Pass)
     })
 }
 
@@ -250,9 +265,9 @@ fn variants(study: &Study) -> Result<Vec<VariantResult>, Error> {
         .collect()
 }
 
-/// Linear propagation and Monte Carlo may differ where an index has kinks: say so.
-fn warnings(study: &Study, indices: &[Index]) -> Vec<String> {
-    let mut warnings = Vec::new();
+/// What a reader of the verdict alone would miss.
+fn warnings(study: &Study, indices: &[Index], sections: &[SectionResult]) -> Vec<String> {
+    let mut warnings = other_sections(study, indices, sections);
     if study.machine.stated_errors().is_empty() {
         warnings.push("the machine file states no errors: this is the nominal part".to_owned());
     }
@@ -264,12 +279,36 @@ fn warnings(study: &Study, indices: &[Index]) -> Vec<String> {
         let Some(spread) = index.spread else { continue };
         if (spread.u_mm - index.u_mm).abs() > 0.15 * index.u_mm.max(spread.u_mm) {
             warnings.push(format!(
-                "{}: u is {:.2} µm by linear propagation, {:.2} µm by Monte Carlo; the index has \
-                 a kink here, trust the latter",
-                index.name.key,
+                "{}: u is {:.2} µm by linear propagation, {:.2} µm by Monte Carlo: the index has a \
+                 kink here; with a guard band the larger one counts",
+                index.name.title(),
                 index.u_mm * 1e3,
                 spread.u_mm * 1e3
             ));
+        }
+    }
+    warnings
+}
+
+/// The verdict looks at one section; another one may be out of tolerance.
+fn other_sections(study: &Study, indices: &[Index], sections: &[SectionResult]) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for (i, index) in indices.iter().enumerate().filter(|(_, i)| i.name.decisive) {
+        let Some(limit_mm) = study.tolerances.limit_mm(index.name.key) else { continue };
+        for (number, result) in sections.iter().enumerate() {
+            let Some(value) = result.section.indices_mm[i].filter(|v| *v > limit_mm) else {
+                continue;
+            };
+            if index.value_mm <= limit_mm {
+                warnings.push(format!(
+                    "{} at position {} (z = {:.0} mm) is {:.2} µm and out of tolerance, but the \
+                     verdict is on another position",
+                    index.name.title(),
+                    number + 1,
+                    result.section.z_mm,
+                    value * 1e3
+                ));
+            }
         }
     }
     warnings

@@ -18,25 +18,6 @@ use crate::predict::{Index, Prediction, Share};
 use trueaxis_machine::axis::{Axis, AxisKind, Command};
 use trueaxis_part::testpiece::{Family, Feature, IndexName};
 
-/// What an index is called in tables.
-fn title(name: &IndexName) -> String {
-    let words = match name.key {
-        "roundness_eq18_mm" => "roundness, paper Eq 18",
-        "angularity_eq19_mm" => "angularity, paper Eq 19",
-        "coaxiality_eq20_mm" => "coaxiality, paper Eq 20",
-        "coaxiality_diameter_mm" => "coaxiality, Eq 20 as diameter",
-        "roundness_lsc_mm" => "roundness, least squares",
-        "roundness_mzc_mm" => "roundness, minimum zone",
-        "roundness_mic_mm" => "roundness, maximum inscribed",
-        "roundness_mcc_mm" => "roundness, minimum circumscribed",
-        "coaxiality_lsc_mm" => "coaxiality, diameter",
-        "angularity_zone_mm" => "angularity, zone",
-        "volumetric_max_mm" => "greatest deviation of the tip",
-        other => other,
-    };
-    words.to_owned()
-}
-
 /// The feature in one word.
 fn feature(name: &IndexName) -> &'static str {
     match name.feature {
@@ -65,7 +46,7 @@ fn relief<T>(prediction: &Prediction, index: usize, share: &Share<T>) -> f64 {
     prediction.indices[index].value_mm - share.without_mm[index]
 }
 
-/// The shares that matter most for one index: by relief, then alone.
+/// The shares that matter most for one index: by the larger of relief and effect alone.
 fn ranked<'a, T>(
     prediction: &Prediction,
     index: usize,

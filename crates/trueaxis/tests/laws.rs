@@ -227,3 +227,40 @@ fn law_the_setting_error_is_taken_off_once() {
     let off = indices(Setting::Perfect)[coaxiality] - 0.100;
     assert!(off.abs() < 1e-7, "{off:e} mm");
 }
+
+/// A mounting that is tilted by ε moves the cut as a rigid body about the set zero:
+/// E = n_f · (ε × P) = ε sin φ (35 cos α + R sin α) on the section at z = −35 mm, so that its centre
+/// seems 35 mm + R tan α = 66.7 mm times ε beside the ideal axis. A hole that the same machine
+/// bored is tilted with it, and against the hole nothing remains.
+#[test]
+fn law_a_bored_hole_takes_off_what_moves_the_whole_part() {
+    let study = study();
+    let (index, _) = study
+        .machine
+        .stated_errors()
+        .into_iter()
+        .find(|(_, name)| name.to_string() == "EA0w")
+        .expect("EA0w is stated");
+    let tilted = |datum: DatumAxis| {
+        let reference = Reference { datum, ..Reference::default() };
+        with_judge(&study, &reference, |judge| {
+            let only = judge.once(&|_, _| {
+                let mut errors = ErrorValues::default();
+                errors.set(index, 100e-6);
+                errors
+            });
+            only.expect("indices")
+        })
+    };
+    let names = study.piece().index_names();
+    let coaxiality = names.iter().position(|n| n.key == "coaxiality_lsc_mm").expect("an index");
+    let ideal = tilted(DatumAxis::Ideal)[coaxiality];
+    // The mounting error tilts the fixture, which stands 10° inclined: EA0w about the machine's X
+    // has the component cos 10° across the cone axis.
+    let radius = 125.0 - 25.0 * 15_f64.to_radians().tan();
+    let lever = 35.0 + radius * 15_f64.to_radians().tan();
+    let by_hand = 2.0 * 100e-6 * lever * 10_f64.to_radians().cos();
+    assert!((ideal - by_hand).abs() < 1e-6, "{ideal} {by_hand}");
+    let hole = tilted(DatumAxis::ReferenceHole { depth_mm: 40.0 })[coaxiality];
+    assert!(hole < 1e-6, "{hole:e} mm");
+}

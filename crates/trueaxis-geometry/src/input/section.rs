@@ -219,6 +219,11 @@ impl<'s> Item<'s> {
     }
 
     fn plain_number(&self, dimension: Dimension) -> Option<f64> {
+        let is_number = matches!(self.value.get_ref(), DeValue::Integer(_) | DeValue::Float(_));
+        if dimension != Dimension::Ratio && !is_number {
+            self.expected(&dimension.to_string(), "in quotes with its unit, such as \"10 ± 2 um\"");
+            return None;
+        }
         let value = self.number()?;
         // Plain numbers only stand for plain numbers: everything else needs its unit.
         self.accept(match dimension {

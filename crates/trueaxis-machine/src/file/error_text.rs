@@ -29,9 +29,16 @@ pub fn read_location(section: &Section<'_>, bodies: &mut [ChainBody]) {
             continue;
         }
         let Some(name) = ErrorName::parse(key).filter(|n| n.kind == ErrorKind::Location) else {
-            let hint = "location errors are E, direction X Y Z A B C, 0, body: EX0C, EC0Y, EA0t";
+            let hint = match ErrorName::parse(key) {
+                Some(motion) => {
+                    format!("it is an error motion: write it under [motion.{}]", motion.body)
+                }
+                None => {
+                    "location errors are E, direction X Y Z A B C, 0, body: EX0C, EC0Y, EA0t".into()
+                }
+            };
             let message = format!("`{key}` is no location error of ISO 230-1");
-            section.error_at(place, "unknown-error-name", message, hint);
+            section.error_at(place, "unknown-error-name", message, &hint);
             continue;
         };
         let Some(body) = bodies.iter_mut().find(|b| b.name == name.body) else {

@@ -190,7 +190,11 @@ impl<'a> ErrorTable<'a> {
             };
             problems.error("table-too-short", place, message, hint);
         } else {
-            problems.warn("table-too-short", place, message, "the ends are extrapolated there");
+            let hint = match self.habits.outside {
+                Outside::Extend => "beyond its ends the error goes on along a straight line",
+                _ => "beyond its ends the last value holds",
+            };
+            problems.warn("table-too-short", place, message, hint);
         }
     }
 

@@ -40,7 +40,7 @@ impl ConeSize {
     /// assert!((top_radius_mm - 108.923).abs() < 1e-3);
     /// ```
     /// # Source
-    /// Wu et al. 2022, table 2, fig. 13; 72 positions: shared/data/xkas2525.
+    /// Wu et al. 2022, table 2, fig. 13; the paper does not print m, 72 is ours.
     pub fn nas979() -> Self {
         Self {
             half_angle_rad: 15f64.to_radians(),
@@ -112,7 +112,7 @@ const MOST_POSITIONS: usize = 100_000;
 /// # Ok::<(), trueaxis_part::Error>(())
 /// ```
 /// # Source
-/// Wu et al. 2022, Eq 14–20 with the corrections 000-9 … 000-15 of shared/errata.md.
+/// Wu et al. 2022, Eq 14–20 with the corrections 000-9 … 000-15, see docs/validation.md.
 #[derive(Debug, Clone)]
 pub struct Cone {
     name: String,

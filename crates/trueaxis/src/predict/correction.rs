@@ -69,13 +69,17 @@ fn smallest_change(
     let mut failing = 0.0;
     let mut trial = FIRST;
     while trial <= LIMIT {
+        let mut smallest: Option<f64> = None;
         for sign in [1.0, -1.0] {
-            let indices = shifted(judge, index, sign * trial * unit)?;
-            if passes(&indices) {
+            if passes(&shifted(judge, index, sign * trial * unit)?) {
                 let change = edge(judge, (index, sign * unit), (failing, trial), passes)?;
-                let indices = shifted(judge, index, change)?;
-                return Ok(Some((change, indices)));
+                if smallest.is_none_or(|other| change.abs() < other.abs()) {
+                    smallest = Some(change);
+                }
             }
+        }
+        if let Some(change) = smallest {
+            return Ok(Some((change, shifted(judge, index, change)?)));
         }
         failing = trial;
         trial *= GROWTH;

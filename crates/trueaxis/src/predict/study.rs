@@ -12,7 +12,7 @@ use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::errors::{BodyName, ErrorKind, ErrorName};
 use trueaxis_machine::file::read_pose;
 use trueaxis_part::testpiece::TestPiece;
-use trueaxis_part::tolerance::{Acceptance, Outcome, Verdict};
+use trueaxis_part::tolerance::{Acceptance, Tolerances, Verdict};
 use trueaxis_part::{Shape, TestPieceFile};
 
 /// Another way to set the zero or to choose the datum, to be shown beside.
@@ -42,6 +42,8 @@ pub struct PublishedRow {
     pub measured_mm: Vec<f64>,
     /// Predicted by the source, mm.
     pub predicted_mm: Option<f64>,
+    /// How its definition differs from ours, if it does.
+    pub note: String,
 }
 
 /// How the uncertainty enters the verdict.
@@ -69,6 +71,10 @@ pub struct Study {
     pub machine_path: PathBuf,
     /// The test piece and its tolerances.
     pub test_piece: TestPieceFile,
+    /// What is allowed: the study's own tolerance file, or that of the test piece.
+    pub tolerances: Tolerances,
+    /// Location errors that this study replaces, as written.
+    pub what_if: Vec<String>,
     /// How the zero was set, and the datum.
     pub reference: Reference,
     /// What else to look at.
@@ -90,28 +96,28 @@ impl Study {
         self.test_piece.piece()
     }
 
-    /// The verdict on predicted indices.
+    /// U = k·u of every index if the rule asks for it; the larger of the two u counts.
+    pub fn expanded_mm(&self, indices: &[Index]) -> Option<Vec<f64>> {
+        let Decision::Guarded { coverage } = self.decision else { return None };
+        let u = |i: &Index| i.spread.map_or(i.u_mm, |s| s.u_mm.max(i.u_mm));
+        Some(indices.iter().map(|i| coverage * u(i)).collect())
+    }
+
+    /// The verdict on index values by the study's rule; `expanded_mm` as from
+    /// [`Study::expanded_mm`].
     ///
     /// # Errors
     /// Indices that are not finite.
-    pub fn judge(&self, indices: &[Index]) -> Result<Verdict, trueaxis_part::Error> {
-        let values: Vec<f64> = indices.iter().map(|i| i.value_mm).collect();
-        let expanded: Vec<f64> = match self.decision {
-            Decision::Simple => Vec::new(),
-            Decision::Guarded { coverage } => indices.iter().map(|i| coverage * i.u_mm).collect(),
+    pub fn judge(
+        &self,
+        values_mm: &[f64],
+        expanded_mm: Option<&[f64]>,
+    ) -> Result<Verdict, trueaxis_part::Error> {
+        let acceptance = match expanded_mm {
+            None => Acceptance::Simple,
+            Some(expanded_mm) => Acceptance::GuardBand { expanded_mm },
         };
-        let acceptance = match self.decision {
-            Decision::Simple => Acceptance::Simple,
-            Decision::Guarded { .. } => Acceptance::GuardBand { expanded_mm: &expanded },
-        };
-        self.test_piece.tolerances.judge(self.piece().index_names(), &values, acceptance)
-    }
-
-    /// Whether a part with these indices would be accepted by simple acceptance.
-    pub fn would_pass(&self, indices_mm: &[f64]) -> bool {
-        let names = self.piece().index_names();
-        let verdict = self.test_piece.tolerances.judge(names, indices_mm, Acceptance::Simple);
-        verdict.is_ok_and(|v| v.outcome == Outcome::Pass)
+        self.tolerances.judge(self.piece().index_names(), values_mm, acceptance)
     }
 }
 
@@ -150,11 +156,19 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Study> {
         root.entries();
         return None;
     };
-    let machine = read_what_if(root, read_tool(root, machine, &test_piece));
+    let (machine, what_if) = read_what_if(root, read_tool(root, machine, &test_piece));
+    let tolerances = match root.get("tolerances").map(|item| item.text()) {
+        Some(path) => path.and_then(|p| read_tolerance_file(root, &folder.join(p))),
+        None => Some(test_piece.tolerances.clone()),
+    };
     let reference = read_reference(root, &machine);
     let variants = root.section("compare", |s| read_variants(s, &machine, &reference));
+    let decision = decision.unwrap_or(Some(Decision::Simple));
+    check_uncertainties(root, decision, &machine);
     let machine = read_mounting(root, machine, &test_piece)?;
     Some(Study {
+        tolerances: tolerances?,
+        what_if,
         name: name?.to_owned(),
         path: path.to_owned(),
         machine_path: machine_path?,
@@ -162,10 +176,41 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Study> {
         test_piece,
         variants: variants.unwrap_or_default(),
         reference,
-        decision: decision.unwrap_or(Some(Decision::Simple))?,
+        decision: decision?,
         sampling: sampling.unwrap_or(Some(Sampling::default())).filter(|s| s.samples > 0),
         published,
     })
+}
+
+/// A guard band of nothing would pass what nobody knows.
+fn check_uncertainties(root: &Section<'_>, decision: Option<Decision>, machine: &Machine) {
+    let Some(Decision::Guarded { .. }) = decision else { return };
+    let stated = machine.stated_errors();
+    let without = stated.iter().filter(|(index, name)| {
+        let body = &machine.bodies()[index.body];
+        body.stated(name.kind, name.component).is_some_and(|s| s.u.is_none())
+    });
+    let names: Vec<String> = without.map(|(_, name)| name.to_string()).collect();
+    if !names.is_empty() {
+        let message = format!("ISO 14253-1 needs u of every error; none for {}", names.join(" "));
+        let hint = "state them in the machine file (\"12 ± 1 urad\"), or say rule = \"simple\"";
+        root.error("no-uncertainty", message, hint);
+    }
+}
+
+/// A file with `source` and `[tolerance]`, used instead of the tolerances of the test piece.
+fn read_tolerance_file(root: &Section<'_>, path: &Path) -> Option<Tolerances> {
+    let mut problems = Diagnostics::new();
+    let text = files::text(path, "a tolerance file (TOML)", &mut problems);
+    let tolerances = text.and_then(|text| {
+        let file = path.display().to_string();
+        let source = Source::new(&file, &text);
+        let tolerances = source.read(Tolerances::read);
+        problems.append(source.finish());
+        tolerances
+    });
+    root.take_over(problems);
+    tolerances
 }
 
 fn read_piece(root: &Section<'_>, path: &Path) -> Option<TestPieceFile> {
@@ -224,9 +269,10 @@ fn named_length(item: &Item<'_>, machine: &Machine, piece: &TestPieceFile) -> Op
 }
 
 /// `[what_if] EA0A = "-450 urad"`: location errors that are replaced in this study.
-fn read_what_if(root: &Section<'_>, machine: Machine) -> Machine {
+fn read_what_if(root: &Section<'_>, machine: Machine) -> (Machine, Vec<String>) {
     let mut changed = machine;
     let mut named = Vec::new();
+    let mut words = Vec::new();
     root.section("what_if", |s| {
         for (key, place, item) in s.entries() {
             let name = ErrorName::parse(key).filter(|n| n.kind == ErrorKind::Location);
@@ -245,7 +291,10 @@ fn read_what_if(root: &Section<'_>, machine: Machine) -> Machine {
             let dimension = if rotation { Dimension::Angle } else { Dimension::Length };
             let Some(value) = item.quantity(dimension) else { continue };
             match changed.clone().with_location(name, value) {
-                Some(machine) => changed = machine,
+                Some(machine) => {
+                    changed = machine;
+                    words.push(format!("{name} = {}", item.as_text().unwrap_or_default()));
+                }
                 None => {
                     let message = format!("{name}: the chain has no body {}", name.body);
                     s.error_at(place, "unknown-body", message, "name a body of the chain, w or t");
@@ -253,7 +302,7 @@ fn read_what_if(root: &Section<'_>, machine: Machine) -> Machine {
             }
         }
     });
-    changed
+    (changed, words)
 }
 
 /// `[mounting] fixture = "3100 1250 -1200 mm"`: the fixture of the test piece there; without it
@@ -425,7 +474,8 @@ fn read_published(section: &Section<'_>, piece: Option<&TestPieceFile>) -> Publi
             let measured_mm =
                 measured.iter().filter_map(|i| i.quantity(Dimension::Length)).collect();
             let predicted_mm = s.quantity("predicted", Dimension::Length);
-            PublishedRow { key: key.to_owned(), measured_mm, predicted_mm }
+            let note = s.text("note").unwrap_or_default().to_owned();
+            PublishedRow { key: key.to_owned(), measured_mm, predicted_mm, note }
         });
         rows.extend(row);
     }

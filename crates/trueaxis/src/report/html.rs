@@ -5,8 +5,8 @@ use super::plots::{
     Bar, COLOURS, ConeMap, Curve, DrawingError, FittedCircle, Labels, Profile, bars, cone_map,
     curves, polar,
 };
-use super::{command_words, decisive, feature, ranked, relief, shown, title, unit};
-use crate::predict::{Prediction, SectionResult, Study};
+use super::{command_words, decisive, feature, ranked, relief, shown, unit};
+use crate::predict::{DatumAxis, Decision, Prediction, SectionResult, Sensitivity, Study};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use trueaxis_part::Shape;
 use trueaxis_part::tolerance::Outcome;
@@ -35,8 +35,9 @@ pub fn html(study: &Study, prediction: &Prediction) -> Result<String, DrawingErr
                         (study.machine.name()) " · " code { (study.machine.chain_text()) } " · "
                         (study.test_piece.name)
                     }
+                    p.soft { "Numbers of the machine: " (study.machine.source()) }
                     (verdict(prediction))
-                    (index_section(prediction))
+                    (index_section(study, prediction))
                     (section_pictures(prediction)?)
                     (map_section(study, prediction)?)
                     (motion_section(study, prediction)?)
@@ -81,31 +82,32 @@ fn verdict(prediction: &Prediction) -> Markup {
     }
 }
 
-fn index_section(prediction: &Prediction) -> Markup {
+fn index_section(study: &Study, prediction: &Prediction) -> Markup {
     let judged = |key: &str| prediction.verdict.judgements.iter().find(|j| j.index.key == key);
     html! {
         section {
             h2 { "Indices" }
             p.soft { "All in µm; u is a standard uncertainty. The bold indices decide, after ISO; \
-                      those of the paper stand beside them." }
+                      those of the paper stand beside them. Rule: " (rule(study)) "." }
             div.scroll { table {
                 thead { tr {
                     th { "index" } th { "value" } th { "u, linear" } th { "u, Monte Carlo" }
-                    th { "95 % interval" } th { "allowed" } th { "used" } th { "" }
+                    th { "95 % interval" } th { "U" } th { "allowed" } th { "used" } th { "" }
                 } }
                 tbody { @for index in &prediction.indices {
                     tr.decisive[index.name.decisive] {
-                        td { (title(&index.name)) }
+                        td { (index.name.title()) }
                         td { (um(index.value_mm)) }
                         td { (um(index.u_mm)) }
                         @if let Some(s) = index.spread {
                             td { (um(s.u_mm)) } td { (um(s.low_mm)) " … " (um(s.high_mm)) }
                         } @else { td {} td {} }
                         @if let Some(j) = judged(index.name.key) {
+                            td { @if let Some(u) = j.expanded_mm { (um(u)) } }
                             td { (um(j.limit_mm)) }
                             td { (format!("{:.0} %", j.used_ratio * 100.0)) }
                             td class=(class(j.outcome)) { (class(j.outcome)) }
-                        } @else { td {} td {} td {} }
+                        } @else { td {} td {} td {} td {} }
                     }
                 } }
             } }
@@ -115,7 +117,7 @@ fn index_section(prediction: &Prediction) -> Markup {
                     th { "position" } th { "z, mm" }
                     @for index in &prediction.indices {
                         @if index.name.key.starts_with("roundness") || index.name.key.starts_with("coaxiality") {
-                            th { (title(&index.name)) }
+                            th { (index.name.title()) }
                         }
                     }
                 } }
@@ -129,6 +131,13 @@ fn index_section(prediction: &Prediction) -> Markup {
                 } } }
             } }
         }
+    }
+}
+
+fn rule(study: &Study) -> String {
+    match study.decision {
+        Decision::Simple => "simple acceptance, value against limit".to_owned(),
+        Decision::Guarded { coverage } => format!("ISO 14253-1 with U = {coverage} u"),
     }
 }
 
@@ -157,6 +166,9 @@ fn section_pictures(prediction: &Prediction) -> Result<Markup, DrawingError> {
         }
         section {
             h2 { "Sections, magnified" }
+            p.soft { "Blue: the profile; black: the nominal circle; the fitted circles with the \
+                      roundness about their centre. Only the deviations are magnified, so that a \
+                      circle beside the centre does not look round." }
             div.grid {
                 @for (i, picture) in pictures.iter().enumerate() {
                     figure {
@@ -191,8 +203,17 @@ fn polar_picture(result: &SectionResult) -> Result<String, DrawingError> {
             colour: if dashed { COLOURS[1] } else { COLOURS[2] },
         };
     let width = um(c.mzc.width_mm());
+    let thin = |name: &str, zone: &trueaxis_part::fit::circle::Zone, radius, colour| FittedCircle {
+        label: format!("{name}, {} µm", um(zone.width_mm())),
+        centre_mm: zone.center_mm,
+        excess_mm: radius - section.radius_mm,
+        dashed: true,
+        colour,
+    };
     let circles = [
-        zone("least squares", &c.lsc, c.lsc.radius_mm, true),
+        thin("maximum inscribed", &c.mic, c.mic.inner_mm, COLOURS[3]),
+        thin("minimum circumscribed", &c.mcc, c.mcc.outer_mm, COLOURS[5]),
+        zone(&format!("least squares, {} µm", um(c.lsc.width_mm())), &c.lsc, c.lsc.radius_mm, true),
         zone("", &c.mzc, c.mzc.inner_mm, false),
         zone(&format!("minimum zone, {width} µm"), &c.mzc, c.mzc.outer_mm, false),
     ];
@@ -227,10 +248,11 @@ fn motion_section(study: &Study, prediction: &Prediction) -> Result<Markup, Draw
     let axes = study.machine.axes();
     let mut pictures = Vec::new();
     for (i, axis) in axes.iter().enumerate() {
-        let commands = prediction.commands.iter().enumerate();
-        let points = commands.map(|(k, c)| (k as f64, shown(axis, c[i]))).collect();
+        let azimuths = prediction.sections.first().map_or(&[][..], |s| &s.section.azimuth_rad);
+        let commands = azimuths.iter().zip(&prediction.commands);
+        let points = commands.map(|(a, c)| (a.to_degrees(), shown(axis, c[i]))).collect();
         let y = format!("{}, {}", axis.name, unit(axis));
-        let labels = Labels { x: "tool position", y: &y };
+        let labels = Labels { x: "azimuth, deg", y: &y };
         let line = Curve { label: axis.name.to_string(), points };
         pictures.push(curves((480, 260), &labels, &[line])?);
     }
@@ -257,12 +279,14 @@ fn blame_section(prediction: &Prediction) -> Result<Markup, DrawingError> {
                 relief_mm: relief(prediction, i, share),
             });
         }
-        pictures.push((title(&index.name), bars(500, &rows)?));
+        pictures.push((index.name.title(), bars(500, &rows)?));
     }
     let groups = group_table(prediction);
     Ok(html! {
         section {
             h2 { "Who is to blame" }
+            p.soft { "Alone: the index if there were only this error. Gain: what the index loses if \
+                      the error is removed; a negative gain means that it compensates others." }
             div.grid { @for (name, picture) in &pictures {
                 figure { figcaption { (name) } (PreEscaped(picture)) }
             } }
@@ -285,12 +309,14 @@ fn group_table(prediction: &Prediction) -> Markup {
     html! {
         div.scroll { table {
             thead { tr {
-                th { "group, µm: alone / rest without it" }
-                @for (_, index) in decisive(prediction) { th { (title(&index.name)) } }
+                th { "group, µm: alone / gain" }
+                @for (_, index) in decisive(prediction) { th { (index.name.title()) } }
             } }
             tbody { @for (name, alone, without) in &rows { tr {
                 td { (name) }
-                @for (i, _) in decisive(prediction) { td { (um(alone[i])) " / " (um(without[i])) } }
+                @for (i, index) in decisive(prediction) {
+                    td { (um(alone[i])) " / " (format!("{:+.2}", (index.value_mm - without[i]) * 1e3)) }
+                }
             } } }
         } }
     }
@@ -306,7 +332,7 @@ fn correction_section(prediction: &Prediction) -> Markup {
             p.soft { "The smallest first; a microradian counts as a micrometre." }
             div.scroll { table {
                 thead { tr { th { "location error" } th { "change" }
-                    @for (_, index) in decisive(prediction) { th { (title(&index.name)) ", µm" } } } }
+                    @for (_, index) in decisive(prediction) { th { (index.name.title()) ", µm" } } } }
                 tbody { @for correction in prediction.corrections.iter().take(8) { tr {
                     td { code { (correction.error) } }
                     td { @if correction.error.component.is_rotation() {
@@ -320,21 +346,25 @@ fn correction_section(prediction: &Prediction) -> Markup {
 }
 
 fn sensitivity_section(prediction: &Prediction) -> Markup {
-    let felt = |s: &&crate::predict::Sensitivity| {
-        decisive(prediction).any(|(i, _)| s.slope[i].abs() > 1e-9)
+    let scale = |s: &Sensitivity| if s.error.component.is_rotation() { 1e-3 } else { 1.0 };
+    let most = |s: &Sensitivity| {
+        let slopes = decisive(prediction).map(|(i, _)| s.slope[i].abs() * scale(s));
+        slopes.fold(0.0_f64, f64::max)
     };
+    let mut felt: Vec<&Sensitivity> =
+        prediction.sensitivities.iter().filter(|s| most(s) > 5e-5).collect();
+    felt.sort_by(|a, b| most(b).total_cmp(&most(a)));
     html! {
         section {
             h2 { "Sensitivity to location errors" }
             p.soft { "µm of the index per µm (shifts) or per µrad (rotations)." }
             div.scroll { table {
                 thead { tr { th { "location error" }
-                    @for (_, index) in decisive(prediction) { th { (title(&index.name)) } } } }
-                tbody { @for s in prediction.sensitivities.iter().filter(felt) { tr {
+                    @for (_, index) in decisive(prediction) { th { (index.name.title()) } } } }
+                tbody { @for s in &felt { tr {
                     td { code { (s.error) } }
                     @for (i, _) in decisive(prediction) {
-                        @let scale = if s.error.component.is_rotation() { 1e-3 } else { 1.0 };
-                        td { (format!("{:+.4}", s.slope[i] * scale)) }
+                        td { (format!("{:+.4}", s.slope[i] * scale(s))) }
                     }
                 } } }
             } }
@@ -374,15 +404,16 @@ fn published_section(study: &Study, prediction: &Prediction) -> Markup {
             p.soft { (published.source) }
             div.scroll { table {
                 thead { tr { th { "index, µm" } th { "here" } th { "published prediction" }
-                    th { "measured" } th { "mean of the measured" } } }
+                    th { "measured" } th { "mean of the measured" } th { "" } } }
                 tbody { @for row in &published.rows { tr {
-                    td { (ours(&row.key).map_or(row.key.clone(), |i| title(&i.name))) }
+                    td { (ours(&row.key).map_or(row.key.as_str(), |i| i.name.title())) }
                     td { @if let Some(index) = ours(&row.key) { (um(index.value_mm)) } }
                     td { @if let Some(value) = row.predicted_mm { (um(value)) } }
                     td { (row.measured_mm.iter().map(|m| um(*m)).collect::<Vec<_>>().join(", ")) }
                     td { @if !row.measured_mm.is_empty() {
                         (um(row.measured_mm.iter().sum::<f64>() / row.measured_mm.len() as f64))
                     } }
+                    td { (row.note) }
                 } } }
             } }
         }
@@ -391,6 +422,11 @@ fn published_section(study: &Study, prediction: &Prediction) -> Markup {
 
 fn input_section(study: &Study, prediction: &Prediction) -> Markup {
     let stated = study.machine.stated_errors().len();
+    let tip = study.machine.tip_mm();
+    let datum = match study.reference.datum {
+        DatumAxis::Ideal => "ideal axis through the set zero".to_owned(),
+        DatumAxis::ReferenceHole { depth_mm } => format!("reference hole, {depth_mm} mm deep"),
+    };
     html! {
         section {
             h2 { "Inputs" }
@@ -399,6 +435,18 @@ fn input_section(study: &Study, prediction: &Prediction) -> Markup {
                 tr { td { "machine" } td { code { (study.machine_path.display()) } } }
                 tr { td { "source of the machine" } td { (study.machine.source()) } }
                 tr { td { "stated errors" } td { (stated) } }
+                @if !study.what_if.is_empty() {
+                    tr { td { "replaced in this study" } td { (study.what_if.join(", ")) } }
+                }
+                tr { td { "tool tip in the holder, mm" }
+                    td { (format!("{} {} {}", tip.x + 0.0, tip.y + 0.0, tip.z + 0.0)) } }
+                tr { td { "zero set at" }
+                    td { (command_words(study.machine.axes(), &prediction.setting_command)) } }
+                tr { td { "datum" } td { (datum) } }
+                tr { td { "rule" } td { (rule(study)) } }
+                @for t in &study.tolerances.0 {
+                    tr { td { (t.index.title()) } td { "at most " (um(t.limit_mm)) " µm; " (t.source) } }
+                }
                 tr { td { "test piece" } td { (study.test_piece.name) } }
                 tr { td { "source of the test piece" } td { (study.test_piece.source) } }
                 tr { td { "tool positions × heights" }

@@ -1,6 +1,6 @@
 //! The document `trueaxis/predict/1`; its keys are fixed in docs/conventions.md.
 
-use super::{family_key, shown};
+use super::{family_key, ranked, shown};
 use crate::predict::{Correction, Index, Prediction, SectionResult, Sensitivity, Share, Study};
 use serde_json::{Map, Value, json};
 use trueaxis_machine::axis::{Axis, Command};
@@ -24,8 +24,8 @@ pub fn json(study: &Study, prediction: &Prediction) -> Value {
         "setting_command": command(axes, &prediction.setting_command),
         "positions": positions(prediction, &names),
         "blame": blame(prediction, &names),
-        "blame_by_body": groups(&prediction.blame.bodies, &names, |b| b.to_string()),
-        "blame_by_kind": groups(&prediction.blame.kinds, &names, |k| match k {
+        "blame_by_body": groups(prediction, &prediction.blame.bodies, &names, |b| b.to_string()),
+        "blame_by_kind": groups(prediction, &prediction.blame.kinds, &names, |k| match k {
             ErrorKind::Location => "location errors".to_owned(),
             ErrorKind::Motion => "error motions".to_owned(),
         }),
@@ -125,13 +125,19 @@ fn position(number: usize, result: &SectionResult, names: &[IndexName]) -> Value
 }
 
 fn blame(prediction: &Prediction, names: &[IndexName]) -> Vec<Value> {
-    groups(&prediction.blame.errors, names, |e| e.to_string())
+    groups(prediction, &prediction.blame.errors, names, |e| e.to_string())
 }
 
-fn groups<T>(shares: &[Share<T>], names: &[IndexName], word: impl Fn(&T) -> String) -> Vec<Value> {
+/// Index after index, the shares that matter most first.
+fn groups<T>(
+    prediction: &Prediction,
+    shares: &[Share<T>],
+    names: &[IndexName],
+    word: impl Fn(&T) -> String,
+) -> Vec<Value> {
     let mut entries = Vec::new();
-    for share in shares {
-        for (i, name) in names.iter().enumerate() {
+    for (i, name) in names.iter().enumerate() {
+        for share in ranked(prediction, i, shares, shares.len()) {
             entries.push(json!({
                 "error": word(&share.of),
                 "index": name.key,

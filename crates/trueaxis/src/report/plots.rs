@@ -335,10 +335,15 @@ pub fn cone_map(size: (u32, u32), map: &ConeMap<'_>) -> Result<String, DrawingEr
             area.draw(&field).map_err(drawing_error)?;
         }
         let font = ink(13);
-        for i in 0..=4 {
+        for i in 0..4 {
             let azimuth = TAU * f64::from(i) / 4.0;
             let (x, y) = unrolled.place(azimuth, map.heights_mm.first().copied().unwrap_or(0.0));
             let text = Text::new(format!("{}°", i * 90), (x - px(10), y + px(4)), font.clone());
+            area.draw(&text).map_err(drawing_error)?;
+        }
+        for height in map.heights_mm {
+            let (x, y) = unrolled.place(TAU, *height);
+            let text = Text::new(format!("H {height:.0} mm"), (x + px(8), y - px(8)), font.clone());
             area.draw(&text).map_err(drawing_error)?;
         }
         colour_bar(area, size, most)
@@ -371,7 +376,7 @@ impl Unrolled {
         let (xs, ys) =
             (range(corners.iter().map(|c| c.0), 0.0), range(corners.iter().map(|c| c.1), 0.0));
         let (width, height) =
-            (f64::from(width) - f64::from(px(60)), f64::from(height) - f64::from(px(90)));
+            (f64::from(width) - f64::from(px(160)), f64::from(height) - f64::from(px(90)));
         unrolled.scale = (width / (xs.end - xs.start)).min(height / (ys.end - ys.start));
         let middle = 0.5 * (xs.start + xs.end) * unrolled.scale;
         unrolled.shift = (

@@ -1,7 +1,7 @@
 //! What the terminal shows.
 
-use super::{command_words, decisive, feature, ranked, relief, title};
-use crate::predict::{Prediction, Share, Study};
+use super::{command_words, decisive, feature, ranked, relief};
+use crate::predict::{Decision, Prediction, Share, Study};
 use std::fmt::Write;
 use trueaxis_machine::errors::ErrorKind;
 use trueaxis_part::tolerance::{Judgement, Outcome};
@@ -36,8 +36,14 @@ fn header(out: &mut String, study: &Study, prediction: &Prediction) {
     line(out, &study.name);
     line(out, &format!("  machine  {}   {}", machine.name(), machine.chain_text()));
     line(out, &format!("  part     {}", study.test_piece.name));
+    if !study.what_if.is_empty() {
+        line(out, &format!("  what if  {}", study.what_if.join(", ")));
+    }
     let words = command_words(machine.axes(), &prediction.setting_command);
     line(out, &format!("  zero set at  {words}"));
+    if let Decision::Guarded { coverage } = study.decision {
+        line(out, &format!("  verdict by ISO 14253-1 with U = {coverage} u"));
+    }
     line(out, "");
 }
 
@@ -57,14 +63,14 @@ fn index_table(out: &mut String, prediction: &Prediction) {
         let (allowed, used, word) = match judged {
             None => (String::new(), String::new(), ""),
             Some(j) => (
-                format!("{:.0}", j.limit_mm * 1e3),
+                format!("{:.1}", j.limit_mm * 1e3),
                 format!("{:.0} %", j.used_ratio * 100.0),
                 word(j.outcome),
             ),
         };
         let text = format!(
             "{:<34}{:>9.2}{:>8.2}{spread:>8}{allowed:>9}{used:>7}  {word}",
-            title(&index.name),
+            index.name.title(),
             index.value_mm * 1e3,
             index.u_mm * 1e3
         );
@@ -102,7 +108,7 @@ fn blame_table(out: &mut String, prediction: &Prediction) {
     }
     line(
         out,
-        "who is to blame, µm (alone: with this error only; gain: what the index loses without it)",
+        "who is to blame, µm (alone: this error only; gain: what the index loses without it, − = it helps)",
     );
     let mut head = String::from("  ");
     for (_, index) in decisive(prediction) {
@@ -145,7 +151,7 @@ fn group_line<T>(out: &mut String, prediction: &Prediction, share: &Share<T>, na
 }
 
 fn correction_table(out: &mut String, prediction: &Prediction) {
-    if prediction.verdict.outcome != Outcome::Fail {
+    if prediction.verdict.outcome == Outcome::Pass {
         return;
     }
     if prediction.corrections.is_empty() {

@@ -99,12 +99,13 @@ fn conversions() -> Vec<f64> {
 /// The means of the published measurements that stand beside the prediction in the report.
 fn means() -> Vec<f64> {
     let published = STUDY.published.as_ref().expect("published figures");
-    published.rows.iter().map(|row| mean(&row.measured_mm)).collect()
+    let measured = published.rows.iter().filter(|row| !row.measured_mm.is_empty());
+    measured.map(|row| mean(&row.measured_mm)).collect()
 }
 
 fn predicted_by_the_paper() -> Vec<f64> {
     let published = STUDY.published.as_ref().expect("published figures");
-    published.rows.iter().map(|row| row.predicted_mm.expect("a prediction")).collect()
+    published.rows.iter().filter_map(|row| row.predicted_mm).collect()
 }
 
 fn ratios() -> Vec<f64> {
