@@ -364,12 +364,17 @@ fn sensitivity_section(prediction: &Prediction) -> Markup {
                 tbody { @for s in &felt { tr {
                     td { code { (s.error) } }
                     @for (i, _) in decisive(prediction) {
-                        td { (format!("{:+.4}", s.slope[i] * scale(s))) }
+                        td { (slope_cell(s.slope[i] * scale(s))) }
                     }
                 } } }
             } }
         }
     }
+}
+
+/// Four decimals; a plain 0 where they are all zero.
+fn slope_cell(slope: f64) -> String {
+    if slope.abs() < 5e-5 { "0".to_owned() } else { format!("{slope:+.4}") }
 }
 
 fn variant_section(prediction: &Prediction) -> Markup {

@@ -181,6 +181,9 @@ pub struct Profile<'a> {
     pub circles: &'a [FittedCircle],
 }
 
+/// Height of a line of the legend.
+const LEGEND_ROW: u32 = 18;
+
 /// A polar picture; a ring of the grid is a round number of micrometres, given in the text.
 ///
 /// # Errors
@@ -190,7 +193,8 @@ pub fn polar(size: u32, profile: &Profile<'_>) -> Result<String, DrawingError> {
     // Deviations take a third of the radius; the ring distance is 1, 2 or 5 times a power of ten.
     let per_mm = 0.34 / most;
     let ring_mm = round_step(most / 2.5);
-    draw((size, size), |area| {
+    let named = profile.circles.iter().filter(|c| !c.label.is_empty()).count() as u32;
+    draw((size, size + LEGEND_ROW * named + 8), |area| {
         let flat = plane(area, size * SHARP);
         let base = 0.53;
         let place = |azimuth: f64, radial_mm: f64| {
@@ -272,7 +276,7 @@ fn polar_legend(
     area.draw(&Text::new(ring, (px(8), px(8)), font.clone())).map_err(drawing_error)?;
     let named: Vec<_> = circles.iter().filter(|c| !c.label.is_empty()).collect();
     for (i, circle) in named.iter().enumerate() {
-        let y = px(size as i32 - 18 * (named.len() - i) as i32);
+        let y = px((size + LEGEND_ROW * i as u32) as i32);
         let ends = [(px(8), y + px(6)), (px(26), y + px(6))];
         area.draw(&PathElement::new(ends, pen(circle.colour, 3))).map_err(drawing_error)?;
         let text = Text::new(circle.label.clone(), (px(32), y), font.clone());
@@ -341,7 +345,7 @@ pub fn cone_map(size: (u32, u32), map: &ConeMap<'_>) -> Result<String, DrawingEr
             let text = Text::new(format!("{}°", i * 90), (x - px(10), y + px(4)), font.clone());
             area.draw(&text).map_err(drawing_error)?;
         }
-        for height in map.heights_mm {
+        for height in map.heights_mm.first().into_iter().chain(map.heights_mm.last()) {
             let (x, y) = unrolled.place(TAU, *height);
             let text = Text::new(format!("H {height:.0} mm"), (x + px(8), y - px(8)), font.clone());
             area.draw(&text).map_err(drawing_error)?;
@@ -376,7 +380,7 @@ impl Unrolled {
         let (xs, ys) =
             (range(corners.iter().map(|c| c.0), 0.0), range(corners.iter().map(|c| c.1), 0.0));
         let (width, height) =
-            (f64::from(width) - f64::from(px(160)), f64::from(height) - f64::from(px(90)));
+            (f64::from(width) - f64::from(px(130)), f64::from(height) - f64::from(px(90)));
         unrolled.scale = (width / (xs.end - xs.start)).min(height / (ys.end - ys.start));
         let middle = 0.5 * (xs.start + xs.end) * unrolled.scale;
         unrolled.shift = (
