@@ -212,6 +212,15 @@ fn lacks(machine: &Machine) -> Vec<String> {
     if stated.is_empty() {
         lacking.push("errors: the actual machine is the nominal one".to_owned());
     }
+    let unplaced: Vec<String> = machine
+        .bodies()
+        .iter()
+        .filter(|b| b.axis.is_some() && b.location.iter().all(Option::is_none))
+        .map(|b| b.name.to_string())
+        .collect();
+    if !stated.is_empty() && !unplaced.is_empty() {
+        lacking.push(format!("location errors (squareness, offsets) of {}", unplaced.join(" ")));
+    }
     let missing: Vec<String> = missing_motions(machine);
     if !stated.is_empty() && !missing.is_empty() {
         lacking.push(format!("error motions, taken as 0: {}", missing.join(" ")));

@@ -21,6 +21,10 @@ pub fn dimension_of(component: Component) -> Dimension {
     if component.is_rotation() { Dimension::Angle } else { Dimension::Length }
 }
 
+/// A location error beyond these is a wrong unit sooner than a machine.
+const LARGE_MM: f64 = 10.0;
+const LARGE_RAD: f64 = 0.01;
+
 /// `[location]`: `EC0Y = "12 ± 1 urad"`.
 pub fn read_location(section: &Section<'_>, bodies: &mut [ChainBody]) {
     let measured = read_measurement(section);
@@ -52,6 +56,11 @@ pub fn read_location(section: &Section<'_>, bodies: &mut [ChainBody]) {
             section.error_at(place, "duplicate-error", message, "keep one of the two spellings");
         }
         if let Some(value) = item.measured(dimension_of(name.component)) {
+            let largest = if name.component.is_rotation() { LARGE_RAD } else { LARGE_MM };
+            if value.value.abs() > largest {
+                let message = format!("{name} is larger than any machine's location error");
+                item.warn("large-error", message, "is the unit right? um and urad are usual");
+            }
             let mut stated = StatedError::constant(value.value, value.u);
             stated.measured = measured.clone();
             *slot = Some(stated);
