@@ -1,0 +1,192 @@
+//! What a code does, whatever its number on this or that control.
+
+use crate::moves::{CompensationSide, Coolant, FeedMode, PathControl, Plane, Turning};
+
+/// How a motion is programmed; it lasts until another one comes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Motion {
+    /// As fast as the machine can.
+    Rapid,
+    /// A straight line with feed.
+    Linear,
+    /// A circle or helix, clockwise seen against the axis of the plane.
+    ArcClockwise,
+    /// A circle or helix, counter-clockwise.
+    ArcCounterClockwise,
+    /// A straight line coupled to the spindle.
+    Thread,
+    /// Tapping with a coupled spindle, in and out.
+    RigidTap,
+    /// A straight line until the probe trips.
+    Probe,
+    /// A drilling cycle.
+    Cycle(Cycle),
+    /// None: axis words are not allowed.
+    Cancelled,
+}
+
+/// The drilling cycles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cycle {
+    /// Drill with chip breaking.
+    ChipBreaking,
+    /// Left-hand tapping.
+    TapLeft,
+    /// Right-hand tapping.
+    TapRight,
+    /// Drill, out at once, rapid.
+    Drill,
+    /// Drill, dwell, out rapid.
+    DrillDwell,
+    /// Deep-hole drilling with full retraction.
+    Peck,
+    /// Bore, out with feed.
+    Bore,
+    /// Bore, stop the spindle, out rapid.
+    BoreStop,
+    /// Bore, dwell, out with feed.
+    BoreDwell,
+    /// Fine boring with an oriented spindle, out rapid; the lift-off is not moved.
+    FineBore,
+}
+
+/// One thing that a G or M code does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Action {
+    /// What F means from here on.
+    Feed(FeedMode),
+    /// Wait for P (or X) seconds.
+    Dwell,
+    /// The plane of arcs, cycles and compensation.
+    Plane(Plane),
+    /// Lengths are inches (`true`) or millimetres.
+    Inches(bool),
+    /// X words are diameters.
+    Diameter(bool),
+    /// Radius compensation; noted, not applied.
+    Compensation(CompensationSide),
+    /// Tool length of the table (H).
+    ToolLength,
+    /// Tool length as the axis words say.
+    ToolLengthDirect,
+    /// Tool length of the table in addition.
+    ToolLengthAdd,
+    /// No tool length.
+    ToolLengthOff,
+    /// The tip of the tool is programmed; `true` with direction vectors I J K.
+    ToolCentre(bool),
+    /// A work offset by number, from 1.
+    WorkOffset(u8),
+    /// A further work offset, by P.
+    WorkOffsetFurther,
+    /// How corners are passed.
+    Path(PathControl),
+    /// Axis words are increments.
+    Incremental(bool),
+    /// I J K are absolute.
+    ArcAbsolute(bool),
+    /// Cycles retract to R (`true`) or to where they began.
+    RetractToR(bool),
+    /// Axis words are machine coordinates, in this block.
+    MachineCoordinates,
+    /// By way of the point given to reference point 1 or 2.
+    Reference(u8),
+    /// Makes the present place reference point 1 or 2.
+    SetReference(u8),
+    /// Sets a table by L and P.
+    SetTable,
+    /// Shifts the axes so that the present place has the given coordinates.
+    Shift,
+    /// Shifts the axes by the given amounts.
+    LocalShift,
+    /// Forgets the shift.
+    ShiftCancel,
+    /// Suspends the shift.
+    ShiftSuspend,
+    /// Takes the shift back.
+    ShiftResume,
+    /// Ends drilling cycles; the motion before them is back.
+    CancelCycle,
+    /// How the axis words are meant.
+    Motion(Motion),
+    /// Calls a macro with letters as arguments.
+    MacroCall,
+    /// The spindle.
+    Spindle(Turning),
+    /// Orients the spindle.
+    Orient,
+    /// S is a surface speed (`true`) or revolutions.
+    SurfaceSpeed(bool),
+    /// Puts the selected tool into the spindle.
+    ToolChange,
+    /// Coolant.
+    Coolant(Coolant),
+    /// Stops until the operator goes on; `true` only if he wished so.
+    Stop(bool),
+    /// The end of the program.
+    End,
+    /// Calls a subprogram by its number.
+    Call,
+    /// The end of a subprogram.
+    Return,
+    /// Known to the control, of no effect on the path: passed on by name.
+    Note(&'static str),
+    /// Known to the control, not interpreted: a warning says so. The words of its block are its own.
+    NotApplied(&'static str),
+    /// The same, but the words of its block belong to the other codes.
+    NotAppliedAlone(&'static str),
+}
+
+impl Action {
+    /// The place in the order of execution within a block (RS274/NGC, order of execution).
+    pub fn rank(self) -> u8 {
+        match self {
+            Self::Feed(_) => 2,
+            Self::SurfaceSpeed(_) => 3,
+            Self::ToolChange => 7,
+            Self::Spindle(_) | Self::Orient => 8,
+            Self::Coolant(_) => 9,
+            Self::Note(_) | Self::NotApplied(_) | Self::NotAppliedAlone(_) => 10,
+            Self::Dwell => 11,
+            Self::Plane(_) => 12,
+            Self::Inches(_) | Self::Diameter(_) => 13,
+            Self::Compensation(_) => 14,
+            Self::ToolLength
+            | Self::ToolLengthDirect
+            | Self::ToolLengthAdd
+            | Self::ToolLengthOff
+            | Self::ToolCentre(_) => 15,
+            Self::WorkOffset(_) | Self::WorkOffsetFurther => 16,
+            Self::Path(_) => 17,
+            Self::Incremental(_) | Self::ArcAbsolute(_) | Self::CancelCycle => 18,
+            Self::RetractToR(_) => 19,
+            Self::Reference(_)
+            | Self::SetReference(_)
+            | Self::SetTable
+            | Self::Shift
+            | Self::LocalShift
+            | Self::ShiftCancel
+            | Self::ShiftSuspend
+            | Self::ShiftResume => 20,
+            Self::MachineCoordinates => 21,
+            Self::Motion(_) => 22,
+            Self::MacroCall | Self::Call => 23,
+            Self::Stop(_) | Self::End | Self::Return => 24,
+        }
+    }
+
+    /// Whether the action itself uses the axis words of its block, so that no motion follows.
+    pub fn takes_axis_words(self) -> bool {
+        matches!(
+            self,
+            Self::Reference(_)
+                | Self::SetTable
+                | Self::Shift
+                | Self::LocalShift
+                | Self::ToolLengthDirect
+                | Self::MacroCall
+                | Self::NotApplied(_)
+        )
+    }
+}

@@ -1,0 +1,76 @@
+//! What differs between the controls, as tables.
+
+mod fanuc;
+mod heidenhain;
+mod linuxcnc;
+mod sinumerik;
+
+use crate::code::Action;
+
+/// The controls whose programs are read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Control {
+    /// Siemens SINUMERIK 840D.
+    Sinumerik840d,
+    /// FANUC and its relatives.
+    Fanuc,
+    /// LinuxCNC, RS274/NGC.
+    LinuxCnc,
+    /// HEIDENHAIN Klartext.
+    Heidenhain,
+}
+
+/// How the programs of one control look and which codes it knows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dialect {
+    /// Whose it is.
+    pub control: Control,
+    /// `( … )` is a comment.
+    pub paren_comments: bool,
+    /// `; …` is a comment up to the end of the line.
+    pub semicolon_comments: bool,
+    /// A line that begins with `%` is a header with a name, not a tape mark.
+    pub header_lines: bool,
+    /// Key words and names of several letters are one token.
+    pub words: bool,
+    /// `<name>` is a name.
+    pub angle_names: bool,
+    /// `"text"` is a text.
+    pub quoted_texts: bool,
+    /// A comma may stand for the decimal point.
+    pub decimal_comma: bool,
+    /// `O100 sub`, `O<name> call`: control statements begin with the letter O.
+    pub o_words: bool,
+    /// `IF [ ] GOTO`, `WHILE [ ] DO1`: control statements are key words, labels are N numbers.
+    pub macro_words: bool,
+    /// FIX and FUP round towards and away from zero, not down and up.
+    pub fix_towards_zero: bool,
+    /// The largest number of a parameter.
+    pub parameters: u32,
+    /// G codes in tenths (G43.1 is 431) and what each does.
+    pub g_codes: &'static [(u16, Action)],
+    /// M codes and what each does.
+    pub m_codes: &'static [(u16, Action)],
+}
+
+impl Dialect {
+    /// The table of a control.
+    pub fn of(control: Control) -> &'static Self {
+        match control {
+            Control::Sinumerik840d => &sinumerik::DIALECT,
+            Control::Fanuc => &fanuc::DIALECT,
+            Control::LinuxCnc => &linuxcnc::DIALECT,
+            Control::Heidenhain => &heidenhain::DIALECT,
+        }
+    }
+
+    /// What a G code does, by its number in tenths.
+    pub fn g_code(&self, tenths: u16) -> Option<Action> {
+        self.g_codes.iter().find(|(code, _)| *code == tenths).map(|(_, action)| *action)
+    }
+
+    /// What an M code does.
+    pub fn m_code(&self, number: u16) -> Option<Action> {
+        self.m_codes.iter().find(|(code, _)| *code == number).map(|(_, action)| *action)
+    }
+}

@@ -1,0 +1,19 @@
+use super::{Control, Dialect};
+
+/// SINUMERIK 840D: so far only its tokens; its blocks are not interpreted.
+pub(super) static DIALECT: Dialect = Dialect {
+    control: Control::Sinumerik840d,
+    paren_comments: false,
+    semicolon_comments: true,
+    header_lines: true,
+    words: true,
+    angle_names: false,
+    quoted_texts: true,
+    decimal_comma: false,
+    o_words: false,
+    macro_words: false,
+    fix_towards_zero: true,
+    parameters: 999,
+    g_codes: &[],
+    m_codes: &[],
+};

@@ -1,0 +1,303 @@
+//! Executes a program block by block: words in, moves out.
+
+mod arc;
+mod cycles;
+mod execute;
+mod flow;
+mod frames;
+mod messages;
+mod parameters;
+mod quick;
+mod tables;
+mod values;
+mod words;
+
+use std::collections::{BTreeMap, HashMap, HashSet};
+use std::rc::Rc;
+
+use trueaxis_geometry::input::{Diagnostics, Place};
+
+use crate::library::Library;
+use crate::moves::{Event, Move, Origin, Plane, Position, Step};
+use crate::program::{Block, Fault, Label, Places, Program};
+use frames::Frames;
+use parameters::Locals;
+use quick::CodeTable;
+use words::{Modes, Words};
+
+/// What the control is set to before the program begins.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// Backward jumps and calls before the program counts as endless.
+    pub most_jumps: u64,
+    /// Calls within calls.
+    pub deepest_call: usize,
+    /// Go on behind a block with an error instead of stopping there, up to 100 errors.
+    pub keep_going: bool,
+    /// Execute blocks that begin with `/`.
+    pub skipped_blocks_too: bool,
+    /// Lengths are inches until the program says otherwise.
+    pub inches: bool,
+    /// X words are diameters until the program says otherwise (lathes).
+    pub diameters: bool,
+    /// I J K are coordinates of the centre until the program says otherwise.
+    pub absolute_centers: bool,
+    /// The plane until the program says otherwise.
+    pub plane: Plane,
+    /// Lengths of the tools by number.
+    pub tools: BTreeMap<u32, Position>,
+    /// Named read-only parameters of the machine, such as `_ini[axis_x]max_limit`, lower case.
+    pub constants: BTreeMap<String, f64>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            most_jumps: 1_000_000,
+            deepest_call: 64,
+            keep_going: false,
+            skipped_blocks_too: true,
+            inches: false,
+            diameters: false,
+            absolute_centers: false,
+            plane: Plane::Xy,
+            tools: BTreeMap::new(),
+            constants: BTreeMap::new(),
+        }
+    }
+}
+
+/// How the execution ended and what was found on the way.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    /// All problems with their places.
+    pub problems: Diagnostics,
+    /// The program came to its end; `false` if an error stopped it.
+    pub finished: bool,
+    /// The programs by the number in [`Origin::program`].
+    pub programs: Vec<String>,
+}
+
+/// Executes a program; every move and event goes to `take` as soon as it is known.
+///
+/// ```
+/// use trueaxis_nc::{Control, NoLibrary, Program, Settings, Step, interpret};
+/// let text = b"G21 G90 F100\nG1 X10 Y#1\no1 repeat [2]\nG91 G1 X1\no1 endrepeat\nM2\n";
+/// let program = Program::new("demo.ngc", text.to_vec(), Control::LinuxCnc);
+/// let mut x_mm = Vec::new();
+/// let outcome = interpret(&program, &NoLibrary, &Settings::default(), &mut |step| {
+///     if let Step::Move(m) = step {
+///         x_mm.push(m.target.0[0]);
+///     }
+/// });
+/// assert!(outcome.finished);
+/// assert_eq!(x_mm, [10.0, 11.0, 12.0]);
+/// ```
+pub fn interpret(
+    program: &Program,
+    library: &dyn Library,
+    settings: &Settings,
+    take: &mut dyn FnMut(Step),
+) -> Outcome {
+    let mut run = Run::new(program, library, settings, take);
+    let known = !program.dialect().g_codes.is_empty();
+    if !known {
+        let message = "programs of this control are not interpreted yet".to_owned();
+        let place = Place::whole(program.file());
+        run.problems.error("control-not-interpreted", place, message, "");
+    }
+    let finished = known && run.run();
+    let programs = run.programs.iter().map(|p| p.file().to_owned()).collect();
+    Outcome { problems: run.problems, finished, programs }
+}
+
+/// What the next block is, after one was executed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Next {
+    /// The one that follows.
+    Following,
+    /// Wherever the current frame was sent.
+    Jumped,
+    /// None.
+    Finished,
+}
+
+/// A program that is being executed, and where.
+struct Frame {
+    program: usize,
+    at: usize,
+    line: u32,
+    /// The sub, if it is one.
+    sub: Option<Label>,
+    locals: Locals,
+    /// Remaining rounds of `repeat` loops by their byte.
+    rounds: HashMap<usize, u64>,
+    /// The condition before was false: the next branch is to be tried.
+    seeking: bool,
+    /// How often a FANUC subprogram is still to be executed.
+    repeats: u64,
+}
+
+/// One execution.
+struct Run<'r> {
+    library: &'r dyn Library,
+    settings: &'r Settings,
+    take: &'r mut dyn FnMut(Step),
+    programs: Vec<Rc<Program>>,
+    loaded: HashMap<String, usize>,
+    stack: Vec<Frame>,
+    globals: HashMap<u32, f64>,
+    named: HashMap<String, f64>,
+    returned: Option<f64>,
+    jumps: u64,
+    frames: Frames,
+    modes: Modes,
+    words: Words,
+    codes: CodeTable,
+    problems: Diagnostics,
+    errors: usize,
+    reported: HashSet<(&'static str, u32)>,
+    origin: Origin,
+    /// Where the block begins that is being executed.
+    start: usize,
+    /// A tape mark opened the program: the next one closes it.
+    opened: bool,
+}
+
+impl<'r> Run<'r> {
+    fn new(
+        program: &Program,
+        library: &'r dyn Library,
+        settings: &'r Settings,
+        take: &'r mut dyn FnMut(Step),
+    ) -> Self {
+        Self {
+            library,
+            settings,
+            take,
+            programs: vec![Rc::new(program.clone())],
+            loaded: HashMap::new(),
+            stack: vec![Frame::new(0, 0, 1)],
+            globals: HashMap::new(),
+            named: HashMap::new(),
+            returned: None,
+            jumps: 0,
+            frames: Frames::new(settings.tools.clone()),
+            modes: Modes::new(settings, program.dialect().macro_words),
+            words: Words::default(),
+            codes: quick::code_table(program.dialect()),
+            problems: Diagnostics::new(),
+            errors: 0,
+            reported: HashSet::new(),
+            origin: Origin { program: 0, line: 1 },
+            start: 0,
+            opened: false,
+        }
+    }
+
+    fn run(&mut self) -> bool {
+        let mut block = Block::default();
+        loop {
+            let Some(frame) = self.stack.last() else { return true };
+            let program = Rc::clone(&self.programs[frame.program]);
+            if frame.at >= program.source().len() {
+                match self.end_of_text() {
+                    Ok(true) => return true,
+                    Ok(false) => continue,
+                    Err(fault) => return self.report(fault),
+                }
+            }
+            let (number, at, line) = (frame.program, frame.at, frame.line);
+            self.start = at;
+            self.origin = Origin { program: number as u32, line };
+            match self.quick_or_block(&program, at, line, &mut block) {
+                Ok(Next::Finished) => return true,
+                Ok(Next::Following) => self.follow(&block),
+                Ok(Next::Jumped) => {}
+                Err(fault) => {
+                    self.report(fault);
+                    if !self.settings.keep_going || self.errors >= 100 {
+                        return false;
+                    }
+                    self.follow(&block);
+                }
+            }
+        }
+    }
+
+    fn quick_or_block(
+        &mut self,
+        program: &Program,
+        at: usize,
+        line: u32,
+        block: &mut Block,
+    ) -> Result<Next, Fault> {
+        match self.quick(program.dialect(), program.source(), at) {
+            Some(end) => {
+                (block.span, block.line) = (at..end, line);
+                self.perform(block)
+            }
+            None => {
+                program.read_block(at, line, block);
+                self.block(program, block)
+            }
+        }
+    }
+
+    fn follow(&mut self, block: &Block) {
+        if let Some(frame) = self.stack.last_mut() {
+            frame.at = block.span.end;
+            frame.line = block.line + 1;
+        }
+    }
+
+    /// Reports a fault of the program that is being executed.
+    fn report(&mut self, fault: Fault) -> bool {
+        let place = self.place(fault.offset);
+        self.problems.error(fault.code, place, fault.message, fault.hint);
+        self.errors += 1;
+        false
+    }
+
+    fn place(&self, offset: usize) -> Place {
+        let program = &self.programs[self.origin.program as usize];
+        let mut places = Places::new(program);
+        if offset >= self.start {
+            places = Places::beginning(program, self.start, self.origin.line);
+        }
+        places.of(offset)
+    }
+
+    /// Warns once about each subject.
+    fn warn_once(
+        &mut self,
+        code: &'static str,
+        subject: u32,
+        offset: usize,
+        message: String,
+        hint: &str,
+    ) {
+        if self.reported.insert((code, subject)) {
+            let place = self.place(offset);
+            self.problems.warn(code, place, message, hint);
+        }
+    }
+
+    fn emit(&mut self, event: Event) {
+        (self.take)(Step::Event(event, self.origin));
+    }
+
+    fn emit_move(&mut self, step: Move) {
+        self.frames.position = step.target;
+        (self.take)(Step::Move(step));
+    }
+}
+
+fn fault(
+    code: &'static str,
+    offset: usize,
+    message: impl Into<String>,
+    hint: &'static str,
+) -> Fault {
+    Fault { code, offset, message: message.into(), hint }
+}

@@ -1,0 +1,198 @@
+use super::{Run, fault};
+use crate::code::Cycle;
+use crate::moves::{Event, MoveKind, Position, Turning};
+use crate::program::Fault;
+
+/// Pecks and holes of one block: more than any program means.
+const MOST_PECKS: f64 = 1e6;
+
+/// What drilling cycles keep from block to block.
+#[derive(Debug, Clone, Default)]
+pub(super) struct CycleMemory {
+    r_mm: Option<f64>,
+    bottom_mm: Option<f64>,
+    peck_mm: Option<f64>,
+    dwell_s: f64,
+    /// Where the drill stood when the cycles began.
+    initial_mm: Option<f64>,
+}
+
+impl CycleMemory {
+    pub fn forget(&mut self) {
+        *self = Self::default();
+    }
+}
+
+/// One hole along the axis that stands on the plane.
+struct Hole {
+    axis: usize,
+    r: f64,
+    bottom: f64,
+    clear: f64,
+    peck: f64,
+    dwell_s: f64,
+}
+
+impl Run<'_> {
+    /// A drilling cycle at the place of the axis words, once or L (K on FANUC) times.
+    pub(super) fn cycle(&mut self, cycle: Cycle, at: usize) -> Result<(), Fault> {
+        for letter in *b"ABC" {
+            if self.words.look(letter).is_some() {
+                let message = "rotary axes do not move in a drilling cycle".to_owned();
+                return Err(fault("rotary-in-cycle", at, message, "turn them in a block before"));
+            }
+        }
+        self.check_feed(at)?;
+        let hole = self.hole(cycle, at)?;
+        let repeats = self.words.take(b'L').or_else(|| {
+            let fanuc = self.programs[0].dialect().macro_words;
+            if fanuc { self.words.take(b'K') } else { None }
+        });
+        let repeats = repeats.unwrap_or(1.0);
+        if !(0.0..1e5).contains(&repeats) {
+            let message = format!("{repeats} is not a number of holes");
+            return Err(fault("bad-repeats", at, message, "write L2"));
+        }
+        let pecks = if hole.peck > 0.0 { (hole.r - hole.bottom) / hole.peck } else { 1.0 };
+        if pecks.max(1.0) * repeats > MOST_PECKS {
+            let message = format!("the block drills more than {MOST_PECKS} times");
+            return Err(fault("too-many-pecks", at, message, "check Q and L"));
+        }
+        let axes = self.modes.plane.axes();
+        let steps = [axes[0], axes[1]].map(|a| self.axis_word(a));
+        if self.frames.position.0[hole.axis] < hole.r {
+            let mut up = self.frames.position;
+            up.0[hole.axis] = hole.r;
+            self.step(MoveKind::Rapid, up);
+        }
+        for _ in 0..repeats as u32 {
+            let mut over = self.frames.position;
+            for (axis, step) in axes.iter().zip(steps) {
+                let base = if self.modes.incremental { over[*axis] } else { 0.0 };
+                over[*axis] = step.map_or(over[*axis], |s| base + s);
+            }
+            self.step(MoveKind::Rapid, over);
+            if over.0[hole.axis] != hole.r {
+                over.0[hole.axis] = hole.r;
+                self.step(MoveKind::Rapid, over);
+            }
+            self.drill(cycle, &hole, over);
+        }
+        Ok(())
+    }
+
+    fn hole(&mut self, cycle: Cycle, at: usize) -> Result<Hole, Fault> {
+        let axis = self.modes.plane.axes()[2];
+        let now = self.frames.position[axis];
+        if self.modes.cycle.initial_mm.is_none() {
+            self.modes.cycle.initial_mm = Some(now);
+        }
+        let incremental = self.modes.incremental;
+        let r_word = self.length(b'R').map(|r| if incremental { r + now } else { r });
+        let r = r_word.or(self.modes.cycle.r_mm);
+        let Some(r) = r else {
+            let message = "the cycle has no R".to_owned();
+            return Err(fault("cycle-without-r", at, message, "write R, the plane of retraction"));
+        };
+        let depth = self.axis_word(axis).map(|z| if incremental { z + r } else { z });
+        let Some(bottom) = depth.or(self.modes.cycle.bottom_mm) else {
+            let message = format!("the cycle has no {axis}");
+            return Err(fault("cycle-without-depth", at, message, "write the depth of the hole"));
+        };
+        if r < bottom {
+            let message = "the plane of retraction R lies below the bottom of the hole".to_owned();
+            return Err(fault("cycle-r-below-bottom", at, message, "check R and the depth"));
+        }
+        let peck = self.length(b'Q').or(self.modes.cycle.peck_mm);
+        let pecks = matches!(cycle, Cycle::Peck | Cycle::ChipBreaking);
+        if pecks && !peck.is_some_and(|q| q > 0.0) {
+            let message = "the cycle needs Q, the depth of each peck, above 0".to_owned();
+            return Err(fault("cycle-without-q", at, message, "write Q2"));
+        }
+        // FANUC counts P in milliseconds.
+        let second = if self.programs[0].dialect().macro_words { 1000.0 } else { 1.0 };
+        let dwell_s = self.words.take(b'P').map_or(self.modes.cycle.dwell_s, |p| p / second);
+        let memory = &mut self.modes.cycle;
+        memory.r_mm = Some(r);
+        memory.bottom_mm = Some(bottom);
+        (memory.peck_mm, memory.dwell_s) = (peck, dwell_s);
+        let initial = memory.initial_mm.unwrap_or(now);
+        let top = if self.programs[0].dialect().macro_words { initial } else { now };
+        let clear = if self.modes.retract_to_r { r } else { r.max(top) };
+        Ok(Hole { axis: axis as usize, r, bottom, clear, peck: peck.unwrap_or(0.0), dwell_s })
+    }
+
+    fn along(&mut self, kind: MoveKind, place: Position, hole: &Hole, depth: f64) {
+        let mut target = place;
+        target.0[hole.axis] = depth;
+        self.step(kind, target);
+    }
+
+    fn drill(&mut self, cycle: Cycle, hole: &Hole, place: Position) {
+        match cycle {
+            Cycle::Peck | Cycle::ChipBreaking => self.peck(cycle, hole, place),
+            _ => self.along(MoveKind::Linear, place, hole, hole.bottom),
+        }
+        let turning = self.modes.turning;
+        match cycle {
+            Cycle::TapLeft | Cycle::TapRight => {
+                let back = match turning {
+                    Turning::Clockwise => Turning::CounterClockwise,
+                    Turning::CounterClockwise => Turning::Clockwise,
+                    Turning::Stopped => Turning::Stopped,
+                };
+                self.emit(Event::Spindle(Turning::Stopped));
+                self.emit(Event::Spindle(back));
+                self.wait(hole);
+                self.along(MoveKind::Linear, place, hole, hole.clear);
+                self.emit(Event::Spindle(Turning::Stopped));
+                self.emit(Event::Spindle(turning));
+            }
+            Cycle::Bore | Cycle::BoreDwell => {
+                if cycle == Cycle::BoreDwell {
+                    self.wait(hole);
+                }
+                self.along(MoveKind::Linear, place, hole, hole.r);
+                if hole.clear != hole.r {
+                    self.along(MoveKind::Rapid, place, hole, hole.clear);
+                }
+            }
+            Cycle::BoreStop | Cycle::FineBore => {
+                self.wait(hole);
+                self.emit(Event::Spindle(Turning::Stopped));
+                self.along(MoveKind::Rapid, place, hole, hole.clear);
+                self.emit(Event::Spindle(turning));
+            }
+            _ => {
+                if cycle == Cycle::DrillDwell {
+                    self.wait(hole);
+                }
+                self.along(MoveKind::Rapid, place, hole, hole.clear);
+            }
+        }
+    }
+
+    fn wait(&mut self, hole: &Hole) {
+        let place = self.frames.position;
+        self.step(MoveKind::Dwell { seconds: hole.dwell_s }, place);
+    }
+
+    /// Down by Q at a time; a chip is broken by 0.010 inch, a deep hole is left to R each time.
+    fn peck(&mut self, cycle: Cycle, hole: &Hole, place: Position) {
+        const CLEARANCE_MM: f64 = 0.254;
+        let mut count = 1.0;
+        loop {
+            let depth = hole.r - count * hole.peck;
+            if depth <= hole.bottom {
+                break;
+            }
+            self.along(MoveKind::Linear, place, hole, depth);
+            if cycle == Cycle::Peck {
+                self.along(MoveKind::Rapid, place, hole, hole.r);
+            }
+            self.along(MoveKind::Rapid, place, hole, depth + CLEARANCE_MM);
+            count += 1.0;
+        }
+        self.along(MoveKind::Linear, place, hole, hole.bottom);
+    }
+}

@@ -1,0 +1,402 @@
+use super::{Next, Run, fault};
+use crate::code::{Action, Motion};
+use crate::moves::{
+    Axis, CompensationSide, Event, FeedMode, Move, MoveKind, PathControl, Position, Turning,
+};
+use crate::program::{Block, Fault, Item, Program};
+
+impl Run<'_> {
+    /// Executes one block.
+    pub(super) fn block(&mut self, program: &Program, block: &Block) -> Result<Next, Fault> {
+        if block.skip.is_some() && !self.settings.skipped_blocks_too {
+            return Ok(Next::Following);
+        }
+        if let Some(first) = block.faults.first() {
+            for later in &block.faults[1..] {
+                self.report(later.clone());
+            }
+            return Err(first.clone());
+        }
+        self.comments(program, block)?;
+        let mut rest = &block.items[..];
+        if let Some(index) = block.items.iter().position(is_control) {
+            match self.control(program, block, &block.items[index])? {
+                Some(next) => return Ok(next),
+                None => rest = &block.items[index + 1..],
+            }
+        }
+        if block.items.iter().any(|i| matches!(i, Item::Mark(_))) {
+            return Ok(self.tape_mark());
+        }
+        if rest.is_empty() {
+            return Ok(Next::Following);
+        }
+        self.gather(program, block, rest)?;
+        self.assign(program, block, rest)?;
+        self.perform(block)
+    }
+
+    fn assign(&mut self, program: &Program, block: &Block, items: &[Item]) -> Result<(), Fault> {
+        let mut values = Vec::new();
+        for item in items {
+            if let Item::Assign { target, value, offset } = item {
+                let value = self.value(program, block, *value)?;
+                values.push((self.parameter(program, block, *target)?, value, *offset));
+            }
+        }
+        values.into_iter().try_for_each(|(target, value, at)| self.write(target, value, at))
+    }
+
+    fn tape_mark(&mut self) -> Next {
+        if std::mem::replace(&mut self.opened, true) {
+            self.emit(Event::End);
+            return Next::Finished;
+        }
+        Next::Following
+    }
+
+    /// Executes the gathered words in the order of RS274/NGC.
+    pub(super) fn perform(&mut self, block: &Block) -> Result<Next, Fault> {
+        let actions = std::mem::take(&mut self.words.actions);
+        let result = self.perform_actions(&actions, block);
+        self.words.actions = actions;
+        let next = result?;
+        if next == Next::Following {
+            self.report_unused()?;
+        }
+        Ok(next)
+    }
+
+    fn perform_actions(
+        &mut self,
+        actions: &[(Action, usize)],
+        block: &Block,
+    ) -> Result<Next, Fault> {
+        let early = actions.iter().take_while(|(a, _)| a.rank() <= 3).count();
+        for (action, at) in &actions[..early] {
+            self.act(*action, *at)?;
+        }
+        if actions.iter().any(|(a, _)| *a == Action::MacroCall) {
+            return self.macro_call(block);
+        }
+        self.units_before_feed(actions);
+        self.feed_speed_tool(block)?;
+        let mut moved = false;
+        let machine = actions.iter().any(|(a, _)| *a == Action::MachineCoordinates);
+        let taken = actions.iter().any(|(a, _)| a.takes_axis_words());
+        for (action, at) in &actions[early..] {
+            match action {
+                Action::Motion(motion) => {
+                    self.modes.motion = Some(*motion);
+                    if !matches!(motion, Motion::Cycle(_) | Motion::Cancelled) {
+                        self.modes.base = *motion;
+                    }
+                    if !taken {
+                        self.motion(*motion, machine, *at)?;
+                        moved = true;
+                    }
+                }
+                Action::Call => return self.subprogram_call(block),
+                Action::Return => return self.subprogram_return(block),
+                Action::End | Action::Stop(_) if !moved && !taken => {
+                    self.modal_motion(machine, block)?;
+                    moved = true;
+                    if self.act(*action, *at)? {
+                        return Ok(Next::Finished);
+                    }
+                }
+                _ if self.act(*action, *at)? => return Ok(Next::Finished),
+                _ => {}
+            }
+        }
+        if !moved && !taken {
+            self.modal_motion(machine, block)?;
+        }
+        Ok(Next::Following)
+    }
+
+    /// A FANUC block has its units before it has its feed, a LinuxCNC block afterwards.
+    fn units_before_feed(&mut self, actions: &[(Action, usize)]) {
+        let units = actions.iter().find_map(|(action, at)| match action {
+            Action::Inches(inches) if *inches != self.modes.inches => Some((*inches, *at)),
+            _ => None,
+        });
+        let Some((inches, at)) = units else { return };
+        if self.programs[0].dialect().macro_words {
+            self.modes.inches = inches;
+        } else if self.words.look(b'F').is_some() {
+            let message = "F counts in the units before this block".to_owned();
+            let hint = "write G20 or G21 in a block before F";
+            self.warn_once("feed-before-units", 0, at, message, hint);
+        }
+    }
+
+    /// Axis words without a code of their own.
+    fn modal_motion(&mut self, machine: bool, block: &Block) -> Result<(), Fault> {
+        let arc =
+            matches!(self.modes.motion, Some(Motion::ArcClockwise | Motion::ArcCounterClockwise))
+                && b"IJK".iter().any(|l| self.words.look(*l).is_some());
+        if !self.words.has_axis() && !arc {
+            return Ok(());
+        }
+        let at = block.span.start;
+        match self.modes.motion {
+            Some(motion) if motion != Motion::Cancelled => self.motion(motion, machine, at),
+            _ => {
+                let message = "axis words without a motion code".to_owned();
+                Err(fault("no-motion-code", at, message, "write G0, G1, G2 or G3 before them"))
+            }
+        }
+    }
+
+    fn feed_speed_tool(&mut self, block: &Block) -> Result<(), Fault> {
+        let at = self.words.place(b'F');
+        if let Some(feed) = self.words.take(b'F') {
+            if feed < 0.0 {
+                return Err(fault("negative-feed", at, "a feed is not negative", "write F100"));
+            }
+            let inverse = self.modes.feed_mode == FeedMode::InverseTime;
+            self.modes.feed = if inverse { feed } else { feed * self.modes.unit_mm() };
+        } else if self.modes.feed_mode == FeedMode::InverseTime {
+            self.modes.feed = 0.0;
+        }
+        if let Some(speed) = self.words.take(b'S') {
+            self.modes.speed = speed;
+            self.emit(Event::SpindleSpeed(speed));
+        }
+        let at = self.words.place(b'T');
+        if let Some(tool) = self.words.take(b'T') {
+            if !(0.0..1e9).contains(&tool) {
+                let message = format!("T{tool} is not the number of a tool");
+                return Err(fault("bad-tool", at.max(block.span.start), message, "write T1"));
+            }
+            self.modes.selected = tool as u32;
+            self.emit(Event::ToolSelect(tool as u32));
+        }
+        Ok(())
+    }
+
+    /// Everything but motions and calls; `true` at the end of the program.
+    fn act(&mut self, action: Action, at: usize) -> Result<bool, Fault> {
+        match action {
+            Action::Feed(mode) => {
+                if mode != self.modes.feed_mode {
+                    self.modes.feed = 0.0;
+                }
+                self.modes.feed_mode = mode;
+            }
+            Action::Dwell => self.dwell(at)?,
+            Action::Plane(plane) => {
+                self.modes.plane = plane;
+                self.emit(Event::Plane(plane));
+            }
+            Action::Inches(inches) => self.modes.inches = inches,
+            Action::Diameter(diameter) => self.modes.diameter = diameter,
+            Action::Compensation(side) => self.compensation(side, at),
+            Action::Path(control) => self.path(control),
+            Action::Incremental(incremental) => self.modes.incremental = incremental,
+            Action::ArcAbsolute(absolute) => self.modes.arc_absolute = absolute,
+            Action::RetractToR(to_r) => self.modes.retract_to_r = to_r,
+            Action::MachineCoordinates => {}
+            Action::CancelCycle => {
+                self.modes.motion = Some(self.modes.base);
+                self.modes.cycle.forget();
+            }
+            Action::Spindle(_) | Action::Orient | Action::SurfaceSpeed(_) | Action::ToolChange => {
+                self.spindle(action);
+            }
+            Action::Coolant(coolant) => self.emit(Event::Coolant(coolant)),
+            Action::Stop(optional) => self.emit(Event::Stop { optional }),
+            Action::End => {
+                self.emit(Event::End);
+                return Ok(true);
+            }
+            Action::Note(name) => {
+                self.words.take_parameters();
+                self.emit(Event::Note(name));
+            }
+            Action::NotApplied(name) | Action::NotAppliedAlone(name) => {
+                if matches!(action, Action::NotApplied(_)) {
+                    let _ = self.words.take_all();
+                }
+                let message = format!("{name} is not applied");
+                let hint = "the moves that follow are those without it";
+                self.warn_once("not-applied", hash(name), at, message, hint);
+            }
+            _ => self.table(action, at)?,
+        }
+        Ok(false)
+    }
+
+    fn spindle(&mut self, action: Action) {
+        match action {
+            Action::Spindle(turning) => {
+                self.modes.turning = turning;
+                self.words.take(b'P');
+                self.emit(Event::Spindle(turning));
+            }
+            Action::Orient => {
+                let angle_deg = self.words.take(b'R').unwrap_or(0.0);
+                self.words.take(b'P');
+                self.words.take(b'Q');
+                self.emit(Event::SpindleOrient { angle_deg });
+            }
+            Action::ToolChange => {
+                self.modes.tool = self.modes.selected;
+                self.modes.turning = Turning::Stopped;
+                self.emit(Event::ToolChange(self.modes.tool));
+            }
+            Action::SurfaceSpeed(on) => {
+                self.words.take(b'D');
+                let name =
+                    if on { "G96 constant surface speed" } else { "G97 revolutions per minute" };
+                self.emit(Event::Note(name));
+            }
+            _ => {}
+        }
+    }
+
+    fn dwell(&mut self, at: usize) -> Result<(), Fault> {
+        let macro_words = self.programs[0].dialect().macro_words;
+        let seconds = match self.words.take(b'P') {
+            // FANUC counts P in milliseconds and X in seconds.
+            Some(p) if macro_words => Some(p / 1000.0),
+            Some(p) => Some(p),
+            None if macro_words => self.words.take(b'X').or_else(|| self.words.take(b'U')),
+            None => None,
+        };
+        let Some(seconds) = seconds.filter(|s| *s >= 0.0) else {
+            let message = "the time of the dwell is missing or negative".to_owned();
+            return Err(fault("bad-dwell", at, message, "write G4 P0.5"));
+        };
+        self.step(MoveKind::Dwell { seconds }, self.frames.position);
+        Ok(())
+    }
+
+    fn compensation(&mut self, side: CompensationSide, at: usize) {
+        self.words.take(b'D');
+        self.words.take(b'L');
+        self.emit(Event::Compensation(side));
+        if side != CompensationSide::Off {
+            let message = "radius compensation is noted, not applied".to_owned();
+            let hint = "the moves are those of the program; let the CAM system compensate";
+            self.warn_once("compensation-not-applied", 0, at, message, hint);
+        }
+    }
+
+    fn path(&mut self, control: PathControl) {
+        let mut tolerance_mm = 0.0;
+        if control == PathControl::Continuous {
+            tolerance_mm = self.length(b'P').unwrap_or(0.0);
+            self.words.take(b'Q');
+            self.words.take(b'R');
+        }
+        self.emit(Event::Path { control, tolerance_mm });
+    }
+
+    pub(super) fn step(&mut self, kind: MoveKind, target: Position) {
+        let (feed, origin) = (self.modes.feed(), self.origin);
+        self.emit_move(Move { kind, target, direction: None, feed, origin });
+    }
+
+    fn motion(&mut self, motion: Motion, machine: bool, at: usize) -> Result<(), Fault> {
+        let moves = self.words.has_axis();
+        if motion == Motion::Cancelled {
+            self.modes.cycle.forget();
+            return Ok(());
+        }
+        if let Motion::Cycle(cycle) = motion {
+            return if moves { self.cycle(cycle, at) } else { Ok(()) };
+        }
+        self.modes.cycle.forget();
+        let arc = matches!(motion, Motion::ArcClockwise | Motion::ArcCounterClockwise);
+        if !moves && !arc {
+            if motion == Motion::Probe {
+                let message = "a probing move needs an axis word".to_owned();
+                return Err(fault("no-axis-words", at, message, "write G38.2 Z-10"));
+            }
+            return Ok(());
+        }
+        let position = self.frames.position;
+        let target = if machine { self.machine_target() } else { self.target() };
+        if !matches!(motion, Motion::Rapid | Motion::Thread | Motion::RigidTap) {
+            self.check_feed(at)?;
+        }
+        match motion {
+            Motion::Rapid => self.step(MoveKind::Rapid, target),
+            Motion::Linear => {
+                let direction = self.take_direction(at)?;
+                let (feed, origin) = (self.modes.feed(), self.origin);
+                self.emit_move(Move { kind: MoveKind::Linear, target, direction, feed, origin });
+            }
+            Motion::Probe => self.step(MoveKind::Probe, target),
+            Motion::Thread | Motion::RigidTap => {
+                let pitch_mm = match self.length(b'K') {
+                    Some(pitch) => pitch,
+                    None => self.modes.feed,
+                };
+                self.words.take(b'I');
+                if motion == Motion::Thread {
+                    self.step(MoveKind::Thread { pitch_mm }, target);
+                } else {
+                    self.step(MoveKind::RigidTap { pitch_mm }, target);
+                    self.frames.position = position;
+                }
+            }
+            _ => return self.arc(motion == Motion::ArcCounterClockwise, target, at),
+        }
+        Ok(())
+    }
+
+    /// I J K of a line are a tool direction with G43.5.
+    fn take_direction(&mut self, at: usize) -> Result<Option<[f64; 3]>, Fault> {
+        let given = b"IJK".iter().any(|l| self.words.look(*l).is_some());
+        if !self.modes.vectors || !given {
+            return Ok(None);
+        }
+        let direction = b"IJK".map(|l| self.words.take(l).unwrap_or(0.0));
+        if direction == [0.0; 3] {
+            let message = "the direction of the tool has no length".to_owned();
+            return Err(fault("zero-direction", at, message, "write I, J and K"));
+        }
+        Ok(Some(direction))
+    }
+
+    pub(super) fn check_feed(&self, at: usize) -> Result<(), Fault> {
+        if self.modes.feed > 0.0 {
+            return Ok(());
+        }
+        let (message, hint) = match self.modes.feed_mode {
+            FeedMode::InverseTime => ("with G93 each feed move needs its own F", "write F"),
+            _ => ("a feed move without feed", "write F before the first feed move"),
+        };
+        Err(fault("zero-feed", at, message, hint))
+    }
+
+    /// The program coordinates of a place given in machine coordinates.
+    fn machine_target(&mut self) -> Position {
+        let mut machine = self.frames.machine();
+        let mut named = [false; 9];
+        for axis in Axis::ALL {
+            if let Some(value) = self.axis_word(axis) {
+                machine[axis] = value;
+                named[axis as usize] = true;
+            }
+        }
+        let target = self.frames.program_at(&machine);
+        let turned = self.frames.work().rotation_deg != 0.0 && (named[0] || named[1]);
+        let old = self.frames.position;
+        Position(std::array::from_fn(|i| {
+            if named[i] || turned && i < 2 { target.0[i] } else { old.0[i] }
+        }))
+    }
+}
+
+fn is_control(item: &Item) -> bool {
+    matches!(item, Item::Control { .. })
+}
+
+/// Tells names of codes apart in the list of what was reported.
+fn hash(name: &str) -> u32 {
+    name.bytes().fold(2_166_136_261, |h: u32, b| (h ^ u32::from(b)).wrapping_mul(16_777_619))
+}

@@ -1,0 +1,514 @@
+use std::collections::HashMap;
+use std::rc::Rc;
+
+use super::parameters::Locals;
+use super::{Frame, Next, Run, fault};
+use crate::moves::Event;
+use crate::program::{Block, Fault, Item, Keyword, Label, Mark, NodeId, Program};
+
+impl Frame {
+    pub(super) fn new(program: usize, at: usize, line: u32) -> Self {
+        Self {
+            program,
+            at,
+            line,
+            sub: None,
+            locals: Locals::default(),
+            rounds: HashMap::new(),
+            seeking: false,
+            repeats: 0,
+        }
+    }
+}
+
+/// A control statement that is being executed.
+struct Statement<'b> {
+    keyword: Keyword,
+    label: Label,
+    arguments: &'b [NodeId],
+    offset: usize,
+}
+
+impl Run<'_> {
+    fn frame(&mut self) -> &mut Frame {
+        // why: the stack is never empty while a block is executed.
+        self.stack.last_mut().expect("a block belongs to a frame")
+    }
+
+    /// The text has no more blocks: `true` if the whole program is at its end.
+    pub(super) fn end_of_text(&mut self) -> Result<bool, Fault> {
+        let frame = self.frame();
+        match frame.sub.take() {
+            None => {
+                if self.opened {
+                    let message = "the closing % is missing".to_owned();
+                    let at = self.current().source().len();
+                    self.warn_once("truncated-program", 0, at, message, "was the file cut off?");
+                }
+                self.emit(Event::End);
+                Ok(true)
+            }
+            Some(label) => {
+                let at = self.current().source().len();
+                let message = format!("the subprogram {} has no end", show(&label));
+                Err(fault("missing-end", at, message, "end it with endsub or M99"))
+            }
+        }
+    }
+
+    /// Executes a control statement; `None` if the rest of the block is to be executed.
+    pub(super) fn control(
+        &mut self,
+        program: &Program,
+        block: &Block,
+        item: &Item,
+    ) -> Result<Option<Next>, Fault> {
+        let Item::Control { keyword, label, arguments, offset } = item else { return Ok(None) };
+        let label = match label {
+            Some(Label::Computed(node)) => {
+                let value = self.value(program, block, *node)?;
+                if !(0.0..1e15).contains(&value) {
+                    let message = format!("{value} is not a label");
+                    return Err(fault("bad-label", *offset, message, "labels are whole numbers"));
+                }
+                Label::Number(value.round() as u64)
+            }
+            Some(label) => label.clone(),
+            None => Label::Number(0),
+        };
+        let statement = Statement { keyword: *keyword, label, arguments, offset: *offset };
+        match keyword {
+            Keyword::ProgramNumber => Ok(None),
+            Keyword::IfThen => {
+                let holds = self.condition(program, block, arguments)?;
+                Ok(if holds { None } else { Some(Next::Following) })
+            }
+            Keyword::Goto => self.go_to(program, &statement).map(Some),
+            Keyword::IfGoto => {
+                let holds = self.condition(program, block, arguments)?;
+                let next = if holds { self.go_to(program, &statement)? } else { Next::Following };
+                Ok(Some(next))
+            }
+            Keyword::Sub | Keyword::EndSub | Keyword::Call | Keyword::Return => {
+                self.sub_statement(program, block, &statement).map(Some)
+            }
+            Keyword::If | Keyword::ElseIf | Keyword::Else | Keyword::EndIf => {
+                self.branch(program, block, &statement).map(Some)
+            }
+            _ => self.repetition(program, block, &statement).map(Some),
+        }
+    }
+
+    fn condition(
+        &self,
+        program: &Program,
+        block: &Block,
+        arguments: &[NodeId],
+    ) -> Result<bool, Fault> {
+        match arguments.first() {
+            Some(node) => Ok(self.value(program, block, *node)?.abs() > 1e-20),
+            None => Ok(true),
+        }
+    }
+
+    fn go_to(&mut self, program: &Program, statement: &Statement<'_>) -> Result<Next, Fault> {
+        let Label::Number(wanted) = statement.label else { return Ok(Next::Following) };
+        let numbers = &program.structure().numbers;
+        let after = numbers.partition_point(|(_, start, _)| *start <= statement.offset);
+        let found = numbers[after..]
+            .iter()
+            .chain(&numbers[..after])
+            .find(|(number, ..)| *number == wanted)
+            .copied();
+        let Some((_, start, line)) = found else {
+            let message = format!("there is no block N{wanted}");
+            return Err(fault("missing-label", statement.offset, message, "check the number"));
+        };
+        self.jump(start, line, statement.offset)
+    }
+
+    /// Goes to a block; going back is counted.
+    fn jump(&mut self, start: usize, line: u32, from: usize) -> Result<Next, Fault> {
+        if start <= from {
+            self.count(from)?;
+        }
+        let frame = self.frame();
+        (frame.at, frame.line) = (start, line);
+        Ok(Next::Jumped)
+    }
+
+    fn count(&mut self, at: usize) -> Result<(), Fault> {
+        self.jumps += 1;
+        if self.jumps <= self.settings.most_jumps {
+            return Ok(());
+        }
+        let message = format!("more than {} jumps and calls: an endless loop?", self.jumps - 1);
+        // Nothing can go on from here.
+        self.errors = usize::MAX / 2;
+        Err(fault("endless-loop", at, message, "check its condition, or raise the limit"))
+    }
+
+    /// The next mark behind a byte that fits.
+    fn ahead(
+        &self,
+        program: &Program,
+        statement: &Statement<'_>,
+        wanted: &[Keyword],
+        code: &'static str,
+    ) -> Result<Mark, Fault> {
+        let marks = &program.structure().marks;
+        let from = marks.partition_point(|m| m.start <= statement.offset);
+        let fits = |m: &&Mark| m.label == statement.label && wanted.contains(&m.keyword);
+        marks[from..].iter().find(fits).cloned().ok_or_else(|| {
+            let message = format!("{} has no end", show(&statement.label));
+            fault(code, statement.offset, message, "each block of control has its end")
+        })
+    }
+
+    fn behind(
+        &self,
+        program: &Program,
+        from: usize,
+        label: &Label,
+        wanted: &[Keyword],
+    ) -> Option<Mark> {
+        let marks = &program.structure().marks;
+        let until = marks.partition_point(|m| m.next <= from);
+        let fits = |m: &&Mark| &m.label == label && wanted.contains(&m.keyword);
+        marks[..until].iter().rev().find(fits).cloned()
+    }
+
+    fn branch(
+        &mut self,
+        program: &Program,
+        block: &Block,
+        statement: &Statement<'_>,
+    ) -> Result<Next, Fault> {
+        let seeking = std::mem::take(&mut self.frame().seeking);
+        let begins = statement.keyword == Keyword::If;
+        match statement.keyword {
+            Keyword::EndIf => return Ok(Next::Following),
+            Keyword::Else if seeking => return Ok(Next::Following),
+            Keyword::If | Keyword::ElseIf if seeking || begins => {
+                if self.condition(program, block, statement.arguments)? {
+                    return Ok(Next::Following);
+                }
+                let branches = [Keyword::ElseIf, Keyword::Else, Keyword::EndIf];
+                let mark = self.ahead(program, statement, &branches, "missing-endif")?;
+                self.frame().seeking = mark.keyword != Keyword::EndIf;
+                return self.jump(mark.start, mark.line, statement.offset);
+            }
+            _ => {}
+        }
+        // The branch before this one was executed.
+        let mark = self.ahead(program, statement, &[Keyword::EndIf], "missing-endif")?;
+        self.jump(mark.next, mark.line + 1, statement.offset)
+    }
+
+    fn repetition(
+        &mut self,
+        program: &Program,
+        block: &Block,
+        statement: &Statement<'_>,
+    ) -> Result<Next, Fault> {
+        let at = statement.offset;
+        let label = &statement.label;
+        match statement.keyword {
+            Keyword::While => self.while_statement(program, block, statement),
+            Keyword::EndWhile => {
+                match self.behind(program, at, label, &[Keyword::While, Keyword::Do]) {
+                    Some(open) => self.jump(open.start, open.line, at),
+                    None => Err(unopened(statement)),
+                }
+            }
+            Keyword::Repeat => {
+                let count = statement.arguments.first().map(|n| self.value(program, block, *n));
+                let count = count.transpose()?.unwrap_or(0.0).round().clamp(0.0, 1e15) as u64;
+                if count == 0 {
+                    return self.leave(program, statement);
+                }
+                self.frame().rounds.insert(block.span.start, count);
+                Ok(Next::Following)
+            }
+            Keyword::EndRepeat => {
+                let Some(open) = self.behind(program, at, label, &[Keyword::Repeat]) else {
+                    return Err(unopened(statement));
+                };
+                let rounds = self.frame().rounds.entry(open.start).or_insert(1);
+                *rounds = rounds.saturating_sub(1);
+                if *rounds == 0 {
+                    Ok(Next::Following)
+                } else {
+                    self.jump(open.next, open.line + 1, at)
+                }
+            }
+            Keyword::Break => self.leave(program, statement),
+            Keyword::Continue => {
+                let ends = [Keyword::EndWhile, Keyword::EndRepeat, Keyword::While];
+                let mark = self.ahead(program, statement, &ends, "missing-endwhile")?;
+                self.jump(mark.start, mark.line, at)
+            }
+            _ => Ok(Next::Following),
+        }
+    }
+
+    fn while_statement(
+        &mut self,
+        program: &Program,
+        block: &Block,
+        statement: &Statement<'_>,
+    ) -> Result<Next, Fault> {
+        let (start, at) = (block.span.start, statement.offset);
+        let holds = self.condition(program, block, statement.arguments)?;
+        let loops = [Keyword::While, Keyword::Do, Keyword::Repeat];
+        let open = self.behind(program, start, &statement.label, &loops);
+        match open.filter(|o| o.keyword == Keyword::Do && program.dialect().o_words) {
+            // It ends a `do`.
+            Some(open) if holds => self.jump(open.next, open.line + 1, at),
+            Some(_) => Ok(Next::Following),
+            None if holds => Ok(Next::Following),
+            None => self.leave(program, statement),
+        }
+    }
+
+    /// Goes behind the end of the loop.
+    fn leave(&mut self, program: &Program, statement: &Statement<'_>) -> Result<Next, Fault> {
+        let closing_while = statement.keyword == Keyword::Break;
+        let mut ends = vec![Keyword::EndWhile, Keyword::EndRepeat];
+        if closing_while {
+            ends.push(Keyword::While);
+        }
+        let mark = self.ahead(program, statement, &ends, "missing-endwhile")?;
+        self.jump(mark.next, mark.line + 1, statement.offset)
+    }
+
+    fn sub_statement(
+        &mut self,
+        program: &Program,
+        block: &Block,
+        statement: &Statement<'_>,
+    ) -> Result<Next, Fault> {
+        let at = statement.offset;
+        match statement.keyword {
+            Keyword::Call => {
+                let mut locals = Locals::default();
+                if statement.arguments.len() > 30 {
+                    let message = "a call has 30 arguments at the most".to_owned();
+                    return Err(fault("too-many-arguments", at, message, "use global parameters"));
+                }
+                for number in &mut locals.numbers[1..=30] {
+                    *number = Some(0.0);
+                }
+                for (index, node) in statement.arguments.iter().enumerate() {
+                    locals.numbers[index + 1] = Some(self.value(program, block, *node)?);
+                }
+                let name = show(&statement.label);
+                self.enter(program, &statement.label, &name, locals, block, 1, at)
+            }
+            Keyword::Sub if self.frame().sub.is_some() => {
+                let message = "a sub is defined within a sub".to_owned();
+                Err(fault("nested-sub", at, message, "define subs one after the other"))
+            }
+            Keyword::Sub => {
+                let mark = self.ahead(program, statement, &[Keyword::EndSub], "missing-endsub")?;
+                let nested =
+                    program.structure().marks.iter().find(|m| {
+                        m.keyword == Keyword::Sub && m.start > at && m.start < mark.start
+                    });
+                if let Some(nested) = nested {
+                    let message = "a sub is defined within a sub".to_owned();
+                    let hint = "define subs one after the other";
+                    return Err(fault("nested-sub", nested.start, message, hint));
+                }
+                self.jump(mark.next, mark.line + 1, at)
+            }
+            _ => {
+                let value = match statement.arguments.first() {
+                    Some(node) => Some(self.value(program, block, *node)?),
+                    None => None,
+                };
+                if self.frame().sub.is_none() {
+                    return Err(unopened(statement));
+                }
+                self.returned = value;
+                self.stack.pop();
+                Ok(Next::Jumped)
+            }
+        }
+    }
+
+    /// Enters a subprogram of this text or of the library; the caller goes on behind `block`.
+    #[expect(clippy::too_many_arguments, reason = "who calls whom with what: all are different")]
+    fn enter(
+        &mut self,
+        program: &Program,
+        label: &Label,
+        name: &str,
+        locals: Locals,
+        block: &Block,
+        repeats: u64,
+        at: usize,
+    ) -> Result<Next, Fault> {
+        self.count(at)?;
+        if self.stack.len() > self.settings.deepest_call {
+            let message = format!("more than {} calls within each other", self.stack.len() - 1);
+            self.errors = usize::MAX / 2;
+            return Err(fault("calls-too-deep", at, message, "does it call itself for ever?"));
+        }
+        let (number, start, line) = self.find_sub(program, label, name, at)?;
+        self.follow(block);
+        let mut frame = Frame::new(number, start, line);
+        (frame.sub, frame.locals, frame.repeats) = (Some(label.clone()), locals, repeats);
+        self.stack.push(frame);
+        self.returned = None;
+        Ok(Next::Jumped)
+    }
+
+    fn find_sub(
+        &mut self,
+        program: &Program,
+        label: &Label,
+        name: &str,
+        at: usize,
+    ) -> Result<(usize, usize, u32), Fault> {
+        let place = |program: &Program| {
+            let structure = program.structure();
+            let mark = &structure.marks[*structure.subs.get(label)?];
+            Some((mark.next, mark.line + 1))
+        };
+        let here = self.origin.program as usize;
+        if let Some((start, line)) = place(program) {
+            return Ok((here, start, line));
+        }
+        let number = match self.loaded.get(name) {
+            Some(number) => *number,
+            None => {
+                let text = self.library.text(name).map_err(|why| {
+                    let message = format!("the subprogram {name} is missing: {why}");
+                    fault("missing-subprogram", at, message, "put it where subprograms are found")
+                })?;
+                let file = self.library.display(name);
+                let loaded = Program::new(&file, text, program.dialect().control);
+                self.programs.push(Rc::new(loaded));
+                self.loaded.insert(name.to_owned(), self.programs.len() - 1);
+                self.programs.len() - 1
+            }
+        };
+        match place(&self.programs[number]) {
+            Some((start, line)) => Ok((number, start, line)),
+            None if program.dialect().macro_words => Ok((number, 0, 1)),
+            None => {
+                let message = format!("{} does not define {name}", self.programs[number].file());
+                Err(fault("missing-subprogram", at, message, "it needs o<name> sub … endsub"))
+            }
+        }
+    }
+
+    /// M98 P…: a FANUC subprogram, L times; P with more than 4 digits carries the count in front.
+    pub(super) fn subprogram_call(&mut self, block: &Block) -> Result<Next, Fault> {
+        let at = self.words.place(b'P').max(block.span.start);
+        let (number, digits) = self.program_number(at)?;
+        let repeats = self.words.take(b'L').unwrap_or((digits / 10_000).max(1) as f64);
+        let locals = self.frame().locals.clone();
+        self.call_number(number, locals, block, repeats, at)
+    }
+
+    /// G65 P… with letters as arguments.
+    pub(super) fn macro_call(&mut self, block: &Block) -> Result<Next, Fault> {
+        const NUMBERS: [usize; 26] = [
+            1, 2, 3, 7, 8, 9, 0, 11, 4, 5, 6, 0, 13, 0, 0, 0, 17, 18, 19, 20, 21, 22, 23, 24, 25,
+            26,
+        ];
+        let at = self.words.place(b'P').max(block.span.start);
+        let (number, _) = self.program_number(at)?;
+        let repeats = self.words.take(b'L').unwrap_or(1.0);
+        let mut locals = Locals::default();
+        for (letter, value) in self.words.take_all() {
+            let index = NUMBERS[usize::from(letter - b'A')];
+            if index > 0 {
+                locals.numbers[index] = Some(value);
+            }
+        }
+        self.call_number(number, locals, block, repeats, at)
+    }
+
+    fn program_number(&mut self, at: usize) -> Result<(u64, u64), Fault> {
+        match self.words.take(b'P') {
+            Some(p) if (1.0..1e9).contains(&p) && p.fract() == 0.0 => {
+                let digits = p as u64;
+                Ok((if digits > 9999 { digits % 10_000 } else { digits }, digits))
+            }
+            _ => {
+                let message = "the number of the subprogram is missing".to_owned();
+                Err(fault("missing-subprogram", at, message, "write M98 P1000"))
+            }
+        }
+    }
+
+    fn call_number(
+        &mut self,
+        number: u64,
+        locals: Locals,
+        block: &Block,
+        repeats: f64,
+        at: usize,
+    ) -> Result<Next, Fault> {
+        let program = self.current();
+        if repeats < 1.0 {
+            return Ok(Next::Following);
+        }
+        let name = format!("O{number:04}");
+        self.enter(&program, &Label::Number(number), &name, locals, block, repeats as u64, at)
+    }
+
+    /// M99: back to the caller, or once more; in the main program back to its beginning, which is
+    /// taken as its end.
+    pub(super) fn subprogram_return(&mut self, block: &Block) -> Result<Next, Fault> {
+        let back = self.words.take(b'P');
+        let frame = self.frame();
+        let Some(label) = frame.sub.clone() else {
+            let message = "M99 in the main program repeats it: taken as its end".to_owned();
+            self.warn_once("endless-main", 0, block.span.start, message, "write M30");
+            self.emit(Event::End);
+            return Ok(Next::Finished);
+        };
+        frame.repeats = frame.repeats.saturating_sub(1);
+        if frame.repeats > 0 {
+            let name = show(&label);
+            let program = self.current();
+            self.count(block.span.start)?;
+            let (_, start, line) = self.find_sub(&program, &label, &name, block.span.start)?;
+            let frame = self.frame();
+            (frame.at, frame.line) = (start, line);
+            return Ok(Next::Jumped);
+        }
+        self.stack.pop();
+        if let Some(number) = back {
+            let number_of_caller = self.frame().program;
+            let caller = Rc::clone(&self.programs[number_of_caller]);
+            let numbers = &caller.structure().numbers;
+            let found = numbers.iter().find(|(n, ..)| *n as f64 == number).copied();
+            let Some((_, start, line)) = found else {
+                let message = format!("the caller has no block N{number}");
+                return Err(fault("missing-label", block.span.start, message, "check P of M99"));
+            };
+            let frame = self.frame();
+            (frame.at, frame.line) = (start, line);
+        }
+        Ok(Next::Jumped)
+    }
+}
+
+fn unopened(statement: &Statement<'_>) -> Fault {
+    let message =
+        format!("{:?} of {} without a beginning", statement.keyword, show(&statement.label));
+    fault("unopened-control", statement.offset, message, "check the labels")
+}
+
+fn show(label: &Label) -> String {
+    match label {
+        Label::Number(number) => number.to_string(),
+        Label::Name(name) => name.clone(),
+        Label::Computed(_) => String::new(),
+    }
+}

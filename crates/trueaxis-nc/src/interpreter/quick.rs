@@ -1,0 +1,101 @@
+use super::Run;
+use super::words::check_groups;
+use crate::code::Action;
+use crate::dialect::Dialect;
+
+/// G codes by their number in tenths, for one look each.
+pub(super) type CodeTable = Box<[Option<Action>; 1000]>;
+
+pub(super) fn code_table(dialect: &Dialect) -> CodeTable {
+    let mut table = Box::new([None; 1000]);
+    for (code, action) in dialect.g_codes {
+        if let Some(entry) = table.get_mut(usize::from(*code)) {
+            *entry = Some(*action);
+        }
+    }
+    table
+}
+
+impl Run<'_> {
+    /// Reads a line that holds nothing but plain words straight into the words; its end.
+    ///
+    /// Most lines of long programs are of this kind. `None` leaves the line to the parser, which
+    /// reads all of them and says what is wrong.
+    pub(super) fn quick(
+        &mut self,
+        dialect: &Dialect,
+        source: &[u8],
+        start: usize,
+    ) -> Option<usize> {
+        let mut at = start;
+        self.words.clear();
+        loop {
+            let byte = *source.get(at)?;
+            match byte {
+                b' ' => at += 1,
+                b'\n' => {
+                    at += 1;
+                    break;
+                }
+                b'\r' if source.get(at + 1) == Some(&b'\n') => {
+                    at += 2;
+                    break;
+                }
+                b'a'..=b'z' | b'A'..=b'Z' => {
+                    let (value, after) = plain_number(source, at + 1)?;
+                    self.quick_word(dialect, byte.to_ascii_uppercase(), value, at)?;
+                    at = after;
+                }
+                _ => return None,
+            }
+        }
+        if self.words.actions.len() > 1 {
+            self.words.actions.sort_by_key(|(action, _)| action.rank());
+            check_groups(&self.words).ok()?;
+        }
+        Some(at)
+    }
+
+    fn quick_word(&mut self, dialect: &Dialect, letter: u8, value: f64, at: usize) -> Option<()> {
+        let action = match letter {
+            b'O' => return None,
+            b'N' => return Some(()),
+            b'G' => self.codes[super::words::whole(value * 10.0).filter(|t| *t < 1000)? as usize]?,
+            b'M' => dialect.m_code(super::words::whole(value)?)?,
+            _ => return self.words.put(letter, value, at).ok(),
+        };
+        if self.words.actions.len() > 20 {
+            return None;
+        }
+        self.words.actions.push((action, at));
+        Some(())
+    }
+}
+
+/// A number of at most 15 digits that begins here, and where it ends.
+#[inline]
+fn plain_number(source: &[u8], start: usize) -> Option<(f64, usize)> {
+    const TENS: [f64; 16] =
+        [1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
+    let mut at = start;
+    let negative = source.get(at) == Some(&b'-');
+    at += usize::from(negative);
+    let first = at;
+    let (mut digits, mut point) = (0_u64, None);
+    while let Some(byte) = source.get(at) {
+        match byte {
+            b'0'..=b'9' => digits = digits.wrapping_mul(10).wrapping_add(u64::from(byte - b'0')),
+            b'.' if point.is_none() => point = Some(at),
+            _ => break,
+        }
+        at += 1;
+    }
+    let count = at - first - usize::from(point.is_some());
+    if count == 0 || count > 15 {
+        return None;
+    }
+    let decimals = point.map_or(0, |p| at - p - 1);
+    // Both fit in a double without loss, so one division rounds correctly.
+    let value = digits as f64 / TENS[decimals];
+    Some((if negative { -value } else { value }, at))
+}

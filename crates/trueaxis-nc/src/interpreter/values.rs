@@ -1,0 +1,135 @@
+use super::parameters::Parameter;
+use super::{Run, fault};
+use crate::program::{Block, Fault, Function, Node, NodeId, Operator, Program};
+
+impl Run<'_> {
+    /// The value of an expression. A FANUC parameter without a value is NaN in here; it counts as
+    /// 0 in sums and as itself in comparisons, and never leaves the interpreter.
+    pub(super) fn value(
+        &self,
+        program: &Program,
+        block: &Block,
+        node: NodeId,
+    ) -> Result<f64, Fault> {
+        let of = |node: NodeId| self.value(program, block, node);
+        match &block.nodes[node as usize] {
+            Node::Number(value) => Ok(*value),
+            Node::Parameter(_) | Node::Named(_) => self.parameter_value(program, block, node),
+            Node::Negative(x) => Ok(-of(*x)?),
+            Node::Function(function, x, at) => {
+                self.function(program, *function, vacant(of(*x)?), *at)
+            }
+            Node::ArcTangent(y, x) => Ok(vacant(of(*y)?).atan2(vacant(of(*x)?)).to_degrees()),
+            Node::Exists(parameter) => {
+                let found = match self.parameter(program, block, *parameter)? {
+                    Parameter::Number(n) => n > 0 && self.is_in_range(n),
+                    name => self.read(&name).is_some(),
+                };
+                Ok(f64::from(u8::from(found)))
+            }
+            Node::Binary(operator, a, b, at) => binary(*operator, of(*a)?, of(*b)?, *at),
+        }
+    }
+
+    fn parameter_value(
+        &self,
+        program: &Program,
+        block: &Block,
+        node: NodeId,
+    ) -> Result<f64, Fault> {
+        let parameter = self.parameter(program, block, node)?;
+        if let Some(value) = self.read(&parameter) {
+            return Ok(value);
+        }
+        let at = block.span.start;
+        match parameter {
+            Parameter::Number(_) if program.dialect().macro_words => Ok(f64::NAN),
+            Parameter::Number(number) if number > 0 && self.is_in_range(number) => Ok(0.0),
+            Parameter::Number(number) => {
+                let message = format!("there is no parameter #{number}");
+                let hint = "see the manual of the control for the range of parameters";
+                Err(fault("parameter-out-of-range", at, message, hint))
+            }
+            Parameter::Name(name) => {
+                let message = format!("#<{name}> never got a value");
+                let hint = "names that begin with _ are global, others belong to their sub";
+                Err(fault("undefined-parameter", at, message, hint))
+            }
+        }
+    }
+
+    fn function(
+        &self,
+        program: &Program,
+        function: Function,
+        x: f64,
+        at: usize,
+    ) -> Result<f64, Fault> {
+        let towards_zero = program.dialect().fix_towards_zero;
+        let domain = |allowed: bool, value: f64| {
+            if allowed {
+                return Ok(value);
+            }
+            let message = format!("{function:?} has no value at {x}");
+            Err(fault("out-of-domain", at, message.to_uppercase(), "check the argument"))
+        };
+        let result = match function {
+            Function::Abs => x.abs(),
+            Function::Acos => domain(x.abs() <= 1.0, x.acos())?.to_degrees(),
+            Function::Asin => domain(x.abs() <= 1.0, x.asin())?.to_degrees(),
+            Function::Cos => x.to_radians().cos(),
+            Function::Exp => x.exp(),
+            Function::Fix if towards_zero => x.trunc(),
+            Function::Fix => x.floor(),
+            Function::Fup if towards_zero => x.abs().ceil().copysign(x),
+            Function::Fup => x.ceil(),
+            Function::Ln => domain(x > 0.0, x.ln())?,
+            Function::Round => x.round(),
+            Function::Sin => x.to_radians().sin(),
+            Function::Sqrt => domain(x >= 0.0, x.sqrt())?,
+            Function::Tan => x.to_radians().tan(),
+        };
+        finite(result, at)
+    }
+}
+
+/// A parameter without a value counts as 0 in sums.
+fn vacant(value: f64) -> f64 {
+    if value.is_nan() { 0.0 } else { value }
+}
+
+fn finite(value: f64, at: usize) -> Result<f64, Fault> {
+    if value.is_finite() {
+        return Ok(value);
+    }
+    Err(fault("not-finite", at, "the result is too large for a number", "check the operands"))
+}
+
+fn binary(operator: Operator, a: f64, b: f64, at: usize) -> Result<f64, Fault> {
+    let same = |x: f64, y: f64| x.is_nan() == y.is_nan() && (x.is_nan() || (x - y).abs() < 1e-6);
+    let (x, y) = (vacant(a), vacant(b));
+    let truth = |condition: bool| Ok(f64::from(u8::from(condition)));
+    let divisor = || {
+        if y == 0.0 {
+            return Err(fault("division-by-zero", at, "division by zero", "check the divisor"));
+        }
+        Ok(y)
+    };
+    match operator {
+        Operator::Power => finite(x.powf(y), at),
+        Operator::Times => finite(x * y, at),
+        Operator::Divide => finite(x / divisor()?, at),
+        Operator::Modulo => finite(x.rem_euclid(divisor()?), at),
+        Operator::Plus => finite(x + y, at),
+        Operator::Minus => finite(x - y, at),
+        Operator::Equal => truth(same(a, b)),
+        Operator::NotEqual => truth(!same(a, b)),
+        Operator::Greater => truth(x > y),
+        Operator::GreaterEqual => truth(x >= y),
+        Operator::Less => truth(x < y),
+        Operator::LessEqual => truth(x <= y),
+        Operator::And => truth(x != 0.0 && y != 0.0),
+        Operator::Or => truth(x != 0.0 || y != 0.0),
+        Operator::Xor => truth((x != 0.0) != (y != 0.0)),
+    }
+}

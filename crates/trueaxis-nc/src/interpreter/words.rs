@@ -1,0 +1,294 @@
+use super::cycles::CycleMemory;
+use super::{Run, Settings, fault};
+use crate::code::{Action, Motion};
+use crate::moves::{Axis, Feed, FeedMode, Plane, Position, Turning};
+use crate::program::{Block, Fault, Item, Program};
+
+/// No word is larger, so that no sum of words leaves the range of numbers.
+const LARGEST: f64 = 1e12;
+
+/// One bit for each letter that names an axis.
+const AXIS_BITS: u32 = {
+    let (mut bits, mut index) = (0, 0);
+    while index < Axis::ALL.len() {
+        bits |= 1 << (b"XYZABCUVW"[index] - b'A');
+        index += 1;
+    }
+    bits
+};
+
+/// What lasts from block to block.
+#[derive(Debug, Clone)]
+pub(super) struct Modes {
+    pub inches: bool,
+    pub diameter: bool,
+    pub incremental: bool,
+    pub arc_absolute: bool,
+    pub retract_to_r: bool,
+    pub plane: Plane,
+    pub motion: Option<Motion>,
+    /// The motion before drilling cycles.
+    pub base: Motion,
+    pub feed_mode: FeedMode,
+    /// mm/min, 1/min or mm/revolution.
+    pub feed: f64,
+    pub turning: Turning,
+    pub speed: f64,
+    pub selected: u32,
+    pub tool: u32,
+    pub cycle: CycleMemory,
+    /// G43.5: I J K of a line are a tool direction.
+    pub vectors: bool,
+}
+
+impl Modes {
+    pub fn new(settings: &Settings, rapid_at_first: bool) -> Self {
+        Self {
+            inches: settings.inches,
+            diameter: settings.diameters,
+            incremental: false,
+            arc_absolute: settings.absolute_centers,
+            retract_to_r: false,
+            plane: settings.plane,
+            motion: rapid_at_first.then_some(Motion::Rapid),
+            base: Motion::Rapid,
+            feed_mode: FeedMode::PerMinute,
+            feed: 0.0,
+            turning: Turning::Stopped,
+            speed: 0.0,
+            selected: 0,
+            tool: 0,
+            cycle: CycleMemory::default(),
+            vectors: false,
+        }
+    }
+
+    pub fn unit_mm(&self) -> f64 {
+        if self.inches { 25.4 } else { 1.0 }
+    }
+
+    pub fn feed(&self) -> Feed {
+        Feed { mode: self.feed_mode, value: self.feed }
+    }
+}
+
+/// The words of one block with their values.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Words {
+    values: [f64; 26],
+    places: [usize; 26],
+    /// One bit for each letter.
+    present: u32,
+    used: u32,
+    /// G and M codes in the order of execution.
+    pub actions: Vec<(Action, usize)>,
+}
+
+impl Words {
+    pub fn clear(&mut self) {
+        (self.present, self.used) = (0, 0);
+        self.actions.clear();
+    }
+
+    /// The value of a word; it counts as used.
+    pub fn take(&mut self, letter: u8) -> Option<f64> {
+        let index = usize::from(letter - b'A');
+        if self.present & (1 << index) == 0 {
+            return None;
+        }
+        self.used |= 1 << index;
+        Some(self.values[index])
+    }
+
+    /// The value of a word, without using it.
+    pub fn look(&self, letter: u8) -> Option<f64> {
+        let index = usize::from(letter - b'A');
+        (self.present & (1 << index) != 0).then_some(self.values[index])
+    }
+
+    pub fn place(&self, letter: u8) -> usize {
+        self.places[usize::from(letter - b'A')]
+    }
+
+    pub fn has_axis(&self) -> bool {
+        self.present & AXIS_BITS != 0
+    }
+
+    pub fn put(&mut self, letter: u8, value: f64, offset: usize) -> Result<(), Fault> {
+        let index = usize::from(letter - b'A');
+        if self.present & (1 << index) != 0 {
+            let letter = char::from(letter);
+            let message = format!("the word {letter} stands twice in this block");
+            return Err(fault("repeated-word", offset, message, "write it once"));
+        }
+        if value.abs() > LARGEST {
+            let message = format!("{value} is too large for the word {}", char::from(letter));
+            return Err(fault("too-large", offset, message, "no machine goes that far"));
+        }
+        self.present |= 1 << index;
+        (self.values[index], self.places[index]) = (value, offset);
+        Ok(())
+    }
+
+    /// The letters that nothing used, with their places.
+    pub fn unused(&self) -> impl Iterator<Item = (u8, usize)> + '_ {
+        let left = self.present & !self.used;
+        (0..26_u8)
+            .filter(move |i| left & (1 << i) != 0)
+            .map(|i| (b'A' + i, self.places[i as usize]))
+    }
+
+    /// The words that belong to a noted code: none of the axes.
+    pub fn take_parameters(&mut self) {
+        for letter in *b"PQRLDEH" {
+            self.take(letter);
+        }
+    }
+
+    /// Every letter that is there, used or not, with its value; all count as used.
+    pub fn take_all(&mut self) -> Vec<(u8, f64)> {
+        self.used = self.present;
+        (b'A'..=b'Z').filter_map(|l| self.look(l).map(|v| (l, v))).collect()
+    }
+}
+
+impl Run<'_> {
+    /// Evaluates the words of a block and sorts its codes into the order of execution.
+    pub(super) fn gather(
+        &mut self,
+        program: &Program,
+        block: &Block,
+        items: &[Item],
+    ) -> Result<(), Fault> {
+        let mut words = std::mem::take(&mut self.words);
+        words.clear();
+        let result = self.gather_into(program, block, items, &mut words);
+        words.actions.sort_by_key(|(action, _)| action.rank());
+        self.words = words;
+        result
+    }
+
+    fn gather_into(
+        &mut self,
+        program: &Program,
+        block: &Block,
+        items: &[Item],
+        words: &mut Words,
+    ) -> Result<(), Fault> {
+        for item in items {
+            let Item::Word { letter, value, offset } = item else { continue };
+            let value = self.value(program, block, *value)?;
+            match letter {
+                _ if value.is_nan() => {}
+                b'N' => {}
+                b'G' => {
+                    let action = self.g_code(program, value, *offset)?;
+                    words.actions.push((action, *offset));
+                }
+                b'M' => {
+                    let known = whole(value).and_then(|n| program.dialect().m_code(n));
+                    let Some(action) = known else {
+                        let message = format!("M{value} is not known to this control");
+                        let hint = "if the machine builder defined it, it has no effect here";
+                        self.warn_once("unknown-m-code", value as u32, *offset, message, hint);
+                        continue;
+                    };
+                    words.actions.push((action, *offset));
+                }
+                _ => words.put(*letter, value, *offset)?,
+            }
+        }
+        check_groups(words)
+    }
+
+    fn g_code(&mut self, program: &Program, value: f64, offset: usize) -> Result<Action, Fault> {
+        whole(value * 10.0).and_then(|tenths| program.dialect().g_code(tenths)).ok_or_else(|| {
+            let message = format!("G{value} is not known to this control");
+            fault("unknown-g-code", offset, message, "is the program written for another control?")
+        })
+    }
+
+    /// Reports what no code of the block used.
+    pub(super) fn report_unused(&mut self) -> Result<(), Fault> {
+        let left: Vec<_> = self.words.unused().collect();
+        for (letter, offset) in left {
+            let name = char::from(letter);
+            if letter == b'E' || letter == b'O' {
+                let message = format!("the word {name} is not known to this control");
+                let hint = "is the program written for another control or a printer?";
+                if self.reported.insert(("unknown-word", u32::from(letter))) {
+                    return Err(fault("unknown-word", offset, message, hint));
+                }
+                continue;
+            }
+            let message = format!("no code of this block uses the word {name}");
+            let hint = "it has no effect; later ones are not listed";
+            self.warn_once("unused-word", u32::from(letter), offset, message, hint);
+        }
+        Ok(())
+    }
+
+    /// A length word in mm.
+    pub(super) fn length(&mut self, letter: u8) -> Option<f64> {
+        let unit = self.modes.unit_mm();
+        self.words.take(letter).map(|v| v * unit)
+    }
+
+    /// An axis word in mm or degrees.
+    pub(super) fn axis_word(&mut self, axis: Axis) -> Option<f64> {
+        let value = self.words.take(axis.letter())?;
+        let scale = match axis {
+            _ if axis.is_rotary() => 1.0,
+            Axis::X if self.modes.diameter => self.modes.unit_mm() / 2.0,
+            _ => self.modes.unit_mm(),
+        };
+        Some(value * scale)
+    }
+
+    /// Where the axis words lead, by G90 or G91.
+    pub(super) fn target(&mut self) -> Position {
+        let mut target = self.frames.position;
+        for axis in Axis::ALL {
+            if let Some(value) = self.axis_word(axis) {
+                let base = if self.modes.incremental { target[axis] } else { 0.0 };
+                target[axis] = base + value;
+            }
+        }
+        target
+    }
+}
+
+/// A code number, allowing for what arithmetic does to it.
+pub(super) fn whole(value: f64) -> Option<u16> {
+    let near = value.round();
+    ((value - near).abs() < 1e-3 && (0.0..65536.0).contains(&near)).then_some(near as u16)
+}
+
+/// Two codes of one group cannot stand in one block.
+pub(super) fn check_groups(words: &Words) -> Result<(), Fault> {
+    let group = |a: Action| match a {
+        Action::Note(_)
+        | Action::NotApplied(_)
+        | Action::NotAppliedAlone(_)
+        | Action::Coolant(_)
+        | Action::ToolCentre(_)
+        | Action::ArcAbsolute(_)
+        | Action::CancelCycle
+        | Action::Diameter(_)
+        | Action::Orient => None,
+        _ => Some(a.rank()),
+    };
+    for (index, (action, offset)) in words.actions.iter().enumerate() {
+        let Some(rank) = group(*action) else { continue };
+        if let Some((other, _)) =
+            words.actions[..index].iter().find(|(a, _)| group(*a) == Some(rank))
+        {
+            if other == action {
+                continue;
+            }
+            let message = "two codes of this block contradict each other".to_owned();
+            return Err(fault("conflicting-codes", *offset, message, "write them in two blocks"));
+        }
+    }
+    Ok(())
+}

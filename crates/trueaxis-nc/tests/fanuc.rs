@@ -1,0 +1,171 @@
+//! FANUC programs, each worked out by hand.
+
+use trueaxis_nc::moves::Axis;
+use trueaxis_nc::{
+    Control, Event, Library, MoveKind, NoLibrary, Program, Settings, Step, interpret,
+};
+
+/// Subprograms by name, for tests.
+struct Subprograms(&'static [(&'static str, &'static str)]);
+
+impl Library for Subprograms {
+    fn text(&self, name: &str) -> Result<Vec<u8>, String> {
+        let found = self.0.iter().find(|(n, _)| *n == name);
+        found.map(|(_, t)| t.as_bytes().to_vec()).ok_or_else(|| "not in this test".to_owned())
+    }
+}
+
+/// All steps; the program must be without errors.
+#[track_caller]
+fn steps(text: &str, library: &dyn Library) -> Vec<Step> {
+    let program = Program::new("p", text.as_bytes().to_vec(), Control::Fanuc);
+    let mut steps = Vec::new();
+    let outcome = interpret(&program, library, &Settings::default(), &mut |s| steps.push(s));
+    let problems: Vec<_> = outcome.problems.iter().map(ToString::to_string).collect();
+    assert!(!outcome.problems.has_errors(), "{problems:?}");
+    steps
+}
+
+/// Where one axis goes, move by move.
+#[track_caller]
+fn path(axis: Axis, text: &str, library: &dyn Library) -> Vec<f64> {
+    let of = |s: &Step| if let Step::Move(m) = s { Some(m.target[axis]) } else { None };
+    steps(text, library).iter().filter_map(of).collect()
+}
+
+#[test]
+fn macros_count_and_jump() {
+    let text = "%\nO0001(COUNT)\n#1=0\nWHILE [#1 LT 3] DO1\n#1=#1+1\nG0 X#1\nEND1\n\
+                IF [#1 EQ 3] GOTO 20\nX99\nN20 X[#1*2+1]\nIF [#1 GT 5] THEN #1=0\nX#1\nM30\n%\n";
+    assert_eq!(path(Axis::X, text, &NoLibrary), [1.0, 2.0, 3.0, 7.0, 3.0]);
+}
+
+#[test]
+fn an_empty_parameter_leaves_its_word_out() {
+    let text = "G0 X1 Y1\nX2 Y#9\nIF [#9 EQ #0] GOTO 1\nX9\nN1 M30\n";
+    assert_eq!(path(Axis::Y, text, &NoLibrary), [1.0, 1.0]);
+}
+
+#[test]
+fn subprograms_in_the_text_and_in_the_library() {
+    let text = "O0001\nG91 G0 X1\nM98 P10 L2\nM98 P30020\nG65 P30 A5 B7\nM30\nO0010\nX10\nM99\n";
+    let library =
+        Subprograms(&[("O0020", "O0020\nX100\nM99\n"), ("O0030", "O0030\nG90 X[#1+#2]\nM99\n")]);
+    let wanted = [1.0, 11.0, 21.0, 121.0, 221.0, 321.0, 12.0];
+    assert_eq!(path(Axis::X, text, &library), wanted);
+}
+
+#[test]
+fn m99_with_p_goes_back_elsewhere() {
+    let text = "G0 X1\nM98 P10\nX2\nN50 X3\nM30\nO10\nM99 P50\n";
+    assert_eq!(path(Axis::X, text, &NoLibrary), [1.0, 3.0]);
+}
+
+#[test]
+fn drilling_returns_to_the_initial_plane_or_to_r() {
+    let text = "G90 G0 X0 Y0 Z50\nG98 G81 X10 Z-5 R2 F100\nG99 X20\nG80 X30 Z60\nM30\n";
+    let wanted = [50.0, 50.0, 2.0, -5.0, 50.0, 50.0, 2.0, -5.0, 2.0, 60.0];
+    assert_eq!(path(Axis::Z, text, &NoLibrary), wanted);
+    let kinds: Vec<_> = steps(text, &NoLibrary)
+        .into_iter()
+        .filter_map(|s| if let Step::Move(m) = s { Some(m.kind) } else { None })
+        .collect();
+    // G80 brings the rapid before the cycle back.
+    assert_eq!(kinds[9], MoveKind::Rapid);
+}
+
+#[test]
+fn deep_holes_are_left_after_each_peck() {
+    // Q 4 from R 1: −3, then −5; back into the hole 0.254 mm above the bottom reached.
+    let text = "G0 Z10\nG99 G83 Z-5 R1 Q4 F100\nM30\n";
+    assert_eq!(path(Axis::Z, text, &NoLibrary), [10.0, 10.0, 1.0, -3.0, 1.0, -2.746, -5.0, 1.0]);
+}
+
+#[test]
+fn work_offsets_move_the_frame_not_the_machine() {
+    let text = "G10 L2 P2 X100\nG90 G0 X5\nG55\nG91 X1\nG90 G53 X0\nM30\n";
+    // Machine 5 reads −95 in G55; machine 0 reads −100.
+    assert_eq!(path(Axis::X, text, &NoLibrary), [5.0, -94.0, -100.0]);
+}
+
+#[test]
+fn further_offsets_and_tool_lengths_are_set_by_g10() {
+    let text = "G10 L20 P3 X-40\nG90 G0 X5\nG54.1 P3\nG91 X0\nM30\n";
+    // Machine 5 reads 45 from an origin at −40.
+    assert_eq!(path(Axis::X, text, &NoLibrary), [5.0, 45.0]);
+    let text = "G10 L10 P2 R120\nG90 G0 G43 H2 Z10\nG49 G91 Z0\nM30\n";
+    // With the length off, the spindle that stood 120 above the tip reads 130.
+    assert_eq!(path(Axis::Z, text, &NoLibrary), [10.0, 130.0]);
+}
+
+#[test]
+fn radius_arcs_take_the_short_or_the_long_way() {
+    for (radius, center) in [("R10", [0.0, 10.0]), ("R-10", [10.0, 0.0])] {
+        let text = format!("G17 G90 G0 X0 Y0\nG2 X10 Y10 {radius} F100\nM30\n");
+        let arc = steps(&text, &NoLibrary).into_iter().find_map(|s| match s {
+            Step::Move(m) => {
+                if let MoveKind::Arc(arc) = m.kind {
+                    Some(arc)
+                } else {
+                    None
+                }
+            }
+            Step::Event(..) => None,
+        });
+        let arc = arc.unwrap();
+        assert!(!arc.ccw);
+        // Clockwise the short arc from (0, 0) to (10, 10) has its centre right of the chord.
+        let right = [10.0 - center[0], 10.0 - center[1]];
+        assert!((0..2).all(|i| (arc.center_mm[i] - right[i]).abs() < 1e-12), "{arc:?}");
+    }
+}
+
+#[test]
+fn reference_points_are_reached_by_way_of_the_words() {
+    let text = "G90 G0 X5 Z5\nG91 G28 Z2\nM30\n";
+    assert_eq!(path(Axis::Z, text, &NoLibrary), [5.0, 7.0, 0.0]);
+    assert_eq!(path(Axis::X, text, &NoLibrary), [5.0, 5.0, 5.0]);
+}
+
+#[test]
+fn the_tip_is_programmed_from_g43_4_to_g49() {
+    let found: Vec<_> = steps("T1 M6\nG43.4 H0 X1\nG1 B10 F100\nG49\nM30\n", &NoLibrary)
+        .into_iter()
+        .filter_map(|s| match s {
+            Step::Event(Event::ToolCentre(on), origin) => Some((on, origin.line)),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(found, [(true, 2), (false, 4)]);
+}
+
+#[test]
+fn tool_directions_come_with_the_move() {
+    let text = "G43.5 H0\nG1 X1 I0 J0.6 K0.8 F100\nX2\nM30\n";
+    let of = |s: Step| if let Step::Move(m) = s { Some(m.direction) } else { None };
+    let found: Vec<_> = steps(text, &NoLibrary).into_iter().filter_map(of).collect();
+    assert_eq!(found, [Some([0.0, 0.6, 0.8]), None]);
+}
+
+#[test]
+fn a_preamble_with_everything_still_moves() {
+    let text = "G0 G15 G17 G40 G49 G50 G69 G80 G90 X5\nM30\n";
+    assert_eq!(path(Axis::X, text, &NoLibrary), [5.0]);
+}
+
+#[test]
+fn dwell_counts_milliseconds() {
+    let of = |s: Step| match s {
+        Step::Move(m) => {
+            if let MoveKind::Dwell { seconds } = m.kind {
+                Some(seconds)
+            } else {
+                None
+            }
+        }
+        Step::Event(..) => None,
+    };
+    let found: Vec<_> =
+        steps("G4 P500\nG4 X1.5\nM30\n", &NoLibrary).into_iter().filter_map(of).collect();
+    assert_eq!(found, [0.5, 1.5]);
+}
