@@ -66,6 +66,16 @@ impl Traveller {
     }
 }
 
+/// How a body moves at a command, and where its errors act.
+struct Joint {
+    /// J(q).
+    motion: Link,
+    /// The error motion does not turn with the axis.
+    error_stands_still: bool,
+    /// The squareness tilts the direction of motion, not what is carried.
+    tilts_direction_only: bool,
+}
+
 impl Machine {
     /// The deviation of the tool in the workpiece frame under the given errors.
     ///
@@ -102,26 +112,25 @@ impl Machine {
         let location_turn = errors.location.rotation_minus_identity(rotation);
         let motion_turn = errors.motion.rotation_minus_identity(rotation);
         let (location_shift, motion_shift) = (errors.location.shift_mm(), errors.motion.shift_mm());
+        let joint = self.joint(i, command);
         for traveller in travellers {
             traveller.forward(&body.mounting);
-            if let Some(axis) = body.axis {
-                let axis = &self.axes[axis];
-                let joint = nominal_motion(axis, command[body.axis.unwrap_or(0)]);
-                if axis.kind == AxisKind::Rotary && body.error_frame == ErrorFrame::Fixed {
-                    traveller.forward(&joint);
+            if let Some(joint) = &joint {
+                if joint.error_stands_still {
+                    traveller.forward(&joint.motion);
                     traveller.displace(motion_shift, &motion_turn);
                 } else {
                     traveller.displace(motion_shift, &motion_turn);
-                    traveller.forward(&joint);
-                }
-                if self.tilts_direction_only(axis.kind) {
-                    let tilt = location_turn * joint.shift_mm() + location_shift;
-                    traveller.displace(tilt, &Mat3::zeros());
-                    traveller.forward(&body.placement);
-                    continue;
+                    traveller.forward(&joint.motion);
                 }
             }
-            traveller.displace(location_shift, &location_turn);
+            match &joint {
+                Some(joint) if joint.tilts_direction_only => {
+                    let tilt = location_turn * joint.motion.shift_mm() + location_shift;
+                    traveller.displace(tilt, &Mat3::zeros());
+                }
+                _ => traveller.displace(location_shift, &location_turn),
+            }
             traveller.forward(&body.placement);
         }
     }
@@ -137,35 +146,42 @@ impl Machine {
         let location_back = self.inverse_turn_minus_identity(&errors.location);
         let motion_back = self.inverse_turn_minus_identity(&errors.motion);
         let (location_shift, motion_shift) = (errors.location.shift_mm(), errors.motion.shift_mm());
+        let joint = self.joint(i, command);
         for traveller in travellers {
             traveller.backward(&body.placement);
-            let Some(axis) = body.axis else {
-                traveller.displace_back(location_shift, &location_back);
-                traveller.backward(&body.mounting);
-                continue;
-            };
-            let joint = nominal_motion(&self.axes[axis], command[axis]);
-            let kind = self.axes[axis].kind;
-            if self.tilts_direction_only(kind) {
-                let turn = errors.location.rotation_minus_identity(self.model.rotation);
-                let tilt = turn * joint.shift_mm() + location_shift;
-                traveller.displace_back(tilt, &Mat3::zeros());
-            } else {
-                traveller.displace_back(location_shift, &location_back);
+            match &joint {
+                Some(joint) if joint.tilts_direction_only => {
+                    let turn = errors.location.rotation_minus_identity(self.model.rotation);
+                    let tilt = turn * joint.motion.shift_mm() + location_shift;
+                    traveller.displace_back(tilt, &Mat3::zeros());
+                }
+                _ => traveller.displace_back(location_shift, &location_back),
             }
-            if kind == AxisKind::Rotary && body.error_frame == ErrorFrame::Fixed {
-                traveller.displace_back(motion_shift, &motion_back);
-                traveller.backward(&joint);
-            } else {
-                traveller.backward(&joint);
-                traveller.displace_back(motion_shift, &motion_back);
+            if let Some(joint) = &joint {
+                if joint.error_stands_still {
+                    traveller.displace_back(motion_shift, &motion_back);
+                    traveller.backward(&joint.motion);
+                } else {
+                    traveller.backward(&joint.motion);
+                    traveller.displace_back(motion_shift, &motion_back);
+                }
             }
             traveller.backward(&body.mounting);
         }
     }
 
-    fn tilts_direction_only(&self, kind: AxisKind) -> bool {
-        kind == AxisKind::Linear && self.model.squareness == Squareness::Direction
+    /// The joint of a body at a command; none for the workpiece and the tool.
+    fn joint(&self, i: usize, command: &Command) -> Option<Joint> {
+        let body = &self.bodies[i];
+        let axis = body.axis?;
+        let (kind, motion) =
+            (self.axes[axis].kind, nominal_motion(&self.axes[axis], command[axis]));
+        let linear = kind == AxisKind::Linear;
+        Some(Joint {
+            motion,
+            error_stands_still: !linear && body.error_frame == ErrorFrame::Fixed,
+            tilts_direction_only: linear && self.model.squareness == Squareness::Direction,
+        })
     }
 
     /// `R⁻¹ − I` of an error's rotation.

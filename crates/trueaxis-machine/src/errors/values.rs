@@ -14,11 +14,6 @@ impl Six {
         Vec3::new(self.0[0], self.0[1], self.0[2])
     }
 
-    /// The angles in rad about X, Y and Z.
-    pub fn angles_rad(&self) -> Vec3 {
-        Vec3::new(self.0[3], self.0[4], self.0[5])
-    }
-
     /// `R − I` of the rotation: `R = Rz(EC)·Ry(EB)·Rx(EA)` exactly, or `I + [ε]×`.
     ///
     /// The difference is formed without subtracting 1 from a cosine, so that a microradian keeps
