@@ -124,6 +124,18 @@ impl ErrorValues {
         scaled
     }
 
+    /// Every error `factors` standard uncertainties away from its value: e + z·u.
+    pub fn displaced(&self, u: &Self, factors: &Self) -> Self {
+        let mut displaced = *self;
+        for ((body, u), z) in displaced.bodies.iter_mut().zip(&u.bodies).zip(&factors.bodies) {
+            for i in 0..6 {
+                body.location.0[i] += z.location.0[i] * u.location.0[i];
+                body.motion.0[i] += z.motion.0[i] * u.motion.0[i];
+            }
+        }
+        displaced
+    }
+
     fn six(&self, index: ErrorIndex) -> &Six {
         let body = &self.bodies[index.body];
         match index.kind {

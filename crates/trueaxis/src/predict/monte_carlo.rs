@@ -104,7 +104,7 @@ fn draw_chunk(
     let mut indices = vec![0.0; n];
     for sample in range {
         let factors = draw(stated, seed, sample);
-        judge.indices(&|values, u| displaced(stated, &factors, values, u), bench, &mut indices)?;
+        judge.indices(&|values, u| values.displaced(u, &factors), bench, &mut indices)?;
         chunk.count += 1.0;
         for ((mean, squares), &x) in chunk.mean.iter_mut().zip(&mut chunk.squares).zip(&indices) {
             // Welford's update: no difference of large sums.
@@ -119,24 +119,15 @@ fn draw_chunk(
     Ok(chunk)
 }
 
-/// One standard-normal factor per stated error.
-fn draw(stated: &[ErrorIndex], seed: u64, sample: usize) -> Vec<f64> {
+/// One standard-normal factor per stated error, 0 for the others.
+fn draw(stated: &[ErrorIndex], seed: u64, sample: usize) -> ErrorValues {
     let mut generator = ChaCha8Rng::seed_from_u64(seed);
     generator.set_stream(sample as u64);
-    stated.iter().map(|_| StandardNormal.sample(&mut generator)).collect()
-}
-
-fn displaced(
-    stated: &[ErrorIndex],
-    factors: &[f64],
-    values: &ErrorValues,
-    u: &ErrorValues,
-) -> ErrorValues {
-    let mut drawn = *values;
-    for (&index, z) in stated.iter().zip(factors) {
-        drawn.set(index, values.get(index) + z * u.get(index));
+    let mut factors = ErrorValues::default();
+    for &index in stated {
+        factors.set(index, StandardNormal.sample(&mut generator));
     }
-    drawn
+    factors
 }
 
 fn summarise(chunks: &[Chunk], samples: usize, n: usize) -> Vec<Spread> {
