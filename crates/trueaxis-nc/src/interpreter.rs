@@ -17,9 +17,11 @@ use std::rc::Rc;
 
 use trueaxis_geometry::input::{Diagnostics, Place};
 
+use crate::dialect::Control;
 use crate::library::Library;
-use crate::moves::{Event, Move, Origin, Plane, Position, Step};
+use crate::moves::{Event, Frame, Move, Origin, Plane, Position, Step};
 use crate::program::{Block, Fault, Label, Places, Program};
+use crate::{heidenhain, sinumerik};
 use frames::Frames;
 use parameters::Locals;
 use quick::CodeTable;
@@ -46,6 +48,10 @@ pub struct Settings {
     pub plane: Plane,
     /// Lengths of the tools by number.
     pub tools: BTreeMap<u32, Position>,
+    /// Numbers of the tools that have names.
+    pub tool_names: BTreeMap<String, u32>,
+    /// The work offsets by number, from 1 for G54; where none is given it is zero.
+    pub work_offsets: BTreeMap<u32, Frame>,
     /// Named read-only parameters of the machine, such as `_ini[axis_x]max_limit`, lower case.
     pub constants: BTreeMap<String, f64>,
 }
@@ -62,6 +68,8 @@ impl Default for Settings {
             absolute_centers: false,
             plane: Plane::Xy,
             tools: BTreeMap::new(),
+            tool_names: BTreeMap::new(),
+            work_offsets: BTreeMap::new(),
             constants: BTreeMap::new(),
         }
     }
@@ -99,14 +107,13 @@ pub fn interpret(
     settings: &Settings,
     take: &mut dyn FnMut(Step),
 ) -> Outcome {
-    let mut run = Run::new(program, library, settings, take);
-    let known = !program.dialect().g_codes.is_empty();
-    if !known {
-        let message = "programs of this control are not interpreted yet".to_owned();
-        let place = Place::whole(program.file());
-        run.problems.error("control-not-interpreted", place, message, "");
+    match program.dialect().control {
+        Control::Sinumerik840d => return sinumerik::interpret(program, library, settings, take),
+        Control::Heidenhain => return heidenhain::interpret(program, library, settings, take),
+        Control::Fanuc | Control::LinuxCnc => {}
     }
-    let finished = known && run.run();
+    let mut run = Run::new(program, library, settings, take);
+    let finished = run.run();
     let programs = run.programs.iter().map(|p| p.file().to_owned()).collect();
     Outcome { problems: run.problems, finished, programs }
 }
@@ -123,7 +130,7 @@ enum Next {
 }
 
 /// A program that is being executed, and where.
-struct Frame {
+struct Activation {
     program: usize,
     at: usize,
     line: u32,
@@ -145,12 +152,14 @@ struct Run<'r> {
     take: &'r mut dyn FnMut(Step),
     programs: Vec<Rc<Program>>,
     loaded: HashMap<String, usize>,
-    stack: Vec<Frame>,
+    stack: Vec<Activation>,
     globals: HashMap<u32, f64>,
     named: HashMap<String, f64>,
     returned: Option<f64>,
     jumps: u64,
     frames: Frames,
+    /// What the receiver was told last.
+    told: Frame,
     modes: Modes,
     words: Words,
     codes: CodeTable,
@@ -177,12 +186,13 @@ impl<'r> Run<'r> {
             take,
             programs: vec![Rc::new(program.clone())],
             loaded: HashMap::new(),
-            stack: vec![Frame::new(0, 0, 1)],
+            stack: vec![Activation::new(0, 0, 1)],
             globals: HashMap::new(),
             named: HashMap::new(),
             returned: None,
             jumps: 0,
-            frames: Frames::new(settings.tools.clone()),
+            frames: Frames::new(settings.tools.clone(), &settings.work_offsets),
+            told: Frame::IDENTITY,
             modes: Modes::new(settings, program.dialect().macro_words),
             words: Words::default(),
             codes: quick::code_table(program.dialect()),
@@ -196,6 +206,7 @@ impl<'r> Run<'r> {
     }
 
     fn run(&mut self) -> bool {
+        self.emit_frame();
         let mut block = Block::default();
         loop {
             let Some(frame) = self.stack.last() else { return true };
@@ -285,6 +296,15 @@ impl<'r> Run<'r> {
 
     fn emit(&mut self, event: Event) {
         (self.take)(Step::Event(event, self.origin));
+    }
+
+    /// Tells the frame if it has changed.
+    fn emit_frame(&mut self) {
+        let frame = self.frames.frame();
+        if frame != self.told {
+            self.told = frame;
+            self.emit(Event::Frame(frame));
+        }
     }
 
     fn emit_move(&mut self, step: Move) {

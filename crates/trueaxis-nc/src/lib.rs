@@ -31,12 +31,14 @@
 
 pub mod code;
 pub mod dialect;
+mod heidenhain;
 mod interpreter;
 pub mod lexer;
 mod library;
 pub mod moves;
 mod parser;
 pub mod program;
+mod sinumerik;
 
 pub use dialect::{Control, Dialect};
 pub use interpreter::{Outcome, Settings, interpret};

@@ -1,6 +1,9 @@
-//! Subprograms that are not in the main program.
+//! What a program asks from outside: other programs, and what only the machine knows.
 
-/// Gives the text of subprograms by name; this crate opens no file.
+use crate::moves::{Branch, Position};
+
+/// Gives the text of subprograms by name, and angles of the machine; this crate opens no file and
+/// knows no machine.
 pub trait Library {
     /// The text of a program.
     ///
@@ -11,6 +14,17 @@ pub trait Library {
     /// How to show the program to the user.
     fn display(&self, name: &str) -> String {
         name.to_owned()
+    }
+
+    /// A, B and C in degrees at which the tool stands along a direction of the basic frame; the
+    /// axes that the machine lacks are 0. `None` where no machine is known or none reaches it.
+    fn rotary_angles(
+        &self,
+        _direction: [f64; 3],
+        _branch: Branch,
+        _now: &Position,
+    ) -> Option<[f64; 3]> {
+        None
     }
 }
 

@@ -83,6 +83,163 @@ impl Position {
     }
 }
 
+/// Axes by name, as one bit each.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct AxisSet(pub u16);
+
+impl AxisSet {
+    /// X, Y and Z.
+    pub const XYZ: Self = Self(0b111);
+
+    /// Whether an axis is in it.
+    pub fn contains(self, axis: Axis) -> bool {
+        self.0 & (1 << axis as u16) != 0
+    }
+
+    /// With one more axis.
+    #[must_use]
+    pub fn with(self, axis: Axis) -> Self {
+        Self(self.0 | (1 << axis as u16))
+    }
+}
+
+/// Which way a rotary axis turns to its target.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Way {
+    /// From the present angle to the written one, over as many turns as lie between.
+    #[default]
+    AsWritten,
+    /// The shortest way to the written angle, full turns left out: DC.
+    Shortest,
+    /// In the positive direction, full turns left out: ACP.
+    Positive,
+    /// In the negative direction, full turns left out: ACN.
+    Negative,
+}
+
+/// What the numbers of a target count from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Coordinates {
+    /// The program frame.
+    #[default]
+    Program,
+    /// The machine zero, without any frame, tool length or transformation; only the named axes
+    /// move: G53 and SUPA of SINUMERIK, M91 of HEIDENHAIN.
+    Machine,
+}
+
+/// Where the program frame stands in the basic frame: `basic = linear · program + shift`.
+///
+/// The basic frame is that of the machine coordinates while all rotary axes stand at zero. Rotary
+/// axes and U, V, W are only shifted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frame {
+    /// Turn, scale and mirror of X, Y and Z; row by row.
+    pub linear: [[f64; 3]; 3],
+    /// The origin of the program frame, mm and degrees.
+    pub shift: Position,
+}
+
+impl Frame {
+    /// Program and basic coordinates are the same.
+    pub const IDENTITY: Self = Self {
+        linear: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        shift: Position([0.0; 9]),
+    };
+
+    /// A shift alone.
+    pub fn shifted(shift: Position) -> Self {
+        Self { shift, ..Self::IDENTITY }
+    }
+
+    /// A vector of the program frame in the basic frame.
+    pub fn vector(&self, v: [f64; 3]) -> [f64; 3] {
+        self.linear.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
+    }
+
+    /// A place of the program frame in the basic frame.
+    pub fn place(&self, p: &Position) -> Position {
+        let mut out = p.plus(&self.shift);
+        let turned = self.vector([p.0[0], p.0[1], p.0[2]]);
+        for (i, value) in turned.into_iter().enumerate() {
+            out.0[i] = value + self.shift.0[i];
+        }
+        out
+    }
+
+    /// `inner` is applied first, then `self`.
+    #[must_use]
+    pub fn after(&self, inner: &Self) -> Self {
+        let mut linear = [[0.0; 3]; 3];
+        for (row, own) in linear.iter_mut().zip(&self.linear) {
+            for (j, entry) in row.iter_mut().enumerate() {
+                *entry = (0..3).map(|k| own[k] * inner.linear[k][j]).sum();
+            }
+        }
+        Self { linear, shift: self.place(&inner.shift) }
+    }
+
+    /// A place of the basic frame in the program frame; `None` if the frame squeezes space flat.
+    pub fn inverse_place(&self, p: &Position) -> Option<Position> {
+        let m = &self.linear;
+        let minor = |a: usize, b: usize| {
+            let (r, s) = ((a + 1) % 3, (a + 2) % 3);
+            let (c, d) = ((b + 1) % 3, (b + 2) % 3);
+            m[r][c] * m[s][d] - m[r][d] * m[s][c]
+        };
+        let det: f64 = (0..3).map(|j| m[0][j] * minor(0, j)).sum();
+        if !(det.abs() > 1e-12) {
+            return None;
+        }
+        let mut out = p.minus(&self.shift);
+        let d = [out.0[0], out.0[1], out.0[2]];
+        for j in 0..3 {
+            out.0[j] = (0..3).map(|i| minor(i, j) * d[i]).sum::<f64>() / det;
+        }
+        Some(out)
+    }
+}
+
+/// How the tool axis gets from one direction to the next while the tip moves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum OrientationPath {
+    /// The rotary axes move evenly: ORIAXES, ORIMKS, and all controls without vectors.
+    Axes,
+    /// In the plane of both directions: ORIVECT, ORIPLANE, TCPM with PATHCTRL VECTOR.
+    GreatCircle,
+    /// On a cone: ORICONCW, ORICONCCW, ORICONIO, ORICONTO; it holds for the next move only.
+    Cone(Cone),
+}
+
+/// A cone that the tool axis moves on; what is not given follows from the ends.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Cone {
+    /// Its axis in the program frame: A6 B6 C6.
+    pub axis: Option<[f64; 3]>,
+    /// A direction on the way: A7 B7 C7 of ORICONIO.
+    pub through: Option<[f64; 3]>,
+    /// The opening angle between opposite lines: NUT.
+    pub opening_deg: Option<f64>,
+    /// The angle that is travelled about the axis: PSI.
+    pub angle_deg: Option<f64>,
+    /// Counter-clockwise about the axis; `None` the shorter way or by `through`.
+    pub ccw: Option<bool>,
+    /// The cone continues the last one without a corner: ORICONTO.
+    pub tangential: bool,
+}
+
+/// Which of the poses with the same tool axis is taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Branch {
+    /// The one with the least rotary travel.
+    #[default]
+    Nearest,
+    /// The first rotary axis of the head, or the last of the table, at a positive angle: SEQ+.
+    Positive,
+    /// The same at a negative angle: SEQ-.
+    Negative,
+}
+
 /// The plane of arcs and cycles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Plane {
@@ -138,6 +295,17 @@ pub struct Arc {
     pub ccw: bool,
 }
 
+/// A circle or helix in any plane of the program frame: CIP, CT, polar circles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpatialArc {
+    /// The centre, mm.
+    pub center_mm: [f64; 3],
+    /// The axis; the tool turns counter-clockwise about it.
+    pub normal: [f64; 3],
+    /// Begun turns: 1 up to and including a full circle.
+    pub turns: u32,
+}
+
 /// How a place is reached.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum MoveKind {
@@ -147,6 +315,16 @@ pub enum MoveKind {
     Linear,
     /// A circle or helix.
     Arc(Arc),
+    /// A circle or helix in any plane.
+    SpatialArc(SpatialArc),
+    /// The rotary axes turn, as fast as they can, until the tool stands along Z of the program
+    /// frame: G53.1, CYCLE800, PLANE MOVE and TURN. The target tells nothing.
+    Align {
+        /// The tip stays where it is on the workpiece; otherwise the linear axes stand still.
+        keep_tip: bool,
+        /// Which pose.
+        branch: Branch,
+    },
     /// A straight line that keeps step with the spindle.
     Thread {
         /// mm per revolution.
@@ -185,12 +363,34 @@ pub struct Move {
     pub kind: MoveKind,
     /// Where to, mm and degrees.
     pub target: Position,
-    /// The direction of the tool axis where it is programmed as a vector, as it is written.
+    /// The axes that the block names; the others keep their place, rotary axes also their angle
+    /// unless a direction is given.
+    pub named: AxisSet,
+    /// How A, B and C turn to their targets.
+    pub ways: [Way; 3],
+    /// What the target counts from.
+    pub coordinates: Coordinates,
+    /// The direction of the tool axis in the program frame where it is programmed as a vector, as
+    /// it is written, of any length.
     pub direction: Option<[f64; 3]>,
     /// How fast; of no meaning to [`MoveKind::Rapid`].
     pub feed: Feed,
     /// The block.
     pub origin: Origin,
+}
+
+impl Move {
+    /// A move in program coordinates without a direction of its own.
+    pub fn plain(
+        kind: MoveKind,
+        target: Position,
+        named: AxisSet,
+        feed: Feed,
+        origin: Origin,
+    ) -> Self {
+        let (ways, coordinates) = ([Way::AsWritten; 3], Coordinates::Program);
+        Self { kind, target, named, ways, coordinates, direction: None, feed, origin }
+    }
 }
 
 /// Which way the spindle turns.
@@ -269,8 +469,20 @@ pub enum Event {
     Shift(Position),
     /// The tool length, along each axis.
     ToolLength(Position),
+    /// The whole of offsets, shifts, turns and scales has changed: this is what moves are read
+    /// with. Without [`Event::ToolCentre`] and [`Event::TiltedPlane`] the axes go to
+    /// frame(target) + tool length; with one of them the tip, in the workpiece, goes to
+    /// frame(target), however the rotary axes stand.
+    Frame(Frame),
     /// The tip of the tool is programmed (TCP) or the axes are.
     ToolCentre(bool),
+    /// The frame is tied to a swivelled plane of the workpiece: CYCLE800, G68.2, PLANE.
+    TiltedPlane(bool),
+    /// How the tool axis moves between directions from here on.
+    Orientation(OrientationPath),
+    /// The next tool by its name, for controls that call tools so; its number is in the event of
+    /// selection or change that follows.
+    ToolName(String),
     /// The plane of arcs and cycles.
     Plane(Plane),
     /// Radius compensation is wanted; the moves are those of the program.

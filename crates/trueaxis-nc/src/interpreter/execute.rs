@@ -296,7 +296,7 @@ impl Run<'_> {
 
     pub(super) fn step(&mut self, kind: MoveKind, target: Position) {
         let (feed, origin) = (self.modes.feed(), self.origin);
-        self.emit_move(Move { kind, target, direction: None, feed, origin });
+        self.emit_move(Move::plain(kind, target, self.words.axes(), feed, origin));
     }
 
     fn motion(&mut self, motion: Motion, machine: bool, at: usize) -> Result<(), Fault> {
@@ -327,7 +327,9 @@ impl Run<'_> {
             Motion::Linear => {
                 let direction = self.take_direction(at)?;
                 let (feed, origin) = (self.modes.feed(), self.origin);
-                self.emit_move(Move { kind: MoveKind::Linear, target, direction, feed, origin });
+                let named = self.words.axes();
+                let linear = Move::plain(MoveKind::Linear, target, named, feed, origin);
+                self.emit_move(Move { direction, ..linear });
             }
             Motion::Probe => self.step(MoveKind::Probe, target),
             Motion::Thread | Motion::RigidTap => {

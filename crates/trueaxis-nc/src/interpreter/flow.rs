@@ -2,11 +2,11 @@ use std::collections::HashMap;
 use std::rc::Rc;
 
 use super::parameters::Locals;
-use super::{Frame, Next, Run, fault};
+use super::{Activation, Next, Run, fault};
 use crate::moves::Event;
 use crate::program::{Block, Fault, Item, Keyword, Label, Mark, NodeId, Program};
 
-impl Frame {
+impl Activation {
     pub(super) fn new(program: usize, at: usize, line: u32) -> Self {
         Self {
             program,
@@ -30,7 +30,7 @@ struct Statement<'b> {
 }
 
 impl Run<'_> {
-    fn frame(&mut self) -> &mut Frame {
+    fn frame(&mut self) -> &mut Activation {
         // why: the stack is never empty while a block is executed.
         self.stack.last_mut().expect("a block belongs to a frame")
     }
@@ -357,7 +357,7 @@ impl Run<'_> {
         }
         let (number, start, line) = self.find_sub(program, label, name, at)?;
         self.follow(block);
-        let mut frame = Frame::new(number, start, line);
+        let mut frame = Activation::new(number, start, line);
         (frame.sub, frame.locals, frame.repeats) = (Some(label.clone()), locals, repeats);
         self.stack.push(frame);
         self.returned = None;

@@ -1,12 +1,20 @@
 use std::collections::BTreeMap;
 
-use crate::moves::Position;
+use crate::moves::{Frame, Position};
 
 /// One work offset: origin and turn about Z.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct WorkOffset {
     pub offset: Position,
     pub rotation_deg: f64,
+}
+
+impl WorkOffset {
+    /// These controls turn work offsets about Z only; other turns are left out.
+    fn of(frame: &Frame) -> Self {
+        let rotation_deg = frame.linear[1][0].atan2(frame.linear[0][0]).to_degrees();
+        Self { offset: frame.shift, rotation_deg }
+    }
 }
 
 /// Where the program frame lies in the machine.
@@ -33,10 +41,17 @@ pub(super) struct Frames {
 }
 
 impl Frames {
-    pub fn new(tools: BTreeMap<u32, Position>) -> Self {
+    pub fn new(tools: BTreeMap<u32, Position>, work: &BTreeMap<u32, Frame>) -> Self {
+        let most = work.keys().max().map_or(0, |n| *n as usize);
+        let mut offsets = vec![WorkOffset::default(); most.max(9)];
+        for (number, frame) in work {
+            if let Some(entry) = offsets.get_mut((*number as usize).wrapping_sub(1)) {
+                *entry = WorkOffset::of(frame);
+            }
+        }
         Self {
             position: Position::default(),
-            offsets: vec![WorkOffset::default(); 9],
+            offsets,
             active: 0,
             shift: Position::default(),
             shift_on: false,
@@ -52,6 +67,18 @@ impl Frames {
 
     pub fn live_shift(&self) -> Position {
         if self.shift_on { self.shift } else { Position::default() }
+    }
+
+    /// The place of the program frame, without the tool.
+    pub fn frame(&self) -> Frame {
+        let work = self.work();
+        let (sin, cos) = work.rotation_deg.to_radians().sin_cos();
+        let linear = match work.rotation_deg {
+            0.0 => Frame::IDENTITY.linear,
+            _ => [[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]],
+        };
+        let shift = self.live_shift().turned(work.rotation_deg).plus(&work.offset);
+        Frame { linear, shift }
     }
 
     pub fn tool_length(&self, tool: u32) -> Position {

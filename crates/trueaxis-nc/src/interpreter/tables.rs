@@ -67,6 +67,7 @@ impl Run<'_> {
     fn emit_shift(&mut self) {
         let shift = self.frames.live_shift();
         self.emit(Event::Shift(shift));
+        self.emit_frame();
     }
 
     fn change_shift(&mut self, shift: Position, on: bool) {
@@ -81,6 +82,7 @@ impl Run<'_> {
             offset: work.offset,
             rotation_deg: work.rotation_deg,
         });
+        self.emit_frame();
     }
 
     fn select_offset(&mut self, index: usize) {

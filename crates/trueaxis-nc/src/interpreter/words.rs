@@ -1,7 +1,7 @@
 use super::cycles::CycleMemory;
 use super::{Run, Settings, fault};
 use crate::code::{Action, Motion};
-use crate::moves::{Axis, Feed, FeedMode, Plane, Position, Turning};
+use crate::moves::{Axis, AxisSet, Feed, FeedMode, Plane, Position, Turning};
 use crate::program::{Block, Fault, Item, Program};
 
 /// No word is larger, so that no sum of words leaves the range of numbers.
@@ -112,6 +112,13 @@ impl Words {
 
     pub fn has_axis(&self) -> bool {
         self.present & AXIS_BITS != 0
+    }
+
+    /// The axes that the block names.
+    pub fn axes(&self) -> AxisSet {
+        let bit = |letter: u8| (self.present >> (letter - b'A') & 1) as u16;
+        let letters = b"XYZABCUVW".iter().enumerate();
+        AxisSet(letters.fold(0, |set, (i, letter)| set | bit(*letter) << i))
     }
 
     pub fn put(&mut self, letter: u8, value: f64, offset: usize) -> Result<(), Fault> {
