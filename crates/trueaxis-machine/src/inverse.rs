@@ -11,15 +11,15 @@ mod direction;
 mod follow;
 mod linear;
 mod serial;
-mod turns;
+pub(crate) mod turns;
 
 pub use follow::{FollowError, FollowFault};
 
 use crate::Machine;
 use crate::axis::{AxisKind, Command};
 use crate::errors::BodyName;
-use direction::Aim;
-use serial::Serial;
+pub(crate) use direction::Aim;
+pub(crate) use serial::Serial;
 use std::fmt;
 use trueaxis_geometry::frame::{Direction, Point, Workpiece};
 

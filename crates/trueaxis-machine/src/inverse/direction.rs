@@ -34,7 +34,7 @@ const FLAT_RAD: f64 = 4e-15;
 
 /// A rotary axis that aims the tool.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Turn {
+pub(crate) struct Turn {
     pub axis: usize,
     /// In the workpiece frame, all aiming axes at zero.
     about: Vec3,
@@ -43,20 +43,20 @@ pub(super) struct Turn {
 
 /// The rotary axes that aim the tool, at most two, in chain order; all others are held.
 #[derive(Debug, Clone)]
-pub(super) struct Aim {
+pub(crate) struct Aim {
     pub turning: Vec<Turn>,
     /// The tool axis with all aiming axes at zero.
     tool_at_zero: Vec3,
 }
 
 /// The angles (right-handed about each axis) of each branch; `None` keeps the axis where it is.
-pub(super) struct Aimed {
+pub(crate) struct Aimed {
     pub angles: Vec<[Option<f64>; 2]>,
     pub first_is_idle: bool,
 }
 
 /// The direction cannot be reached.
-pub(super) struct Missed {
+pub(crate) struct Missed {
     pub closest: Vec3,
     pub by_rad: f64,
 }

@@ -14,7 +14,7 @@ use trueaxis_geometry::frame::{Pose, rotation};
 
 /// One axis of the row.
 #[derive(Debug, Clone)]
-pub(super) struct Joint {
+pub(crate) struct Joint {
     pub kind: AxisKind,
     pub direction: Vec3,
     /// +1 if a positive command moves what stands towards the tool in the positive direction.
@@ -23,15 +23,15 @@ pub(super) struct Joint {
 
 /// The row of joints; joint i is axis i of the machine.
 #[derive(Debug, Clone)]
-pub(super) struct Serial {
+pub(crate) struct Serial {
     pub joints: Vec<Joint>,
     /// What stands fixed before each joint, and behind the last.
-    fixed: Vec<Link>,
+    pub fixed: Vec<Link>,
     tip_mm: Vec3,
 }
 
 /// Where the joints and the tool are at one command, in the workpiece frame.
-pub(super) struct Frames {
+pub(crate) struct Frames {
     /// The fixed side of each joint.
     pub joints: Vec<Link>,
     tool: Link,

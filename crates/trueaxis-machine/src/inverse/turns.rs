@@ -12,20 +12,20 @@ pub(super) const TIE_RAD: f64 = 1e-9;
 const SEAM_RAD: f64 = 1e-13;
 
 /// The same angle in (−π, π]; what rounding leaves beside −π is π, −0 is 0.
-pub(super) fn principal(q: f64) -> f64 {
+pub(crate) fn principal(q: f64) -> f64 {
     let turned = q - TAU * (q / TAU).round();
     if turned <= -PI + SEAM_RAD { PI } else { turned.min(PI) + 0.0 }
 }
 
 /// The turn of `q` nearest to `near`; `q` itself if two are equally near.
-pub(super) fn nearest(q: f64, near: f64) -> f64 {
+pub(crate) fn nearest(q: f64, near: f64) -> f64 {
     let turns = (near - q) / TAU;
     let whole = (turns.abs() - 0.5 - TIE_RAD).ceil().max(0.0);
     q + TAU * whole.copysign(turns)
 }
 
 /// The other turns of `q` to offer: all inside a travel, the nearest one of an endless axis.
-pub(super) fn others(travel: Travel, q: f64, from: f64) -> Vec<f64> {
+pub(crate) fn others(travel: Travel, q: f64, from: f64) -> Vec<f64> {
     match travel {
         Travel::Unknown => Vec::new(),
         Travel::Unlimited => {
@@ -46,7 +46,7 @@ pub(super) fn others(travel: Travel, q: f64, from: f64) -> Vec<f64> {
 }
 
 /// Solutions with their marks, best first, those outside the travel last.
-pub(super) fn in_order(machine: &Machine, commands: Vec<Command>, from: &Command) -> Vec<Solution> {
+pub(crate) fn in_order(machine: &Machine, commands: Vec<Command>, from: &Command) -> Vec<Solution> {
     let rotary: Vec<usize> = machine.rotary_axes().collect();
     let solution = |command: Command| Solution {
         command,
