@@ -155,7 +155,11 @@ impl TipControl {
     ///
     /// # Errors
     /// [`SolveError::Unreachable`] and [`SolveError::NotFinite`], as [`Machine::solve`].
-    pub fn aim(&self, axis: Direction<Workpiece>, from: &Command) -> Result<Vec<Aimed>, SolveError> {
+    pub fn aim(
+        &self,
+        axis: Direction<Workpiece>,
+        from: &Command,
+    ) -> Result<Vec<Aimed>, SolveError> {
         let u = axis.vector();
         if !u.iter().chain(from).all(|v| v.is_finite()) {
             return Err(SolveError::NotFinite);

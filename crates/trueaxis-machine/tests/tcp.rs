@@ -4,8 +4,9 @@ mod library;
 
 use library::{FIVE_AXIS, Random, machine};
 use trueaxis_geometry::frame::{Direction, Point};
-use trueaxis_machine::Target;
+use trueaxis_machine::axis::Travel;
 use trueaxis_machine::tcp::TipControl;
+use trueaxis_machine::{Machine, Target};
 
 #[test]
 fn law_a_placed_tip_is_where_it_shall_be() {
@@ -35,8 +36,13 @@ fn law_a_placed_tip_is_where_it_shall_be() {
 #[test]
 fn law_the_aim_is_the_best_solution_of_the_inverse() {
     // Without a stated travel `solve` offers one turn only, the aim the nearest one.
-    for name in FIVE_AXIS.into_iter().filter(|name| *name != "lei-hsu-mill") {
-        let machine = machine(name);
+    let known = |m: &Machine| {
+        m.axes().iter().all(|a| "XYZ".contains(a.name.letter()) || a.travel != Travel::Unknown)
+    };
+    let machines = FIVE_AXIS.map(machine).into_iter().filter(known).collect::<Vec<_>>();
+    assert!(machines.len() >= 3);
+    for machine in machines {
+        let name = machine.name();
         let control = TipControl::of(&machine).expect("three linear axes");
         let mut random = Random(11);
         for _ in 0..2_000 {
@@ -61,7 +67,10 @@ fn law_the_aim_is_the_best_solution_of_the_inverse() {
             };
             let best = found.iter().map(|s| s.command).filter(inside).map(|c| travel(&c));
             let best = best.fold(f64::INFINITY, f64::min);
-            assert!((travel(&aimed.command) - best).abs() < 1e-6, "{name} {from:?} {aimed:?} {found:?}");
+            assert!(
+                (travel(&aimed.command) - best).abs() < 1e-6,
+                "{name} {from:?} {aimed:?} {found:?}"
+            );
             let (_, reached) = control.tip_and_axis(&aimed.command);
             assert!((reached - axis.vector()).norm() < 1e-11);
         }
