@@ -10,6 +10,7 @@ mod numbers;
 mod output;
 mod pose;
 mod predict;
+mod simulate;
 mod solve;
 
 use clap::{Parser, Subcommand};
@@ -40,6 +41,8 @@ enum Verb {
     Pose(pose::Arguments),
     /// Describe: axis positions for a wanted tool tip and direction
     Solve(solve::Arguments),
+    /// Simulate: run an NC program on the machine as it is: time, travel, deviations, troubles
+    Simulate(simulate::Arguments),
     /// Predict: will the test piece be good, and which error costs how much of it
     Predict(predict::Arguments),
 }
@@ -49,6 +52,7 @@ fn main() -> ExitCode {
         Verb::Check(arguments) => check::run(&arguments),
         Verb::Pose(arguments) => pose::run(&arguments),
         Verb::Solve(arguments) => solve::run(&arguments),
+        Verb::Simulate(arguments) => simulate::run(&arguments),
         Verb::Predict(arguments) => predict::run(&arguments),
     };
     match outcome {

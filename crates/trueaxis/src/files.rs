@@ -53,14 +53,34 @@ pub fn text(path: &Path, what: &str, problems: &mut Diagnostics) -> Option<Strin
     }
 }
 
-fn read_text(path: &Path) -> io::Result<String> {
-    let refuse = |message| Err(io::Error::new(io::ErrorKind::InvalidData, message));
+/// Reads a file that need not be UTF-8, such as an NC program; if it cannot be read, says why.
+pub fn bytes(path: &Path, what: &str, problems: &mut Diagnostics) -> Option<Vec<u8>> {
+    let complain = |error: io::Error| {
+        let place = Place::whole(&path.display().to_string());
+        let message = format!("cannot be read: {error}");
+        problems.error("unreadable-file", place, message, &format!("{what} is due here"));
+    };
+    read_bytes(path).map_err(complain).ok()
+}
+
+/// Reads a file that need not be UTF-8.
+///
+/// # Errors
+/// What the disk says; a file that is too long.
+pub fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     // One byte more than allowed: a device or a pipe does not say its length.
     fs::File::open(path)?.take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > MAX_BYTES {
-        return refuse(format!("texts of more than {MAX_BYTES} bytes are not read"));
+        let message = format!("files of more than {MAX_BYTES} bytes are not read");
+        return Err(io::Error::new(io::ErrorKind::InvalidData, message));
     }
+    Ok(bytes)
+}
+
+fn read_text(path: &Path) -> io::Result<String> {
+    let refuse = |message| Err(io::Error::new(io::ErrorKind::InvalidData, message));
+    let bytes = read_bytes(path)?;
     String::from_utf8(bytes).or_else(|error| {
         let sound = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = sound.iter().filter(|b| **b == b'\n').count() + 1;
@@ -74,24 +94,59 @@ fn read_text(path: &Path) -> io::Result<String> {
 /// Whatever the disk says; an older file of that name is then still there. What is no ordinary
 /// file (a folder, a device) is not replaced.
 pub fn write(path: &Path, content: &[u8]) -> io::Result<()> {
-    let refuse = |message| Err(io::Error::new(io::ErrorKind::InvalidInput, message));
-    if path.file_name().is_none() {
-        return refuse("the path names no file");
+    let part = Part::beside(path)?;
+    let mut file = part.file();
+    file.write_all(content)?;
+    part.put_in_place()
+}
+
+/// A file that is being written beside its place; unless it is put there, it vanishes.
+#[derive(Debug)]
+pub struct Part {
+    place: PathBuf,
+    part: PathBuf,
+    file: fs::File,
+}
+
+impl Part {
+    /// Opens a temporary file beside a place.
+    ///
+    /// # Errors
+    /// As [`write`].
+    pub fn beside(place: &Path) -> io::Result<Self> {
+        let refuse = |message| Err(io::Error::new(io::ErrorKind::InvalidInput, message));
+        let Some(name) = place.file_name() else {
+            return refuse("the path names no file");
+        };
+        if fs::metadata(place).is_ok_and(|found| !found.is_file()) {
+            return refuse("what stands there is no ordinary file");
+        }
+        let hidden = format!(".trueaxis-{}-{}.part", std::process::id(), name.display());
+        let part = place.with_file_name(hidden);
+        let file = fs::File::create(&part)?;
+        Ok(Self { place: place.to_owned(), part, file })
     }
-    if fs::metadata(path).is_ok_and(|found| !found.is_file()) {
-        return refuse("what stands there is no ordinary file");
+
+    /// Where to write.
+    pub fn file(&self) -> &fs::File {
+        &self.file
     }
-    let part = path.with_file_name(format!(".trueaxis-{}.part", std::process::id()));
-    let written = fs::File::create(&part).and_then(|mut file| {
-        file.write_all(content)?;
-        file.sync_all()
-    });
-    let renamed = written.and_then(|()| fs::rename(&part, path));
-    if renamed.is_err() {
-        // The first error is the one to tell; a left-over part file may already be gone.
-        let _ = fs::remove_file(&part);
+
+    /// Puts the file in its place; an older one there is gone.
+    ///
+    /// # Errors
+    /// Whatever the disk says.
+    pub fn put_in_place(self) -> io::Result<()> {
+        self.file.sync_all()?;
+        fs::rename(&self.part, &self.place)
     }
-    renamed
+}
+
+impl Drop for Part {
+    fn drop(&mut self) {
+        // In its place it has another name; otherwise nothing half-written shall stay.
+        let _ = fs::remove_file(&self.part);
+    }
 }
 
 #[cfg(test)]

@@ -13,9 +13,11 @@
 pub mod files;
 pub mod predict;
 pub mod report;
+pub mod simulate;
 
 pub use trueaxis_geometry as geometry;
 pub use trueaxis_machine as machine;
+pub use trueaxis_nc as nc;
 pub use trueaxis_part as part;
 
 /// The version that reports state.

@@ -7,11 +7,13 @@ mod html;
 mod json;
 mod page;
 mod plots;
+mod simulation;
 mod text;
 
 pub use html::html;
 pub use json::json;
 pub use plots::DrawingError;
+pub use simulation::{Simulation, simulation_json, simulation_text, trouble_code, trouble_text};
 pub use text::text;
 
 use crate::predict::{Index, Prediction, Share};

@@ -116,8 +116,14 @@ impl DeviationColumns<'_> {
         )
     }
 
+    /// Without the first so many poses.
+    #[must_use]
+    pub fn skip(self, poses: usize) -> Self {
+        self.split_at(poses).1
+    }
+
     /// Writes one pose; false if a number of it is not finite.
-    pub(super) fn set(&mut self, i: usize, deviation: &Deviation) -> bool {
+    pub fn set(&mut self, i: usize, deviation: &Deviation) -> bool {
         let put = |columns: &mut [&mut [f64]; 3], vector: Vec3| {
             for (column, value) in columns.iter_mut().zip(vector.iter()) {
                 column[i] = *value;

@@ -1,0 +1,349 @@
+//! A simulation for people and for programs.
+
+use crate::simulate::{
+    Held, Run, SetUp, Summary, Trouble, TroubleKind, Troubles, Worst, shown, unit,
+};
+use serde_json::{Map, Value, json};
+use std::fmt::Write as _;
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::Travel;
+use trueaxis_nc::Control;
+use trueaxis_nc::moves::Origin;
+
+/// Everything that a report of a simulation shows.
+pub struct Simulation<'a> {
+    /// The machine.
+    pub machine: &'a Machine,
+    /// The program file.
+    pub program: &'a str,
+    /// Whose program it is.
+    pub control: Control,
+    /// What stood on the machine.
+    pub setup: &'a SetUp,
+    /// How it ended.
+    pub run: &'a Run,
+    /// What it comes to.
+    pub summary: &'a Summary,
+    /// What went wrong.
+    pub troubles: &'a Troubles,
+    /// The file of the path, if one was written.
+    pub path_file: Option<&'a str>,
+}
+
+/// Troubles that the terminal lists.
+const MOST_SHOWN: usize = 20;
+
+fn control_name(control: Control) -> &'static str {
+    match control {
+        Control::Sinumerik840d => "SINUMERIK 840D",
+        Control::Fanuc => "FANUC",
+        Control::LinuxCnc => "LinuxCNC",
+        Control::Heidenhain => "HEIDENHAIN",
+    }
+}
+
+impl Simulation<'_> {
+    /// The block as people name it: `line 12`, with the program where it is not the main one.
+    pub fn block(&self, origin: Origin) -> String {
+        match (origin.program, self.run.programs.get(origin.program as usize)) {
+            (0, _) | (_, None) => format!("line {}", origin.line),
+            (_, Some(program)) => format!("{program}:{}", origin.line),
+        }
+    }
+}
+
+/// What went wrong, in one sentence with its figures.
+pub fn trouble_text(machine: &Machine, trouble: &Trouble) -> String {
+    let name = |axis: usize| machine.axes()[axis].name;
+    let value =
+        |axis: usize, v: f64| format!("{:.3} {}", shown(machine, axis, v), unit(machine, axis));
+    match &trouble.kind {
+        TroubleKind::Collision { first, second } => {
+            format!("collision: {first} cuts into {second}")
+        }
+        TroubleKind::NearMiss { first, second } => {
+            format!("near miss: {first} comes to {:.3} mm of {second}", trouble.value)
+        }
+        TroubleKind::RapidInStock { first, second } => {
+            format!("rapid through stock: {first} in {second}")
+        }
+        TroubleKind::OverTravel { axis } => format!(
+            "over-travel: {} goes to {}, its end is {}",
+            name(*axis),
+            value(*axis, trouble.value),
+            value(*axis, trouble.limit)
+        ),
+        TroubleKind::OverSpeed { axis, near_pole } => format!(
+            "over-speed: the feed asks {} for {}/s, it has {}/s{}; the control slows down",
+            name(*axis),
+            value(*axis, trouble.value),
+            value(*axis, trouble.limit),
+            if *near_pole { " (near a pole of the rotary axes)" } else { "" }
+        ),
+        TroubleKind::SlowedDown { axis, limit } => {
+            let limit = match limit {
+                Held::Velocity => "velocity",
+                Held::Acceleration => "acceleration",
+                Held::Jerk => "jerk",
+            };
+            let held = 100.0 * trouble.value;
+            format!("feed not held: {held:.1} % of it, because of the {limit} of {}", name(*axis))
+        }
+        TroubleKind::RotaryFlip { axis } => format!(
+            "flip: {} turns by {} while the tool turns by {:.3} deg",
+            name(*axis),
+            value(*axis, trouble.value),
+            trouble.limit.to_degrees()
+        ),
+    }
+}
+
+/// The code of a trouble in JSON.
+pub fn trouble_code(kind: &TroubleKind) -> &'static str {
+    match kind {
+        TroubleKind::Collision { .. } => "collision",
+        TroubleKind::NearMiss { .. } => "near-miss",
+        TroubleKind::RapidInStock { .. } => "rapid-in-stock",
+        TroubleKind::OverTravel { .. } => "over-travel",
+        TroubleKind::OverSpeed { .. } => "over-speed",
+        TroubleKind::SlowedDown { .. } => "slowed-down",
+        TroubleKind::RotaryFlip { .. } => "rotary-flip",
+    }
+}
+
+/// The simulation as the terminal shows it.
+pub fn simulation_text(s: &Simulation<'_>) -> String {
+    let mut out = String::new();
+    // Writing into a text cannot fail.
+    let _ = write_text(s, &mut out);
+    out
+}
+
+fn write_text(s: &Simulation<'_>, out: &mut String) -> std::fmt::Result {
+    let (summary, machine) = (s.summary, s.machine);
+    writeln!(out, "{} on {}", s.program, machine.name())?;
+    writeln!(out, "  {}    {}\n", machine.chain_text(), control_name(s.control))?;
+    writeln!(
+        out,
+        "  time      {}   ({} with feed, {} rapid, {} waiting)",
+        clock(summary.time_s),
+        clock(summary.time_s - summary.rapid_s - summary.dwell_s),
+        clock(summary.rapid_s),
+        clock(summary.dwell_s)
+    )?;
+    writeln!(
+        out,
+        "  way       {:.1} mm with feed, {:.1} mm rapid   ({} moves, {} places)",
+        summary.feed_mm, summary.rapid_mm, summary.moves, summary.nodes
+    )?;
+    if let Some([low, high]) = summary.cut_box_mm {
+        writeln!(
+            out,
+            "  tip       X {:.3} … {:.3}   Y {:.3} … {:.3}   Z {:.3} … {:.3} mm, with feed",
+            low.x, high.x, low.y, high.y, low.z, high.z
+        )?;
+    }
+    writeln!(out, "\n  axis        lowest      highest         travel        fastest   reversals")?;
+    for (i, axis) in summary.axes.iter().enumerate() {
+        if axis.lowest > axis.highest {
+            continue;
+        }
+        let limits = match machine.axes()[i].travel {
+            Travel::Between(a, b) => {
+                format!("{:.0} … {:.0}", shown(machine, i, a), shown(machine, i, b))
+            }
+            Travel::Unlimited => "without end".to_owned(),
+            Travel::Unknown => "not stated".to_owned(),
+        };
+        writeln!(
+            out,
+            "  {:<4} {:>12.3} {:>12.3} {:>3} {:>16} {:>10.2}/s {:>8}",
+            machine.axes()[i].name.to_string(),
+            shown(machine, i, axis.lowest),
+            shown(machine, i, axis.highest),
+            unit(machine, i),
+            limits,
+            shown(machine, i, axis.fastest.value.abs()),
+            axis.reversals
+        )?;
+    }
+    writeln!(out, "\n  deviation of the actual tool from the nominal one, with feed")?;
+    let at = |w: &Worst| format!("{}, {}", s.block(w.origin), clock(w.time_s));
+    writeln!(
+        out,
+        "  tip         {:>9.2} µm   at {}   ({:.2} µm rms)",
+        summary.feed_tip.value * 1e3,
+        at(&summary.feed_tip),
+        summary.feed_tip_rms_mm * 1e3
+    )?;
+    for (name, worst) in ["feed", "normal", "binormal"].iter().zip(&summary.along_path) {
+        writeln!(out, "  {name:<11} {:>9.2} µm   at {}", worst.value * 1e3, at(worst))?;
+    }
+    let axis = &summary.feed_axis;
+    writeln!(out, "  tool axis   {:>9.2} µrad at {}", axis.value * 1e6, at(axis))?;
+    write_troubles(s, out)?;
+    if let Some(path) = s.path_file {
+        writeln!(out, "\n  path: {path}")?;
+    }
+    Ok(())
+}
+
+fn write_troubles(s: &Simulation<'_>, out: &mut String) -> std::fmt::Result {
+    let list = &s.troubles.list;
+    if list.is_empty() {
+        return writeln!(out, "\n  no trouble found");
+    }
+    let count = list.len() as u64 + s.troubles.left_out;
+    writeln!(out, "\n  {count} trouble{} found", if count == 1 { "" } else { "s" })?;
+    let mut ordered: Vec<&Trouble> = list.iter().collect();
+    ordered.sort_by_key(|t| !t.grave);
+    for trouble in ordered.iter().take(MOST_SHOWN) {
+        let mark = if trouble.grave { "!" } else { "·" };
+        let text = trouble_text(s.machine, trouble);
+        writeln!(out, "  {mark} {}  {}  {text}", clock(trouble.from_s), blocks(s, trouble))?;
+    }
+    let hidden = count.saturating_sub(MOST_SHOWN as u64);
+    if hidden > 0 {
+        writeln!(out, "    … and {hidden} more; --format json and the report have them")?;
+    }
+    Ok(())
+}
+
+/// From which block to which.
+pub(super) fn blocks(s: &Simulation<'_>, trouble: &Trouble) -> String {
+    match trouble.first == trouble.last {
+        true => s.block(trouble.first),
+        false => format!("{} to {}", s.block(trouble.first), s.block(trouble.last)),
+    }
+}
+
+/// Seconds as people read them: `4 min 05.20 s`.
+pub(super) fn clock(seconds: f64) -> String {
+    let whole = seconds.max(0.0);
+    let minutes = (whole / 60.0).floor();
+    if minutes < 1.0 {
+        return format!("{whole:.2} s");
+    }
+    let (hours, rest) = ((minutes / 60.0).floor(), whole - minutes * 60.0);
+    match hours >= 1.0 {
+        true => format!("{hours:.0} h {:02.0} min {rest:05.2} s", minutes - hours * 60.0),
+        false => format!("{minutes:.0} min {rest:05.2} s"),
+    }
+}
+
+/// A simulation as one JSON document, numbers in full double precision.
+pub fn simulation_json(s: &Simulation<'_>) -> Value {
+    let summary = s.summary;
+    let worst = |w: &Worst, scale: f64| {
+        json!({ "value": w.value * scale, "line": w.origin.line, "program": w.origin.program,
+                "time_s": w.time_s })
+    };
+    json!({
+        "schema": "trueaxis/simulate/1",
+        "version": crate::VERSION,
+        "machine": { "name": s.machine.name(), "chain": s.machine.chain_text() },
+        "program": s.program,
+        "programs": s.run.programs,
+        "control": control_name(s.control),
+        "set_up_given": s.setup.given,
+        "time_s": summary.time_s,
+        "rapid_s": summary.rapid_s,
+        "dwell_s": summary.dwell_s,
+        "feed_mm": summary.feed_mm,
+        "rapid_mm": summary.rapid_mm,
+        "moves": summary.moves,
+        "nodes": summary.nodes,
+        "tip_box_mm": summary.cut_box_mm.map(|b| b.map(|v| [v.x, v.y, v.z])),
+        "axes": axes(s),
+        "deviation": {
+            "tip_um": worst(&summary.feed_tip, 1e3),
+            "tip_rms_um": summary.feed_tip_rms_mm * 1e3,
+            "feed_um": worst(&summary.along_path[0], 1e3),
+            "normal_um": worst(&summary.along_path[1], 1e3),
+            "binormal_um": worst(&summary.along_path[2], 1e3),
+            "axis_urad": worst(&summary.feed_axis, 1e6),
+            "tip_with_rapid_um": worst(&summary.tip, 1e3),
+            "axis_with_rapid_urad": worst(&summary.axis, 1e6),
+        },
+        "troubles": s.troubles.list.iter().map(|t| trouble(s, t)).collect::<Vec<_>>(),
+        "troubles_left_out": s.troubles.left_out,
+        "messages": summary.messages,
+        "stops": summary.stops,
+        "tools": summary.tools.iter()
+            .map(|(tool, moves)| json!({ "tool": tool, "moves": moves }))
+            .collect::<Vec<_>>(),
+        "path_file": s.path_file,
+    })
+}
+
+fn axes(s: &Simulation<'_>) -> Value {
+    let mut map = Map::new();
+    for (i, axis) in s.summary.axes.iter().enumerate() {
+        let value = |v: f64| Some(v).filter(|v| v.is_finite()).map(|v| shown(s.machine, i, v));
+        let of = &s.machine.axes()[i];
+        map.insert(
+            of.name.to_string(),
+            json!({
+                "unit": unit(s.machine, i),
+                "lowest": value(axis.lowest),
+                "highest": value(axis.highest),
+                "travelled": value(axis.travelled),
+                "reversals": axis.reversals,
+                "fastest_per_s": value(axis.fastest.value.abs()),
+                "fastest_line": axis.fastest.origin.line,
+                "velocity_limit_per_s": of.limits.velocity.and_then(value),
+            }),
+        );
+    }
+    Value::Object(map)
+}
+
+fn trouble(s: &Simulation<'_>, trouble: &Trouble) -> Value {
+    let mut map = Map::new();
+    let mut put = |key: &str, value: Value| {
+        map.insert(key.to_owned(), value);
+    };
+    put("code", trouble_code(&trouble.kind).into());
+    put("grave", trouble.grave.into());
+    put("text", trouble_text(s.machine, trouble).into());
+    put("line", trouble.first.line.into());
+    put("program", trouble.first.program.into());
+    put("last_line", trouble.last.line.into());
+    put("from_s", trouble.from_s.into());
+    put("to_s", trouble.to_s.into());
+    put("nodes", trouble.nodes.into());
+    match &trouble.kind {
+        TroubleKind::Collision { first, second }
+        | TroubleKind::NearMiss { first, second }
+        | TroubleKind::RapidInStock { first, second } => {
+            put("bodies", json!([first, second]));
+            put("clearance_mm", trouble.value.into());
+        }
+        TroubleKind::OverTravel { axis } | TroubleKind::OverSpeed { axis, .. } => {
+            put("axis", s.machine.axes()[*axis].name.to_string().into());
+            put("value", shown(s.machine, *axis, trouble.value).into());
+            put("limit", shown(s.machine, *axis, trouble.limit).into());
+        }
+        TroubleKind::SlowedDown { axis, .. } => {
+            put("axis", s.machine.axes()[*axis].name.to_string().into());
+            put("feed_ratio", trouble.value.into());
+        }
+        TroubleKind::RotaryFlip { axis } => {
+            put("axis", s.machine.axes()[*axis].name.to_string().into());
+            put("turned_deg", trouble.value.to_degrees().into());
+        }
+    }
+    Value::Object(map)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn seconds_are_readable() {
+        assert_eq!(clock(5.2), "5.20 s");
+        assert_eq!(clock(245.2), "4 min 05.20 s");
+        assert_eq!(clock(3725.0), "1 h 02 min 05.00 s");
+    }
+}

@@ -1,0 +1,229 @@
+//! Simulate: the NC program on the machine as it is.
+//!
+//! ```text
+//!     program ──interpret──> moves ──axis_path──> nodes ──clock──> times
+//!                                       nodes ──tool_path──> nominal and actual tool
+//!                                                 └──> summary, troubles, tables, plots
+//! ```
+
+mod axis_path;
+mod clock;
+mod curve;
+mod densify;
+mod orientation;
+mod program;
+mod series;
+mod setup;
+mod summary;
+mod table;
+mod tool_path;
+mod trouble;
+
+pub use axis_path::{Fault, Node, PathStep};
+pub use clock::{Limit, Stamp};
+pub use densify::{Densify, pieces};
+pub use program::read_program;
+pub use series::{PathPoint, Series};
+pub use setup::{CONTROLS, SetUp, SetUpTool, control_named, read_setup};
+pub use summary::{AxisUse, Summary, Worst, shown, unit};
+pub use table::{CsvTable, headings};
+pub use tool_path::Batch;
+pub use trouble::{Held, Trouble, TroubleKind, Troubles};
+
+use axis_path::AxisPath;
+use clock::Clock;
+use program::Folder;
+use std::path::Path;
+use tool_path::{BATCH, ToolPath};
+use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_machine::Machine;
+use trueaxis_machine::batch::CompiledMachine;
+use trueaxis_machine::tcp::TipControl;
+use trueaxis_nc::moves::{Branch, Event, Origin, Position, Step};
+use trueaxis_nc::{Program, interpret};
+
+/// Takes what the simulation finds, stretch by stretch, in constant memory.
+pub trait Observer {
+    /// The next stretch of the path.
+    fn path(&mut self, batch: &Batch<'_>);
+
+    /// Something else that the program does, such as a message or a stop.
+    fn event(&mut self, _event: &Event, _origin: Origin) {}
+}
+
+/// How a program is simulated.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// How finely moves are cut.
+    pub densify: Densify,
+    /// How far corners may be rounded where the program does not say it, mm.
+    pub rounding_mm: f64,
+    /// List errors and go on behind them.
+    pub keep_going: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { densify: Densify::default(), rounding_mm: 0.01, keep_going: false }
+    }
+}
+
+/// How a simulation ended.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Run {
+    /// Everything that was found in the program; with errors the results are not complete.
+    pub problems: Diagnostics,
+    /// The programs by the number in [`Origin::program`].
+    pub programs: Vec<String>,
+}
+
+/// Runs an NC program on a machine and tells the observers all that happens.
+///
+/// Memory does not grow with the program. The workpiece frame of all results is that of the
+/// machine file, or of a work offset if the set-up says so.
+pub fn simulate(
+    machine: &Machine,
+    program: &Program,
+    setup: &SetUp,
+    options: &Options,
+    observers: &mut [&mut dyn Observer],
+) -> Run {
+    let machine = setup.mounted(machine);
+    let control = TipControl::of(&machine);
+    let angles = |direction: [f64; 3], branch: Branch, now: &Position| {
+        axis_path::rotary_angles(control.as_ref()?, direction, branch, now)
+    };
+    let folder = Folder::beside(Path::new(program.file()), &angles);
+    let settings = setup.settings(options.keep_going);
+    let mut walk = Walk::new(&machine, setup, options, observers);
+    let outcome = interpret(program, &folder, &settings, &mut |step| walk.take(&step));
+    let faults = walk.finish();
+    let mut problems = outcome.problems;
+    setup.warn_of_zeros(program.file(), &mut problems);
+    for fault in faults {
+        let place = place(program, &outcome.programs, &fault);
+        problems.error(fault.code, place, fault.message, fault.hint);
+    }
+    Run { problems, programs: outcome.programs }
+}
+
+/// Where a fault stands: the line, and the column of its word if the text is at hand.
+fn place(program: &Program, programs: &[String], fault: &Fault) -> Place {
+    let index = fault.origin.program as usize;
+    let mut place = Place::whole(programs.get(index).map_or(program.file(), String::as_str));
+    place.line = fault.origin.line as usize;
+    place.column = 1;
+    if let (0, Some(word)) = (index, fault.word) {
+        let line = program.source().split(|b| *b == b'\n').nth(fault.origin.line as usize - 1);
+        let at = line.and_then(|l| l.iter().position(|b| b.eq_ignore_ascii_case(&word)));
+        place.column = at.map_or(1, |at| at + 1);
+    }
+    place
+}
+
+/// The way of each step through path, clock and poses.
+struct Walk<'w, 'o> {
+    machine: &'w Machine,
+    setup: &'w SetUp,
+    path: AxisPath<'w>,
+    clock: Clock,
+    tool_path: ToolPath,
+    tool: u32,
+    nodes: Vec<Node>,
+    stamps: Vec<Stamp>,
+    observers: &'w mut [&'o mut dyn Observer],
+    faults: Vec<Fault>,
+    keep_going: bool,
+}
+
+impl<'w, 'o> Walk<'w, 'o> {
+    fn new(
+        machine: &'w Machine,
+        setup: &'w SetUp,
+        options: &Options,
+        observers: &'w mut [&'o mut dyn Observer],
+    ) -> Self {
+        let path = AxisPath::new(machine, setup, options.densify, options.rounding_mm);
+        let start = *path.command();
+        Self {
+            machine,
+            setup,
+            path,
+            clock: Clock::new(),
+            tool_path: ToolPath::new(CompiledMachine::new(machine), start),
+            tool: 0,
+            nodes: Vec::with_capacity(2 * BATCH),
+            stamps: Vec::with_capacity(2 * BATCH),
+            observers,
+            faults: Vec::new(),
+            keep_going: options.keep_going,
+        }
+    }
+
+    fn take(&mut self, step: &Step) {
+        if self.stopped() {
+            return;
+        }
+        if let Step::Event(event, origin) = step {
+            self.observers.iter_mut().for_each(|o| o.event(event, *origin));
+        }
+        let (nodes, stamps, clock) = (&mut self.nodes, &mut self.stamps, &mut self.clock);
+        let mut tool = None;
+        self.path.take(step, &mut |step| match step {
+            PathStep::Node(node) => {
+                nodes.push(node);
+                clock.push(&node, &mut |stamp| stamps.push(stamp));
+            }
+            PathStep::Tool(number) => tool = Some(number),
+        });
+        if self.stamps.len() >= BATCH {
+            self.evaluate(BATCH);
+        }
+        if let Some(number) = tool {
+            self.change_tool(number);
+        }
+    }
+
+    /// Without `keep_going` the first fault ends the simulation.
+    fn stopped(&self) -> bool {
+        !self.keep_going && !(self.path.faults.is_empty() && self.faults.is_empty())
+    }
+
+    fn evaluate(&mut self, most: usize) {
+        while !self.stamps.is_empty() {
+            let count = self.stamps.len().min(most);
+            let (nodes, stamps) = (&self.nodes[..count], &self.stamps[..count]);
+            let batch = self.tool_path.evaluate(self.tool, nodes, stamps, &mut self.faults);
+            self.observers.iter_mut().for_each(|o| o.path(&batch));
+            self.nodes.drain(..count);
+            self.stamps.drain(..count);
+            if self.stamps.len() < most {
+                break;
+            }
+        }
+    }
+
+    /// The axes rest while the tool is changed.
+    fn change_tool(&mut self, number: u32) {
+        self.rest();
+        self.tool = number;
+        if let Some(tool) = self.setup.tools.get(&number) {
+            let machine = self.machine.clone().with_tip(tool.tip_mm);
+            self.tool_path.change_tool(CompiledMachine::new(&machine));
+        }
+    }
+
+    fn rest(&mut self) {
+        let stamps = &mut self.stamps;
+        self.clock.finish(&mut |stamp| stamps.push(stamp));
+        self.evaluate(BATCH);
+        self.evaluate(BATCH);
+    }
+
+    fn finish(mut self) -> Vec<Fault> {
+        self.rest();
+        let mut faults = self.path.faults;
+        faults.append(&mut self.faults);
+        faults
+    }
+}

@@ -1,0 +1,127 @@
+//! The NC program and the subprograms that it calls.
+
+use super::setup::{CONTROLS, SetUp};
+use crate::files;
+use std::path::{Path, PathBuf};
+use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_nc::moves::{Branch, Position};
+use trueaxis_nc::{Control, Library, Program};
+
+/// Reads an NC program; whose it is comes from the caller, the set-up, the file's extension or its
+/// first lines, in this order.
+pub fn read_program(
+    path: &Path,
+    control: Option<Control>,
+    setup: &SetUp,
+    problems: &mut Diagnostics,
+) -> Option<Program> {
+    let bytes = files::bytes(path, "an NC program", problems)?;
+    let file = path.display().to_string();
+    if bytes.iter().all(u8::is_ascii_whitespace) {
+        let message = "the program is empty".to_owned();
+        problems.error("empty-program", Place::whole(&file), message, "an NC program is due here");
+        return None;
+    }
+    let control =
+        control.or(setup.control).or_else(|| by_extension(path)).or_else(|| sniff(&bytes));
+    let Some(control) = control else {
+        let message = "neither its name nor its first lines say which control it is for".to_owned();
+        let hint = format!("give --control {CONTROLS}");
+        problems.error("unknown-control", Place::whole(&file), message, &hint);
+        return None;
+    };
+    Some(Program::new(&file, bytes, control))
+}
+
+fn by_extension(path: &Path) -> Option<Control> {
+    let extension = path.extension()?.to_str()?.to_ascii_lowercase();
+    match extension.as_str() {
+        "mpf" | "spf" => Some(Control::Sinumerik840d),
+        "h" => Some(Control::Heidenhain),
+        "ngc" => Some(Control::LinuxCnc),
+        "nc" | "cnc" | "tap" | "eia" | "fan" => Some(Control::Fanuc),
+        _ => None,
+    }
+}
+
+/// What only one of the controls writes, in the first lines.
+fn sniff(bytes: &[u8]) -> Option<Control> {
+    let head = &bytes[..bytes.len().min(4096)];
+    let text = String::from_utf8_lossy(head).to_ascii_uppercase();
+    let any = |marks: &[&str]| marks.iter().any(|mark| text.contains(mark));
+    if any(&["BEGIN PGM"]) {
+        return Some(Control::Heidenhain);
+    }
+    if any(&["%_N_", "TRAORI", "CYCLE8", "ORIWKS", "WORKPIECE(", "A3=", "MSG(", "SUPA", "T=\""]) {
+        return Some(Control::Sinumerik840d);
+    }
+    if text.lines().any(|l| l.starts_with("O<") || l.contains(" SUB") || l.contains("M428")) {
+        return Some(Control::LinuxCnc);
+    }
+    let tape = text.trim_start().starts_with('%');
+    let number = |l: &str| l.starts_with('O') && l[1..].starts_with(|c: char| c.is_ascii_digit());
+    (tape || text.lines().any(number)).then_some(Control::Fanuc)
+}
+
+/// The folder of the main program as a library of subprograms, and the angles of the machine.
+pub(super) struct Folder<'m> {
+    path: PathBuf,
+    angles: &'m dyn Fn([f64; 3], Branch, &Position) -> Option<[f64; 3]>,
+}
+
+impl<'m> Folder<'m> {
+    pub fn beside(
+        program: &Path,
+        angles: &'m dyn Fn([f64; 3], Branch, &Position) -> Option<[f64; 3]>,
+    ) -> Self {
+        Self { path: program.parent().unwrap_or(Path::new("")).to_owned(), angles }
+    }
+
+    /// The file of a subprogram: the name as it is, in upper and lower case, with the usual
+    /// extensions; never outside the folder.
+    fn find(&self, name: &str) -> Option<PathBuf> {
+        let plain = !name.contains(['/', '\\', ':']) && !name.is_empty() && name != "..";
+        let cases = [name.to_owned(), name.to_ascii_lowercase(), name.to_ascii_uppercase()];
+        let endings = ["", ".ngc", ".nc", ".spf", ".SPF", ".mpf", ".MPF", ".h", ".H", ".NC"];
+        let mut all = cases.iter().flat_map(|c| endings.iter().map(move |e| format!("{c}{e}")));
+        plain
+            .then(|| all.find(|n| self.path.join(n).is_file()))
+            .flatten()
+            .map(|n| self.path.join(n))
+    }
+}
+
+impl Library for Folder<'_> {
+    fn text(&self, name: &str) -> Result<Vec<u8>, String> {
+        let path = self.find(name).ok_or("there is no such file beside the main program")?;
+        files::read_bytes(&path).map_err(|e| e.to_string())
+    }
+
+    fn display(&self, name: &str) -> String {
+        self.find(name).unwrap_or_else(|| self.path.join(name)).display().to_string()
+    }
+
+    fn rotary_angles(
+        &self,
+        direction: [f64; 3],
+        branch: Branch,
+        now: &Position,
+    ) -> Option<[f64; 3]> {
+        (self.angles)(direction, branch, now)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_control_is_told_by_extension_or_text() {
+        assert_eq!(by_extension(Path::new("a/B.MPF")), Some(Control::Sinumerik840d));
+        assert_eq!(by_extension(Path::new("a.txt")), None);
+        assert_eq!(sniff(b"0 BEGIN PGM 11 MM\n"), Some(Control::Heidenhain));
+        assert_eq!(sniff(b"%\nO0001 (X)\n"), Some(Control::Fanuc));
+        assert_eq!(sniff(b"N10 G0 X0\nN20 TRAORI\n"), Some(Control::Sinumerik840d));
+        assert_eq!(sniff(b"G0 X0\n"), None);
+    }
+}

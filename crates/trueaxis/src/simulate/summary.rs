@@ -1,0 +1,233 @@
+//! What a run comes to: time, way, extents and the worst deviations.
+
+use super::{Batch, Node, Observer};
+use std::collections::BTreeMap;
+use trueaxis_geometry::Vec3;
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::{AxisKind, Command};
+use trueaxis_nc::moves::{Event, Origin};
+
+/// The largest of something, and where it is.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Worst {
+    /// The value.
+    pub value: f64,
+    /// The block.
+    pub origin: Origin,
+    /// When, s.
+    pub time_s: f64,
+}
+
+impl Worst {
+    fn see(&mut self, value: f64, origin: Origin, time_s: f64) {
+        if value.abs() > self.value.abs() {
+            *self = Self { value, origin, time_s };
+        }
+    }
+}
+
+/// What one axis does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AxisUse {
+    /// The lowest position, mm or rad.
+    pub lowest: f64,
+    /// The highest position, mm or rad.
+    pub highest: f64,
+    /// The way that it goes, mm or rad.
+    pub travelled: f64,
+    /// How often it changes its direction.
+    pub reversals: u64,
+    /// The mean speed of its fastest piece of path, mm/s or rad/s.
+    pub fastest: Worst,
+}
+
+/// What a run comes to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Summary {
+    /// The whole time, s.
+    pub time_s: f64,
+    /// Of it in rapid, s.
+    pub rapid_s: f64,
+    /// Of it waiting, s.
+    pub dwell_s: f64,
+    /// The way of the tip in the workpiece with feed, mm.
+    pub feed_mm: f64,
+    /// The same in rapid, mm.
+    pub rapid_mm: f64,
+    /// Nodes of the path.
+    pub nodes: u64,
+    /// Moves of the program.
+    pub moves: u64,
+    /// Axis by axis, in the order of the machine.
+    pub axes: Vec<AxisUse>,
+    /// Length of the deviation of the tip, mm.
+    pub tip: Worst,
+    /// Length of the deviation of the tool axis, rad.
+    pub axis: Worst,
+    /// Deviation of the tip along feed, normal and binormal, mm.
+    pub along_path: [Worst; 3],
+    /// The same two while the tool feeds, not in rapid.
+    pub feed_tip: Worst,
+    /// The tool axis while the tool feeds.
+    pub feed_axis: Worst,
+    /// √ of the mean square of the deviation of the tip over the nodes with feed, mm.
+    pub feed_tip_rms_mm: f64,
+    /// Smallest and largest coordinates of the nominal tip while the tool feeds, mm, in the
+    /// workpiece frame; `None` if it never does.
+    pub cut_box_mm: Option<[Vec3; 2]>,
+    /// How many moves each tool makes.
+    pub tools: BTreeMap<u32, u64>,
+    /// Messages of the program to the operator.
+    pub messages: Vec<String>,
+    /// Stops in the program, optional ones not counted.
+    pub stops: u64,
+    sum_squares: f64,
+    feed_nodes: u64,
+    before: Option<Before>,
+    directions: Command,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Before {
+    command: Command,
+    tip: Vec3,
+    time_s: f64,
+}
+
+/// Messages that are kept.
+const MOST_MESSAGES: usize = 100;
+
+impl Summary {
+    /// Nothing yet, on a machine.
+    pub fn of(machine: &Machine) -> Self {
+        let unused = AxisUse {
+            lowest: f64::INFINITY,
+            highest: f64::NEG_INFINITY,
+            travelled: 0.0,
+            reversals: 0,
+            fastest: Worst::default(),
+        };
+        Self {
+            time_s: 0.0,
+            rapid_s: 0.0,
+            dwell_s: 0.0,
+            feed_mm: 0.0,
+            rapid_mm: 0.0,
+            nodes: 0,
+            moves: 0,
+            axes: vec![unused; machine.axes().len()],
+            tip: Worst::default(),
+            axis: Worst::default(),
+            along_path: Default::default(),
+            feed_tip: Worst::default(),
+            feed_axis: Worst::default(),
+            feed_tip_rms_mm: 0.0,
+            cut_box_mm: None,
+            tools: BTreeMap::new(),
+            messages: Vec::new(),
+            stops: 0,
+            sum_squares: 0.0,
+            feed_nodes: 0,
+            before: None,
+            directions: Command::default(),
+        }
+    }
+
+    fn see_axes(&mut self, node: &Node, time_s: f64) {
+        for (i, axis) in self.axes.iter_mut().enumerate() {
+            let q = node.command[i];
+            (axis.lowest, axis.highest) = (axis.lowest.min(q), axis.highest.max(q));
+            let Some(before) = &self.before else { continue };
+            let by = q - before.command[i];
+            axis.travelled += by.abs();
+            if by != 0.0 {
+                let direction = by.signum();
+                if self.directions[i] == -direction {
+                    axis.reversals += 1;
+                }
+                self.directions[i] = direction;
+            }
+            if time_s > before.time_s {
+                axis.fastest.see(by / (time_s - before.time_s), node.origin, time_s);
+            }
+        }
+    }
+
+    fn see_way(&mut self, node: &Node, tip: Vec3, time_s: f64) {
+        let (way, took_s) = match &self.before {
+            Some(before) => ((tip - before.tip).norm(), time_s - before.time_s),
+            None => (0.0, time_s),
+        };
+        self.dwell_s += node.dwell_s;
+        if node.is_rapid() {
+            self.rapid_mm += way;
+            self.rapid_s += took_s - node.dwell_s;
+        } else {
+            self.feed_mm += way;
+        }
+        self.time_s = time_s;
+    }
+}
+
+impl Observer for Summary {
+    fn path(&mut self, batch: &Batch<'_>) {
+        for (i, (node, stamp)) in batch.nodes.iter().zip(batch.stamps).enumerate() {
+            let deviation = batch.deviation(i);
+            let tip = deviation.nominal_tip.vector();
+            let (origin, time_s) = (node.origin, stamp.time_s);
+            self.see_axes(node, time_s);
+            self.see_way(node, tip, time_s);
+            self.before = Some(Before { command: node.command, tip, time_s });
+            let (off_mm, off_rad) = (deviation.tip_mm.norm(), deviation.axis.norm());
+            self.tip.see(off_mm, origin, time_s);
+            self.axis.see(off_rad, origin, time_s);
+            self.nodes += 1;
+            if node.last {
+                self.moves += 1;
+                *self.tools.entry(batch.tool).or_default() += 1;
+            }
+            if node.is_rapid() {
+                continue;
+            }
+            for (worst, value) in self.along_path.iter_mut().zip(batch.along_path_mm[i].iter()) {
+                worst.see(*value, origin, time_s);
+            }
+            self.feed_tip.see(off_mm, origin, time_s);
+            self.feed_axis.see(off_rad, origin, time_s);
+            self.feed_nodes += 1;
+            self.sum_squares += off_mm * off_mm;
+            let [low, high] = self.cut_box_mm.get_or_insert([tip, tip]);
+            (*low, *high) = (low.inf(&tip), high.sup(&tip));
+        }
+        if self.feed_nodes > 0 {
+            self.feed_tip_rms_mm = (self.sum_squares / self.feed_nodes as f64).sqrt();
+        }
+    }
+
+    fn event(&mut self, event: &Event, _origin: Origin) {
+        match event {
+            Event::Message(text) if self.messages.len() < MOST_MESSAGES => {
+                self.messages.push(text.clone());
+            }
+            Event::Stop { optional: false } => self.stops += 1,
+            _ => {}
+        }
+    }
+}
+
+/// A position or speed of an axis as people read it: mm or degrees.
+pub fn shown(machine: &Machine, axis: usize, value: f64) -> f64 {
+    let shown = match machine.axes()[axis].kind {
+        AxisKind::Linear => value,
+        AxisKind::Rotary => value.to_degrees(),
+    };
+    shown + 0.0 // no minus before a zero
+}
+
+/// The unit of an axis as people read it.
+pub fn unit(machine: &Machine, axis: usize) -> &'static str {
+    match machine.axes()[axis].kind {
+        AxisKind::Linear => "mm",
+        AxisKind::Rotary => "deg",
+    }
+}

@@ -1,0 +1,281 @@
+//! What goes wrong on the machine: travel, speed, flips, and bodies that meet.
+
+use super::{Batch, Limit, Node, Observer, Stamp};
+use std::collections::BTreeMap;
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::{AxisKind, Command, Travel};
+use trueaxis_machine::tcp::TipControl;
+use trueaxis_nc::moves::Origin;
+
+/// What kind of trouble it is.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub enum TroubleKind {
+    /// Two bodies touch or cut into each other.
+    Collision {
+        /// One of them.
+        first: String,
+        /// The other.
+        second: String,
+    },
+    /// Two bodies come nearer than the clearance asked for.
+    NearMiss {
+        /// One of them.
+        first: String,
+        /// The other.
+        second: String,
+    },
+    /// The cutter goes through the stock in rapid.
+    RapidInStock {
+        /// The part of the tool.
+        first: String,
+        /// What it meets.
+        second: String,
+    },
+    /// An axis leaves its travel.
+    OverTravel {
+        /// Its index.
+        axis: usize,
+    },
+    /// At the programmed feed an axis would be too fast; the control slows down.
+    OverSpeed {
+        /// Its index.
+        axis: usize,
+        /// Near a pole of the rotary axes.
+        near_pole: bool,
+    },
+    /// An axis' acceleration or jerk keeps the speed below the programmed one.
+    SlowedDown {
+        /// Its index.
+        axis: usize,
+        /// Which limit.
+        limit: Held,
+    },
+    /// A rotary axis turns far while the tool axis hardly turns.
+    RotaryFlip {
+        /// Its index.
+        axis: usize,
+    },
+}
+
+/// The limit that holds a speed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Held {
+    /// Velocity.
+    Velocity,
+    /// Acceleration.
+    Acceleration,
+    /// Jerk.
+    Jerk,
+}
+
+impl From<Limit> for Held {
+    fn from(limit: Limit) -> Self {
+        match limit {
+            Limit::Velocity => Self::Velocity,
+            Limit::Acceleration => Self::Acceleration,
+            Limit::Jerk => Self::Jerk,
+        }
+    }
+}
+
+/// One trouble over a stretch of the path.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Trouble {
+    /// What it is.
+    pub kind: TroubleKind,
+    /// Whether the part or the machine is in danger; the others cost time only.
+    pub grave: bool,
+    /// The block where it begins.
+    pub first: Origin,
+    /// The block where it ends.
+    pub last: Origin,
+    /// When it begins, s.
+    pub from_s: f64,
+    /// When it ends, s.
+    pub to_s: f64,
+    /// The worst value: position, speed, speed ratio, angle or clearance; see [`Trouble::text`].
+    pub value: f64,
+    /// What is allowed.
+    pub limit: f64,
+    /// Nodes in it.
+    pub nodes: u64,
+}
+
+/// Kept of each kind; further ones are counted.
+const MOST: usize = 200;
+
+/// The tool axis counts as near a pole below this sine: 2°.
+const NEAR_POLE: f64 = 0.035;
+
+/// A rotary axis that turns this much more than the tool axis flips, rad.
+const FLIP_RAD: f64 = std::f64::consts::FRAC_PI_2;
+
+/// Collects troubles; consecutive ones of a kind are one.
+#[derive(Debug)]
+pub struct Troubles {
+    machine: Machine,
+    control: Option<TipControl>,
+    /// All that are over, in the order of their end.
+    pub list: Vec<Trouble>,
+    /// How many more there were than are kept.
+    pub left_out: u64,
+    open: BTreeMap<TroubleKind, Trouble>,
+    before: Option<(Command, trueaxis_geometry::Vec3)>,
+    kept: BTreeMap<TroubleKind, usize>,
+}
+
+impl Troubles {
+    /// None yet, on a machine.
+    pub fn on(machine: &Machine) -> Self {
+        Self {
+            machine: machine.clone(),
+            control: TipControl::of(machine),
+            list: Vec::new(),
+            left_out: 0,
+            open: BTreeMap::new(),
+            before: None,
+            kept: BTreeMap::new(),
+        }
+    }
+
+    /// Whether part or machine are in danger anywhere.
+    pub fn are_grave(&self) -> bool {
+        self.list.iter().chain(self.open.values()).any(|t| t.grave)
+    }
+
+    /// Closes what is still open; the list is then in the order of time.
+    pub fn finish(&mut self) {
+        let open = std::mem::take(&mut self.open);
+        open.into_values().for_each(|t| self.keep(t));
+        self.list.sort_by(|a, b| a.from_s.total_cmp(&b.from_s));
+    }
+
+    fn keep(&mut self, trouble: Trouble) {
+        let count = self.kept.entry(trouble.kind.clone()).or_default();
+        *count += 1;
+        if *count <= MOST {
+            self.list.push(trouble);
+        } else {
+            self.left_out += 1;
+        }
+    }
+
+    /// Notes a trouble at a node; the one with the larger `badness` is the worst of a stretch.
+    pub(super) fn note(
+        &mut self,
+        kind: TroubleKind,
+        node: &Node,
+        stamp: &Stamp,
+        value: f64,
+        limit: f64,
+    ) {
+        use TroubleKind::{Collision, OverTravel, RapidInStock};
+        let grave = matches!(kind, Collision { .. } | OverTravel { .. } | RapidInStock { .. });
+        let (origin, time_s) = (node.origin, stamp.time_s);
+        let entry = self.open.entry(kind.clone()).or_insert(Trouble {
+            kind,
+            grave,
+            first: origin,
+            last: origin,
+            from_s: time_s,
+            to_s: time_s,
+            value,
+            limit,
+            nodes: 0,
+        });
+        let off = |value: f64| (value - limit).abs();
+        if off(value) > off(entry.value) {
+            (entry.value, entry.limit) = (value, limit);
+        }
+        (entry.last, entry.to_s) = (origin, time_s);
+        entry.nodes += 1;
+    }
+
+    /// Whatever was not noted at this node is over.
+    pub(super) fn close_all_but(&mut self, time_s: f64, mine: impl Fn(&TroubleKind) -> bool) {
+        let over: Vec<TroubleKind> = self
+            .open
+            .iter()
+            .filter(|(kind, t)| mine(kind) && t.to_s < time_s)
+            .map(|(kind, _)| kind.clone())
+            .collect();
+        for kind in over {
+            if let Some(trouble) = self.open.remove(&kind) {
+                self.keep(trouble);
+            }
+        }
+    }
+
+    fn see_travel(&mut self, node: &Node, stamp: &Stamp) {
+        for i in 0..self.machine.axes().len() {
+            let (travel, q) = (self.machine.axes()[i].travel, node.command[i]);
+            if let Travel::Between(low, high) = travel
+                && !travel.contains(q)
+            {
+                let limit = if q > high { high } else { low };
+                self.note(TroubleKind::OverTravel { axis: i }, node, stamp, q, limit);
+            }
+        }
+    }
+
+    /// The programmed feed against the velocities of the axes.
+    fn see_speed(&mut self, node: &Node, stamp: &Stamp, before: &Command) {
+        if node.is_rapid() || node.length <= 0.0 {
+            return;
+        }
+        let mut slowed = false;
+        for i in 0..self.machine.axes().len() {
+            let axis = &self.machine.axes()[i];
+            let Some(limit) = axis.limits.velocity else { continue };
+            let demanded = (node.command[i] - before[i]).abs() / node.length * node.speed;
+            if demanded > limit * (1.0 + 1e-9) {
+                let rotary = axis.kind == AxisKind::Rotary;
+                let near = |c: &TipControl| c.pole_sine(&node.command) < NEAR_POLE;
+                let near_pole = rotary && self.control.as_ref().is_some_and(near);
+                let kind = TroubleKind::OverSpeed { axis: i, near_pole };
+                self.note(kind, node, stamp, demanded, limit);
+                slowed = true;
+            }
+        }
+        if let (false, Some((axis, limit))) = (slowed, stamp.held_by)
+            && stamp.speed < 0.999 * node.speed
+        {
+            let kind = TroubleKind::SlowedDown { axis, limit: limit.into() };
+            self.note(kind, node, stamp, stamp.speed / node.speed, 1.0);
+        }
+    }
+
+    fn see_flip(&mut self, node: &Node, stamp: &Stamp, before: &Command, turned_rad: f64) {
+        if node.is_rapid() {
+            return;
+        }
+        for i in 0..self.machine.axes().len() {
+            let by = (node.command[i] - before[i]).abs();
+            if self.machine.axes()[i].kind == AxisKind::Rotary && by - turned_rad > FLIP_RAD {
+                self.note(TroubleKind::RotaryFlip { axis: i }, node, stamp, by, turned_rad);
+            }
+        }
+    }
+}
+
+impl Observer for Troubles {
+    fn path(&mut self, batch: &Batch<'_>) {
+        for (i, (node, stamp)) in batch.nodes.iter().zip(batch.stamps).enumerate() {
+            let axis = batch.deviation(i).nominal_axis.vector();
+            self.see_travel(node, stamp);
+            if let Some((before, axis_before)) = self.before {
+                let turned = axis.cross(&axis_before).norm().atan2(axis.dot(&axis_before));
+                self.see_speed(node, stamp, &before);
+                self.see_flip(node, stamp, &before, turned);
+            }
+            self.before = Some((node.command, axis));
+            if !self.open.is_empty() {
+                use TroubleKind::{Collision, NearMiss, RapidInStock};
+                let other = |k: &TroubleKind| {
+                    matches!(k, Collision { .. } | NearMiss { .. } | RapidInStock { .. })
+                };
+                self.close_all_but(stamp.time_s, |kind| !other(kind));
+            }
+        }
+    }
+}
