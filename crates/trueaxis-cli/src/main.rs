@@ -12,6 +12,7 @@ mod pose;
 mod predict;
 mod simulate;
 mod solve;
+mod trace;
 
 use clap::{Parser, Subcommand};
 use output::Outcome;
@@ -25,6 +26,7 @@ Examples:
   trueaxis check machines/xkas2525/machine.toml
   trueaxis pose machines/xkas2525/machine.toml --at \"X=3000 Y=1200 Z=-700 C=-90 A=15\"
   trueaxis solve machines/i5-engraver/machine.toml --tip \"10 20 30\" --axis \"0.3 -0.2 0.93\"
+  trueaxis simulate machines/i5-engraver/machine.toml examples/02_simulate/ring-fanuc.nc
   trueaxis predict examples/03_predict/nas979-on-xkas2525.toml
 
 Exit status: 0 done, 1 the verdict is no, 2 unusable input or arguments.")]
@@ -43,6 +45,8 @@ enum Verb {
     Solve(solve::Arguments),
     /// Simulate: run an NC program on the machine as it is: time, travel, deviations, troubles
     Simulate(simulate::Arguments),
+    /// Simulate: one block of a program through every stage, with the share of each error
+    Trace(trace::Arguments),
     /// Predict: will the test piece be good, and which error costs how much of it
     Predict(predict::Arguments),
 }
@@ -53,6 +57,7 @@ fn main() -> ExitCode {
         Verb::Pose(arguments) => pose::run(&arguments),
         Verb::Solve(arguments) => solve::run(&arguments),
         Verb::Simulate(arguments) => simulate::run(&arguments),
+        Verb::Trace(arguments) => trace::run(&arguments),
         Verb::Predict(arguments) => predict::run(&arguments),
     };
     match outcome {

@@ -99,17 +99,17 @@ fn deviation(
     Some((errors, deviation))
 }
 
-type Budget = Vec<(ErrorName, Deviation)>;
+pub type Budget = Vec<(ErrorName, Deviation)>;
 
 /// The deviation under each stated error alone.
-fn budget(machine: &Machine, command: &Command, errors: &ErrorValues) -> Budget {
+pub fn budget(machine: &Machine, command: &Command, errors: &ErrorValues) -> Budget {
     let alone = |index| machine.deviation(command, &errors.only(index));
     machine.stated_errors().into_iter().map(|(index, name)| (name, alone(index))).collect()
 }
 
-type Bodies = Vec<(String, [Pose<Bed, Body>; 2])>;
+pub type Bodies = Vec<(String, [Pose<Bed, Body>; 2])>;
 
-fn bodies(machine: &Machine, command: &Command, errors: &ErrorValues) -> Bodies {
+pub fn bodies(machine: &Machine, command: &Command, errors: &ErrorValues) -> Bodies {
     let nominal = machine.body_poses(command, &ErrorValues::default());
     let actual = machine.body_poses(command, errors);
     let names = machine.bodies().iter().map(|b| b.name.to_string());
@@ -121,16 +121,22 @@ fn array(v: Vec3) -> [f64; 3] {
 }
 
 fn document(deviation: &Deviation, budget: &Budget, bodies: Option<Bodies>) -> Value {
+    let mut document = json!({ "schema": "trueaxis/pose/1" });
+    let values = deviation_json(deviation);
+    for key in ["nominal", "actual", "deviation"] {
+        document[key] = values[key].clone();
+    }
+    document["budget"] = budget_json(budget);
+    if let Some(bodies) = bodies {
+        document["bodies"] = bodies_json(bodies);
+    }
+    document
+}
+
+/// Nominal and actual tool, and the difference.
+pub fn deviation_json(deviation: &Deviation) -> Value {
     let (tip, axis) = (deviation.nominal_tip.vector(), deviation.nominal_axis.vector());
-    let shares = budget.iter().map(|(name, share)| {
-        json!({
-            "error": name.to_string(),
-            "tip_um": array(share.tip_mm * 1e3),
-            "axis_urad": array(share.axis * 1e6),
-        })
-    });
-    let mut document = json!({
-        "schema": "trueaxis/pose/1",
+    json!({
         "nominal": { "tip_mm": array(tip), "axis": array(axis) },
         "actual": {
             "tip_mm": array(tip + deviation.tip_mm),
@@ -140,13 +146,24 @@ fn document(deviation: &Deviation, budget: &Budget, bodies: Option<Bodies>) -> V
             "tip_um": array(deviation.tip_mm * 1e3),
             "axis_urad": array(deviation.axis * 1e6),
         },
-        "budget": shares.collect::<Vec<_>>(),
-    });
-    if let Some(bodies) = bodies {
-        document["bodies"] =
-            bodies.into_iter().map(|(name, poses)| body_json(&name, poses)).collect();
-    }
-    document
+    })
+}
+
+/// Each error alone.
+pub fn budget_json(budget: &Budget) -> Value {
+    let share = |(name, share): &(ErrorName, Deviation)| {
+        json!({
+            "error": name.to_string(),
+            "tip_um": array(share.tip_mm * 1e3),
+            "axis_urad": array(share.axis * 1e6),
+        })
+    };
+    budget.iter().map(share).collect()
+}
+
+/// Nominal and actual place of every body.
+pub fn bodies_json(bodies: Bodies) -> Value {
+    bodies.into_iter().map(|(name, poses)| body_json(&name, poses)).collect()
 }
 
 fn body_json(name: &str, [nominal, actual]: [Pose<Bed, Body>; 2]) -> Value {
@@ -191,7 +208,7 @@ fn table(
 }
 
 /// The errors that move the tip or turn the axis here, the greatest first.
-fn budget_table(budget: &Budget) -> String {
+pub fn budget_table(budget: &Budget) -> String {
     let mut felt: Vec<_> =
         budget.iter().filter(|(_, d)| d.tip_mm.norm() + d.axis.norm() > 0.0).collect();
     if felt.is_empty() {
@@ -209,7 +226,7 @@ fn budget_table(budget: &Budget) -> String {
     text
 }
 
-fn bodies_table(bodies: &Bodies) -> String {
+pub fn bodies_table(bodies: &Bodies) -> String {
     let mut text = String::from(
         "\nbody in the machine frame      nominal, mm                   actual - nominal, µm\n\
          \u{20}             x            y            z           x         y         z\n",

@@ -17,6 +17,7 @@ mod setup;
 mod summary;
 mod table;
 mod tool_path;
+mod trace;
 mod trouble;
 
 pub use axis_path::{Fault, Node, PathStep};
@@ -28,6 +29,7 @@ pub use setup::{CONTROLS, SetUp, SetUpTool, control_named, read_setup};
 pub use summary::{AxisUse, Summary, Worst, shown, unit};
 pub use table::{CsvTable, headings};
 pub use tool_path::Batch;
+pub use trace::{Trace, TracedNode, block_line, trace};
 pub use trouble::{Held, Trouble, TroubleKind, Troubles};
 
 use axis_path::AxisPath;
@@ -39,7 +41,7 @@ use trueaxis_geometry::input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_machine::batch::CompiledMachine;
 use trueaxis_machine::tcp::TipControl;
-use trueaxis_nc::moves::{Branch, Event, Origin, Position, Step};
+use trueaxis_nc::moves::{Branch, Position, Step};
 use trueaxis_nc::{Program, interpret};
 
 /// Takes what the simulation finds, stretch by stretch, in constant memory.
@@ -47,8 +49,8 @@ pub trait Observer {
     /// The next stretch of the path.
     fn path(&mut self, batch: &Batch<'_>);
 
-    /// Something else that the program does, such as a message or a stop.
-    fn event(&mut self, _event: &Event, _origin: Origin) {}
+    /// What the interpreter hands out, before the path of it comes.
+    fn step(&mut self, _step: &Step) {}
 }
 
 /// How a program is simulated.
@@ -164,9 +166,7 @@ impl<'w, 'o> Walk<'w, 'o> {
         if self.stopped() {
             return;
         }
-        if let Step::Event(event, origin) = step {
-            self.observers.iter_mut().for_each(|o| o.event(event, *origin));
-        }
+        self.observers.iter_mut().for_each(|o| o.step(step));
         let (nodes, stamps, clock) = (&mut self.nodes, &mut self.stamps, &mut self.clock);
         let mut tool = None;
         self.path.take(step, &mut |step| match step {

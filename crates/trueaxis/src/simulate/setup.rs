@@ -216,7 +216,7 @@ impl SetUp {
     }
 
     /// The machine whose workpiece frame is that of the results.
-    pub(super) fn mounted(&self, machine: &Machine) -> Machine {
+    pub fn mounted(&self, machine: &Machine) -> Machine {
         let frame = self.workpiece_at.map(|number| self.work_offsets.get(&number));
         match frame {
             None => machine.clone(),

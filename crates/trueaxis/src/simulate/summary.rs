@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
-use trueaxis_nc::moves::{Event, Origin};
+use trueaxis_nc::moves::{Event, Origin, Step};
 
 /// The largest of something, and where it is.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -204,12 +204,12 @@ impl Observer for Summary {
         }
     }
 
-    fn event(&mut self, event: &Event, _origin: Origin) {
-        match event {
-            Event::Message(text) if self.messages.len() < MOST_MESSAGES => {
+    fn step(&mut self, step: &Step) {
+        match step {
+            Step::Event(Event::Message(text), _) if self.messages.len() < MOST_MESSAGES => {
                 self.messages.push(text.clone());
             }
-            Event::Stop { optional: false } => self.stops += 1,
+            Step::Event(Event::Stop { optional: false }, _) => self.stops += 1,
             _ => {}
         }
     }
