@@ -383,7 +383,7 @@ impl<'m> AxisPath<'m> {
         let scale = self.scale(curve);
         let length_mm = curve.length_mm() * scale;
         let pieces = self.count(m, curve, length_mm, turned)?;
-        let (length, unit) = path_length(length_mm, turned);
+        let length = path_length(length_mm, turned);
         let speed = feed.along(length);
         let mut command = begin;
         for k in 1..=pieces {
@@ -400,7 +400,7 @@ impl<'m> AxisPath<'m> {
                 self.set_linear(&mut command, start + (goal - start) * u);
             }
             self.command = command;
-            out(self.next(m, length * unit / f64::from(pieces), speed, k == pieces));
+            out(self.next(m, length / f64::from(pieces), speed, k == pieces));
         }
         Ok(())
     }
@@ -434,17 +434,20 @@ impl<'m> AxisPath<'m> {
             Turning::Swing(swing, _) => swing.travelled_rad(),
         };
         let length_mm = curve.length_mm() * self.scale(curve);
-        let (length, unit) = path_length(length_mm, turned);
+        let length = path_length(length_mm, turned);
         let pieces = self.count(m, curve, length_mm, turned)?;
-        let pieces = self.finer(control, curve, &turning, pieces);
-        let speed = feed.along(length);
+        let way = TipWay {
+            control,
+            m,
+            curve,
+            turning: &turning,
+            begin,
+            length,
+            speed: feed.along(length),
+        };
         for k in 1..=pieces {
-            let u = fraction(k, pieces);
-            let (basic, command) = self
-                .tip_pose(control, curve, &turning, &begin, u)
+            self.advance(&way, fraction(k - 1, pieces), fraction(k, pieces), 0, out)
                 .map_err(|error| unreachable(m, &error))?;
-            (self.basic, self.command) = (basic, command);
-            out(self.next(m, length * unit / f64::from(pieces), speed, k == pieces));
         }
         if let Turning::Swing(swing, _) = &turning {
             self.tangent = swing.end_tangent();
@@ -455,51 +458,65 @@ impl<'m> AxisPath<'m> {
         Ok(())
     }
 
+    /// Goes on from u0 to u1, in smaller pieces where the tip would leave the path, or a rotary
+    /// axis turn too far, while the axes go straight between nodes.
+    fn advance(
+        &mut self,
+        way: &TipWay<'_>,
+        u0: f64,
+        u1: f64,
+        halvings: u32,
+        out: &mut dyn FnMut(PathStep),
+    ) -> Result<(), SolveError> {
+        let (basic, command) = self.tip_pose(way, u1)?;
+        if halvings < MOST_HALVINGS && self.is_too_coarse(way, 0.5 * (u0 + u1), &command) {
+            let middle = 0.5 * (u0 + u1);
+            self.advance(way, u0, middle, halvings + 1, out)?;
+            return self.advance(way, middle, u1, halvings + 1, out);
+        }
+        (self.basic, self.command) = (basic, command);
+        out(self.next(way.m, way.length * (u1 - u0), way.speed, u1 == 1.0));
+        Ok(())
+    }
+
+    fn is_too_coarse(&self, way: &TipWay<'_>, middle: f64, end: &Command) -> bool {
+        let Densify::Tolerance { chord_mm, angle_rad, .. } = self.densify else { return false };
+        let turned = self.rotary_way(&self.command, end);
+        if turned == 0.0 {
+            return false;
+        }
+        let axes = self.machine.axes().iter().zip(self.command.iter().zip(end));
+        let far = |(axis, (a, b)): (&trueaxis_machine::axis::Axis, (&f64, &f64))| {
+            axis.kind == AxisKind::Rotary && (b - a).abs() > angle_rad * (1.0 + 1e-9)
+        };
+        if axes.into_iter().any(far) {
+            return true;
+        }
+        let Ok((there, _)) = self.tip_pose(way, middle) else { return false };
+        let between = std::array::from_fn(|i| 0.5 * (self.command[i] + end[i]));
+        let tip = way.control.tip_and_axis(&between).0;
+        (tip - self.place_in_workpiece(there)).norm() > chord_mm
+    }
+
     /// Basic coordinates and axes at u of a move of the tip.
-    fn tip_pose(
-        &self,
-        control: &TipControl,
-        curve: &Curve,
-        turning: &Turning,
-        begin: &Command,
-        u: f64,
-    ) -> Result<(Vec3, Command), SolveError> {
-        let mut command = match turning {
+    fn tip_pose(&self, way: &TipWay<'_>, u: f64) -> Result<(Vec3, Command), SolveError> {
+        let begin = &way.begin;
+        let mut command = match way.turning {
             Turning::Axes(end) if u == 1.0 => *end,
             Turning::Axes(end) => std::array::from_fn(|i| begin[i] + (end[i] - begin[i]) * u),
             Turning::Swing(_, Some(end)) if u == 1.0 => *end,
             Turning::Swing(swing, _) => {
                 let direction = Direction::of(swing.at(u)).unwrap_or(Direction::Z);
-                nearest(control, direction, &self.command)?
+                nearest(way.control, direction, &self.command)?
             }
         };
-        let basic = self.in_basic(curve.at(u));
-        if !control.place(self.place_in_workpiece(basic), &mut command) {
+        let basic = self.in_basic(way.curve.at(u));
+        if !way.control.place(self.place_in_workpiece(basic), &mut command) {
             let moving = self.machine.axes().iter().filter(|a| a.kind == AxisKind::Linear);
             let moving = moving.map(|a| a.name).collect();
             return Err(SolveError::TipUnreachable { missed_by_mm: f64::NAN, moving });
         }
         Ok((basic, command))
-    }
-
-    /// More pieces where the tip would leave the path while the axes go straight between nodes.
-    ///
-    /// ```text
-    ///     n = √(sag / tolerance)      the sag of a smooth path falls with the square of n
-    /// ```
-    fn finer(&self, control: &TipControl, curve: &Curve, turning: &Turning, pieces: u32) -> u32 {
-        let Some(tolerance_mm) = self.densify.line_chord_mm() else { return pieces };
-        if matches!(turning, Turning::Axes(end) if *end == self.command) {
-            return pieces;
-        }
-        let begin = self.command;
-        let (half, whole) = (0.5 / f64::from(pieces), 1.0 / f64::from(pieces));
-        let at = |u: f64| self.tip_pose(control, curve, turning, &begin, u);
-        let (Ok((middle, _)), Ok((_, end))) = (at(half), at(whole)) else { return pieces };
-        let between = std::array::from_fn(|i| 0.5 * (begin[i] + end[i]));
-        let sag_mm = (control.tip_and_axis(&between).0 - self.place_in_workpiece(middle)).norm();
-        let more = (sag_mm / tolerance_mm).sqrt().ceil();
-        if more <= 1.0 { pieces } else { (f64::from(pieces) * more).min(MOST_PIECES) as u32 }
     }
 
     /// How the tool axis gets to the end of a move.
@@ -606,7 +623,7 @@ impl<'m> AxisPath<'m> {
         }
         let length_mm = (self.linear_axes(&end) - self.linear_axes(&begin)).norm();
         let turned = self.rotary_way(&begin, &end);
-        let (length, unit) = path_length(length_mm, turned);
+        let length = path_length(length_mm, turned);
         let pieces = self.densify.count(length_mm, turned) as u32;
         let speed = feed.along(length);
         for k in 1..=pieces.max(1) {
@@ -614,7 +631,7 @@ impl<'m> AxisPath<'m> {
             self.command = std::array::from_fn(|i| {
                 if u == 1.0 { end[i] } else { begin[i] + (end[i] - begin[i]) * u }
             });
-            let part = length * unit / f64::from(pieces.max(1));
+            let part = length / f64::from(pieces.max(1));
             out(self.next(m, part, speed, k == pieces.max(1)));
         }
         self.reread();
@@ -729,6 +746,22 @@ impl Speed {
     }
 }
 
+/// A move of the tip while it is being cut into pieces.
+struct TipWay<'a> {
+    control: &'a TipControl,
+    m: &'a Move,
+    curve: &'a Curve,
+    turning: &'a Turning,
+    /// Where the axes stood.
+    begin: Command,
+    /// The length that the feed counts along.
+    length: f64,
+    speed: f64,
+}
+
+/// A piece is halved so often at most: near a pole an axis may jump however small the piece.
+const MOST_HALVINGS: u32 = 14;
+
 /// How the tool axis turns in a move of the tip.
 enum Turning {
     /// The rotary axes go evenly to these positions.
@@ -737,13 +770,10 @@ enum Turning {
     Swing(Swing, Option<Command>),
 }
 
-/// The length that the feed counts along, and its part per unit: mm of the tip, or degrees of the
+/// The length that the feed counts along: mm of the tip, or degrees of the
 /// rotary axes where the tip stands.
-fn path_length(length_mm: f64, turned_rad: f64) -> (f64, f64) {
-    match length_mm > 1e-9 {
-        true => (length_mm, 1.0),
-        false => (turned_rad.to_degrees(), 1.0),
-    }
+fn path_length(length_mm: f64, turned_rad: f64) -> f64 {
+    if length_mm > 1e-9 { length_mm } else { turned_rad.to_degrees() }
 }
 
 fn fraction(k: u32, pieces: u32) -> f64 {

@@ -66,14 +66,6 @@ impl Densify {
             Self::Tolerance { chord_mm, .. } => Some(chord_mm),
         }
     }
-
-    /// The tolerance for lines on which rotary axes turn.
-    pub(super) fn line_chord_mm(&self) -> Option<f64> {
-        match *self {
-            Self::Tolerance { chord_mm, .. } => Some(chord_mm),
-            _ => None,
-        }
-    }
 }
 
 #[cfg(test)]
