@@ -9,8 +9,8 @@ use trueaxis::machine::Machine;
 use trueaxis::nc::{Control, Program};
 use trueaxis::report::{Simulation, simulation_json, simulation_text};
 use trueaxis::simulate::{
-    CONTROLS, CsvTable, Densify, Observer, Options, Run, Series, SetUp, Summary, Troubles,
-    control_named, read_program, read_setup, simulate,
+    AxisWatch, CONTROLS, CsvTable, Densify, Observer, Options, Run, Series, SetUp, Summary,
+    TroubleList, control_named, read_program, read_setup, simulate,
 };
 
 /// The program to simulate.
@@ -186,26 +186,25 @@ pub fn run(arguments: &Arguments) -> Outcome {
         Format::Json => Answer::Json(simulation_json(&simulation)),
         Format::Text => Answer::Text(simulation_text(&simulation)),
     };
-    match (show(&answer), errors, troubles.are_grave()) {
+    match (show(&answer), errors, troubles.is_grave()) {
         (Outcome::Done, true, _) => Outcome::Unusable,
         (Outcome::Done, _, true) => Outcome::No,
         (shown, ..) => shown,
     }
 }
 
-type Found = (Run, Summary, Troubles, Series);
+type Found = (Run, Summary, TroubleList, Series);
 
 fn walk(job: &Job, more: &mut [&mut dyn Observer]) -> Found {
     let mut summary = Summary::of(&job.machine);
-    let mut troubles = Troubles::on(&job.machine);
+    let mut watch = AxisWatch::on(&job.machine);
     let mut series = Series::of(&job.machine);
-    let mut observers: Vec<&mut dyn Observer> = vec![&mut summary, &mut troubles, &mut series];
+    let mut observers: Vec<&mut dyn Observer> = vec![&mut summary, &mut watch, &mut series];
     for observer in more {
         observers.push(&mut **observer);
     }
     let run = simulate(&job.machine, &job.program, &job.setup, &job.options, &mut observers);
-    troubles.finish();
-    (run, summary, troubles, series)
+    (run, summary, TroubleList::of([watch.log]), series)
 }
 
 /// The table is written beside its place and moved there when all is well.

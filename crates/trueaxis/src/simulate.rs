@@ -30,7 +30,7 @@ pub use summary::{AxisUse, Summary, Worst, shown, unit};
 pub use table::{CsvTable, headings};
 pub use tool_path::Batch;
 pub use trace::{Trace, TracedNode, block_line, trace};
-pub use trouble::{Held, Trouble, TroubleKind, Troubles};
+pub use trouble::{AxisWatch, Held, Log, Trouble, TroubleKind, TroubleList};
 
 use axis_path::AxisPath;
 use clock::Clock;

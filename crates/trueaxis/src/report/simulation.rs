@@ -1,7 +1,7 @@
 //! A simulation for people and for programs.
 
 use crate::simulate::{
-    Held, Run, SetUp, Summary, Trouble, TroubleKind, Troubles, Worst, shown, unit,
+    Held, Run, SetUp, Summary, Trouble, TroubleKind, TroubleList, Worst, shown, unit,
 };
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
@@ -25,7 +25,7 @@ pub struct Simulation<'a> {
     /// What it comes to.
     pub summary: &'a Summary,
     /// What went wrong.
-    pub troubles: &'a Troubles,
+    pub troubles: &'a TroubleList,
     /// The file of the path, if one was written.
     pub path_file: Option<&'a str>,
 }

@@ -110,65 +110,18 @@ const NEAR_POLE: f64 = 0.035;
 /// A rotary axis that turns this much more than the tool axis flips, rad.
 const FLIP_RAD: f64 = std::f64::consts::FRAC_PI_2;
 
-/// Collects troubles; consecutive ones of a kind are one.
-#[derive(Debug)]
-pub struct Troubles {
-    machine: Machine,
-    control: Option<TipControl>,
-    /// All that are over, in the order of their end.
-    pub list: Vec<Trouble>,
-    /// How many more there were than are kept.
-    pub left_out: u64,
+/// Troubles as they come; consecutive ones of a kind are one.
+#[derive(Debug, Default)]
+pub struct Log {
+    list: Vec<Trouble>,
+    left_out: u64,
     open: BTreeMap<TroubleKind, Trouble>,
-    before: Option<(Command, trueaxis_geometry::Vec3)>,
     kept: BTreeMap<TroubleKind, usize>,
 }
 
-impl Troubles {
-    /// None yet, on a machine.
-    pub fn on(machine: &Machine) -> Self {
-        Self {
-            machine: machine.clone(),
-            control: TipControl::of(machine),
-            list: Vec::new(),
-            left_out: 0,
-            open: BTreeMap::new(),
-            before: None,
-            kept: BTreeMap::new(),
-        }
-    }
-
-    /// Whether part or machine are in danger anywhere.
-    pub fn are_grave(&self) -> bool {
-        self.list.iter().chain(self.open.values()).any(|t| t.grave)
-    }
-
-    /// Closes what is still open; the list is then in the order of time.
-    pub fn finish(&mut self) {
-        let open = std::mem::take(&mut self.open);
-        open.into_values().for_each(|t| self.keep(t));
-        self.list.sort_by(|a, b| a.from_s.total_cmp(&b.from_s));
-    }
-
-    fn keep(&mut self, trouble: Trouble) {
-        let count = self.kept.entry(trouble.kind.clone()).or_default();
-        *count += 1;
-        if *count <= MOST {
-            self.list.push(trouble);
-        } else {
-            self.left_out += 1;
-        }
-    }
-
-    /// Notes a trouble at a node; the one with the larger `badness` is the worst of a stretch.
-    pub(super) fn note(
-        &mut self,
-        kind: TroubleKind,
-        node: &Node,
-        stamp: &Stamp,
-        value: f64,
-        limit: f64,
-    ) {
+impl Log {
+    /// Notes a trouble at a node; the value farthest from its limit is the worst of a stretch.
+    pub fn note(&mut self, kind: TroubleKind, node: &Node, stamp: &Stamp, value: f64, limit: f64) {
         use TroubleKind::{Collision, OverTravel, RapidInStock};
         let grave = matches!(kind, Collision { .. } | OverTravel { .. } | RapidInStock { .. });
         let (origin, time_s) = (node.origin, stamp.time_s);
@@ -183,27 +136,85 @@ impl Troubles {
             limit,
             nodes: 0,
         });
-        let off = |value: f64| (value - limit).abs();
-        if off(value) > off(entry.value) {
+        if (value - limit).abs() > (entry.value - entry.limit).abs() {
             (entry.value, entry.limit) = (value, limit);
         }
         (entry.last, entry.to_s) = (origin, time_s);
         entry.nodes += 1;
     }
 
-    /// Whatever was not noted at this node is over.
-    pub(super) fn close_all_but(&mut self, time_s: f64, mine: impl Fn(&TroubleKind) -> bool) {
-        let over: Vec<TroubleKind> = self
-            .open
-            .iter()
-            .filter(|(kind, t)| mine(kind) && t.to_s < time_s)
-            .map(|(kind, _)| kind.clone())
-            .collect();
-        for kind in over {
+    /// Whatever was not noted at this time is over.
+    pub fn close(&mut self, time_s: f64) {
+        if self.open.values().all(|t| t.to_s >= time_s) {
+            return;
+        }
+        let over = self.open.iter().filter(|(_, t)| t.to_s < time_s).map(|(k, _)| k.clone());
+        for kind in over.collect::<Vec<_>>() {
             if let Some(trouble) = self.open.remove(&kind) {
                 self.keep(trouble);
             }
         }
+    }
+
+    fn keep(&mut self, trouble: Trouble) {
+        let count = self.kept.entry(trouble.kind.clone()).or_default();
+        *count += 1;
+        if *count <= MOST {
+            self.list.push(trouble);
+        } else {
+            self.left_out += 1;
+        }
+    }
+
+    fn close_all(&mut self) {
+        let open = std::mem::take(&mut self.open);
+        open.into_values().for_each(|t| self.keep(t));
+    }
+}
+
+/// What went wrong in a whole run.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct TroubleList {
+    /// In the order of time.
+    pub list: Vec<Trouble>,
+    /// How many more there were than are kept.
+    pub left_out: u64,
+}
+
+impl TroubleList {
+    /// All that some logs hold.
+    pub fn of(logs: impl IntoIterator<Item = Log>) -> Self {
+        let mut all = Self::default();
+        for mut log in logs {
+            log.close_all();
+            all.list.append(&mut log.list);
+            all.left_out += log.left_out;
+        }
+        all.list.sort_by(|a, b| a.from_s.total_cmp(&b.from_s));
+        all
+    }
+
+    /// Whether part or machine are in danger anywhere.
+    pub fn is_grave(&self) -> bool {
+        self.list.iter().any(|t| t.grave)
+    }
+}
+
+/// Watches travel, speed and flips of the axes.
+#[derive(Debug)]
+pub struct AxisWatch {
+    machine: Machine,
+    control: Option<TipControl>,
+    /// What it found.
+    pub log: Log,
+    before: Option<(Command, trueaxis_geometry::Vec3)>,
+}
+
+impl AxisWatch {
+    /// Nothing found yet, on a machine.
+    pub fn on(machine: &Machine) -> Self {
+        let control = TipControl::of(machine);
+        Self { machine: machine.clone(), control, log: Log::default(), before: None }
     }
 
     fn see_travel(&mut self, node: &Node, stamp: &Stamp) {
@@ -213,7 +224,7 @@ impl Troubles {
                 && !travel.contains(q)
             {
                 let limit = if q > high { high } else { low };
-                self.note(TroubleKind::OverTravel { axis: i }, node, stamp, q, limit);
+                self.log.note(TroubleKind::OverTravel { axis: i }, node, stamp, q, limit);
             }
         }
     }
@@ -233,7 +244,7 @@ impl Troubles {
                 let near = |c: &TipControl| c.pole_sine(&node.command) < NEAR_POLE;
                 let near_pole = rotary && self.control.as_ref().is_some_and(near);
                 let kind = TroubleKind::OverSpeed { axis: i, near_pole };
-                self.note(kind, node, stamp, demanded, limit);
+                self.log.note(kind, node, stamp, demanded, limit);
                 slowed = true;
             }
         }
@@ -241,7 +252,7 @@ impl Troubles {
             && stamp.speed < 0.999 * node.speed
         {
             let kind = TroubleKind::SlowedDown { axis, limit: limit.into() };
-            self.note(kind, node, stamp, stamp.speed / node.speed, 1.0);
+            self.log.note(kind, node, stamp, stamp.speed / node.speed, 1.0);
         }
     }
 
@@ -252,13 +263,13 @@ impl Troubles {
         for i in 0..self.machine.axes().len() {
             let by = (node.command[i] - before[i]).abs();
             if self.machine.axes()[i].kind == AxisKind::Rotary && by - turned_rad > FLIP_RAD {
-                self.note(TroubleKind::RotaryFlip { axis: i }, node, stamp, by, turned_rad);
+                self.log.note(TroubleKind::RotaryFlip { axis: i }, node, stamp, by, turned_rad);
             }
         }
     }
 }
 
-impl Observer for Troubles {
+impl Observer for AxisWatch {
     fn path(&mut self, batch: &Batch<'_>) {
         for (i, (node, stamp)) in batch.nodes.iter().zip(batch.stamps).enumerate() {
             let axis = batch.deviation(i).nominal_axis.vector();
@@ -269,13 +280,7 @@ impl Observer for Troubles {
                 self.see_flip(node, stamp, &before, turned);
             }
             self.before = Some((node.command, axis));
-            if !self.open.is_empty() {
-                use TroubleKind::{Collision, NearMiss, RapidInStock};
-                let other = |k: &TroubleKind| {
-                    matches!(k, Collision { .. } | NearMiss { .. } | RapidInStock { .. })
-                };
-                self.close_all_but(stamp.time_s, |kind| !other(kind));
-            }
+            self.log.close(stamp.time_s);
         }
     }
 }
