@@ -7,6 +7,7 @@
 //! ```
 
 mod axis_path;
+mod basic;
 mod clock;
 mod curve;
 mod densify;
@@ -41,7 +42,7 @@ use trueaxis_geometry::input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_machine::batch::CompiledMachine;
 use trueaxis_machine::tcp::TipControl;
-use trueaxis_nc::moves::{Branch, Position, Step};
+use trueaxis_nc::moves::Step;
 use trueaxis_nc::{Program, interpret};
 
 /// Takes what the simulation finds, stretch by stretch, in constant memory.
@@ -92,10 +93,7 @@ pub fn simulate(
 ) -> Run {
     let machine = setup.mounted(machine);
     let control = TipControl::of(&machine);
-    let angles = |direction: [f64; 3], branch: Branch, now: &Position| {
-        axis_path::rotary_angles(control.as_ref()?, direction, branch, now)
-    };
-    let folder = Folder::beside(Path::new(program.file()), &angles);
+    let folder = Folder::beside(Path::new(program.file()), control.as_ref());
     let settings = setup.settings(options.keep_going);
     let mut walk = Walk::new(&machine, setup, options, observers);
     let outcome = interpret(program, &folder, &settings, &mut |step| walk.take(&step));
@@ -186,7 +184,8 @@ impl<'w, 'o> Walk<'w, 'o> {
 
     /// Without `keep_going` the first fault ends the simulation.
     fn stopped(&self) -> bool {
-        !self.keep_going && !(self.path.faults.is_empty() && self.faults.is_empty())
+        let sound = self.path.faults.is_empty() && self.faults.is_empty();
+        !(self.keep_going || sound)
     }
 
     fn evaluate(&mut self, most: usize) {

@@ -7,18 +7,25 @@
 //!                                  linear axes by TipControl::place
 //! ```
 
+mod axes;
+mod fault;
+mod tip;
+
+pub use fault::Fault;
+
+use super::basic::{start, workpiece_from_basic};
 use super::curve::Curve;
 use super::densify::{Densify, MOST_PIECES};
-use super::orientation::{NoSwing, Swing, angle};
 use super::setup::SetUp;
-use trueaxis_geometry::frame::{Direction, Pose, Workpiece};
+use fault::fault;
+use trueaxis_geometry::frame::{Direction, Workpiece};
 use trueaxis_geometry::{Mat3, Vec3};
-use trueaxis_machine::axis::{AxisKind, Command, Travel};
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::tcp::TipControl;
-use trueaxis_machine::{Machine, SolveError};
 use trueaxis_nc::moves::{
-    Axis, AxisSet, Branch, Cone, Coordinates, Event, FeedMode, Frame, Move, MoveKind,
-    OrientationPath, Origin, PathControl, Position, Step, Way,
+    Axis, AxisSet, Coordinates, Event, FeedMode, Frame, Move, MoveKind, OrientationPath, Origin,
+    PathControl, Position, Step, Way,
 };
 
 /// One place of the path that the control commands.
@@ -59,21 +66,6 @@ pub enum PathStep {
     Node(Node),
     /// Another tool is in the spindle from here on.
     Tool(u32),
-}
-
-/// Why a move could not be made.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Fault {
-    /// The block.
-    pub origin: Origin,
-    /// What it is about in the block, to find the column.
-    pub word: Option<u8>,
-    /// Short name.
-    pub code: &'static str,
-    /// What is wrong.
-    pub message: String,
-    /// What to do.
-    pub hint: &'static str,
 }
 
 /// What the control knows while it runs.
@@ -364,199 +356,6 @@ impl<'m> AxisPath<'m> {
         }
     }
 
-    /// The axes go straight to their positions; circles by their chords.
-    fn axis_move(
-        &mut self,
-        m: &Move,
-        curve: &Curve,
-        feed: Speed,
-        out: &mut dyn FnMut(PathStep),
-    ) -> Result<(), Fault> {
-        if m.direction.is_some() {
-            let message = "a tool direction without tool-centre-point control".to_owned();
-            let hint = "switch it on before: TRAORI, G43.5, M128";
-            return Err(fault(m, None, "direction-without-tcp", message, hint));
-        }
-        let (begin, end) = (self.command, self.other_axes(m));
-        let turned = self.rotary_way(&begin, &end);
-        let straight = matches!(curve, Curve::Line { .. });
-        let scale = self.scale(curve);
-        let length_mm = curve.length_mm() * scale;
-        let pieces = self.count(m, curve, length_mm, turned)?;
-        let length = path_length(length_mm, turned);
-        let speed = feed.along(length);
-        let mut command = begin;
-        for k in 1..=pieces {
-            let u = fraction(k, pieces);
-            for (i, q) in command.iter_mut().enumerate() {
-                *q = if u == 1.0 { end[i] } else { begin[i] + (end[i] - begin[i]) * u };
-            }
-            if !straight || u == 1.0 {
-                self.basic = self.in_basic(curve.at(u));
-                self.set_linear(&mut command, self.basic + self.tool);
-            } else {
-                let goal = self.in_basic(curve.at(1.0)) + self.tool;
-                let start = self.linear_axes(&begin);
-                self.set_linear(&mut command, start + (goal - start) * u);
-            }
-            self.command = command;
-            out(self.next(m, length / f64::from(pieces), speed, k == pieces));
-        }
-        Ok(())
-    }
-
-    /// The tip goes along the curve while the tool axis turns as programmed.
-    fn tip_move(
-        &mut self,
-        m: &Move,
-        curve: &Curve,
-        feed: Speed,
-        out: &mut dyn FnMut(PathStep),
-    ) -> Result<(), Fault> {
-        let Some(control) = self.control.take() else { return Ok(()) };
-        let done = self.tip_move_with(&control, m, curve, feed, out);
-        self.control = Some(control);
-        done
-    }
-
-    fn tip_move_with(
-        &mut self,
-        control: &TipControl,
-        m: &Move,
-        curve: &Curve,
-        feed: Speed,
-        out: &mut dyn FnMut(PathStep),
-    ) -> Result<(), Fault> {
-        let turning = self.turning(control, m)?;
-        let begin = self.command;
-        let turned = match &turning {
-            Turning::Axes(end) => self.rotary_way(&begin, end),
-            Turning::Swing(swing, _) => swing.travelled_rad(),
-        };
-        let length_mm = curve.length_mm() * self.scale(curve);
-        let length = path_length(length_mm, turned);
-        let pieces = self.count(m, curve, length_mm, turned)?;
-        let way = TipWay {
-            control,
-            m,
-            curve,
-            turning: &turning,
-            begin,
-            length,
-            speed: feed.along(length),
-        };
-        for k in 1..=pieces {
-            self.advance(&way, fraction(k - 1, pieces), fraction(k, pieces), 0, out)
-                .map_err(|error| unreachable(m, &error))?;
-        }
-        if let Turning::Swing(swing, _) = &turning {
-            self.tangent = swing.end_tangent();
-            if matches!(self.orientation, OrientationPath::Cone(_)) {
-                self.orientation = OrientationPath::GreatCircle;
-            }
-        }
-        Ok(())
-    }
-
-    /// Goes on from u0 to u1, in smaller pieces where the tip would leave the path, or a rotary
-    /// axis turn too far, while the axes go straight between nodes.
-    fn advance(
-        &mut self,
-        way: &TipWay<'_>,
-        u0: f64,
-        u1: f64,
-        halvings: u32,
-        out: &mut dyn FnMut(PathStep),
-    ) -> Result<(), SolveError> {
-        let (basic, command) = self.tip_pose(way, u1)?;
-        if halvings < MOST_HALVINGS && self.is_too_coarse(way, 0.5 * (u0 + u1), &command) {
-            let middle = 0.5 * (u0 + u1);
-            self.advance(way, u0, middle, halvings + 1, out)?;
-            return self.advance(way, middle, u1, halvings + 1, out);
-        }
-        (self.basic, self.command) = (basic, command);
-        out(self.next(way.m, way.length * (u1 - u0), way.speed, u1 == 1.0));
-        Ok(())
-    }
-
-    fn is_too_coarse(&self, way: &TipWay<'_>, middle: f64, end: &Command) -> bool {
-        let Densify::Tolerance { chord_mm, angle_rad, .. } = self.densify else { return false };
-        let turned = self.rotary_way(&self.command, end);
-        if turned == 0.0 {
-            return false;
-        }
-        let axes = self.machine.axes().iter().zip(self.command.iter().zip(end));
-        let far = |(axis, (a, b)): (&trueaxis_machine::axis::Axis, (&f64, &f64))| {
-            axis.kind == AxisKind::Rotary && (b - a).abs() > angle_rad * (1.0 + 1e-9)
-        };
-        if axes.into_iter().any(far) {
-            return true;
-        }
-        let Ok((there, _)) = self.tip_pose(way, middle) else { return false };
-        let between = std::array::from_fn(|i| 0.5 * (self.command[i] + end[i]));
-        let tip = way.control.tip_and_axis(&between).0;
-        (tip - self.place_in_workpiece(there)).norm() > chord_mm
-    }
-
-    /// Basic coordinates and axes at u of a move of the tip.
-    fn tip_pose(&self, way: &TipWay<'_>, u: f64) -> Result<(Vec3, Command), SolveError> {
-        let begin = &way.begin;
-        let mut command = match way.turning {
-            Turning::Axes(end) if u == 1.0 => *end,
-            Turning::Axes(end) => std::array::from_fn(|i| begin[i] + (end[i] - begin[i]) * u),
-            Turning::Swing(_, Some(end)) if u == 1.0 => *end,
-            Turning::Swing(swing, _) => {
-                let direction = Direction::of(swing.at(u)).unwrap_or(Direction::Z);
-                nearest(way.control, direction, &self.command)?
-            }
-        };
-        let basic = self.in_basic(way.curve.at(u));
-        if !way.control.place(self.place_in_workpiece(basic), &mut command) {
-            let moving = self.machine.axes().iter().filter(|a| a.kind == AxisKind::Linear);
-            let moving = moving.map(|a| a.name).collect();
-            return Err(SolveError::TipUnreachable { missed_by_mm: f64::NAN, moving });
-        }
-        Ok((basic, command))
-    }
-
-    /// How the tool axis gets to the end of a move.
-    fn turning(&self, control: &TipControl, m: &Move) -> Result<Turning, Fault> {
-        let axes = self.other_axes(m);
-        let wanted = match m.direction {
-            Some(direction) => Some(self.direction_in_workpiece(m, direction)?),
-            None => None,
-        };
-        let (_, now) = control.tip_and_axis(&self.command);
-        let cone = match self.orientation {
-            OrientationPath::Axes => {
-                let Some(wanted) = wanted else { return Ok(Turning::Axes(axes)) };
-                let end =
-                    nearest(control, wanted, &self.command).map_err(|e| unreachable(m, &e))?;
-                return Ok(Turning::Axes(end));
-            }
-            OrientationPath::GreatCircle => None,
-            OrientationPath::Cone(cone) => Some(cone),
-        };
-        let rotary = Axis::ALL[3..6].iter().any(|a| m.named.contains(*a));
-        // Angles under ORIVECT: their direction counts, and the axes end on them.
-        let end = (wanted.is_none() && rotary).then_some(axes);
-        let to = wanted.map(|d| d.vector()).or(end.map(|end| control.tip_and_axis(&end).1));
-        let swing = match cone {
-            Some(cone) => {
-                let cone = self.cone_in_workpiece(&cone);
-                Swing::cone(now, to, &cone, self.tangent)
-            }
-            None if to.is_none() => return Ok(Turning::Axes(axes)),
-            None => Swing::great_circle(now, to.unwrap_or(now)),
-        };
-        let swing = swing.map_err(|why| no_swing(m, why))?;
-        // A tool that does not turn keeps its axes, also at a pole.
-        match swing.angle_rad == 0.0 && end.is_none() {
-            true => Ok(Turning::Axes(axes)),
-            false => Ok(Turning::Swing(swing, end)),
-        }
-    }
-
     fn direction_in_workpiece(
         &self,
         m: &Move,
@@ -567,75 +366,6 @@ impl<'m> AxisPath<'m> {
             let message = "the direction of the tool has no length".to_owned();
             fault(m, None, "zero-direction", message, "write a vector that is not 0 0 0")
         })
-    }
-
-    fn cone_in_workpiece(&self, cone: &Cone) -> Cone {
-        let turned = |v: [f64; 3]| (self.turn * Vec3::from(self.frame.vector(v))).into();
-        Cone { axis: cone.axis.map(turned), through: cone.through.map(turned), ..*cone }
-    }
-
-    /// The rotary axes turn the tool onto Z of the program frame.
-    fn align(
-        &mut self,
-        m: &Move,
-        keep_tip: bool,
-        branch: Branch,
-        out: &mut dyn FnMut(PathStep),
-    ) -> Result<(), Fault> {
-        let Some(control) = self.control.clone() else { return Ok(()) };
-        let direction = self.direction_in_workpiece(m, [0.0, 0.0, 1.0])?;
-        let aimed = control.aim(direction, &self.command).map_err(|e| unreachable(m, &e))?;
-        let chosen = choose(self.machine, &aimed, branch);
-        let tip = control.tip_and_axis(&self.command).0;
-        let (begin, mut end) = (self.command, chosen);
-        if keep_tip && !control.place(tip, &mut end) {
-            return Ok(());
-        }
-        let turned = self.rotary_way(&begin, &end);
-        let pieces = self.densify.count(0.0, turned).max(1.0) as u32;
-        for k in 1..=pieces {
-            let u = fraction(k, pieces);
-            let mut command = std::array::from_fn(|i| begin[i] + (end[i] - begin[i]) * u);
-            if keep_tip && k < pieces {
-                control.place(tip, &mut command);
-            }
-            self.command = if k == pieces { end } else { command };
-            let length = turned.to_degrees() / f64::from(pieces);
-            out(self.next(m, length, f64::INFINITY, k == pieces));
-        }
-        self.reread();
-        Ok(())
-    }
-
-    /// The named axes go to machine coordinates.
-    fn machine_move(
-        &mut self,
-        m: &Move,
-        feed: Speed,
-        out: &mut dyn FnMut(PathStep),
-    ) -> Result<(), Fault> {
-        let (begin, mut end) = (self.command, self.command);
-        for axis in Axis::ALL {
-            if let Some(index) = self.axis_of[axis as usize].filter(|_| m.named.contains(axis)) {
-                let value = m.target[axis];
-                end[index] = if axis.is_rotary() { value.to_radians() } else { value };
-            }
-        }
-        let length_mm = (self.linear_axes(&end) - self.linear_axes(&begin)).norm();
-        let turned = self.rotary_way(&begin, &end);
-        let length = path_length(length_mm, turned);
-        let pieces = self.densify.count(length_mm, turned) as u32;
-        let speed = feed.along(length);
-        for k in 1..=pieces.max(1) {
-            let u = fraction(k, pieces.max(1));
-            self.command = std::array::from_fn(|i| {
-                if u == 1.0 { end[i] } else { begin[i] + (end[i] - begin[i]) * u }
-            });
-            let part = length / f64::from(pieces.max(1));
-            out(self.next(m, part, speed, k == pieces.max(1)));
-        }
-        self.reread();
-        Ok(())
     }
 
     fn count(&self, m: &Move, curve: &Curve, length_mm: f64, turned: f64) -> Result<u32, Fault> {
@@ -746,30 +476,6 @@ impl Speed {
     }
 }
 
-/// A move of the tip while it is being cut into pieces.
-struct TipWay<'a> {
-    control: &'a TipControl,
-    m: &'a Move,
-    curve: &'a Curve,
-    turning: &'a Turning,
-    /// Where the axes stood.
-    begin: Command,
-    /// The length that the feed counts along.
-    length: f64,
-    speed: f64,
-}
-
-/// A piece is halved so often at most: near a pole an axis may jump however small the piece.
-const MOST_HALVINGS: u32 = 14;
-
-/// How the tool axis turns in a move of the tip.
-enum Turning {
-    /// The rotary axes go evenly to these positions.
-    Axes(Command),
-    /// The tool axis swings; the axes end here if angles are programmed.
-    Swing(Swing, Option<Command>),
-}
-
 /// The length that the feed counts along: mm of the tip, or degrees of the
 /// rotary axes where the tip stands.
 fn path_length(length_mm: f64, turned_rad: f64) -> f64 {
@@ -778,145 +484,4 @@ fn path_length(length_mm: f64, turned_rad: f64) -> f64 {
 
 fn fraction(k: u32, pieces: u32) -> f64 {
     f64::from(k) / f64::from(pieces)
-}
-
-/// The pose along a direction that is nearest to the present one.
-fn nearest(
-    control: &TipControl,
-    direction: Direction<Workpiece>,
-    now: &Command,
-) -> Result<Command, SolveError> {
-    let (_, axis) = control.tip_and_axis(now);
-    // Rounding of a direction that is held must not turn an axis at a pole.
-    if angle(&axis, &direction.vector()) < trueaxis_machine::tcp::POLE_RAD {
-        return Ok(*now);
-    }
-    Ok(control.aim(direction, now)?[0].command)
-}
-
-/// The pose of an alignment: by the sign of the rotary axis that tilts the tool.
-fn choose(machine: &Machine, aimed: &[trueaxis_machine::tcp::Aimed], branch: Branch) -> Command {
-    // The tilting axis is the one next to the tool of a head, next to the bed of a table.
-    let rotary =
-        || (0..machine.axes().len()).filter(|i| machine.axes()[*i].kind == AxisKind::Rotary);
-    let tilting = rotary().nth(1).or(rotary().next());
-    let fits = |c: &Command| match (branch, tilting) {
-        (Branch::Nearest, _) | (_, None) => true,
-        (Branch::Positive, Some(axis)) => c[axis] >= 0.0,
-        (Branch::Negative, Some(axis)) => c[axis] <= 0.0,
-    };
-    let mut inside = aimed.iter().filter(|a| a.within_travel).map(|a| a.command);
-    inside.find(fits).unwrap_or(aimed[0].command)
-}
-
-fn fault(
-    m: &Move,
-    word: Option<u8>,
-    code: &'static str,
-    message: String,
-    hint: &'static str,
-) -> Fault {
-    Fault { origin: m.origin, word, code, message, hint }
-}
-
-fn unreachable(m: &Move, error: &SolveError) -> Fault {
-    let hint = "tilt the part or the tool, or take a machine whose rotary axes reach it";
-    fault(m, None, "unreachable-orientation", error.to_string(), hint)
-}
-
-fn no_swing(m: &Move, why: NoSwing) -> Fault {
-    let (code, message, hint) = match why {
-        NoSwing::Opposite => (
-            "opposite-directions",
-            "the tool axis turns by 180 deg: no plane is given for it",
-            "put a direction between the two",
-        ),
-        NoSwing::NotOnCone => (
-            "not-on-cone",
-            "the two directions of the tool do not lie on one cone about the given axis",
-            "correct A6 B6 C6 or the direction at the end",
-        ),
-        NoSwing::Undetermined => (
-            "undetermined-cone",
-            "the cone of the tool axis is not determined",
-            "give A6 B6 C6, A7 B7 C7, NUT, or the direction at the end",
-        ),
-    };
-    fault(m, None, code, message.to_owned(), hint)
-}
-
-/// The place of basic coordinates in the workpiece: where the gauge point of the spindle stands
-/// when the linear axes do and all rotary axes are at zero.
-fn workpiece_from_basic(machine: &Machine, axis_of: &[Option<usize>; 9]) -> (Mat3, Vec3) {
-    let Some(control) = TipControl::of(&machine.clone().with_tip(Vec3::zeros())) else {
-        return (Mat3::identity(), Vec3::zeros());
-    };
-    let at = |i: Option<usize>| {
-        let mut command = Command::default();
-        if let Some(axis) = i.and_then(|i| axis_of[i]) {
-            command[axis] = 1.0;
-        }
-        control.tip_and_axis(&command).0
-    };
-    let zero = at(None);
-    let columns = [0, 1, 2].map(|i| at(Some(i)) - zero);
-    (Mat3::from_columns(&columns), zero)
-}
-
-/// Where the axes stand before the program: as the set-up says, else at zero or the end of the
-/// travel next to it.
-fn start(machine: &Machine, setup: &SetUp, axis_of: &[Option<usize>; 9]) -> Command {
-    let mut command = Command::default();
-    for (q, axis) in command.iter_mut().zip(machine.axes()) {
-        if let Travel::Between(low, high) = axis.travel {
-            *q = 0.0_f64.clamp(low, high);
-        }
-    }
-    if let Some(start) = &setup.start {
-        for axis in Axis::ALL {
-            if let Some(index) = axis_of[axis as usize] {
-                let value = start[axis];
-                command[index] = if axis.is_rotary() { value.to_radians() } else { value };
-            }
-        }
-    }
-    command
-}
-
-/// A, B and C in degrees at which the tool stands along a direction of the basic frame; what the
-/// interpreter asks for Q120 to Q122 and the like.
-pub(super) fn rotary_angles(
-    control: &TipControl,
-    direction: [f64; 3],
-    branch: Branch,
-    now: &Position,
-) -> Option<[f64; 3]> {
-    let machine = control.machine();
-    let index = |axis: Axis| {
-        machine.axes().iter().position(|a| a.name.letter() == char::from(axis.letter()))
-    };
-    let mut from = Command::default();
-    let rotary = [Axis::A, Axis::B, Axis::C];
-    for axis in rotary {
-        if let Some(i) = index(axis) {
-            from[i] = now[axis].to_radians();
-        }
-    }
-    let aimed = control.aim(Direction::of(direction.into())?, &from).ok()?;
-    let chosen = choose(machine, &aimed, branch);
-    Some(rotary.map(|axis| index(axis).map_or(0.0, |i| chosen[i].to_degrees())))
-}
-
-/// The machine with its workpiece frame at a program zero.
-pub(super) fn mount(machine: &Machine, frame: &Frame) -> Machine {
-    let letters = Axis::ALL.map(|a| char::from(a.letter()));
-    let axis_of =
-        letters.map(|letter| machine.axes().iter().position(|a| a.name.letter() == letter));
-    let (turn, shift) = workpiece_from_basic(machine, &axis_of);
-    let zero = Vec3::new(frame.shift.0[0], frame.shift.0[1], frame.shift.0[2]);
-    let linear = Mat3::from_fn(|i, j| frame.linear[i][j]);
-    let there = Pose::new(turn * linear, turn * zero + shift);
-    // The workpiece is the first body of the chain; what stands fixed on it is its mounting.
-    let body = &machine.bodies()[0];
-    machine.clone().with_workpiece(body.placement, body.mounting * there)
 }

@@ -1,9 +1,11 @@
 //! The NC program and the subprograms that it calls.
 
+use super::basic::rotary_angles;
 use super::setup::{CONTROLS, SetUp};
 use crate::files;
 use std::path::{Path, PathBuf};
 use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::moves::{Branch, Position};
 use trueaxis_nc::{Control, Library, Program};
 
@@ -66,15 +68,12 @@ fn sniff(bytes: &[u8]) -> Option<Control> {
 /// The folder of the main program as a library of subprograms, and the angles of the machine.
 pub(super) struct Folder<'m> {
     path: PathBuf,
-    angles: &'m dyn Fn([f64; 3], Branch, &Position) -> Option<[f64; 3]>,
+    control: Option<&'m TipControl>,
 }
 
 impl<'m> Folder<'m> {
-    pub fn beside(
-        program: &Path,
-        angles: &'m dyn Fn([f64; 3], Branch, &Position) -> Option<[f64; 3]>,
-    ) -> Self {
-        Self { path: program.parent().unwrap_or(Path::new("")).to_owned(), angles }
+    pub fn beside(program: &Path, control: Option<&'m TipControl>) -> Self {
+        Self { path: program.parent().unwrap_or(Path::new("")).to_owned(), control }
     }
 
     /// The file of a subprogram: the name as it is, in upper and lower case, with the usual
@@ -107,7 +106,7 @@ impl Library for Folder<'_> {
         branch: Branch,
         now: &Position,
     ) -> Option<[f64; 3]> {
-        (self.angles)(direction, branch, now)
+        rotary_angles(self.control?, direction, branch, now)
     }
 }
 

@@ -220,9 +220,7 @@ impl SetUp {
         let frame = self.workpiece_at.map(|number| self.work_offsets.get(&number));
         match frame {
             None => machine.clone(),
-            Some(frame) => {
-                super::axis_path::mount(machine, &frame.copied().unwrap_or(Frame::IDENTITY))
-            }
+            Some(frame) => super::basic::mount(machine, &frame.copied().unwrap_or(Frame::IDENTITY)),
         }
     }
 

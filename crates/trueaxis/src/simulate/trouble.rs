@@ -235,8 +235,7 @@ impl AxisWatch {
             return;
         }
         let mut slowed = false;
-        for i in 0..self.machine.axes().len() {
-            let axis = &self.machine.axes()[i];
+        for (i, axis) in self.machine.axes().iter().enumerate() {
             let Some(limit) = axis.limits.velocity else { continue };
             let demanded = (node.command[i] - before[i]).abs() / node.length * node.speed;
             if demanded > limit * (1.0 + 1e-9) {
@@ -260,9 +259,9 @@ impl AxisWatch {
         if node.is_rapid() {
             return;
         }
-        for i in 0..self.machine.axes().len() {
+        for (i, axis) in self.machine.axes().iter().enumerate() {
             let by = (node.command[i] - before[i]).abs();
-            if self.machine.axes()[i].kind == AxisKind::Rotary && by - turned_rad > FLIP_RAD {
+            if axis.kind == AxisKind::Rotary && by - turned_rad > FLIP_RAD {
                 self.log.note(TroubleKind::RotaryFlip { axis: i }, node, stamp, by, turned_rad);
             }
         }

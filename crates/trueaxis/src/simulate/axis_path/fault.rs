@@ -1,0 +1,32 @@
+use trueaxis_machine::SolveError;
+use trueaxis_nc::moves::{Move, Origin};
+
+/// Why a move could not be made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fault {
+    /// The block.
+    pub origin: Origin,
+    /// What it is about in the block, to find the column.
+    pub word: Option<u8>,
+    /// Short name.
+    pub code: &'static str,
+    /// What is wrong.
+    pub message: String,
+    /// What to do.
+    pub hint: &'static str,
+}
+
+pub(super) fn fault(
+    m: &Move,
+    word: Option<u8>,
+    code: &'static str,
+    message: String,
+    hint: &'static str,
+) -> Fault {
+    Fault { origin: m.origin, word, code, message, hint }
+}
+
+pub(super) fn unreachable(m: &Move, error: &SolveError) -> Fault {
+    let hint = "tilt the part or the tool, or take a machine whose rotary axes reach it";
+    fault(m, None, "unreachable-orientation", error.to_string(), hint)
+}

@@ -1,0 +1,119 @@
+//! The frames between program and machine: where basic coordinates lie, and which of several
+//! poses is taken.
+
+use super::orientation::angle;
+use super::setup::SetUp;
+use trueaxis_geometry::frame::{Direction, Pose, Workpiece};
+use trueaxis_geometry::{Mat3, Vec3};
+use trueaxis_machine::axis::{AxisKind, Command, Travel};
+use trueaxis_machine::tcp::{Aimed, TipControl};
+use trueaxis_machine::{Machine, SolveError};
+use trueaxis_nc::moves::{Axis, Branch, Frame, Position};
+
+/// The pose along a direction that is nearest to the present one.
+pub(super) fn nearest(
+    control: &TipControl,
+    direction: Direction<Workpiece>,
+    now: &Command,
+) -> Result<Command, SolveError> {
+    let (_, axis) = control.tip_and_axis(now);
+    // Rounding of a direction that is held must not turn an axis at a pole.
+    if angle(&axis, &direction.vector()) < trueaxis_machine::tcp::POLE_RAD {
+        return Ok(*now);
+    }
+    Ok(control.aim(direction, now)?[0].command)
+}
+
+/// The pose of an alignment: by the sign of the rotary axis that tilts the tool.
+pub(super) fn choose(machine: &Machine, aimed: &[Aimed], branch: Branch) -> Command {
+    // The tilting axis is the one next to the tool of a head, next to the bed of a table.
+    let rotary =
+        || (0..machine.axes().len()).filter(|i| machine.axes()[*i].kind == AxisKind::Rotary);
+    let tilting = rotary().nth(1).or(rotary().next());
+    let fits = |c: &Command| match (branch, tilting) {
+        (Branch::Nearest, _) | (_, None) => true,
+        (Branch::Positive, Some(axis)) => c[axis] >= 0.0,
+        (Branch::Negative, Some(axis)) => c[axis] <= 0.0,
+    };
+    let mut inside = aimed.iter().filter(|a| a.within_travel).map(|a| a.command);
+    inside.find(fits).unwrap_or(aimed[0].command)
+}
+
+/// The place of basic coordinates in the workpiece: where the gauge point of the spindle stands
+/// when the linear axes do and all rotary axes are at zero.
+pub(super) fn workpiece_from_basic(
+    machine: &Machine,
+    axis_of: &[Option<usize>; 9],
+) -> (Mat3, Vec3) {
+    let Some(control) = TipControl::of(&machine.clone().with_tip(Vec3::zeros())) else {
+        return (Mat3::identity(), Vec3::zeros());
+    };
+    let at = |i: Option<usize>| {
+        let mut command = Command::default();
+        if let Some(axis) = i.and_then(|i| axis_of[i]) {
+            command[axis] = 1.0;
+        }
+        control.tip_and_axis(&command).0
+    };
+    let zero = at(None);
+    let columns = [0, 1, 2].map(|i| at(Some(i)) - zero);
+    (Mat3::from_columns(&columns), zero)
+}
+
+/// Where the axes stand before the program: as the set-up says, else at zero or the end of the
+/// travel next to it.
+pub(super) fn start(machine: &Machine, setup: &SetUp, axis_of: &[Option<usize>; 9]) -> Command {
+    let mut command = Command::default();
+    for (q, axis) in command.iter_mut().zip(machine.axes()) {
+        if let Travel::Between(low, high) = axis.travel {
+            *q = 0.0_f64.clamp(low, high);
+        }
+    }
+    if let Some(start) = &setup.start {
+        for axis in Axis::ALL {
+            if let Some(index) = axis_of[axis as usize] {
+                let value = start[axis];
+                command[index] = if axis.is_rotary() { value.to_radians() } else { value };
+            }
+        }
+    }
+    command
+}
+
+/// A, B and C in degrees at which the tool stands along a direction of the basic frame; what the
+/// interpreter asks for Q120 to Q122 and the like.
+pub(super) fn rotary_angles(
+    control: &TipControl,
+    direction: [f64; 3],
+    branch: Branch,
+    now: &Position,
+) -> Option<[f64; 3]> {
+    let machine = control.machine();
+    let index = |axis: Axis| {
+        machine.axes().iter().position(|a| a.name.letter() == char::from(axis.letter()))
+    };
+    let mut from = Command::default();
+    let rotary = [Axis::A, Axis::B, Axis::C];
+    for axis in rotary {
+        if let Some(i) = index(axis) {
+            from[i] = now[axis].to_radians();
+        }
+    }
+    let aimed = control.aim(Direction::of(direction.into())?, &from).ok()?;
+    let chosen = choose(machine, &aimed, branch);
+    Some(rotary.map(|axis| index(axis).map_or(0.0, |i| chosen[i].to_degrees())))
+}
+
+/// The machine with its workpiece frame at a program zero.
+pub(super) fn mount(machine: &Machine, frame: &Frame) -> Machine {
+    let letters = Axis::ALL.map(|a| char::from(a.letter()));
+    let axis_of =
+        letters.map(|letter| machine.axes().iter().position(|a| a.name.letter() == letter));
+    let (turn, shift) = workpiece_from_basic(machine, &axis_of);
+    let zero = Vec3::new(frame.shift.0[0], frame.shift.0[1], frame.shift.0[2]);
+    let linear = Mat3::from_fn(|i, j| frame.linear[i][j]);
+    let there = Pose::new(turn * linear, turn * zero + shift);
+    // The workpiece is the first body of the chain; what stands fixed on it is its mounting.
+    let body = &machine.bodies()[0];
+    machine.clone().with_workpiece(body.placement, body.mounting * there)
+}
