@@ -27,7 +27,7 @@ pub use densify::{Densify, pieces};
 pub use program::read_program;
 pub use series::{PathPoint, Series};
 pub use setup::{CONTROLS, SetUp, SetUpTool, control_named, read_setup};
-pub use summary::{AxisUse, Summary, Worst, shown, unit};
+pub use summary::{AxisUse, Reversal, Summary, Worst, shown, unit};
 pub use table::{CsvTable, headings};
 pub use tool_path::Batch;
 pub use trace::{Trace, TracedNode, block_line, trace};

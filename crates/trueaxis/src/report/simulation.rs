@@ -265,6 +265,10 @@ pub fn simulation_json(s: &Simulation<'_>) -> Value {
             "tip_with_rapid_um": worst(&summary.tip, 1e3),
             "axis_with_rapid_urad": worst(&summary.axis, 1e6),
         },
+        "reversals": summary.reversals.iter().map(|r| json!({
+            "axis": s.machine.axes()[r.axis].name.to_string(), "at": shown(s.machine, r.axis, r.at),
+            "line": r.origin.line, "program": r.origin.program, "time_s": r.time_s,
+        })).collect::<Vec<_>>(),
         "troubles": s.troubles.list.iter().map(|t| trouble(s, t)).collect::<Vec<_>>(),
         "troubles_left_out": s.troubles.left_out,
         "messages": summary.messages,

@@ -41,6 +41,22 @@ pub struct AxisUse {
     pub fastest: Worst,
 }
 
+/// Where an axis changes its direction: there backlash and friction show.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reversal {
+    /// Its index.
+    pub axis: usize,
+    /// Its position, mm or rad.
+    pub at: f64,
+    /// The block that turns back.
+    pub origin: Origin,
+    /// When, s.
+    pub time_s: f64,
+}
+
+/// Reversals that are kept, the first ones.
+const MOST_REVERSALS: usize = 1000;
+
 /// What a run comes to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Summary {
@@ -77,6 +93,8 @@ pub struct Summary {
     pub cut_box_mm: Option<[Vec3; 2]>,
     /// How many moves each tool makes.
     pub tools: BTreeMap<u32, u64>,
+    /// The first reversals of all axes, in order.
+    pub reversals: Vec<Reversal>,
     /// Messages of the program to the operator.
     pub messages: Vec<String>,
     /// Stops in the program, optional ones not counted.
@@ -124,6 +142,7 @@ impl Summary {
             feed_tip_rms_mm: 0.0,
             cut_box_mm: None,
             tools: BTreeMap::new(),
+            reversals: Vec::new(),
             messages: Vec::new(),
             stops: 0,
             sum_squares: 0.0,
@@ -144,6 +163,11 @@ impl Summary {
                 let direction = by.signum();
                 if self.directions[i] == -direction {
                     axis.reversals += 1;
+                    if self.reversals.len() < MOST_REVERSALS {
+                        let (at, origin) = (before.command[i], node.origin);
+                        let time_s = before.time_s;
+                        self.reversals.push(Reversal { axis: i, at, origin, time_s });
+                    }
                 }
                 self.directions[i] = direction;
             }
