@@ -5,6 +5,7 @@
 //! - *describe*: [`machine`] (a checked machine tool, its poses and errors) and [`files`];
 //! - *predict*: [`predict`](mod@predict): is the test piece that this machine cuts within its
 //!   tolerances, how sure is that, and which error is to blame;
+//! - [`timing`]: when the path passes each of its nodes, within the limits of every axis;
 //! - [`report`]: the prediction as text, JSON and one self-contained HTML page.
 //!
 //! The nouns live in crates of their own and are handed on here: [`geometry`], [`machine`],
@@ -13,6 +14,7 @@
 pub mod files;
 pub mod predict;
 pub mod report;
+pub mod timing;
 
 pub use trueaxis_geometry as geometry;
 pub use trueaxis_machine as machine;
