@@ -9,7 +9,7 @@ use trueaxis::machine::Machine;
 use trueaxis::nc::{Control, Program};
 use trueaxis::report::{Simulation, simulation_json, simulation_text};
 use trueaxis::simulate::{
-    AxisWatch, CONTROLS, CsvTable, Densify, Observer, Options, Run, Series, SetUp, Summary,
+    AxisWatch, CONTROLS, CsvTable, Densify, Observer, Options, Run, Series, SetUp, Summary, Timing,
     TroubleList, control_named, read_program, read_setup, simulate,
 };
 
@@ -73,6 +73,13 @@ pub struct ProgramArguments {
     /// How far corners may be rounded where the program does not say it, mm
     #[arg(long, value_name = "MM", default_value = "0.01")]
     rounding: String,
+    /// Time each block by the three phases of document 002, with this mean acceleration, mm/s^2,
+    /// and exact stop, instead of looking ahead within the limits of the axes
+    #[arg(long, value_name = "MM_PER_S2")]
+    three_phase: Option<String>,
+    /// With --three-phase: the velocity changes smoothly
+    #[arg(long, requires = "three_phase")]
+    smooth: bool,
 }
 
 /// What the arguments name, read and checked.
@@ -135,7 +142,12 @@ impl ProgramArguments {
             (_, true) => Densify::Count { spacing_mm, angle_rad },
             _ => Densify::Tolerance { chord_mm, angle_rad, spacing_mm },
         };
-        Some(Options { densify, rounding_mm: rounding_mm?, keep_going })
+        let acceleration = self.three_phase.as_ref().map(|text| read("--three-phase", text));
+        let timing = match acceleration {
+            None => Timing::LookAhead,
+            Some(a) => Timing::ThreePhase { acceleration: a?, smooth: self.smooth },
+        };
+        Some(Options { densify, rounding_mm: rounding_mm?, timing, keep_going })
     }
 }
 

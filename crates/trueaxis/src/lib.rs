@@ -3,6 +3,8 @@
 //! One machine file goes through all of it. So far:
 //!
 //! - *describe*: [`machine`] (a checked machine tool, its poses and errors) and [`files`];
+//! - *simulate*: [`simulate`](mod@simulate): an NC program on the machine as it is: path, time, poses,
+//!   deviations, troubles;
 //! - *predict*: [`predict`](mod@predict): is the test piece that this machine cuts within its
 //!   tolerances, how sure is that, and which error is to blame;
 //! - [`report`]: the prediction as text, JSON and one self-contained HTML page.

@@ -17,12 +17,13 @@ mod series;
 mod setup;
 mod summary;
 mod table;
+pub mod timing;
 mod tool_path;
 mod trace;
 mod trouble;
 
 pub use axis_path::{Fault, Node, PathStep};
-pub use clock::{Limit, Stamp};
+pub use clock::{Stamp, Timing, limit_name, limits};
 pub use densify::{Densify, pieces};
 pub use program::read_program;
 pub use series::{PathPoint, Series};
@@ -31,7 +32,7 @@ pub use summary::{AxisUse, Reversal, Summary, Worst, shown, unit};
 pub use table::{CsvTable, headings};
 pub use tool_path::Batch;
 pub use trace::{Trace, TracedNode, block_line, trace};
-pub use trouble::{AxisWatch, Held, Log, Trouble, TroubleKind, TroubleList};
+pub use trouble::{AxisWatch, Log, Trouble, TroubleKind, TroubleList};
 
 use axis_path::AxisPath;
 use clock::Clock;
@@ -40,6 +41,7 @@ use std::path::Path;
 use tool_path::{BATCH, ToolPath};
 use trueaxis_geometry::input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
+use trueaxis_machine::axis::Command;
 use trueaxis_machine::batch::CompiledMachine;
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::moves::Step;
@@ -61,13 +63,20 @@ pub struct Options {
     pub densify: Densify,
     /// How far corners may be rounded where the program does not say it, mm.
     pub rounding_mm: f64,
+    /// How time runs.
+    pub timing: Timing,
     /// List errors and go on behind them.
     pub keep_going: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { densify: Densify::default(), rounding_mm: 0.01, keep_going: false }
+        Self {
+            densify: Densify::default(),
+            rounding_mm: 0.01,
+            timing: Timing::default(),
+            keep_going: false,
+        }
     }
 }
 
@@ -129,6 +138,8 @@ struct Walk<'w, 'o> {
     clock: Clock,
     tool_path: ToolPath,
     tool: u32,
+    /// Where the axes are.
+    at: Command,
     nodes: Vec<Node>,
     stamps: Vec<Stamp>,
     observers: &'w mut [&'o mut dyn Observer],
@@ -149,9 +160,10 @@ impl<'w, 'o> Walk<'w, 'o> {
             machine,
             setup,
             path,
-            clock: Clock::new(),
+            clock: Clock::new(machine, start, options.timing),
             tool_path: ToolPath::new(CompiledMachine::new(machine), start),
             tool: 0,
+            at: start,
             nodes: Vec::with_capacity(2 * BATCH),
             stamps: Vec::with_capacity(2 * BATCH),
             observers,
@@ -166,12 +178,17 @@ impl<'w, 'o> Walk<'w, 'o> {
         }
         self.observers.iter_mut().for_each(|o| o.step(step));
         let (nodes, stamps, clock) = (&mut self.nodes, &mut self.stamps, &mut self.clock);
+        let (faults, at) = (&mut self.faults, &mut self.at);
         let mut tool = None;
         self.path.take(step, &mut |step| match step {
-            PathStep::Node(node) => {
-                nodes.push(node);
-                clock.push(&node, &mut |stamp| stamps.push(stamp));
-            }
+            PathStep::Node(node) if node.command == *at && node.dwell_s == 0.0 => {}
+            PathStep::Node(node) => match clock.push(&node, &mut |stamp| stamps.push(stamp)) {
+                Ok(()) => {
+                    *at = node.command;
+                    nodes.push(node);
+                }
+                Err(error) => faults.push(Fault::untimed(&node, &error)),
+            },
             PathStep::Tool(number) => tool = Some(number),
         });
         if self.stamps.len() >= BATCH {

@@ -1,7 +1,7 @@
 //! A simulation for people and for programs.
 
 use crate::simulate::{
-    Held, Run, SetUp, Summary, Trouble, TroubleKind, TroubleList, Worst, shown, unit,
+    Run, SetUp, Summary, Trouble, TroubleKind, TroubleList, Worst, limit_name, shown, unit,
 };
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
@@ -81,11 +81,7 @@ pub fn trouble_text(machine: &Machine, trouble: &Trouble) -> String {
             if *near_pole { " (near a pole of the rotary axes)" } else { "" }
         ),
         TroubleKind::SlowedDown { axis, limit } => {
-            let limit = match limit {
-                Held::Velocity => "velocity",
-                Held::Acceleration => "acceleration",
-                Held::Jerk => "jerk",
-            };
+            let limit = limit_name(*limit);
             let held = 100.0 * trouble.value;
             format!("feed not held: {held:.1} % of it, because of the {limit} of {}", name(*axis))
         }

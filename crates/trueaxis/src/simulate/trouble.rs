@@ -1,6 +1,7 @@
 //! What goes wrong on the machine: travel, speed, flips, and bodies that meet.
 
-use super::{Batch, Limit, Node, Observer, Stamp};
+use super::timing::LimitKind;
+use super::{Batch, Node, Observer, Stamp};
 use std::collections::BTreeMap;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
@@ -48,34 +49,13 @@ pub enum TroubleKind {
         /// Its index.
         axis: usize,
         /// Which limit.
-        limit: Held,
+        limit: LimitKind,
     },
     /// A rotary axis turns far while the tool axis hardly turns.
     RotaryFlip {
         /// Its index.
         axis: usize,
     },
-}
-
-/// The limit that holds a speed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Held {
-    /// Velocity.
-    Velocity,
-    /// Acceleration.
-    Acceleration,
-    /// Jerk.
-    Jerk,
-}
-
-impl From<Limit> for Held {
-    fn from(limit: Limit) -> Self {
-        match limit {
-            Limit::Velocity => Self::Velocity,
-            Limit::Acceleration => Self::Acceleration,
-            Limit::Jerk => Self::Jerk,
-        }
-    }
 }
 
 /// One trouble over a stretch of the path.
@@ -247,10 +227,12 @@ impl AxisWatch {
                 slowed = true;
             }
         }
-        if let (false, Some((axis, limit))) = (slowed, stamp.held_by)
+        // Speeding up and slowing down at rests is no trouble; what an axis cannot follow is.
+        if let (false, Some(held)) = (slowed, stamp.held_by)
             && stamp.speed < 0.999 * node.speed
+            && !node.stop
         {
-            let kind = TroubleKind::SlowedDown { axis, limit: limit.into() };
+            let kind = TroubleKind::SlowedDown { axis: held.axis, limit: held.kind };
             self.log.note(kind, node, stamp, stamp.speed / node.speed, 1.0);
         }
     }

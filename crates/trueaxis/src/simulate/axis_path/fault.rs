@@ -1,3 +1,5 @@
+use super::Node;
+use crate::simulate::timing::TimingError;
 use trueaxis_machine::SolveError;
 use trueaxis_nc::moves::{Move, Origin};
 
@@ -14,6 +16,19 @@ pub struct Fault {
     pub message: String,
     /// What to do.
     pub hint: &'static str,
+}
+
+impl Fault {
+    /// A place of the path that no time can be given to.
+    pub(in crate::simulate) fn untimed(node: &Node, error: &TimingError) -> Self {
+        Self {
+            origin: node.origin,
+            word: None,
+            code: "untimed",
+            message: error.to_string(),
+            hint: "check feed and coordinates of the block",
+        }
+    }
 }
 
 pub(super) fn fault(

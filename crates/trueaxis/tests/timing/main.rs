@@ -1,0 +1,5 @@
+//! Time along the path: laws over random programs, the price of the jerk limit, ruckig.
+
+mod laws;
+mod oracle;
+mod programs;
