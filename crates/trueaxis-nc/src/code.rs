@@ -48,6 +48,10 @@ pub enum Cycle {
     BoreDwell,
     /// Fine boring with an oriented spindle, out rapid; the lift-off is not moved.
     FineBore,
+    /// Back boring: beside the hole down to R, then upwards with feed.
+    BackBore,
+    /// Bore, dwell, stop for the operator, out rapid.
+    BoreManual,
 }
 
 /// One thing that a G or M code does.
@@ -70,12 +74,16 @@ pub enum Action {
     ToolLength,
     /// Tool length as the axis words say.
     ToolLengthDirect,
+    /// Tool length of the table, downwards: G44.
+    ToolLengthNegative,
     /// Tool length of the table in addition.
     ToolLengthAdd,
     /// No tool length.
     ToolLengthOff,
     /// The tip of the tool is programmed; `true` with direction vectors I J K.
     ToolCentre(bool),
+    /// Switchable kinematics: the tip of the tool is programmed, or the axes.
+    Kinematics(bool),
     /// A work offset by number, from 1.
     WorkOffset(u8),
     /// A further work offset, by P.
@@ -130,8 +138,49 @@ pub enum Action {
     Call,
     /// The end of a subprogram.
     Return,
+    /// Polar coordinates in the plane.
+    Polar(bool),
+    /// Scale, also negative.
+    Scale,
+    /// No scale.
+    ScaleOff,
+    /// Mirror at planes, or no longer.
+    Mirror(bool),
+    /// Rotation in the plane or about an axis in space.
+    Rotation,
+    /// A tilted plane; `further` builds on the one before.
+    TiltedPlane {
+        /// In the plane that is there.
+        further: bool,
+    },
+    /// No rotation, no tilted plane.
+    RotationOff,
+    /// Turns the tool along Z of the tilted plane.
+    Align {
+        /// The tip stays at its place.
+        keep_tip: bool,
+    },
+    /// A rapid that comes from one side: the place alone counts.
+    Approach,
+    /// Goes to a place and looks whether it is a reference point.
+    ReferenceCheck,
+    /// From the reference point by way of the place before.
+    ReferenceReturn,
+    /// The shift of the named axes is gone.
+    Preset,
+    /// The end of data input.
+    DataInputEnd,
+    /// Calls a macro after each move (or instead of each block) from here on.
+    ModalMacro {
+        /// Instead of each block, with its words as arguments.
+        each_block: bool,
+    },
+    /// Ends that.
+    ModalMacroOff,
     /// Known to the control, of no effect on the path: passed on by name.
     Note(&'static str),
+    /// The same, and the words of its block are its own.
+    NoteWhole(&'static str),
     /// Known to the control, not interpreted: a warning says so. The words of its block are its own.
     NotApplied(&'static str),
     /// The same, but the words of its block belong to the other codes.
@@ -147,20 +196,27 @@ impl Action {
             Self::ToolChange => 7,
             Self::Spindle(_) | Self::Orient => 8,
             Self::Coolant(_) => 9,
-            Self::Note(_) | Self::NotApplied(_) | Self::NotAppliedAlone(_) => 10,
+            Self::Note(_)
+            | Self::NoteWhole(_)
+            | Self::NotApplied(_)
+            | Self::NotAppliedAlone(_)
+            | Self::Kinematics(_)
+            | Self::ModalMacroOff
+            | Self::DataInputEnd => 10,
             Self::Dwell => 11,
             Self::Plane(_) => 12,
             Self::Inches(_) | Self::Diameter(_) => 13,
             Self::Compensation(_) => 14,
             Self::ToolLength
             | Self::ToolLengthDirect
+            | Self::ToolLengthNegative
             | Self::ToolLengthAdd
             | Self::ToolLengthOff
             | Self::ToolCentre(_) => 15,
             Self::WorkOffset(_) | Self::WorkOffsetFurther => 16,
             Self::Path(_) => 17,
             Self::Incremental(_) | Self::ArcAbsolute(_) | Self::CancelCycle => 18,
-            Self::RetractToR(_) => 19,
+            Self::RetractToR(_) | Self::Polar(_) => 19,
             Self::Reference(_)
             | Self::SetReference(_)
             | Self::SetTable
@@ -168,10 +224,20 @@ impl Action {
             | Self::LocalShift
             | Self::ShiftCancel
             | Self::ShiftSuspend
-            | Self::ShiftResume => 20,
+            | Self::ShiftResume
+            | Self::ReferenceCheck
+            | Self::ReferenceReturn
+            | Self::Preset
+            | Self::ScaleOff
+            | Self::Scale
+            | Self::Mirror(_)
+            | Self::RotationOff
+            | Self::Rotation
+            | Self::TiltedPlane { .. }
+            | Self::Align { .. } => 20,
             Self::MachineCoordinates => 21,
-            Self::Motion(_) => 22,
-            Self::MacroCall | Self::Call => 23,
+            Self::Motion(_) | Self::Approach => 22,
+            Self::MacroCall | Self::ModalMacro { .. } | Self::Call => 23,
             Self::Stop(_) | Self::End | Self::Return => 24,
         }
     }
@@ -186,6 +252,15 @@ impl Action {
                 | Self::LocalShift
                 | Self::ToolLengthDirect
                 | Self::MacroCall
+                | Self::ModalMacro { .. }
+                | Self::ReferenceCheck
+                | Self::ReferenceReturn
+                | Self::Preset
+                | Self::Scale
+                | Self::Mirror(_)
+                | Self::Rotation
+                | Self::TiltedPlane { .. }
+                | Self::NoteWhole(_)
                 | Self::NotApplied(_)
         )
     }

@@ -1,6 +1,7 @@
 //! Executes a program block by block: words in, moves out.
 
 mod arc;
+mod calls;
 mod cycles;
 mod execute;
 mod flow;
@@ -8,10 +9,14 @@ mod frames;
 mod messages;
 mod parameters;
 mod quick;
+mod straight;
+mod system;
 mod tables;
+mod transforms;
 mod values;
 mod words;
 
+use std::cell::Cell;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
 
@@ -143,6 +148,10 @@ struct Activation {
     seeking: bool,
     /// How often a FANUC subprogram is still to be executed.
     repeats: u64,
+    /// Its O number has come.
+    named: bool,
+    /// Its `#1` … are those of its caller: M98.
+    shares_locals: bool,
 }
 
 /// One execution.
@@ -171,6 +180,12 @@ struct Run<'r> {
     start: usize,
     /// A tape mark opened the program: the next one closes it.
     opened: bool,
+    /// A variable that only the running control knows was read: it counted as 0.
+    guessed: Cell<Option<u32>>,
+    /// The program that the block calls by name.
+    called: Option<Label>,
+    /// The text of the block's comment, for #3000 and #3006.
+    remark: String,
 }
 
 impl<'r> Run<'r> {
@@ -202,15 +217,21 @@ impl<'r> Run<'r> {
             origin: Origin { program: 0, line: 1 },
             start: 0,
             opened: false,
+            guessed: Cell::new(None),
+            called: None,
+            remark: String::new(),
         }
     }
 
     fn run(&mut self) -> bool {
+        self.check_turn(self.frames.active, 0);
         self.emit_frame();
         let mut block = Block::default();
         loop {
             let Some(frame) = self.stack.last() else { return true };
             let program = Rc::clone(&self.programs[frame.program]);
+            self.straight_lines(program.source());
+            let Some(frame) = self.stack.last() else { return true };
             if frame.at >= program.source().len() {
                 match self.end_of_text() {
                     Ok(true) => return true,
@@ -231,6 +252,10 @@ impl<'r> Run<'r> {
                         return false;
                     }
                     self.follow(&block);
+                    if program.dialect().o_words {
+                        // LinuxCNC leaves all subs and goes on in the main program.
+                        self.stack.truncate(1);
+                    }
                 }
             }
         }

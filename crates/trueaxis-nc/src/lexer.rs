@@ -188,6 +188,11 @@ pub fn number_value(text: &[u8]) -> Option<f64> {
 }
 
 fn slow_number(text: &[u8]) -> Option<f64> {
+    // No program means a number of more digits than any double has in full.
+    const LONGEST: usize = 800;
+    if text.len() > LONGEST {
+        return None;
+    }
     let text = std::str::from_utf8(text).ok()?.replace(',', ".");
     text.parse().ok().filter(|v: &f64| v.is_finite())
 }

@@ -171,6 +171,7 @@ impl<'s, 'b> Parser<'s, 'b> {
                 TokenKind::Letter => self.word_or_control(),
                 TokenKind::Symbol if self.source[token.start] == b'#' => self.assignment(),
                 TokenKind::Symbol if self.source[token.start] == b':' => self.program_number(),
+                TokenKind::Name if self.dialect.macro_words => self.called_name(),
                 TokenKind::Mark => {
                     self.block.items.push(Item::Mark(token.start));
                     self.give_up();

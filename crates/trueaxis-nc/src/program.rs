@@ -54,6 +54,8 @@ pub enum Function {
     Abs,
     Acos,
     Asin,
+    Bcd,
+    Bin,
     Cos,
     Exp,
     Fix,
@@ -343,6 +345,19 @@ impl Program {
 }
 
 impl Structure {
+    /// Where the block of a number begins: the next one behind a byte, else the first one, within
+    /// the program (O number) that the byte is in.
+    pub fn block_number(&self, wanted: u64, from: usize) -> Option<(usize, u32)> {
+        let mut programs = self.marks.iter().filter(|m| m.keyword == Keyword::ProgramNumber);
+        let end = programs.clone().find(|m| m.start > from).map_or(usize::MAX, |m| m.start);
+        let begin = programs.rfind(|m| m.start <= from).map_or(0, |m| m.start);
+        let place = |byte: usize| self.numbers.partition_point(|(_, start, _)| *start < byte);
+        let own = &self.numbers[place(begin)..place(end)];
+        let after = own.partition_point(|(_, start, _)| *start <= from);
+        let mut numbers = own[after..].iter().chain(&own[..after]);
+        numbers.find(|(number, ..)| *number == wanted).map(|(_, start, line)| (*start, *line))
+    }
+
     fn take(&mut self, block: &Block) {
         for item in &block.items {
             match item {

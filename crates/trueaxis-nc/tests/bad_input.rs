@@ -1,5 +1,7 @@
 //! What is wrong with a program, and where: one code with line and column each.
 
+#![allow(clippy::print_stdout, reason = "says how long the longest lines take")]
+
 use trueaxis_nc::{Control, Library, NoLibrary, Program, Settings, interpret};
 
 /// Code and place of every problem.
@@ -113,6 +115,38 @@ fn one_very_long_line_is_read_in_one_go() {
     let found = problems("#".repeat(8_000_000).as_bytes(), Control::LinuxCnc, &NoLibrary);
     assert_eq!(found[0].0, "too-deep");
     assert!(start.elapsed().as_secs() < 20);
+}
+
+/// 200 MB on one line, of several kinds: an error with line and column each, in bounded time.
+#[test]
+#[ignore = "seconds and 400 MB of memory: cargo test --release -- --ignored"]
+fn two_hundred_megabytes_on_one_line() {
+    const SIZE: usize = 200_000_000;
+    let repeated = |piece: &str| piece.repeat(SIZE / piece.len()).into_bytes();
+    let after_x = |piece: &str| [b"X".to_vec(), repeated(piece)].concat();
+    let noise = || (0..SIZE).map(|i| ((i * i) >> 3) as u8 | 0x80).collect();
+    type Kind<'t> = (&'t str, &'t dyn Fn() -> Vec<u8>, &'t str, &'t str);
+    let kinds: [Kind<'_>; 7] = [
+        ("words", &|| repeated("X1 "), "too-many-words", "p:1:30001"),
+        ("codes", &|| repeated("G1"), "too-many-words", "p:1:20001"),
+        ("digits", &|| after_x("1"), "bad-number", "p:1:2"),
+        ("brackets", &|| after_x("["), "too-deep", "p:1:52"),
+        ("comment", &|| repeated("(a"), "unclosed-comment", "p:1:1"),
+        ("zeros", &|| vec![0; SIZE], "unexpected-sign", "p:1:1"),
+        ("noise", &noise, "unexpected-sign", "p:1:1"),
+    ];
+    for (name, text, code, place) in kinds {
+        for control in [Control::LinuxCnc, Control::Fanuc] {
+            let program = Program::new("p", text(), control);
+            let start = std::time::Instant::now();
+            let outcome = interpret(&program, &NoLibrary, &Settings::default(), &mut |_| {});
+            let seconds = start.elapsed().as_secs_f64();
+            let found = outcome.problems.iter().next().map(|d| (d.code, d.place.to_string()));
+            println!("{name} {control:?}: {seconds:.2} s, {found:?}");
+            assert_eq!(found, Some((code, place.to_owned())), "{name}");
+            assert!(seconds < 30.0);
+        }
+    }
 }
 
 #[test]

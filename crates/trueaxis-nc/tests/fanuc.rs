@@ -1,6 +1,8 @@
 //! FANUC programs, each worked out by hand.
 
-use trueaxis_nc::moves::Axis;
+use std::collections::BTreeMap;
+
+use trueaxis_nc::moves::{Axis, Frame, Position};
 use trueaxis_nc::{
     Control, Event, Library, MoveKind, NoLibrary, Program, Settings, Step, interpret,
 };
@@ -168,4 +170,26 @@ fn dwell_counts_milliseconds() {
     let found: Vec<_> =
         steps("G4 P500\nG4 X1.5\nM30\n", &NoLibrary).into_iter().filter_map(of).collect();
     assert_eq!(found, [0.5, 1.5]);
+}
+
+#[test]
+fn work_offsets_turn_in_space() {
+    // About X by 90°: y goes to z. Machine 0, 0, 0 from the origin 0, 0, 5 reads z −5 turned back:
+    // the vector (0, 0, −5) is y −5.
+    let turned = Frame {
+        linear: [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]],
+        shift: Position([0.0, 0.0, 5.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+    };
+    let program = Program::new("p", b"G55 G91 G0 X0\nM30\n".to_vec(), Control::Fanuc);
+    let work_offsets = BTreeMap::from([(2, turned)]);
+    let settings = Settings { work_offsets, ..Settings::default() };
+    let (mut frames, mut places) = (Vec::new(), Vec::new());
+    let outcome = interpret(&program, &NoLibrary, &settings, &mut |step| match step {
+        Step::Event(Event::Frame(frame), _) => frames.push(frame),
+        Step::Move(m) => places.push(m.target),
+        Step::Event(..) => {}
+    });
+    assert_eq!(outcome.problems.iter().count(), 0);
+    assert_eq!(frames, [turned]);
+    assert_eq!(places[0].0[..3], [0.0, -5.0, 0.0]);
 }

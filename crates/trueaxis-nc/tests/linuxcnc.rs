@@ -1,6 +1,8 @@
 //! LinuxCNC programs, each worked out by hand.
 
-use trueaxis_nc::moves::Axis;
+use std::collections::BTreeMap;
+
+use trueaxis_nc::moves::{Axis, Frame};
 use trueaxis_nc::{Control, Library, NoLibrary, Program, Settings, Step, interpret};
 
 struct Subs(&'static [(&'static str, &'static str)]);
@@ -102,4 +104,19 @@ fn skipped_blocks_can_be_left_out() {
         moves += u32::from(matches!(s, Step::Move(_)))
     });
     assert_eq!(moves, 2);
+}
+
+#[test]
+fn a_work_offset_turned_in_space_is_reported() {
+    let turned =
+        Frame { linear: [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]], ..Frame::IDENTITY };
+    let settings = Settings {
+        work_offsets: BTreeMap::from([(1, turned), (2, turned)]),
+        ..Settings::default()
+    };
+    let program = Program::new("p", b"G0 X1\nG55\nM2\n".to_vec(), Control::LinuxCnc);
+    let outcome = interpret(&program, &NoLibrary, &settings, &mut |_| {});
+    let found: Vec<_> =
+        outcome.problems.iter().map(|d| (d.code, d.place.line, d.place.column)).collect();
+    assert_eq!(found, [("work-offset-not-about-z", 1, 1), ("work-offset-not-about-z", 2, 1)]);
 }

@@ -144,7 +144,10 @@ const M_CODES: &[(u16, A)] = &[
     (71, A::NotAppliedAlone("M71 forget modal state")),
     (72, A::NotAppliedAlone("M72 restore modal state")),
     (73, A::NotAppliedAlone("M73 save modal state of the subprogram")),
-    (428, A::Note("M428 kinematics of the switchable machine")),
-    (429, A::Note("M429 kinematics of the switchable machine")),
-    (430, A::Note("M430 kinematics of the switchable machine")),
+    // LinuxCNC's demos of switchable kinematics (configs/sim/axis/vismach/5axis) map these.
+    (128, A::Kinematics(true)),
+    (129, A::Kinematics(false)),
+    (428, A::Kinematics(true)),
+    (429, A::Kinematics(false)),
+    (430, A::NotAppliedAlone("M430 the user's own kinematics")),
 ];

@@ -6,6 +6,7 @@ impl Run<'_> {
     /// G2 and G3: a circle or helix to a target, by centre or by radius.
     pub(super) fn arc(&mut self, ccw: bool, target: Position, at: usize) -> Result<(), Fault> {
         let plane = self.modes.plane;
+        self.check_round(plane, at);
         let [first, second, _] = plane.axes();
         let start = [self.frames.position[first], self.frames.position[second]];
         let end = [target[first], target[second]];

@@ -44,6 +44,7 @@ impl Run<'_> {
         }
         self.check_feed(at)?;
         let hole = self.hole(cycle, at)?;
+        self.check_depth(hole.axis, at);
         let repeats = self.words.take(b'L').or_else(|| {
             let fanuc = self.programs[0].dialect().macro_words;
             if fanuc { self.words.take(b'K') } else { None }
@@ -58,9 +59,10 @@ impl Run<'_> {
             let message = format!("the block drills more than {MOST_PECKS} times");
             return Err(fault("too-many-pecks", at, message, "check Q and L"));
         }
+        let polar = self.modes.transforms.polar.is_some();
         let axes = self.modes.plane.axes();
-        let steps = [axes[0], axes[1]].map(|a| self.axis_word(a));
-        if self.frames.position.0[hole.axis] < hole.r {
+        let steps = if polar { [None; 2] } else { [axes[0], axes[1]].map(|a| self.axis_word(a)) };
+        if self.frames.position.0[hole.axis] < hole.r && cycle != Cycle::BackBore {
             let mut up = self.frames.position;
             up.0[hole.axis] = hole.r;
             self.step(MoveKind::Rapid, up);
@@ -71,7 +73,14 @@ impl Run<'_> {
                 let base = if self.modes.incremental { over[*axis] } else { 0.0 };
                 over[*axis] = step.map_or(over[*axis], |s| base + s);
             }
+            if let Some(place) = self.polar_place() {
+                (over[axes[0]], over[axes[1]]) = (place[0], place[1]);
+            }
             self.step(MoveKind::Rapid, over);
+            if cycle == Cycle::BackBore {
+                self.bore_back(&hole, over);
+                continue;
+            }
             if over.0[hole.axis] != hole.r {
                 over.0[hole.axis] = hole.r;
                 self.step(MoveKind::Rapid, over);
@@ -88,7 +97,10 @@ impl Run<'_> {
             self.modes.cycle.initial_mm = Some(now);
         }
         let incremental = self.modes.incremental;
-        let r_word = self.length(b'R').map(|r| if incremental { r + now } else { r });
+        let fanuc = self.programs[0].dialect().macro_words;
+        // FANUC counts R from where the cycles began, LinuxCNC from where the drill is.
+        let base = self.modes.cycle.initial_mm.filter(|_| fanuc).unwrap_or(now);
+        let r_word = self.length(b'R').map(|r| if incremental { r + base } else { r });
         let r = r_word.or(self.modes.cycle.r_mm);
         let Some(r) = r else {
             let message = "the cycle has no R".to_owned();
@@ -99,7 +111,7 @@ impl Run<'_> {
             let message = format!("the cycle has no {axis}");
             return Err(fault("cycle-without-depth", at, message, "write the depth of the hole"));
         };
-        if r < bottom {
+        if (r < bottom) != (cycle == Cycle::BackBore) {
             let message = "the plane of retraction R lies below the bottom of the hole".to_owned();
             return Err(fault("cycle-r-below-bottom", at, message, "check R and the depth"));
         }
@@ -110,14 +122,14 @@ impl Run<'_> {
             return Err(fault("cycle-without-q", at, message, "write Q2"));
         }
         // FANUC counts P in milliseconds.
-        let second = if self.programs[0].dialect().macro_words { 1000.0 } else { 1.0 };
+        let second = if fanuc { 1000.0 } else { 1.0 };
         let dwell_s = self.words.take(b'P').map_or(self.modes.cycle.dwell_s, |p| p / second);
         let memory = &mut self.modes.cycle;
         memory.r_mm = Some(r);
         memory.bottom_mm = Some(bottom);
         (memory.peck_mm, memory.dwell_s) = (peck, dwell_s);
         let initial = memory.initial_mm.unwrap_or(now);
-        let top = if self.programs[0].dialect().macro_words { initial } else { now };
+        let top = if fanuc { initial } else { now };
         let clear = if self.modes.retract_to_r { r } else { r.max(top) };
         Ok(Hole { axis: axis as usize, r, bottom, clear, peck: peck.unwrap_or(0.0), dwell_s })
     }
@@ -157,6 +169,13 @@ impl Run<'_> {
                     self.along(MoveKind::Rapid, place, hole, hole.clear);
                 }
             }
+            Cycle::BoreManual => {
+                self.wait(hole);
+                self.emit(Event::Spindle(Turning::Stopped));
+                self.emit(Event::Stop { optional: false });
+                self.along(MoveKind::Rapid, place, hole, hole.clear);
+                self.emit(Event::Spindle(turning));
+            }
             Cycle::BoreStop | Cycle::FineBore => {
                 self.wait(hole);
                 self.emit(Event::Spindle(Turning::Stopped));
@@ -170,6 +189,26 @@ impl Run<'_> {
                 self.along(MoveKind::Rapid, place, hole, hole.clear);
             }
         }
+    }
+
+    /// G87: beside the hole by Q along the first axis of the plane, down to R, over the hole, up to Z
+    /// with feed, and out the same way.
+    fn bore_back(&mut self, hole: &Hole, place: Position) {
+        let mut beside = place;
+        beside[self.modes.plane.axes()[0]] += hole.peck;
+        let turning = self.modes.turning;
+        self.emit(Event::SpindleOrient { angle_deg: 0.0 });
+        self.step(MoveKind::Rapid, beside);
+        self.along(MoveKind::Rapid, beside, hole, hole.r);
+        self.along(MoveKind::Rapid, place, hole, hole.r);
+        self.emit(Event::Spindle(turning));
+        self.along(MoveKind::Linear, place, hole, hole.bottom);
+        self.wait(hole);
+        self.emit(Event::SpindleOrient { angle_deg: 0.0 });
+        self.along(MoveKind::Rapid, beside, hole, hole.bottom);
+        self.step(MoveKind::Rapid, beside);
+        self.step(MoveKind::Rapid, place);
+        self.emit(Event::Spindle(turning));
     }
 
     fn wait(&mut self, hole: &Hole) {

@@ -3,7 +3,7 @@ use crate::code::{Action, Motion};
 use crate::moves::{
     Axis, CompensationSide, Event, FeedMode, Move, MoveKind, PathControl, Position, Turning,
 };
-use crate::program::{Block, Fault, Item, Program};
+use crate::program::{Block, Fault, Item, Keyword, Label, Program};
 
 impl Run<'_> {
     /// Executes one block.
@@ -19,7 +19,10 @@ impl Run<'_> {
         }
         self.comments(program, block)?;
         let mut rest = &block.items[..];
-        if let Some(index) = block.items.iter().position(is_control) {
+        self.called = None;
+        if let Some((name, _)) = called_name(program, &block.items) {
+            self.called = Some(name.clone());
+        } else if let Some(index) = block.items.iter().position(is_control) {
             match self.control(program, block, &block.items[index])? {
                 Some(next) => return Ok(next),
                 None => rest = &block.items[index + 1..],
@@ -31,8 +34,17 @@ impl Run<'_> {
         if rest.is_empty() {
             return Ok(Next::Following);
         }
+        if program.dialect().macro_words
+            && block.items.iter().any(|i| matches!(i, Item::Assign { .. }))
+        {
+            self.keep_remark(program, &block.items);
+        }
         self.gather(program, block, rest)?;
+        if let Some(next) = self.call_modal(block, true)? {
+            return Ok(next);
+        }
         self.assign(program, block, rest)?;
+        self.system_reads(block.span.start);
         self.perform(block)
     }
 
@@ -61,8 +73,17 @@ impl Run<'_> {
         let result = self.perform_actions(&actions, block);
         self.words.actions = actions;
         let next = result?;
-        if next == Next::Following {
-            self.report_unused()?;
+        if next != Next::Following {
+            return Ok(next);
+        }
+        self.report_unused()?;
+        if self.called.take().is_some() {
+            let message = "no code of this block calls the program it names".to_owned();
+            let hint = "write M98 or G65 before the name";
+            return Err(fault("unexpected-sign", block.span.start, message, hint));
+        }
+        if std::mem::take(&mut self.modes.moved) && !self.modes.macros.is_empty() {
+            return Ok(self.call_modal(block, false)?.unwrap_or(next));
         }
         Ok(next)
     }
@@ -72,29 +93,42 @@ impl Run<'_> {
         actions: &[(Action, usize)],
         block: &Block,
     ) -> Result<Next, Fault> {
+        self.modes.moved = false;
+        if self.modes.data_input {
+            self.modes.data_input = !actions.iter().any(|(a, _)| *a == Action::DataInputEnd);
+            let _ = self.words.take_all();
+            return Ok(Next::Following);
+        }
         let early = actions.iter().take_while(|(a, _)| a.rank() <= 3).count();
         for (action, at) in &actions[..early] {
             self.act(*action, *at)?;
         }
-        if actions.iter().any(|(a, _)| *a == Action::MacroCall) {
-            return self.macro_call(block);
+        let calls = |a: &Action| matches!(a, Action::MacroCall | Action::ModalMacro { .. });
+        if actions.iter().any(|(a, _)| calls(a)) {
+            return self.macro_call(&actions[early..], block);
         }
         self.units_before_feed(actions);
         self.feed_speed_tool(block)?;
+        let further = self.reselect_modes(actions, block)?;
         let mut moved = false;
         let machine = actions.iter().any(|(a, _)| *a == Action::MachineCoordinates);
         let taken = actions.iter().any(|(a, _)| a.takes_axis_words());
         for (action, at) in &actions[early..] {
             match action {
                 Action::Motion(motion) => {
-                    self.modes.motion = Some(*motion);
-                    if !matches!(motion, Motion::Cycle(_) | Motion::Cancelled) {
-                        self.modes.base = *motion;
-                    }
+                    self.select_motion(*motion);
                     if !taken {
                         self.motion(*motion, machine, *at)?;
                         moved = true;
                     }
+                }
+                Action::WorkOffset(1) if further => {
+                    self.act(Action::WorkOffsetFurther, *at)?;
+                }
+                Action::Approach => {
+                    self.emit(Event::Note("G60 approach from one side"));
+                    self.motion(Motion::Rapid, machine, *at)?;
+                    moved = true;
                 }
                 Action::Call => return self.subprogram_call(block),
                 Action::Return => return self.subprogram_return(block),
@@ -113,6 +147,39 @@ impl Run<'_> {
             self.modal_motion(machine, block)?;
         }
         Ok(Next::Following)
+    }
+
+    /// The motion lasts; G31 of FANUC is for one block.
+    fn select_motion(&mut self, motion: Motion) {
+        if motion == Motion::Probe && self.programs[0].dialect().macro_words {
+            return;
+        }
+        self.modes.motion = Some(motion);
+        if !matches!(motion, Motion::Cycle(_) | Motion::Cancelled) {
+            self.modes.base = motion;
+            self.modes.cycle.forget();
+        }
+    }
+
+    /// What a FANUC block does by words without a code: H is another length, P with G54 is G54.1.
+    fn reselect_modes(
+        &mut self,
+        actions: &[(Action, usize)],
+        block: &Block,
+    ) -> Result<bool, Fault> {
+        if !self.programs[0].dialect().macro_words {
+            return Ok(false);
+        }
+        if !actions.iter().any(|(a, _)| a.rank() == Action::ToolLength.rank()) {
+            self.reselect_length(block.span.start)?;
+        }
+        let p = self.words.look(b'P').filter(|p| p.fract() == 0.0 && (1.0..=300.0).contains(p));
+        let alone = |a: &Action| {
+            matches!(a, Action::WorkOffset(1) | Action::Incremental(_) | Action::Plane(_))
+                || matches!(a, Action::Motion(m) if !matches!(m, Motion::Cycle(_)))
+        };
+        let further = actions.iter().any(|(a, _)| *a == Action::WorkOffset(1));
+        Ok(p.is_some() && further && actions.iter().all(|(a, _)| alone(a)))
     }
 
     /// A FANUC block has its units before it has its feed, a LinuxCNC block afterwards.
@@ -135,7 +202,8 @@ impl Run<'_> {
     fn modal_motion(&mut self, machine: bool, block: &Block) -> Result<(), Fault> {
         let arc =
             matches!(self.modes.motion, Some(Motion::ArcClockwise | Motion::ArcCounterClockwise))
-                && b"IJK".iter().any(|l| self.words.look(*l).is_some());
+                && b"IJK".iter().any(|l| self.words.look(*l).is_some())
+                || self.names_direction();
         if !self.words.has_axis() && !arc {
             return Ok(());
         }
@@ -177,7 +245,7 @@ impl Run<'_> {
     }
 
     /// Everything but motions and calls; `true` at the end of the program.
-    fn act(&mut self, action: Action, at: usize) -> Result<bool, Fault> {
+    pub(super) fn act(&mut self, action: Action, at: usize) -> Result<bool, Fault> {
         match action {
             Action::Feed(mode) => {
                 if mode != self.modes.feed_mode {
@@ -211,8 +279,33 @@ impl Run<'_> {
                 self.emit(Event::End);
                 return Ok(true);
             }
+            Action::Kinematics(on) => self.emit(Event::ToolCentre(on)),
+            Action::ModalMacroOff => {
+                self.modes.macros.pop();
+            }
+            Action::DataInputEnd => {}
+            Action::Note(_)
+            | Action::NoteWhole(_)
+            | Action::NotApplied(_)
+            | Action::NotAppliedAlone(_) => self.note(action, at),
+            _ => {
+                if !self.transform(action, at)? {
+                    self.table(action, at)?;
+                }
+            }
+        }
+        Ok(false)
+    }
+
+    /// Passes on what has no effect on the path; warns of what should have one.
+    fn note(&mut self, action: Action, at: usize) {
+        match action {
             Action::Note(name) => {
                 self.words.take_parameters();
+                self.emit(Event::Note(name));
+            }
+            Action::NoteWhole(name) => {
+                let _ = self.words.take_all();
                 self.emit(Event::Note(name));
             }
             Action::NotApplied(name) | Action::NotAppliedAlone(name) => {
@@ -223,9 +316,8 @@ impl Run<'_> {
                 let hint = "the moves that follow are those without it";
                 self.warn_once("not-applied", hash(name), at, message, hint);
             }
-            _ => self.table(action, at)?,
+            _ => {}
         }
-        Ok(false)
     }
 
     fn spindle(&mut self, action: Action) {
@@ -274,8 +366,11 @@ impl Run<'_> {
     }
 
     fn compensation(&mut self, side: CompensationSide, at: usize) {
-        self.words.take(b'D');
+        if let Some(number) = self.words.take(b'D') {
+            self.modes.last[2] = number;
+        }
         self.words.take(b'L');
+        self.modes.compensation = side;
         self.emit(Event::Compensation(side));
         if side != CompensationSide::Off {
             let message = "radius compensation is noted, not applied".to_owned();
@@ -291,6 +386,7 @@ impl Run<'_> {
             self.words.take(b'Q');
             self.words.take(b'R');
         }
+        self.modes.path = control;
         self.emit(Event::Path { control, tolerance_mm });
     }
 
@@ -300,7 +396,7 @@ impl Run<'_> {
     }
 
     fn motion(&mut self, motion: Motion, machine: bool, at: usize) -> Result<(), Fault> {
-        let moves = self.words.has_axis();
+        let moves = self.words.has_axis() || self.names_direction();
         if motion == Motion::Cancelled {
             self.modes.cycle.forget();
             return Ok(());
@@ -318,20 +414,30 @@ impl Run<'_> {
             return Ok(());
         }
         let position = self.frames.position;
+        self.modes.moved = true;
+        if machine && self.follows_workpiece() {
+            let place = Axis::ALL.map(|a| self.axis_word(a).unwrap_or(0.0));
+            self.machine_move(Position(place));
+            return Ok(());
+        }
         let target = if machine { self.machine_target() } else { self.target() };
         if !matches!(motion, Motion::Rapid | Motion::Thread | Motion::RigidTap) {
             self.check_feed(at)?;
         }
         match motion {
-            Motion::Rapid => self.step(MoveKind::Rapid, target),
-            Motion::Linear => {
+            Motion::Rapid | Motion::Linear => {
                 let direction = self.take_direction(at)?;
                 let (feed, origin) = (self.modes.feed(), self.origin);
                 let named = self.words.axes();
-                let linear = Move::plain(MoveKind::Linear, target, named, feed, origin);
-                self.emit_move(Move { direction, ..linear });
+                let rapid = motion == Motion::Rapid;
+                let kind = if rapid { MoveKind::Rapid } else { MoveKind::Linear };
+                let straight = Move::plain(kind, target, named, feed, origin);
+                self.emit_move(Move { direction, ..straight });
             }
-            Motion::Probe => self.step(MoveKind::Probe, target),
+            Motion::Probe => {
+                self.step(MoveKind::Probe, target);
+                self.modes.skip = target;
+            }
             Motion::Thread | Motion::RigidTap => {
                 let pitch_mm = match self.length(b'K') {
                     Some(pitch) => pitch,
@@ -348,6 +454,11 @@ impl Run<'_> {
             _ => return self.arc(motion == Motion::ArcCounterClockwise, target, at),
         }
         Ok(())
+    }
+
+    /// Whether I J K of the block are a tool direction.
+    fn names_direction(&self) -> bool {
+        self.modes.vectors && b"IJK".iter().any(|l| self.words.look(*l).is_some())
     }
 
     /// I J K of a line are a tool direction with G43.5.
@@ -387,11 +498,24 @@ impl Run<'_> {
         }
         let target = self.frames.program_at(&machine);
         let turned = self.frames.work().rotation_deg != 0.0 && (named[0] || named[1]);
+        let spatial = self.frames.program.is_some() || self.frames.work().linear.is_some();
         let old = self.frames.position;
         Position(std::array::from_fn(|i| {
-            if named[i] || turned && i < 2 { target.0[i] } else { old.0[i] }
+            let mixed = turned && i < 2 || spatial && i < 3;
+            if named[i] || mixed { target.0[i] } else { old.0[i] }
         }))
     }
+}
+
+/// The name behind M98 or G65 of FANUC, and where it stands.
+fn called_name<'b>(program: &Program, items: &'b [Item]) -> Option<(&'b Label, usize)> {
+    let name = items.iter().find_map(|item| match item {
+        Item::Control { keyword: Keyword::Call, label: Some(label), offset, .. } => {
+            Some((label, *offset))
+        }
+        _ => None,
+    });
+    name.filter(|_| program.dialect().macro_words)
 }
 
 fn is_control(item: &Item) -> bool {

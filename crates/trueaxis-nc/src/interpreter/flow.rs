@@ -17,6 +17,8 @@ impl Activation {
             rounds: HashMap::new(),
             seeking: false,
             repeats: 0,
+            named: false,
+            shares_locals: false,
         }
     }
 }
@@ -30,7 +32,7 @@ struct Statement<'b> {
 }
 
 impl Run<'_> {
-    fn frame(&mut self) -> &mut Activation {
+    pub(super) fn frame(&mut self) -> &mut Activation {
         // why: the stack is never empty while a block is executed.
         self.stack.last_mut().expect("a block belongs to a frame")
     }
@@ -78,7 +80,7 @@ impl Run<'_> {
         };
         let statement = Statement { keyword: *keyword, label, arguments, offset: *offset };
         match keyword {
-            Keyword::ProgramNumber => Ok(None),
+            Keyword::ProgramNumber => self.program_begins(&statement),
             Keyword::IfThen => {
                 let holds = self.condition(program, block, arguments)?;
                 Ok(if holds { None } else { Some(Next::Following) })
@@ -99,6 +101,25 @@ impl Run<'_> {
         }
     }
 
+    /// `O1234` within the text: the program that was executed has come to its end.
+    fn program_begins(&mut self, statement: &Statement<'_>) -> Result<Option<Next>, Fault> {
+        let at = statement.offset;
+        if let Label::Number(number) = statement.label {
+            self.modes.last[3] = number as f64;
+        }
+        if !std::mem::replace(&mut self.frame().named, true) {
+            return Ok(None);
+        }
+        if let Some(label) = self.frame().sub.take() {
+            let message = format!("the subprogram {} has no end", show(&label));
+            return Err(fault("missing-end", at, message, "end it with M99"));
+        }
+        let message = "the next program begins before this one has an end".to_owned();
+        self.warn_once("missing-end", 0, at, message, "end the main program with M30");
+        self.emit(Event::End);
+        Ok(Some(Next::Finished))
+    }
+
     fn condition(
         &self,
         program: &Program,
@@ -113,14 +134,7 @@ impl Run<'_> {
 
     fn go_to(&mut self, program: &Program, statement: &Statement<'_>) -> Result<Next, Fault> {
         let Label::Number(wanted) = statement.label else { return Ok(Next::Following) };
-        let numbers = &program.structure().numbers;
-        let after = numbers.partition_point(|(_, start, _)| *start <= statement.offset);
-        let found = numbers[after..]
-            .iter()
-            .chain(&numbers[..after])
-            .find(|(number, ..)| *number == wanted)
-            .copied();
-        let Some((_, start, line)) = found else {
+        let Some((start, line)) = program.structure().block_number(wanted, statement.offset) else {
             let message = format!("there is no block N{wanted}");
             return Err(fault("missing-label", statement.offset, message, "check the number"));
         };
@@ -137,7 +151,7 @@ impl Run<'_> {
         Ok(Next::Jumped)
     }
 
-    fn count(&mut self, at: usize) -> Result<(), Fault> {
+    pub(super) fn count(&mut self, at: usize) -> Result<(), Fault> {
         self.jumps += 1;
         if self.jumps <= self.settings.most_jumps {
             return Ok(());
@@ -339,7 +353,7 @@ impl Run<'_> {
 
     /// Enters a subprogram of this text or of the library; the caller goes on behind `block`.
     #[expect(clippy::too_many_arguments, reason = "who calls whom with what: all are different")]
-    fn enter(
+    pub(super) fn enter(
         &mut self,
         program: &Program,
         label: &Label,
@@ -359,12 +373,13 @@ impl Run<'_> {
         self.follow(block);
         let mut frame = Activation::new(number, start, line);
         (frame.sub, frame.locals, frame.repeats) = (Some(label.clone()), locals, repeats);
+        frame.named = start > 0;
         self.stack.push(frame);
         self.returned = None;
         Ok(Next::Jumped)
     }
 
-    fn find_sub(
+    pub(super) fn find_sub(
         &mut self,
         program: &Program,
         label: &Label,
@@ -403,100 +418,6 @@ impl Run<'_> {
             }
         }
     }
-
-    /// M98 P…: a FANUC subprogram, L times; P with more than 4 digits carries the count in front.
-    pub(super) fn subprogram_call(&mut self, block: &Block) -> Result<Next, Fault> {
-        let at = self.words.place(b'P').max(block.span.start);
-        let (number, digits) = self.program_number(at)?;
-        let repeats = self.words.take(b'L').unwrap_or((digits / 10_000).max(1) as f64);
-        let locals = self.frame().locals.clone();
-        self.call_number(number, locals, block, repeats, at)
-    }
-
-    /// G65 P… with letters as arguments.
-    pub(super) fn macro_call(&mut self, block: &Block) -> Result<Next, Fault> {
-        const NUMBERS: [usize; 26] = [
-            1, 2, 3, 7, 8, 9, 0, 11, 4, 5, 6, 0, 13, 0, 0, 0, 17, 18, 19, 20, 21, 22, 23, 24, 25,
-            26,
-        ];
-        let at = self.words.place(b'P').max(block.span.start);
-        let (number, _) = self.program_number(at)?;
-        let repeats = self.words.take(b'L').unwrap_or(1.0);
-        let mut locals = Locals::default();
-        for (letter, value) in self.words.take_all() {
-            let index = NUMBERS[usize::from(letter - b'A')];
-            if index > 0 {
-                locals.numbers[index] = Some(value);
-            }
-        }
-        self.call_number(number, locals, block, repeats, at)
-    }
-
-    fn program_number(&mut self, at: usize) -> Result<(u64, u64), Fault> {
-        match self.words.take(b'P') {
-            Some(p) if (1.0..1e9).contains(&p) && p.fract() == 0.0 => {
-                let digits = p as u64;
-                Ok((if digits > 9999 { digits % 10_000 } else { digits }, digits))
-            }
-            _ => {
-                let message = "the number of the subprogram is missing".to_owned();
-                Err(fault("missing-subprogram", at, message, "write M98 P1000"))
-            }
-        }
-    }
-
-    fn call_number(
-        &mut self,
-        number: u64,
-        locals: Locals,
-        block: &Block,
-        repeats: f64,
-        at: usize,
-    ) -> Result<Next, Fault> {
-        let program = self.current();
-        if repeats < 1.0 {
-            return Ok(Next::Following);
-        }
-        let name = format!("O{number:04}");
-        self.enter(&program, &Label::Number(number), &name, locals, block, repeats as u64, at)
-    }
-
-    /// M99: back to the caller, or once more; in the main program back to its beginning, which is
-    /// taken as its end.
-    pub(super) fn subprogram_return(&mut self, block: &Block) -> Result<Next, Fault> {
-        let back = self.words.take(b'P');
-        let frame = self.frame();
-        let Some(label) = frame.sub.clone() else {
-            let message = "M99 in the main program repeats it: taken as its end".to_owned();
-            self.warn_once("endless-main", 0, block.span.start, message, "write M30");
-            self.emit(Event::End);
-            return Ok(Next::Finished);
-        };
-        frame.repeats = frame.repeats.saturating_sub(1);
-        if frame.repeats > 0 {
-            let name = show(&label);
-            let program = self.current();
-            self.count(block.span.start)?;
-            let (_, start, line) = self.find_sub(&program, &label, &name, block.span.start)?;
-            let frame = self.frame();
-            (frame.at, frame.line) = (start, line);
-            return Ok(Next::Jumped);
-        }
-        self.stack.pop();
-        if let Some(number) = back {
-            let number_of_caller = self.frame().program;
-            let caller = Rc::clone(&self.programs[number_of_caller]);
-            let numbers = &caller.structure().numbers;
-            let found = numbers.iter().find(|(n, ..)| *n as f64 == number).copied();
-            let Some((_, start, line)) = found else {
-                let message = format!("the caller has no block N{number}");
-                return Err(fault("missing-label", block.span.start, message, "check P of M99"));
-            };
-            let frame = self.frame();
-            (frame.at, frame.line) = (start, line);
-        }
-        Ok(Next::Jumped)
-    }
 }
 
 fn unopened(statement: &Statement<'_>) -> Fault {
@@ -505,7 +426,7 @@ fn unopened(statement: &Statement<'_>) -> Fault {
     fault("unopened-control", statement.offset, message, "check the labels")
 }
 
-fn show(label: &Label) -> String {
+pub(super) fn show(label: &Label) -> String {
     match label {
         Label::Number(number) => number.to_string(),
         Label::Name(name) => name.clone(),

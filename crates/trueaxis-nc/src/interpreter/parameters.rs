@@ -81,13 +81,13 @@ impl Run<'_> {
     }
 
     fn system(&self, number: u32) -> Option<f64> {
+        if self.programs[0].dialect().macro_words {
+            return self.fanuc_variable(number);
+        }
         let frames = &self.frames;
         let of = |position: &Position, first: u32| self.shown(position, (number - first) as usize);
         match number {
             5021..=5029 => of(&frames.machine(), 5021),
-            5001..=5009 | 5041..=5049 if self.programs[0].dialect().macro_words => {
-                of(&frames.position, if number < 5041 { 5001 } else { 5041 })
-            }
             5161..=5169 => of(&frames.references[0], 5161),
             5181..=5189 => of(&frames.references[1], 5181),
             5210 => Some(f64::from(u8::from(frames.shift_on))),
@@ -108,7 +108,7 @@ impl Run<'_> {
     }
 
     /// An axis value in the units of the program.
-    fn shown(&self, position: &Position, axis: usize) -> Option<f64> {
+    pub(super) fn shown(&self, position: &Position, axis: usize) -> Option<f64> {
         let value = position.0.get(axis)?;
         Some(if Axis::ALL[axis].is_rotary() { *value } else { *value / self.modes.unit_mm() })
     }
@@ -160,6 +160,9 @@ impl Run<'_> {
                     let message = format!("there is no parameter #{number} to be set");
                     let hint = "see the manual of the control for the range of parameters";
                     return Err(fault("parameter-out-of-range", offset, message, hint));
+                }
+                if own == 33 && number > own && self.write_system(number, value, offset)? {
+                    return Ok(());
                 }
                 if number > own && self.system(number).is_some() {
                     let message = format!(

@@ -27,6 +27,9 @@ impl Run<'_> {
         source: &[u8],
         start: usize,
     ) -> Option<usize> {
+        if !self.modes.macros.is_empty() {
+            return None;
+        }
         let mut at = start;
         self.words.clear();
         loop {
@@ -59,12 +62,19 @@ impl Run<'_> {
     fn quick_word(&mut self, dialect: &Dialect, letter: u8, value: f64, at: usize) -> Option<()> {
         let action = match letter {
             b'O' => return None,
-            b'N' => return Some(()),
+            b'N' => {
+                self.modes.last[1] = value;
+                return Some(());
+            }
             b'G' => self.codes[super::words::whole(value * 10.0).filter(|t| *t < 1000)? as usize]?,
-            b'M' => dialect.m_code(super::words::whole(value)?)?,
+            b'M' => {
+                self.modes.last[0] = value;
+                dialect.m_code(super::words::whole(value)?)?
+            }
             _ => return self.words.put(letter, value, at).ok(),
         };
-        if self.words.actions.len() > 20 {
+        let call = matches!(action, Action::MacroCall | Action::ModalMacro { .. });
+        if call || self.words.actions.len() > 20 {
             return None;
         }
         self.words.actions.push((action, at));

@@ -1,6 +1,6 @@
 use super::{Run, fault};
 use crate::code::Action;
-use crate::moves::{Axis, Event, MoveKind, Position};
+use crate::moves::{Axis, Coordinates, Event, Move, MoveKind, Position};
 use crate::program::Fault;
 
 impl Run<'_> {
@@ -9,10 +9,11 @@ impl Run<'_> {
         match action {
             Action::ToolLength
             | Action::ToolLengthDirect
+            | Action::ToolLengthNegative
             | Action::ToolLengthAdd
             | Action::ToolLengthOff
             | Action::ToolCentre(_) => self.tool_length(action, at)?,
-            Action::WorkOffset(index) => self.select_offset(usize::from(index) - 1),
+            Action::WorkOffset(index) => self.select_offset(usize::from(index) - 1, at),
             Action::WorkOffsetFurther => {
                 let number = self.words.take(b'P').unwrap_or(1.0);
                 if !(1.0..=300.0).contains(&number) {
@@ -20,18 +21,10 @@ impl Run<'_> {
                     return Err(fault("bad-work-offset", at, message, "write G54.1 P1"));
                 }
                 // The six of G54 to G59 come first, three places are LinuxCNC's.
-                self.select_offset(8 + number as usize);
+                self.select_offset(8 + number as usize, at);
             }
             Action::SetTable => self.set_table(at)?,
-            Action::Shift => {
-                let target = self.target_absolute();
-                self.frames.change(|f| {
-                    let moved = f.position.minus(&target);
-                    f.shift = f.live_shift().plus(&moved);
-                    f.shift_on = true;
-                });
-                self.emit_shift();
-            }
+            Action::Shift => self.shift_here(),
             Action::LocalShift => {
                 let mut shift = self.frames.shift;
                 for axis in Axis::ALL {
@@ -44,7 +37,18 @@ impl Run<'_> {
             Action::ShiftCancel => self.change_shift(Position::default(), false),
             Action::ShiftSuspend => self.change_shift(self.frames.shift, false),
             Action::ShiftResume => self.change_shift(self.frames.shift, true),
+            Action::Preset => {
+                let mut shift = self.frames.shift;
+                for axis in Axis::ALL {
+                    if self.axis_word(axis).is_some() {
+                        shift[axis] = 0.0;
+                    }
+                }
+                self.change_shift(shift, true);
+            }
             Action::Reference(index) => self.reference(usize::from(index) - 1),
+            Action::ReferenceCheck => self.check_reference(at),
+            Action::ReferenceReturn => self.leave_reference(),
             Action::SetReference(index) => {
                 self.frames.references[usize::from(index) - 1] = self.frames.machine();
             }
@@ -64,6 +68,22 @@ impl Run<'_> {
         target
     }
 
+    /// G92: the present place gets the written coordinates.
+    fn shift_here(&mut self) {
+        let target = self.target_absolute();
+        self.frames.change(|f| {
+            let mut moved = f.position.minus(&target);
+            if let Some(program) = &f.program {
+                // The shift lies outside of the frames of the program.
+                let [x, y, z, ..] = moved.0;
+                moved.0[..3].copy_from_slice(&program.vector([x, y, z]));
+            }
+            f.shift = f.live_shift().plus(&moved);
+            f.shift_on = true;
+        });
+        self.emit_shift();
+    }
+
     fn emit_shift(&mut self) {
         let shift = self.frames.live_shift();
         self.emit(Event::Shift(shift));
@@ -75,7 +95,7 @@ impl Run<'_> {
         self.emit_shift();
     }
 
-    fn emit_offset(&mut self) {
+    pub(super) fn emit_offset(&mut self) {
         let work = self.frames.work();
         self.emit(Event::WorkOffset {
             index: self.frames.active as u32 + 1,
@@ -85,10 +105,11 @@ impl Run<'_> {
         self.emit_frame();
     }
 
-    fn select_offset(&mut self, index: usize) {
+    fn select_offset(&mut self, index: usize, at: usize) {
         if index == self.frames.active {
             return;
         }
+        self.check_turn(index, at);
         self.frames.change(|f| {
             if f.offsets.len() <= index {
                 f.offsets.resize(index + 1, Default::default());
@@ -99,12 +120,32 @@ impl Run<'_> {
         self.emit_shift();
     }
 
-    fn tool_length(&mut self, action: Action, at: usize) -> Result<(), Fault> {
+    /// LinuxCNC turns work offsets about Z only.
+    pub(super) fn check_turn(&mut self, index: usize, at: usize) {
+        let fanuc = self.programs[0].dialect().macro_words;
+        let Some(work) = self.frames.offsets.get_mut(index).filter(|_| !fanuc) else { return };
+        if work.linear.take().is_some() {
+            let message = format!(
+                "work offset {} is turned otherwise than about Z: its turn about Z alone is taken",
+                index + 1
+            );
+            let hint = "this control turns work offsets about Z; align the part or the model";
+            self.warn_once("work-offset-not-about-z", index as u32, at, message, hint);
+        }
+    }
+
+    pub(super) fn tool_length(&mut self, action: Action, at: usize) -> Result<(), Fault> {
         let number = match self.words.take(b'H') {
-            Some(h) if (0.0..1e9).contains(&h) => h as u32,
+            Some(h) if (0.0..1e9).contains(&h) => {
+                self.modes.length_number = Some(h as u32);
+                h as u32
+            }
             Some(h) => {
                 let message = format!("H{h} is not the number of a tool length");
                 return Err(fault("bad-tool", at, message, "write H1"));
+            }
+            None if self.programs[0].dialect().macro_words => {
+                self.modes.length_number.unwrap_or(self.modes.tool)
             }
             None => self.modes.tool,
         };
@@ -126,21 +167,61 @@ impl Run<'_> {
                     self.warn_once("unknown-tool-length", number, at, message, hint);
                 }
                 length = self.frames.tool_length(number);
+                if action == Action::ToolLengthNegative {
+                    length = Position::default().minus(&length);
+                }
             }
         }
-        self.frames.change(|f| f.tool = length);
+        self.set_tool_length(length);
+        self.modes.length_code = match action {
+            Action::ToolLengthOff => 49.0,
+            Action::ToolLengthNegative => 44.0,
+            Action::ToolCentre(vectors) => 43.4 + 0.1 * f64::from(u8::from(vectors)),
+            _ => 43.0,
+        };
+        let centre = match action {
+            Action::ToolCentre(vectors) => Some((true, vectors)),
+            Action::ToolLengthOff => Some((false, false)),
+            _ => None,
+        };
+        if let Some((on, vectors)) = centre {
+            (self.modes.tool_centre, self.modes.vectors) = (on, vectors);
+            self.emit(Event::ToolCentre(on));
+        }
+        Ok(())
+    }
+
+    fn set_tool_length(&mut self, length: Position) {
+        if self.modes.transforms.tilted {
+            // The tool stands along Z of the tilted plane.
+            let longer = length.minus(&self.frames.tool);
+            self.frames.position = self.frames.position.minus(&longer);
+            self.frames.tool = length;
+        } else {
+            self.frames.change(|f| f.tool = length);
+        }
         self.emit(Event::ToolLength(length));
-        match action {
-            Action::ToolCentre(vectors) => {
-                self.modes.vectors = vectors;
-                self.emit(Event::ToolCentre(true));
-            }
-            Action::ToolLengthOff => {
-                self.modes.vectors = false;
-                self.emit(Event::ToolCentre(false));
-            }
-            _ => {}
+    }
+
+    /// H alone, while a length is on, is another length (FANUC).
+    pub(super) fn reselect_length(&mut self, at: usize) -> Result<(), Fault> {
+        let Some(number) = self.words.look(b'H') else { return Ok(()) };
+        let on = self.modes.length_code != 49.0;
+        if !on || !self.programs[0].dialect().macro_words {
+            return Ok(());
         }
+        if number == 0.0 {
+            self.words.take(b'H');
+            self.set_tool_length(Position::default());
+            return Ok(());
+        }
+        let action = match self.modes.length_code {
+            44.0 => Action::ToolLengthNegative,
+            _ => Action::ToolLength,
+        };
+        let code = self.modes.length_code;
+        self.tool_length(action, at)?;
+        self.modes.length_code = code;
         Ok(())
     }
 
@@ -150,6 +231,10 @@ impl Run<'_> {
         let all = !named.contains(&true);
         let between = self.target();
         self.step(MoveKind::Rapid, between);
+        self.modes.via = Some(between);
+        if self.follows_workpiece() {
+            return self.machine_move(self.frames.references[index]);
+        }
         let mut machine = self.frames.machine();
         for axis in Axis::ALL {
             if all || named[axis as usize] {
@@ -160,9 +245,51 @@ impl Run<'_> {
         self.step(MoveKind::Rapid, target);
     }
 
+    /// A rapid of the named axes in machine coordinates, whatever the frames are. Where that is in
+    /// the program frame only the machine knows; here it is as if all rotary axes stood at zero.
+    pub(super) fn machine_move(&mut self, machine: Position) {
+        let (feed, origin) = (self.modes.feed(), self.origin);
+        let coordinates = Coordinates::Machine;
+        let rapid = Move::plain(MoveKind::Rapid, machine, self.words.axes(), feed, origin);
+        self.emit_move(Move { coordinates, ..rapid });
+        self.frames.position = self.frames.program_at(&machine);
+    }
+
+    /// G27: goes there, and it should be a reference point.
+    fn check_reference(&mut self, at: usize) {
+        let named = Axis::ALL.map(|a| self.words.look(a.letter()).is_some());
+        let target = self.target();
+        self.step(MoveKind::Rapid, target);
+        let machine = self.frames.machine();
+        let away = |i: usize| (machine.0[i] - self.frames.references[0].0[i]).abs() > 1e-3;
+        if (0..9).any(|i| named[i] && away(i)) {
+            let message = "G27: this is not the reference point".to_owned();
+            self.warn_once("not-at-reference", 0, at, message, "the control stops here");
+        }
+    }
+
+    /// G29: the named axes go by way of the place of the last G28.
+    fn leave_reference(&mut self) {
+        let named = Axis::ALL.map(|a| self.words.look(a.letter()).is_some());
+        if let Some(via) = self.modes.via {
+            let now = self.frames.position.0;
+            let between = std::array::from_fn(|i| if named[i] { via.0[i] } else { now[i] });
+            self.step(MoveKind::Rapid, Position(between));
+        }
+        let target = self.target();
+        self.step(MoveKind::Rapid, target);
+    }
+
     /// G10: sets a table by L and P.
     fn set_table(&mut self, at: usize) -> Result<(), Fault> {
         let level = self.words.take(b'L');
+        let fanuc = self.programs[0].dialect().macro_words;
+        if fanuc && level.is_some_and(|l| (50.0..=52.0).contains(&l)) {
+            let _ = self.words.take_all();
+            self.modes.data_input = true;
+            self.emit(Event::Note("G10 L50 parameters are not set"));
+            return Ok(());
+        }
         let number = self.words.take(b'P');
         let number = match number {
             Some(p) if (0.0..1000.0).contains(&p) && p.fract() == 0.0 => p as u32,
@@ -171,12 +298,17 @@ impl Run<'_> {
                 return Err(fault("bad-g10", at, message, "write G10 L2 P1 X0"));
             }
         };
-        let fanuc = self.programs[0].dialect().macro_words;
         match level.map(|l| l as i64) {
-            // FANUC: the further work offsets, and the length of a tool.
+            // FANUC: the further work offsets, lengths and radii of tools, and their wear.
+            Some(20) if fanuc && !(1..=300).contains(&number) => Err(no_offset(number, at)),
+            Some(2) if fanuc && number > 6 => Err(no_offset(number, at)),
             Some(20) if fanuc => self.set_offset(number + 9, false, at),
-            Some(10) if fanuc => {
-                self.set_length(number);
+            Some(2) if fanuc && number == 0 => {
+                self.set_external();
+                Ok(())
+            }
+            None | Some(1 | 10..=13) if fanuc => {
+                self.set_length(number, level.unwrap_or(1.0) as u32);
                 Ok(())
             }
             Some(2 | 20) => self.set_offset(number, level == Some(20.0), at),
@@ -187,7 +319,7 @@ impl Run<'_> {
             _ => {
                 let _ = self.words.take_all();
                 let message = "this form of G10 is not applied".to_owned();
-                let hint = "L2, L10 and L20 are, and L1 and L11 of LinuxCNC";
+                let hint = "L1, L2, L10, L11 and L20 are, and L12, L13 and L50 of FANUC";
                 self.warn_once("not-applied", 10, at, message, hint);
                 Ok(())
             }
@@ -206,8 +338,12 @@ impl Run<'_> {
         let words = Axis::ALL.map(|a| self.axis_word(a));
         let rotation = self.words.take(b'R');
         let incremental = self.modes.incremental && self.programs[0].dialect().macro_words;
+        self.check_turn(index, at);
         let before = self.frames.clone();
         let mut work = self.frames.offsets[index];
+        if rotation.is_some() {
+            work.linear = None;
+        }
         work.rotation_deg = rotation.unwrap_or(work.rotation_deg);
         if from_place {
             // The place that the axes have now shall read as the words say.
@@ -234,14 +370,55 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// FANUC G10 L10 P… R…: the length of a tool along Z.
-    fn set_length(&mut self, number: u32) {
-        let mut length = self.frames.tool_length(number);
-        if let Some(value) = self.length(b'R') {
-            let base = if self.modes.incremental { length[Axis::Z] } else { 0.0 };
-            length[Axis::Z] = base + value;
+    /// FANUC G10 L2 P0: what is added to all work offsets.
+    fn set_external(&mut self) {
+        let mut external = self.frames.external;
+        for axis in Axis::ALL {
+            if let Some(value) = self.axis_word(axis) {
+                let base = if self.modes.incremental { external[axis] } else { 0.0 };
+                external[axis] = base + value;
+            }
         }
-        self.frames.tools.insert(number, length);
+        self.change_external(external);
+    }
+
+    pub(super) fn change_external(&mut self, external: Position) {
+        self.frames.change(|f| f.external = external);
+        self.emit_frame();
+    }
+
+    /// A work offset as it is written; the machine stays where it is.
+    pub(super) fn change_offset(&mut self, index: usize, offset: Position) {
+        if self.frames.offsets.len() <= index {
+            self.frames.offsets.resize(index + 1, Default::default());
+        }
+        self.frames.change(|f| f.offsets[index].offset = offset);
+        if index == self.frames.active {
+            self.emit_offset();
+        }
+    }
+
+    /// FANUC G10 L10, L11 (wear), L12 and L13 (radius and its wear) P… R…; L1 is L10.
+    fn set_length(&mut self, number: u32, level: u32) {
+        let Some(value) = self.length(b'R') else { return };
+        let length = self.frames.tools.get(&number).copied().unwrap_or_default();
+        let old = match level {
+            11 => self.frames.wear.get(&number).copied().unwrap_or_default(),
+            12 | 13 => 0.0,
+            _ => length[Axis::Z],
+        };
+        let value = if self.modes.incremental { old + value } else { value };
+        match level {
+            11 => {
+                self.frames.wear.insert(number, value);
+            }
+            12 | 13 => self.emit(Event::Note("G10 L12 L13 radius of a tool")),
+            _ => {
+                let mut length = length;
+                length[Axis::Z] = value;
+                self.frames.tools.insert(number, length);
+            }
+        }
     }
 
     /// G10 L1 (as written), L10 (from the present place) and L11 (from the place in G59.3).
@@ -278,4 +455,9 @@ impl Run<'_> {
         }
         self.frames.tools.insert(number, length);
     }
+}
+
+fn no_offset(number: u32, at: usize) -> Fault {
+    let message = format!("there is no work offset P{number}");
+    fault("bad-work-offset", at, message, "write G10 L2 P1 to P6, or G10 L20 P1 to P300")
 }

@@ -27,7 +27,15 @@ impl Run<'_> {
                 };
                 Ok(f64::from(u8::from(found)))
             }
-            Node::Binary(operator, a, b, at) => binary(*operator, of(*a)?, of(*b)?, *at),
+            Node::Binary(operator, a, b, at) => {
+                let (a, b) = (of(*a)?, of(*b)?);
+                if program.dialect().macro_words
+                    && let Some(value) = whole_numbers(*operator, vacant(a), vacant(b))
+                {
+                    return Ok(value);
+                }
+                binary(*operator, a, b, *at)
+            }
         }
     }
 
@@ -75,6 +83,8 @@ impl Run<'_> {
         };
         let result = match function {
             Function::Abs => x.abs(),
+            Function::Bcd => coded(x, 10, 16).map_or_else(|| domain(false, x), Ok)?,
+            Function::Bin => coded(x, 16, 10).map_or_else(|| domain(false, x), Ok)?,
             Function::Acos => domain(x.abs() <= 1.0, x.acos())?.to_degrees(),
             Function::Asin => domain(x.abs() <= 1.0, x.asin())?.to_degrees(),
             Function::Cos => x.to_radians().cos(),
@@ -90,6 +100,36 @@ impl Run<'_> {
             Function::Tan => x.to_radians().tan(),
         };
         finite(result, at)
+    }
+}
+
+/// The digits of a whole number in one base, read in another: BCD and BIN.
+fn coded(x: f64, from: u64, to: u64) -> Option<f64> {
+    let mut rest = Some(x.round()).filter(|x| (0.0..1e8).contains(x))? as u64;
+    let (mut value, mut place) = (0, 1);
+    while rest > 0 {
+        let digit = rest % from;
+        if digit > 9 {
+            return None;
+        }
+        (value, place, rest) = (value + digit * place, place * to, rest / from);
+    }
+    Some(value as f64)
+}
+
+/// AND, OR, XOR and MOD of FANUC work on whole numbers, bit by bit; MOD has the sign of the
+/// dividend. `None` leaves it to the others.
+fn whole_numbers(operator: Operator, a: f64, b: f64) -> Option<f64> {
+    let bits = |of: fn(i64, i64) -> i64| {
+        let fits = |x: f64| x.abs() < 1e15;
+        (fits(a) && fits(b)).then(|| of(a.round() as i64, b.round() as i64) as f64)
+    };
+    match operator {
+        Operator::And => bits(|a, b| a & b),
+        Operator::Or => bits(|a, b| a | b),
+        Operator::Xor => bits(|a, b| a ^ b),
+        Operator::Modulo if b.round() != 0.0 => Some(a.round() % b.round()),
+        _ => None,
     }
 }
 

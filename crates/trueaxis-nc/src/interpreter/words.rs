@@ -1,7 +1,11 @@
+use super::calls::ModalMacro;
 use super::cycles::CycleMemory;
+use super::transforms::Transforms;
 use super::{Run, Settings, fault};
 use crate::code::{Action, Motion};
-use crate::moves::{Axis, AxisSet, Feed, FeedMode, Plane, Position, Turning};
+use crate::moves::{
+    Axis, AxisSet, CompensationSide, Feed, FeedMode, PathControl, Plane, Position, Turning,
+};
 use crate::program::{Block, Fault, Item, Program};
 
 /// No word is larger, so that no sum of words leaves the range of numbers.
@@ -39,6 +43,27 @@ pub(super) struct Modes {
     pub cycle: CycleMemory,
     /// G43.5: I J K of a line are a tool direction.
     pub vectors: bool,
+    /// The tip of the tool is programmed.
+    pub tool_centre: bool,
+    /// The G code of the tool length that is on, 49 if none is.
+    pub length_code: f64,
+    /// The number of that length: H.
+    pub length_number: Option<u32>,
+    pub compensation: CompensationSide,
+    pub path: PathControl,
+    pub transforms: Transforms,
+    /// Where G28 or G30 came through last.
+    pub via: Option<Position>,
+    /// What is left of G10 L50: blocks are data until G11.
+    pub data_input: bool,
+    /// G66 and G66.1, the innermost last.
+    pub macros: Vec<ModalMacro>,
+    /// The block just executed moved: a modal macro is due.
+    pub moved: bool,
+    /// The place of the last probing move.
+    pub skip: Position,
+    /// The last M, N, D and O for #4113 …
+    pub last: [f64; 4],
 }
 
 impl Modes {
@@ -60,6 +85,18 @@ impl Modes {
             tool: 0,
             cycle: CycleMemory::default(),
             vectors: false,
+            tool_centre: false,
+            length_code: 49.0,
+            length_number: None,
+            compensation: CompensationSide::Off,
+            path: PathControl::Continuous,
+            transforms: Transforms::default(),
+            via: None,
+            data_input: false,
+            macros: Vec::new(),
+            moved: false,
+            skip: Position::default(),
+            last: [0.0; 4],
         }
     }
 
@@ -82,12 +119,15 @@ pub(super) struct Words {
     used: u32,
     /// G and M codes in the order of execution.
     pub actions: Vec<(Action, usize)>,
+    /// The arguments of a macro call, in the order of the block.
+    pub arguments: Vec<(u8, f64)>,
 }
 
 impl Words {
     pub fn clear(&mut self) {
         (self.present, self.used) = (0, 0);
         self.actions.clear();
+        self.arguments.clear();
     }
 
     /// The value of a word; it counts as used.
@@ -182,17 +222,20 @@ impl Run<'_> {
         items: &[Item],
         words: &mut Words,
     ) -> Result<(), Fault> {
+        let gathering = self.gathering(program, block, items);
         for item in items {
             let Item::Word { letter, value, offset } = item else { continue };
             let value = self.value(program, block, *value)?;
             match letter {
                 _ if value.is_nan() => {}
-                b'N' => {}
+                _ if gathering.is_argument(*letter) => words.arguments.push((*letter, value)),
+                b'N' => self.modes.last[1] = value,
                 b'G' => {
                     let action = self.g_code(program, value, *offset)?;
                     words.actions.push((action, *offset));
                 }
                 b'M' => {
+                    self.modes.last[0] = value;
                     let known = whole(value).and_then(|n| program.dialect().m_code(n));
                     let Some(action) = known else {
                         let message = format!("M{value} is not known to this control");
@@ -252,10 +295,31 @@ impl Run<'_> {
         Some(value * scale)
     }
 
-    /// Where the axis words lead, by G90 or G91.
+    /// Where the axis words lead, by G90 or G91, in polar coordinates if they are on.
     pub(super) fn target(&mut self) -> Position {
+        let polar = self.polar_place();
+        let [a, b, _] = self.modes.plane.axes();
         let mut target = self.frames.position;
+        if let Some(place) = polar {
+            (target[a], target[b]) = (place[0], place[1]);
+            let rest = Axis::ALL.into_iter().filter(|axis| *axis != a && *axis != b);
+            return self.place_by_words(target, rest);
+        }
         for axis in Axis::ALL {
+            if let Some(value) = self.axis_word(axis) {
+                let base = if self.modes.incremental { target[axis] } else { 0.0 };
+                target[axis] = base + value;
+            }
+        }
+        target
+    }
+
+    fn place_by_words(
+        &mut self,
+        mut target: Position,
+        axes: impl Iterator<Item = Axis>,
+    ) -> Position {
+        for axis in axes {
             if let Some(value) = self.axis_word(axis) {
                 let base = if self.modes.incremental { target[axis] } else { 0.0 };
                 target[axis] = base + value;
@@ -275,8 +339,17 @@ pub(super) fn whole(value: f64) -> Option<u16> {
 pub(super) fn check_groups(words: &Words) -> Result<(), Fault> {
     let group = |a: Action| match a {
         Action::Note(_)
+        | Action::NoteWhole(_)
         | Action::NotApplied(_)
         | Action::NotAppliedAlone(_)
+        | Action::Kinematics(_)
+        | Action::ModalMacroOff
+        | Action::DataInputEnd
+        | Action::Polar(_)
+        | Action::Scale
+        | Action::ScaleOff
+        | Action::Mirror(_)
+        | Action::RotationOff
         | Action::Coolant(_)
         | Action::ToolCentre(_)
         | Action::ArcAbsolute(_)

@@ -35,8 +35,16 @@ impl Parser<'_, '_> {
     pub(super) fn program_number(&mut self) -> bool {
         let offset = self.here();
         self.advance();
-        let Some(label) = self.number_label() else { return false };
+        let Some(label) = self.label() else { return false };
         self.push(Keyword::ProgramNumber, Some(label), Vec::new(), offset);
+        true
+    }
+
+    /// `M98 <NAME>`: the program that the block calls.
+    pub(super) fn called_name(&mut self) -> bool {
+        let offset = self.here();
+        let Some(label) = self.label() else { return false };
+        self.push(Keyword::Call, Some(label), Vec::new(), offset);
         true
     }
 

@@ -2,8 +2,10 @@ use super::{DEEPEST, Parser};
 use crate::lexer::{Token, TokenKind, number_value};
 use crate::program::{Function, Node, NodeId, Operator};
 
-const FUNCTIONS: [(&[u8], Function); 14] = [
+const FUNCTIONS: [(&[u8], Function); 16] = [
     (b"ABS", Function::Abs),
+    (b"BCD", Function::Bcd),
+    (b"BIN", Function::Bin),
     (b"ACOS", Function::Acos),
     (b"ASIN", Function::Asin),
     (b"COS", Function::Cos),
@@ -103,7 +105,8 @@ impl Parser<'_, '_> {
 
     fn parameter(&mut self) -> Option<NodeId> {
         self.advance();
-        if let Some(name) = self.token.filter(|t| t.kind == TokenKind::Name) {
+        let named = self.dialect.o_words;
+        if let Some(name) = self.token.filter(|t| named && t.kind == TokenKind::Name) {
             if self.source[name.end - 1] != b'>' {
                 let message = "the name of the parameter is not closed".to_owned();
                 self.fault("unclosed-name", name.start, message, "close it with >");
@@ -180,7 +183,10 @@ impl Parser<'_, '_> {
         if self.accept_word(b"EXISTS") {
             return self.exists();
         }
-        let Some((_, function)) = FUNCTIONS.iter().find(|(name, _)| self.accept_word(name)) else {
+        let known =
+            |f: Function| self.dialect.macro_words || !matches!(f, Function::Bcd | Function::Bin);
+        let known: Vec<_> = FUNCTIONS.iter().filter(|(_, f)| known(*f)).collect();
+        let Some((_, function)) = known.into_iter().find(|(name, _)| self.accept_word(name)) else {
             let hint = "a number, a parameter, [ ], or SIN COS TAN ASIN ACOS ATAN SQRT ABS ROUND \
                         FIX FUP LN EXP EXISTS";
             self.fault("missing-value", offset, "no value and no known function".into(), hint);

@@ -207,7 +207,10 @@ fn tools() -> BTreeMap<u32, Position> {
 /// Our calls for a program, and what was wrong with it.
 pub fn our_calls(file: &Path) -> (Vec<Call>, String) {
     let folder = file.parent().unwrap();
-    let settings = Settings { constants: constants(folder), tools: tools(), ..Settings::default() };
+    // This one is about going on behind errors.
+    let keep_going = folder.ends_with("oword-unwind");
+    let (constants, tools) = (constants(folder), tools());
+    let settings = Settings { constants, tools, keep_going, ..Settings::default() };
     let program = Program::new(
         &file.file_name().unwrap().to_string_lossy(),
         std::fs::read(file).unwrap(),
@@ -301,4 +304,109 @@ fn push_event(event: &Event, calls: &mut Vec<Call>) {
         Event::End => calls.push(Call::Numbers("end", vec![], 0.0)),
         _ => {}
     }
+}
+
+/// A number with at most six decimals, without trailing zeros.
+pub fn short(value: f64) -> String {
+    let text = format!("{value:.6}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+fn shorts(values: &[f64]) -> String {
+    values.iter().map(|v| short(*v)).collect::<Vec<_>>().join(" ")
+}
+
+/// The axes of a place that are not zero, X, Y and Z always.
+fn axes(place: &Position) -> String {
+    let shown = |a: &Axis| (*a as usize) < 3 || place[*a].abs() > 5e-7;
+    let word = |a: Axis| format!("{a}{}", short(place[a]));
+    Axis::ALL.into_iter().filter(shown).map(word).collect::<Vec<_>>().join(" ")
+}
+
+/// One step as the `.expected` files of `tests/programs` have it.
+pub fn step_line(step: &Step) -> String {
+    match step {
+        Step::Move(m) => move_line(m),
+        Step::Event(Event::Frame(frame), origin) => {
+            let mut line = format!("{} frame {}", origin.line, axes(&frame.shift));
+            if frame.linear != trueaxis_nc::moves::Frame::IDENTITY.linear {
+                let rows = frame.linear.map(|row| shorts(&row));
+                line += &format!(" linear {}", rows.join(" / "));
+            }
+            line
+        }
+        Step::Event(Event::WorkOffset { index, offset, rotation_deg }, origin) => {
+            let turn = short(*rotation_deg);
+            format!("{} WorkOffset {index} {} turn {turn}", origin.line, axes(offset))
+        }
+        Step::Event(Event::Shift(shift), origin) => {
+            format!("{} Shift {}", origin.line, axes(shift))
+        }
+        Step::Event(Event::ToolLength(length), origin) => {
+            format!("{} ToolLength {}", origin.line, axes(length))
+        }
+        Step::Event(event, origin) => format!("{} {event:?}", origin.line),
+    }
+}
+
+fn move_line(m: &Move) -> String {
+    let (kind, feeds) = match m.kind {
+        MoveKind::Rapid => ("rapid".to_owned(), false),
+        MoveKind::Linear => ("line".to_owned(), true),
+        MoveKind::Arc(arc) => {
+            let way = if arc.ccw { "ccw" } else { "cw" };
+            let center = shorts(&arc.center_mm);
+            (format!("arc {way} {:?} centre {center} turns {}", arc.plane, arc.turns), true)
+        }
+        MoveKind::SpatialArc(arc) => {
+            let (center, normal) = (shorts(&arc.center_mm), shorts(&arc.normal));
+            (format!("arc centre {center} normal {normal} turns {}", arc.turns), true)
+        }
+        MoveKind::Align { keep_tip, branch } => {
+            return format!("{} align keep_tip {keep_tip} {branch:?}", m.origin.line);
+        }
+        MoveKind::Thread { pitch_mm } => (format!("thread {}", short(pitch_mm)), false),
+        MoveKind::RigidTap { pitch_mm } => (format!("tap {}", short(pitch_mm)), false),
+        MoveKind::Probe => ("probe".to_owned(), true),
+        MoveKind::Dwell { seconds } => {
+            return format!("{} dwell {}", m.origin.line, short(seconds));
+        }
+    };
+    let mut line = format!("{} {kind} {}", m.origin.line, axes(&m.target));
+    for (axis, way) in [Axis::A, Axis::B, Axis::C].into_iter().zip(m.ways) {
+        if way != trueaxis_nc::moves::Way::AsWritten {
+            line += &format!(" {axis} {way:?}");
+        }
+    }
+    if m.coordinates == trueaxis_nc::moves::Coordinates::Machine {
+        line += " machine";
+    }
+    if let Some(direction) = m.direction {
+        line += &format!(" direction {}", shorts(&direction));
+    }
+    if feeds {
+        let mode = match m.feed.mode {
+            FeedMode::PerMinute => "F",
+            FeedMode::InverseTime => "1/",
+            FeedMode::PerRevolution => "F/rev ",
+        };
+        line += &format!(" {mode}{}", short(m.feed.value));
+    }
+    line
+}
+
+/// Whether two lines say the same, numbers to the last printed digit.
+pub fn same_line(a: &str, b: &str) -> bool {
+    let split = |t: &str| -> (String, Option<f64>) {
+        let at = t.find(|c: char| c == '-' || c.is_ascii_digit()).unwrap_or(t.len());
+        (t[..at].to_owned(), t[at..].parse().ok())
+    };
+    let same = |x: &str, y: &str| {
+        let ((before_x, x_value), (before_y, y_value)) = (split(x), split(y));
+        let close = x_value.zip(y_value).is_some_and(|(x, y)| (x - y).abs() < 1.5e-6);
+        x == y || before_x == before_y && close
+    };
+    let (a, b): (Vec<_>, Vec<_>) = (a.split_whitespace().collect(), b.split_whitespace().collect());
+    a.len() == b.len() && a.iter().zip(&b).all(|(x, y)| same(x, y))
 }

@@ -1,0 +1,3 @@
+(no O4711 anywhere)
+G65 P4711 A1.
+M30

@@ -1,0 +1,3 @@
+(names of parameters are of LinuxCNC)
+#<a>=1
+M30

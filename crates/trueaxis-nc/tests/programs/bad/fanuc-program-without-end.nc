@@ -1,0 +1,8 @@
+(O2 ends without M99)
+O0001
+M98 P2
+M30
+O0002
+G0 X1.
+O0003
+M99

@@ -1,0 +1,10 @@
+(FIX -2.5 = -2, FUP -2.5 = -3, ROUND 2.5 = 3, BIN of BCD 16#25 = 37 is 25, BCD of 25 is 37)
+(12 AND 10 = 8, 12 OR 10 = 14, 12 XOR 10 = 6, -7 MOD 3 = -1)
+G90
+G0 X[FIX[-2.5]] Y[FUP[-2.5]] Z[ROUND[2.5]]
+X[BIN[37]] Y[BCD[25]]
+X[12 AND 10] Y[12 OR 10] Z[12 XOR 10]
+X[-7 MOD 3] Y[SQRT[16]] Z[ATAN[1]/[-1]]
+IF [[1 EQ 1] AND [2 GE 3]] GOTO 9
+IF [1 NE 2] THEN X[100]
+N9 M30
