@@ -191,16 +191,38 @@ fn write_troubles(s: &Simulation<'_>, out: &mut String) -> std::fmt::Result {
     }
     let count = list.len() as u64 + s.troubles.left_out;
     writeln!(out, "\n  {count} trouble{} found", if count == 1 { "" } else { "s" })?;
-    let mut ordered: Vec<&Trouble> = list.iter().collect();
-    ordered.sort_by_key(|t| !t.grave);
-    for trouble in ordered.iter().take(MOST_SHOWN) {
-        let mark = if trouble.grave { "!" } else { "·" };
+    let grave: Vec<&Trouble> = list.iter().filter(|t| t.grave).collect();
+    for trouble in grave.iter().take(MOST_SHOWN) {
         let text = trouble_text(s.machine, trouble);
-        writeln!(out, "  {mark} {}  {}  {text}", clock(trouble.from_s), blocks(s, trouble))?;
+        writeln!(out, "  ! {}  {}  {text}", clock(trouble.from_s), blocks(s, trouble))?;
     }
-    let hidden = count.saturating_sub(MOST_SHOWN as u64);
-    if hidden > 0 {
+    if grave.len() > MOST_SHOWN {
+        let hidden = grave.len() - MOST_SHOWN;
         writeln!(out, "    … and {hidden} more; --format json and the report have them")?;
+    }
+    write_minor(s, out)
+}
+
+/// What costs only time: one line for each kind, with its worst place.
+fn write_minor(s: &Simulation<'_>, out: &mut String) -> std::fmt::Result {
+    let mut kinds: Vec<(&TroubleKind, Vec<&Trouble>)> = Vec::new();
+    for trouble in s.troubles.list.iter().filter(|t| !t.grave) {
+        match kinds.iter_mut().find(|(kind, _)| **kind == trouble.kind) {
+            Some((_, all)) => all.push(trouble),
+            None => kinds.push((&trouble.kind, vec![trouble])),
+        }
+    }
+    for (_, all) in kinds {
+        let badness = |t: &Trouble| (t.value - t.limit).abs();
+        let Some(worst) = all.iter().max_by(|a, b| badness(a).total_cmp(&badness(b))) else {
+            continue;
+        };
+        let times = match all.len() {
+            1 => String::new(),
+            n => format!("   ({n} stretches, this is the worst)"),
+        };
+        let text = trouble_text(s.machine, worst);
+        writeln!(out, "  · {}  {}  {text}{times}", clock(worst.from_s), blocks(s, worst))?;
     }
     Ok(())
 }

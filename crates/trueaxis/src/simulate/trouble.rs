@@ -84,6 +84,9 @@ pub struct Trouble {
 /// Kept of each kind; further ones are counted.
 const MOST: usize = 200;
 
+/// Stretches of a trouble that costs only time are one if they are nearer than this.
+const PAUSE_S: f64 = 1.0;
+
 /// The tool axis counts as near a pole below this sine: 2°.
 const NEAR_POLE: f64 = 0.035;
 
@@ -123,12 +126,13 @@ impl Log {
         entry.nodes += 1;
     }
 
-    /// Whatever was not noted at this time is over.
+    /// What was not noted at this time is over; what costs only time, after a pause.
     pub fn close(&mut self, time_s: f64) {
-        if self.open.values().all(|t| t.to_s >= time_s) {
+        let is_over = |t: &Trouble| t.to_s < time_s - if t.grave { 0.0 } else { PAUSE_S };
+        if !self.open.values().any(is_over) {
             return;
         }
-        let over = self.open.iter().filter(|(_, t)| t.to_s < time_s).map(|(k, _)| k.clone());
+        let over = self.open.iter().filter(|(_, t)| is_over(t)).map(|(k, _)| k.clone());
         for kind in over.collect::<Vec<_>>() {
             if let Some(trouble) = self.open.remove(&kind) {
                 self.keep(trouble);
