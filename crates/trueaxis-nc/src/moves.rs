@@ -188,7 +188,7 @@ impl Frame {
             m[r][c] * m[s][d] - m[r][d] * m[s][c]
         };
         let det: f64 = (0..3).map(|j| m[0][j] * minor(0, j)).sum();
-        if !(det.abs() > 1e-12) {
+        if det.is_nan() || det.abs() <= 1e-12 {
             return None;
         }
         let mut out = p.minus(&self.shift);
@@ -493,6 +493,13 @@ pub enum Event {
         control: PathControl,
         /// How far from the corner.
         tolerance_mm: f64,
+    },
+    /// The blank in the program frame, mm: two corners of a box along the axes.
+    Stock {
+        /// The corner with the smallest coordinates.
+        min_mm: [f64; 3],
+        /// The corner with the largest coordinates.
+        max_mm: [f64; 3],
     },
     /// A message to the operator.
     Message(String),
