@@ -1,6 +1,6 @@
 //! Bytes into tokens; every byte belongs to exactly one of them.
 
-use crate::dialect::Dialect;
+use crate::dialect::{Control, Dialect};
 
 /// What a token is, by its looks alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -102,7 +102,11 @@ impl<'s> Lexer<'s> {
         let next = self.source.get(from + 1).copied().unwrap_or(0);
         let name = self.source[from] == b'_' || next.is_ascii_alphabetic() || next == b'_';
         if self.dialect.words && name {
-            return (TokenKind::Word, self.run(from, |b| b.is_ascii_alphanumeric() || b == b'_'));
+            // Klartext writes key words and numbers without a blank: LBL1, IX2.5, FN18.
+            let digits = self.dialect.control != Control::Heidenhain;
+            let belongs =
+                |b: u8| b.is_ascii_alphabetic() || b == b'_' || digits && b.is_ascii_digit();
+            return (TokenKind::Word, self.run(from, belongs));
         }
         (TokenKind::Letter, from + 1)
     }
@@ -200,7 +204,6 @@ fn slow_number(text: &[u8]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dialect::Control;
 
     #[test]
     fn tokens_touch_each_other() {

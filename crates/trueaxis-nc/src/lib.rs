@@ -25,9 +25,9 @@
 //! assert_eq!(moves[1].feed.value, 254.0);
 //! ```
 //!
-//! So far LinuxCNC and FANUC programs are interpreted; SINUMERIK and HEIDENHAIN programs are cut
-//! into tokens. It knows no machine: where the axes really go, and how fast, is asked elsewhere. It
-//! opens no file: subprograms come through a [`Library`].
+//! So far LinuxCNC, FANUC and HEIDENHAIN programs are interpreted; SINUMERIK programs are cut into
+//! tokens. It knows no machine: where the axes really go, and how fast, is asked elsewhere. It opens
+//! no file: subprograms come through a [`Library`].
 
 pub mod code;
 pub mod dialect;

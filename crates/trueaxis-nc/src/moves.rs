@@ -494,6 +494,13 @@ pub enum Event {
         /// How far from the corner.
         tolerance_mm: f64,
     },
+    /// The blank in the program frame, mm: two corners of a box along the axes.
+    Stock {
+        /// The corner with the smallest coordinates.
+        min_mm: [f64; 3],
+        /// The corner with the largest coordinates.
+        max_mm: [f64; 3],
+    },
     /// A message to the operator.
     Message(String),
     /// A line for the log.

@@ -1,11 +1,12 @@
 use super::{Control, Dialect};
 
-/// HEIDENHAIN Klartext: so far only its tokens; its blocks are not interpreted.
+/// HEIDENHAIN Klartext: key words instead of G codes; what M functions do stands with them, since
+/// here many have words of their own and some take effect at the end of their block.
 pub(super) static DIALECT: Dialect = Dialect {
     control: Control::Heidenhain,
     paren_comments: false,
     semicolon_comments: true,
-    header_lines: true,
+    header_lines: false,
     words: true,
     angle_names: false,
     quoted_texts: true,

@@ -1,0 +1,392 @@
+//! Labels, calls, jumps, and where programs end.
+
+use std::collections::HashMap;
+use std::rc::Rc;
+
+use super::line::{Cursor, Line};
+use super::variables::Variable;
+use super::{Run, fault};
+use crate::moves::Event;
+use crate::program::{Fault, Program};
+
+/// `LBL 5` or `LBL "UP"`.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(super) enum Label {
+    Number(u64),
+    Name(String),
+}
+
+/// Labels with the byte and line of their blocks.
+pub(super) type Labels = HashMap<Label, (usize, u32)>;
+
+/// What the next block is, after one was executed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Next {
+    /// The one that follows.
+    Following,
+    /// Wherever the activation was sent.
+    Jumped,
+    /// None.
+    Finished,
+}
+
+/// Why something is executed.
+#[derive(Debug, Clone, PartialEq)]
+enum Reason {
+    Main,
+    Program,
+    Label(Label),
+}
+
+/// A program or subprogram that is being executed, and where.
+pub(super) struct Activation {
+    pub program: usize,
+    pub at: usize,
+    pub line: u32,
+    reason: Reason,
+    /// Remaining rounds of program section repeats by their byte.
+    rounds: HashMap<usize, u64>,
+    /// BEGIN PGM was read.
+    begun: bool,
+}
+
+impl Activation {
+    pub fn main() -> Self {
+        Self::new(0, 0, 1, Reason::Main)
+    }
+
+    fn new(program: usize, at: usize, line: u32, reason: Reason) -> Self {
+        Self { program, at, line, reason, rounds: HashMap::new(), begun: false }
+    }
+}
+
+impl Run<'_> {
+    fn active(&mut self) -> &mut Activation {
+        // why: the stack is never empty while a block is executed.
+        self.stack.last_mut().expect("a block belongs to an activation")
+    }
+
+    /// BEGIN PGM name MM.
+    pub(super) fn begin(&mut self, c: &mut Cursor<'_>) -> Result<Next, Fault> {
+        let at = c.offset();
+        if !c.accept("PGM") {
+            return Err(c.unknown());
+        }
+        let rest = c.rest().to_ascii_uppercase();
+        let inches = rest.split_whitespace().last() == Some("INCH");
+        if !inches && rest.split_whitespace().last() != Some("MM") {
+            let message = "BEGIN PGM does not say MM or INCH: MM is taken";
+            self.warn("no-unit", "begin", at, message, "write BEGIN PGM name MM");
+        }
+        self.active().begun = true;
+        self.modes.inches = inches;
+        Ok(Next::Following)
+    }
+
+    /// END PGM, and every other way in which a program is at its end.
+    pub(super) fn end(&mut self, at: usize) -> Result<Next, Fault> {
+        let reason = self.active().reason.clone();
+        match reason {
+            Reason::Main => {
+                self.emit(Event::End);
+                Ok(Next::Finished)
+            }
+            Reason::Program => {
+                self.stack.pop();
+                self.variables.leave();
+                Ok(Next::Jumped)
+            }
+            Reason::Label(label) => {
+                self.stop_for_good();
+                let message = format!("the subprogram {} has no LBL 0", show(&label));
+                Err(fault("missing-end", at, message, "end it with LBL 0"))
+            }
+        }
+    }
+
+    pub(super) fn end_of_text(&mut self, program: &Program) -> Result<Next, Fault> {
+        let at = program.source().len();
+        let begun = self.stack.iter().rev().take_while(|a| a.begun).count() > 0;
+        if begun && !matches!(self.active().reason, Reason::Label(_)) {
+            self.stop_for_good();
+            let message = "END PGM is missing".to_owned();
+            return Err(fault("truncated-program", at, message, "was the file cut off?"));
+        }
+        self.end(at)
+    }
+
+    /// Nothing can go on from here, whatever the settings say.
+    fn stop_for_good(&mut self) {
+        self.errors = usize::MAX / 2;
+    }
+
+    /// LBL: a place to go to; LBL 0 ends a subprogram.
+    pub(super) fn label(&mut self, c: &mut Cursor<'_>) -> Result<Next, Fault> {
+        let label = self.label_name(c)?;
+        c.finish()?;
+        if label != Label::Number(0) {
+            return Ok(Next::Following);
+        }
+        if matches!(self.active().reason, Reason::Label(_)) {
+            self.stack.pop();
+            return Ok(Next::Jumped);
+        }
+        Ok(Next::Following)
+    }
+
+    fn label_name(&mut self, c: &mut Cursor<'_>) -> Result<Label, Fault> {
+        if let Some(name) = c.text() {
+            return Ok(Label::Name(name));
+        }
+        let at = c.offset();
+        if c.is("QS") {
+            return Ok(Label::Name(self.text(c)?));
+        }
+        match self.operand(c)? {
+            Some(n) if (0.0..65_536.0).contains(&n) => Ok(Label::Number(n.round() as u64)),
+            _ => {
+                let message = "the number or name of the label is missing".to_owned();
+                Err(fault("bad-label", at, message, "write LBL 1 or LBL \"NAME\""))
+            }
+        }
+    }
+
+    /// CALL LBL, CALL PGM, CALL SELECTED PGM.
+    pub(super) fn call(&mut self, c: &mut Cursor<'_>) -> Result<Next, Fault> {
+        let at = c.start;
+        if c.accept("LBL") {
+            let label = self.label_name(c)?;
+            if label == Label::Number(0) {
+                let message = "LBL 0 is the end of subprograms".to_owned();
+                return Err(fault("bad-label", at, message, "call LBL 1 to LBL 65535"));
+            }
+            if c.accept("REP") {
+                return self.repeat(label, c);
+            }
+            c.finish()?;
+            return self.call_label(label, at);
+        }
+        if c.accept("PGM") {
+            let name = if c.is("QS") { self.text(c)? } else { c.rest() };
+            return self.call_program(&name, at);
+        }
+        if c.accept("SELECTED") && c.accept("PGM") {
+            return match self.selected.clone() {
+                Some(name) => self.call_program(&name, at),
+                None => {
+                    let message = "no program is selected".to_owned();
+                    Err(fault("missing-subprogram", at, message, "write SEL PGM before it"))
+                }
+            };
+        }
+        Err(c.unknown())
+    }
+
+    fn call_label(&mut self, label: Label, at: usize) -> Result<Next, Fault> {
+        self.count(at)?;
+        self.check_depth(at)?;
+        let (start, line) = self.find_label(&label, at)?;
+        let program = self.active().program;
+        self.stack.push(Activation::new(program, start, line, Reason::Label(label)));
+        Ok(Next::Jumped)
+    }
+
+    /// CALL LBL … REP n: back to the label n times more.
+    fn repeat(&mut self, label: Label, c: &mut Cursor<'_>) -> Result<Next, Fault> {
+        let at = c.start;
+        let wanted = self.value(c)?;
+        if c.accept_symbol(b'/') {
+            // REP 3/2: how many are left, which only the display needs.
+            self.value(c)?;
+        }
+        c.finish()?;
+        if !(0.0..1e9).contains(&wanted) {
+            let message = format!("{wanted} is not a number of repeats");
+            return Err(fault("bad-repeats", at, message, "write REP 3"));
+        }
+        let left = self.active().rounds.entry(at).or_insert(wanted.round() as u64);
+        if *left == 0 {
+            self.active().rounds.remove(&at);
+            return Ok(Next::Following);
+        }
+        *left -= 1;
+        self.jump(&label, at)
+    }
+
+    fn jump(&mut self, label: &Label, at: usize) -> Result<Next, Fault> {
+        let (start, line) = self.find_label(label, at)?;
+        if start <= at {
+            self.count(at)?;
+        }
+        let active = self.active();
+        (active.at, active.line) = (start, line);
+        Ok(Next::Jumped)
+    }
+
+    fn count(&mut self, at: usize) -> Result<(), Fault> {
+        self.jumps += 1;
+        if self.jumps <= self.settings.most_jumps {
+            return Ok(());
+        }
+        let message = format!("more than {} jumps and calls: an endless loop?", self.jumps - 1);
+        self.stop_for_good();
+        Err(fault("endless-loop", at, message, "check its condition, or raise the limit"))
+    }
+
+    fn check_depth(&mut self, at: usize) -> Result<(), Fault> {
+        if self.stack.len() <= self.settings.deepest_call {
+            return Ok(());
+        }
+        let message = format!("more than {} calls within each other", self.stack.len() - 1);
+        self.stop_for_good();
+        Err(fault("calls-too-deep", at, message, "does it call itself for ever?"))
+    }
+
+    /// Where a label of the present program stands.
+    fn find_label(&mut self, label: &Label, at: usize) -> Result<(usize, u32), Fault> {
+        let number = self.active().program;
+        let labels = match self.labels.get(&number) {
+            Some(labels) => Rc::clone(labels),
+            None => {
+                let labels = Rc::new(find_labels(&self.programs[number]));
+                self.labels.insert(number, Rc::clone(&labels));
+                labels
+            }
+        };
+        labels.get(label).copied().ok_or_else(|| {
+            let message = format!("there is no label {}", show(label));
+            fault("missing-label", at, message, "write LBL with this number or name")
+        })
+    }
+
+    /// Enters another program: by its name, with .H, or the last part of its path.
+    pub(super) fn call_program(&mut self, name: &str, at: usize) -> Result<Next, Fault> {
+        self.count(at)?;
+        self.check_depth(at)?;
+        let name = name.trim().trim_matches('"').trim();
+        let number = match self.loaded.get(name) {
+            Some(number) => *number,
+            None => self.load(name, at)?,
+        };
+        self.variables.enter();
+        self.stack.push(Activation::new(number, 0, 1, Reason::Program));
+        Ok(Next::Jumped)
+    }
+
+    fn load(&mut self, name: &str, at: usize) -> Result<usize, Fault> {
+        let last = name.rsplit(['\\', '/', ':']).next().unwrap_or(name);
+        let mut why = "it has no name".to_owned();
+        for base in [name, last] {
+            for ending in ["", ".H", ".h"] {
+                let full = format!("{base}{ending}");
+                if full.is_empty() {
+                    continue;
+                }
+                match self.library.text(&full) {
+                    Ok(text) => {
+                        let control = self.programs[0].dialect().control;
+                        let file = self.library.display(&full);
+                        self.programs.push(Rc::new(Program::new(&file, text, control)));
+                        self.loaded.insert(name.to_owned(), self.programs.len() - 1);
+                        return Ok(self.programs.len() - 1);
+                    }
+                    Err(reason) => why = reason,
+                }
+            }
+        }
+        let message = format!("the program {name} is missing: {why}");
+        Err(fault("missing-subprogram", at, message, "put it where subprograms are found"))
+    }
+
+    /// SEL PGM; SEL TABLE and the like only choose what is not read here.
+    pub(super) fn select(&mut self, c: &mut Cursor<'_>) -> Result<Next, Fault> {
+        let at = c.start;
+        if c.accept("PGM") {
+            self.selected = Some(if c.is("QS") { self.text(c)? } else { c.rest() });
+            return Ok(Next::Following);
+        }
+        if c.accept_any(&["TABLE", "PATTERN", "CONTOUR", "CORR", "CYCLE"]).is_some() {
+            c.leave();
+            self.not_applied("SEL of a table, pattern or contour", at);
+            return Ok(Next::Following);
+        }
+        Err(c.unknown())
+    }
+
+    /// `IF +Q1 EQU +5 GOTO LBL 2` of FN 9 to FN 12.
+    pub(super) fn branch(&mut self, c: &mut Cursor<'_>) -> Result<Next, Fault> {
+        let at = c.start;
+        if !c.accept("IF") {
+            return Err(c.unknown());
+        }
+        let mut ahead = c.clone();
+        let _ = ahead.accept_symbol(b'+');
+        let variable = self.variable(&mut ahead)?;
+        let holds = match variable.filter(|_| ahead.is("IS")) {
+            Some(variable) => {
+                *c = ahead;
+                c.accept("IS");
+                let defined = self.is_defined(variable);
+                match c.accept_any(&["DEFINED", "UNDEFINED"]) {
+                    Some(index) => defined == (index == 0),
+                    None => return Err(c.unknown()),
+                }
+            }
+            None if matches!(variable, Some(Variable::Text(_))) => {
+                let left = self.text(c)?;
+                let equal = c.accept_any(&["EQU", "NE"]);
+                let right = self.text(c)?;
+                (left == right) == (equal == Some(0))
+            }
+            None => {
+                let left = self.value(c)?;
+                let Some(operator) = c.accept_any(&["EQU", "NE", "GT", "LT"]) else {
+                    return Err(c.unknown());
+                };
+                let right = self.value(c)?;
+                match operator {
+                    0 => left == right,
+                    1 => left != right,
+                    2 => left > right,
+                    _ => left < right,
+                }
+            }
+        };
+        if !c.accept("GOTO") || !c.accept("LBL") {
+            return Err(c.unknown());
+        }
+        let label = self.label_name(c)?;
+        c.finish()?;
+        if holds { self.jump(&label, at) } else { Ok(Next::Following) }
+    }
+}
+
+/// All labels of a program; the first one of a name counts.
+fn find_labels(program: &Program) -> Labels {
+    let source = program.source();
+    let mut found = HashMap::new();
+    let (mut at, mut number, mut line) = (0, 1_u32, Line::default());
+    while at < source.len() {
+        line.read(source, program.dialect(), at);
+        let mut c = Cursor::new(source, &line);
+        if c.accept("LBL") {
+            let label = match c.text() {
+                Some(name) => Some(Label::Name(name)),
+                None => c.whole().ok().flatten().map(|n| Label::Number(u64::from(n))),
+            };
+            if let Some(label) = label {
+                found.entry(label).or_insert((at, number));
+            }
+        }
+        at = line.end;
+        number = number.saturating_add(line.lines);
+    }
+    found
+}
+
+fn show(label: &Label) -> String {
+    match label {
+        Label::Number(number) => format!("LBL {number}"),
+        Label::Name(name) => format!("LBL \"{name}\""),
+    }
+}

@@ -1,0 +1,253 @@
+//! The M functions: a table of what each does and when.
+
+use super::words::{Called, Words};
+use super::{Run, fault};
+use crate::moves::{
+    Axis, Coolant, Event, Feed, FeedMode, Move, MoveKind, OrientationPath, Turning,
+};
+use crate::program::Fault;
+
+/// What an M function does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Effect {
+    Stop(bool),
+    End,
+    Spindle(Turning),
+    Coolant(Coolant),
+    SpindleAndCoolant(Turning),
+    /// Read with the axis words: M91, M92, M98, M99, M130 …
+    WithBlock,
+    ReduceRotary,
+    ShortestWay(bool),
+    ToolCentre(bool),
+    PerRevolution(bool),
+    Retract,
+    CycleEverywhere,
+    /// Of no effect on the path.
+    Note(&'static str),
+    /// It changes the path, but is left out.
+    NotApplied(&'static str),
+}
+
+/// Number, whether it takes effect at the end of the block, effect.
+static FUNCTIONS: &[(u32, bool, Effect)] = &[
+    (0, true, Effect::Stop(false)),
+    (1, true, Effect::Stop(true)),
+    (2, true, Effect::End),
+    (3, false, Effect::Spindle(Turning::Clockwise)),
+    (4, false, Effect::Spindle(Turning::CounterClockwise)),
+    (5, true, Effect::Spindle(Turning::Stopped)),
+    (6, true, Effect::Note("M6 tool change")),
+    (7, false, Effect::Coolant(Coolant::Mist)),
+    (8, false, Effect::Coolant(Coolant::Flood)),
+    (9, true, Effect::Coolant(Coolant::Off)),
+    (13, false, Effect::SpindleAndCoolant(Turning::Clockwise)),
+    (14, false, Effect::SpindleAndCoolant(Turning::CounterClockwise)),
+    (19, true, Effect::Note("M19 oriented stop of the spindle")),
+    (30, true, Effect::End),
+    (89, true, Effect::CycleEverywhere),
+    (90, false, Effect::Note("M90 constant path speed at corners")),
+    (91, false, Effect::WithBlock),
+    (92, false, Effect::WithBlock),
+    (94, false, Effect::ReduceRotary),
+    (97, true, Effect::NotApplied("M97 machining of small contour steps")),
+    (98, true, Effect::NotApplied("M98 complete machining of open corners")),
+    (99, true, Effect::WithBlock),
+    (101, true, Effect::Note("M101 change to a sister tool")),
+    (102, true, Effect::Note("M102 no change to a sister tool")),
+    (103, false, Effect::NotApplied("M103 feed factor when plunging")),
+    (104, true, Effect::NotApplied("M104 last preset again")),
+    (105, true, Effect::Note("M105 second set of controller gains")),
+    (106, true, Effect::Note("M106 first set of controller gains")),
+    (107, true, Effect::Note("M107 no message at tool oversize")),
+    (108, true, Effect::Note("M108 message at tool oversize")),
+    (109, false, Effect::NotApplied("M109 constant speed of the cutting edge on arcs")),
+    (110, false, Effect::NotApplied("M110 constant speed of the edge on inner arcs")),
+    (111, true, Effect::Note("M111 feed of the tool centre on arcs")),
+    (114, false, Effect::NotApplied("M114 correction of the machine geometry")),
+    (115, true, Effect::Note("M115 end of M114")),
+    (116, false, Effect::Note("M116 feed of rotary axes in mm/min")),
+    (117, true, Effect::Note("M117 end of M116")),
+    (118, false, Effect::Note("M118 handwheel in addition")),
+    (120, false, Effect::Note("M120 look-ahead of the compensation")),
+    (124, false, Effect::NotApplied("M124 points closer than T are left out")),
+    (126, false, Effect::ShortestWay(true)),
+    (127, true, Effect::ShortestWay(false)),
+    (128, false, Effect::ToolCentre(true)),
+    (129, true, Effect::ToolCentre(false)),
+    (130, false, Effect::WithBlock),
+    (134, false, Effect::Note("M134 exact stop with rotary axes")),
+    (135, true, Effect::Note("M135 end of M134")),
+    (136, false, Effect::PerRevolution(true)),
+    (137, true, Effect::PerRevolution(false)),
+    (138, false, Effect::NotApplied("M138 choice of rotary axes")),
+    (140, false, Effect::Retract),
+    (141, false, Effect::Note("M141 no probe supervision")),
+    (142, false, Effect::NotApplied("M142 modal program data deleted")),
+    (143, false, Effect::NotApplied("M143 basic rotation deleted")),
+    (144, false, Effect::NotApplied("M144 kinematics in actual positions")),
+    (145, true, Effect::Note("M145 end of M144")),
+    (148, false, Effect::Note("M148 lift-off at a stop")),
+    (149, true, Effect::Note("M149 end of M148")),
+    (150, false, Effect::Note("M150 no limit switch message")),
+    (197, false, Effect::NotApplied("M197 rounding of corners")),
+    (200, false, Effect::Note("M200 laser power")),
+    (201, false, Effect::Note("M201 laser power by distance")),
+    (202, false, Effect::Note("M202 laser power by speed")),
+    (203, false, Effect::Note("M203 laser power by time")),
+    (204, false, Effect::Note("M204 laser pulse")),
+];
+
+impl Run<'_> {
+    /// The M functions of a block that act before (`late` false) or after its move; `true` at the
+    /// end of the program.
+    pub(super) fn functions(&mut self, words: &Words, late: bool) -> Result<bool, Fault> {
+        for called in &words.functions {
+            let known = FUNCTIONS.iter().find(|(number, ..)| *number == called.number);
+            let Some((_, at_end, effect)) = known else {
+                if !late {
+                    let message = format!("M{} is not known", called.number);
+                    let hint = "a function of the machine builder? its moves are missing";
+                    let subject = called.number.to_string();
+                    self.warn("unknown-m-code", &subject, called.at, &message, hint);
+                }
+                continue;
+            };
+            if *at_end == late && self.effect(*effect, called, words)? {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    fn effect(&mut self, effect: Effect, called: &Called, words: &Words) -> Result<bool, Fault> {
+        match effect {
+            Effect::Stop(optional) => self.emit(Event::Stop { optional }),
+            Effect::End => {
+                self.emit(Event::End);
+                return Ok(true);
+            }
+            Effect::Spindle(turning) => self.spindle(turning),
+            Effect::Coolant(coolant) => self.coolant(coolant),
+            Effect::SpindleAndCoolant(turning) => {
+                self.spindle(turning);
+                self.coolant(Coolant::Flood);
+            }
+            Effect::ReduceRotary => self.reduce_rotary(called),
+            Effect::ShortestWay(on) => self.modes.shortest = on,
+            Effect::ToolCentre(on) => self.tool_centre(on, None),
+            Effect::PerRevolution(on) => self.per_revolution(on, words),
+            Effect::Retract => self.retract(called)?,
+            Effect::CycleEverywhere => self.modes.cycle_everywhere = true,
+            Effect::Note(name) => self.emit(Event::Note(name)),
+            Effect::NotApplied(name) => self.not_applied(name, called.at),
+            Effect::WithBlock => {}
+        }
+        Ok(false)
+    }
+
+    pub(super) fn spindle(&mut self, turning: Turning) {
+        self.modes.turning = turning;
+        self.emit(Event::Spindle(turning));
+    }
+
+    fn coolant(&mut self, coolant: Coolant) {
+        self.modes.coolant = coolant != Coolant::Off;
+        self.emit(Event::Coolant(coolant));
+    }
+
+    /// M128, FUNCTION TCPM, and their ends; TCPM also says how the tool turns.
+    pub(super) fn tool_centre(&mut self, on: bool, path: Option<OrientationPath>) {
+        self.modes.tool_centre = on;
+        self.tangent = None;
+        if !on {
+            self.modes.space_angles = false;
+            self.direction = None;
+        }
+        self.emit(Event::ToolCentre(on));
+        let path = path.unwrap_or(OrientationPath::Axes);
+        if on && path != self.modes.orientation {
+            self.modes.orientation = path;
+            self.emit(Event::Orientation(path));
+        }
+    }
+
+    fn per_revolution(&mut self, on: bool, words: &Words) {
+        self.modes.per_revolution = on;
+        let mode = if on { FeedMode::PerRevolution } else { FeedMode::PerMinute };
+        if mode == self.modes.feed.mode {
+            return;
+        }
+        // F of this block was read before M136 was known.
+        let value = match (on, words.feed) {
+            (true, Some(super::words::FeedWord::PerMinute(f))) if self.modes.inches => f * 10.0,
+            (true, Some(super::words::FeedWord::PerMinute(f))) => f,
+            _ => 0.0,
+        };
+        self.modes.feed = Feed { mode, value };
+    }
+
+    /// M94: the display of rotary axes is brought below a full turn; nothing moves.
+    fn reduce_rotary(&mut self, called: &Called) {
+        for axis in [Axis::A, Axis::B, Axis::C] {
+            if called.axes.0 != 0 && !called.axes.contains(axis) {
+                continue;
+            }
+            let angle = self.frames.position[axis];
+            let reduced = angle.rem_euclid(360.0);
+            self.turned[axis as usize - 3] += angle - reduced;
+            self.frames.position[axis] = reduced;
+        }
+    }
+
+    /// M140 MB: away from the workpiece along the tool axis.
+    fn retract(&mut self, called: &Called) -> Result<(), Fault> {
+        let Some(length_mm) = called.value.filter(|v| v.is_finite()) else {
+            let message = "M140 MB MAX goes to the end of the travel, which is not known here";
+            let hint = "the retraction is missing; write MB with a length";
+            self.warn("not-applied", "M140", called.at, message, hint);
+            return Ok(());
+        };
+        let rotary = self.frames.position.0[3..6].iter().any(|v| *v != 0.0);
+        let along = match self.direction {
+            Some(direction) if self.modes.tool_centre => unit(direction).unwrap_or([0.0; 3]),
+            _ if rotary && !self.frames.is_tilted() => {
+                let message = "M140 with turned axes: the tool axis is not known here";
+                let hint = "the retraction is missing";
+                self.warn("not-applied", "M140 turned", called.at, message, hint);
+                return Ok(());
+            }
+            _ => {
+                let mut along = [0.0; 3];
+                along[self.modes.plane.axes()[2] as usize] = 1.0;
+                along
+            }
+        };
+        let mut target = self.frames.position;
+        for (i, part) in along.iter().enumerate() {
+            target.0[i] += part * length_mm;
+        }
+        let kind = if called.feed.is_some() { MoveKind::Linear } else { MoveKind::Rapid };
+        let named = crate::moves::AxisSet::XYZ;
+        let mut step = Move::plain(kind, target, named, self.modes.feed, self.origin);
+        if let Some(value) = called.feed {
+            if value <= 0.0 {
+                return Err(fault("zero-feed", called.at, "a feed of zero", "write F100"));
+            }
+            let scale = if self.modes.inches { 2.54 } else { 1.0 };
+            step.feed = Feed { mode: FeedMode::PerMinute, value: value * scale };
+        }
+        self.emit_move(step, called.at)
+    }
+}
+
+/// The vector with length one; `None` if it has no length.
+pub(super) fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
+    let largest = v.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    if largest == 0.0 || !largest.is_finite() {
+        return None;
+    }
+    let scaled = v.map(|x| x / largest);
+    let length = scaled.iter().map(|x| x * x).sum::<f64>().sqrt();
+    Some(scaled.map(|x| x / length))
+}

@@ -1,0 +1,354 @@
+//! Path blocks: L, LP, LN, CC and what all of them have in common.
+
+use super::flow::Next;
+use super::functions::unit;
+use super::line::Cursor;
+use super::plane::spatial;
+use super::words::{FeedWord, Words};
+use super::{Run, fault};
+use crate::moves::{
+    Axis, AxisSet, CompensationSide, Coordinates, Event, Feed, FeedMode, Move, MoveKind, Position,
+    Way,
+};
+use crate::program::Fault;
+
+impl Run<'_> {
+    /// Executes a path block; `None` if the block is none.
+    pub(super) fn path_statement(&mut self, c: &mut Cursor<'_>) -> Result<Option<Next>, Fault> {
+        const KINDS: [&str; 14] = [
+            "L", "LP", "LN", "C", "CP", "CR", "CT", "CTP", "CC", "RND", "CHF", "APPR", "DEP",
+            "CYCL",
+        ];
+        if c.accept("L") {
+            // The usual case.
+            let words = self.words(c)?;
+            return self.travel(0, 0, &words).map(Some);
+        }
+        let mut ahead = c.clone();
+        let Some(kind) = ahead.accept_any(&KINDS) else { return self.bare_words(c) };
+        if kind == 13 {
+            return Ok(None);
+        }
+        *c = ahead;
+        let form = if matches!(kind, 11 | 12) {
+            const FORMS: [&str; 9] = ["LT", "LN", "CT", "LCT", "PLT", "PLN", "PCT", "PLCT", "L"];
+            match c.accept_any(&FORMS) {
+                Some(index) => index,
+                None => return Err(c.unknown()),
+            }
+        } else {
+            0
+        };
+        if kind == 3 && (matches!(c.symbol(), Some(b'+' | b'-')) || c.is_number()) {
+            // A block along the axis C alone: `C+90 R0 FMAX`.
+            return self.single_axis(Axis::C, c).map(Some);
+        }
+        let at = c.offset();
+        let leg = if kind == 10 { self.operand(c)? } else { None };
+        let words = Words { at, ..self.words(c)? };
+        check_words(kind, &words)?;
+        match kind {
+            8 => self.pole_statement(&words)?,
+            9 | 10 => {
+                let name = ["RND", "CHF"][kind - 9];
+                if words.arc_radius.or(leg).is_none() {
+                    let message = format!("{name} has no size");
+                    return Err(fault("missing-value", words.at, message, "write RND R5 or CHF 2"));
+                }
+                let message = format!("{name} is not applied: the corner is kept");
+                self.warn("not-applied", name, words.at, &message, "the path has a sharp corner");
+            }
+            _ => return self.travel(kind, form, &words).map(Some),
+        }
+        Ok(Some(Next::Following))
+    }
+
+    /// A block that begins with an axis or with an M function.
+    fn bare_words(&mut self, c: &mut Cursor<'_>) -> Result<Option<Next>, Fault> {
+        const AXES: [&str; 8] = ["X", "Y", "Z", "A", "B", "U", "V", "W"];
+        const INCREMENTS: [&str; 9] = ["IX", "IY", "IZ", "IA", "IB", "IC", "IU", "IV", "IW"];
+        if c.is("M") {
+            let words = self.words(c)?;
+            return self.block_without_move(&words).map(Some);
+        }
+        if AXES.iter().chain(&INCREMENTS).any(|a| c.is(a)) {
+            let words = self.words(c)?;
+            return self.travel(0, 0, &words).map(Some);
+        }
+        Ok(None)
+    }
+
+    fn single_axis(&mut self, axis: Axis, c: &mut Cursor<'_>) -> Result<Next, Fault> {
+        let value = self.value(c)?;
+        let mut words = self.words(c)?;
+        words.axes[axis as usize] = Some(super::words::Coordinate { value, incremental: false });
+        self.travel(0, 0, &words)
+    }
+
+    /// Everything in a block around its move.
+    fn travel(&mut self, kind: usize, form: usize, words: &Words) -> Result<Next, Fault> {
+        check_words(kind, words)?;
+        self.compensation(words);
+        let rapid = self.feed(words);
+        if self.functions(words, false)? {
+            return Ok(Next::Finished);
+        }
+        match kind {
+            0 => self.line(words, rapid)?,
+            1 => {
+                let target = self.polar_target(words)?;
+                self.line_to(target, words, rapid, None)?;
+            }
+            2 => self.line_with_vectors(words, rapid)?,
+            11 => self.approach(form, words, rapid)?,
+            12 => {
+                self.depart(form, words, rapid)?;
+                self.end_compensation();
+            }
+            _ => self.circle(kind, words, rapid)?,
+        }
+        if self.functions(words, true)? {
+            return Ok(Next::Finished);
+        }
+        self.cycle_of_block(words)
+    }
+
+    /// DEP ends the compensation by itself.
+    fn end_compensation(&mut self) {
+        if self.modes.side != CompensationSide::Off {
+            self.modes.side = CompensationSide::Off;
+            self.emit(Event::Compensation(CompensationSide::Off));
+        }
+    }
+
+    fn compensation(&mut self, words: &Words) {
+        let Some(side) = words.side.filter(|s| *s != self.modes.side) else { return };
+        self.modes.side = side;
+        self.emit(Event::Compensation(side));
+        if side != CompensationSide::Off {
+            let message = "radius compensation is noted, not applied";
+            let hint = "the moves are those of the program; let the CAM system compensate";
+            self.warn("compensation-not-applied", "", words.at, message, hint);
+        }
+    }
+
+    /// Sets the feed; `true` if this block is rapid.
+    pub(super) fn feed(&mut self, words: &Words) -> bool {
+        let per_minute = FeedMode::PerMinute;
+        self.modes.feed = match words.feed {
+            None => return false,
+            Some(FeedWord::Rapid) => return true,
+            Some(FeedWord::OfTool) => Feed { mode: per_minute, value: self.modes.feed_of_tool },
+            Some(FeedWord::PerMinute(value)) => Feed { mode: per_minute, value },
+            Some(FeedWord::PerRevolution(value)) => Feed { mode: FeedMode::PerRevolution, value },
+            Some(FeedWord::PerTooth(value)) => {
+                let message = "FZ: the number of teeth is not known, one is taken";
+                self.warn("feed-per-tooth", "", words.at, message, "write FU or F instead");
+                Feed { mode: FeedMode::PerRevolution, value }
+            }
+        };
+        false
+    }
+
+    pub(super) fn check_feed(&self, at: usize) -> Result<(), Fault> {
+        if self.modes.feed.value > 0.0 {
+            return Ok(());
+        }
+        let message = "a feed move without feed".to_owned();
+        Err(fault("zero-feed", at, message, "write F or FMAX in this block or F before it"))
+    }
+
+    fn line(&mut self, words: &Words, rapid: bool) -> Result<(), Fault> {
+        if !words.has_axis() {
+            return Ok(());
+        }
+        if words.calls(91) || words.calls(92) {
+            return self.machine_line(words, rapid);
+        }
+        let mut target = words.target(&self.frames.position);
+        if words.calls(130) {
+            let place = self.frames.untilted().place(&target);
+            target = self.frames.frame().inverse_place(&place).unwrap_or(target);
+        }
+        self.line_to(target, words, rapid, None)
+    }
+
+    /// A straight line; A B C are space angles of the tool with TCPM AXIS SPAT.
+    fn line_to(
+        &mut self,
+        mut target: Position,
+        words: &Words,
+        rapid: bool,
+        mut direction: Option<[f64; 3]>,
+    ) -> Result<(), Fault> {
+        if !rapid {
+            self.check_feed(words.at)?;
+        }
+        let mut named = words.named();
+        if words.radius.or(words.angle).is_some() {
+            let [first, second, _] = self.modes.plane.axes();
+            named = named.with(first).with(second);
+        }
+        if words.calls(130) {
+            named = AxisSet(named.0 | AxisSet::XYZ.0);
+        }
+        let rotary = [Axis::A, Axis::B, Axis::C];
+        let turns = rotary.iter().any(|a| named.contains(*a));
+        let before = self.frames.position;
+        if self.modes.space_angles && turns {
+            let angles = rotary.map(|a| target[a]);
+            let turn = spatial(angles[0], angles[1], angles[2]);
+            direction = Some([turn[0][2], turn[1][2], turn[2][2]]);
+            named.0 &= !0b11_1000;
+        }
+        let kind = if rapid { MoveKind::Rapid } else { MoveKind::Linear };
+        let mut step = Move::plain(kind, target, named, self.modes.feed, self.origin);
+        step.direction = direction;
+        for (i, axis) in rotary.into_iter().enumerate() {
+            let increment = words.axes[axis as usize].is_some_and(|w| w.incremental);
+            if self.modes.shortest && !increment {
+                step.ways[i] = Way::Shortest;
+            }
+        }
+        self.emit_move(step, words.at)?;
+        target = self.frames.position;
+        self.tangent = unit(std::array::from_fn(|i| target.0[i] - before.0[i]));
+        if direction.is_some() {
+            self.direction = direction;
+        } else if turns {
+            self.direction = None;
+        }
+        Ok(())
+    }
+
+    /// Where the axes stand in the machine, as long as neither tilt nor TCP is on.
+    pub(super) fn machine_place(&self) -> Position {
+        let mut machine = self.frames.frame().place(&self.frames.position);
+        machine[self.modes.plane.axes()[2]] += self.modes.tool_length_mm;
+        machine
+    }
+
+    /// M91: coordinates count from the machine zero.
+    fn machine_line(&mut self, words: &Words, rapid: bool) -> Result<(), Fault> {
+        if words.calls(92) {
+            let message = "M92 is read as M91: its datum is known to the machine only";
+            self.warn("not-applied", "M92", words.at, message, "check where the tool goes");
+        }
+        if !rapid {
+            self.check_feed(words.at)?;
+        }
+        let machine = words.target(&self.machine_place());
+        let named = words.named();
+        let kind = if rapid { MoveKind::Rapid } else { MoveKind::Linear };
+        let mut step = Move::plain(kind, machine, named, self.modes.feed, self.origin);
+        step.coordinates = Coordinates::Machine;
+        self.emit_move(step, words.at)?;
+        let mut place = machine;
+        place[self.modes.plane.axes()[2]] -= self.modes.tool_length_mm;
+        if let Some(position) = self.frames.frame().inverse_place(&place) {
+            self.frames.position = position;
+        }
+        self.tangent = None;
+        Ok(())
+    }
+
+    /// LN X Y Z NX NY NZ TX TY TZ: the tool stands along T; N is the normal of the surface.
+    fn line_with_vectors(&mut self, words: &Words, rapid: bool) -> Result<(), Fault> {
+        let vector = |parts: [Option<f64>; 3]| {
+            parts.iter().any(Option::is_some).then(|| parts.map(|v| v.unwrap_or(0.0)))
+        };
+        let (normal, tool) = (vector(words.normal), vector(words.tool));
+        for given in normal.iter().chain(&tool) {
+            if unit(*given).is_none() {
+                let message = "the vector has no length".to_owned();
+                return Err(fault("zero-direction", words.at, message, "write all three parts"));
+            }
+        }
+        if normal.is_some() {
+            let message = "LN: the normal is noted, 3D compensation is not applied";
+            let hint = "the moves are those of the program";
+            self.warn("not-applied", "LN normal", words.at, message, hint);
+        }
+        if tool.is_some() && !self.modes.tool_centre {
+            let message = "LN with a tool direction, but M128 or FUNCTION TCPM is not on";
+            self.warn("direction-without-tcp", "", words.at, message, "write FUNCTION TCPM before");
+        }
+        let target = words.target(&self.frames.position);
+        self.line_to(target, words, rapid, tool)
+    }
+
+    /// CC: the centre of circles and polar coordinates; without words the present place.
+    fn pole_statement(&mut self, words: &Words) -> Result<(), Fault> {
+        let [first, second, _] = self.modes.plane.axes();
+        words.only_axes(&[first, second])?;
+        let now = self.frames.position;
+        let old = self.pole.unwrap_or([now[first], now[second]]);
+        if !words.has_axis() {
+            self.pole = Some([now[first], now[second]]);
+            return Ok(());
+        }
+        let mut pole = old;
+        for (value, axis) in pole.iter_mut().zip([first, second]) {
+            if let Some(word) = words.axes[axis as usize] {
+                *value = word.from(now[axis]);
+            }
+        }
+        self.pole = Some(pole);
+        Ok(())
+    }
+
+    /// The pole, which must be there.
+    pub(super) fn pole(&self, at: usize) -> Result<[f64; 2], Fault> {
+        self.pole.ok_or_else(|| {
+            let message = "the centre is missing".to_owned();
+            fault("missing-pole", at, message, "write CC before this block")
+        })
+    }
+
+    /// Radius and angle of the present place about the pole.
+    pub(super) fn polar_place(&self, pole: [f64; 2]) -> (f64, f64) {
+        let [first, second, _] = self.modes.plane.axes();
+        let now = self.frames.position;
+        let (dx, dy) = (now[first] - pole[0], now[second] - pole[1]);
+        (dx.hypot(dy), dy.atan2(dx).to_degrees())
+    }
+
+    /// The target of LP, CP and CTP; what is not given stays as it is.
+    pub(super) fn polar_target(&mut self, words: &Words) -> Result<Position, Fault> {
+        let pole = self.pole(words.at)?;
+        let (radius, angle) = self.polar_place(pole);
+        let radius = words.radius.map_or(radius, |w| w.from(radius));
+        let angle = words.angle.map_or(angle, |w| w.from(angle));
+        let [first, second, _] = self.modes.plane.axes();
+        let mut target = words.target(&self.frames.position);
+        let (sin, cos) = angle.to_radians().sin_cos();
+        target[first] = pole[0] + radius * cos;
+        target[second] = pole[1] + radius * sin;
+        Ok(target)
+    }
+}
+
+/// Words that the kind of block has no use for are said, not dropped.
+fn check_words(kind: usize, words: &Words) -> Result<(), Fault> {
+    let vectors = words.normal.iter().chain(&words.tool).any(Option::is_some);
+    let polar = words.radius.or(words.angle).is_some();
+    let wrong = [
+        (vectors && kind != 2, "a vector needs LN"),
+        (polar && !matches!(kind, 1 | 4 | 7 | 11 | 12), "polar coordinates need LP, CP or CTP"),
+        (words.arc_radius.is_some() && !matches!(kind, 5 | 9 | 11 | 12), "a radius needs CR"),
+        (words.ccw.is_some() && !(3..=7).contains(&kind), "DR needs a circle"),
+        (
+            words.length.or(words.sweep).is_some() && !matches!(kind, 11 | 12),
+            "LEN and CCA need DEP",
+        ),
+        (matches!(kind, 9 | 10) && !words.functions.is_empty(), "no M function can stand here"),
+        (matches!(kind, 9 | 10) && words.has_axis(), "no axis can stand here"),
+    ];
+    match wrong.iter().find(|(found, _)| *found) {
+        Some((_, why)) => {
+            let message = "a word of this block has no use in it".to_owned();
+            Err(fault("unused-word", words.at, message, why))
+        }
+        None => Ok(()),
+    }
+}

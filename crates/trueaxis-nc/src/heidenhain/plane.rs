@@ -1,0 +1,261 @@
+//! PLANE and cycle 19: the tilted working plane.
+
+use super::frames::{Transformation, product, turn_about};
+use super::functions::unit;
+use super::line::Cursor;
+use super::variables::{Stored, Variable};
+use super::words::{FeedWord, split_address};
+use super::{Run, fault};
+use crate::moves::{Axis, Branch, Event, MoveKind};
+use crate::program::Fault;
+
+/// The matrix of space angles: R = Rz(SPC) · Ry(SPB) · Rx(SPA).
+///
+/// The manuals say it in two ways that are the same matrix: "rotations around the fixed machine
+/// coordinate system, first around the A axis, then B, and then C" (iTNC 530, PLANE SPATIAL), where
+/// each later turn about a fixed axis stands further left; and the sequence C-B-A about the axes
+/// that turn along (TNC 620). A+90 C+180 puts the tool along +Y, so A−90 C0 of a table machine
+/// reaches it; the opposite order would give −Y.
+pub(super) fn spatial(a_deg: f64, b_deg: f64, c_deg: f64) -> [[f64; 3]; 3] {
+    let inner = product(&turn_about(1, b_deg), &turn_about(0, a_deg));
+    product(&turn_about(2, c_deg), &inner)
+}
+
+/// Euler angles about the axes that turn along: Rz(precession) · Rx(nutation) · Rz(rotation).
+fn euler(precession_deg: f64, nutation_deg: f64, rotation_deg: f64) -> [[f64; 3]; 3] {
+    let inner = product(&turn_about(0, nutation_deg), &turn_about(2, rotation_deg));
+    product(&turn_about(2, precession_deg), &inner)
+}
+
+/// The frame with Z along `normal` and X in the plane of `base` and Z.
+fn from_vectors(base: [f64; 3], normal: [f64; 3]) -> Option<[[f64; 3]; 3]> {
+    let z = unit(normal)?;
+    let base = unit(base)?;
+    let along: f64 = base.iter().zip(z).map(|(b, n)| b * n).sum();
+    let across: [f64; 3] = std::array::from_fn(|i| base[i] - along * z[i]);
+    if across.iter().all(|v| v.abs() < 1e-9) {
+        return None;
+    }
+    let x = unit(across)?;
+    let y = cross(z, x);
+    Some(std::array::from_fn(|i| [x[i], y[i], z[i]]))
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// What the rotary axes do once the plane is tilted.
+#[derive(Debug, Clone, Copy, Default)]
+struct Behaviour {
+    /// MOVE (the tip stays) or TURN; `None` is STAY.
+    keep_tip: Option<bool>,
+    branch: Branch,
+}
+
+impl Run<'_> {
+    pub(super) fn plane(&mut self, c: &mut Cursor<'_>) -> Result<(), Fault> {
+        const KINDS: [&str; 9] = [
+            "SPATIAL",
+            "VECTOR",
+            "EULER",
+            "POINTS",
+            "RELATIVE",
+            "RELATIV",
+            "RESET",
+            "PROJECTED",
+            "AXIAL",
+        ];
+        let at = c.start;
+        let Some(kind) = c.accept_any(&KINDS) else { return Err(c.unknown()) };
+        let turn = match kind {
+            0 => {
+                let [a, b, s] = self.named_values(c, ["SPA", "SPB", "SPC"])?;
+                Some(spatial(a, b, s))
+            }
+            1 => {
+                let base = self.named_values(c, ["BX", "BY", "BZ"])?;
+                let normal = self.named_values(c, ["NX", "NY", "NZ"])?;
+                Some(from_vectors(base, normal).ok_or_else(|| no_plane(at))?)
+            }
+            2 => {
+                let [p, n, r] = self.named_values(c, ["EULPR", "EULNU", "EULROT"])?;
+                Some(euler(p, n, r))
+            }
+            3 => Some(self.points(c, at)?),
+            4 | 5 => {
+                let [a, b, s] = self.named_values(c, ["SPA", "SPB", "SPC"])?;
+                Some(product(&self.frames.tilt(), &spatial(a, b, s)))
+            }
+            6 => None,
+            _ => {
+                let message = format!("PLANE {} is not interpreted", KINDS[kind]);
+                let hint = "write PLANE SPATIAL or PLANE VECTOR";
+                return Err(fault("not-interpreted", at, message, hint));
+            }
+        };
+        let behaviour = self.behaviour(c)?;
+        c.finish()?;
+        self.tilt(turn, behaviour, at)
+    }
+
+    /// Words with numbers in any order; what is not given is zero.
+    fn named_values(&mut self, c: &mut Cursor<'_>, names: [&str; 3]) -> Result<[f64; 3], Fault> {
+        let mut values = [0.0; 3];
+        loop {
+            let letters = c.letters();
+            let found = names.iter().position(|name| {
+                let count = name.len();
+                letters.len() >= count
+                    && letters[..count].eq_ignore_ascii_case(name.as_bytes())
+                    && matches!(&letters[count..], b"" | b"Q" | b"QL" | b"QR")
+            });
+            let Some(index) = found else { return Ok(values) };
+            c.take_letters(names[index].len());
+            values[index] = self.value(c)?;
+        }
+    }
+
+    /// P1 and P2 give the direction of X, P3 lies on the side of positive Y.
+    fn points(&mut self, c: &mut Cursor<'_>, at: usize) -> Result<[[f64; 3]; 3], Fault> {
+        let mut points = [[0.0; 3]; 3];
+        while c.accept("P") {
+            let number = c.whole()?.unwrap_or(0) as usize;
+            let axis = c.accept_any(&["X", "Y", "Z"]);
+            let Some((axis, point)) = axis.zip(points.get_mut(number.wrapping_sub(1))) else {
+                return Err(c.unknown());
+            };
+            point[axis] = self.value(c)?;
+        }
+        let along: [f64; 3] = std::array::from_fn(|i| points[1][i] - points[0][i]);
+        let across: [f64; 3] = std::array::from_fn(|i| points[2][i] - points[0][i]);
+        from_vectors(along, cross(along, across)).ok_or_else(|| no_plane(at))
+    }
+
+    /// MOVE, TURN or STAY and what stands with them.
+    fn behaviour(&mut self, c: &mut Cursor<'_>) -> Result<Behaviour, Fault> {
+        let mut behaviour = Behaviour::default();
+        while !c.done() {
+            let at = c.offset();
+            if let Some(index) = c.accept_any(&["MOVE", "TURN", "STAY"]) {
+                behaviour.keep_tip = [Some(true), Some(false), None][index];
+            } else if c.accept_any(&["SEQ", "SYM"]).is_some() {
+                behaviour.branch = match c.symbol() {
+                    Some(b'+') => Branch::Positive,
+                    Some(b'-') => Branch::Negative,
+                    _ => return Err(c.unknown()),
+                };
+                c.accept_symbol(b'+');
+                c.accept_symbol(b'-');
+            } else if c.accept_any(&["TABLE", "COORD"]).is_some() {
+                if !c.accept("ROT") {
+                    return Err(c.unknown());
+                }
+                self.emit(Event::Note("choice of TABLE ROT or COORD ROT"));
+            } else if c.accept_any(&["DIST", "ABST"]).is_some() {
+                if self.value(c)? != 0.0 {
+                    self.not_applied("DIST of PLANE", at);
+                }
+            } else if c.accept("MB") {
+                if !c.accept("MAX") {
+                    self.value(c)?;
+                }
+                self.not_applied("MB (retraction before the turn) of PLANE", at);
+            } else if c.accept_any(&["FMAX", "FAUTO"]).is_none() {
+                match split_address(c) {
+                    Some("F") => {
+                        let _: FeedWord = self.feed_word(c, Some("F"))?;
+                    }
+                    _ => return Err(c.unknown()),
+                }
+            }
+        }
+        Ok(behaviour)
+    }
+
+    /// Tilts the plane (`None` ends it), tells it, and lets the rotary axes follow.
+    fn tilt(
+        &mut self,
+        turn: Option<[[f64; 3]; 3]>,
+        behaviour: Behaviour,
+        at: usize,
+    ) -> Result<(), Fault> {
+        let set = match turn {
+            Some(turn) => self.frames.set(Transformation::Tilt(turn), false),
+            None => self.frames.untilt(),
+        };
+        set.ok_or_else(|| no_plane(at))?;
+        self.tangent = None;
+        self.emit(Event::TiltedPlane(turn.is_some()));
+        self.emit_frame();
+        let frame = self.frames.frame();
+        let axis = frame.vector([0.0, 0.0, 1.0]);
+        let now = frame.place(&self.frames.position);
+        let angles = match unit(axis) {
+            Some(axis) => self.library.rotary_angles(axis, behaviour.branch, &now),
+            None => None,
+        };
+        let angles = if turn.is_none() { angles.or(Some([0.0; 3])) } else { angles };
+        for i in 0..3 {
+            let variable = Variable::Global(120 + i as u32);
+            match angles {
+                Some(angles) => self.variables.store(variable, Stored::Number(angles[i])),
+                None => self.undefine(variable),
+            }
+        }
+        let Some(keep_tip) = behaviour.keep_tip else { return Ok(()) };
+        let kind = MoveKind::Align { keep_tip, branch: behaviour.branch };
+        self.step(kind, self.frames.position, at)?;
+        if let Some(angles) = angles {
+            for (i, axis) in [Axis::A, Axis::B, Axis::C].into_iter().enumerate() {
+                self.turned[i] = 0.0;
+                self.frames.position[axis] = angles[i] - frame.shift[axis];
+            }
+        }
+        Ok(())
+    }
+
+    /// CYCL DEF 19.1 A B C; without angles the plane is no longer tilted. No axis moves.
+    pub(super) fn cycle_19(&mut self, c: &mut Cursor<'_>) -> Result<(), Fault> {
+        let at = c.start;
+        if c.done() {
+            return self.tilt(None, Behaviour::default(), at);
+        }
+        let [a, b, s] = self.named_values(c, ["A", "B", "C"])?;
+        self.behaviour(c)?;
+        self.tilt(Some(spatial(a, b, s)), Behaviour::default(), at)
+    }
+}
+
+fn no_plane(at: usize) -> Fault {
+    let message = "the vectors or points give no plane".to_owned();
+    fault("zero-direction", at, message, "they must have a length and not lie on one line")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn space_angles_turn_about_fixed_axes_in_the_order_a_b_c() {
+        // Z turned by A+90 about X is -Y; by C+180 about the fixed Z it is +Y.
+        let m = spatial(90.0, 0.0, 180.0);
+        assert_eq!([m[0][2], m[1][2], m[2][2]], [0.0, 1.0, 0.0]);
+        // X keeps to A, and C turns it over.
+        assert_eq!([m[0][0], m[1][0], m[2][0]], [-1.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn euler_angles_turn_about_axes_that_turn_along() {
+        // Precession 90 puts X along Y; nutation 90 about it puts Z along X.
+        let m = euler(90.0, 90.0, 0.0);
+        assert_eq!([m[0][2], m[1][2], m[2][2]], [1.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn a_base_vector_is_made_square_to_the_normal() {
+        let m = from_vectors([1.0, 0.0, 5.0], [0.0, 0.0, 2.0]).unwrap();
+        assert_eq!(m, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+        assert!(from_vectors([0.0, 0.0, 1.0], [0.0, 0.0, 2.0]).is_none());
+    }
+}

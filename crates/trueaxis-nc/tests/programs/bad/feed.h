@@ -1,0 +1,3 @@
+BEGIN PGM a MM
+L X+11
+END PGM a MM

@@ -1,0 +1,3 @@
+BEGIN PGM itself MM
+CALL PGM itself
+END PGM itself MM

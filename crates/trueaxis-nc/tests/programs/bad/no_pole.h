@@ -1,0 +1,3 @@
+BEGIN PGM a MM
+C X+1 Y+1 DR+ F100
+END PGM a MM

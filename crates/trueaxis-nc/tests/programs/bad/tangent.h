@@ -1,0 +1,3 @@
+BEGIN PGM a MM
+CT X+1 F5
+END PGM a MM

@@ -1,0 +1,2 @@
+BEGIN PGM a MM
+L X+1 FMAX

@@ -1,0 +1,3 @@
+BEGIN PGM a MM
+L X+1 NX+1 F5
+END PGM a MM

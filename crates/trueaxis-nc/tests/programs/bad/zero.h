@@ -1,0 +1,3 @@
+BEGIN PGM a MM
+Q1 = 5 / ( 2 - 2 )
+END PGM a MM
