@@ -33,8 +33,7 @@ fn control(file: &Path) -> Option<Control> {
     match file.extension()?.to_str()? {
         "ngc" => Some(Control::LinuxCnc),
         "nc" => Some(Control::Fanuc),
-        "mpf" => Some(Control::Sinumerik840d),
-        "h" => Some(Control::Heidenhain),
+        // .mpf and .h have set-ups of their own: tests/sinumerik.rs and tests/heidenhain.rs.
         _ => None,
     }
 }
