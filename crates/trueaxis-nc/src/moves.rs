@@ -188,7 +188,7 @@ impl Frame {
             m[r][c] * m[s][d] - m[r][d] * m[s][c]
         };
         let det: f64 = (0..3).map(|j| m[0][j] * minor(0, j)).sum();
-        if !(det.abs() > 1e-12) {
+        if det.is_nan() || det.abs() <= 1e-12 {
             return None;
         }
         let mut out = p.minus(&self.shift);
