@@ -25,9 +25,8 @@
 //! assert_eq!(moves[1].feed.value, 254.0);
 //! ```
 //!
-//! So far LinuxCNC, FANUC and HEIDENHAIN programs are interpreted; SINUMERIK programs are cut into
-//! tokens. It knows no machine: where the axes really go, and how fast, is asked elsewhere. It opens
-//! no file: subprograms come through a [`Library`].
+//! It knows no machine: where the axes really go, and how fast, is asked elsewhere. It opens no
+//! file: subprograms come through a [`Library`].
 
 pub mod code;
 pub mod dialect;
@@ -38,7 +37,7 @@ mod library;
 pub mod moves;
 mod parser;
 pub mod program;
-mod sinumerik;
+pub mod sinumerik;
 
 pub use dialect::{Control, Dialect};
 pub use interpreter::{Outcome, Settings, interpret};

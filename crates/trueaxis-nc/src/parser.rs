@@ -2,8 +2,9 @@
 
 mod control;
 mod expression;
+mod plain;
 
-use crate::dialect::Dialect;
+use crate::dialect::{Control, Dialect};
 use crate::lexer::{Lexer, Token, TokenKind};
 use crate::program::{Block, Fault, Item, Node, NodeId, is_trivia};
 
@@ -156,6 +157,9 @@ impl<'s, 'b> Parser<'s, 'b> {
             let digit = self.source[token.end - 1];
             self.block.skip = Some(if digit.is_ascii_digit() { digit - b'0' } else { 1 });
             self.advance();
+        }
+        if self.dialect.control == Control::Sinumerik840d {
+            return self.plain_words();
         }
         if self.dialect.g_codes.is_empty() {
             // Programs of this control are cut into tokens only.

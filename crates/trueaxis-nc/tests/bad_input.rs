@@ -86,12 +86,6 @@ fn faults_of_the_flow() {
 }
 
 #[test]
-fn controls_that_are_not_interpreted_say_so() {
-    let found = problems(b"N10 G0 X1\n", Control::Sinumerik840d, &NoLibrary);
-    assert_eq!(found, [("control-not-interpreted", "p".to_owned())]);
-}
-
-#[test]
 fn unknown_words_are_never_dropped() {
     first("G0 X1 E5\n", "unknown-word", "p:1:7");
     first("G77.7 X1\n", "unknown-g-code", "p:1:1");

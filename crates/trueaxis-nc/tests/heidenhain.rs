@@ -241,9 +241,10 @@ fn check_fixtures(kind: &str, least: usize) {
     let mut wrong = Vec::new();
     let mut count = 0;
     for file in files {
-        let expected = file.with_extension("expected");
-        // Without an expectation it is a subprogram of another one.
-        let Ok(expected) = std::fs::read_to_string(&expected) else { continue };
+        let expected = file.with_extension("h.expected");
+        let Ok(expected) = std::fs::read_to_string(&expected) else {
+            panic!("{}: no .expected", file.display())
+        };
         count += 1;
         let name = file.file_name().unwrap().to_string_lossy().into_owned();
         let shift = Position([0.0, 0.0, 100.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);

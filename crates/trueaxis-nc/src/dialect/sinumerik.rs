@@ -1,6 +1,6 @@
 use super::{Control, Dialect};
 
-/// SINUMERIK 840D: so far only its tokens; its blocks are not interpreted.
+/// SINUMERIK 840D: how its tokens look. What its words do stands in `sinumerik/tables.rs`.
 pub(super) static DIALECT: Dialect = Dialect {
     control: Control::Sinumerik840d,
     paren_comments: false,

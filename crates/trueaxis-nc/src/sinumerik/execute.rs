@@ -1,0 +1,549 @@
+//! Executes the words of a block: modes, tool, spindle, frames, then the move.
+
+use super::system::flat;
+use super::tables::{Angles, Code, Motion, Name, Turning as Way};
+use super::words::Words;
+use super::{Next, Run, fault, transform};
+use crate::interpreter::Settings;
+use crate::moves::{
+    Axis, CompensationSide, Cone, Coolant, Event, Feed, FeedMode, MoveKind, OrientationPath,
+    PathControl, Plane, Position, Turning,
+};
+use crate::program::Fault;
+
+/// What lasts from block to block.
+#[derive(Debug, Clone)]
+pub(super) struct Modes {
+    pub inches: bool,
+    /// Feeds count in inches as well (G700).
+    pub feed_inches: bool,
+    pub diameter: bool,
+    pub incremental: bool,
+    pub plane: Plane,
+    pub motion: Motion,
+    pub feed_mode: FeedMode,
+    /// mm/min, 1/min or mm/revolution.
+    pub feed: f64,
+    pub speed: f64,
+    pub turning: Turning,
+    pub selected: u32,
+    pub tool: u32,
+    /// D.
+    pub edge: u32,
+    pub path: (PathControl, f64),
+    pub angles: Angles,
+    /// Group 51 as it was written last.
+    pub turns: Option<Way>,
+    /// What was told of it; cones are told move by move.
+    pub cone: Option<Way>,
+    /// Words of a cone that wait for a move.
+    pub next_cone: Cone,
+    pub tool_centre: bool,
+    /// The pole of polar coordinates, in the program frame.
+    pub pole: Position,
+    pub polar: (f64, f64),
+    /// Where the last move on the path went at its end.
+    pub tangent: Option<[f64; 3]>,
+}
+
+impl Modes {
+    pub fn new(settings: &Settings) -> Self {
+        Self {
+            inches: settings.inches,
+            feed_inches: settings.inches,
+            diameter: settings.diameters,
+            incremental: false,
+            plane: settings.plane,
+            motion: Motion::Linear,
+            feed_mode: FeedMode::PerMinute,
+            feed: 0.0,
+            speed: 0.0,
+            turning: Turning::Stopped,
+            selected: 0,
+            tool: 0,
+            edge: 1,
+            path: (PathControl::ExactStop, 0.0),
+            angles: Angles::Euler,
+            turns: None,
+            cone: None,
+            next_cone: Cone::default(),
+            tool_centre: false,
+            pole: Position::default(),
+            polar: (0.0, 0.0),
+            tangent: None,
+        }
+    }
+
+    pub fn unit_mm(&self) -> f64 {
+        if self.inches { 25.4 } else { 1.0 }
+    }
+
+    pub fn feed(&self) -> Feed {
+        Feed { mode: self.feed_mode, value: self.feed }
+    }
+
+    /// The factor of a word of an axis to mm or degrees.
+    pub fn scale(&self, axis: Axis) -> f64 {
+        match axis {
+            _ if axis.is_rotary() => 1.0,
+            Axis::X if self.diameter => self.unit_mm() / 2.0,
+            _ => self.unit_mm(),
+        }
+    }
+}
+
+impl Run<'_> {
+    /// Executes the gathered words.
+    pub(super) fn perform(&mut self) -> Result<Next, Fault> {
+        // Two boxes change places: the words themselves are large.
+        let spare = self.spare.take().unwrap_or_default();
+        let mut words = std::mem::replace(&mut self.words, spare);
+        let result = self.perform_words(&mut words);
+        self.spare = Some(words);
+        result
+    }
+
+    fn perform_words(&mut self, words: &mut Words) -> Result<Next, Fault> {
+        if words.codes.len() > 1 {
+            words.codes.sort_by_key(|(code, _)| code.rank());
+            check_groups(words)?;
+        }
+        let codes = std::mem::take(&mut words.codes);
+        let early = codes.iter().take_while(|(c, _)| c.rank() <= 1).count();
+        for (code, at) in &codes[..early] {
+            self.act(*code, words, *at)?;
+        }
+        let dwells = codes.iter().any(|(c, _)| *c == Code::Dwell);
+        if !dwells {
+            self.feed_and_speed(words)?;
+        }
+        self.tool_words(words)?;
+        if !words.m.is_empty() {
+            self.m_functions(words)?;
+        }
+        let before = self.modes.motion;
+        let (taken, machine) = self.later_codes(&codes[early..], words)?;
+        let exact = codes.iter().any(|(c, _)| *c == Code::ExactOnce);
+        let ends = words.m.iter().find(|(m, _)| matches!(m, 0 | 1 | 2 | 17 | 30)).copied();
+        if let Some((_, at)) = words.numbered.first().filter(|_| !taken) {
+            let message = "this axis is not known here";
+            let hint = "the axes are X Y Z A B C U V W";
+            return Err(fault("unknown-axis", *at, message, hint));
+        }
+        let first = codes.first().map_or(self.block.start, |(_, at)| *at);
+        words.codes = codes;
+        self.other_words(words);
+        let mut moved = false;
+        if !taken {
+            moved = self.motion(words, machine, first)?;
+        }
+        if self.modes.motion == Motion::FreeTap {
+            self.modes.motion = if before == Motion::FreeTap { Motion::Linear } else { before };
+        }
+        if exact {
+            let (control, tolerance_mm) = self.modes.path;
+            self.emit(Event::Path { control, tolerance_mm });
+        }
+        self.report_unused(words);
+        // What the called program moves does not call it again.
+        let depth = self.stack.len();
+        if moved && ends.is_none() && self.modal_call.as_ref().is_some_and(|c| depth <= c.depth) {
+            return self.modal(first);
+        }
+        match ends {
+            Some((m, _)) => self.end_function(m),
+            None => Ok(Next::Following),
+        }
+    }
+
+    /// Executes the codes behind feed and tool: whether one took the words of the axes, and whether
+    /// these count from the machine zero.
+    fn later_codes(
+        &mut self,
+        codes: &[(Code, usize)],
+        words: &mut Words,
+    ) -> Result<(bool, bool), Fault> {
+        let (mut taken, mut machine) = (false, false);
+        for (code, at) in codes {
+            match code {
+                Code::Motion(motion) => self.modes.motion = *motion,
+                Code::Machine => machine = true,
+                _ => {
+                    taken |= code.takes_axes();
+                    self.act(*code, words, *at)?;
+                }
+            }
+        }
+        Ok((taken, machine))
+    }
+
+    /// The call that MCALL left for each block with a move.
+    fn modal(&mut self, at: usize) -> Result<Next, Fault> {
+        let Some(call) = self.modal_call.clone() else { return Ok(Next::Following) };
+        self.call(&call.name, call.arguments, 1, at)
+    }
+
+    fn end_function(&mut self, m: u32) -> Result<Next, Fault> {
+        match m {
+            0 | 1 => {
+                self.emit(Event::Stop { optional: m == 1 });
+                Ok(Next::Following)
+            }
+            // M17, M2 and M30 end a subprogram alike.
+            _ => self.return_from(1),
+        }
+    }
+
+    fn feed_and_speed(&mut self, words: &mut Words) -> Result<(), Fault> {
+        if let Some((feed, at)) = words.feed.take() {
+            if !(0.0..1e12).contains(&feed) {
+                let message = format!("{feed} is not a feed");
+                return Err(fault("negative-feed", at, message, "write F100"));
+            }
+            let scaled = self.modes.feed_inches && self.modes.feed_mode != FeedMode::InverseTime;
+            self.modes.feed = if scaled { feed * 25.4 } else { feed };
+        } else if self.modes.feed_mode == FeedMode::InverseTime {
+            self.modes.feed = 0.0;
+        }
+        if let Some(speed) = words.speed.take() {
+            self.modes.speed = speed;
+            self.emit(Event::SpindleSpeed(speed));
+        }
+        Ok(())
+    }
+
+    fn m_functions(&mut self, words: &Words) -> Result<(), Fault> {
+        for (m, at) in &words.m {
+            match m {
+                0 | 1 | 2 | 17 | 30 => {}
+                3 => self.spindle(Turning::Clockwise),
+                4 => self.spindle(Turning::CounterClockwise),
+                5 => self.spindle(Turning::Stopped),
+                6 => self.change_tool(words.edge.map(|(edge, _)| edge), *at),
+                7 => self.emit(Event::Coolant(Coolant::Mist)),
+                8 => self.emit(Event::Coolant(Coolant::Flood)),
+                9 => self.emit(Event::Coolant(Coolant::Off)),
+                19 => self.emit(Event::SpindleOrient { angle_deg: 0.0 }),
+                40..=45 => self.emit(Event::Note("a gear stage of the spindle")),
+                70 => self.emit(Event::Note("M70 spindle as an axis")),
+                _ => {
+                    let message = format!("M{m} is not known to this control");
+                    let hint = "if the machine builder defined it, it has no effect here";
+                    self.warn_once("unknown-m-code", &m.to_string(), *at, message, hint);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn spindle(&mut self, turning: Turning) {
+        self.modes.turning = turning;
+        self.emit(Event::Spindle(turning));
+    }
+
+    /// Named words that are no part of a move.
+    fn other_words(&mut self, words: &mut Words) {
+        if words.named.is_empty() {
+            return;
+        }
+        if let Some((angle, ..)) = words.take(Name::SpindlePlace) {
+            self.emit(Event::SpindleOrient { angle_deg: angle });
+        }
+        if let Some((tolerance, ..)) = words.take(Name::Tolerance) {
+            let control = match self.modes.path.0 {
+                PathControl::ExactStop => PathControl::Continuous,
+                other => other,
+            };
+            self.tell_path(control, tolerance * self.modes.unit_mm());
+        }
+        let mut noted = Vec::new();
+        words.named.retain(|(name, ..)| match name {
+            Name::Noted(text) => {
+                noted.push(*text);
+                false
+            }
+            _ => true,
+        });
+        for text in noted {
+            self.emit(Event::Note(text));
+        }
+    }
+
+    pub(super) fn tell_path(&mut self, control: PathControl, tolerance_mm: f64) {
+        self.modes.path = (control, tolerance_mm);
+        self.emit(Event::Path { control, tolerance_mm });
+    }
+
+    fn act(&mut self, code: Code, words: &mut Words, at: usize) -> Result<(), Fault> {
+        match code {
+            Code::Plane(plane) => {
+                self.modes.plane = plane;
+                self.emit(Event::Plane(plane));
+                self.apply_length(at);
+            }
+            Code::Inches { inches, feed } => {
+                self.modes.inches = inches;
+                if feed {
+                    self.modes.feed_inches = inches;
+                }
+            }
+            Code::Incremental(incremental) => self.modes.incremental = incremental,
+            Code::Diameter(diameter) => self.modes.diameter = diameter,
+            Code::Feed(mode) => self.change_feed(mode),
+            Code::SurfaceSpeed(on, mode) => {
+                self.change_feed(mode);
+                let name =
+                    if on { "G96 constant surface speed" } else { "G97 revolutions per minute" };
+                self.emit(Event::Note(name));
+            }
+            Code::Offset(number) => self.select_offset(number, at)?,
+            Code::Frame(word) => self.program_frame(word, words, at)?,
+            Code::Shift { fine } => self.shift_frame(fine, words, at)?,
+            Code::ToolCentre(on) => {
+                self.modes.tool_centre = on;
+                self.emit(Event::ToolCentre(on));
+            }
+            Code::Angles(angles) => self.modes.angles = angles,
+            Code::Turning(way) => self.turn_by(way),
+            Code::Compensation(side) => {
+                self.emit(Event::Compensation(side));
+                if side != CompensationSide::Off {
+                    let message = "radius compensation is noted, not applied".to_owned();
+                    let hint = "the moves are those of the program; let the CAM system compensate";
+                    self.warn_once("compensation-not-applied", "", at, message, hint);
+                }
+            }
+            Code::Path(control, with_distance) => {
+                let distance = if with_distance { words.take(Name::Tolerance) } else { None };
+                self.tell_path(control, distance.map_or(0.0, |(d, ..)| d * self.modes.unit_mm()));
+            }
+            Code::ExactOnce => {
+                self.emit(Event::Path { control: PathControl::ExactStop, tolerance_mm: 0.0 });
+            }
+            Code::Dwell => self.dwell(words, at)?,
+            Code::Pole(kind) => self.set_pole(kind, words),
+            Code::Reference => self.reference(words, at),
+            Code::Limits => self.emit(Event::Note("G25, G26 limits of the working area")),
+            Code::Note(name) => self.emit(Event::Note(name)),
+            Code::NotApplied(name) => {
+                self.not_applied(name, at, "the moves that follow are those without it");
+            }
+            Code::Motion(_) | Code::Machine => {}
+        }
+        Ok(())
+    }
+
+    fn change_feed(&mut self, mode: FeedMode) {
+        if mode != self.modes.feed_mode {
+            self.modes.feed = 0.0;
+        }
+        self.modes.feed_mode = mode;
+    }
+
+    fn select_offset(&mut self, number: u32, at: usize) -> Result<(), Fault> {
+        let frame = self.chain.offset(number);
+        if !self.chain.change(|c| c.settable = frame) {
+            return Err(flat(at));
+        }
+        self.chain.active = number;
+        self.emit_offset();
+        self.emit_frame();
+        Ok(())
+    }
+
+    /// TRANS, AROT …: the frame of the block's words; without words the frame is gone.
+    fn program_frame(
+        &mut self,
+        word: &'static str,
+        words: &mut Words,
+        at: usize,
+    ) -> Result<(), Fault> {
+        let additive = word.starts_with('A');
+        let plain = word.trim_start_matches('A');
+        let scaled = |axis: Axis, modes: &Modes| match plain {
+            "TRANS" if axis.is_rotary() => 1.0,
+            "TRANS" => modes.unit_mm(),
+            _ => 1.0,
+        };
+        let mut entries = Vec::new();
+        for axis in Axis::ALL {
+            if words.axes.contains(axis) {
+                let index = axis as usize;
+                entries.push((axis, words.values[index] * scaled(axis, &self.modes)));
+            }
+        }
+        let mut frame = transform::from_entries(plain, &entries, at)?;
+        if let Some((angle, ..)) = words.take(Name::PlaneAngle) {
+            frame = transform::turned(self.modes.plane.axes()[2], angle);
+        }
+        let kept = self.chain.change(|c| {
+            c.programmable = if additive { c.programmable.after(&frame) } else { frame };
+            if !additive {
+                c.fine = Position::default();
+            }
+        });
+        if !kept {
+            return Err(flat(at));
+        }
+        self.emit_frame();
+        Ok(())
+    }
+
+    /// G58 replaces the shift of the named axes, G59 its fine part.
+    fn shift_frame(&mut self, fine: bool, words: &Words, at: usize) -> Result<(), Fault> {
+        let unit = self.modes.unit_mm();
+        let kept = self.chain.change(|c| {
+            for axis in Axis::ALL {
+                if words.axes.contains(axis) {
+                    let scale = if axis.is_rotary() { 1.0 } else { unit };
+                    let value = words.values[axis as usize] * scale;
+                    if fine {
+                        c.programmable.shift[axis] += value - c.fine[axis];
+                        c.fine[axis] = value;
+                    } else {
+                        c.programmable.shift[axis] = value + c.fine[axis];
+                    }
+                }
+            }
+        });
+        if !kept {
+            return Err(flat(at));
+        }
+        self.emit_frame();
+        Ok(())
+    }
+
+    fn dwell(&mut self, words: &mut Words, at: usize) -> Result<(), Fault> {
+        let turns = words.speed.take().map(|turns| (turns, self.modes.speed));
+        let seconds = match (words.feed.take(), turns) {
+            (Some((seconds, _)), _) => seconds,
+            (None, Some((turns, speed))) if speed > 0.0 => turns * 60.0 / speed,
+            (None, Some(_)) => {
+                let message = "the dwell counts turns of a spindle that has no speed".to_owned();
+                self.warn_once("dwell-without-speed", "", at, message, "write S in a block before");
+                0.0
+            }
+            _ => -1.0,
+        };
+        if !(0.0..1e12).contains(&seconds) {
+            let message = "the time of the dwell is missing or negative";
+            return Err(fault("bad-dwell", at, message, "write G4 F0.5"));
+        }
+        self.step(MoveKind::Dwell { seconds }, self.chain.position, words);
+        Ok(())
+    }
+
+    /// G110, G111, G112: the pole of polar coordinates.
+    fn set_pole(&mut self, kind: u8, words: &mut Words) {
+        let base = match kind {
+            0 => self.chain.position,
+            1 => Position::default(),
+            _ => self.modes.pole,
+        };
+        let mut pole = base;
+        for axis in [Axis::X, Axis::Y, Axis::Z] {
+            if words.axes.contains(axis) {
+                pole[axis] = base[axis] + words.values[axis as usize] * self.modes.scale(axis);
+            }
+        }
+        if let Some((radius, ..)) = words.take(Name::PolarRadius) {
+            let (angle, ..) = words.take(Name::PolarAngle).unwrap_or_default();
+            let [first, second, _] = self.modes.plane.axes();
+            let (sin, cos) = angle.to_radians().sin_cos();
+            let radius = radius * self.modes.unit_mm();
+            pole[first] = base[first] + radius * cos;
+            pole[second] = base[second] + radius * sin;
+        }
+        self.modes.pole = pole;
+    }
+
+    fn turn_by(&mut self, way: Way) {
+        self.modes.cone = None;
+        self.modes.next_cone = Cone::default();
+        let path = match way {
+            Way::Axes | Way::Machine => OrientationPath::Axes,
+            Way::Vector => OrientationPath::GreatCircle,
+            // Without a word of group 51, ORIWKS means the great circle.
+            Way::Workpiece => match self.modes.turns {
+                Some(Way::Axes) => OrientationPath::Axes,
+                _ => OrientationPath::GreatCircle,
+            },
+            _ => {
+                self.modes.cone = Some(way);
+                self.modes.turns = Some(way);
+                return;
+            }
+        };
+        if !matches!(way, Way::Machine | Way::Workpiece) {
+            self.modes.turns = Some(way);
+        }
+        self.emit(Event::Orientation(path));
+    }
+
+    /// SAVE: the modes are back as they were at the call.
+    pub(super) fn restore(&mut self, saved: Modes) {
+        let now = std::mem::replace(&mut self.modes, saved);
+        self.modes.tool = now.tool;
+        self.modes.selected = now.selected;
+        (self.modes.edge, self.modes.speed, self.modes.turning) =
+            (now.edge, now.speed, now.turning);
+        self.modes.tangent = now.tangent;
+        if now.plane != self.modes.plane {
+            self.emit(Event::Plane(self.modes.plane));
+        }
+        if now.path != self.modes.path {
+            let (control, tolerance_mm) = self.modes.path;
+            self.emit(Event::Path { control, tolerance_mm });
+        }
+        if now.tool_centre != self.modes.tool_centre {
+            self.emit(Event::ToolCentre(self.modes.tool_centre));
+        }
+    }
+
+    /// Warns of words that no code used.
+    fn report_unused(&mut self, words: &Words) {
+        let left = words.centers.iter().chain(&words.through).flatten().count();
+        let at = self.block.start;
+        if left > 0 {
+            let message = "no code of this block uses I, J or K".to_owned();
+            self.warn_once("unused-word", "IJK", at, message, "circles and threads do");
+        }
+        for (name, _, _, at) in &words.named {
+            let message = format!("no code of this block uses this word ({name:?})");
+            let hint = "it has no effect; later ones are not listed";
+            self.warn_once("unused-word", &format!("{name:?}"), *at, message, hint);
+        }
+    }
+}
+
+/// Two codes of one group cannot stand in one block.
+fn check_groups(words: &Words) -> Result<(), Fault> {
+    let group = |code: Code| match code {
+        Code::Note(_) | Code::NotApplied(_) | Code::Machine | Code::ExactOnce => None,
+        Code::Plane(_) => Some(1),
+        Code::Inches { .. } => Some(2),
+        Code::Incremental(_) => Some(3),
+        Code::Diameter(_) => Some(4),
+        Code::Feed(_) | Code::SurfaceSpeed(..) => Some(5),
+        Code::Compensation(_) => Some(6),
+        Code::Path(..) => Some(7),
+        Code::Offset(_) => Some(8),
+        Code::Frame(_) => Some(9),
+        Code::Shift { .. } => Some(10),
+        Code::ToolCentre(_) => Some(11),
+        Code::Angles(_) => Some(12),
+        Code::Turning(Way::Machine | Way::Workpiece) => Some(13),
+        Code::Turning(_) => Some(14),
+        Code::Dwell | Code::Pole(_) | Code::Reference | Code::Limits => Some(15),
+        Code::Motion(_) => Some(16),
+    };
+    for (index, (code, at)) in words.codes.iter().enumerate() {
+        let Some(number) = group(*code) else { continue };
+        let earlier = &words.codes[..index];
+        if earlier.iter().any(|(c, _)| group(*c) == Some(number) && c != code) {
+            let message = "two codes of this block contradict each other";
+            return Err(fault("conflicting-codes", *at, message, "write them in two blocks"));
+        }
+    }
+    Ok(())
+}

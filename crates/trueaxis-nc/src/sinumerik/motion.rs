@@ -1,0 +1,273 @@
+//! Targets and moves.
+
+use super::tables::{Motion, Name};
+use super::words::{Mode, Words};
+use super::{Run, fault};
+use crate::moves::{Axis, AxisSet, Coordinates, FeedMode, Move, MoveKind, Position, Way};
+use crate::program::Fault;
+
+impl Run<'_> {
+    /// The move of a block; `false` if it has none.
+    pub(super) fn motion(
+        &mut self,
+        words: &mut Words,
+        machine: bool,
+        at: usize,
+    ) -> Result<bool, Fault> {
+        let direction = self.take_direction(words)?;
+        let motion = self.modes.motion;
+        let round = matches!(motion, Motion::Arc { .. })
+            && (words.centers.iter().any(Option::is_some)
+                || words.has(Name::Radius)
+                || words.has(Name::Opening));
+        let polar = words.has(Name::PolarRadius) || words.has(Name::PolarAngle);
+        if words.axes == AxisSet::default() && direction.is_none() && !round && !polar {
+            return Ok(false);
+        }
+        if machine {
+            return self.machine_move(words, at).map(|()| true);
+        }
+        let target = self.target(words);
+        let mut target = if polar { self.polar_target(words, target)? } else { target };
+        if !(target.0.iter().all(|v| v.abs() < 1e13)) {
+            let message = "the target is further than any machine goes";
+            return Err(fault("too-large", at, message, "check the increments"));
+        }
+        if motion == Motion::Linear && words.has(Name::Angle) {
+            target = self.angle_target(words, target)?;
+        }
+        let block_feed = words.take(Name::BlockFeed).map(|(feed, ..)| feed);
+        let modal = self.modes.feed;
+        if let Some(feed) = block_feed.filter(|f| *f > 0.0) {
+            self.modes.feed = if self.modes.feed_inches { feed * 25.4 } else { feed };
+        }
+        let result = self.path_move(words, target, direction, at);
+        self.modes.feed = modal;
+        result.map(|()| true)
+    }
+
+    fn path_move(
+        &mut self,
+        words: &mut Words,
+        target: Position,
+        direction: Option<[f64; 3]>,
+        at: usize,
+    ) -> Result<(), Fault> {
+        let motion = self.modes.motion;
+        if !matches!(motion, Motion::Rapid | Motion::Thread) {
+            self.check_feed(at)?;
+        }
+        let kind = match motion {
+            Motion::Rapid => MoveKind::Rapid,
+            Motion::Linear | Motion::FreeTap => MoveKind::Linear,
+            Motion::Thread => MoveKind::Thread { pitch_mm: self.pitch(words, at)? },
+            _ => return self.round_move(words, target, direction, at),
+        };
+        self.straight_tangent(target);
+        self.send_move(kind, target, direction, words);
+        Ok(())
+    }
+
+    /// Sends a move with the words of the block and goes there.
+    pub(super) fn send_move(
+        &mut self,
+        kind: MoveKind,
+        target: Position,
+        direction: Option<[f64; 3]>,
+        words: &Words,
+    ) {
+        let ways = [Axis::A, Axis::B, Axis::C].map(|axis| {
+            if !words.axes.contains(axis) {
+                return Way::AsWritten;
+            }
+            match words.modes[axis as usize] {
+                Mode::Shortest => Way::Shortest,
+                Mode::Positive => Way::Positive,
+                Mode::Negative => Way::Negative,
+                _ => Way::AsWritten,
+            }
+        });
+        let (feed, origin) = (self.modes.feed(), self.origin);
+        let mut named = words.axes;
+        for axis in [Axis::X, Axis::Y, Axis::Z] {
+            if target[axis] != self.chain.position[axis] {
+                named = named.with(axis);
+            }
+        }
+        self.emit_move(Move { ways, direction, ..Move::plain(kind, target, named, feed, origin) });
+        self.chain.position = target;
+    }
+
+    /// A move without a direction or ways of its own.
+    pub(super) fn step(&mut self, kind: MoveKind, target: Position, words: &Words) {
+        let named =
+            if matches!(kind, MoveKind::Dwell { .. }) { AxisSet::default() } else { words.axes };
+        let (feed, origin) = (self.modes.feed(), self.origin);
+        self.emit_move(Move::plain(kind, target, named, feed, origin));
+        self.chain.position = target;
+    }
+
+    pub(super) fn straight_tangent(&mut self, target: Position) {
+        let d = target.minus(&self.chain.position).0;
+        if d[..3].iter().any(|v| *v != 0.0) {
+            self.modes.tangent = Some([d[0], d[1], d[2]]);
+        }
+    }
+
+    pub(super) fn check_feed(&self, at: usize) -> Result<(), Fault> {
+        if self.modes.feed > 0.0 {
+            return Ok(());
+        }
+        let (message, hint) = match self.modes.feed_mode {
+            FeedMode::InverseTime => ("with G93 each feed move needs its own F", "write F"),
+            _ => ("a feed move without feed", "write F before the first feed move"),
+        };
+        Err(fault("zero-feed", at, message, hint))
+    }
+
+    /// What a word of an axis leads to, from a base that increments count from.
+    fn axis_value(&self, words: &Words, axis: Axis, base: f64) -> f64 {
+        let index = axis as usize;
+        let value = words.values[index] * self.modes.scale(axis);
+        match words.modes[index] {
+            Mode::Modal if self.modes.incremental => base + value,
+            Mode::Increment => base + value,
+            _ => value,
+        }
+    }
+
+    /// Where the words of the axes lead.
+    fn target(&self, words: &Words) -> Position {
+        let mut target = self.chain.position;
+        for axis in Axis::ALL {
+            if words.axes.contains(axis) {
+                target[axis] = self.axis_value(words, axis, target[axis]);
+            }
+        }
+        target
+    }
+
+    /// AP and RP about the pole.
+    fn polar_target(&mut self, words: &mut Words, mut target: Position) -> Result<Position, Fault> {
+        let unit = self.modes.unit_mm();
+        let (mut angle_deg, mut radius) = self.modes.polar;
+        if let Some((value, mode, at)) = words.take(Name::PolarRadius) {
+            radius = if mode == Mode::Increment { radius + value * unit } else { value * unit };
+            if radius < 0.0 {
+                let message = format!("the polar radius {radius} is negative");
+                return Err(fault("bad-polar", at, message, "write RP above 0"));
+            }
+        }
+        if let Some((value, mode, _)) = words.take(Name::PolarAngle) {
+            let added = mode == Mode::Increment || mode == Mode::Modal && self.modes.incremental;
+            angle_deg = if added { angle_deg + value } else { value };
+        }
+        self.modes.polar = (angle_deg, radius);
+        let [first, second, _] = self.modes.plane.axes();
+        let (sin, cos) = angle_deg.to_radians().sin_cos();
+        target[first] = self.modes.pole[first] + radius * cos;
+        target[second] = self.modes.pole[second] + radius * sin;
+        Ok(target)
+    }
+
+    /// ANG: a line by its angle in the plane and one coordinate of its end.
+    fn angle_target(&mut self, words: &mut Words, mut target: Position) -> Result<Position, Fault> {
+        let Some((angle_deg, _, at)) = words.take(Name::Angle) else { return Ok(target) };
+        let [first, second, _] = self.modes.plane.axes();
+        let (sin, cos) = angle_deg.to_radians().sin_cos();
+        let start = self.chain.position;
+        let given = [first, second].map(|a| words.axes.contains(a));
+        let (along, other) = match given {
+            [true, false] => (cos, sin),
+            [false, true] => (sin, cos),
+            _ => {
+                self.not_applied("ANG with two or no coordinates", at, "write the end of the line");
+                return Ok(target);
+            }
+        };
+        if along.abs() < 1e-9 {
+            let message = "the line by ANG never reaches the coordinate";
+            return Err(fault("bad-angles", at, message, "check ANG"));
+        }
+        let (from, to) = if given[0] { (first, second) } else { (second, first) };
+        target[to] = start[to] + (target[from] - start[from]) / along * other;
+        Ok(target)
+    }
+
+    /// I, J or K of a thread along X, Y or Z.
+    fn pitch(&mut self, words: &mut Words, at: usize) -> Result<f64, Fault> {
+        let unit = self.modes.unit_mm();
+        let pitch = words.centers.iter_mut().rev().find_map(Option::take);
+        words.centers = [None; 3];
+        let (pitch, _) = pitch.ok_or_else(|| {
+            let message = "the pitch of the thread is missing";
+            fault("missing-value", at, message, "write K1.5 for a thread along Z")
+        })?;
+        Ok((pitch * unit).abs())
+    }
+
+    /// G53, G153 and SUPA: the words count from the machine zero.
+    ///
+    /// The tool length stays on (the control takes it off with D0), so the axis goes to the word and
+    /// the length.
+    fn machine_move(&mut self, words: &mut Words, at: usize) -> Result<(), Fault> {
+        let kind = match self.modes.motion {
+            Motion::Rapid => MoveKind::Rapid,
+            Motion::Linear => {
+                self.check_feed(at)?;
+                MoveKind::Linear
+            }
+            _ => {
+                let message = "only G0 and G1 go in machine coordinates";
+                return Err(fault("bad-machine-move", at, message, "write G0 or G1"));
+            }
+        };
+        if self.modes.tool_centre {
+            let message = "machine coordinates while TRAORI is on: the axes are taken".to_owned();
+            let hint = "write TRAFOOF before";
+            self.warn_once("machine-move-with-traori", "", at, message, hint);
+        }
+        let now = self.chain.machine();
+        let mut target = now;
+        for axis in Axis::ALL {
+            if words.axes.contains(axis) {
+                let length = self.chain.tool[axis];
+                target[axis] = self.axis_value(words, axis, now[axis] - length) + length;
+            }
+        }
+        self.go_to_machine(kind, target, words);
+        Ok(())
+    }
+
+    fn go_to_machine(&mut self, kind: MoveKind, target: Position, words: &Words) {
+        let (feed, origin) = (self.modes.feed(), self.origin);
+        let plain = Move::plain(kind, target, words.axes, feed, origin);
+        self.emit_move(Move { coordinates: Coordinates::Machine, ..plain });
+        let place = self.chain.program_at(&target);
+        // Frames that are in force have an inverse.
+        self.chain.position = place.unwrap_or(self.chain.position);
+        self.modes.tangent = None;
+    }
+
+    /// G74 and G75: the named axes go to the reference or fixed point.
+    pub(super) fn reference(&mut self, words: &mut Words, at: usize) {
+        let message = "G74 and G75 go to the machine zero here".to_owned();
+        let hint = "the machine data know the reference and fixed points";
+        self.warn_once("reference-point", "", at, message, hint);
+        for (name, _) in &words.numbered {
+            let letter = name.as_bytes().first().copied().unwrap_or(b' ');
+            if let Some(axis) = super::variables::axis_of(letter) {
+                words.axes = words.axes.with(axis);
+            }
+        }
+        let mut target = self.chain.machine();
+        for axis in Axis::ALL {
+            if words.axes.contains(axis) {
+                target[axis] = 0.0;
+            }
+        }
+        if words.axes != AxisSet::default() {
+            self.go_to_machine(MoveKind::Rapid, target, words);
+        }
+    }
+}

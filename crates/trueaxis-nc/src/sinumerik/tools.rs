@@ -1,0 +1,107 @@
+//! Tools by number and by name, and their lengths.
+
+use super::system::flat;
+use super::words::{ToolCall, Words};
+use super::{Run, fault};
+use crate::moves::{Event, Turning};
+use crate::program::Fault;
+
+/// Tools that only have a name here are numbered from this.
+const FIRST_NAMED: u32 = 10_001;
+
+impl Run<'_> {
+    /// T and D of a block.
+    pub(super) fn tool_words(&mut self, words: &mut Words) -> Result<(), Fault> {
+        if let Some((tool, at)) = words.tool.take() {
+            let number = match tool {
+                ToolCall::Number(number) => number,
+                ToolCall::Name(name) => {
+                    let number = self.tool_named(&name, at)?;
+                    self.emit(Event::ToolName(name));
+                    number
+                }
+            };
+            self.modes.selected = number;
+            self.emit(Event::ToolSelect(number));
+        }
+        let changes = words.m.iter().any(|(m, _)| *m == 6);
+        if let Some((edge, at)) = words.edge
+            && !changes
+        {
+            self.modes.edge = edge;
+            self.apply_edge(at)?;
+        }
+        Ok(())
+    }
+
+    fn tool_named(&mut self, name: &str, at: usize) -> Result<u32, Fault> {
+        let known = &self.settings.tool_names;
+        let same =
+            |(other, number): (&String, &u32)| other.eq_ignore_ascii_case(name).then_some(*number);
+        if let Some(number) = known.get(name).copied().or_else(|| known.iter().find_map(same)) {
+            return Ok(number);
+        }
+        // T="12" names the tool by its number.
+        if let Ok(number) = name.parse() {
+            return Ok(number);
+        }
+        if let Some(number) = self.names.get(name) {
+            return Ok(*number);
+        }
+        let mut number = FIRST_NAMED + self.names.len() as u32;
+        while self.settings.tool_names.values().any(|n| *n == number) {
+            number += 1;
+        }
+        if self.names.len() >= 100_000 {
+            let message = "more than 100000 names of tools";
+            return Err(fault("bad-tool", at, message, "is this an NC program?"));
+        }
+        let message =
+            format!("the tool {name} is not in the tool table: it gets the number {number}");
+        self.warn_once("unknown-tool", name, at, message, "give a tool table");
+        self.names.insert(name.to_owned(), number);
+        Ok(number)
+    }
+
+    /// M6: the selected tool comes into the spindle; its first cutting edge is active.
+    pub(super) fn change_tool(&mut self, edge: Option<u32>, at: usize) {
+        self.modes.tool = self.modes.selected;
+        self.modes.turning = Turning::Stopped;
+        self.modes.edge = edge.unwrap_or(1);
+        self.emit(Event::ToolChange(self.modes.tool));
+        self.apply_length(at);
+    }
+
+    fn apply_edge(&mut self, at: usize) -> Result<(), Fault> {
+        if self.modes.edge > 1 {
+            let message = format!("D{} has the length of D1 here", self.modes.edge);
+            let hint = "the tool table knows one length for each tool";
+            self.warn_once("unknown-cutting-edge", &self.modes.edge.to_string(), at, message, hint);
+        }
+        self.apply_length(at);
+        Ok(())
+    }
+
+    /// Makes the length of the tool in the spindle valid along the normal of the plane.
+    pub(super) fn apply_length(&mut self, at: usize) {
+        let (tool, edge, plane) = (self.modes.tool, self.modes.edge, self.modes.plane);
+        let mut length = crate::moves::Position::default();
+        if edge > 0 && tool > 0 {
+            if !self.chain.tools.contains_key(&tool) {
+                let message = format!("the length of tool {tool} is not known: 0 is taken");
+                let subject = tool.to_string();
+                self.warn_once("unknown-tool-length", &subject, at, message, "give a tool table");
+            }
+            length = self.chain.tool_length(tool, plane);
+        }
+        if length == self.chain.tool {
+            return;
+        }
+        if self.chain.change(|c| c.tool = length) {
+            self.emit(Event::ToolLength(length));
+        } else {
+            let fault = flat(at);
+            self.report(fault);
+        }
+    }
+}

@@ -1,0 +1,160 @@
+//! What variables hold and expressions give.
+
+use crate::moves::{Axis, Frame};
+use crate::program::Fault;
+
+use super::fault;
+
+/// A text is never longer.
+pub(super) const LONGEST_TEXT: usize = 10_000;
+
+/// A value; truth is 1 or 0, a character its number.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Value {
+    Number(f64),
+    Text(String),
+    Axis(Axis),
+    Frame(Box<Frame>),
+}
+
+impl Value {
+    pub fn truth(value: bool) -> Self {
+        Self::Number(if value { 1.0 } else { 0.0 })
+    }
+
+    pub fn frame(frame: Frame) -> Self {
+        Self::Frame(Box::new(frame))
+    }
+
+    pub fn number(&self, at: usize) -> Result<f64, Fault> {
+        match self {
+            Self::Number(value) => Ok(*value),
+            Self::Text(_) => Err(wrong(at, "a number is due here, not a text")),
+            Self::Axis(axis) => {
+                Err(wrong(at, format!("a number is due here, not the axis {axis}")))
+            }
+            Self::Frame(_) => Err(wrong(at, "a number is due here, not a frame")),
+        }
+    }
+
+    pub fn text(&self, at: usize) -> Result<String, Fault> {
+        match self {
+            Self::Text(text) => Ok(text.clone()),
+            Self::Number(value) => Ok(shown(*value)),
+            Self::Axis(axis) => Ok(axis.to_string()),
+            Self::Frame(_) => Err(wrong(at, "a text is due here, not a frame")),
+        }
+    }
+
+    pub fn as_frame(&self, at: usize) -> Result<Frame, Fault> {
+        match self {
+            Self::Frame(frame) => Ok(**frame),
+            _ => Err(wrong(at, "a frame such as CTRANS(X,1) is due here")),
+        }
+    }
+}
+
+/// A number as the control writes it into texts.
+pub(super) fn shown(value: f64) -> String {
+    if value.fract() == 0.0 && value.abs() < 1e15 {
+        return format!("{value:.0}");
+    }
+    let text = format!("{value:.6}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+fn wrong(at: usize, message: impl Into<String>) -> Fault {
+    fault("wrong-type", at, message, "check the types of the variables")
+}
+
+/// The type of a variable.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Int,
+    Real,
+    Bool,
+    Char,
+    Text(usize),
+    Axis,
+    Frame,
+}
+
+impl Kind {
+    pub fn of(word: &str) -> Option<Self> {
+        Some(match word {
+            "INT" => Self::Int,
+            "REAL" => Self::Real,
+            "BOOL" => Self::Bool,
+            "CHAR" => Self::Char,
+            "STRING" => Self::Text(LONGEST_TEXT),
+            "AXIS" => Self::Axis,
+            "FRAME" => Self::Frame,
+            _ => return None,
+        })
+    }
+
+    pub fn initial(self) -> Value {
+        match self {
+            Self::Text(_) => Value::Text(String::new()),
+            Self::Axis => Value::Axis(Axis::X),
+            Self::Frame => Value::frame(Frame::IDENTITY),
+            _ => Value::Number(0.0),
+        }
+    }
+
+    /// The value as a variable of this type holds it.
+    pub fn convert(self, value: Value, at: usize) -> Result<Value, Fault> {
+        Ok(match (self, value) {
+            (Self::Int, value) => {
+                let number = value.number(at)?.round();
+                if number.abs() > 2_147_483_648.0 {
+                    let message = format!("{number} is too large for INT");
+                    return Err(fault("too-large", at, message, "use REAL"));
+                }
+                Value::Number(number)
+            }
+            (Self::Real, value) => Value::Number(value.number(at)?),
+            (Self::Bool, value) => Value::truth(value.number(at)? != 0.0),
+            (Self::Char, Value::Text(text)) => {
+                Value::Number(text.chars().next().map_or(0.0, |c| f64::from(c as u32)))
+            }
+            (Self::Char, value) => Value::Number(value.number(at)?.round()),
+            (Self::Text(longest), value) => {
+                let text = value.text(at)?;
+                if text.chars().count() > longest {
+                    let message = format!("the text is longer than {longest} characters");
+                    return Err(fault("too-long", at, message, "declare STRING[n] larger"));
+                }
+                Value::Text(text)
+            }
+            (Self::Axis, Value::Axis(axis)) => Value::Axis(axis),
+            (Self::Axis, _) => return Err(wrong(at, "the name of an axis is due here")),
+            (Self::Frame, value) => Value::frame(value.as_frame(at)?),
+        })
+    }
+}
+
+/// A variable, single or an array.
+#[derive(Debug, Clone)]
+pub(super) struct Variable {
+    pub kind: Kind,
+    /// The sizes of its dimensions; empty for a single value.
+    pub sizes: Vec<usize>,
+    pub values: Vec<Value>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_in_texts() {
+        assert_eq!(shown(3.0), "3");
+        assert_eq!(shown(-0.25), "-0.25");
+    }
+
+    #[test]
+    fn integers_are_rounded() {
+        assert_eq!(Kind::Int.convert(Value::Number(2.6), 0), Ok(Value::Number(3.0)));
+    }
+}
