@@ -34,9 +34,13 @@ fuzz_target!(|data: &[u8]| {
         keep_going: first & 4 != 0,
         ..Settings::default()
     };
+    if control == Control::Sinumerik840d {
+        let _ = trueaxis_nc::sinumerik::read_archive("p", rest);
+    }
     interpret(&program, &Half(&rest[rest.len() / 2..]), &settings, &mut |step| {
         if let Step::Move(m) = step {
             assert!(m.target.0.iter().all(|v| v.is_finite()) && m.feed.value.is_finite());
+            assert!(m.direction.iter().flatten().all(|v| v.is_finite()));
         }
     });
 });
