@@ -33,6 +33,9 @@ pub struct Simulation<'a> {
 /// Troubles that the terminal lists.
 const MOST_SHOWN: usize = 20;
 
+/// Kinds of troubles that only cost time, in the terminal.
+const MOST_MINOR: usize = 6;
+
 fn control_name(control: Control) -> &'static str {
     match control {
         Control::Sinumerik840d => "SINUMERIK 840D",
@@ -163,6 +166,10 @@ fn write_text(s: &Simulation<'_>, out: &mut String) -> std::fmt::Result {
             axis.reversals
         )?;
     }
+    if machine.stated_errors().is_empty() {
+        writeln!(out, "\n  the machine file states no errors: the actual tool is the nominal one")?;
+        return write_end(s, out);
+    }
     writeln!(out, "\n  deviation of the actual tool from the nominal one, with feed")?;
     let at = |w: &Worst| format!("{}, {}", s.block(w.origin), clock(w.time_s));
     writeln!(
@@ -177,6 +184,10 @@ fn write_text(s: &Simulation<'_>, out: &mut String) -> std::fmt::Result {
     }
     let axis = &summary.feed_axis;
     writeln!(out, "  tool axis   {:>9.2} µrad at {}", axis.value * 1e6, at(axis))?;
+    write_end(s, out)
+}
+
+fn write_end(s: &Simulation<'_>, out: &mut String) -> std::fmt::Result {
     write_troubles(s, out)?;
     if let Some(path) = s.path_file {
         writeln!(out, "\n  path: {path}")?;
@@ -212,8 +223,11 @@ fn write_minor(s: &Simulation<'_>, out: &mut String) -> std::fmt::Result {
             None => kinds.push((&trouble.kind, vec![trouble])),
         }
     }
-    for (_, all) in kinds {
-        let badness = |t: &Trouble| (t.value - t.limit).abs();
+    let badness = |t: &Trouble| (t.value - t.limit).abs();
+    let worst_of = |all: &[&Trouble]| all.iter().map(|t| badness(t)).fold(0.0, f64::max);
+    kinds.sort_by(|a, b| worst_of(&b.1).total_cmp(&worst_of(&a.1)));
+    let hidden = kinds.len().saturating_sub(MOST_MINOR);
+    for (_, all) in kinds.into_iter().take(MOST_MINOR) {
         let Some(worst) = all.iter().max_by(|a, b| badness(a).total_cmp(&badness(b))) else {
             continue;
         };
@@ -223,6 +237,9 @@ fn write_minor(s: &Simulation<'_>, out: &mut String) -> std::fmt::Result {
         };
         let text = trouble_text(s.machine, worst);
         writeln!(out, "  · {}  {}  {text}{times}", clock(worst.from_s), blocks(s, worst))?;
+    }
+    if hidden > 0 {
+        writeln!(out, "    … and {hidden} more kinds; --format json and the report have them")?;
     }
     Ok(())
 }

@@ -11,7 +11,7 @@ use trueaxis_geometry::input::{Diagnostics, Dimension, Item, Place, Section, Sou
 use trueaxis_machine::Machine;
 use trueaxis_machine::file::{read_pose, read_vector_mm};
 use trueaxis_nc::moves::{Axis, Frame, Position};
-use trueaxis_nc::{Control, Settings};
+use trueaxis_nc::{Control, Settings, sinumerik};
 
 /// A tool of the set-up.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -55,13 +55,14 @@ pub fn read_setup(path: &Path, machine: &Machine) -> (Option<SetUp>, Diagnostics
         return (None, problems);
     };
     let file = path.display().to_string();
+    let folder = path.parent().unwrap_or(Path::new(""));
     let source = Source::new(&file, &text);
-    let setup = source.read(|root| read(root, machine));
+    let setup = source.read(|root| read(root, machine, folder));
     problems.append(source.finish());
     (Some(setup).filter(|_| !problems.has_errors()), problems)
 }
 
-fn read(root: &Section<'_>, machine: &Machine) -> SetUp {
+fn read(root: &Section<'_>, machine: &Machine, folder: &Path) -> SetUp {
     let mut setup = SetUp { given: true, ..SetUp::default() };
     setup.control = root.get("control").and_then(|item| read_control(&item));
     root.text("name");
@@ -90,6 +91,9 @@ fn read(root: &Section<'_>, machine: &Machine) -> SetUp {
             }
         }
     });
+    if let Some(item) = root.get("archive") {
+        read_archive(root, &item, folder, &mut setup);
+    }
     setup.start = root.section("start", read_position);
     setup.workpiece_at = root.get("workpiece_at").and_then(|item| {
         let number = offset_number(item.text()?);
@@ -99,6 +103,33 @@ fn read(root: &Section<'_>, machine: &Machine) -> SetUp {
         number
     });
     setup
+}
+
+/// Work offsets and tools of a SINUMERIK dump; what the set-up file says itself counts more.
+fn read_archive(root: &Section<'_>, item: &Item<'_>, folder: &Path, setup: &mut SetUp) {
+    let Some(name) = item.text() else { return };
+    let path = folder.join(name);
+    let bytes = match files::read_bytes(&path) {
+        Ok(bytes) => bytes,
+        Err(error) => {
+            let message = format!("`{name}` cannot be read: {error}");
+            item.error("unreadable-file", message, "a dump such as INITIAL.INI is due here");
+            return;
+        }
+    };
+    let (archive, problems) = sinumerik::read_archive(&path.display().to_string(), &bytes);
+    root.take_over(problems);
+    for (number, frame) in archive.work_offsets {
+        setup.work_offsets.entry(number).or_insert(frame);
+    }
+    for (number, tool) in archive.tools {
+        let length = &tool.length_mm.0;
+        setup.tools.entry(number).or_insert(SetUpTool {
+            name: tool.name,
+            tip_mm: -Vec3::new(length[0], length[1], length[2]),
+            diameter_mm: Some(2.0 * tool.radius_mm).filter(|d| *d > 0.0),
+        });
+    }
 }
 
 fn read_control(item: &Item<'_>) -> Option<Control> {
