@@ -218,11 +218,11 @@ pub struct Cone {
     pub axis: Option<[f64; 3]>,
     /// A direction on the way: A7 B7 C7 of ORICONIO.
     pub through: Option<[f64; 3]>,
-    /// The opening angle between opposite lines: NUT.
-    pub opening_deg: Option<f64>,
+    /// The angle between the axis and each line, half the opening: NUT.
+    pub half_opening_deg: Option<f64>,
     /// The angle that is travelled about the axis: PSI.
     pub angle_deg: Option<f64>,
-    /// Counter-clockwise about the axis; `None` the shorter way or by `through`.
+    /// Right-handed about the axis (ORICONCW); `None` the shorter way or by `through`.
     pub ccw: Option<bool>,
     /// The cone continues the last one without a corner: ORICONTO.
     pub tangential: bool,

@@ -106,7 +106,7 @@ fn event_text(event: &Event) -> String {
                 "cone axis({}) through({}) opening {} angle {} ccw {:?} tangential {}",
                 vector(cone.axis),
                 vector(cone.through),
-                cone.opening_deg.map_or("-".into(), short),
+                cone.half_opening_deg.map_or("-".into(), short),
                 cone.angle_deg.map_or("-".into(), short),
                 cone.ccw,
                 cone.tangential

@@ -65,8 +65,8 @@ impl Run<'_> {
     /// Tells the cone of a block in which the tool axis moves.
     ///
     /// # Source
-    /// Programming Manual "Job Planning", ORICONCW and its relatives: A6 B6 C6 is the axis, NUT the
-    /// opening angle, A7 B7 C7 a direction on the way. The angle about the axis as PSI is the wish of
+    /// Programming Manual "Job Planning", ORICONCW and its relatives: A6 B6 C6 is the axis, NUT half
+    /// the opening (not verified), A7 B7 C7 a direction on the way. The angle about the axis as PSI is the wish of
     /// this project; the manual has it as a polynomial.
     fn tell_cone(&mut self, turns: bool, words: &mut Words, at: usize) -> Result<(), Fault> {
         let opening = words.take(Name::ConeOpening).map(|(v, ..)| v);
@@ -84,19 +84,21 @@ impl Run<'_> {
         let kept = std::mem::take(&mut self.modes.next_cone);
         let axis = axis.or(kept.axis);
         let through = through.or(kept.through);
-        let opening = opening.or(kept.opening_deg);
+        let opening = opening.or(kept.half_opening_deg);
         if opening.is_some_and(|o| o < 0.0) {
             self.not_applied("a negative NUT", at, "ORICONCW and ORICONCCW say which way");
         }
         let ccw = match way {
-            Turning::ConeClockwise => Some(false),
-            Turning::ConeCounterClockwise => Some(true),
+            // The manual's example turns from (0,1,1) to (1,0,1) about (0,0,1) by 270 deg: its
+            // clockwise is right-handed about the axis, seen along it.
+            Turning::ConeClockwise => Some(true),
+            Turning::ConeCounterClockwise => Some(false),
             _ => None,
         };
         let cone = Cone {
             axis,
             through,
-            opening_deg: opening.map(f64::abs),
+            half_opening_deg: opening.map(f64::abs),
             angle_deg,
             ccw,
             tangential: way == Turning::ConeTangential,

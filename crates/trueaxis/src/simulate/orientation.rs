@@ -91,7 +91,7 @@ impl Swing {
             let about = if forward { normal } else { -normal };
             return Self::about(about, from, to, Some(true));
         }
-        let Some(half_opening) = cone.opening_deg else { return Self::great_circle(from, to) };
+        let Some(half_opening) = cone.half_opening_deg else { return Self::great_circle(from, to) };
         let (middle, across) = (from + to, from.cross(&to));
         let (Some(middle), Some(across)) =
             (middle.try_normalize(1e-12), across.try_normalize(1e-12))
@@ -184,7 +184,7 @@ mod tests {
         let cone = Cone { through: Some(through.into()), ..Cone::default() };
         let swing = Swing::cone(from, Some(to), &cone, None).unwrap();
         assert!((swing.at(0.5) - through).norm() < 1e-12); // the cone about z, 45° along
-        let cone = Cone { opening_deg: Some(45.0), ccw: Some(true), ..Cone::default() };
+        let cone = Cone { half_opening_deg: Some(45.0), ccw: Some(true), ..Cone::default() };
         let swing = Swing::cone(from, Some(to), &cone, None).unwrap();
         assert!(
             (swing.about - Vec3::z()).norm() < 1e-12
