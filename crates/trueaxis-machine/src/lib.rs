@@ -20,6 +20,7 @@ mod deviation;
 pub mod errors;
 pub mod file;
 mod inverse;
+pub mod models;
 mod tool;
 
 pub use chain::{ErrorFrame, ErrorModel, Machine, Squareness};

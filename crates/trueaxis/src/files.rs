@@ -7,7 +7,7 @@ use trueaxis_geometry::input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_machine::file::Tables;
 
-/// No text file that people write is longer; a larger one is refused before it fills the memory.
+/// No file that people write or export is longer; a larger one is refused before it fills the memory.
 const MAX_BYTES: u64 = 256 << 20;
 
 /// The tables beside a machine file.
@@ -40,6 +40,16 @@ pub fn machine(path: &Path) -> (Option<Machine>, Diagnostics) {
     Machine::check(&path.display().to_string(), &text, &folder)
 }
 
+/// Reads a binary file; if it cannot be read, says why.
+pub fn bytes(path: &Path, what: &str, problems: &mut Diagnostics) -> Option<Vec<u8>> {
+    let read = read_bytes(path).map_err(|error| {
+        let place = Place::whole(&path.display().to_string());
+        let message = format!("cannot be read: {error}");
+        problems.error("unreadable-file", place, message, &format!("{what} is due here"));
+    });
+    read.ok()
+}
+
 /// Reads a text file; if it cannot be read, says why.
 pub fn text(path: &Path, what: &str, problems: &mut Diagnostics) -> Option<String> {
     match read_text(path) {
@@ -53,14 +63,20 @@ pub fn text(path: &Path, what: &str, problems: &mut Diagnostics) -> Option<Strin
     }
 }
 
-fn read_text(path: &Path) -> io::Result<String> {
-    let refuse = |message| Err(io::Error::new(io::ErrorKind::InvalidData, message));
+fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     // One byte more than allowed: a device or a pipe does not say its length.
     fs::File::open(path)?.take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > MAX_BYTES {
-        return refuse(format!("texts of more than {MAX_BYTES} bytes are not read"));
+        let message = format!("files of more than {MAX_BYTES} bytes are not read");
+        return Err(io::Error::new(io::ErrorKind::InvalidData, message));
     }
+    Ok(bytes)
+}
+
+fn read_text(path: &Path) -> io::Result<String> {
+    let refuse = |message| Err(io::Error::new(io::ErrorKind::InvalidData, message));
+    let bytes = read_bytes(path)?;
     String::from_utf8(bytes).or_else(|error| {
         let sound = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = sound.iter().filter(|b| **b == b'\n').count() + 1;
