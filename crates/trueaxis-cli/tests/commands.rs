@@ -228,10 +228,10 @@ fn check_says_what_it_is_and_what_it_lacks() {
     for line in [
         "XKAS2525x60\n  chain   w b X Y Z C A t\n",
         "  axis  carries    direction               travel                  fastest",
-        "  X     tool       (1.0000 0.0000 0.0000)  0 .. 6200 mm            not stated",
-        "  C     tool       (0.0000 0.0000 1.0000)  -360 .. 360 deg         not stated",
+        "  X     tool       (1.0000 0.0000 0.0000)  0 .. 6200 mm            15 m/min",
+        "  C     tool       (0.0000 0.0000 1.0000)  -360 .. 360 deg         60 deg/s",
         "  errors  42 location errors, 30 error motions",
-        "- maximum velocity, acceleration or jerk of X Y Z C A: no true timing",
+        "  It lacks nothing that a prediction needs.",
     ] {
         assert!(ran.out.contains(line), "{line}\n{}", ran.out);
     }
@@ -243,7 +243,10 @@ fn check_says_what_it_is_and_what_it_lacks() {
     assert_eq!(document["chain"], "w b X Y Z C A t");
     assert_eq!(document["axes"][4]["travel_deg"], serde_json::json!([-105.0, 105.0]));
     assert_eq!(document["errors"].as_array().map(Vec::len), Some(72));
-    assert_eq!(document["lacks"].as_array().map(Vec::len), Some(1));
+    assert_eq!(document["lacks"].as_array().map(Vec::len), Some(0));
+    // What a machine does not state is said.
+    let ran = trueaxis(&["check", "machines/lei-hsu-mill/machine.toml"]);
+    assert!(ran.out.contains("It lacks") && ran.out.contains("travel of"), "{}", ran.out);
 }
 
 #[test]

@@ -106,6 +106,7 @@ pub struct Machine {
     /// The tip in the frame of the tool, mm.
     pub(crate) tip_mm: Vec3,
     pub(crate) tools: Vec<crate::tool::ToolAssembly>,
+    pub(crate) models: Vec<crate::models::Model>,
 }
 
 /// Commands beyond 10¹² mm or rad are mistakes (as every quantity of a file is), and their powers
@@ -183,6 +184,11 @@ impl Machine {
     /// The tool assemblies that the machine file lists.
     pub fn tools(&self) -> &[crate::tool::ToolAssembly] {
         &self.tools
+    }
+
+    /// The models that stand on its nodes, in the order of the machine file.
+    pub fn models(&self) -> &[crate::models::Model] {
+        &self.models
     }
 
     /// The same machine with another tool tip, mm in the frame of the tool.

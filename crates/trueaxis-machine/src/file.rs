@@ -3,10 +3,12 @@
 mod chain_text;
 mod error_text;
 mod geometry_check;
+mod model_text;
 mod place_text;
 mod table_text;
 
 pub use chain_text::ChainText;
+pub use model_text::{read_shape, read_tool_shape};
 pub use place_text::{read_direction, read_pose, read_vector_mm};
 
 use crate::axis::{Axis, AxisKind, Limits, Travel, iso_841_direction, iso_841_sense};
@@ -92,6 +94,7 @@ fn read_machine(root: &Section<'_>, tables: &dyn Tables) -> Option<Machine> {
     let tool = root.section("tool", |s| read_tool(s, &mut bodies[last])).unwrap_or_default();
     root.section("location", |s| error_text::read_location(s, &mut bodies));
     root.section("motion", |s| read_motions(s, &axes, &mut bodies, tables));
+    let models = model_text::read_models(root, &bodies);
     let machine = Machine {
         name: head.name,
         source: head.source,
@@ -101,6 +104,7 @@ fn read_machine(root: &Section<'_>, tables: &dyn Tables) -> Option<Machine> {
         model: head.model,
         tip_mm: tool.tip_mm,
         tools: tool.assemblies,
+        models,
     };
     if let Some(item) = head.chain_item {
         geometry_check::warn_about_directions(&machine, &item);
@@ -340,8 +344,10 @@ fn read_assembly(name: &str, section: &Section<'_>) -> Option<ToolAssembly> {
         Some(radius)
     });
     let holder = section.text("holder").map(str::to_owned);
+    let shape = model_text::read_tool_shape(section).unwrap_or_default();
     let length_mm = length?.quantity(Dimension::Length)?;
-    Some(ToolAssembly { name: name.to_owned(), length_mm, diameter_mm, corner_radius_mm, holder })
+    let name = name.to_owned();
+    Some(ToolAssembly { name, length_mm, diameter_mm, corner_radius_mm, holder, shape })
 }
 
 fn read_motions(

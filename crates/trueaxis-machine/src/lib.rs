@@ -20,6 +20,7 @@ mod deviation;
 pub mod errors;
 pub mod file;
 mod inverse;
+pub mod models;
 pub mod tcp;
 mod tool;
 

@@ -11,4 +11,6 @@ pub struct ToolAssembly {
     pub corner_radius_mm: Option<f64>,
     /// What holds it, in words.
     pub holder: Option<String>,
+    /// Its outline from the tip upwards, the cutting part first; empty if not stated.
+    pub shape: Vec<crate::models::ToolSegment>,
 }

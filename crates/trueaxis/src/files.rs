@@ -7,7 +7,7 @@ use trueaxis_geometry::input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_machine::file::Tables;
 
-/// No text file that people write is longer; a larger one is refused before it fills the memory.
+/// No file that people write or export is longer; a larger one is refused before it fills the memory.
 const MAX_BYTES: u64 = 256 << 20;
 
 /// The tables beside a machine file.

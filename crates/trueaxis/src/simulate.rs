@@ -9,6 +9,8 @@
 mod axis_path;
 mod basic;
 mod clock;
+pub mod collide;
+mod collisions;
 mod curve;
 mod densify;
 mod orientation;
@@ -24,10 +26,11 @@ mod trouble;
 
 pub use axis_path::{Fault, Node, PathStep};
 pub use clock::{Stamp, Timing, limit_name, limits};
+pub use collisions::Collisions;
 pub use densify::{Densify, pieces};
 pub use program::read_program;
 pub use series::{PathPoint, Series};
-pub use setup::{CONTROLS, SetUp, SetUpTool, control_named, read_setup};
+pub use setup::{CONTROLS, Nearness, SetUp, SetUpTool, control_named, read_setup};
 pub use summary::{AxisUse, Reversal, Summary, Worst, shown, unit};
 pub use table::{CsvTable, headings};
 pub use tool_path::Batch;

@@ -3,13 +3,16 @@
 //! Work offsets, tools and the start of the axes come from a set-up file (TOML), with nothing
 //! assumed but zeros where it is silent.
 
+use super::collide::{BodyModel, Mesh, Role, ToolShape, load_stl, triangles_of};
 use crate::files;
 use std::collections::BTreeMap;
 use std::path::Path;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::input::{Diagnostics, Dimension, Item, Place, Section, Source};
 use trueaxis_machine::Machine;
-use trueaxis_machine::file::{read_pose, read_vector_mm};
+use trueaxis_machine::chain::Link;
+use trueaxis_machine::file::{read_pose, read_shape, read_tool_shape, read_vector_mm};
+use trueaxis_machine::models::{Shape, ToolSegment};
 use trueaxis_nc::moves::{Axis, Frame, Position};
 use trueaxis_nc::{Control, Settings, sinumerik};
 
@@ -22,10 +25,43 @@ pub struct SetUpTool {
     pub tip_mm: Vec3,
     /// Cutting diameter, mm, if stated.
     pub diameter_mm: Option<f64>,
+    /// Radius of the corner, mm.
+    pub corner_radius_mm: f64,
+    /// Its cylinders from the tip upwards, the cutter first; empty: a cylinder of its diameter.
+    pub shape: Vec<ToolSegment>,
+}
+
+impl SetUpTool {
+    /// What it looks like; `None` if neither shape nor diameter is stated.
+    pub fn tool_shape(&self) -> Option<ToolShape> {
+        let mut segments = self.shape.clone();
+        if segments.is_empty() {
+            let length_mm = -self.tip_mm.z;
+            let diameter_mm = self.diameter_mm.filter(|_| length_mm > 0.0)?;
+            segments.push(ToolSegment { diameter_mm, length_mm });
+        }
+        let corner_radius_mm = self.corner_radius_mm;
+        Some(ToolShape { tip_mm: self.tip_mm, segments, corner_radius_mm })
+    }
+}
+
+/// When bodies count as too near.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearness {
+    /// Nearer than this is a near miss, mm.
+    pub clearance_mm: f64,
+    /// See [`Scene::sweep`](super::collide::Scene::sweep), mm.
+    pub resolution_mm: f64,
+}
+
+impl Default for Nearness {
+    fn default() -> Self {
+        Self { clearance_mm: 1.0, resolution_mm: 0.5 }
+    }
 }
 
 /// What stands on the machine and what the control has been told.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct SetUp {
     /// Whether there is a set-up file; without one offsets and lengths are 0.
     pub given: bool,
@@ -39,6 +75,10 @@ pub struct SetUp {
     pub start: Option<Position>,
     /// The work offset whose program zero is the workpiece frame of all results.
     pub workpiece_at: Option<u32>,
+    /// Stock, fixtures and part, on the workpiece.
+    pub bodies: Vec<BodyModel>,
+    /// When bodies count as too near.
+    pub nearness: Nearness,
 }
 
 /// Reads a set-up file for a machine; all problems at once.
@@ -94,6 +134,10 @@ fn read(root: &Section<'_>, machine: &Machine, folder: &Path) -> SetUp {
     if let Some(item) = root.get("archive") {
         read_archive(root, &item, folder, &mut setup);
     }
+    setup.bodies = read_bodies(root, folder);
+    if let Some(nearness) = root.section("collision", read_nearness) {
+        setup.nearness = nearness;
+    }
     setup.start = root.section("start", read_position);
     setup.workpiece_at = root.get("workpiece_at").and_then(|item| {
         let number = offset_number(item.text()?);
@@ -103,6 +147,58 @@ fn read(root: &Section<'_>, machine: &Machine, folder: &Path) -> SetUp {
         number
     });
     setup
+}
+
+/// `[stock]`, `[part]` and every `[[fixture]]`; places in the workpiece frame.
+fn read_bodies(root: &Section<'_>, folder: &Path) -> Vec<BodyModel> {
+    let mut bodies = Vec::new();
+    for (key, role) in [("stock", Role::Stock), ("part", Role::Part)] {
+        bodies.extend(root.section(key, |s| read_body(root, s, key, role, folder)).flatten());
+    }
+    for item in root.get("fixture").and_then(|item| item.list()).unwrap_or_default() {
+        let name = format!("fixture {}", bodies.len());
+        let read = |s: &Section<'_>| read_body(root, s, &name, Role::Fixture, folder);
+        bodies.extend(item.section("fixture", read).flatten());
+    }
+    bodies
+}
+
+fn read_body(
+    root: &Section<'_>,
+    section: &Section<'_>,
+    name: &str,
+    role: Role,
+    folder: &Path,
+) -> Option<BodyModel> {
+    let name = section.text("name").unwrap_or(name).to_owned();
+    let placement = section.get("placement").map_or(Some(Link::identity()), |i| read_pose(&i))?;
+    let mesh = match read_shape(section)? {
+        Shape::Stl { path, unit_mm } => {
+            let mut problems = Diagnostics::new();
+            let mesh = load_stl(&folder.join(path), unit_mm, &mut problems);
+            root.take_over(problems);
+            mesh?
+        }
+        shape => triangles_of(&shape).and_then(Mesh::new)?,
+    };
+    // The workpiece is the first body of the chain.
+    Some(BodyModel { name, node: Some(0), placement, role, mesh })
+}
+
+fn read_nearness(section: &Section<'_>) -> Nearness {
+    let usual = Nearness::default();
+    let length = |key: &str, usual: f64| {
+        let value = section.quantity(key, Dimension::Length).unwrap_or(usual);
+        if value < 0.0 || (key == "resolution" && value < 1e-3) {
+            let message = format!("{value} mm is no {key}");
+            section.error("bad-collision", message, "such as clearance = \"1 mm\"");
+        }
+        value.max(0.0)
+    };
+    Nearness {
+        clearance_mm: length("clearance", usual.clearance_mm),
+        resolution_mm: length("resolution", usual.resolution_mm).max(1e-3),
+    }
 }
 
 /// Work offsets and tools of a SINUMERIK dump; what the set-up file says itself counts more.
@@ -128,6 +224,8 @@ fn read_archive(root: &Section<'_>, item: &Item<'_>, folder: &Path, setup: &mut 
             name: tool.name,
             tip_mm: -Vec3::new(length[0], length[1], length[2]),
             diameter_mm: Some(2.0 * tool.radius_mm).filter(|d| *d > 0.0),
+            corner_radius_mm: tool.corner_radius_mm,
+            shape: Vec::new(),
         });
     }
 }
@@ -211,6 +309,8 @@ fn read_tool(section: &Section<'_>, machine: &Machine) -> Option<SetUpTool> {
         tool.name.clone_from(&found.name);
         tool.tip_mm.z = -found.length_mm;
         tool.diameter_mm = found.diameter_mm;
+        tool.corner_radius_mm = found.corner_radius_mm.unwrap_or(0.0);
+        tool.shape.clone_from(&found.shape);
     }
     if let Some(name) = section.text("name") {
         name.clone_into(&mut tool.name);
@@ -226,6 +326,11 @@ fn read_tool(section: &Section<'_>, machine: &Machine) -> Option<SetUpTool> {
         section.error("missing-value", message, "length = \"100 mm\", or assembly, or tip");
     }
     tool.diameter_mm = section.quantity("diameter", Dimension::Length).or(tool.diameter_mm);
+    let corner = section.quantity("corner_radius", Dimension::Length);
+    tool.corner_radius_mm = corner.unwrap_or(tool.corner_radius_mm);
+    if let Some(shape) = read_tool_shape(section) {
+        tool.shape = shape;
+    }
     Some(tool)
 }
 
