@@ -11,6 +11,8 @@ mod clock;
 mod curve;
 mod densify;
 mod orientation;
+#[cfg(feature = "parquet")]
+mod parquet_table;
 mod program;
 mod series;
 mod setup;
@@ -23,8 +25,10 @@ mod trouble;
 pub use axis_path::{Fault, Node, PathStep};
 pub use clock::{Limit, Stamp};
 pub use densify::{Densify, pieces};
+#[cfg(feature = "parquet")]
+pub use parquet_table::ParquetTable;
 pub use program::read_program;
-pub use series::{PathPoint, Series};
+pub use series::{PathPoint, Quantity, Series};
 pub use setup::{CONTROLS, SetUp, SetUpTool, control_named, read_setup};
 pub use summary::{AxisUse, Summary, Worst, shown, unit};
 pub use table::{CsvTable, headings};

@@ -33,7 +33,7 @@ pub struct Simulation<'a> {
 /// Troubles that the terminal lists.
 const MOST_SHOWN: usize = 20;
 
-fn control_name(control: Control) -> &'static str {
+pub(super) fn control_name(control: Control) -> &'static str {
     match control {
         Control::Sinumerik840d => "SINUMERIK 840D",
         Control::Fanuc => "FANUC",
