@@ -26,6 +26,11 @@ pub struct MachineArguments {
 }
 
 impl MachineArguments {
+    /// The machine file.
+    pub fn path(&self) -> &Path {
+        &self.machine
+    }
+
     /// Reads the machine and puts the tool in; what is wrong goes to `problems`.
     pub fn read(&self, problems: &mut Diagnostics) -> Option<Machine> {
         let (machine, found) = files::machine(&self.machine);

@@ -84,6 +84,11 @@ fn visible(text: &str) -> String {
 
 /// Shows all diagnostics on standard error; `true` if there was an error among them.
 pub fn report(problems: Diagnostics) -> bool {
+    report_and(problems, "nothing was written")
+}
+
+/// The same with what became of the work in spite of errors.
+pub fn report_and(problems: Diagnostics, outcome: &str) -> bool {
     let mut sorted = problems.sorted();
     let errors = sorted.iter().filter(|d| d.severity == Severity::Error).count();
     let hidden = sorted.len().saturating_sub(MOST_SHOWN);
@@ -100,8 +105,8 @@ pub fn report(problems: Diagnostics) -> bool {
     }
     match errors {
         0 => {}
-        1 => tell("1 error found; nothing was written"),
-        _ => tell(&format!("{errors} errors found; nothing was written")),
+        1 => tell(&format!("1 error found; {outcome}")),
+        _ => tell(&format!("{errors} errors found; {outcome}")),
     }
     errors > 0
 }

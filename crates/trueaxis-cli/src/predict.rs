@@ -1,10 +1,8 @@
-use crate::output::{Answer, Format, Outcome, report, show, tell};
+use crate::output::{Answer, Format, Outcome, report, show};
+use crate::report_file::{REPORT, may_write, unusable, write_report};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use std::fs::{self, File};
-use std::io::Read;
 use std::path::{Path, PathBuf};
-use trueaxis::files;
 use trueaxis::geometry::input::{Diagnostics, Place};
 use trueaxis::part::tolerance;
 use trueaxis::predict::{Error, Prediction, Study, predict, read_study};
@@ -45,7 +43,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let samples = arguments.samples.as_deref().map(|text| sample_count(text, &mut problems));
     if !arguments.no_report {
         // Before the work, not after it.
-        may_write(&arguments.report, &mut problems);
+        may_write(&arguments.report, &REPORT, &mut problems);
     }
     if report(problems) {
         return Outcome::Unusable;
@@ -56,7 +54,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
         Ok(prediction) => prediction,
         Err(error) => return refused(&arguments.study, &error),
     };
-    if let Err(outcome) = write_report(arguments, &study, &prediction) {
+    if !arguments.no_report
+        && let Err(outcome) = write_report(&arguments.report, report::html(&study, &prediction))
+    {
         return outcome;
     }
     let answer = match arguments.format {
@@ -86,34 +86,6 @@ fn choose_sampling(study: &mut Study, samples: Option<usize>, seed: Option<u64>)
     study.sampling = Some(sampling).filter(|s| s.samples > 0);
 }
 
-/// Whether a report may be put there: the folder exists, and what stands there is a report.
-fn may_write(path: &Path, problems: &mut Diagnostics) {
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let (message, hint) = if path.file_name().is_none() || path.is_dir() {
-        ("is a folder, not a file", "name a file in it: --report FOLDER/report.html")
-    } else if !folder.is_dir() {
-        ("its folder does not exist", "make the folder first, or name another --report")
-    } else if !replaceable(path) {
-        ("is there, and is no report", "it is not overwritten; name another --report")
-    } else {
-        return;
-    };
-    let place = Place::whole(&path.display().to_string());
-    problems.error("unwritable-file", place, message.to_owned(), hint);
-}
-
-/// Nothing, an empty file or an HTML page; never a study, a machine or a device.
-fn replaceable(path: &Path) -> bool {
-    let Ok(found) = fs::metadata(path) else { return true };
-    if !found.is_file() {
-        return false;
-    }
-    let mut start = String::new();
-    // A file that cannot be read is not known to be a report.
-    let read = File::open(path).and_then(|file| file.take(15).read_to_string(&mut start));
-    read.is_ok() && (start.is_empty() || start.to_ascii_lowercase().starts_with("<!doctype html"))
-}
-
 fn predicted(study: &Study) -> Result<Prediction, Error> {
     let samples = study.sampling.map_or(0, |s| s.samples);
     let bar = ProgressBar::new(samples as u64);
@@ -124,32 +96,6 @@ fn predicted(study: &Study) -> Result<Prediction, Error> {
     let prediction = predict(study, &|done| bar.set_position(done as u64));
     bar.finish_and_clear();
     prediction
-}
-
-fn write_report(
-    arguments: &Arguments,
-    study: &Study,
-    prediction: &Prediction,
-) -> Result<(), Outcome> {
-    if arguments.no_report {
-        return Ok(());
-    }
-    let shown = arguments.report.display().to_string();
-    let page = report::html(study, prediction)
-        .map_err(|e| unusable("no-report", &shown, &e.to_string(), "use --no-report"))?;
-    files::write(&arguments.report, page.as_bytes()).map_err(|e| {
-        let message = format!("cannot be written: {e}");
-        unusable("unwritable-file", &shown, &message, "name another --report, or use --no-report")
-    })?;
-    tell(&format!("report: {shown}"));
-    Ok(())
-}
-
-fn unusable(code: &'static str, place: &str, message: &str, hint: &str) -> Outcome {
-    let mut problems = Diagnostics::new();
-    problems.error(code, Place::whole(place), message.to_owned(), hint);
-    report(problems);
-    Outcome::Unusable
 }
 
 fn refused(study: &Path, error: &Error) -> Outcome {

@@ -1,16 +1,20 @@
 use crate::arguments::MachineArguments;
-use crate::output::{Answer, Format, Outcome, report, show, tell};
+use crate::output::{Answer, Format, Outcome, report, report_and, show, tell};
+use crate::path_file::{PathTable, may_write_path};
+use crate::report_file::{REPORT, may_write, unusable, write_report};
 use clap::Args;
-use std::io::BufWriter;
-use std::path::PathBuf;
-use trueaxis::files;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+use trueaxis::files::Part;
 use trueaxis::geometry::input::{Diagnostics, Dimension, Place, parse_quantity};
 use trueaxis::machine::Machine;
 use trueaxis::nc::{Control, Program};
-use trueaxis::report::{Simulation, simulation_json, simulation_text};
+use trueaxis::report::{Simulation, simulation_html, simulation_json, simulation_text};
+use trueaxis::simulate::collide::{BodyModel, load_models};
 use trueaxis::simulate::{
-    AxisWatch, CONTROLS, CsvTable, Densify, Observer, Options, Run, Series, SetUp, Summary, Timing,
-    TroubleList, control_named, read_program, read_setup, simulate,
+    AxisWatch, Batch, CONTROLS, Collisions, Densify, Observer, Options, Run, Series, SetUp,
+    Summary, Timing, TroubleList, control_named, read_program, read_setup, simulate,
 };
 
 /// The program to simulate.
@@ -29,12 +33,18 @@ pub struct Arguments {
     machine: MachineArguments,
     #[command(flatten)]
     program: ProgramArguments,
-    /// Write every place of the path to this CSV file
-    #[arg(long, value_name = "FILE.csv")]
+    /// Write every place of the path to this file: CSV, or Parquet if it ends in .parquet
+    #[arg(long, value_name = "FILE")]
     path: Option<PathBuf>,
     /// Where the HTML report goes
-    #[arg(long, value_name = "FILE")]
-    report: Option<PathBuf>,
+    #[arg(long, value_name = "FILE", default_value = "simulation.html")]
+    report: PathBuf,
+    /// Write no report
+    #[arg(long, conflicts_with = "report")]
+    no_report: bool,
+    /// Do not look for collisions
+    #[arg(long)]
+    no_collisions: bool,
     /// List errors of the program and go on behind them
     #[arg(long)]
     keep_going: bool,
@@ -89,6 +99,19 @@ pub struct Job {
     pub control: Control,
     pub setup: SetUp,
     pub options: Options,
+    /// What the bodies of the machine look like; empty where nobody asks.
+    pub models: Vec<BodyModel>,
+}
+
+impl Job {
+    /// Watches the bodies; what cannot be watched is told.
+    fn collisions(&self) -> Option<Collisions> {
+        let collisions = Collisions::watch(&self.machine, self.models.clone(), &self.setup)?;
+        for (first, second) in collisions.left_out() {
+            tell(&format!("note: {first} and {second} overlap with all axes at 0: not watched"));
+        }
+        Some(collisions)
+    }
 }
 
 impl ProgramArguments {
@@ -108,7 +131,7 @@ impl ProgramArguments {
         let setup = setup?;
         let program = read_program(&self.program, control, &setup, problems)?;
         let control = program.dialect().control;
-        Some(Job { machine, program, control, setup, options: options? })
+        Some(Job { machine, program, control, setup, options: options?, models: Vec::new() })
     }
 
     fn read_setup(&self, machine: &Machine, problems: &mut Diagnostics) -> Option<SetUp> {
@@ -165,73 +188,147 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let job = arguments
         .machine
         .read(&mut problems)
-        .and_then(|m| arguments.program.read(m, arguments.keep_going, &mut problems));
+        .and_then(|m| arguments.program.read(m, arguments.keep_going, &mut problems))
+        .map(|job| arguments.with_models(job, &mut problems));
+    // Before the work, not after it.
+    arguments.may_write(&mut problems);
     if report(problems) {
         return Outcome::Unusable;
     }
     let Some(job) = job else { return Outcome::Unusable };
-    let found = match &arguments.path {
-        Some(path) => with_table(&job, path),
-        None => Ok(walk(&job, &mut [])),
-    };
-    let (run, summary, troubles, series) = match found {
-        Ok(found) => found,
-        Err(outcome) => return outcome,
-    };
-    let errors = report(run.problems.clone());
-    if errors && !arguments.keep_going {
-        return Outcome::Unusable;
+    arguments.simulated(&job).unwrap_or_else(|outcome| outcome)
+}
+
+impl Arguments {
+    fn with_models(&self, mut job: Job, problems: &mut Diagnostics) -> Job {
+        if !self.no_collisions {
+            job.models = load_models(&job.machine, self.machine.path(), problems);
+        }
+        job
     }
-    let path_file = arguments.path.as_ref().map(|p| p.display().to_string());
-    let simulation = Simulation {
-        machine: &job.machine,
-        program: job.program.file(),
-        control: job.control,
-        setup: &job.setup,
-        run: &run,
-        summary: &summary,
-        troubles: &troubles,
-        path_file: path_file.as_deref(),
-    };
-    let _ = &series;
-    let answer = match arguments.format {
-        Format::Json => Answer::Json(simulation_json(&simulation)),
-        Format::Text => Answer::Text(simulation_text(&simulation)),
-    };
-    match (show(&answer), errors, troubles.is_grave()) {
-        (Outcome::Done, true, _) => Outcome::Unusable,
-        (Outcome::Done, _, true) => Outcome::No,
-        (shown, ..) => shown,
+
+    fn may_write(&self, problems: &mut Diagnostics) {
+        if let Some(path) = &self.path {
+            may_write_path(path, problems);
+        }
+        if self.no_report {
+            return;
+        }
+        may_write(&self.report, &REPORT, problems);
+        if self.path.as_ref() == Some(&self.report) {
+            let place = Place::whole(&self.report.display().to_string());
+            let message = "is named for the path and for the report".to_owned();
+            problems.error("one-file-twice", place, message, "name two files");
+        }
+    }
+
+    fn simulated(&self, job: &Job) -> Result<Outcome, Outcome> {
+        let part = match &self.path {
+            Some(path) => Some(Part::beside(path).map_err(|e| unwritable(path, &e))?),
+            None => None,
+        };
+        let (found, table) = self.walk(job, part.as_ref());
+        let Found { run, summary, troubles, series } = found;
+        let end = if self.keep_going { "simulated on behind them" } else { "nothing was written" };
+        let errors = report_and(run.problems.clone(), end);
+        if errors && !self.keep_going {
+            return Err(Outcome::Unusable);
+        }
+        let path_file = self.path.as_ref().map(|p| p.display().to_string());
+        let simulation = Simulation {
+            machine: &job.machine,
+            program: job.program.file(),
+            control: job.control,
+            setup: &job.setup,
+            run: &run,
+            summary: &summary,
+            troubles: &troubles,
+            path_file: path_file.as_deref(),
+        };
+        if let (Some(path), Some(part)) = (&self.path, part) {
+            table.and_then(|()| part.put_in_place()).map_err(|e| unwritable(path, &e))?;
+        }
+        if !self.no_report {
+            write_report(&self.report, simulation_html(&simulation, &series))?;
+        }
+        let answer = match self.format {
+            Format::Json => Answer::Json(simulation_json(&simulation)),
+            Format::Text => Answer::Text(simulation_text(&simulation)),
+        };
+        Ok(match (show(&answer), errors, troubles.is_grave()) {
+            (Outcome::Done, true, _) => Outcome::Unusable,
+            (Outcome::Done, _, true) => Outcome::No,
+            (shown, ..) => shown,
+        })
+    }
+
+    /// Simulates, and writes the path into a file beside its place, if one is asked for.
+    fn walk(&self, job: &Job, part: Option<&Part>) -> (Found, std::io::Result<()>) {
+        let begin = |(path, part)| PathTable::begin(&job.machine, path, part);
+        let mut table = self.path.as_deref().zip(part).map(begin);
+        let mut summary = Summary::of(&job.machine);
+        let mut series = Series::of(&job.machine);
+        let mut watch = AxisWatch::on(&job.machine);
+        let mut collisions = if self.no_collisions { None } else { job.collisions() };
+        let mut progress = Progress::through(&job.program);
+        let mut observers: Vec<&mut dyn Observer> = vec![&mut summary, &mut watch, &mut progress];
+        if let Some(collisions) = &mut collisions {
+            observers.push(collisions);
+        }
+        if !self.no_report {
+            observers.push(&mut series);
+        }
+        if let Some(table) = &mut table {
+            observers.push(table.observer());
+        }
+        let run = simulate(&job.machine, &job.program, &job.setup, &job.options, &mut observers);
+        progress.bar.finish_and_clear();
+        let logs = [Some(watch.log), collisions.map(|c| c.log)];
+        let troubles = TroubleList::of(logs.into_iter().flatten());
+        let found = Found { run, summary, troubles, series };
+        (found, table.map_or(Ok(()), PathTable::finish))
     }
 }
 
-type Found = (Run, Summary, TroubleList, Series);
-
-fn walk(job: &Job, more: &mut [&mut dyn Observer]) -> Found {
-    let mut summary = Summary::of(&job.machine);
-    let mut watch = AxisWatch::on(&job.machine);
-    let mut series = Series::of(&job.machine);
-    let mut observers: Vec<&mut dyn Observer> = vec![&mut summary, &mut watch, &mut series];
-    for observer in more {
-        observers.push(&mut **observer);
-    }
-    let run = simulate(&job.machine, &job.program, &job.setup, &job.options, &mut observers);
-    (run, summary, TroubleList::of([watch.log]), series)
+fn unwritable(path: &Path, error: &std::io::Error) -> Outcome {
+    let (shown, message) = (path.display().to_string(), format!("cannot be written: {error}"));
+    unusable("unwritable-file", &shown, &message, "name another --path")
 }
 
-/// The table is written beside its place and moved there when all is well.
-fn with_table(job: &Job, path: &std::path::Path) -> Result<Found, Outcome> {
-    let refuse = |error: std::io::Error| {
-        tell(&format!("error[unwritable-output]: {}: {error}", path.display()));
-        Outcome::Unusable
-    };
-    let part = files::Part::beside(path).map_err(refuse)?;
-    let mut table = CsvTable::new(&job.machine, BufWriter::new(part.file()));
-    let found = walk(job, &mut [&mut table]);
-    table.finish().map_err(refuse)?;
-    if found.0.problems.has_errors() && !job.options.keep_going {
-        return Ok(found);
+struct Found {
+    run: Run,
+    summary: Summary,
+    troubles: TroubleList,
+    series: Series,
+}
+
+/// How far the main program has come; only a terminal sees it, and only if it takes a while.
+struct Progress {
+    bar: ProgressBar,
+    line: u32,
+}
+
+impl Progress {
+    fn through(program: &Program) -> Self {
+        if !std::io::stderr().is_terminal() {
+            return Self { bar: ProgressBar::hidden(), line: u32::MAX };
+        }
+        let lines = program.source().iter().filter(|b| **b == b'\n').count();
+        let bar = ProgressBar::new(lines as u64 + 1);
+        if let Ok(style) = ProgressStyle::with_template("{wide_bar} line {pos}/{len}, {eta} left") {
+            bar.set_style(style);
+        }
+        Self { bar, line: 0 }
     }
-    part.put_in_place().map_err(refuse)?;
-    Ok(found)
+}
+
+impl Observer for Progress {
+    fn path(&mut self, batch: &Batch<'_>) {
+        let Some(node) = batch.nodes.last() else { return };
+        // Loops go back; the bar does not.
+        if node.origin.program == 0 && node.origin.line > self.line {
+            self.line = node.origin.line;
+            self.bar.set_position(u64::from(self.line));
+        }
+    }
 }

@@ -1,19 +1,24 @@
-//! A prediction for people and for programs.
+//! Predictions and simulations for people and for programs.
 //!
 //! [`text`] is what the terminal shows, [`json`] the document `trueaxis/predict/1`, [`html`] one
-//! page that opens offline.
+//! page that opens offline; [`simulation_text`], [`simulation_json`] and [`simulation_html`] are the
+//! same for a simulation.
 
 mod html;
 mod json;
 mod page;
 mod plots;
 mod simulation;
+mod simulation_page;
+mod simulation_plots;
+mod simulation_views;
 mod text;
 
 pub use html::html;
 pub use json::json;
 pub use plots::DrawingError;
 pub use simulation::{Simulation, simulation_json, simulation_text, trouble_code, trouble_text};
+pub use simulation_page::simulation_html;
 pub use text::text;
 
 use crate::predict::{Index, Prediction, Share};

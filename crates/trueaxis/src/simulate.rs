@@ -14,6 +14,8 @@ mod collisions;
 mod curve;
 mod densify;
 mod orientation;
+#[cfg(feature = "parquet")]
+mod parquet_table;
 mod program;
 mod series;
 mod setup;
@@ -28,8 +30,10 @@ pub use axis_path::{Fault, Node, PathStep};
 pub use clock::{Stamp, Timing, limit_name, limits};
 pub use collisions::Collisions;
 pub use densify::{Densify, pieces};
+#[cfg(feature = "parquet")]
+pub use parquet_table::ParquetTable;
 pub use program::read_program;
-pub use series::{PathPoint, Series};
+pub use series::{PathPoint, Quantity, Series};
 pub use setup::{CONTROLS, Nearness, SetUp, SetUpTool, control_named, read_setup};
 pub use summary::{AxisUse, Reversal, Summary, Worst, shown, unit};
 pub use table::{CsvTable, headings};

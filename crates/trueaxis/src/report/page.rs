@@ -29,5 +29,11 @@ td.pass, td.fail, td.undecided { font-weight:600; }
 svg { width:100%; height:auto; display:block; }
 code { font-family:ui-monospace, 'DejaVu Sans Mono', monospace; font-size:.9em; }
 figure { margin:0; } figcaption { color:var(--soft); font-size:.9rem; padding-top:4px; }
-@media print { body { background:#fff; } section { break-inside:avoid; border:none; } }
+table.words th, table.words td { text-align:left; vertical-align:top; }
+table.words td:first-child { white-space:nowrap; }
+@media print { html, body { font-size:12px; background:#fff; } main { padding:0; }
+  section { break-inside:avoid; border:none; padding:6px 0; margin:8px 0; }
+  section.verdict { border-left:8px solid; padding:6px 16px; }
+  section.long { break-inside:auto; } figure, tr { break-inside:avoid; } h2 { break-after:avoid; }
+  .scroll { overflow:visible; } * { print-color-adjust:exact; -webkit-print-color-adjust:exact; } }
 ";

@@ -10,11 +10,11 @@ use std::f64::consts::{PI, TAU};
 #[error("a picture could not be drawn: {0}")]
 pub struct DrawingError(String);
 
-fn drawing_error(error: impl std::fmt::Display) -> DrawingError {
+pub(super) fn drawing_error(error: impl std::fmt::Display) -> DrawingError {
     DrawingError(error.to_string())
 }
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
+pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
 type Flat<'a> = DrawingArea<SVGBackend<'a>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
 /// Colours that people with colour-blindness can tell apart (Okabe and Ito).
@@ -27,22 +27,22 @@ pub const COLOURS: [RGBColor; 7] = [
     RGBColor(86, 180, 233),
     RGBColor(90, 90, 90),
 ];
-const INK: RGBColor = RGBColor(40, 46, 54);
-const FAINT: RGBColor = RGBColor(200, 206, 212);
+pub(super) const INK: RGBColor = RGBColor(40, 46, 54);
+pub(super) const FAINT: RGBColor = RGBColor(200, 206, 212);
 const FONT: &str = "sans-serif";
 /// The library rounds to whole pixels: draw this much larger and let the view box scale it back.
-const SHARP: u32 = 4;
+pub(super) const SHARP: u32 = 4;
 
 /// A length of the picture in the pixels of the drawing.
-const fn px(length: i32) -> i32 {
+pub(super) const fn px(length: i32) -> i32 {
     length * SHARP as i32
 }
 
-fn pen(colour: RGBColor, width: u32) -> ShapeStyle {
+pub(super) fn pen(colour: RGBColor, width: u32) -> ShapeStyle {
     colour.stroke_width(width * SHARP)
 }
 
-fn ink(size: i32) -> TextStyle<'static> {
+pub(super) fn ink(size: i32) -> TextStyle<'static> {
     (FONT, px(size)).into_font().color(&INK)
 }
 
@@ -62,7 +62,7 @@ pub struct Labels<'a> {
     pub y: &'a str,
 }
 
-fn draw(
+pub(super) fn draw(
     size: (u32, u32),
     paint: impl FnOnce(&Area<'_>) -> Result<(), DrawingError>,
 ) -> Result<String, DrawingError> {
@@ -153,7 +153,7 @@ pub fn curves(
 }
 
 /// A number on an axis, with as many digits as its span needs.
-fn tick(value: f64, span: f64) -> String {
+pub(super) fn tick(value: f64, span: f64) -> String {
     let digits = (1.0 - span.max(1e-9).log10()).ceil().clamp(0.0, 6.0) as usize;
     let text = format!("{value:.digits$}");
     if text.trim_start_matches(['-', '0', '.']).is_empty() { "0".to_owned() } else { text }

@@ -36,7 +36,7 @@ const MOST_SHOWN: usize = 20;
 /// Kinds of troubles that only cost time, in the terminal.
 const MOST_MINOR: usize = 6;
 
-fn control_name(control: Control) -> &'static str {
+pub(super) fn control_name(control: Control) -> &'static str {
     match control {
         Control::Sinumerik840d => "SINUMERIK 840D",
         Control::Fanuc => "FANUC",
@@ -62,13 +62,13 @@ pub fn trouble_text(machine: &Machine, trouble: &Trouble) -> String {
         |axis: usize, v: f64| format!("{:.3} {}", shown(machine, axis, v), unit(machine, axis));
     match &trouble.kind {
         TroubleKind::Collision { first, second } => {
-            format!("collision: {first} cuts into {second}")
+            format!("collision: {first} cuts into {second}, clearance 0 mm")
         }
         TroubleKind::NearMiss { first, second } => {
             format!("near miss: {first} comes to {:.3} mm of {second}", trouble.value)
         }
         TroubleKind::RapidInStock { first, second } => {
-            format!("rapid through stock: {first} in {second}")
+            format!("rapid through stock: {first} in {second}, clearance 0 mm")
         }
         TroubleKind::OverTravel { axis } => format!(
             "over-travel: {} goes to {}, its end is {}",

@@ -1,10 +1,11 @@
-//! The path as a table, written while it comes: CSV.
+//! The path as a table, written while it comes: CSV. The columns are those of Parquet, too.
 
 use super::summary::{shown, unit};
 use super::{Batch, Observer};
 use std::fmt::Write as _;
 use std::io::{self, Write};
 use trueaxis_machine::Machine;
+use trueaxis_machine::axis::MAX_AXES;
 
 /// Writes each node as a line: time, block, axes, nominal tool, deviation.
 pub struct CsvTable<W: Write> {
@@ -34,10 +35,14 @@ impl<W: Write> CsvTable<W> {
     }
 }
 
+/// The columns that hold whole numbers, behind the time: program, line, tool, rapid (1 or 0).
+pub(super) const WHOLE: [&str; 4] = ["program", "line", "tool", "rapid"];
+
 /// The columns, each with its unit.
 pub fn headings(machine: &Machine) -> Vec<String> {
-    let mut columns: Vec<String> =
-        ["time_s", "program", "line", "tool", "rapid", "speed_mm_per_min"].map(Into::into).into();
+    let mut columns = vec!["time_s".to_owned()];
+    columns.extend(WHOLE.map(Into::into));
+    columns.push("speed_mm_per_min".to_owned());
     let axes = machine.axes().iter().enumerate();
     columns.extend(axes.map(|(i, a)| format!("{}_{}", a.name, unit(machine, i))));
     let fixed = [
@@ -61,40 +66,57 @@ pub fn headings(machine: &Machine) -> Vec<String> {
     columns
 }
 
+/// One node: the columns [`WHOLE`], and all others in their order.
+pub(super) struct Row {
+    pub whole: [u32; WHOLE.len()],
+    numbers: [f64; 2 + MAX_AXES + 15],
+    count: usize,
+}
+
+impl Row {
+    /// The row of a node.
+    pub fn of(machine: &Machine, batch: &Batch<'_>, i: usize) -> Self {
+        let (node, stamp, deviation) = (&batch.nodes[i], &batch.stamps[i], batch.deviation(i));
+        let rapid = u32::from(node.is_rapid());
+        let whole = [node.origin.program, node.origin.line, batch.tool, rapid];
+        let mut row = Self { whole, numbers: [0.0; 2 + MAX_AXES + 15], count: 0 };
+        row.add([stamp.time_s, stamp.speed * 60.0]);
+        let axes = node.command.iter().take(machine.axes().len()).enumerate();
+        row.add(axes.map(|(axis, q)| shown(machine, axis, *q)));
+        row.add(deviation.nominal_tip.vector().iter().copied());
+        row.add(deviation.nominal_axis.vector().iter().copied());
+        row.add(deviation.tip_mm.iter().map(|v| v * 1e3));
+        row.add(deviation.axis.iter().map(|v| v * 1e6));
+        row.add(batch.along_path_mm[i].iter().map(|v| v * 1e3));
+        row
+    }
+
+    fn add(&mut self, values: impl IntoIterator<Item = f64>) {
+        for value in values {
+            self.numbers[self.count] = value;
+            self.count += 1;
+        }
+    }
+
+    /// Time, speed, axes, tip, axis of the tool, deviations.
+    pub fn numbers(&self) -> &[f64] {
+        &self.numbers[..self.count]
+    }
+}
+
 impl<W: Write> Observer for CsvTable<W> {
     fn path(&mut self, batch: &Batch<'_>) {
         if self.failed.is_some() {
             return;
         }
-        for (i, (node, stamp)) in batch.nodes.iter().zip(batch.stamps).enumerate() {
-            let deviation = batch.deviation(i);
+        for i in 0..batch.nodes.len() {
+            let row = Row::of(&self.machine, batch, i);
             self.line.clear();
+            let [program, line, tool, rapid] = row.whole;
             // Writing into a text cannot fail.
-            let _ = write!(
-                self.line,
-                "{},{},{},{},{},{}",
-                stamp.time_s,
-                node.origin.program,
-                node.origin.line,
-                batch.tool,
-                u8::from(node.is_rapid()),
-                stamp.speed * 60.0
-            );
-            for (axis, q) in node.command[..self.machine.axes().len()].iter().enumerate() {
-                let _ = write!(self.line, ",{}", shown(&self.machine, axis, *q));
-            }
-            let tip = deviation.nominal_tip.vector();
-            let axis = deviation.nominal_axis.vector();
-            for value in tip.iter().chain(axis.iter()) {
+            let _ = write!(self.line, "{},{program},{line},{tool},{rapid}", row.numbers()[0]);
+            for value in &row.numbers()[1..] {
                 let _ = write!(self.line, ",{value}");
-            }
-            let along = &batch.along_path_mm[i];
-            let (off, turn) = (deviation.tip_mm * 1e3, deviation.axis * 1e6);
-            for value in off.iter().chain(turn.iter()) {
-                let _ = write!(self.line, ",{value}");
-            }
-            for value in along.iter() {
-                let _ = write!(self.line, ",{}", value * 1e3);
             }
             self.line.push('\n');
             if let Err(error) = self.out.write_all(self.line.as_bytes()) {

@@ -1,0 +1,289 @@
+//! What `simulate` and `trace` leave behind and how they end.
+
+mod command;
+
+use command::{Folder, Ran, root, trueaxis};
+use serde_json::Value;
+
+const I5: &str = "machines/i5-engraver/machine.toml";
+const MILL: &str = "machines/three-axis-mill/machine.toml";
+const RING: &str = "examples/02_simulate/ring-fanuc.nc";
+
+/// Within the mill's X ±300, Y ±200, Z −400 … 0.
+const GOOD: &str = "G21 G17 G90 G94\nG0 X0 Y0 Z-10\nG1 X50 F600\nG3 X50 Y0 I-50 J0\nM30\n";
+/// X 400 is beyond.
+const FAR: &str = "G21 G17 G90 G94\nG0 X0 Y0 Z-10\nG1 X400 F600\nG1 X0\nM30\n";
+/// An unbalanced bracket in line 3.
+const BROKEN: &str = "G21 G17 G90 G94\nG0 X0 Y0 Z-10\nG1 X[5 F600\nM30\n";
+
+fn keys(value: &Value) -> Vec<&str> {
+    value.as_object().expect("an object").keys().map(String::as_str).collect()
+}
+
+fn run(arguments: &[&str], more: &[&str]) -> Ran {
+    trueaxis(&[arguments, more].concat())
+}
+
+/// One file: nothing is fetched, nothing runs. A name space is no reference.
+#[track_caller]
+fn stands_alone(page: &str) {
+    assert!(page.starts_with("<!DOCTYPE html>") && page.ends_with("</html>"), "not whole");
+    let bare = page.replace("http://www.w3.org/2000/svg", "");
+    for outside in ["http", "src=", "<script", "<link", "@import", "url(", "href="] {
+        let inside = bare.replace("url(#", "");
+        assert!(!inside.contains(outside), "the page holds {outside}");
+    }
+    assert!(!page.contains("NaN") && !page.contains("inf"), "a number that is none");
+}
+
+#[test]
+fn the_report_is_one_whole_file() {
+    let folder = Folder::new("simulate-report");
+    let page = folder.path("simulation.html");
+    let ran = run(&["simulate", I5, RING, "--report", &page], &[]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    assert!(ran.err.ends_with(&format!("report: {page}\n")), "{}", ran.err);
+    assert_eq!(folder.names(), ["simulation.html"]);
+    let html = std::fs::read_to_string(&page).expect("a report");
+    stands_alone(&html);
+    assert!(html.len() < 3 << 20, "{} bytes", html.len());
+    for words in [
+        "ring-fanuc.nc on i5 engraving centre",
+        "The way of the tip in the workpiece",
+        "deviation of the tip, µm",
+        "speed of X, mm/s",
+        "A, deg",
+        "time, s",
+        "Troubles",
+        "Zhang Jian et al. 2023",
+        env!("CARGO_PKG_VERSION"),
+    ] {
+        assert!(html.contains(words), "{words}");
+    }
+    // Three views and the oblique one; two axes to a picture.
+    assert_eq!(html.matches("<clipPath").count(), 4);
+    assert_eq!(html.matches("<svg").count(), 1 + 1 + 3);
+
+    // Over a report a report may be written; the same run, the same page.
+    let again = run(&["simulate", I5, RING, "--report", &page, "--format", "json"], &[]);
+    assert_eq!(again.status, 0, "{}", again.err);
+    assert_eq!(again.json()["schema"], "trueaxis/simulate/1");
+    assert_eq!(std::fs::read_to_string(&page).expect("a report"), html);
+}
+
+#[test]
+fn what_a_program_says_cannot_break_the_page() {
+    let folder = Folder::new("simulate-escape");
+    let (page, name) = (folder.path("p.html"), "<script>alert(1)<&.ngc");
+    let text = "G21 G90 G94\n(MSG, <script src=http:x>)\nG0 X0 Y0 Z-10\nG1 X5 F600\nM2\n";
+    let program = folder.file(name, text);
+    let ran = run(&["simulate", MILL, &program, "--report", &page], &[]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let html = std::fs::read_to_string(&page).expect("a report");
+    assert!(html.contains("&lt;script&gt;alert(1)") && !html.contains("<script"));
+}
+
+#[test]
+fn exit_status_says_whether_part_or_machine_are_in_danger() {
+    let folder = Folder::new("simulate-status");
+    for (name, text, status, verdict) in [
+        ("good.nc", GOOD, 0, None),
+        ("far.nc", FAR, 1, Some("TROUBLE")),
+        ("broken.nc", BROKEN, 2, None),
+    ] {
+        let (program, page) = (folder.file(name, text), folder.path(&format!("{name}.html")));
+        let ran = run(&["simulate", MILL, &program, "--report", &page], &[]);
+        assert_eq!(ran.status, status, "{name}: {}", ran.err);
+        assert_eq!(std::fs::metadata(&page).is_ok(), status != 2, "{name}");
+        if let Some(verdict) = verdict {
+            let html = std::fs::read_to_string(&page).expect("a report");
+            assert!(html.contains(verdict) && html.contains("over-travel: X goes to 400.000 mm"));
+            let ran = run(&["simulate", MILL, &program, "--no-report", "--format", "json"], &[]);
+            let trouble = &ran.json()["troubles"][0];
+            assert_eq!(ran.status, 1);
+            assert_eq!((&trouble["code"], &trouble["axis"]), (&"over-travel".into(), &"X".into()));
+            assert_eq!((&trouble["grave"], &trouble["line"]), (&true.into(), &3.into()));
+            assert_eq!((&trouble["value"], &trouble["limit"]), (&400.0.into(), &300.0.into()));
+        }
+    }
+}
+
+#[test]
+fn nothing_is_left_behind_after_an_error() {
+    let folder = Folder::new("simulate-error");
+    let program = folder.file("broken.nc", BROKEN);
+    let (page, path) = (folder.path("p.html"), folder.path("p.csv"));
+    let all = ["simulate", MILL, &program, "--report", &page, "--path", &path];
+    let ran = run(&all, &[]);
+    assert_eq!((ran.status, ran.out.as_str()), (2, ""), "{}", ran.err);
+    assert!(ran.err.contains("broken.nc:3:"), "{}", ran.err);
+    assert!(ran.err.ends_with("1 error found; nothing was written\n"), "{}", ran.err);
+    assert_eq!(folder.names(), ["broken.nc"]);
+    // Older results stay as they are.
+    let old = [(&page, "<!doctype html>old"), (&path, "time_s,program,line,tool,rapid\n1\n")];
+    old.iter().for_each(|(file, text)| std::fs::write(file, text).expect("a file"));
+    assert_eq!(run(&all, &[]).status, 2);
+    for (file, text) in old {
+        assert_eq!(std::fs::read_to_string(file).expect("a file"), text);
+    }
+    // Who wants to see what is behind the error gets it, and is told that it is not complete.
+    let ran = run(&all, &["--keep-going"]);
+    assert_eq!(ran.status, 2);
+    assert!(ran.err.contains("1 error found; simulated on behind them\n"), "{}", ran.err);
+    let html = std::fs::read_to_string(&page).expect("a report");
+    assert!(html.contains("NOT COMPLETE"));
+    assert_eq!(folder.names(), ["broken.nc", "p.csv", "p.html"]);
+}
+
+#[test]
+fn files_that_are_no_results_are_not_overwritten() {
+    let folder = Folder::new("simulate-places");
+    let program = folder.file("good.nc", GOOD);
+    let (missing, both) = (folder.path("none/p.html"), folder.path("both.csv"));
+    let cases = [
+        ("--report", program.as_str(), "unwritable-file"),
+        ("--path", program.as_str(), "unwritable-file"),
+        ("--path", MILL, "unwritable-file"),
+        ("--report", missing.as_str(), "unwritable-file"),
+        ("--report", "/dev/null", "unwritable-file"),
+    ];
+    for (argument, place, code) in cases {
+        let mut arguments = vec!["simulate", MILL, &program, argument, place];
+        if argument == "--path" {
+            arguments.push("--no-report");
+        }
+        let ran = run(&arguments, &[]);
+        assert_eq!((ran.status, ran.out.as_str()), (2, ""), "{arguments:?}: {}", ran.err);
+        assert!(ran.err.starts_with(&format!("error[{code}]")), "{}", ran.err);
+    }
+    let ran = run(&["simulate", MILL, &program, "--report", &both, "--path", &both], &[]);
+    assert!(ran.status == 2 && ran.err.starts_with("error[one-file-twice]"), "{}", ran.err);
+    assert_eq!(folder.names(), ["good.nc"]);
+    assert_eq!(std::fs::read_to_string(&program).expect("the program"), GOOD);
+    assert!(std::fs::read_to_string(root().join(MILL)).expect("the mill").contains("[machine]"));
+}
+
+#[cfg(not(feature = "parquet"))]
+#[test]
+fn without_the_feature_parquet_says_how_to_get_it() {
+    let folder = Folder::new("simulate-no-parquet");
+    let path = folder.path("p.parquet");
+    let ran = run(&["simulate", I5, RING, "--no-report", "--path", &path], &[]);
+    assert_eq!(ran.status, 2);
+    assert!(ran.err.starts_with("error[parquet-not-built]"), "{}", ran.err);
+    assert!(ran.err.contains("--features parquet"), "{}", ran.err);
+    assert!(folder.names().is_empty());
+}
+
+#[cfg(feature = "parquet")]
+#[test]
+fn with_the_feature_a_parquet_file_is_whole() {
+    let folder = Folder::new("simulate-parquet");
+    let path = folder.path("p.parquet");
+    let ran = run(&["simulate", I5, RING, "--no-report", "--path", &path], &[]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let bytes = std::fs::read(&path).expect("a file");
+    assert!(bytes.starts_with(b"PAR1") && bytes.ends_with(b"PAR1"));
+    assert_eq!(folder.names(), ["p.parquet"]);
+    assert_eq!(run(&["simulate", I5, RING, "--no-report", "--path", &path], &[]).status, 0);
+}
+
+#[test]
+fn the_table_has_every_place_with_units() {
+    let folder = Folder::new("simulate-table");
+    let path = folder.path("p.csv");
+    let ran = run(&["simulate", I5, RING, "--no-report", "--path", &path, "--format", "json"], &[]);
+    let document = ran.json();
+    let table = std::fs::read_to_string(&path).expect("a table");
+    let mut lines = table.lines();
+    assert_eq!(
+        lines.next(),
+        Some(
+            "time_s,program,line,tool,rapid,speed_mm_per_min,C_deg,A_deg,X_mm,Y_mm,Z_mm,\
+             tip_x_mm,tip_y_mm,tip_z_mm,axis_i,axis_j,axis_k,dev_x_um,dev_y_um,dev_z_um,\
+             dev_i_urad,dev_j_urad,dev_k_urad,dev_feed_um,dev_normal_um,dev_binormal_um"
+        )
+    );
+    let rows: Vec<Vec<f64>> =
+        lines.map(|l| l.split(',').map(|w| w.parse().expect("a number")).collect()).collect();
+    assert_eq!(rows.len() as u64, document["nodes"].as_u64().expect("a count"));
+    assert!(rows.iter().all(|r| r.len() == 26 && r.iter().all(|v| v.is_finite())));
+    assert!(rows.windows(2).all(|w| w[0][0] <= w[1][0]), "time is monotone");
+    assert_eq!(rows[rows.len() - 1][0], document["time_s"].as_f64().expect("a time"));
+    for row in &rows {
+        // Feed, normal and binormal are three directions at right angles.
+        let length = |at: usize| row[at..at + 3].iter().map(|v| v * v).sum::<f64>().sqrt();
+        assert!((length(17) - length(23)).abs() < 1e-6 && (length(14) - 1.0).abs() < 1e-12);
+    }
+    // The greatest deviation with feed is the one that the document states.
+    let with_feed = rows.iter().filter(|r| r[4] == 0.0);
+    let most = with_feed.map(|r| r[17].hypot(r[18]).hypot(r[19])).fold(0.0, f64::max);
+    let stated = document["deviation"]["tip_um"]["value"].as_f64().expect("a number");
+    assert!((most - stated).abs() < 1e-9, "{most} and {stated}");
+}
+
+#[test]
+fn the_documents_have_their_keys() {
+    let ran = run(&["simulate", I5, RING, "--no-report", "--format", "json"], &[]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let document = ran.json();
+    let wanted = [
+        "schema",
+        "version",
+        "machine",
+        "program",
+        "programs",
+        "control",
+        "set_up_given",
+        "time_s",
+        "rapid_s",
+        "dwell_s",
+        "feed_mm",
+        "rapid_mm",
+        "moves",
+        "nodes",
+        "tip_box_mm",
+        "axes",
+        "deviation",
+        "troubles",
+        "troubles_left_out",
+        "messages",
+        "stops",
+        "tools",
+        "path_file",
+    ];
+    let missing: Vec<_> = wanted.iter().filter(|k| document.get(k).is_none()).collect();
+    assert!(missing.is_empty(), "{missing:?} of {:?}", keys(&document));
+    assert_eq!(document["schema"], "trueaxis/simulate/1");
+    assert_eq!(keys(&document["axes"]), ["C", "A", "X", "Y", "Z"]);
+    assert_eq!(document["axes"]["A"]["unit"], "deg");
+
+    let ran = run(&["trace", I5, RING, "--block", "100", "--format", "json"], &[]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let document = ran.json();
+    let wanted = [
+        "schema",
+        "machine",
+        "program",
+        "block",
+        "line",
+        "text",
+        "executions",
+        "programmed",
+        "nodes",
+        "axes",
+        "nominal",
+        "actual",
+        "deviation",
+        "time",
+        "budget",
+        "bodies",
+    ];
+    let missing: Vec<_> = wanted.iter().filter(|k| document.get(k).is_none()).collect();
+    assert!(missing.is_empty(), "{missing:?} of {:?}", keys(&document));
+    assert_eq!(document["schema"], "trueaxis/trace/1");
+    assert!(document["text"].as_str().is_some_and(|t| t.starts_with("N100 G1 X29.8231")));
+    // A block that is not there.
+    let ran = run(&["trace", I5, RING, "--block", "99999"], &[]);
+    assert_eq!((ran.status, ran.out.as_str()), (2, ""), "{}", ran.err);
+}

@@ -1,0 +1,64 @@
+//! A path as Parquet is, bit for bit, the path as CSV.
+#![cfg(feature = "parquet")]
+
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::Field;
+use std::path::Path;
+use trueaxis::files;
+use trueaxis::geometry::input::Diagnostics;
+use trueaxis::simulate::{
+    CsvTable, Options, ParquetTable, SetUp, headings, read_program, simulate,
+};
+
+#[test]
+fn parquet_holds_the_numbers_of_csv() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let (machine, _) = files::machine(&root.join("machines/i5-engraver/machine.toml"));
+    let machine = machine.expect("a shipped machine");
+    let mut problems = Diagnostics::new();
+    // More nodes than one row group holds: 900 rounds of about a hundred pieces.
+    let text = "G21 G17 G90 G94\nG1 X50 Y0 Z10 F1500\n".to_owned()
+        + &"G3 X50 Y0 I-50 J0\nG0 Z12\nG1 Z10 F700\n".repeat(900)
+        + "M30\n";
+    let folder = std::env::temp_dir().join(format!("trueaxis-parquet-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let file = folder.join("rounds.nc");
+    std::fs::write(&file, text).expect("a program");
+    let setup = SetUp::default();
+    let program = read_program(&file, None, &setup, &mut problems).expect("a program");
+    let target = std::fs::File::create(folder.join("rounds.parquet")).expect("a file");
+
+    let (mut csv, mut columns) =
+        (CsvTable::new(&machine, Vec::new()), ParquetTable::new(&machine, &target));
+    let options = Options::default();
+    let run = simulate(&machine, &program, &setup, &options, &mut [&mut csv, &mut columns]);
+    assert!(!run.problems.has_errors(), "{:?}", run.problems);
+    let text = String::from_utf8(csv.finish().expect("a table")).expect("UTF-8");
+    columns.finish().expect("a table");
+    let written = std::fs::File::open(folder.join("rounds.parquet")).expect("a file");
+    std::fs::remove_dir_all(&folder).expect("no folder");
+
+    let reader = SerializedFileReader::new(written).expect("a Parquet file");
+    let schema = reader.metadata().file_metadata().schema_descr().columns().to_vec();
+    let names: Vec<_> = schema.iter().map(|c| c.name().to_owned()).collect();
+    assert_eq!(names, headings(&machine));
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some(names.join(",").as_str()));
+    assert!(reader.num_row_groups() >= 2, "{} rows", reader.metadata().file_metadata().num_rows());
+    let mut rows = 0;
+    for (row, line) in reader.get_row_iter(None).expect("rows").zip(lines.by_ref()) {
+        let row = row.expect("a row");
+        for ((name, field), word) in row.get_column_iter().zip(line.split(',')) {
+            match field {
+                Field::Double(value) => {
+                    let csv: f64 = word.parse().expect("a number");
+                    assert_eq!(value.to_bits(), csv.to_bits(), "{name} in row {rows}: {word}");
+                }
+                Field::UInt(value) => assert_eq!(value.to_string(), word, "{name} in row {rows}"),
+                other => panic!("{name}: {other:?}"),
+            }
+        }
+        rows += 1;
+    }
+    assert_eq!((rows, lines.count()), (reader.metadata().file_metadata().num_rows(), 0));
+}
