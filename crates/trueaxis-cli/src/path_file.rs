@@ -18,6 +18,12 @@ const CSV: Written = Written {
     what: "the table of a path",
     begins: &[b"time_s,program,line,tool,"],
 };
+/// The table of bodies.
+pub const BODIES: Written = Written {
+    argument: "--bodies",
+    what: "the table of bodies",
+    begins: &[b"time_s,program,line,body,"],
+};
 const PARQUET: Written = Written { argument: "--path", what: "a Parquet file", begins: &[b"par1"] };
 
 fn is_parquet(path: &Path) -> bool {

@@ -1,10 +1,10 @@
 use crate::arguments::MachineArguments;
 use crate::output::{Answer, Format, Outcome, report, report_and, show, tell};
-use crate::path_file::{PathTable, may_write_path};
+use crate::path_file::{BODIES, PathTable, may_write_path};
 use crate::report_file::{REPORT, may_write, unusable, write_report};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use std::io::IsTerminal;
+use std::io::{BufWriter, IsTerminal};
 use std::path::{Path, PathBuf};
 use trueaxis::files::Part;
 use trueaxis::geometry::input::{Diagnostics, Dimension, Place, parse_quantity};
@@ -13,8 +13,8 @@ use trueaxis::nc::{Control, Program};
 use trueaxis::report::{Simulation, simulation_html, simulation_json, simulation_text};
 use trueaxis::simulate::collide::{BodyModel, load_models};
 use trueaxis::simulate::{
-    AxisWatch, Batch, CONTROLS, Collisions, Densify, Observer, Options, Run, Series, SetUp,
-    Summary, Timing, TroubleList, control_named, read_program, read_setup, simulate,
+    AxisWatch, Batch, BodyTable, CONTROLS, Collisions, Densify, Observer, Options, Run, Series,
+    SetUp, Summary, Timing, TroubleList, control_named, read_program, read_setup, simulate,
 };
 
 /// The program to simulate.
@@ -36,6 +36,9 @@ pub struct Arguments {
     /// Write every place of the path to this file: CSV, or Parquet if it ends in .parquet
     #[arg(long, value_name = "FILE")]
     path: Option<PathBuf>,
+    /// Write where every body is, nominal and actual, at every place of the path to this CSV file
+    #[arg(long, value_name = "FILE.csv")]
+    bodies: Option<PathBuf>,
     /// Where the HTML report goes
     #[arg(long, value_name = "FILE", default_value = "simulation.html")]
     report: PathBuf,
@@ -211,6 +214,9 @@ impl Arguments {
         if let Some(path) = &self.path {
             may_write_path(path, problems);
         }
+        if let Some(bodies) = &self.bodies {
+            may_write(bodies, &BODIES, problems);
+        }
         if self.no_report {
             return;
         }
@@ -227,12 +233,19 @@ impl Arguments {
             Some(path) => Some(Part::beside(path).map_err(|e| unwritable(path, &e))?),
             None => None,
         };
-        let (found, table) = self.walk(job, part.as_ref());
+        let bodies = match &self.bodies {
+            Some(path) => Some(Part::beside(path).map_err(|e| unwritable(path, &e))?),
+            None => None,
+        };
+        let (found, table) = self.walk(job, part.as_ref(), bodies.as_ref());
         let Found { run, summary, troubles, series } = found;
         let end = if self.keep_going { "simulated on behind them" } else { "nothing was written" };
         let errors = report_and(run.problems.clone(), end);
         if errors && !self.keep_going {
             return Err(Outcome::Unusable);
+        }
+        if let Some(path) = self.path.as_ref().or(self.bodies.as_ref()) {
+            table.map_err(|e| unwritable(path, &e))?;
         }
         let path_file = self.path.as_ref().map(|p| p.display().to_string());
         let simulation = Simulation {
@@ -246,7 +259,10 @@ impl Arguments {
             path_file: path_file.as_deref(),
         };
         if let (Some(path), Some(part)) = (&self.path, part) {
-            table.and_then(|()| part.put_in_place()).map_err(|e| unwritable(path, &e))?;
+            part.put_in_place().map_err(|e| unwritable(path, &e))?;
+        }
+        if let (Some(path), Some(part)) = (&self.bodies, bodies) {
+            part.put_in_place().map_err(|e| unwritable(path, &e))?;
         }
         if !self.no_report {
             write_report(&self.report, simulation_html(&simulation, &series))?;
@@ -263,7 +279,12 @@ impl Arguments {
     }
 
     /// Simulates, and writes the path into a file beside its place, if one is asked for.
-    fn walk(&self, job: &Job, part: Option<&Part>) -> (Found, std::io::Result<()>) {
+    fn walk(
+        &self,
+        job: &Job,
+        part: Option<&Part>,
+        bodies: Option<&Part>,
+    ) -> (Found, std::io::Result<()>) {
         let begin = |(path, part)| PathTable::begin(&job.machine, path, part);
         let mut table = self.path.as_deref().zip(part).map(begin);
         let mut summary = Summary::of(&job.machine);
@@ -281,12 +302,22 @@ impl Arguments {
         if let Some(table) = &mut table {
             observers.push(table.observer());
         }
+        let begin = |part: &'_ Part| {
+            let out = BufWriter::with_capacity(1 << 16, part.file().try_clone()?);
+            Ok::<_, std::io::Error>(BodyTable::new(&job.machine, &job.setup, out))
+        };
+        let mut bodies = bodies.map(begin).transpose();
+        if let Ok(Some(bodies)) = &mut bodies {
+            observers.push(bodies);
+        }
         let run = simulate(&job.machine, &job.program, &job.setup, &job.options, &mut observers);
         progress.bar.finish_and_clear();
         let logs = [Some(watch.log), collisions.map(|c| c.log)];
         let troubles = TroubleList::of(logs.into_iter().flatten());
         let found = Found { run, summary, troubles, series };
-        (found, table.map_or(Ok(()), PathTable::finish))
+        let written = table.map_or(Ok(()), PathTable::finish);
+        let bodies = bodies.and_then(|b| b.map_or(Ok(()), |b| b.finish().map(drop)));
+        (found, written.and(bodies))
     }
 }
 

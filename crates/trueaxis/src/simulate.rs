@@ -8,6 +8,7 @@
 
 mod axis_path;
 mod basic;
+mod body_table;
 mod clock;
 pub mod collide;
 mod collisions;
@@ -27,6 +28,7 @@ mod trace;
 mod trouble;
 
 pub use axis_path::{Fault, Node, PathStep};
+pub use body_table::{BODY_HEADINGS, BodyTable};
 pub use clock::{Stamp, Timing, limit_name, limits};
 pub use collisions::Collisions;
 pub use densify::{Densify, pieces};
