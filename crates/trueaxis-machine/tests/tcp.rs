@@ -18,11 +18,10 @@ fn law_a_placed_tip_is_where_it_shall_be() {
             let command = random.command(&machine);
             let (tip, _) = control.tip_and_axis(&command);
             let mut placed = command;
-            for axis in 0..machine.axes().len() {
-                if !"XYZ".contains(machine.axes()[axis].name.letter()) {
-                    continue;
+            for (q, axis) in placed.iter_mut().zip(machine.axes()) {
+                if "XYZ".contains(axis.name.letter()) {
+                    *q = 0.0;
                 }
-                placed[axis] = 0.0;
             }
             assert!(control.place(tip, &mut placed), "{name} {command:?}");
             let (again, _) = control.tip_and_axis(&placed);

@@ -112,7 +112,7 @@ impl Part {
     /// Opens a temporary file beside a place.
     ///
     /// # Errors
-    /// As [`write`].
+    /// As [`write()`].
     pub fn beside(place: &Path) -> io::Result<Self> {
         let refuse = |message| Err(io::Error::new(io::ErrorKind::InvalidInput, message));
         let Some(name) = place.file_name() else {

@@ -94,7 +94,7 @@ impl Default for Options {
 pub struct Run {
     /// Everything that was found in the program; with errors the results are not complete.
     pub problems: Diagnostics,
-    /// The programs by the number in [`Origin::program`].
+    /// The programs by the number in [`trueaxis_nc::moves::Origin::program`].
     pub programs: Vec<String>,
 }
 

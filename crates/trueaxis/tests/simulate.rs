@@ -1,5 +1,7 @@
 //! NC programs on machines: laws, and files of others.
 
+#![allow(clippy::print_stdout, reason = "tells what was found in files of others")]
+
 use proptest::prelude::*;
 use std::path::Path;
 use trueaxis::geometry::Vec3;

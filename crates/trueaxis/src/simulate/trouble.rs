@@ -73,7 +73,7 @@ pub struct Trouble {
     pub from_s: f64,
     /// When it ends, s.
     pub to_s: f64,
-    /// The worst value: position, speed, speed ratio, angle or clearance; see [`Trouble::text`].
+    /// The worst value: position, speed, speed ratio, angle or clearance; see [`trouble_text`](crate::report::trouble_text).
     pub value: f64,
     /// What is allowed.
     pub limit: f64,
