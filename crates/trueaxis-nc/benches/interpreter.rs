@@ -27,10 +27,40 @@ fn text() -> String {
     text
 }
 
-#[divan::bench(args = ["LinuxCNC", "FANUC"], sample_count = 10)]
+/// The same in the words of a control.
+fn written_for(control: Control) -> String {
+    let text = text();
+    match control {
+        Control::Sinumerik840d => text.replacen("G21", "G71", 1),
+        Control::Heidenhain => {
+            let lines = text.lines().skip(2).map(|l| l.replacen("G1 ", "L ", 1));
+            let lines = lines.map(|l| l.replace(['X', 'Y', 'Z', 'A', 'C'], "").to_owned() + "\n");
+            // Klartext writes signs: L X+1.5 Y-2.
+            let signed = |l: String| {
+                let mut words = l.split_whitespace();
+                let head = words.next().unwrap_or_default().to_owned();
+                let named = words.zip(["X", "Y", "Z", "A", "C", ""]).map(|(word, axis)| {
+                    let plus = if axis.is_empty() || word.starts_with('-') { "" } else { "+" };
+                    format!(" {axis}{plus}{word}")
+                });
+                named.fold(head, |line, word| line + &word) + "\n"
+            };
+            let body: String = lines.map(signed).collect();
+            format!("BEGIN PGM BENCH MM\n{body}END PGM BENCH MM\n")
+        }
+        Control::Fanuc | Control::LinuxCnc => text,
+    }
+}
+
+#[divan::bench(args = ["LinuxCNC", "FANUC", "SINUMERIK", "HEIDENHAIN"], sample_count = 10)]
 fn interpret_five_axes(bencher: divan::Bencher<'_, '_>, control: &str) {
-    let control = if control == "FANUC" { Control::Fanuc } else { Control::LinuxCnc };
-    let program = Program::new("bench", text().into_bytes(), control);
+    let control = match control {
+        "FANUC" => Control::Fanuc,
+        "SINUMERIK" => Control::Sinumerik840d,
+        "HEIDENHAIN" => Control::Heidenhain,
+        _ => Control::LinuxCnc,
+    };
+    let program = Program::new("bench", written_for(control).into_bytes(), control);
     bencher.counter(ItemsCount::new(LINES)).bench(|| {
         let (mut sum, mut moves) = (0.0, 0);
         let outcome = interpret(&program, &NoLibrary, &Settings::default(), &mut |step| {
