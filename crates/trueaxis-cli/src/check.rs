@@ -3,17 +3,20 @@ use crate::output::{Answer, Format, Outcome, diagnostic_json, report, show};
 use clap::Args;
 use serde_json::{Value, json};
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use trueaxis::files;
+use trueaxis::geometry::input::{Diagnostics, Place};
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{Axis, AxisKind, Carries, Travel};
 use trueaxis::machine::errors::{Component, Curve, ErrorKind, ErrorName};
+use trueaxis::simulate::collide::export;
 
 /// The machine file to check.
 #[derive(Args)]
 #[command(after_help = "\
-Example:
+Examples:
   trueaxis check machines/xkas2525/machine.toml
+  trueaxis check machines/i5-engraver/machine.toml --models stl
 
 Exit status: 0 the file can be used (also with warnings), 2 it cannot. With --format json the
 document is printed in both cases: its \"usable\" says which, its \"diagnostics\" say why.")]
@@ -21,13 +24,19 @@ pub struct Arguments {
     /// The machine file
     #[arg(value_name = "MACHINE.toml")]
     machine: PathBuf,
+    /// Write the models that the machine file describes by numbers as STL files into this folder
+    #[arg(long, value_name = "FOLDER")]
+    models: Option<PathBuf>,
     /// For people or for programs
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
-    let (machine, problems) = files::machine(&arguments.machine);
+    let (machine, mut problems) = files::machine(&arguments.machine);
+    if let (Some(folder), Some(machine)) = (&arguments.models, &machine) {
+        write_models(machine, folder, &mut problems);
+    }
     let diagnostics: Vec<Value> = problems.iter().map(diagnostic_json).collect();
     let unusable = report(problems) || machine.is_none();
     let shown = match (arguments.format, &machine) {
@@ -36,6 +45,18 @@ pub fn run(arguments: &Arguments) -> Outcome {
         (Format::Text, None) => Outcome::Unusable,
     };
     if unusable { Outcome::Unusable } else { shown }
+}
+
+fn write_models(machine: &Machine, folder: &Path, problems: &mut Diagnostics) {
+    for (name, bytes) in export(machine) {
+        let path = folder.join(name);
+        if let Err(error) = files::write(&path, &bytes) {
+            let place = Place::whole(&path.display().to_string());
+            let message = format!("cannot be written: {error}");
+            problems.error("unwritable-file", place, message, "name a folder that exists");
+            return;
+        }
+    }
 }
 
 fn describe(machine: &Machine) -> String {
@@ -204,6 +225,9 @@ fn lacks(machine: &Machine) -> Vec<String> {
     });
     if !limits.is_empty() {
         lacking.push(format!("maximum velocity, acceleration or jerk of {limits}: no true timing"));
+    }
+    if machine.models().is_empty() {
+        lacking.push("models of its bodies: no collision will be noticed".to_owned());
     }
     if machine.tip_mm().norm() == 0.0 {
         lacking.push("the length of the tool, taken as 0".to_owned());

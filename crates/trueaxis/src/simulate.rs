@@ -118,11 +118,30 @@ pub fn simulate(
     let faults = walk.finish();
     let mut problems = outcome.problems;
     setup.warn_of_zeros(program.file(), &mut problems);
+    note_assumed_limits(&machine, program, &mut problems);
     for fault in faults {
         let place = place(program, &outcome.programs, &fault);
         problems.error(fault.code, place, fault.message, fault.hint);
     }
     Run { problems, programs: outcome.programs }
+}
+
+/// Time is as true as the limits of the axes.
+fn note_assumed_limits(machine: &Machine, program: &Program, problems: &mut Diagnostics) {
+    let lacks = |axis: &&trueaxis_machine::axis::Axis| {
+        let limits = axis.limits;
+        limits.velocity.is_none() || limits.acceleration.is_none() || limits.jerk.is_none()
+    };
+    let axes: Vec<String> =
+        machine.axes().iter().filter(lacks).map(|a| a.name.to_string()).collect();
+    if !axes.is_empty() {
+        let message = format!(
+            "usual limits are taken where the machine file has none, on {}",
+            axes.join(" ")
+        );
+        let hint = "state max_velocity, max_acceleration and max_jerk for true times";
+        problems.note("assumed-limits", Place::whole(program.file()), message, hint);
+    }
 }
 
 /// Where a fault stands: the line, and the column of its word if the text is at hand.

@@ -138,8 +138,13 @@ fn write_text(s: &Simulation<'_>, out: &mut String) -> std::fmt::Result {
     if let Some([low, high]) = summary.cut_box_mm {
         writeln!(
             out,
-            "  tip       X {:.3} … {:.3}   Y {:.3} … {:.3}   Z {:.3} … {:.3} mm, with feed",
-            low.x, high.x, low.y, high.y, low.z, high.z
+            "  tip       X {} … {}   Y {} … {}   Z {} … {} mm, with feed",
+            fixed(low.x, 3),
+            fixed(high.x, 3),
+            fixed(low.y, 3),
+            fixed(high.y, 3),
+            fixed(low.z, 3),
+            fixed(high.z, 3)
         )?;
     }
     writeln!(out, "\n  axis        lowest      highest         travel        fastest   reversals")?;
@@ -156,10 +161,10 @@ fn write_text(s: &Simulation<'_>, out: &mut String) -> std::fmt::Result {
         };
         writeln!(
             out,
-            "  {:<4} {:>12.3} {:>12.3} {:>3} {:>16} {:>10.2}/s {:>8}",
+            "  {:<4} {:>12} {:>12} {:>3} {:>16} {:>10.2}/s {:>8}",
             machine.axes()[i].name.to_string(),
-            shown(machine, i, axis.lowest),
-            shown(machine, i, axis.highest),
+            fixed(shown(machine, i, axis.lowest), 3),
+            fixed(shown(machine, i, axis.highest), 3),
             unit(machine, i),
             limits,
             shown(machine, i, axis.fastest.value.abs()),
@@ -250,6 +255,13 @@ pub(super) fn blocks(s: &Simulation<'_>, trouble: &Trouble) -> String {
         true => s.block(trouble.first),
         false => format!("{} to {}", s.block(trouble.first), s.block(trouble.last)),
     }
+}
+
+/// A number with so many decimals, without a minus before a zero.
+fn fixed(value: f64, digits: usize) -> String {
+    let text = format!("{value:.digits$}");
+    let zero = text.trim_start_matches(['-', '0', '.']).is_empty();
+    if zero { text.trim_start_matches('-').to_owned() } else { text }
 }
 
 /// Seconds as people read them: `4 min 05.20 s`.
