@@ -36,7 +36,7 @@ pub use densify::{Densify, pieces};
 pub use parquet_table::ParquetTable;
 pub use program::read_program;
 pub use series::{PathPoint, Quantity, Series};
-pub use setup::{CONTROLS, Nearness, SetUp, SetUpTool, control_named, read_setup};
+pub use setup::{CONTROLS, Nearness, SetUp, SetUpTool, control_named, parse_setup, read_setup};
 pub use summary::{AxisUse, Reversal, Summary, Worst, shown, unit};
 pub use table::{CsvTable, headings};
 pub use tool_path::Batch;

@@ -94,11 +94,22 @@ pub fn read_setup(path: &Path, machine: &Machine) -> (Option<SetUp>, Diagnostics
     let Some(text) = files::text(path, "a set-up file (TOML)", &mut problems) else {
         return (None, problems);
     };
-    let file = path.display().to_string();
     let folder = path.parent().unwrap_or(Path::new(""));
-    let source = Source::new(&file, &text);
+    let (setup, found) = parse_setup(&path.display().to_string(), &text, folder, machine);
+    problems.append(found);
+    (setup, problems)
+}
+
+/// Reads the text of a set-up file; the files that it names lie in a folder.
+pub fn parse_setup(
+    file: &str,
+    text: &str,
+    folder: &Path,
+    machine: &Machine,
+) -> (Option<SetUp>, Diagnostics) {
+    let source = Source::new(file, text);
     let setup = source.read(|root| read(root, machine, folder));
-    problems.append(source.finish());
+    let problems = source.finish();
     (Some(setup).filter(|_| !problems.has_errors()), problems)
 }
 
