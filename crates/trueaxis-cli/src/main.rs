@@ -54,6 +54,11 @@ enum Verb {
 }
 
 fn main() -> ExitCode {
+    // Ctrl-C and kill leave nothing half-written; without the handler they only leave a hidden file.
+    let _ = ctrlc::set_handler(|| {
+        trueaxis::files::remove_parts();
+        std::process::exit(130);
+    });
     let outcome = match Command::parse().verb {
         Verb::Check(arguments) => check::run(&arguments),
         Verb::Pose(arguments) => pose::run(&arguments),

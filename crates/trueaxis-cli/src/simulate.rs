@@ -69,13 +69,13 @@ pub struct ProgramArguments {
     #[arg(long, value_name = "NAME")]
     control: Option<String>,
     /// Largest distance between path and chord, mm
-    #[arg(long, value_name = "MM", default_value = "0.005")]
+    #[arg(long, value_name = "MM", default_value = "0.005", allow_negative_numbers = true)]
     chord: String,
     /// Longest piece of a move, mm (λ of document 002)
-    #[arg(long, value_name = "MM", default_value = "10")]
+    #[arg(long, value_name = "MM", default_value = "10", allow_negative_numbers = true)]
     spacing: String,
     /// Largest turn of a piece, deg (φ of document 002)
-    #[arg(long, value_name = "DEG", default_value = "1")]
+    #[arg(long, value_name = "DEG", default_value = "1", allow_negative_numbers = true)]
     angle: String,
     /// Cut moves by spacing and angle alone, as document 002 does
     #[arg(long)]
@@ -84,12 +84,15 @@ pub struct ProgramArguments {
     #[arg(long, conflicts_with = "by_count")]
     no_densify: bool,
     /// How far corners may be rounded where the program does not say it, mm
-    #[arg(long, value_name = "MM", default_value = "0.01")]
+    #[arg(long, value_name = "MM", default_value = "0.01", allow_negative_numbers = true)]
     rounding: String,
     /// Time each block by the three phases of document 002, with this mean acceleration, mm/s^2,
     /// and exact stop, instead of looking ahead within the limits of the axes
-    #[arg(long, value_name = "MM_PER_S2")]
+    #[arg(long, value_name = "MM_PER_S2", allow_negative_numbers = true)]
     three_phase: Option<String>,
+    /// Backward jumps and calls before the program counts as endless
+    #[arg(long, value_name = "N", default_value = "1000000")]
+    most_jumps: u64,
     /// With --three-phase: the velocity changes smoothly
     #[arg(long, requires = "three_phase")]
     smooth: bool,
@@ -169,11 +172,12 @@ impl ProgramArguments {
             _ => Densify::Tolerance { chord_mm, angle_rad, spacing_mm },
         };
         let acceleration = self.three_phase.as_ref().map(|text| read("--three-phase", text));
+        let most_jumps = self.most_jumps;
         let timing = match acceleration {
             None => Timing::LookAhead,
             Some(a) => Timing::ThreePhase { acceleration: a?, smooth: self.smooth },
         };
-        Some(Options { densify, rounding_mm: rounding_mm?, timing, keep_going })
+        Some(Options { densify, rounding_mm: rounding_mm?, timing, most_jumps, keep_going })
     }
 }
 
@@ -217,14 +221,18 @@ impl Arguments {
         if let Some(bodies) = &self.bodies {
             may_write(bodies, &BODIES, problems);
         }
-        if self.no_report {
-            return;
+        if !self.no_report {
+            may_write(&self.report, &REPORT, problems);
         }
-        may_write(&self.report, &REPORT, problems);
-        if self.path.as_ref() == Some(&self.report) {
-            let place = Place::whole(&self.report.display().to_string());
-            let message = "is named for the path and for the report".to_owned();
-            problems.error("one-file-twice", place, message, "name two files");
+        let report = Some(&self.report).filter(|_| !self.no_report);
+        let named = [self.path.as_ref(), self.bodies.as_ref(), report];
+        let named: Vec<&PathBuf> = named.into_iter().flatten().collect();
+        for (i, one) in named.iter().enumerate() {
+            if named[..i].iter().any(|other| same_place(one, other)) {
+                let place = Place::whole(&one.display().to_string());
+                let message = "is named for two outputs".to_owned();
+                problems.error("one-file-twice", place, message, "name a file for each");
+            }
         }
     }
 
@@ -319,6 +327,15 @@ impl Arguments {
         let bodies = bodies.and_then(|b| b.map_or(Ok(()), |b| b.finish().map(drop)));
         (found, written.and(bodies))
     }
+}
+
+/// Whether two names stand for one file.
+fn same_place(one: &Path, other: &Path) -> bool {
+    let place = |path: &Path| {
+        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        Some((folder.canonicalize().ok()?, path.file_name()?.to_owned()))
+    };
+    one == other || place(one).is_some_and(|p| Some(p) == place(other))
 }
 
 fn unwritable(path: &Path, error: &std::io::Error) -> Outcome {

@@ -3,6 +3,7 @@
 use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 use trueaxis_geometry::input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_machine::file::Tables;
@@ -124,6 +125,9 @@ impl Part {
         let hidden = format!(".trueaxis-{}-{}.part", std::process::id(), name.display());
         let part = place.with_file_name(hidden);
         let file = fs::File::create(&part)?;
+        if let Ok(mut parts) = PARTS.lock() {
+            parts.push(part.clone());
+        }
         Ok(Self { place: place.to_owned(), part, file })
     }
 
@@ -146,6 +150,21 @@ impl Drop for Part {
     fn drop(&mut self) {
         // In its place it has another name; otherwise nothing half-written shall stay.
         let _ = fs::remove_file(&self.part);
+        if let Ok(mut parts) = PARTS.lock() {
+            parts.retain(|part| *part != self.part);
+        }
+    }
+}
+
+/// The parts that are being written.
+static PARTS: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// Removes whatever is half written; for a program that is told to end at once.
+pub fn remove_parts() {
+    if let Ok(parts) = PARTS.lock() {
+        for part in parts.iter() {
+            let _ = fs::remove_file(part);
+        }
     }
 }
 

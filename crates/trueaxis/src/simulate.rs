@@ -54,7 +54,7 @@ use trueaxis_machine::axis::Command;
 use trueaxis_machine::batch::CompiledMachine;
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::moves::Step;
-use trueaxis_nc::{Program, interpret};
+use trueaxis_nc::{Program, Settings, interpret};
 
 /// Takes what the simulation finds, stretch by stretch, in constant memory.
 pub trait Observer {
@@ -74,6 +74,8 @@ pub struct Options {
     pub rounding_mm: f64,
     /// How time runs.
     pub timing: Timing,
+    /// Backward jumps and calls before the program counts as endless.
+    pub most_jumps: u64,
     /// List errors and go on behind them.
     pub keep_going: bool,
 }
@@ -84,6 +86,7 @@ impl Default for Options {
             densify: Densify::default(),
             rounding_mm: 0.01,
             timing: Timing::default(),
+            most_jumps: Settings::default().most_jumps,
             keep_going: false,
         }
     }
@@ -111,8 +114,10 @@ pub fn simulate(
 ) -> Run {
     let machine = setup.mounted(machine);
     let control = TipControl::of(&machine);
-    let folder = Folder::beside(Path::new(program.file()), control.as_ref());
-    let settings = setup.settings(options.keep_going);
+    let turn = basic::turn_to_workpiece(&machine, setup);
+    let folder = Folder::beside(Path::new(program.file()), control.as_ref(), turn);
+    let settings =
+        Settings { most_jumps: options.most_jumps, ..setup.settings(options.keep_going) };
     let mut walk = Walk::new(&machine, setup, options, observers);
     let outcome = interpret(program, &folder, &settings, &mut |step| walk.take(&step));
     let faults = walk.finish();
@@ -151,7 +156,10 @@ fn place(program: &Program, programs: &[String], fault: &Fault) -> Place {
     place.line = fault.origin.line as usize;
     place.column = 1;
     if let (0, Some(word)) = (index, fault.word) {
-        let line = program.source().split(|b| *b == b'\n').nth(fault.origin.line as usize - 1);
+        let line = program
+            .source()
+            .split(|b| *b == b'\n')
+            .nth((fault.origin.line as usize).wrapping_sub(1));
         let at = line.and_then(|l| l.iter().position(|b| b.eq_ignore_ascii_case(&word)));
         place.column = at.map_or(1, |at| at + 1);
     }
@@ -160,18 +168,8 @@ fn place(program: &Program, programs: &[String], fault: &Fault) -> Place {
 
 /// The way of each step through path, clock and poses.
 struct Walk<'w, 'o> {
-    machine: &'w Machine,
-    setup: &'w SetUp,
     path: AxisPath<'w>,
-    clock: Clock,
-    tool_path: ToolPath,
-    tool: u32,
-    /// Where the axes are.
-    at: Command,
-    nodes: Vec<Node>,
-    stamps: Vec<Stamp>,
-    observers: &'w mut [&'o mut dyn Observer],
-    faults: Vec<Fault>,
+    stretch: Stretch<'w, 'o>,
     keep_going: bool,
 }
 
@@ -184,66 +182,86 @@ impl<'w, 'o> Walk<'w, 'o> {
     ) -> Self {
         let path = AxisPath::new(machine, setup, options.densify, options.rounding_mm);
         let start = *path.command();
-        Self {
+        let stretch = Stretch {
             machine,
             setup,
-            path,
             clock: Clock::new(machine, start, options.timing),
             tool_path: ToolPath::new(CompiledMachine::new(machine), start),
             tool: 0,
             at: start,
-            nodes: Vec::with_capacity(2 * BATCH),
-            stamps: Vec::with_capacity(2 * BATCH),
+            // Where the axes stand before the program.
+            nodes: vec![path.start()],
+            stamps: vec![Stamp::default()],
             observers,
             faults: Vec::new(),
-            keep_going: options.keep_going,
-        }
+        };
+        Self { path, stretch, keep_going: options.keep_going }
     }
 
     fn take(&mut self, step: &Step) {
-        if self.stopped() {
+        let sound = self.path.faults.is_empty() && self.stretch.faults.is_empty();
+        // Without `keep_going` the first fault ends the simulation.
+        if !(self.keep_going || sound) {
             return;
         }
-        self.observers.iter_mut().for_each(|o| o.step(step));
-        let (nodes, stamps, clock) = (&mut self.nodes, &mut self.stamps, &mut self.clock);
-        let (faults, at) = (&mut self.faults, &mut self.at);
-        let mut tool = None;
-        self.path.take(step, &mut |step| match step {
-            PathStep::Node(node) if node.command == *at && node.dwell_s == 0.0 => {}
-            PathStep::Node(node) => match clock.push(&node, &mut |stamp| stamps.push(stamp)) {
-                Ok(()) => {
-                    *at = node.command;
-                    nodes.push(node);
+        let stretch = &mut self.stretch;
+        stretch.observers.iter_mut().for_each(|o| o.step(step));
+        self.path.take(step, &mut |step| stretch.take(step));
+    }
+
+    fn finish(mut self) -> Vec<Fault> {
+        self.stretch.rest();
+        let mut faults = self.path.faults;
+        faults.append(&mut self.stretch.faults);
+        faults
+    }
+}
+
+/// The stretch of the path that waits for its times and poses.
+struct Stretch<'w, 'o> {
+    machine: &'w Machine,
+    setup: &'w SetUp,
+    clock: Clock,
+    tool_path: ToolPath,
+    tool: u32,
+    /// Where the axes are.
+    at: Command,
+    nodes: Vec<Node>,
+    stamps: Vec<Stamp>,
+    observers: &'w mut [&'o mut dyn Observer],
+    faults: Vec<Fault>,
+}
+
+impl Stretch<'_, '_> {
+    fn take(&mut self, step: PathStep) {
+        match step {
+            PathStep::Node(node) if node.command == self.at && node.dwell_s == 0.0 => {}
+            PathStep::Node(node) => {
+                let stamps = &mut self.stamps;
+                match self.clock.push(&node, &mut |stamp| stamps.push(stamp)) {
+                    Ok(()) => {
+                        self.at = node.command;
+                        self.nodes.push(node);
+                    }
+                    Err(error) => self.faults.push(Fault::untimed(&node, &error)),
                 }
-                Err(error) => faults.push(Fault::untimed(&node, &error)),
-            },
-            PathStep::Tool(number) => tool = Some(number),
-        });
-        if self.stamps.len() >= BATCH {
-            self.evaluate(BATCH);
-        }
-        if let Some(number) = tool {
-            self.change_tool(number);
+                if self.stamps.len() >= BATCH {
+                    self.evaluate();
+                }
+            }
+            PathStep::Tool(number) => self.change_tool(number),
         }
     }
 
-    /// Without `keep_going` the first fault ends the simulation.
-    fn stopped(&self) -> bool {
-        let sound = self.path.faults.is_empty() && self.faults.is_empty();
-        !(self.keep_going || sound)
-    }
-
-    fn evaluate(&mut self, most: usize) {
+    /// Everything that has its time, in batches.
+    fn evaluate(&mut self) {
         while !self.stamps.is_empty() {
-            let count = self.stamps.len().min(most);
+            let count = self.stamps.len().min(BATCH);
             let (nodes, stamps) = (&self.nodes[..count], &self.stamps[..count]);
             let batch = self.tool_path.evaluate(self.tool, nodes, stamps, &mut self.faults);
             self.observers.iter_mut().for_each(|o| o.path(&batch));
             self.nodes.drain(..count);
             self.stamps.drain(..count);
-            if self.stamps.len() < most {
-                break;
-            }
         }
     }
 
@@ -260,14 +278,6 @@ impl<'w, 'o> Walk<'w, 'o> {
     fn rest(&mut self) {
         let stamps = &mut self.stamps;
         self.clock.finish(&mut |stamp| stamps.push(stamp));
-        self.evaluate(BATCH);
-        self.evaluate(BATCH);
-    }
-
-    fn finish(mut self) -> Vec<Fault> {
-        self.rest();
-        let mut faults = self.path.faults;
-        faults.append(&mut self.faults);
-        faults
+        self.evaluate();
     }
 }

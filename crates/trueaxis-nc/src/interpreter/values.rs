@@ -78,8 +78,13 @@ impl Run<'_> {
             if allowed {
                 return Ok(value);
             }
-            let message = format!("{function:?} has no value at {x}");
-            Err(fault("out-of-domain", at, message.to_uppercase(), "check the argument"))
+            let name = format!("{function:?}").to_uppercase();
+            Err(fault(
+                "out-of-domain",
+                at,
+                format!("{name} has no value at {x}"),
+                "check the argument",
+            ))
         };
         let result = match function {
             Function::Abs => x.abs(),

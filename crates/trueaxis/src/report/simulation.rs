@@ -147,7 +147,10 @@ fn write_text(s: &Simulation<'_>, out: &mut String) -> std::fmt::Result {
             fixed(high.z, 3)
         )?;
     }
-    writeln!(out, "\n  axis        lowest      highest         travel        fastest   reversals")?;
+    writeln!(
+        out,
+        "\n  axis        lowest      highest         travel          fastest    reversals"
+    )?;
     for (i, axis) in summary.axes.iter().enumerate() {
         if axis.lowest > axis.highest {
             continue;
@@ -161,13 +164,14 @@ fn write_text(s: &Simulation<'_>, out: &mut String) -> std::fmt::Result {
         };
         writeln!(
             out,
-            "  {:<4} {:>12} {:>12} {:>3} {:>16} {:>10.2}/s {:>8}",
+            "  {:<4} {:>12} {:>12} {:>3} {:>16} {:>10.2} {:>3}/s {:>8}",
             machine.axes()[i].name.to_string(),
             fixed(shown(machine, i, axis.lowest), 3),
             fixed(shown(machine, i, axis.highest), 3),
             unit(machine, i),
             limits,
             shown(machine, i, axis.fastest.value.abs()),
+            unit(machine, i),
             axis.reversals
         )?;
     }

@@ -17,7 +17,7 @@ use super::basic::{start, workpiece_from_basic};
 use super::curve::Curve;
 use super::densify::{Densify, MOST_PIECES};
 use super::setup::SetUp;
-use fault::fault;
+use fault::{fault, too_many_pieces};
 use trueaxis_geometry::frame::{Direction, Workpiece};
 use trueaxis_geometry::{Mat3, Vec3};
 use trueaxis_machine::Machine;
@@ -96,8 +96,13 @@ pub(super) struct AxisPath<'m> {
     stale: AxisSet,
     /// In which direction the tool axis turned last.
     tangent: Option<Vec3>,
+    /// Pieces of the present move so far.
+    pieces: u32,
     pub faults: Vec<Fault>,
 }
+
+/// More faults say nothing new.
+const MOST_FAULTS: usize = 100;
 
 impl<'m> AxisPath<'m> {
     pub fn new(machine: &'m Machine, setup: &SetUp, densify: Densify, rounding_mm: f64) -> Self {
@@ -129,11 +134,27 @@ impl<'m> AxisPath<'m> {
             basic: Vec3::zeros(),
             stale: AxisSet::default(),
             tangent: None,
+            pieces: 0,
             faults: Vec::new(),
         };
         path.find_basic();
         path.stale = AxisSet::XYZ;
         path
+    }
+
+    /// The place before the program.
+    pub fn start(&self) -> Node {
+        Node {
+            command: self.command,
+            origin: Origin::default(),
+            length: 0.0,
+            speed: f64::INFINITY,
+            last: false,
+            stop: true,
+            rounding_mm: 0.0,
+            dwell_s: 0.0,
+            tip_programmed: false,
+        }
     }
 
     /// Where the axes stand.
@@ -154,7 +175,10 @@ impl<'m> AxisPath<'m> {
     pub fn take(&mut self, step: &Step, out: &mut dyn FnMut(PathStep)) {
         match step {
             Step::Move(m) => {
-                if let Err(fault) = self.move_by(m, out) {
+                self.pieces = 0;
+                if let Err(fault) = self.move_by(m, out)
+                    && self.faults.len() < MOST_FAULTS
+                {
                     self.faults.push(fault);
                 }
             }
@@ -169,6 +193,10 @@ impl<'m> AxisPath<'m> {
                 self.tool = Vec3::new(length.0[0], length.0[1], length.0[2]);
                 self.fit_tip();
                 self.find_basic();
+                if self.follows_tip() {
+                    // The axes stay; where the tip is now depends on how the tool leans.
+                    self.stale = AxisSet::XYZ;
+                }
             }
             Event::ToolChange(number) => out(PathStep::Tool(*number)),
             Event::ToolCentre(on) => {
@@ -373,11 +401,18 @@ impl<'m> AxisPath<'m> {
         if let (Curve::Helix { .. }, Some(chord_mm)) = (curve, self.densify.circle_chord_mm()) {
             count = count.max(super::densify::pieces(curve.chords(chord_mm)));
         }
-        if count.is_finite() && length_mm.is_finite() && turned.is_finite() {
-            return Ok(count.min(MOST_PIECES) as u32);
+        if length_mm.is_finite() && turned.is_finite() {
+            return self.bounded(m, count);
         }
         let message = "the move leads to no finite place".to_owned();
         Err(fault(m, None, "not-finite", message, "check offsets, scale and coordinates"))
+    }
+
+    fn bounded(&self, m: &Move, count: f64) -> Result<u32, Fault> {
+        match count {
+            count if count.is_nan() || count >= MOST_PIECES => Err(too_many_pieces(m)),
+            count => Ok(count.max(1.0) as u32),
+        }
     }
 
     /// √Σ Δq² of the rotary axes.

@@ -48,16 +48,17 @@ pub(super) fn workpiece_from_basic(
     let Some(control) = TipControl::of(&machine.clone().with_tip(Vec3::zeros())) else {
         return (Mat3::identity(), Vec3::zeros());
     };
-    let at = |i: Option<usize>| {
+    let at = |i: usize, q: f64| {
         let mut command = Command::default();
-        if let Some(axis) = i.and_then(|i| axis_of[i]) {
-            command[axis] = 1.0;
+        if let Some(axis) = axis_of[i] {
+            command[axis] = q;
         }
         control.tip_and_axis(&command).0
     };
-    let zero = at(None);
-    let columns = [0, 1, 2].map(|i| at(Some(i)) - zero);
-    (Mat3::from_columns(&columns), zero)
+    // The way is long so that the offsets of the machine do not cost digits of the direction.
+    const FAR_MM: f64 = 1_048_576.0;
+    let columns = [0, 1, 2].map(|i| (at(i, FAR_MM) - at(i, -FAR_MM)) / (2.0 * FAR_MM));
+    (Mat3::from_columns(&columns), at(0, 0.0))
 }
 
 /// Where the axes stand before the program: as the set-up says, else at zero or the end of the
@@ -116,4 +117,15 @@ pub(super) fn mount(machine: &Machine, frame: &Frame) -> Machine {
     // The workpiece is the first body of the chain; what stands fixed on it is its mounting.
     let body = &machine.bodies()[0];
     machine.clone().with_workpiece(body.placement, body.mounting * there)
+}
+
+/// From directions of the basic frame to those of the workpiece frame.
+pub(super) fn turn_to_workpiece(machine: &Machine, setup: &SetUp) -> Mat3 {
+    let letters = Axis::ALL.map(|a| char::from(a.letter()));
+    let axis_of =
+        letters.map(|letter| machine.axes().iter().position(|a| a.name.letter() == letter));
+    match setup.given {
+        true => workpiece_from_basic(machine, &axis_of).0,
+        false => Mat3::identity(),
+    }
 }

@@ -163,9 +163,14 @@ impl Clock {
         let block = Block { length, feed, acceleration, start: 0.0, end: 0.0, shape };
         let phases = block.phases();
         let mut done = 0.0;
-        for node in &nodes {
+        for (i, node) in nodes.iter().enumerate() {
             done += node.length;
-            let time = phases.as_ref().map_or(0.0, |p: &ThreePhases| p.time_at_s(done));
+            let time = |p: &ThreePhases| match i + 1 == nodes.len() {
+                // The inverse of s(t) is flat at the end.
+                true => p.duration_s(),
+                false => p.time_at_s(done),
+            };
+            let time = phases.as_ref().map_or(0.0, time);
             let speed = phases.as_ref().map_or(0.0, |p| p.top);
             out(Stamp { time_s: self.now_s + time, speed, held_by: None });
         }

@@ -5,6 +5,7 @@ use super::setup::{CONTROLS, SetUp};
 use crate::files;
 use std::path::{Path, PathBuf};
 use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_geometry::{Mat3, Vec3};
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::moves::{Branch, Position};
 use trueaxis_nc::{Control, Library, Program};
@@ -17,8 +18,18 @@ pub fn read_program(
     setup: &SetUp,
     problems: &mut Diagnostics,
 ) -> Option<Program> {
-    let bytes = files::bytes(path, "an NC program", problems)?;
+    let mut bytes = files::bytes(path, "an NC program", problems)?;
     let file = path.display().to_string();
+    if bytes.starts_with(b"\xEF\xBB\xBF") {
+        // Editors put this mark before UTF-8 text; no control reads it.
+        bytes.drain(..3);
+    }
+    if bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF") {
+        let message = "the program is UTF-16 text".to_owned();
+        let hint = "save it as plain text (ASCII, Latin-1 or UTF-8)";
+        problems.error("utf-16", Place::whole(&file), message, hint);
+        return None;
+    }
     if bytes.iter().all(u8::is_ascii_whitespace) {
         let message = "the program is empty".to_owned();
         problems.error("empty-program", Place::whole(&file), message, "an NC program is due here");
@@ -69,11 +80,13 @@ fn sniff(bytes: &[u8]) -> Option<Control> {
 pub(super) struct Folder<'m> {
     path: PathBuf,
     control: Option<&'m TipControl>,
+    /// From the directions of the basic frame to those of the workpiece.
+    turn: Mat3,
 }
 
 impl<'m> Folder<'m> {
-    pub fn beside(program: &Path, control: Option<&'m TipControl>) -> Self {
-        Self { path: program.parent().unwrap_or(Path::new("")).to_owned(), control }
+    pub fn beside(program: &Path, control: Option<&'m TipControl>, turn: Mat3) -> Self {
+        Self { path: program.parent().unwrap_or(Path::new("")).to_owned(), control, turn }
     }
 
     /// The file of a subprogram: the name as it is, in upper and lower case, with the usual
@@ -106,6 +119,7 @@ impl Library for Folder<'_> {
         branch: Branch,
         now: &Position,
     ) -> Option<[f64; 3]> {
+        let direction = (self.turn * Vec3::from(direction)).into();
         rotary_angles(self.control?, direction, branch, now)
     }
 }

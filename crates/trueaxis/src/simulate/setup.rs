@@ -337,6 +337,10 @@ fn read_tool(section: &Section<'_>, machine: &Machine) -> Option<SetUpTool> {
         section.error("missing-value", message, "length = \"100 mm\", or assembly, or tip");
     }
     tool.diameter_mm = section.quantity("diameter", Dimension::Length).or(tool.diameter_mm);
+    if tool.diameter_mm.is_some_and(|d| d <= 0.0) || length.is_some_and(|l| l < 0.0) {
+        let message = "a tool has a positive diameter and no negative length".to_owned();
+        section.error("bad-tool", message, "length = \"100 mm\", diameter = \"10 mm\"");
+    }
     let corner = section.quantity("corner_radius", Dimension::Length);
     tool.corner_radius_mm = corner.unwrap_or(tool.corner_radius_mm);
     if let Some(shape) = read_tool_shape(section) {

@@ -102,7 +102,8 @@ pub struct Summary {
     sum_squares: f64,
     feed_nodes: u64,
     before: Option<Before>,
-    directions: Command,
+    rotary: Vec<bool>,
+    turning: Vec<Turning>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -110,6 +111,53 @@ struct Before {
     command: Command,
     tip: Vec3,
     time_s: f64,
+}
+
+/// A wiggle below this is rounding of the program, not a reversal: 1 µm, 0.001°.
+fn band(rotary: bool) -> f64 {
+    if rotary { 1e-3_f64.to_radians() } else { 1e-3 }
+}
+
+/// Follows an axis to find where it really turns back.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Turning {
+    /// +1 rising, −1 falling, 0 not moved yet.
+    direction: f64,
+    /// The farthest place in that direction, and when and where it was.
+    farthest: f64,
+    origin: Origin,
+    time_s: f64,
+}
+
+impl Turning {
+    fn begin(at: f64) -> Self {
+        Self { farthest: at, ..Self::default() }
+    }
+
+    /// Goes on to `q`; calls back if the axis has turned by more than `band`.
+    fn go(
+        &mut self,
+        q: f64,
+        band: f64,
+        found: impl FnOnce(f64, Origin, f64),
+        origin: Origin,
+        time_s: f64,
+    ) {
+        let ahead = (q - self.farthest) * self.direction;
+        if self.direction != 0.0 && ahead <= 0.0 && -ahead <= band {
+            return;
+        }
+        if self.direction == 0.0 {
+            if (q - self.farthest).abs() <= band {
+                return;
+            }
+            self.direction = (q - self.farthest).signum();
+        } else if ahead < 0.0 {
+            found(self.farthest, self.origin, self.time_s);
+            self.direction = -self.direction;
+        }
+        (self.farthest, self.origin, self.time_s) = (q, origin, time_s);
+    }
 }
 
 /// Messages that are kept.
@@ -148,7 +196,8 @@ impl Summary {
             sum_squares: 0.0,
             feed_nodes: 0,
             before: None,
-            directions: Command::default(),
+            rotary: machine.axes().iter().map(|a| a.kind == AxisKind::Rotary).collect(),
+            turning: vec![Turning::default(); machine.axes().len()],
         }
     }
 
@@ -156,21 +205,24 @@ impl Summary {
         for (i, axis) in self.axes.iter_mut().enumerate() {
             let q = node.command[i];
             (axis.lowest, axis.highest) = (axis.lowest.min(q), axis.highest.max(q));
-            let Some(before) = &self.before else { continue };
+            let Some(before) = &self.before else {
+                self.turning[i] = Turning::begin(q);
+                continue;
+            };
             let by = q - before.command[i];
             axis.travelled += by.abs();
-            if by != 0.0 {
-                let direction = by.signum();
-                if self.directions[i] == -direction {
+            self.turning[i].go(
+                q,
+                band(self.rotary[i]),
+                |at, origin, time_s| {
                     axis.reversals += 1;
                     if self.reversals.len() < MOST_REVERSALS {
-                        let (at, origin) = (before.command[i], node.origin);
-                        let time_s = before.time_s;
                         self.reversals.push(Reversal { axis: i, at, origin, time_s });
                     }
-                }
-                self.directions[i] = direction;
-            }
+                },
+                node.origin,
+                time_s,
+            );
             if time_s > before.time_s {
                 axis.fastest.see(by / (time_s - before.time_s), node.origin, time_s);
             }
@@ -201,6 +253,7 @@ impl Observer for Summary {
             let (origin, time_s) = (node.origin, stamp.time_s);
             self.see_axes(node, time_s);
             self.see_way(node, tip, time_s);
+            let before = self.before.map_or(tip, |b| b.tip);
             self.before = Some(Before { command: node.command, tip, time_s });
             let (off_mm, off_rad) = (deviation.tip_mm.norm(), deviation.axis.norm());
             self.tip.see(off_mm, origin, time_s);
@@ -221,7 +274,7 @@ impl Observer for Summary {
             self.feed_nodes += 1;
             self.sum_squares += off_mm * off_mm;
             let [low, high] = self.cut_box_mm.get_or_insert([tip, tip]);
-            (*low, *high) = (low.inf(&tip), high.sup(&tip));
+            (*low, *high) = (low.inf(&tip).inf(&before), high.sup(&tip).sup(&before));
         }
         if self.feed_nodes > 0 {
             self.feed_tip_rms_mm = (self.sum_squares / self.feed_nodes as f64).sqrt();

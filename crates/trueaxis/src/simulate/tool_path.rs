@@ -3,10 +3,9 @@
 use super::axis_path::{Fault, Node};
 use super::clock::Stamp;
 use trueaxis_geometry::Vec3;
-use trueaxis_machine::Deviation;
-use trueaxis_machine::axis::{Approach, Command, MAX_AXES};
+use trueaxis_machine::axis::{Approach, Command, MAX_AXES, Travel};
 use trueaxis_machine::batch::{BatchError, Commands, CompiledMachine, DeviationTable};
-use trueaxis_machine::errors::ErrorValues;
+use trueaxis_machine::{Deviation, Machine};
 
 /// Nodes that are worked on together.
 pub(super) const BATCH: usize = 4096;
@@ -122,11 +121,17 @@ impl ToolPath {
             let Err(error) = self.machine.deviations(&commands, &mut rest) else { return };
             let Some(index) = error.index() else { return };
             let node = &nodes[from + index];
-            let nominal = self.machine.machine().deviation(&node.command, &ErrorValues::default());
-            rest.set(index, &nominal);
-            if faults.len() < 100 {
+            let machine = self.machine.machine();
+            let inside = within_travel(machine, &node.command);
+            let approach = std::array::from_fn(|a| {
+                self.approaches[a].get(from + index).copied().unwrap_or(0.0)
+            });
+            // Beyond the travel, which is told as trouble, the errors of its end hold on.
+            let errors = machine.errors_at(&inside, &approach);
+            if (errors.is_err() || inside == node.command) && faults.len() < 100 {
                 faults.push(unknown(node, &error));
             }
+            rest.set(index, &machine.deviation(&node.command, &errors.unwrap_or_default()));
             from += index + 1;
         }
     }
@@ -163,13 +168,29 @@ pub(super) fn path_frame(tangent: Vec3, axis: Vec3) -> [Vec3; 3] {
     [tangent, normal, tangent.cross(&normal)]
 }
 
+/// The nearest command within the travel.
+fn within_travel(machine: &Machine, command: &Command) -> Command {
+    let mut inside = *command;
+    for (q, axis) in inside.iter_mut().zip(machine.axes()) {
+        if let Travel::Between(low, high) = axis.travel {
+            *q = q.clamp(low, high);
+        }
+    }
+    inside
+}
+
 fn unknown(node: &Node, error: &BatchError) -> Fault {
     Fault {
         origin: node.origin,
         word: None,
         code: "unknown-errors",
-        message: format!("the machine file has no errors here: {error}"),
-        hint: "keep within the travel, or say outside = \"clamp\" for the table",
+        message: match error {
+            BatchError::Refused { source, .. } => {
+                format!("the error tables of the machine end before this place: {source}")
+            }
+            other => other.to_string(),
+        },
+        hint: "cover the travel by the table, or say outside = \"clamp\" for it",
     }
 }
 

@@ -67,7 +67,7 @@ impl AxisPath<'_> {
             return Ok(());
         }
         let turned = self.rotary_way(&begin, &end);
-        let pieces = self.densify.count(0.0, turned).max(1.0) as u32;
+        let pieces = self.bounded(m, self.densify.count(0.0, turned))?;
         for k in 1..=pieces {
             let u = fraction(k, pieces);
             let mut command = std::array::from_fn(|i| begin[i] + (end[i] - begin[i]) * u);
@@ -99,15 +99,15 @@ impl AxisPath<'_> {
         let length_mm = (self.linear_axes(&end) - self.linear_axes(&begin)).norm();
         let turned = self.rotary_way(&begin, &end);
         let length = path_length(length_mm, turned);
-        let pieces = self.densify.count(length_mm, turned) as u32;
+        let pieces = self.bounded(m, self.densify.count(length_mm, turned))?;
         let speed = feed.along(length);
-        for k in 1..=pieces.max(1) {
-            let u = fraction(k, pieces.max(1));
+        for k in 1..=pieces {
+            let u = fraction(k, pieces);
             self.command = std::array::from_fn(|i| {
                 if u == 1.0 { end[i] } else { begin[i] + (end[i] - begin[i]) * u }
             });
-            let part = length / f64::from(pieces.max(1));
-            out(self.next(m, part, speed, k == pieces.max(1)));
+            let part = length / f64::from(pieces);
+            out(self.next(m, part, speed, k == pieces));
         }
         self.reread();
         Ok(())

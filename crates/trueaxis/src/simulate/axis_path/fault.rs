@@ -1,4 +1,5 @@
 use super::Node;
+use crate::simulate::densify::MOST_PIECES;
 use crate::simulate::timing::TimingError;
 use trueaxis_machine::SolveError;
 use trueaxis_nc::moves::{Move, Origin};
@@ -44,4 +45,11 @@ pub(super) fn fault(
 pub(super) fn unreachable(m: &Move, error: &SolveError) -> Fault {
     let hint = "tilt the part or the tool, or take a machine whose rotary axes reach it";
     fault(m, None, "unreachable-orientation", error.to_string(), hint)
+}
+
+/// No move needs so many pieces.
+pub(super) fn too_many_pieces(m: &Move) -> Fault {
+    let message = format!("the move would be cut into more than {MOST_PIECES} pieces");
+    let hint = "is a unit or a turn wrong? or allow larger pieces: --spacing, --angle, --chord";
+    fault(m, None, "too-many-pieces", message, hint)
 }

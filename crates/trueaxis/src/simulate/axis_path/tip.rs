@@ -1,10 +1,10 @@
 //! Moves of the tip, with tool-centre point or in a swivelled plane.
 
-use super::fault::{fault, unreachable};
+use super::fault::{fault, too_many_pieces, unreachable};
 use super::{AxisPath, Fault, PathStep, Speed, fraction, path_length};
 use crate::simulate::basic::nearest;
 use crate::simulate::curve::Curve;
-use crate::simulate::densify::Densify;
+use crate::simulate::densify::{Densify, MOST_PIECES};
 use crate::simulate::orientation::{NoSwing, Swing};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::Direction;
@@ -79,8 +79,7 @@ impl AxisPath<'_> {
             speed: feed.along(length),
         };
         for k in 1..=pieces {
-            self.advance(&way, fraction(k - 1, pieces), fraction(k, pieces), 0, out)
-                .map_err(|error| unreachable(m, &error))?;
+            self.advance(&way, fraction(k - 1, pieces), fraction(k, pieces), 0, out)?;
         }
         if let Turning::Swing(swing, _) = &turning {
             self.tangent = swing.end_tangent();
@@ -100,12 +99,17 @@ impl AxisPath<'_> {
         u1: f64,
         halvings: u32,
         out: &mut dyn FnMut(PathStep),
-    ) -> Result<(), SolveError> {
-        let (basic, command) = self.tip_pose(way, u1)?;
+    ) -> Result<(), Fault> {
+        let pose = self.tip_pose(way, u1);
+        let (basic, command) = pose.map_err(|error| unreachable(way.m, &error))?;
         if halvings < MOST_HALVINGS && self.is_too_coarse(way, 0.5 * (u0 + u1), &command) {
             let middle = 0.5 * (u0 + u1);
             self.advance(way, u0, middle, halvings + 1, out)?;
             return self.advance(way, middle, u1, halvings + 1, out);
+        }
+        self.pieces += 1;
+        if f64::from(self.pieces) > MOST_PIECES {
+            return Err(too_many_pieces(way.m));
         }
         (self.basic, self.command) = (basic, command);
         out(self.next(way.m, way.length * (u1 - u0), way.speed, u1 == 1.0));
