@@ -264,3 +264,82 @@ fn oracle_simple_curve_meets_its_cutter_locations() {
     // DIFFERENCE: the program of others smooths or clips its angles; some normals point down.
     assert!(off_deg[met / 2] > 0.1 && off_deg[met - 1] > 90.0);
 }
+
+#[test]
+fn the_way_begins_where_the_axes_stand() {
+    let machine = machine(GANTRY);
+    let text = b"G21 G90\nG1 X100. F1000.\nM30\n".to_vec();
+    let program = Program::new("program", text, Control::Fanuc);
+    let mut summary = trueaxis::simulate::Summary::of(&machine);
+    simulate(&machine, &program, &SetUp::default(), &undivided(), &mut [&mut summary]);
+    assert_eq!(summary.feed_mm, 100.0);
+    let x = machine.axes().iter().position(|a| a.name.letter() == 'X').unwrap();
+    assert_eq!((summary.axes[x].lowest, summary.axes[x].highest), (0.0, 100.0));
+}
+
+#[test]
+fn a_move_of_a_million_turns_is_refused_not_stored() {
+    let text = b"G43.4 H1\nG1 X10. C1000000000. F1000.\nM30\n".to_vec();
+    let (nodes, run) = walk(&machine(TABLE), Control::Fanuc, text, &Options::default());
+    assert_eq!(run.problems.iter().filter(|d| d.code == "too-many-pieces").count(), 1);
+    assert!(nodes.tips.len() < 10);
+}
+
+/// A machine whose workpiece frame is turned, with a set-up.
+fn turned_head() -> (Machine, SetUp) {
+    let machine = machine(
+        "[machine]\nname = \"turned\"\nchain = \"w C' b X Y Z B t\"\n\
+         [axis.C]\ntravel = \"unlimited\"\n\
+         [workpiece]\nplacement = \"20 -10 60 mm\"\nmounting = [\"turn Z 15 deg\"]\n",
+    );
+    let text = "[tool.1]\nlength = \"100 mm\"\n[tool.2]\nlength = \"150 mm\"\n\
+                [work_offset.G54]\nX = \"12 mm\"\nY = \"-7 mm\"\nZ = \"-60 mm\"\n";
+    let (setup, problems) = trueaxis::simulate::parse_setup("setup", text, Path::new(""), &machine);
+    (machine, setup.unwrap_or_else(|| panic!("{problems:?}")))
+}
+
+#[test]
+fn q_parameters_of_a_plane_count_from_the_set_up() {
+    // A+20 tilts the normal to (0, −sin 20°, cos 20°): C = −90°, B = 20°, however the workpiece
+    // frame is turned on the table.
+    let (machine, setup) = turned_head();
+    let text = b"BEGIN PGM Q MM\nCYCL DEF 19.0 WORKING PLANE\nCYCL DEF 19.1 A+20\n\
+                 L C+Q122 B+Q121 F1000\nEND PGM Q MM\n";
+    let program = Program::new("q.h", text.to_vec(), Control::Heidenhain);
+    let mut nodes = Nodes::default();
+    simulate(&machine, &program, &setup, &undivided(), &mut [&mut nodes]);
+    let end = nodes.commands.last().unwrap();
+    let angle = |letter: char| {
+        let i = machine.axes().iter().position(|a| a.name.letter() == letter).unwrap();
+        end[i].to_degrees()
+    };
+    assert!((angle('C') + 90.0).abs() < 1e-9 && (angle('B') - 20.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_tool_change_under_tcp_moves_no_axis() {
+    let (machine, setup) = turned_head();
+    let text = b"G54\nT1 M6\nD1\nTRAORI\nG1 X0 Y0 Z5 B30 C0 F1000\nT2 M6 D1\nG1 X20\nM30\n";
+    let program = Program::new("t.mpf", text.to_vec(), Control::Sinumerik840d);
+    let mut nodes = Nodes::default();
+    simulate(&machine, &program, &setup, &undivided(), &mut [&mut nodes]);
+    let z = machine.axes().iter().position(|a| a.name.letter() == 'Z').unwrap();
+    let at = |line: u32| {
+        let i = nodes.lines.iter().rposition(|l| *l == line).unwrap();
+        nodes.commands[i][z]
+    };
+    assert!((at(7) - at(5)).abs() < 1e-9, "{} {}", at(5), at(7));
+}
+
+#[test]
+fn over_travel_on_a_machine_with_tables_is_trouble_not_an_error() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../machines/xkas2525/machine.toml");
+    let machine = trueaxis::files::machine(path.as_ref()).0.unwrap();
+    let text = b"G1 X100. Y100. Z-100. F1000\nG1 Y-20.\nM30\n".to_vec();
+    let program = Program::new("program", text, Control::Fanuc);
+    let mut watch = trueaxis::simulate::AxisWatch::on(&machine);
+    let options = Options::default();
+    let run = simulate(&machine, &program, &SetUp::default(), &options, &mut [&mut watch]);
+    assert!(!run.problems.has_errors(), "{:?}", run.problems);
+    assert!(trueaxis::simulate::TroubleList::of([watch.log]).is_grave());
+}
