@@ -87,7 +87,7 @@ fn choose_sampling(study: &mut Study, samples: Option<usize>, seed: Option<u64>)
 }
 
 /// Whether a report may be put there: the folder exists, and what stands there is a report.
-fn may_write(path: &Path, problems: &mut Diagnostics) {
+pub fn may_write(path: &Path, problems: &mut Diagnostics) {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let (message, hint) = if path.file_name().is_none() || path.is_dir() {
         ("is a folder, not a file", "name a file in it: --report FOLDER/report.html")

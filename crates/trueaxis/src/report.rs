@@ -1,8 +1,15 @@
-//! A prediction for people and for programs.
+//! Predictions, simulations and evaluations for people and for programs.
 //!
 //! [`text`] is what the terminal shows, [`json`] the document `trueaxis/predict/1`, [`html`] one
 //! page that opens offline.
 
+mod evaluation;
+mod evaluation_circular;
+mod evaluation_html;
+mod evaluation_json;
+mod evaluation_others;
+mod evaluation_plots;
+mod evaluation_positioning;
 mod html;
 mod json;
 mod page;
@@ -10,6 +17,10 @@ mod plots;
 mod simulation;
 mod text;
 
+pub use evaluation::{Evaluation, evaluation_text};
+pub use evaluation_html::evaluation_html;
+pub use evaluation_json::evaluation_json;
+pub use evaluation_plots::PictureError;
 pub use html::html;
 pub use json::json;
 pub use plots::DrawingError;
