@@ -6,6 +6,7 @@
 
 mod arguments;
 mod check;
+mod evaluate;
 mod numbers;
 mod output;
 mod path_file;
@@ -30,6 +31,7 @@ Examples:
   trueaxis solve machines/i5-engraver/machine.toml --tip \"10 20 30\" --axis \"0.3 -0.2 0.93\"
   trueaxis simulate machines/i5-engraver/machine.toml examples/02_simulate/ring-fanuc.nc
   trueaxis predict examples/03_predict/nas979-on-xkas2525.toml
+  trueaxis evaluate iso230-2 examples/07_verify/x-axis-laser.csv --report x.html
 
 Exit status: 0 done, 1 the verdict is no, 2 unusable input or arguments.")]
 struct Command {
@@ -51,6 +53,8 @@ enum Verb {
     Trace(trace::Arguments),
     /// Predict: will the test piece be good, and which error costs how much of it
     Predict(predict::Arguments),
+    /// Verify: readings of instruments by ISO 230: positioning, circles, diagonals, drift, spindles
+    Evaluate(evaluate::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -66,6 +70,7 @@ fn main() -> ExitCode {
         Verb::Simulate(arguments) => simulate::run(&arguments),
         Verb::Trace(arguments) => trace::run(&arguments),
         Verb::Predict(arguments) => predict::run(&arguments),
+        Verb::Evaluate(arguments) => evaluate::run(&arguments),
     };
     match outcome {
         Outcome::Done => ExitCode::SUCCESS,

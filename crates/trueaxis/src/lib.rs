@@ -7,7 +7,8 @@
 //!   deviations, troubles;
 //! - *predict*: [`predict`](mod@predict): is the test piece that this machine cuts within its
 //!   tolerances, how sure is that, and which error is to blame;
-//! - [`report`]: the prediction as text, JSON and one self-contained HTML page.
+//! - *verify*: [`verify`]: readings of instruments evaluated by ISO 230;
+//! - [`report`]: all that as text, JSON and self-contained HTML pages.
 //!
 //! The nouns live in crates of their own and are handed on here: [`geometry`], [`machine`],
 //! [`part`].
@@ -16,6 +17,7 @@ pub mod files;
 pub mod predict;
 pub mod report;
 pub mod simulate;
+pub mod verify;
 
 pub use trueaxis_geometry as geometry;
 pub use trueaxis_machine as machine;

@@ -1,9 +1,16 @@
-//! Predictions and simulations for people and for programs.
+//! Predictions, simulations and evaluations for people and for programs.
 //!
 //! [`text`] is what the terminal shows, [`json`] the document `trueaxis/predict/1`, [`html`] one
 //! page that opens offline; [`simulation_text`], [`simulation_json`] and [`simulation_html`] are the
 //! same for a simulation.
 
+mod evaluation;
+mod evaluation_circular;
+mod evaluation_html;
+mod evaluation_json;
+mod evaluation_others;
+mod evaluation_plots;
+mod evaluation_positioning;
 mod html;
 mod json;
 mod page;
@@ -14,6 +21,10 @@ mod simulation_plots;
 mod simulation_views;
 mod text;
 
+pub use evaluation::{Evaluation, evaluation_text};
+pub use evaluation_html::evaluation_html;
+pub use evaluation_json::evaluation_json;
+pub use evaluation_plots::PictureError;
 pub use html::html;
 pub use json::json;
 pub use plots::DrawingError;

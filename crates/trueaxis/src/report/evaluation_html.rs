@@ -1,0 +1,81 @@
+//! An evaluation as one self-contained page: opens offline, no script, no file from elsewhere.
+
+use super::evaluation::{Block, Evaluation};
+use super::page::STYLE;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+/// The report as the text of an HTML file.
+///
+/// # Errors
+/// What the drawing library says.
+pub fn evaluation_html(
+    evaluation: &Evaluation<'_>,
+) -> Result<String, super::evaluation_plots::PictureError> {
+    let sheets = evaluation.sheets();
+    let mut pictures = Vec::new();
+    for picture in &sheets.pictures {
+        pictures.push((picture.title(), picture.note(), picture.svg()?, picture.is_round()));
+    }
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (evaluation.title()) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                main {
+                    h1 { (evaluation.title()) }
+                    p.soft { (evaluation.standard.title()) }
+                    p.soft { (evaluation.circumstances()) }
+                    @for block in &sheets.figures { (section(block)) }
+                    @for (title, note, svg, round) in &pictures {
+                        section {
+                            h2 { (title) }
+                            @if *round {
+                                div style="max-width:640px;margin:0 auto" { (PreEscaped(svg)) }
+                            } @else { (PreEscaped(svg)) }
+                            @if !note.is_empty() { p.soft { (note) } }
+                        }
+                    }
+                    (remarks(evaluation.remarks))
+                    @for block in &sheets.details { (section(block)) }
+                    p.soft { "made by trueaxis " (crate::VERSION) }
+                }
+            }
+        }
+    };
+    Ok(page.into_string())
+}
+
+fn section(block: &Block) -> Markup {
+    let small = if block.headings.len() > 6 { "small" } else { "" };
+    let side = |i: usize| if block.has_words(i) { "text-align:left" } else { "" };
+    html! {
+        section {
+            h2 { (block.title) }
+            div.scroll { table class=(small) {
+                thead { tr { @for (i, h) in block.headings.iter().enumerate() {
+                    th style=(side(i)) { (h) }
+                } } }
+                tbody { @for row in &block.rows { tr {
+                    @for (i, cell) in row.iter().enumerate() { td style=(side(i)) { (cell) } }
+                } } }
+            } }
+            @if !block.note.is_empty() { p.soft { (block.note) } }
+        }
+    }
+}
+
+fn remarks(remarks: &[String]) -> Markup {
+    html! {
+        @if !remarks.is_empty() {
+            section {
+                h2 { "What to know of these readings" }
+                ul { @for remark in remarks { li { (remark) } } }
+            }
+        }
+    }
+}

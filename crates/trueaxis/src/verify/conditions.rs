@@ -1,0 +1,208 @@
+//! What is known beside the readings: a small TOML file next to the data.
+
+use trueaxis_geometry::Vec3;
+use trueaxis_geometry::input::{Diagnostics, Dimension, Item, Measured, Section, Source};
+
+/// Air and bodies of a machine are within these, °C; what lies outside is another unit.
+pub const SOUND_TEMPERATURES_C: std::ops::RangeInclusive<f64> = -10.0..=60.0;
+
+/// A length or an angle, as the instrument needs it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Extent {
+    /// mm.
+    Length(f64),
+    /// rad; for a length of 1 mm this is the ratio mm/mm.
+    Angle(f64),
+}
+
+/// What is known of the instrument and its set-up, for the measuring uncertainty.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Instrument {
+    /// Expanded uncertainty (k = 2) of its calibration: absolute, or in proportion to the length.
+    pub device_expanded: Option<Extent>,
+    /// Range of the lateral offset of the beam over the measuring length, mm.
+    pub misalignment_range_mm: Option<f64>,
+    /// Coefficient of expansion that the correction used, 1/K, with its standard uncertainty.
+    pub expansion_per_k: Option<Measured>,
+    /// Range of the drift during a test: the environmental variation E_VE.
+    pub eve_range: Option<Extent>,
+}
+
+/// The nominal circle of a circular test.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Circle {
+    /// Centre, mm, in the two axes of the data.
+    pub centre_mm: Option<[f64; 2]>,
+    /// Radius, mm.
+    pub radius_mm: Option<f64>,
+}
+
+/// What is known beside the readings.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Conditions {
+    /// What was measured, in words.
+    pub name: Option<String>,
+    /// The machine, in words.
+    pub machine: Option<String>,
+    /// The axis that was measured.
+    pub axis: Option<String>,
+    /// When.
+    pub date: Option<String>,
+    /// With what.
+    pub instrument_name: Option<String>,
+    /// Temperature of the machine at the scale, °C, with its standard uncertainty.
+    pub temperature_c: Option<Measured>,
+    /// For the measuring uncertainty.
+    pub instrument: Option<Instrument>,
+    /// For circular tests.
+    pub circle: Circle,
+    /// Edges of the volume whose diagonals were measured, mm.
+    pub edges_mm: Option<Vec3>,
+}
+
+impl Conditions {
+    /// Reads a text; what is wrong comes with its place.
+    pub fn read(file: &str, text: &str) -> (Self, Diagnostics) {
+        let source = Source::new(file, text);
+        let conditions = source.read(read_root);
+        (conditions, source.finish())
+    }
+}
+
+fn read_root(root: &Section<'_>) -> Conditions {
+    let text = |key: &str| root.text(key).map(str::to_owned);
+    let temperature = root.get("temperature");
+    let measured = temperature.and_then(|item| item.measured(Dimension::Temperature));
+    if let (Some(item), Some(value)) = (temperature, measured)
+        && let Some(hint) = unsound_temperature(value.value)
+    {
+        let message = format!("{} °C is no temperature of a machine", value.value);
+        item.error("temperature-range", message, &hint);
+    }
+    let edges = root.section("volume", |s| s.get("edges").and_then(|item| lengths::<3>(&item)));
+    Conditions {
+        name: text("name"),
+        machine: text("machine"),
+        axis: text("axis"),
+        date: root.get("date").and_then(|item| item.date_or_text()),
+        instrument_name: text("instrument"),
+        temperature_c: measured,
+        instrument: root.section("uncertainty", read_instrument),
+        circle: root
+            .section("circle", |s| Circle {
+                centre_mm: s.get("centre").and_then(|item| lengths::<2>(&item)),
+                radius_mm: s.get("radius").and_then(|item| positive(&item, Dimension::Length)),
+            })
+            .unwrap_or_default(),
+        edges_mm: edges.flatten().map(|[x, y, z]| Vec3::new(x, y, z)),
+    }
+}
+
+fn read_instrument(section: &Section<'_>) -> Instrument {
+    let extent = |key: &str| section.get(key).and_then(|item| extent(&item));
+    let expansion = section.get("expansion");
+    let expansion_per_k = expansion.and_then(|item| item.measured(Dimension::Expansion));
+    if let (Some(item), Some(Measured { u: None, .. })) = (expansion, expansion_per_k) {
+        let message = "the coefficient of expansion has no uncertainty".to_owned();
+        let hint = "write \"11.5 ± 1 um/(m·K)\"; without it the coefficient counts as exact";
+        item.warn("missing-uncertainty", message, hint);
+    }
+    Instrument {
+        device_expanded: extent("device_expanded"),
+        misalignment_range_mm: section
+            .get("misalignment_range")
+            .and_then(|item| positive(&item, Dimension::Length)),
+        expansion_per_k,
+        eve_range: extent("eve_range"),
+    }
+}
+
+/// A length (`0.5 um`), an angle (`0.2 arcsec`) or a ratio (`0.5 um/m`, which is an angle too).
+fn extent(item: &Item<'_>) -> Option<Extent> {
+    use trueaxis_geometry::input::parse_quantity;
+    let text = item.text()?;
+    let length = parse_quantity(text, Dimension::Length).map(Extent::Length);
+    let read = length.or_else(|_| parse_quantity(text, Dimension::Angle).map(Extent::Angle));
+    match read {
+        Ok(Extent::Length(v) | Extent::Angle(v)) if v < 0.0 => {
+            let message = format!("`{text}` is negative");
+            item.error("negative-uncertainty", message, "it is zero or positive");
+            None
+        }
+        Ok(extent) => Some(extent),
+        Err(e) => {
+            item.error(e.code(), e.to_string(), "such as \"0.5 um\", \"0.5 um/m\", \"0.2 arcsec\"");
+            None
+        }
+    }
+}
+
+fn positive(item: &Item<'_>, dimension: Dimension) -> Option<f64> {
+    let value = item.quantity(dimension)?;
+    if value <= 0.0 {
+        item.error("not-positive", format!("{value} is not positive"), "write a positive value");
+        return None;
+    }
+    Some(value)
+}
+
+/// `"500 400 300 mm"`.
+fn lengths<const N: usize>(item: &Item<'_>) -> Option<[f64; N]> {
+    use trueaxis_geometry::input::parse_quantity;
+    let text = item.text()?;
+    let mut words: Vec<&str> = text.split_whitespace().collect();
+    let unit = words.pop().unwrap_or_default();
+    let read = |word: &&str| parse_quantity(&format!("{word} {unit}"), Dimension::Length);
+    let values: Result<Vec<f64>, _> = words.iter().map(read).collect();
+    let values = values.ok().and_then(|v| <[f64; N]>::try_from(v).ok());
+    if values.is_none() {
+        let message = format!("`{text}` is not {N} lengths");
+        item.error("bad-vector", message, "numbers, then the unit, such as \"0 0 mm\"");
+    }
+    values
+}
+
+/// What to say of a temperature that no machine has.
+pub fn unsound_temperature(value_c: f64) -> Option<String> {
+    if SOUND_TEMPERATURES_C.contains(&value_c) {
+        return None;
+    }
+    let celsius = (value_c - 32.0) / 1.8;
+    Some(match () {
+        () if (250.0..=340.0).contains(&value_c) => {
+            format!("is it kelvin? that would be {:.1} °C", value_c - 273.15)
+        }
+        () if SOUND_TEMPERATURES_C.contains(&celsius) => {
+            format!("is it Fahrenheit? that would be {celsius:.1} °C; or are columns swapped?")
+        }
+        () => "temperatures are written in °C; are columns swapped?".to_owned(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fahrenheit_is_seen() {
+        assert_eq!(unsound_temperature(20.0), None);
+        assert!(unsound_temperature(68.0).unwrap().contains("20.0 °C"));
+        assert!(unsound_temperature(293.15).unwrap().contains("kelvin"));
+        let (_, problems) = Conditions::read("x.toml", "temperature = '72 degC'");
+        assert_eq!(problems.iter().next().unwrap().code, "temperature-range");
+    }
+
+    #[test]
+    fn instrument_data_are_read_with_their_units() {
+        let text = "temperature = '22 ± 0.2 degC'\n[uncertainty]\ndevice_expanded = '0.5 um/m'\n\
+                    eve_range = '1.2 um'\nexpansion = '11.5 ± 1 um/(m·K)'\n[circle]\n\
+                    radius = '150 mm'\ncentre = '1 2 mm'\n[volume]\nedges = '500 400 300 mm'";
+        let (read, problems) = Conditions::read("x.toml", text);
+        assert!(problems.iter().next().is_none(), "{problems:?}");
+        let instrument = read.instrument.unwrap();
+        assert_eq!(instrument.device_expanded, Some(Extent::Angle(0.5e-6)));
+        assert_eq!(instrument.eve_range, Some(Extent::Length(0.0012)));
+        assert_eq!(read.circle.centre_mm, Some([1.0, 2.0]));
+        assert_eq!(read.edges_mm.unwrap().y, 400.0);
+    }
+}

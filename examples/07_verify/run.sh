@@ -1,0 +1,18 @@
+# How good is the machine by the standards? Writes its reports into $OUT.
+set -e
+trueaxis=${TRUEAXIS:-target/release/trueaxis}
+out=${OUT:-.}
+verify=examples/07_verify
+$trueaxis evaluate iso230-2 $verify/x-axis-laser.csv --report "$out/x.html"
+$trueaxis evaluate iso230-2 $verify/x-axis-laser.csv --format json
+$trueaxis evaluate iso230-2 $verify/c-axis-polygon.csv --report "$out/c.html"
+$trueaxis evaluate iso230-2 $verify/y-axis-long.csv
+$trueaxis evaluate vdi3441 $verify/x-axis-laser.csv
+$trueaxis evaluate iso230-4 $verify/circle-xy.csv --report "$out/circle.html"
+$trueaxis evaluate iso230-6 $verify/body-diagonals.csv --report "$out/diagonals.html"
+$trueaxis evaluate iso230-3 $verify/spindle-drift.csv --window "30 min" --report "$out/drift.html"
+$trueaxis evaluate iso230-7 $verify/spindle-motion.csv --report "$out/spindle.html"
+# The measured error motion as a table for the machine file.
+mkdir -p "$out/mill"
+cp machines/three-axis-mill/machine.toml "$out/mill/machine.toml"
+$trueaxis evaluate iso230-2 $verify/x-axis-laser.csv --write-back "$out/mill/machine.toml" X
