@@ -6,6 +6,7 @@
 
 mod arguments;
 mod check;
+mod identify;
 mod numbers;
 mod output;
 mod pose;
@@ -28,6 +29,7 @@ Examples:
   trueaxis solve machines/i5-engraver/machine.toml --tip \"10 20 30\" --axis \"0.3 -0.2 0.93\"
   trueaxis simulate machines/i5-engraver/machine.toml examples/02_simulate/ring-fanuc.nc
   trueaxis predict examples/03_predict/nas979-on-xkas2525.toml
+  trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml
 
 Exit status: 0 done, 1 the verdict is no, 2 unusable input or arguments.")]
 struct Command {
@@ -47,6 +49,8 @@ enum Verb {
     Simulate(simulate::Arguments),
     /// Simulate: one block of a program through every stage, with the share of each error
     Trace(trace::Arguments),
+    /// Identify: what the machine is like, from measurements
+    Identify(identify::Arguments),
     /// Predict: will the test piece be good, and which error costs how much of it
     Predict(predict::Arguments),
 }
@@ -58,6 +62,7 @@ fn main() -> ExitCode {
         Verb::Solve(arguments) => solve::run(&arguments),
         Verb::Simulate(arguments) => simulate::run(&arguments),
         Verb::Trace(arguments) => trace::run(&arguments),
+        Verb::Identify(arguments) => identify::run(&arguments),
         Verb::Predict(arguments) => predict::run(&arguments),
     };
     match outcome {

@@ -7,12 +7,14 @@
 //!   deviations, troubles;
 //! - *predict*: [`predict`](mod@predict): is the test piece that this machine cuts within its
 //!   tolerances, how sure is that, and which error is to blame;
+//! - *identify*: [`identify`]: the expansion of a scale from laser runs at two temperatures;
 //! - [`report`]: the prediction as text, JSON and one self-contained HTML page.
 //!
 //! The nouns live in crates of their own and are handed on here: [`geometry`], [`machine`],
 //! [`part`].
 
 pub mod files;
+pub mod identify;
 pub mod predict;
 pub mod report;
 pub mod simulate;

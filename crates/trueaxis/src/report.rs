@@ -3,6 +3,7 @@
 //! [`text`] is what the terminal shows, [`json`] the document `trueaxis/predict/1`, [`html`] one
 //! page that opens offline.
 
+mod holes;
 mod html;
 mod json;
 mod page;
@@ -10,6 +11,7 @@ mod plots;
 mod simulation;
 mod text;
 
+pub use holes::{holes_json, holes_text};
 pub use html::html;
 pub use json::json;
 pub use plots::DrawingError;
