@@ -2,6 +2,7 @@
 
 use clap::Args;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use trueaxis::files;
 use trueaxis::geometry::Vec3;
 use trueaxis::geometry::input::{
@@ -10,6 +11,7 @@ use trueaxis::geometry::input::{
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{Approach, AxisKind, Command};
 use trueaxis::machine::errors::BodyName;
+use trueaxis::machine::heat::{Conditions, TemperatureLog};
 
 /// The machine and the tool in it.
 #[derive(Args)]
@@ -23,6 +25,16 @@ pub struct MachineArguments {
     /// A tool assembly of the machine file, by its name
     #[arg(long, value_name = "NAME", conflicts_with = "tool_length")]
     tool: Option<String>,
+    /// What the sensors of the machine file say, degC; without it every body stands at the
+    /// temperature of its error table and the workpiece at 20 degC
+    #[arg(long, value_name = "\"scale_x=30.5 workpiece=31\"")]
+    temperature: Option<String>,
+    /// The same from a log: a CSV file with time_s and one column per sensor (scale_x_degC)
+    #[arg(long, value_name = "LOG.csv", conflicts_with = "temperature")]
+    temperature_log: Option<PathBuf>,
+    /// At which time of the log, s; without it at its end
+    #[arg(long, value_name = "S", requires = "temperature_log")]
+    log_time: Option<String>,
 }
 
 impl MachineArguments {
@@ -35,7 +47,7 @@ impl MachineArguments {
     pub fn read(&self, problems: &mut Diagnostics) -> Option<Machine> {
         let (machine, found) = files::machine(&self.machine);
         problems.append(found);
-        let machine = machine?;
+        let machine = self.at_temperatures(machine?, problems)?;
         let length_mm = match (&self.tool, &self.tool_length) {
             (Some(name), _) => named_tool(&machine, name, problems)?,
             (None, Some(text)) => tool_length(text, problems)?,
@@ -43,6 +55,50 @@ impl MachineArguments {
         };
         Some(machine.with_tip(Vec3::new(0.0, 0.0, -length_mm)))
     }
+}
+
+impl MachineArguments {
+    fn at_temperatures(&self, machine: Machine, problems: &mut Diagnostics) -> Option<Machine> {
+        let conditions = match (&self.temperature, &self.temperature_log) {
+            (Some(text), _) => Conditions::typed("--temperature", text, problems)?,
+            (None, Some(path)) => {
+                let time_s = self.log_time.as_deref().map(|t| log_time(t, problems));
+                conditions_of(path, time_s, problems)?
+            }
+            (None, None) => return Some(machine),
+        };
+        machine.at(&conditions, problems)
+    }
+
+    /// Whether temperatures were given.
+    pub fn has_temperatures(&self) -> bool {
+        self.temperature.is_some() || self.temperature_log.is_some()
+    }
+}
+
+fn log_time(text: &str, problems: &mut Diagnostics) -> Option<f64> {
+    let refuse = |e: QuantityError| {
+        let hint = "a plain number, in s: --log-time 3600";
+        problems.error(e.code(), argument("--log-time"), e.to_string(), hint);
+    };
+    parse_quantity(text, Dimension::Ratio).map_err(refuse).ok()
+}
+
+/// `time_s`: none for the end of the log, an inner none if it could not be read.
+fn conditions_of(
+    path: &Path,
+    time_s: Option<Option<f64>>,
+    problems: &mut Diagnostics,
+) -> Option<Conditions> {
+    let text = files::text(path, "a CSV log of temperatures", problems)?;
+    let log = TemperatureLog::parse(&path.display().to_string(), &text, problems)?;
+    let (first, last) = (*log.times_s().first()?, *log.times_s().last()?);
+    let conditions = Arc::new(log).at(time_s.unwrap_or(Some(last))?);
+    if conditions.is_none() {
+        let message = format!("the log covers {first} s to {last} s");
+        problems.error("outside-log", argument("--log-time"), message, "choose a time in it");
+    }
+    conditions
 }
 
 fn named_tool(machine: &Machine, name: &str, problems: &mut Diagnostics) -> Option<f64> {

@@ -7,6 +7,7 @@
 mod arguments;
 mod check;
 mod evaluate;
+mod identify;
 mod numbers;
 mod output;
 mod path_file;
@@ -32,6 +33,7 @@ Examples:
   trueaxis simulate machines/i5-engraver/machine.toml examples/02_simulate/ring-fanuc.nc
   trueaxis predict examples/03_predict/nas979-on-xkas2525.toml
   trueaxis evaluate iso230-2 examples/07_verify/x-axis-laser.csv --report x.html
+  trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml
 
 Exit status: 0 done, 1 the verdict is no, 2 unusable input or arguments.")]
 struct Command {
@@ -51,6 +53,8 @@ enum Verb {
     Simulate(simulate::Arguments),
     /// Simulate: one block of a program through every stage, with the share of each error
     Trace(trace::Arguments),
+    /// Identify: what the machine is like, from measurements
+    Identify(identify::Arguments),
     /// Predict: will the test piece be good, and which error costs how much of it
     Predict(predict::Arguments),
     /// Verify: readings of instruments by ISO 230: positioning, circles, diagonals, drift, spindles
@@ -69,6 +73,7 @@ fn main() -> ExitCode {
         Verb::Solve(arguments) => solve::run(&arguments),
         Verb::Simulate(arguments) => simulate::run(&arguments),
         Verb::Trace(arguments) => trace::run(&arguments),
+        Verb::Identify(arguments) => identify::run(&arguments),
         Verb::Predict(arguments) => predict::run(&arguments),
         Verb::Evaluate(arguments) => evaluate::run(&arguments),
     };

@@ -11,7 +11,8 @@ use trueaxis::geometry::Vec3;
 use trueaxis::geometry::frame::{Bed, Body, Pose};
 use trueaxis::geometry::input::{Diagnostics, Place};
 use trueaxis::machine::axis::{Approach, Command};
-use trueaxis::machine::errors::{ErrorName, ErrorValues};
+use trueaxis::machine::errors::ErrorValues;
+use trueaxis::machine::heat::ErrorPart;
 use trueaxis::machine::{Deviation, Machine};
 
 /// The pose to show.
@@ -20,8 +21,10 @@ use trueaxis::machine::{Deviation, Machine};
 Examples:
   trueaxis pose machines/xkas2525/machine.toml --at \"X=3000 Y=1200 Z=-700 C=-90 A=15\"
   trueaxis pose machines/xkas2525/machine.toml --at-file examples/01_describe/positions.csv
+  trueaxis pose machines/gantry-001/machine.toml --at \"X=3500\" --temperature \"scale_x=30.5 workpiece=30.5\"
 
-Lengths are in the workpiece frame; deviation = actual - nominal. A position outside the travel is
+Lengths are in the workpiece frame; deviation = actual - nominal. With temperatures it is the
+comprehensive one, machine - workpiece: what the part has at 20 degC. A position outside the travel is
 computed, with a warning. Exit status: 0 done, 2 unusable input.")]
 pub struct Arguments {
     #[command(flatten)]
@@ -70,8 +73,20 @@ fn answer(arguments: &Arguments, problems: &mut Diagnostics) -> Option<Answer> {
     let budget = budget(&machine, &command, &errors);
     let bodies = arguments.bodies.then(|| bodies(&machine, &command, &errors));
     Some(match arguments.format {
-        Format::Json => Answer::Json(document(&deviation, &budget, bodies)),
-        Format::Text => Answer::Text(table(&machine, &deviation, &budget, bodies)),
+        Format::Json => {
+            let mut document = document(&deviation, &budget, bodies);
+            if machine.is_at_temperatures() {
+                add_split(&mut document, &machine, &command, &errors);
+            }
+            Answer::Json(document)
+        }
+        Format::Text => {
+            let mut text = table(&machine, &deviation, &budget, bodies);
+            if machine.is_at_temperatures() {
+                text += &split_table(&machine, &command, &errors);
+            }
+            Answer::Text(text)
+        }
     })
 }
 
@@ -99,12 +114,63 @@ fn deviation(
     Some((errors, deviation))
 }
 
-pub type Budget = Vec<(ErrorName, Deviation)>;
+pub type Budget = Vec<(String, Deviation)>;
 
-/// The deviation under each stated error alone.
+/// The deviation under each error alone; thermal parts such as `EXX(scale)` and `workpiece` too.
 pub fn budget(machine: &Machine, command: &Command, errors: &ErrorValues) -> Budget {
-    let alone = |index| machine.deviation(command, &errors.only(index));
-    machine.stated_errors().into_iter().map(|(index, name)| (name, alone(index))).collect()
+    let shares = machine.shares(command, errors).into_iter();
+    shares.map(|share| (share.name, machine.deviation(command, &share.errors))).collect()
+}
+
+/// What each part does to the tip, µm; that of the workpiece is its growth E_w.
+fn split(machine: &Machine, command: &Command, errors: &ErrorValues) -> [(ErrorPart, Vec3); 4] {
+    ErrorPart::ALL.map(|part| {
+        let errors = machine.part(command, errors, part);
+        let tip_um = match part {
+            ErrorPart::Workpiece => errors.workpiece_mm,
+            _ => machine.deviation(command, &errors).tip_mm,
+        };
+        (part, tip_um * 1e3)
+    })
+}
+
+/// `comprehensive = machine - workpiece`, and its four parts.
+fn add_split(document: &mut Value, machine: &Machine, command: &Command, errors: &ErrorValues) {
+    let without = ErrorValues { workpiece_mm: Vec3::zeros(), ..*errors };
+    let tip_um = |errors| array(machine.deviation(command, errors).tip_mm * 1e3);
+    let parts = split(machine, command, errors).into_iter();
+    let parts = parts.map(|(part, um)| (part.name().to_owned(), json!({ "tip_um": array(um) })));
+    document["split"] = Value::Object(parts.collect());
+    document["machine"] = json!({ "tip_um": tip_um(&without) });
+    document["comprehensive"] = json!({
+        "tip_um": tip_um(errors),
+        "formula": "machine - workpiece = geometric + scale + structure - workpiece",
+    });
+    if let Some(settling) = machine.heat().workpiece.as_ref().and_then(|w| w.settling) {
+        document["settling"] = json!({
+            "time_constant_s": settling.time_constant_s,
+            "time_to_a_tenth_s": settling.time_to_s(1.0, 0.1),
+        });
+    }
+}
+
+fn split_table(machine: &Machine, command: &Command, errors: &ErrorValues) -> String {
+    let mut text = String::from("\nmachine - workpiece, tip, µm    x          y          z\n");
+    for (part, um) in split(machine, command, errors) {
+        let sign = if part == ErrorPart::Workpiece { '-' } else { '+' };
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "{sign} {:<21} {}", part.name(), columns(um, 10, 3));
+    }
+    let whole = machine.deviation(command, errors).tip_mm * 1e3;
+    let _ = writeln!(text, "= {:<21} {}", "comprehensive", columns(whole, 10, 3));
+    if let Some(settling) = machine.heat().workpiece.as_ref().and_then(|w| w.settling) {
+        let hours = settling.time_to_s(1.0, 0.1) / 3600.0;
+        let _ = writeln!(
+            text,
+            "\nthe workpiece needs {hours:.1} h until a tenth of its difference to the air is left"
+        );
+    }
+    text
 }
 
 pub type Bodies = Vec<(String, [Pose<Bed, Body>; 2])>;
@@ -151,9 +217,9 @@ pub fn deviation_json(deviation: &Deviation) -> Value {
 
 /// Each error alone.
 pub fn budget_json(budget: &Budget) -> Value {
-    let share = |(name, share): &(ErrorName, Deviation)| {
+    let share = |(name, share): &(String, Deviation)| {
         json!({
-            "error": name.to_string(),
+            "error": name,
             "tip_um": array(share.tip_mm * 1e3),
             "axis_urad": array(share.axis * 1e6),
         })
@@ -221,7 +287,7 @@ pub fn budget_table(budget: &Budget) -> String {
     );
     for (name, d) in felt {
         let (tip, axis) = (columns(d.tip_mm * 1e3, 10, 3), columns(d.axis * 1e6, 10, 3));
-        let _ = writeln!(text, "{:<11} {tip}   {axis}", name.to_string());
+        let _ = writeln!(text, "{name:<11} {tip}   {axis}");
     }
     text
 }

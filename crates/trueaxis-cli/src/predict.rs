@@ -5,14 +5,16 @@ use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
 use trueaxis::geometry::input::{Diagnostics, Place};
 use trueaxis::part::tolerance;
+use trueaxis::predict::holes::{is_hole_study, predict_holes, read_hole_study};
 use trueaxis::predict::{Error, Prediction, Study, predict, read_study};
-use trueaxis::report;
+use trueaxis::report::{self, holes_json, holes_text};
 
 /// The study to predict.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
   trueaxis predict examples/03_predict/nas979-on-xkas2525.toml
+  trueaxis predict examples/03_predict/torque-arm.toml
   trueaxis predict examples/03_predict/nas979-on-xkas2525.toml --format json --no-report
 
 Exit status: 0 the part will be in tolerance, 1 it will not (or that cannot be decided within the
@@ -38,7 +40,45 @@ pub struct Arguments {
     format: Format,
 }
 
+/// Holes on a circle: text or JSON, no page.
+fn run_holes(arguments: &Arguments) -> Outcome {
+    let (study, problems) = read_hole_study(&arguments.study);
+    if report(problems) {
+        return Outcome::Unusable;
+    }
+    let Some(study) = study else { return Outcome::Unusable };
+    let prediction = match predict_holes(&study) {
+        Ok(prediction) => prediction,
+        Err(problems) => {
+            report(problems);
+            return Outcome::Unusable;
+        }
+    };
+    let mut problems = Diagnostics::new();
+    let place = Place::whole(&arguments.study.display().to_string());
+    if !arguments.no_report {
+        let message = "a study of holes has no HTML report: none is written".to_owned();
+        problems.note("no-report", place.clone(), message, "use --format json, or --no-report");
+    }
+    for warning in &prediction.warnings {
+        problems.warn("machine-only-compensation", place.clone(), warning.clone(), "");
+    }
+    report(problems);
+    let answer = match arguments.format {
+        Format::Json => Answer::Json(holes_json(&study, &prediction)),
+        Format::Text => Answer::Text(holes_text(&study, &prediction)),
+    };
+    let applied = prediction.sets.iter().find(|s| s.compensation == study.applied);
+    match (show(&answer), applied.and_then(|s| s.in_tolerance)) {
+        (Outcome::Done, Some(false)) => Outcome::No,
+        (shown, _) => shown,
+    }
+}
+
 pub fn run(arguments: &Arguments) -> Outcome {
+    if is_hole_study(&arguments.study) {
+        return run_holes(arguments);
+    }
     let (study, mut problems) = read_study(&arguments.study);
     let samples = arguments.samples.as_deref().map(|text| sample_count(text, &mut problems));
     if !arguments.no_report {

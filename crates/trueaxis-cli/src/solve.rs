@@ -59,6 +59,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
 
 fn answer(arguments: &Arguments, problems: &mut Diagnostics) -> Option<Answer> {
     let machine = arguments.machine.read(problems)?;
+    if arguments.machine.has_temperatures() {
+        let message = "temperatures do not change what the nominal machine does".to_owned();
+        let hint = "leave them out; pose and simulate show what they do";
+        problems.warn("no-effect", argument("--temperature"), message, hint);
+    }
     let from = match &arguments.from {
         Some(text) => arguments::command(&machine, "--from", text, problems),
         None => Some(Command::default()),

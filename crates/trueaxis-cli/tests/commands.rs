@@ -413,3 +413,73 @@ fn a_reader_that_goes_away_is_no_error() {
         (Some(0), "")
     );
 }
+
+const GANTRY: &str = "machines/gantry-001/machine.toml";
+
+#[test]
+fn paper_pose_at_temperatures() {
+    // Document 001: 431 − 485.1 and 253.1 − 340.0 µm.
+    for (at, temperature, i, machine, workpiece) in [
+        ("X=3500 Y=0 Z=0", "scale_x=30.5 workpiece=30.5", 0, 431.0, 485.1),
+        ("X=0 Y=2300 Z=0", "scale_y=31.2 workpiece=31.2", 1, 253.1, 340.032),
+    ] {
+        let words = ["pose", GANTRY, "--at", at, "--temperature", temperature];
+        let ran = trueaxis(&[&words[..], &["--format", "json"]].concat());
+        assert_eq!(ran.status, 0, "{}", ran.err);
+        let pose = ran.json();
+        let of = |value: &Value| numbers(&value["tip_um"])[i];
+        let split = &pose["split"];
+        assert!((of(&pose["machine"]) - machine).abs() < 1e-9);
+        assert!((of(&split["workpiece"]) - workpiece).abs() < 1e-9);
+        assert!((of(&split["geometric"]) + of(&split["scale"]) - machine).abs() < 1e-9);
+        assert!((of(&pose["comprehensive"]) - (machine - workpiece)).abs() < 1e-9);
+        assert_eq!(of(&pose["deviation"]), of(&pose["comprehensive"]));
+        let budget = pose["budget"].as_array().expect("a list").iter();
+        assert!((budget.map(of).sum::<f64>() - (machine - workpiece)).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn temperatures_that_cannot_be_are_refused() {
+    for (temperature, code) in [
+        ("scale_x=305", "impossible-temperature"),
+        ("scale_x=86F", "bad-temperature"),
+        ("scale_u=30", "unknown-sensor"),
+    ] {
+        let ran = trueaxis(&["pose", GANTRY, "--at", "X=1", "--temperature", temperature]);
+        assert_eq!((ran.status, ran.out.as_str()), (2, ""));
+        assert!(ran.err.contains(code), "{}", ran.err);
+    }
+}
+
+#[test]
+fn identify_expansion_of_the_example() {
+    let file = "examples/05_identify/y-axis-two-temperatures.toml";
+    let found = trueaxis(&["identify", "expansion", file, "--format", "json"]).json();
+    assert_eq!(found["schema"], "trueaxis/identify/1");
+    let (alpha, u) = (number(&found["expansion_um_per_m_k"]), number(&found["u_um_per_m_k"]));
+    assert!((alpha - 8.6).abs() < u && (0.2..0.3).contains(&u), "{alpha} {u}");
+    assert_eq!(found["materials"], serde_json::json!(["glass"]));
+}
+
+#[test]
+fn paper_holes_of_the_torque_arm() {
+    let file = "examples/03_predict/torque-arm.toml";
+    let ran = trueaxis(&["predict", file, "--no-report", "--format", "json"]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    assert!(
+        ran.err.contains("COMPENSATING THE MACHINE ALONE MAKES THE PART WORSE: 0.508 mm instead")
+    );
+    let found = ran.json();
+    let sets = found["sets"].as_array().expect("three");
+    let worst: Vec<f64> = sets.iter().map(|s| number(&s["worst_mm"])).collect();
+    // Whole micrometres leave half of one in each direction, and the little that the error changes
+    // over the compensation itself.
+    assert!(worst[2] <= 0.5e-3 * 2_f64.sqrt() + 1e-6, "{worst:?}");
+    assert!(worst[1] > worst[0] && worst[0] > 0.046);
+    let first = &sets[1]["holes"][0];
+    // Machine-only at (3300, 1150): what is left is the growth, 13.2e-6 · 10.8 K · p.
+    let left = numbers(&first["error_um"]);
+    near(&left[..2], &[-470.448, -163.944], 0.51);
+    assert_eq!(sets[0]["holes"].as_array().map(Vec::len), Some(32));
+}

@@ -30,9 +30,10 @@ pub use motion::LARGEST_TURN_RAD;
 
 use crate::axis::{Approach, AxisKind, Command, MAX_AXES};
 use crate::chain::{CommandFault, Machine, Squareness};
-use crate::errors::{Curve, Rotation};
+use crate::errors::{Curve, ErrorValues, Rotation};
 use motion::{Motion, Range};
 use steps::Steps;
+use trueaxis_geometry::Vec3;
 
 /// Poses that one task of a parallel batch computes at least.
 const TASK_POSES: usize = 8192;
@@ -253,6 +254,26 @@ impl CompiledMachine {
         out: &mut DeviationColumns<'_>,
         first: usize,
     ) -> Result<(), BatchError> {
+        let done = self.machine_part(set, inputs, out, first);
+        if let Some(growth) = self.machine.growth() {
+            for i in 0..out.len() {
+                let [x, y, z] = &out.nominal_tip_mm;
+                let grown = growth.at(Vec3::new(x[i], y[i], z[i]));
+                for (column, e) in out.tip_mm.iter_mut().zip(grown.iter()) {
+                    column[i] -= e;
+                }
+            }
+        }
+        done
+    }
+
+    fn machine_part(
+        &self,
+        set: InstructionSet,
+        inputs: &Inputs<'_>,
+        out: &mut DeviationColumns<'_>,
+        first: usize,
+    ) -> Result<(), BatchError> {
         let Some(plan) = &self.plan else {
             return (0..out.len()).try_for_each(|i| self.one(inputs, out, first, i));
         };
@@ -288,6 +309,8 @@ impl CompiledMachine {
             .machine
             .errors_at(&command, &approach)
             .map_err(|source| BatchError::Refused { index, source })?;
+        // The growth of the workpiece comes to all poses together.
+        let errors = ErrorValues { workpiece_mm: Vec3::zeros(), ..errors };
         let deviation = self.machine.deviation(&command, &errors);
         if !out.set(i, &deviation) {
             return Err(BatchError::NotFinite { index });

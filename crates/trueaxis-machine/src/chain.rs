@@ -15,6 +15,7 @@ use crate::errors::{
     BodyErrors, BodyName, Component, Curve, ErrorIndex, ErrorKind, ErrorName, ErrorValues,
     OutsideTable, Rotation, Six, StatedError,
 };
+use crate::heat::{HeatModel, ThermalTerm, WorkpieceGrowth};
 use trueaxis_geometry::frame::{Bed, Body, Pose, Tool, Workpiece, rotation};
 use trueaxis_geometry::{Mat3, Vec3};
 
@@ -67,6 +68,8 @@ pub struct ChainBody {
     pub location: [Option<StatedError>; 6],
     /// Stated error motions, X Y Z A B C.
     pub motion: [Option<StatedError>; 6],
+    /// What the present temperatures add; empty without conditions ([`Machine::at`]).
+    pub thermal: Vec<ThermalTerm>,
 }
 
 impl ChainBody {
@@ -80,6 +83,7 @@ impl ChainBody {
             mounting: Pose::identity(),
             location: Default::default(),
             motion: Default::default(),
+            thermal: Vec::new(),
         }
     }
 
@@ -107,6 +111,9 @@ pub struct Machine {
     pub(crate) tip_mm: Vec3,
     pub(crate) tools: Vec<crate::tool::ToolAssembly>,
     pub(crate) models: Vec<crate::models::Model>,
+    pub(crate) heat: HeatModel,
+    /// How the workpiece has grown, if it is not at 20 °C.
+    pub(crate) growth: Option<WorkpieceGrowth>,
 }
 
 /// Commands beyond 10¹² mm or rad are mistakes (as every quantity of a file is), and their powers
@@ -291,6 +298,12 @@ impl Machine {
                 out.location.0[i] = at(ErrorKind::Location, &body.location[i])?;
                 out.motion.0[i] = at(ErrorKind::Motion, &body.motion[i])?;
             }
+            for term in &body.thermal {
+                out.six_mut(term.kind).0[term.component as usize] += term.at(q);
+            }
+        }
+        if let Some(growth) = &self.growth {
+            values.workpiece_mm = growth.at(self.nominal_tip_mm(command));
         }
         Ok(values)
     }
@@ -305,8 +318,30 @@ impl Machine {
                 out.location.0[i] = u(&body.location[i]);
                 out.motion.0[i] = u(&body.motion[i]);
             }
+            for term in &body.thermal {
+                let slot = &mut out.six_mut(term.kind).0[term.component as usize];
+                *slot = slot.hypot(term.u_at(q));
+            }
         }
         values
+    }
+
+    /// The nominal tip in the workpiece frame, mm.
+    fn nominal_tip_mm(&self, command: &Command) -> Vec3 {
+        let mut tip = self.tip_mm;
+        let joint = |body: &ChainBody| body.axis.map(|a| (&self.axes[a], command[a]));
+        for body in self.bodies[self.workpiece_side..].iter().rev() {
+            tip = body.mounting.linear() * tip + body.mounting.shift_mm();
+            tip = joint(body).map_or(tip, |(axis, q)| moved_point(axis, q, tip));
+            tip = body.placement.linear() * tip + body.placement.shift_mm();
+        }
+        for body in self.bodies[..self.workpiece_side].iter().rev() {
+            tip = body.placement.linear().transpose() * (tip - body.placement.shift_mm());
+            // A motion backwards is the motion by minus the command.
+            tip = joint(body).map_or(tip, |(axis, q)| moved_point(axis, -q, tip));
+            tip = body.mounting.linear().transpose() * (tip - body.mounting.shift_mm());
+        }
+        tip
     }
 
     /// The pose of the tool in the workpiece with these errors; all zero gives the nominal pose.
@@ -314,9 +349,16 @@ impl Machine {
     /// ```text
     ///     workpiece_from_tool = (bed_from_workpiece)⁻¹ · bed_from_tool       docs/model.md eq. 2
     /// ```
+    ///
+    /// less what the workpiece has grown at the tip, if it is warm (docs/model.md eq. 86).
     pub fn pose(&self, command: &Command, errors: &ErrorValues) -> Pose<Workpiece, Tool> {
         let (bed_from_workpiece, bed_from_tool) = self.ends(command, errors);
-        (bed_from_workpiece.inverse() * bed_from_tool).relabel()
+        let grown = Link::shift(-errors.workpiece_mm);
+        let felt = bed_from_workpiece.inverse() * bed_from_tool;
+        match errors.workpiece_mm == Vec3::zeros() {
+            true => felt.relabel(),
+            false => (grown * felt).relabel(),
+        }
     }
 
     /// The pose of every body in the machine frame, in chain order.
@@ -368,6 +410,19 @@ impl Machine {
     fn error_pose(&self, six: &Six) -> Link {
         let linear = Mat3::identity() + six.rotation_minus_identity(self.model.rotation);
         Pose::new(linear, six.shift_mm())
+    }
+}
+
+/// J(q) of one point, without the matrix.
+fn moved_point(axis: &Axis, q: f64, point: Vec3) -> Vec3 {
+    let (along, by) = (axis.direction, axis.sense * q);
+    match axis.kind {
+        AxisKind::Linear => point + along * by,
+        AxisKind::Rotary => {
+            // Rodrigues: p cos φ + (d × p) sin φ + d (d·p)(1 − cos φ)
+            let (sin, cos) = by.sin_cos();
+            point * cos + along.cross(&point) * sin + along * (along.dot(&point) * (1.0 - cos))
+        }
     }
 }
 

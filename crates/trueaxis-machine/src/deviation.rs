@@ -92,6 +92,7 @@ impl Machine {
         if self.model.rotation == Rotation::SmallAngle {
             axis.deviation = renormalised(&axis);
         }
+        tip.deviation -= errors.workpiece_mm;
         Deviation {
             nominal_tip: Point::from_vector(tip.nominal),
             nominal_axis: Direction::of(axis.nominal).unwrap_or(Direction::Z),

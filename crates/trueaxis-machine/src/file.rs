@@ -3,6 +3,7 @@
 mod chain_text;
 mod error_text;
 mod geometry_check;
+mod heat_text;
 mod model_text;
 mod place_text;
 mod table_text;
@@ -89,11 +90,16 @@ fn read_machine(root: &Section<'_>, tables: &dyn Tables) -> Option<Machine> {
     let frame = head.error_frame;
     let mut bodies = make_bodies(&chain, frame);
     let axes = read_axes(root, &chain, &mut bodies);
-    root.section("workpiece", |s| read_workpiece(s, &mut bodies[0]));
+    let workpiece = root.section("workpiece", |s| {
+        read_workpiece(s, &mut bodies[0]);
+        heat_text::read_workpiece_heat(s)
+    });
     let last = bodies.len() - 1;
     let tool = root.section("tool", |s| read_tool(s, &mut bodies[last])).unwrap_or_default();
     root.section("location", |s| error_text::read_location(s, &mut bodies));
     root.section("motion", |s| read_motions(s, &axes, &mut bodies, tables));
+    let mut heat = heat_text::read_heat(root, &axes, &bodies);
+    heat.workpiece = workpiece.flatten();
     let models = model_text::read_models(root, &bodies);
     let machine = Machine {
         name: head.name,
@@ -105,6 +111,8 @@ fn read_machine(root: &Section<'_>, tables: &dyn Tables) -> Option<Machine> {
         tip_mm: tool.tip_mm,
         tools: tool.assemblies,
         models,
+        heat,
+        growth: None,
     };
     if let Some(item) = head.chain_item {
         geometry_check::warn_about_directions(&machine, &item);

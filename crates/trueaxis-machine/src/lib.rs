@@ -19,6 +19,7 @@ pub mod chain;
 mod deviation;
 pub mod errors;
 pub mod file;
+pub mod heat;
 mod inverse;
 pub mod models;
 pub mod tcp;

@@ -7,6 +7,7 @@
 //!   deviations, troubles;
 //! - *predict*: [`predict`](mod@predict): is the test piece that this machine cuts within its
 //!   tolerances, how sure is that, and which error is to blame;
+//! - *identify*: [`identify`]: the expansion of a scale from laser runs at two temperatures;
 //! - *verify*: [`verify`]: readings of instruments evaluated by ISO 230;
 //! - [`report`]: all that as text, JSON and self-contained HTML pages.
 //!
@@ -14,6 +15,7 @@
 //! [`part`].
 
 pub mod files;
+pub mod identify;
 pub mod predict;
 pub mod report;
 pub mod simulate;

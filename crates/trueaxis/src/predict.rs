@@ -9,6 +9,7 @@
 mod blame;
 mod correction;
 mod cutting;
+pub mod holes;
 mod judge;
 mod monte_carlo;
 mod sensitivity;

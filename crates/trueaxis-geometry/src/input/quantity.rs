@@ -26,6 +26,16 @@ pub enum Dimension {
     AngularJerk,
     /// \[1/K\]
     Expansion,
+    /// Of a length with temperature \[mm/K\]
+    LengthPerKelvin,
+    /// Of an angle with temperature \[rad/K\]
+    AnglePerKelvin,
+    /// Thermal diffusivity \[mm²/s\]
+    Diffusivity,
+    /// Of heat between a surface and the air \[W/(m²·K)\]
+    FilmCoefficient,
+    /// Of a volume \[J/(m³·K)\]
+    HeatCapacity,
     /// A plain number \[1\]
     Ratio,
 }
@@ -69,9 +79,28 @@ const UNITS: &[(Dimension, &[&str], (f64, f64))] = &[
     (Dimension::Expansion, &["1/K"], (1.0, 1.0)),
     (
         Dimension::Expansion,
-        &["um/(m·K)", "µm/(m·K)", "μm/(m·K)", "um/(m K)", "um/m/K", "ppm/K"],
+        &[
+            "um/(m·K)",
+            "µm/(m·K)",
+            "μm/(m·K)",
+            "um/(m K)",
+            "µm/(m K)",
+            "μm/(m K)",
+            "um/m/K",
+            "ppm/K",
+        ],
         (1.0, 1e6),
     ),
+    (Dimension::LengthPerKelvin, &["mm/K"], (1.0, 1.0)),
+    (Dimension::LengthPerKelvin, &["um/K", "µm/K", "μm/K"], (1.0, 1e3)),
+    (Dimension::AnglePerKelvin, &["rad/K"], (1.0, 1.0)),
+    (Dimension::AnglePerKelvin, &["urad/K", "µrad/K", "μrad/K"], (1.0, 1e6)),
+    (Dimension::AnglePerKelvin, &["arcsec/K"], (PI, 648_000.0)),
+    (Dimension::Diffusivity, &["mm^2/s", "mm²/s"], (1.0, 1.0)),
+    (Dimension::Diffusivity, &["m^2/s", "m²/s"], (1e6, 1.0)),
+    (Dimension::FilmCoefficient, &["W/(m^2 K)", "W/(m²·K)", "W/m^2/K"], (1.0, 1.0)),
+    (Dimension::HeatCapacity, &["J/(m^3 K)", "J/(m³·K)"], (1.0, 1.0)),
+    (Dimension::HeatCapacity, &["MJ/(m^3 K)", "MJ/(m³·K)"], (1e6, 1.0)),
     (Dimension::Ratio, &[""], (1.0, 1.0)),
     (Dimension::Ratio, &["%"], (1.0, 100.0)),
 ];
@@ -169,6 +198,11 @@ impl fmt::Display for Dimension {
             Self::AngularAcceleration => "an angular acceleration",
             Self::AngularJerk => "an angular jerk",
             Self::Expansion => "a coefficient of expansion",
+            Self::LengthPerKelvin => "a length per temperature",
+            Self::AnglePerKelvin => "an angle per temperature",
+            Self::Diffusivity => "a thermal diffusivity",
+            Self::FilmCoefficient => "a film coefficient",
+            Self::HeatCapacity => "a heat capacity of a volume",
             Self::Ratio => "a plain number",
         })
     }
@@ -230,6 +264,10 @@ impl QuantityError {
                 "write a finite number and its unit, such as \"12.5 mm\"".to_owned()
             }
             Self::TooLarge(_) => "check the exponent and the unit".to_owned(),
+            // A temperature is no difference: 30 °C are not 30 K, and 86 °F are 30 °C.
+            Self::UnknownUnit(_, Dimension::Temperature) => {
+                "write °C (\"30.5 degC\"): °C = (°F − 32)/1.8 = K − 273.15".to_owned()
+            }
             Self::NoUnit(d) | Self::UnknownUnit(_, d) => format!("units of {d}: {}", d.units()),
             Self::WrongDimension { expected, .. } => {
                 format!("units of {expected}: {}", expected.units())

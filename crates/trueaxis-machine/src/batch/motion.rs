@@ -3,7 +3,7 @@
 use super::pieces::{Knots, Row, cubic, is_piecewise_cubic, span};
 use crate::axis::{Axis, AxisKind, Travel};
 use crate::chain::ChainBody;
-use crate::errors::{Component, Curve};
+use crate::errors::{Component, Curve, ErrorKind};
 
 /// Error motions may turn by so much; the sine and cosine of larger ones need more terms.
 ///
@@ -59,12 +59,19 @@ struct Part<'a> {
 }
 
 fn curves(body: &ChainBody) -> impl Iterator<Item = Part<'_>> {
-    body.motion.iter().enumerate().flat_map(|(component, stated)| {
+    let thermal = body.thermal.iter().filter(|t| t.kind == ErrorKind::Motion);
+    let thermal = thermal.map(|t| Part {
+        component: t.component as usize,
+        curve: &t.curve,
+        is_reversal: false,
+    });
+    let stated = body.motion.iter().enumerate().flat_map(|(component, stated)| {
         let part = move |is_reversal| move |curve| Part { component, curve, is_reversal };
         let mean = stated.iter().map(|s| &s.mean).map(part(false));
         let reversal = stated.iter().filter_map(|s| s.reversal.as_ref()).map(part(true));
         mean.chain(reversal)
-    })
+    });
+    stated.chain(thermal)
 }
 
 /// A curve that is not a cubic between knots.

@@ -1,8 +1,8 @@
 //! The chain as a list of steps from the tool tip to the workpiece.
 
 use crate::axis::AxisKind;
-use crate::chain::{ErrorFrame, Link, Machine};
-use crate::errors::{Component, Curve, Rotation, Six};
+use crate::chain::{ChainBody, ErrorFrame, Link, Machine};
+use crate::errors::{Component, Curve, ErrorKind, Rotation, Six};
 use trueaxis_geometry::{Mat3, Vec3};
 
 /// One step of the tip p, the tool axis and their deviations d on their way to the workpiece.
@@ -113,7 +113,7 @@ impl Path {
                 self.joint(machine, axis, 1.0);
             }
         }
-        let (shift, turn) = location(&body.location);
+        let (shift, turn) = location(body);
         self.ahead.displace(shift, &turn);
         self.ahead.forward(&body.placement);
     }
@@ -122,7 +122,7 @@ impl Path {
         let body = &machine.bodies()[i];
         self.ahead.backward(&body.placement);
         // (I + D)⁻¹(u − t) = u + Dᵀu − (I + Dᵀ)t
-        let (shift, turn) = location(&body.location);
+        let (shift, turn) = location(body);
         let back = turn.transpose();
         self.ahead.displace(-(shift + back * shift), &back);
         if let Some(axis) = body.axis {
@@ -198,12 +198,17 @@ fn is_fixed_rotary(machine: &Machine, i: usize) -> bool {
 }
 
 /// Shift and `R − I` of location errors, which are constants here.
-fn location(stated: &[Option<crate::errors::StatedError>; 6]) -> (Vec3, Mat3) {
-    let value = |component: Component| match stated[component as usize].as_ref().map(|e| &e.mean) {
-        Some(Curve::Constant(value)) => *value,
+fn location(body: &ChainBody) -> (Vec3, Mat3) {
+    let constant = |curve: &Curve| match curve {
+        Curve::Constant(value) => *value,
         _ => 0.0,
     };
-    let six = Six(Component::ALL.map(value));
+    let stated =
+        |c: Component| body.location[c as usize].as_ref().map_or(0.0, |e| constant(&e.mean));
+    let mut six = Six(Component::ALL.map(stated));
+    for term in body.thermal.iter().filter(|t| t.kind == ErrorKind::Location) {
+        six.0[term.component as usize] += constant(&term.curve);
+    }
     (six.shift_mm(), six.rotation_minus_identity(Rotation::Exact))
 }
 

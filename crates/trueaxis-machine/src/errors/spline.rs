@@ -108,6 +108,11 @@ impl Spline {
         (3.0 * c3 * h + 2.0 * c2) * h + c1
     }
 
+    /// From pieces that fit together; `knots` rise and are one more than the pieces.
+    pub(crate) fn from_pieces(knots: Vec<f64>, pieces: Vec<[f64; 4]>) -> Self {
+        Self { knots, pieces, periodic: false }
+    }
+
     /// The positions of the knots.
     pub fn knots(&self) -> &[f64] {
         &self.knots

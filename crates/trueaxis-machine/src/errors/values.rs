@@ -72,11 +72,24 @@ pub struct BodyErrors {
     pub motion: Six,
 }
 
+impl BodyErrors {
+    /// Location errors or error motions.
+    pub fn six_mut(&mut self, kind: super::ErrorKind) -> &mut Six {
+        match kind {
+            super::ErrorKind::Location => &mut self.location,
+            super::ErrorKind::Motion => &mut self.motion,
+        }
+    }
+}
+
 /// The value of every error of the machine at one position; bodies in chain order.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ErrorValues {
     /// One entry per body of [`crate::Machine::bodies`]; the rest is zero.
     pub bodies: [BodyErrors; MAX_BODIES],
+    /// E_w: how far the material under the nominal tip has gone because the workpiece is not at
+    /// 20 °C, in the workpiece frame, mm. The tool misses by minus that.
+    pub workpiece_mm: Vec3,
 }
 
 /// Which entry of [`ErrorValues`].
@@ -116,6 +129,7 @@ impl ErrorValues {
     /// All errors times a factor.
     pub fn scaled(&self, factor: f64) -> Self {
         let mut scaled = *self;
+        scaled.workpiece_mm *= factor;
         for body in &mut scaled.bodies {
             for value in body.location.0.iter_mut().chain(&mut body.motion.0) {
                 *value *= factor;

@@ -11,6 +11,7 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::errors::{BodyName, ErrorKind, ErrorName};
 use trueaxis_machine::file::read_pose;
+use trueaxis_machine::heat::Conditions;
 use trueaxis_part::testpiece::TestPiece;
 use trueaxis_part::tolerance::{Acceptance, Tolerances, Verdict};
 use trueaxis_part::{Shape, TestPieceFile};
@@ -145,6 +146,8 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Study> {
         root.take_over(problems);
         machine
     });
+    let conditions = root.section("temperature", Conditions::read);
+    let machine = machine.and_then(|m| at_temperatures(root, m, conditions.as_ref()));
     let hint = "the file of the test piece, relative to the study file";
     let piece_path = root.require("test_piece", hint).and_then(|i| i.text());
     let test_piece = piece_path.and_then(|p| read_piece(root, &folder.join(p)));
@@ -180,6 +183,20 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Study> {
         sampling: sampling.unwrap_or(Some(Sampling::default())).filter(|s| s.samples > 0),
         published,
     })
+}
+
+/// `[temperature] scale_x = "30.5 degC"`: the sensors of the machine file; without it every body
+/// stands at the temperature of its table.
+pub(super) fn at_temperatures(
+    root: &Section<'_>,
+    machine: Machine,
+    conditions: Option<&Conditions>,
+) -> Option<Machine> {
+    let Some(conditions) = conditions else { return Some(machine) };
+    let mut problems = Diagnostics::new();
+    let warm = machine.at(conditions, &mut problems);
+    root.take_over(problems);
+    warm
 }
 
 /// A guard band of nothing would pass what nobody knows.

@@ -12,6 +12,7 @@
 
 mod claim;
 mod document_000;
+mod document_001;
 mod document_002;
 mod document_003;
 mod document_004;
@@ -29,8 +30,9 @@ use std::fs;
 type Ours = fn() -> Vec<f64>;
 
 fn functions() -> Vec<(&'static str, Ours)> {
-    let lists: [&[(&str, Ours)]; 6] = [
+    let lists: [&[(&str, Ours)]; 7] = [
         document_000::CLAIMS,
+        document_001::CLAIMS,
         document_002::CLAIMS,
         document_003::CLAIMS,
         document_004::CLAIMS,

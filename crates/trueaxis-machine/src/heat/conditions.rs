@@ -1,0 +1,381 @@
+//! Conditions: what every temperature sensor says, typed or from a log.
+
+use std::sync::Arc;
+use trueaxis_geometry::input::{
+    CsvTable, Diagnostics, Dimension, Place, Section, Unit, parse_quantity,
+};
+
+/// Nothing in a workshop is colder or warmer, °C; what is, was written in °F or in the wrong
+/// column.
+const POSSIBLE_CELSIUS: std::ops::RangeInclusive<f64> = -40.0..=150.0;
+/// Warmer than a hall: perhaps °F, °C.
+const WARM_CELSIUS: f64 = 45.0;
+/// A step between two rows of a log that no body makes, K.
+const JUMP_K: f64 = 5.0;
+/// The others must have moved by so much before a sensor that stands still is stuck, K.
+const MOVING_K: f64 = 0.5;
+/// A log needs so many rows before its sensors are judged.
+const ROWS_TO_JUDGE: usize = 10;
+
+/// What one sensor says, and where that was written.
+#[derive(Debug, Clone, PartialEq)]
+struct Reading {
+    sensor: String,
+    celsius: f64,
+    place: Place,
+}
+
+/// The temperatures of all sensors at one time.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Conditions {
+    readings: Vec<Reading>,
+    /// What was before, and the time now, s.
+    history: Option<(Arc<TemperatureLog>, f64)>,
+    place: Place,
+}
+
+impl Conditions {
+    /// Reads `scale_x=30.5 workpiece=31`: °C, or with a unit (`scale_x=30.5degC`); `argument` is
+    /// where problems are shown.
+    pub fn typed(argument: &str, text: &str, problems: &mut Diagnostics) -> Option<Self> {
+        let place = Place::whole(argument);
+        let mut found = Self { place: place.clone(), ..Self::default() };
+        let separated = text.contains([',', ';']);
+        let between = |c: char| if separated { matches!(c, ',' | ';') } else { c.is_whitespace() };
+        let mut sound = true;
+        for word in text.split(between).map(str::trim).filter(|w| !w.is_empty()) {
+            let celsius = word.split_once('=').and_then(|(sensor, value)| {
+                let celsius = value.trim().parse().ok().filter(|v: &f64| v.is_finite());
+                let celsius = celsius
+                    .or_else(|| parse_quantity(value.trim(), Dimension::Temperature).ok())?;
+                Some((sensor.trim().to_owned(), celsius))
+            });
+            let Some((sensor, celsius)) = celsius.filter(|(sensor, _)| !sensor.is_empty()) else {
+                let message = format!("`{word}` is not a sensor, =, and a temperature in °C");
+                problems.error("bad-temperature", place.clone(), message, hint_for(word));
+                sound = false;
+                continue;
+            };
+            sound &= found.add(sensor, celsius, place.clone(), problems);
+        }
+        sound.then_some(found)
+    }
+
+    /// Reads a section: `[temperature] scale_x = "30.5 degC"`.
+    pub fn read(section: &Section<'_>) -> Self {
+        let mut found = Self::default();
+        let mut problems = Diagnostics::new();
+        for (sensor, place, item) in section.entries() {
+            if found.place.file.is_empty() {
+                found.place = place.clone();
+            }
+            if let Some(celsius) = item.quantity(Dimension::Temperature) {
+                found.add(sensor.to_owned(), celsius, place, &mut problems);
+            }
+        }
+        section.take_over(problems);
+        found
+    }
+
+    fn add(
+        &mut self,
+        sensor: String,
+        celsius: f64,
+        place: Place,
+        problems: &mut Diagnostics,
+    ) -> bool {
+        if self.celsius(&sensor).is_some() {
+            let message = format!("sensor `{sensor}` is given twice");
+            problems.error("duplicate-sensor", place, message, "keep one of them");
+            return false;
+        }
+        let sound = check_range(&sensor, celsius, &place, problems);
+        self.readings.push(Reading { sensor, celsius, place });
+        sound
+    }
+
+    /// What a sensor says, °C.
+    pub fn celsius(&self, sensor: &str) -> Option<f64> {
+        self.readings.iter().find(|r| r.sensor == sensor).map(|r| r.celsius)
+    }
+
+    /// The sensors that say something, with °C.
+    pub fn readings(&self) -> impl Iterator<Item = (&str, f64)> {
+        self.readings.iter().map(|r| (r.sensor.as_str(), r.celsius))
+    }
+
+    /// The log that these conditions were taken from, and at which time, s.
+    pub fn history(&self) -> Option<(&TemperatureLog, f64)> {
+        self.history.as_ref().map(|(log, time)| (&**log, *time))
+    }
+
+    /// Where they were written.
+    pub fn place(&self) -> &Place {
+        &self.place
+    }
+
+    /// Sensors that the machine does not have.
+    pub(super) fn check_names(&self, known: &[&str], problems: &mut Diagnostics) {
+        for reading in self.readings.iter().filter(|r| !known.contains(&r.sensor.as_str())) {
+            let message = format!("the machine file has no sensor `{}`", reading.sensor);
+            let hint = match known.is_empty() {
+                true => {
+                    "it has none: name them under [scale.X], [heat.EZ0t] or [workpiece]".to_owned()
+                }
+                false => format!("its sensors: {}", known.join(", ")),
+            };
+            // A log may have more columns than this machine has sensors.
+            if self.history.is_some() {
+                problems.warn("unknown-sensor", reading.place.clone(), message, &hint);
+            } else {
+                problems.error("unknown-sensor", reading.place.clone(), message, &hint);
+            }
+        }
+    }
+
+    /// What some sensors of one body say: all of them, or none; a few are an error.
+    pub(super) fn of<'s>(
+        &self,
+        body: &str,
+        sensors: impl Iterator<Item = &'s str> + Clone,
+        problems: &mut Diagnostics,
+    ) -> Option<Vec<f64>> {
+        let missing: Vec<&str> = sensors.clone().filter(|s| self.celsius(s).is_none()).collect();
+        if missing.is_empty() {
+            return Some(sensors.filter_map(|s| self.celsius(s)).collect());
+        }
+        let names = missing.join(", ");
+        if missing.len() < sensors.count() {
+            let message = format!("{body}: no temperature for {names}");
+            let hint = "give all sensors of a body, or none";
+            problems.error("missing-sensor", self.place.clone(), message, hint);
+        } else {
+            let message = format!("{body}: no temperature for {names}, so it has no thermal part");
+            let hint = "it is taken to stand at the temperature of its table";
+            problems.note("missing-sensor", self.place.clone(), message, hint);
+        }
+        None
+    }
+}
+
+fn hint_for(word: &str) -> &'static str {
+    match word.trim_end().ends_with(['F', 'f']) {
+        true => "°C = (°F − 32)/1.8",
+        false => "write \"scale_x=30.5 workpiece=31\", in °C",
+    }
+}
+
+fn check_range(sensor: &str, celsius: f64, place: &Place, problems: &mut Diagnostics) -> bool {
+    if !POSSIBLE_CELSIUS.contains(&celsius) {
+        let message = format!("`{sensor}` says {celsius} °C, which no machine has");
+        let hint = "°F, K, or the wrong column? °C = (°F − 32)/1.8 = K − 273.15";
+        problems.error("impossible-temperature", place.clone(), message, hint);
+        return false;
+    }
+    if celsius > WARM_CELSIUS {
+        let message = format!("`{sensor}` says {celsius} °C, warmer than a hall");
+        let hint = "if these are °F: °C = (°F − 32)/1.8";
+        problems.warn("warm-temperature", place.clone(), message, hint);
+    }
+    true
+}
+
+/// Temperatures over time.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct TemperatureLog {
+    file: String,
+    times_s: Vec<f64>,
+    columns: Vec<(String, Vec<f64>)>,
+}
+
+impl TemperatureLog {
+    /// Reads a CSV table: `time_s` (or another unit of time), then one column for each sensor with
+    /// its unit, such as `scale_x_degC`.
+    ///
+    /// Times that run backwards and impossible temperatures are errors; sensors that stand still
+    /// while others move, or jump, are warnings.
+    pub fn parse(file: &str, text: &str, problems: &mut Diagnostics) -> Option<Self> {
+        let mut found = Diagnostics::new();
+        let table = CsvTable::parse(file, text, &mut found);
+        let mut log = Self { file: file.to_owned(), ..Self::default() };
+        if !found.has_errors() {
+            log.read_columns(&table, &mut found);
+            log.check_times(&table, &mut found);
+            log.check_sensors(&table, &mut found);
+        }
+        let sound = !found.has_errors();
+        problems.append(found);
+        sound.then_some(log)
+    }
+
+    fn read_columns(&mut self, table: &CsvTable, problems: &mut Diagnostics) {
+        for column in &table.columns {
+            let (name, unit) = column.name.rsplit_once('_').unwrap_or((&column.name, ""));
+            let dimension = if name == "time" { Dimension::Time } else { Dimension::Temperature };
+            let unit = match Unit::find(unit, dimension) {
+                Ok(unit) => unit,
+                Err(error) => {
+                    let hint = match unit.to_ascii_lowercase().ends_with('f') {
+                        true => "convert it first: °C = (°F − 32)/1.8",
+                        false => "time_s first, then one column per sensor, such as scale_x_degC",
+                    };
+                    let message = format!("column `{}`: {error}", column.name);
+                    problems.error(error.code(), column.place.clone(), message, hint);
+                    continue;
+                }
+            };
+            let values: Vec<f64> = column.values.iter().map(|v| unit.to_inner(*v)).collect();
+            match dimension {
+                Dimension::Time => self.times_s = values,
+                _ => self.columns.push((name.to_owned(), values)),
+            }
+        }
+        if self.times_s.is_empty() {
+            let message = "the log has no time".to_owned();
+            let hint = "one column `time_s`, and at least one row";
+            problems.error("missing-column", Place::whole(&self.file), message, hint);
+        }
+    }
+
+    fn check_times(&self, table: &CsvTable, problems: &mut Diagnostics) {
+        let back = self.times_s.windows(2).position(|w| w[1] <= w[0]);
+        if let Some(i) = back {
+            let (before, now) = (self.times_s[i], self.times_s[i + 1]);
+            let message = format!("the time runs from {before} s to {now} s");
+            let hint = "times rise from row to row; is a column swapped, or are logs joined?";
+            problems.error("time-runs-backwards", table.row_place(i + 1), message, hint);
+        }
+    }
+
+    fn check_sensors(&self, table: &CsvTable, problems: &mut Diagnostics) {
+        let range = |v: &[f64]| {
+            let (low, high) = v
+                .iter()
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(*x), h.max(*x)));
+            high - low
+        };
+        let widest = self.columns.iter().map(|(_, v)| range(v)).fold(0.0, f64::max);
+        for (name, values) in &self.columns {
+            // The first row of each kind is enough.
+            let place = |row: usize| table.row_place(row);
+            let impossible = values.iter().position(|v| !POSSIBLE_CELSIUS.contains(v));
+            let warm = values.iter().position(|v| *v > WARM_CELSIUS);
+            if let Some(row) = impossible.or(warm) {
+                check_range(name, values[row], &place(row), problems);
+            }
+            if values.len() < ROWS_TO_JUDGE {
+                continue;
+            }
+            if range(values) == 0.0 && widest >= MOVING_K {
+                let message =
+                    format!("`{name}` stands still at {} °C while others move", values[0]);
+                problems.warn("stuck-sensor", place(0), message, "is it connected?");
+            }
+            if let Some(row) = jump(values) {
+                let (from, to) = (values[row - 1], values[row]);
+                let message = format!("`{name}` jumps from {from} to {to} °C between two rows");
+                problems.warn("jumping-sensor", place(row), message, "is it connected?");
+            }
+        }
+    }
+
+    /// The sensors that the log knows.
+    pub fn sensors(&self) -> impl Iterator<Item = &str> {
+        self.columns.iter().map(|c| c.0.as_str())
+    }
+
+    /// When it was written, s, rising.
+    pub fn times_s(&self) -> &[f64] {
+        &self.times_s
+    }
+
+    /// What a sensor said at each time, °C.
+    pub fn celsius(&self, sensor: &str) -> Option<&[f64]> {
+        self.columns.iter().find(|c| c.0 == sensor).map(|c| c.1.as_slice())
+    }
+
+    /// The conditions at a time, between two rows by straight lines; `None` outside the log.
+    pub fn at(self: &Arc<Self>, time_s: f64) -> Option<Conditions> {
+        let (first, last) = (*self.times_s.first()?, *self.times_s.last()?);
+        if !(first..=last).contains(&time_s) {
+            return None;
+        }
+        let right = self.times_s.partition_point(|t| *t < time_s).max(1);
+        let place = Place::whole(&self.file);
+        let between = |values: &[f64]| match self.times_s.get(right) {
+            None => values[0],
+            Some(t1) => {
+                let t0 = self.times_s[right - 1];
+                values[right - 1] + (values[right] - values[right - 1]) * (time_s - t0) / (t1 - t0)
+            }
+        };
+        let readings = self.columns.iter().map(|(sensor, values)| Reading {
+            sensor: sensor.clone(),
+            celsius: between(values),
+            place: place.clone(),
+        });
+        let readings = readings.collect();
+        Some(Conditions { readings, history: Some((Arc::clone(self), time_s)), place })
+    }
+}
+
+/// The first row whose step is no step of a body: large, and many times the usual one.
+fn jump(values: &[f64]) -> Option<usize> {
+    let mut steps: Vec<f64> = values.windows(2).map(|w| (w[1] - w[0]).abs()).collect();
+    let found = steps.iter().position(|s| *s > JUMP_K)?;
+    let height = steps[found];
+    steps.sort_by(f64::total_cmp);
+    (height > 10.0 * steps[steps.len() / 2]).then_some(found + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn codes(text: &str) -> Vec<&'static str> {
+        let mut problems = Diagnostics::new();
+        TemperatureLog::parse("log.csv", text, &mut problems);
+        problems.iter().map(|d| d.code).collect()
+    }
+
+    #[test]
+    fn a_log_is_read_between_its_rows() {
+        let mut problems = Diagnostics::new();
+        let text = "time_min,scale_x_degC\n0,20\n10,30\n";
+        let log = TemperatureLog::parse("log.csv", text, &mut problems).map(Arc::new).unwrap();
+        assert_eq!(log.at(150.0).unwrap().celsius("scale_x"), Some(22.5));
+        assert_eq!(log.at(600.0).unwrap().celsius("scale_x"), Some(30.0));
+        assert!(log.at(601.0).is_none());
+        assert!(problems.iter().next().is_none());
+    }
+
+    #[test]
+    fn bad_logs_are_named() {
+        assert_eq!(codes("time_s,a_degC\n0,20\n10,21\n5,22\n"), ["time-runs-backwards"]);
+        assert_eq!(codes("time_s,a_degF\n0,68\n"), ["unknown-unit"]);
+        assert_eq!(codes("time_s,a_degC\n0,20\n10,3600\n"), ["impossible-temperature"]);
+        assert_eq!(codes("time_s,a_degC\n0,68\n10,70\n"), ["warm-temperature"]);
+        assert_eq!(codes("a_degC\n20\n"), ["missing-column"]);
+        let rows = |f: fn(usize) -> String| (0..20).map(f).collect::<String>();
+        let stuck = rows(|i| format!("{i},21,{}\n", 20.0 + 0.1 * i as f64));
+        assert_eq!(codes(&format!("time_s,a_degC,b_degC\n{stuck}")), ["stuck-sensor"]);
+        let jumps =
+            rows(|i| format!("{i},{}\n", if i == 7 { 35.0 } else { 20.0 + 0.1 * i as f64 }));
+        assert_eq!(codes(&format!("time_s,a_degC\n{jumps}")), ["jumping-sensor"]);
+    }
+
+    #[test]
+    fn typed_temperatures() {
+        let typed = |text: &str| {
+            let mut problems = Diagnostics::new();
+            let found = Conditions::typed("--temperature", text, &mut problems);
+            (found.is_some(), problems.iter().map(|d| d.code).collect::<Vec<_>>())
+        };
+        assert_eq!(typed("a=30.5 b=31degC"), (true, vec![]));
+        assert_eq!(typed("a=300"), (false, vec!["impossible-temperature"]));
+        assert_eq!(typed("a=86"), (true, vec!["warm-temperature"]));
+        assert_eq!(typed("a=86F"), (false, vec!["bad-temperature"]));
+        assert_eq!(typed("a=1 a=2"), (false, vec!["duplicate-sensor"]));
+        assert_eq!(typed("=3 a b=nan"), (false, vec!["bad-temperature"; 3]));
+    }
+}

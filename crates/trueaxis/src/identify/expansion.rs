@@ -1,0 +1,343 @@
+//! The coefficient of expansion of a positioning element from laser runs at several temperatures.
+//!
+//! ```text
+//!     e_ij = g_i + o_j + α (p_i − p̄)(T_j − T̄)                              docs/model.md eq. 88
+//! ```
+//!
+//! g_i is the geometric error, free at every position and common to all runs; o_j the zero of run j.
+
+use crate::files;
+use std::path::Path;
+use trueaxis_geometry::input::{CsvTable, Diagnostics, Dimension, Measured, Section, Source, Unit};
+
+/// Temperatures nearer than this say little about an expansion, K.
+const LITTLE_K: f64 = 1.0;
+/// The uncertainty of a temperature where none is stated, K: a usual contact sensor.
+const SENSOR_U_K: f64 = 0.1;
+/// One strange run of m leaves (m − 1)² times as much in itself as, by the common geometry, in each
+/// of the others; from this share of it on a run is named.
+const OUTLIER_SHARE: f64 = 0.6;
+/// Among fewer runs a strange one cannot be told from the others.
+const RUNS_TO_JUDGE: usize = 4;
+
+/// One laser run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Run {
+    /// Its name: the column of the table without its unit.
+    pub name: String,
+    /// The temperature of the scale, °C, with its standard uncertainty.
+    pub celsius: Measured,
+    /// The error at each position, mm.
+    pub errors_mm: Vec<f64>,
+}
+
+/// Runs over the same positions at several temperatures.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Runs {
+    /// What is measured.
+    pub name: String,
+    /// The positions, mm.
+    pub positions_mm: Vec<f64>,
+    /// At least two.
+    pub runs: Vec<Run>,
+}
+
+/// What materials scales are made of, with 10⁻⁶/K from and to.
+const MATERIALS: [(&str, f64, f64); 3] =
+    [("steel tape", 10.0, 12.0), ("glass", 7.8, 9.0), ("Zerodur", -0.5, 0.5)];
+
+/// An identified coefficient.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Expansion {
+    /// α by least squares over all runs, 1/K.
+    pub per_k: f64,
+    /// Its standard uncertainty: scatter of the readings and uncertainty of the temperatures, 1/K.
+    pub u_per_k: f64,
+    /// From the two runs at the ends of the temperatures alone, by their slopes, 1/K.
+    pub slope_difference_per_k: f64,
+    /// The slope of each run's straight line, mm/mm.
+    pub slopes: Vec<f64>,
+    /// The standard deviation of what the model leaves, mm.
+    pub residual_mm: f64,
+    /// The materials that the coefficient allows within ± 2 u.
+    pub materials: Vec<&'static str>,
+    /// What the reader should know.
+    pub warnings: Vec<String>,
+}
+
+/// Reads the file of an identification, and the table that it names.
+pub fn read_runs(path: &Path) -> (Option<Runs>, Diagnostics) {
+    let mut problems = Diagnostics::new();
+    let Some(text) = files::text(path, "a file of laser runs (TOML)", &mut problems) else {
+        return (None, problems);
+    };
+    let file = path.display().to_string();
+    let source = Source::new(&file, &text);
+    let runs = source.read(|root| read(root, path));
+    problems.append(source.finish());
+    (runs.filter(|_| !problems.has_errors()), problems)
+}
+
+fn read(root: &Section<'_>, path: &Path) -> Option<Runs> {
+    let name = root.require("name", "say which scale this is").and_then(|i| i.text());
+    let hint = "a CSV table with position_mm and one column per run, such as cold_um";
+    let table_path = root.require("table", hint).and_then(|i| i.text());
+    let table = table_path.and_then(|p| {
+        let path = path.parent().unwrap_or(Path::new("")).join(p);
+        let mut problems = Diagnostics::new();
+        let text = files::text(&path, "a CSV table of laser runs", &mut problems);
+        let shown = path.display().to_string();
+        let table = text.map(|text| CsvTable::parse(&shown, &text, &mut problems));
+        let sound = !problems.has_errors();
+        root.take_over(problems);
+        table.filter(|_| sound)
+    });
+    root.text("source");
+    root.require("run", "[run.cold] temperature = \"29.3 degC\"");
+    let mut temperatures = Vec::new();
+    root.section("run", |section| {
+        for (key, _, item) in section.entries() {
+            let read = |s: &Section<'_>| {
+                let hint = "of the scale during the run, such as \"29.3 ± 0.1 degC\"";
+                s.require("temperature", hint)?.measured(Dimension::Temperature)
+            };
+            let celsius = item.section(&section.path(key), read).flatten();
+            temperatures.extend(celsius.map(|t| (key.to_owned(), t)));
+        }
+    });
+    let (name, table) = (name?.to_owned(), table?);
+    let mut problems = Diagnostics::new();
+    let positions_mm = column(&table, "position", &mut problems);
+    let mut runs = Vec::new();
+    for (name, celsius) in temperatures {
+        let errors_mm = column(&table, &name, &mut problems);
+        runs.extend(errors_mm.map(|errors_mm| Run { name, celsius, errors_mm }));
+    }
+    let positions_mm = positions_mm.unwrap_or_default();
+    check(root, &positions_mm, &runs);
+    root.take_over(problems);
+    Some(Runs { name, positions_mm, runs })
+}
+
+/// The column `NAME_unit`, in mm.
+fn column(table: &CsvTable, name: &str, problems: &mut Diagnostics) -> Option<Vec<f64>> {
+    for column in &table.columns {
+        let Some((_, unit)) = column.name.rsplit_once('_').filter(|(n, _)| *n == name) else {
+            continue;
+        };
+        return match Unit::find(unit, Dimension::Length) {
+            Ok(unit) => Some(column.values.iter().map(|v| unit.to_inner(*v)).collect()),
+            Err(error) => {
+                let place = column.place.clone();
+                problems.error(error.code(), place, error.to_string(), &error.hint());
+                None
+            }
+        };
+    }
+    let place = trueaxis_geometry::input::Place::whole(&table.file);
+    let message = format!("the table has no column for `{name}`");
+    problems.error("missing-column", place, message, &format!("its heading is `{name}_um`"));
+    None
+}
+
+fn check(root: &Section<'_>, positions_mm: &[f64], runs: &[Run]) {
+    let spread = |values: &[f64]| {
+        let (low, high) = values
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
+        high - low
+    };
+    if positions_mm.len() < 3 || spread(positions_mm) <= 0.0 {
+        let message = format!("{} positions cannot tell a slope from noise", positions_mm.len());
+        root.error("too-few-positions", message, "measure at three positions or more");
+    }
+    if runs.len() < 2 {
+        let message = "one temperature tells nothing about expansion".to_owned();
+        root.error("too-few-runs", message, "measure at two temperatures or more");
+        return;
+    }
+    let celsius: Vec<f64> = runs.iter().map(|r| r.celsius.value).collect();
+    match spread(&celsius) {
+        d if d <= 0.0 => {
+            let message = "all runs have the same temperature".to_owned();
+            root.error("same-temperature", message, "measure at two temperatures or more");
+        }
+        d if d < LITTLE_K => {
+            let message = format!("the temperatures differ by {d:.2} K only");
+            root.warn("little-difference", message, "some K apart the coefficient is far surer");
+        }
+        _ => {}
+    }
+    for run in runs.iter().filter(|r| !(-40.0..=150.0).contains(&r.celsius.value)) {
+        let message = format!("`{}`: {} °C has no machine", run.name, run.celsius.value);
+        root.error("impossible-temperature", message, "°C = (°F − 32)/1.8");
+    }
+}
+
+/// The coefficient from all runs.
+///
+/// With the same positions in all runs the least squares of equation 88 are the regression of the
+/// slopes b_j on the temperatures; for two runs that is the slope difference of the source.
+///
+/// ```text
+///     α = Σ (T_j − T̄) b_j / Σ (T_j − T̄)²                                  docs/model.md eq. 88
+///     u² = s²/(Σ (p_i − p̄)² Σ (T_j − T̄)²) + α² Σ (T_j − T̄)² u_j² / (Σ (T_j − T̄)²)²
+/// ```
+///
+/// # Source
+/// Document 001, section 1.4.2 (two runs); the uncertainty by GUM, first order.
+pub fn identify_expansion(data: &Runs) -> Expansion {
+    let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
+    let p_mean = mean(&data.positions_mm);
+    let p: Vec<f64> = data.positions_mm.iter().map(|v| v - p_mean).collect();
+    let celsius: Vec<f64> = data.runs.iter().map(|r| r.celsius.value).collect();
+    let t_mean = mean(&celsius);
+    let t: Vec<f64> = celsius.iter().map(|v| v - t_mean).collect();
+    let square = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>();
+    let (p_square, t_square) = (square(&p), square(&t));
+    let slope =
+        |run: &Run| p.iter().zip(&run.errors_mm).map(|(p, e)| p * e).sum::<f64>() / p_square;
+    let slopes: Vec<f64> = data.runs.iter().map(slope).collect();
+    let per_k = t.iter().zip(&slopes).map(|(t, b)| t * b).sum::<f64>() / t_square;
+    let by_run = residuals(data, &p, &t, per_k);
+    let freedom = (p.len() - 1) * (t.len() - 1) - 1;
+    let residual_mm = (by_run.iter().map(|r| square(r)).sum::<f64>() / freedom as f64).sqrt();
+    let of_sensors = data.runs.iter().zip(&t).map(|(run, t)| {
+        let u = run.celsius.u.unwrap_or(SENSOR_U_K);
+        (per_k * t * u / t_square).powi(2)
+    });
+    let u_square = residual_mm.powi(2) / (p_square * t_square) + of_sensors.sum::<f64>();
+    let u_per_k = u_square.sqrt();
+    let (coldest, warmest) = ends(&celsius);
+    Expansion {
+        per_k,
+        u_per_k,
+        slope_difference_per_k: (slopes[warmest] - slopes[coldest])
+            / (celsius[warmest] - celsius[coldest]),
+        warnings: warnings(data, &by_run),
+        slopes,
+        residual_mm,
+        materials: materials(per_k, u_per_k),
+    }
+}
+
+fn ends(celsius: &[f64]) -> (usize, usize) {
+    let (mut coldest, mut warmest) = (0, 0);
+    for (i, c) in celsius.iter().enumerate() {
+        if *c < celsius[coldest] {
+            coldest = i;
+        }
+        if *c > celsius[warmest] {
+            warmest = i;
+        }
+    }
+    (coldest, warmest)
+}
+
+/// What is left of each run when geometry, zero and expansion are taken away.
+fn residuals(data: &Runs, p: &[f64], t: &[f64], per_k: f64) -> Vec<Vec<f64>> {
+    let (n, m) = (p.len() as f64, t.len() as f64);
+    let left: Vec<Vec<f64>> = data
+        .runs
+        .iter()
+        .zip(t)
+        .map(|(run, t)| run.errors_mm.iter().zip(p).map(|(e, p)| e - per_k * p * t).collect())
+        .collect();
+    let of_run: Vec<f64> = left.iter().map(|r: &Vec<f64>| r.iter().sum::<f64>() / n).collect();
+    let of_place: Vec<f64> =
+        (0..p.len()).map(|i| left.iter().map(|r| r[i]).sum::<f64>() / m).collect();
+    let all = of_run.iter().sum::<f64>() / m;
+    let centred = |(r, mean): (&Vec<f64>, &f64)| {
+        r.iter().zip(&of_place).map(|(e, place)| e - mean - place + all).collect()
+    };
+    left.iter().zip(&of_run).map(centred).collect()
+}
+
+fn warnings(data: &Runs, residuals: &[Vec<f64>]) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if data.runs.iter().any(|r| r.celsius.u.is_none()) {
+        warnings.push(format!(
+            "no uncertainty of the temperature is stated for some runs: ± {SENSOR_U_K} K taken"
+        ));
+    }
+    if data.runs.len() >= RUNS_TO_JUDGE {
+        let size = |r: &Vec<f64>| r.iter().map(|v| v * v).sum::<f64>();
+        let all: f64 = residuals.iter().map(size).sum();
+        for (run, r) in data.runs.iter().zip(residuals) {
+            let rest = (residuals.len() - 1) as f64;
+            let others = (all - size(r)) / rest;
+            if size(r) > OUTLIER_SHARE * rest * rest * others {
+                warnings.push(format!("run `{}` does not go with the others", run.name));
+            }
+        }
+    }
+    warnings
+}
+
+fn materials(per_k: f64, u_per_k: f64) -> Vec<&'static str> {
+    let (low, high) = ((per_k - 2.0 * u_per_k) * 1e6, (per_k + 2.0 * u_per_k) * 1e6);
+    let fits = MATERIALS.iter().filter(|(_, from, to)| low <= *to && high >= *from);
+    fits.map(|(name, ..)| *name).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn made(alpha: f64, celsius: &[f64], noise: impl Fn(usize, usize) -> f64) -> Runs {
+        let positions_mm: Vec<f64> = (0..=10).map(|i| 230.0 * f64::from(i)).collect();
+        let geometry = |p: f64| 0.1 * (p / 700.0).sin() + 8e-5 * p;
+        let run = |(j, c): (usize, &f64)| Run {
+            name: format!("run {j}"),
+            celsius: Measured { value: *c, u: Some(0.0) },
+            errors_mm: positions_mm
+                .iter()
+                .enumerate()
+                .map(|(i, p)| {
+                    geometry(*p) + alpha * p * (c - 20.0) + 0.002 * j as f64 + noise(i, j)
+                })
+                .collect(),
+        };
+        let runs = celsius.iter().enumerate().map(run).collect();
+        Runs { name: String::new(), positions_mm, runs }
+    }
+
+    /// Between −1 and 1 µm, without any pattern.
+    fn scatter(i: usize, j: usize) -> f64 {
+        let seed = (i as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15)
+            ^ (j as u64 + 1).wrapping_mul(0xD1B5_4A32_D192_ED03);
+        let mixed = (seed ^ (seed >> 29)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        ((mixed >> 32) as f64 / f64::from(u32::MAX) - 0.5) * 2e-3
+    }
+
+    #[test]
+    fn law_the_coefficient_comes_back_whatever_the_geometry() {
+        for celsius in [&[29.3, 33.8][..], &[20.0, 24.0, 31.0, 22.0]] {
+            let found = identify_expansion(&made(8.6e-6, celsius, |_, _| 0.0));
+            assert!((found.per_k - 8.6e-6).abs() < 1e-16);
+            assert!((found.slope_difference_per_k - 8.6e-6).abs() < 1e-16);
+            assert!(found.u_per_k < 1e-15 && found.warnings.is_empty());
+            assert_eq!(found.materials, ["glass"]);
+        }
+    }
+
+    #[test]
+    fn noise_of_a_micrometre_moves_it_by_less_than_three_u() {
+        let noise = scatter;
+        let found = identify_expansion(&made(10.8e-6, &[20.0, 25.0, 30.0], noise));
+        assert!((found.per_k - 10.8e-6).abs() < 3.0 * found.u_per_k, "{found:?}");
+        // s ≈ 1/√3 µm; Σp² = 110·230²; Σt² = 50: s/√(…) ≈ 0.034e-6
+        assert!((0.02e-6..0.08e-6).contains(&found.u_per_k), "{found:?}");
+        assert_eq!(found.materials, ["steel tape"]);
+    }
+
+    #[test]
+    fn a_run_of_another_machine_is_named() {
+        let noise = |i: usize, j: usize| match j {
+            2 => 0.05 * (i as f64).sin(),
+            _ => 0.1 * scatter(i, j),
+        };
+        let found = identify_expansion(&made(8e-6, &[20.0, 22.0, 24.0, 26.0, 28.0], noise));
+        assert_eq!(found.warnings.len(), 1, "{:?}", found.warnings);
+    }
+}

@@ -1,0 +1,70 @@
+//! Holes on a circle as text and JSON.
+
+use crate::predict::holes::{Compensation, Hole, HolePrediction, HoleSet, HoleStudy};
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// The holes as a table, with the verdict and the warning first.
+pub fn holes_text(study: &HoleStudy, prediction: &HolePrediction) -> String {
+    let mut text = format!("{}\n  machine  {}\n", study.name, study.machine.name());
+    for warning in &prediction.warnings {
+        let _ = write!(text, "\n  WARNING  {warning}\n");
+    }
+    text += "\n  compensation     worst hole, mm   in tolerance\n";
+    for set in &prediction.sets {
+        let verdict = match set.in_tolerance {
+            Some(true) => "yes",
+            Some(false) => "NO",
+            None => "-",
+        };
+        let mark = if set.compensation == study.applied { "  <- applied" } else { "" };
+        let name = set.compensation.name();
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "  {name:<16} {:>14.4}   {verdict}{mark}", set.worst_mm);
+    }
+    text += "\n  hole       x         y    dx, dy in µm:   none           machine-only      comprehensive\n";
+    for (i, place) in study.holes_mm.iter().enumerate() {
+        let _ = write!(text, "  {:>4} {:>9.3} {:>9.3}           ", i + 1, place.x, place.y);
+        for set in &prediction.sets {
+            // No minus before a zero.
+            let error = (set.holes[i].error_mm * 1e4).map(|v| v.round() / 10.0 + 0.0);
+            let _ = write!(text, " {:>8.1} {:>8.1}", error.x, error.y);
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// The holes as one document.
+pub fn holes_json(study: &HoleStudy, prediction: &HolePrediction) -> Value {
+    let vector = |v: &trueaxis_geometry::Vec3, scale: f64| [v.x, v.y, v.z].map(|x| x * scale + 0.0);
+    let hole = |hole: &Hole, i: usize| {
+        json!({
+            "nominal_mm": vector(&study.holes_mm[i], 1.0),
+            "actual_mm": vector(&(study.holes_mm[i] + hole.error_mm), 1.0),
+            "error_um": vector(&hole.error_mm, 1e3),
+            "compensation_increments": hole.increments,
+        })
+    };
+    let set = |set: &HoleSet| {
+        let holes = set.holes.iter().enumerate().map(|(i, h)| hole(h, i));
+        json!({
+            "compensation": set.compensation.name(),
+            "worst_mm": set.worst_mm,
+            "in_tolerance": set.in_tolerance,
+            "holes": holes.collect::<Vec<_>>(),
+        })
+    };
+    let applied =
+        &prediction.sets[Compensation::ALL.iter().position(|c| *c == study.applied).unwrap_or(0)];
+    json!({
+        "schema": "trueaxis/predict/1",
+        "name": study.name,
+        "increment_mm": study.increment_mm,
+        "tolerance_mm": study.tolerance_mm,
+        "applied": study.applied.name(),
+        "in_tolerance": applied.in_tolerance,
+        "sets": prediction.sets.iter().map(set).collect::<Vec<_>>(),
+        "warnings": prediction.warnings,
+    })
+}

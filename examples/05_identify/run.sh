@@ -1,0 +1,5 @@
+# What is the machine like? The expansion of a scale from two laser runs.
+set -e
+trueaxis=${TRUEAXIS:-target/release/trueaxis}
+$trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml
+$trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml --format json
