@@ -35,6 +35,14 @@ pub struct Unknown {
     pub settled_by: String,
 }
 
+/// What came out on the files of others, which are not part of the project.
+pub struct Outside {
+    pub files: String,
+    pub found: String,
+    pub differs: String,
+    pub test: String,
+}
+
 /// One TOML file.
 pub struct Record {
     pub title: String,
@@ -42,6 +50,7 @@ pub struct Record {
     pub claims: Vec<Claim>,
     pub differences: Vec<Difference>,
     pub unknowns: Vec<Unknown>,
+    pub outsides: Vec<Outside>,
 }
 
 /// One table of a record; every key must be asked for.
@@ -114,6 +123,7 @@ fn record(path: &Path) -> Record {
         claims: entry.list("claim").into_iter().map(claim).collect(),
         differences: entry.list("difference").into_iter().map(difference).collect(),
         unknowns: entry.list("unknown").into_iter().map(unknown).collect(),
+        outsides: entry.list("outside").into_iter().map(outside).collect(),
     };
     entry.finish();
     record
@@ -162,6 +172,17 @@ fn difference(mut entry: Entry) -> Difference {
     };
     entry.finish();
     difference
+}
+
+fn outside(mut entry: Entry) -> Outside {
+    let outside = Outside {
+        files: entry.text("files"),
+        found: entry.text("found"),
+        differs: entry.text("differs"),
+        test: entry.text("test"),
+    };
+    entry.finish();
+    outside
 }
 
 fn unknown(mut entry: Entry) -> Unknown {

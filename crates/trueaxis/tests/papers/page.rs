@@ -28,6 +28,14 @@ pub fn written(
         page += &differences(record, records);
     }
     page += &judged(tests);
+    for record in records.iter().filter(|r| !r.outsides.is_empty()) {
+        page += &section(&record.title, &record.text);
+        page += "| files | found | differs, and why | test |\n|---|---|---|---|\n";
+        for outside in &record.outsides {
+            let test = format!("`{}`", outside.test);
+            page += &row(&[&outside.files, &outside.found, &outside.differs, &test]);
+        }
+    }
     for record in records.iter().filter(|r| !r.unknowns.is_empty()) {
         page += &section(&record.title, &record.text);
         page += "| what | why not | what would settle it |\n|---|---|---|\n";
