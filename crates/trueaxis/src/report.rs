@@ -25,7 +25,6 @@ mod text;
 pub use evaluation::{Evaluation, evaluation_text};
 pub use evaluation_html::evaluation_html;
 pub use evaluation_json::evaluation_json;
-pub use evaluation_plots::PictureError;
 pub use holes::{holes_json, holes_text};
 pub use html::html;
 pub use json::json;

@@ -2,6 +2,7 @@ use super::Run;
 use super::words::check_groups;
 use crate::code::Action;
 use crate::dialect::Dialect;
+use crate::lexer::plain_number;
 
 /// G codes by their number in tenths, for one look each.
 pub(super) type CodeTable = Box<[Option<Action>; 1000]>;
@@ -80,32 +81,4 @@ impl Run<'_> {
         self.words.actions.push((action, at));
         Some(())
     }
-}
-
-/// A number of at most 15 digits that begins here, and where it ends.
-#[inline]
-fn plain_number(source: &[u8], start: usize) -> Option<(f64, usize)> {
-    const TENS: [f64; 16] =
-        [1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
-    let mut at = start;
-    let negative = source.get(at) == Some(&b'-');
-    at += usize::from(negative);
-    let first = at;
-    let (mut digits, mut point) = (0_u64, None);
-    while let Some(byte) = source.get(at) {
-        match byte {
-            b'0'..=b'9' => digits = digits.wrapping_mul(10).wrapping_add(u64::from(byte - b'0')),
-            b'.' if point.is_none() => point = Some(at),
-            _ => break,
-        }
-        at += 1;
-    }
-    let count = at - first - usize::from(point.is_some());
-    if count == 0 || count > 15 {
-        return None;
-    }
-    let decimals = point.map_or(0, |p| at - p - 1);
-    // Both fit in a double without loss, so one division rounds correctly.
-    let value = digits as f64 / TENS[decimals];
-    Some((if negative { -value } else { value }, at))
 }

@@ -8,9 +8,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 ///
 /// # Errors
 /// What the drawing library says.
-pub fn evaluation_html(
-    evaluation: &Evaluation<'_>,
-) -> Result<String, super::evaluation_plots::PictureError> {
+pub fn evaluation_html(evaluation: &Evaluation<'_>) -> Result<String, super::DrawingError> {
     let sheets = evaluation.sheets();
     let mut pictures = Vec::new();
     for picture in &sheets.pictures {

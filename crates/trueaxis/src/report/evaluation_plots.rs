@@ -1,45 +1,19 @@
 //! The customary charts of the standards as SVG text.
 
-use super::plots::COLOURS;
+use super::plots::{COLOURS, DrawingError, FAINT, INK, SHARP, drawing_error, ink, pen, px};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use std::f64::consts::TAU;
 
-/// A picture that could not be drawn.
-#[derive(Debug, thiserror::Error)]
-#[error("a picture could not be drawn: {0}")]
-pub struct PictureError(String);
-
-fn fault(error: impl std::fmt::Display) -> PictureError {
-    PictureError(error.to_string())
-}
-
-type Done = Result<(), PictureError>;
+type Done = Result<(), DrawingError>;
 type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
 type Flat<'a> = DrawingArea<SVGBackend<'a>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
-const INK: RGBColor = RGBColor(40, 46, 54);
-const FAINT: RGBColor = RGBColor(210, 215, 220);
-const FONT: &str = "sans-serif";
-/// The library rounds to whole pixels: draw this much larger and let the view box scale it back.
-const SHARP: u32 = 4;
 const HEIGHT: u32 = 380;
 const WIDTH: u32 = 1000;
 const ROUND: u32 = 640;
-
-const fn px(length: i32) -> i32 {
-    length * SHARP as i32
-}
-
-fn pen(colour: RGBColor, width: u32) -> ShapeStyle {
-    colour.stroke_width(width * SHARP)
-}
-
-fn ink(size: i32) -> TextStyle<'static> {
-    (FONT, px(size)).into_font().color(&INK)
-}
 
 fn colour(i: usize) -> RGBColor {
     COLOURS[i % COLOURS.len()]
@@ -137,7 +111,7 @@ impl Picture {
     ///
     /// # Errors
     /// What the drawing library says.
-    pub fn svg(&self) -> Result<String, PictureError> {
+    pub fn svg(&self) -> Result<String, DrawingError> {
         match self {
             Self::Scatter(s) => draw((WIDTH, HEIGHT), |area| scatter(area, s)),
             Self::Polar(p) => draw((ROUND, ROUND), |area| polar(area, p)),
@@ -145,14 +119,14 @@ impl Picture {
     }
 }
 
-fn draw(size: (u32, u32), paint: impl FnOnce(&Area<'_>) -> Done) -> Result<String, PictureError> {
+fn draw(size: (u32, u32), paint: impl FnOnce(&Area<'_>) -> Done) -> Result<String, DrawingError> {
     let mut svg = String::new();
     let (width, height) = (size.0 * SHARP, size.1 * SHARP);
     {
         let area = SVGBackend::with_string(&mut svg, (width, height)).into_drawing_area();
-        area.fill(&WHITE).map_err(fault)?;
+        area.fill(&WHITE).map_err(drawing_error)?;
         paint(&area)?;
-        area.present().map_err(fault)?;
+        area.present().map_err(drawing_error)?;
     }
     // The page scales the picture: a view box instead of a fixed size.
     Ok(svg.replacen(&format!("width=\"{width}\" height=\"{height}\" viewBox"), "viewBox", 1))
@@ -188,7 +162,7 @@ fn scatter(area: &Area<'_>, s: &Scatter) -> Done {
         .x_label_area_size(px(40))
         .y_label_area_size(px(66))
         .build_cartesian_2d(xs, ys)
-        .map_err(fault)?;
+        .map_err(drawing_error)?;
     chart
         .configure_mesh()
         .x_desc(&s.x)
@@ -201,10 +175,10 @@ fn scatter(area: &Area<'_>, s: &Scatter) -> Done {
         .y_label_formatter(&|y| tick(*y, y_span))
         .label_style(ink(13))
         .draw()
-        .map_err(fault)?;
+        .map_err(drawing_error)?;
     if s.from_zero {
         let zero = LineSeries::new(ends.map(|x| (x, 0.0)), pen(INK, 1));
-        chart.draw_series(zero).map_err(fault)?;
+        chart.draw_series(zero).map_err(drawing_error)?;
     }
     for band in &s.bands {
         draw_band(&mut chart, band)?;
@@ -217,7 +191,7 @@ fn scatter(area: &Area<'_>, s: &Scatter) -> Done {
         for k in 0..4 {
             let from = f64::from(k) * 0.25;
             let dash = PathElement::new([at(from), at(from + 0.14)], pen(INK, 2));
-            chart.plotting_area().draw(&dash).map_err(fault)?;
+            chart.plotting_area().draw(&dash).map_err(drawing_error)?;
         }
     }
     if s.bands.len() > 1 {
@@ -230,7 +204,7 @@ fn scatter(area: &Area<'_>, s: &Scatter) -> Done {
             .legend_area_size(px(22))
             .label_font(ink(13))
             .draw()
-            .map_err(fault)?;
+            .map_err(drawing_error)?;
     }
     Ok(())
 }
@@ -242,14 +216,14 @@ fn draw_band(chart: &mut Chart<'_, '_>, band: &Band) -> Done {
         let lower = band.line.iter().rev().map(|p| (p.0, p.1 - p.2));
         let outline: Vec<_> = upper.chain(lower).collect();
         let area = Polygon::new(outline, paint.mix(0.16).filled());
-        chart.plotting_area().draw(&area).map_err(fault)?;
+        chart.plotting_area().draw(&area).map_err(drawing_error)?;
     }
     let dots = band.points.iter().map(|p| Circle::new(*p, px(2), paint.mix(0.55).filled()));
-    chart.draw_series(dots).map_err(fault)?;
+    chart.draw_series(dots).map_err(drawing_error)?;
     let line = LineSeries::new(band.line.iter().map(|p| (p.0, p.1)), pen(paint, 2));
     chart
         .draw_series(line)
-        .map_err(fault)?
+        .map_err(drawing_error)?
         .label(&band.label)
         .legend(move |(x, y)| PathElement::new([(x, y), (x + px(16), y)], pen(paint, 3)));
     Ok(())
@@ -282,30 +256,31 @@ fn polar(area: &Area<'_>, p: &Polar) -> Done {
         let um = f64::from(k) * ring_um;
         let ring: Vec<_> = (0..=240).map(|i| place(TAU * f64::from(i) / 240.0, um)).collect();
         let style = if k == 0 { pen(INK, 2) } else { pen(FAINT, 1) };
-        flat.draw(&PathElement::new(ring, style)).map_err(fault)?;
+        flat.draw(&PathElement::new(ring, style)).map_err(drawing_error)?;
     }
     for i in 0..8 {
         let angle = TAU * f64::from(i) / 8.0;
         let at = |r: f64| (r * angle.cos(), r * angle.sin());
-        flat.draw(&PathElement::new([at(0.16), at(0.88)], pen(FAINT, 1))).map_err(fault)?;
+        flat.draw(&PathElement::new([at(0.16), at(0.88)], pen(FAINT, 1))).map_err(drawing_error)?;
         let style = ink(13).pos(Pos::new(HPos::Center, VPos::Center));
-        flat.draw(&Text::new(format!("{}°", i * 45), at(0.94), style)).map_err(fault)?;
+        flat.draw(&Text::new(format!("{}°", i * 45), at(0.94), style)).map_err(drawing_error)?;
     }
     for line in &p.lines {
         let outline: Vec<_> = line.points.iter().map(|q| place(q.0, q.1)).collect();
-        flat.draw(&PathElement::new(outline, pen(colour(line.colour), 2))).map_err(fault)?;
+        flat.draw(&PathElement::new(outline, pen(colour(line.colour), 2)))
+            .map_err(drawing_error)?;
     }
     let digits = if ring_um < 1.0 { 2 } else { 0 };
     let ring = format!("one ring: {ring_um:.digits$} µm");
-    area.draw(&Text::new(ring, (px(8), px(8)), ink(13))).map_err(fault)?;
+    area.draw(&Text::new(ring, (px(8), px(8)), ink(13))).map_err(drawing_error)?;
     for (i, line) in p.lines.iter().enumerate().take(6) {
         let y = px(30 + 18 * i as i32);
         let dash = PathElement::new(
             [(px(8), y + px(6)), (px(26), y + px(6))],
             pen(colour(line.colour), 3),
         );
-        area.draw(&dash).map_err(fault)?;
-        area.draw(&Text::new(line.label.clone(), (px(32), y), ink(13))).map_err(fault)?;
+        area.draw(&dash).map_err(drawing_error)?;
+        area.draw(&Text::new(line.label.clone(), (px(32), y), ink(13))).map_err(drawing_error)?;
     }
     Ok(())
 }
