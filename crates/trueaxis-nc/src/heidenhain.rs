@@ -41,7 +41,7 @@ use crate::moves::{
     Axis, CompensationSide, Coordinates, Event, Feed, FeedMode, Frame, Move, MoveKind,
     OrientationPath, Origin, Plane, Position, Step, Turning, Way,
 };
-use crate::program::{Fault, Places, Program};
+use crate::program::{Fault, Places, Program, fault};
 use cycles::Cycle;
 use flow::{Activation, Labels, Next};
 use frames::Frames;
@@ -325,13 +325,4 @@ impl<'r> Run<'r> {
 fn shortest_deg(turn: f64) -> f64 {
     let turn = turn.rem_euclid(360.0);
     if turn > 180.0 { turn - 360.0 } else { turn }
-}
-
-fn fault(
-    code: &'static str,
-    offset: usize,
-    message: impl Into<String>,
-    hint: &'static str,
-) -> Fault {
-    Fault { code, offset, message: message.into(), hint }
 }

@@ -16,7 +16,9 @@ mod transforms;
 mod values;
 mod words;
 
+pub(crate) use arc::by_radius;
 use std::cell::Cell;
+
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
 
@@ -25,7 +27,7 @@ use trueaxis_geometry::input::{Diagnostics, Place};
 use crate::dialect::Control;
 use crate::library::Library;
 use crate::moves::{Event, Frame, Move, Origin, Plane, Position, Step};
-use crate::program::{Block, Fault, Label, Places, Program};
+use crate::program::{Block, Fault, Label, Places, Program, fault};
 use crate::{heidenhain, sinumerik};
 use frames::Frames;
 use parameters::Locals;
@@ -336,13 +338,4 @@ impl<'r> Run<'r> {
         self.frames.position = step.target;
         (self.take)(Step::Move(step));
     }
-}
-
-fn fault(
-    code: &'static str,
-    offset: usize,
-    message: impl Into<String>,
-    hint: &'static str,
-) -> Fault {
-    Fault { code, offset, message: message.into(), hint }
 }

@@ -23,6 +23,15 @@ pub struct Fault {
     pub hint: &'static str,
 }
 
+pub(crate) fn fault(
+    code: &'static str,
+    offset: usize,
+    message: impl Into<String>,
+    hint: &'static str,
+) -> Fault {
+    Fault { code, offset, message: message.into(), hint }
+}
+
 /// A node of the expressions of a block.
 pub type NodeId = u32;
 

@@ -42,7 +42,7 @@ use trueaxis_geometry::input::{Diagnostics, Place};
 use crate::interpreter::{Outcome, Settings};
 use crate::library::Library;
 use crate::moves::{Event, Frame, Move, Origin, Step};
-use crate::program::{Fault, Places, Program};
+use crate::program::{Fault, Places, Program, fault};
 pub use archive::{Archive, ArchivedTool, read_archive};
 use calls::{Activation, ModalCall};
 use chain::Chain;
@@ -271,13 +271,4 @@ impl<'r> Run<'r> {
     fn emit_move(&mut self, step: Move) {
         (self.take)(Step::Move(step));
     }
-}
-
-fn fault(
-    code: &'static str,
-    offset: usize,
-    message: impl Into<String>,
-    hint: &'static str,
-) -> Fault {
-    Fault { code, offset, message: message.into(), hint }
 }

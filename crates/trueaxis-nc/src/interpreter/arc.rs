@@ -56,7 +56,7 @@ impl Run<'_> {
 }
 
 /// The centre of an arc of given radius; a negative radius means more than half a turn.
-fn by_radius(
+pub(crate) fn by_radius(
     start: [f64; 2],
     end: [f64; 2],
     radius: f64,
@@ -76,7 +76,7 @@ fn by_radius(
             2.0 * half,
             radius.abs()
         );
-        return Err(fault("arc-does-not-fit", at, message, "check R and the target"));
+        return Err(fault("arc-does-not-fit", at, message, "check the radius and the target"));
     }
     let height = (radius * radius - half * half).max(0.0).sqrt();
     let side = if ccw == (radius > 0.0) { height } else { -height };

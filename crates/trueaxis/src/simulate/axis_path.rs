@@ -13,12 +13,12 @@ mod tip;
 
 pub use fault::Fault;
 
-use super::basic::{start, workpiece_from_basic};
+use super::basic::{axes_of_programs, start, workpiece_from_basic};
 use super::curve::Curve;
 use super::densify::{Densify, MOST_PIECES};
 use super::setup::SetUp;
 use fault::{fault, too_many_pieces};
-use trueaxis_geometry::frame::{Direction, Workpiece};
+use trueaxis_geometry::frame::{Direction, Workpiece, inverse3};
 use trueaxis_geometry::{Mat3, Vec3};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
@@ -106,17 +106,14 @@ const MOST_FAULTS: usize = 100;
 
 impl<'m> AxisPath<'m> {
     pub fn new(machine: &'m Machine, setup: &SetUp, densify: Densify, rounding_mm: f64) -> Self {
-        let letters = Axis::ALL.map(|a| char::from(a.letter()));
-        let index = |letter: char| machine.axes().iter().position(|a| a.name.letter() == letter);
-        let axis_of = letters.map(index);
         let (turn, shift) = match setup.given {
-            true => workpiece_from_basic(machine, &axis_of),
+            true => workpiece_from_basic(machine),
             false => (Mat3::identity(), Vec3::zeros()),
         };
         let mut path = Self {
             machine,
             densify,
-            axis_of,
+            axis_of: axes_of_programs(machine),
             turn,
             shift,
             lengths_known: setup.given,
@@ -130,15 +127,14 @@ impl<'m> AxisPath<'m> {
             rounding_mm,
             default_rounding_mm: rounding_mm,
             revolutions_per_s: 0.0,
-            command: start(machine, setup, &axis_of),
+            command: start(machine, setup),
             basic: Vec3::zeros(),
             stale: AxisSet::default(),
             tangent: None,
             pieces: 0,
             faults: Vec::new(),
         };
-        path.find_basic();
-        path.stale = AxisSet::XYZ;
+        path.reread();
         path
     }
 
@@ -192,10 +188,10 @@ impl<'m> AxisPath<'m> {
             Event::ToolLength(length) => {
                 self.tool = Vec3::new(length.0[0], length.0[1], length.0[2]);
                 self.fit_tip();
-                self.find_basic();
-                if self.follows_tip() {
+                match self.follows_tip() {
                     // The axes stay; where the tip is now depends on how the tool leans.
-                    self.stale = AxisSet::XYZ;
+                    true => self.reread(),
+                    false => self.find_basic(),
                 }
             }
             Event::ToolChange(number) => out(PathStep::Tool(*number)),
@@ -244,7 +240,7 @@ impl<'m> AxisPath<'m> {
         self.basic = match &self.control {
             Some(control) if self.follows_tip() => {
                 let tip = control.tip_and_axis(&self.command).0;
-                self.turn.transpose() * (tip - self.shift)
+                inverse3(&self.turn) * (tip - self.shift)
             }
             _ => self.linear_axes(&self.command) - self.tool,
         };

@@ -10,6 +10,12 @@ use trueaxis_machine::tcp::{Aimed, TipControl};
 use trueaxis_machine::{Machine, SolveError};
 use trueaxis_nc::moves::{Axis, Branch, Frame, Position};
 
+/// The axis of the machine for each axis that a program can name.
+pub(super) fn axes_of_programs(machine: &Machine) -> [Option<usize>; 9] {
+    let of = |letter: char| machine.axes().iter().position(|a| a.name.letter() == letter);
+    Axis::ALL.map(|axis| of(char::from(axis.letter())))
+}
+
 /// The pose along a direction that is nearest to the present one.
 pub(super) fn nearest(
     control: &TipControl,
@@ -41,13 +47,11 @@ pub(super) fn choose(machine: &Machine, aimed: &[Aimed], branch: Branch) -> Comm
 
 /// The place of basic coordinates in the workpiece: where the gauge point of the spindle stands
 /// when the linear axes do and all rotary axes are at zero.
-pub(super) fn workpiece_from_basic(
-    machine: &Machine,
-    axis_of: &[Option<usize>; 9],
-) -> (Mat3, Vec3) {
+pub(super) fn workpiece_from_basic(machine: &Machine) -> (Mat3, Vec3) {
     let Some(control) = TipControl::of(&machine.clone().with_tip(Vec3::zeros())) else {
         return (Mat3::identity(), Vec3::zeros());
     };
+    let axis_of = axes_of_programs(machine);
     let at = |i: usize, q: f64| {
         let mut command = Command::default();
         if let Some(axis) = axis_of[i] {
@@ -63,7 +67,8 @@ pub(super) fn workpiece_from_basic(
 
 /// Where the axes stand before the program: as the set-up says, else at zero or the end of the
 /// travel next to it.
-pub(super) fn start(machine: &Machine, setup: &SetUp, axis_of: &[Option<usize>; 9]) -> Command {
+pub(super) fn start(machine: &Machine, setup: &SetUp) -> Command {
+    let axis_of = axes_of_programs(machine);
     let mut command = Command::default();
     for (q, axis) in command.iter_mut().zip(machine.axes()) {
         if let Travel::Between(low, high) = axis.travel {
@@ -90,9 +95,8 @@ pub(super) fn rotary_angles(
     now: &Position,
 ) -> Option<[f64; 3]> {
     let machine = control.machine();
-    let index = |axis: Axis| {
-        machine.axes().iter().position(|a| a.name.letter() == char::from(axis.letter()))
-    };
+    let axis_of = axes_of_programs(machine);
+    let index = |axis: Axis| axis_of[axis as usize];
     let mut from = Command::default();
     let rotary = [Axis::A, Axis::B, Axis::C];
     for axis in rotary {
@@ -107,10 +111,7 @@ pub(super) fn rotary_angles(
 
 /// The machine with its workpiece frame at a program zero.
 pub(super) fn mount(machine: &Machine, frame: &Frame) -> Machine {
-    let letters = Axis::ALL.map(|a| char::from(a.letter()));
-    let axis_of =
-        letters.map(|letter| machine.axes().iter().position(|a| a.name.letter() == letter));
-    let (turn, shift) = workpiece_from_basic(machine, &axis_of);
+    let (turn, shift) = workpiece_from_basic(machine);
     let zero = Vec3::new(frame.shift.0[0], frame.shift.0[1], frame.shift.0[2]);
     let linear = Mat3::from_fn(|i, j| frame.linear[i][j]);
     let there = Pose::new(turn * linear, turn * zero + shift);
@@ -121,11 +122,8 @@ pub(super) fn mount(machine: &Machine, frame: &Frame) -> Machine {
 
 /// From directions of the basic frame to those of the workpiece frame.
 pub(super) fn turn_to_workpiece(machine: &Machine, setup: &SetUp) -> Mat3 {
-    let letters = Axis::ALL.map(|a| char::from(a.letter()));
-    let axis_of =
-        letters.map(|letter| machine.axes().iter().position(|a| a.name.letter() == letter));
     match setup.given {
-        true => workpiece_from_basic(machine, &axis_of).0,
+        true => workpiece_from_basic(machine).0,
         false => Mat3::identity(),
     }
 }
