@@ -343,3 +343,23 @@ fn over_travel_on_a_machine_with_tables_is_trouble_not_an_error() {
     assert!(!run.problems.has_errors(), "{:?}", run.problems);
     assert!(trueaxis::simulate::TroubleList::of([watch.log]).is_grave());
 }
+
+/// Axes that are not square: where TCP begins, an axis that is not named must stay.
+#[test]
+fn law_tcp_begins_where_the_tip_is_also_on_skew_axes() {
+    let machine = machine(
+        "[machine]\nname = \"skew\"\nchain = \"w b X Y Z C A t\"\n\
+         [axis.Y]\ndirection = \"0.2 1 0\"\n[axis.C]\ntravel = \"unlimited\"\n",
+    );
+    let text = "[tool.1]\nlength = \"100 mm\"\n[work_offset.G54]\nX = \"5 mm\"\n";
+    let setup = trueaxis::simulate::parse_setup("setup", text, Path::new(""), &machine).0.unwrap();
+    let text = b"G54\nT1 M6\nD1\nG1 X10 Y50 Z5 F1000\nTRAORI\nG1 X20\nM30\n";
+    let program = Program::new("t.mpf", text.to_vec(), Control::Sinumerik840d);
+    let mut nodes = Nodes::default();
+    let run = simulate(&machine, &program, &setup, &undivided(), &mut [&mut nodes]);
+    assert!(!run.problems.has_errors(), "{:?}", run.problems);
+    let y = machine.axes().iter().position(|a| a.name.letter() == 'Y').unwrap();
+    let at = |line: u32| nodes.lines.iter().rposition(|l| *l == line).unwrap();
+    assert!((nodes.commands[at(4)][y] - 50.0).abs() < 1e-9);
+    assert!((nodes.commands[at(6)][y] - 50.0).abs() < 1e-9, "{}", nodes.commands[at(6)][y]);
+}

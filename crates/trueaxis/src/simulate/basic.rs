@@ -62,7 +62,12 @@ pub(super) fn workpiece_from_basic(machine: &Machine) -> (Mat3, Vec3) {
     // The way is long so that the offsets of the machine do not cost digits of the direction.
     const FAR_MM: f64 = 1_048_576.0;
     let columns = [0, 1, 2].map(|i| (at(i, FAR_MM) - at(i, -FAR_MM)) / (2.0 * FAR_MM));
-    (Mat3::from_columns(&columns), at(0, 0.0))
+    let turn = Mat3::from_columns(&columns);
+    // Without X, Y and Z basic coordinates say nothing of the workpiece.
+    match turn.determinant().abs() > 1e-3 {
+        true => (turn, at(0, 0.0)),
+        false => (Mat3::identity(), Vec3::zeros()),
+    }
 }
 
 /// Where the axes stand before the program: as the set-up says, else at zero or the end of the
