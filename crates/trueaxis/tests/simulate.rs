@@ -363,3 +363,38 @@ fn law_tcp_begins_where_the_tip_is_also_on_skew_axes() {
     assert!((nodes.commands[at(4)][y] - 50.0).abs() < 1e-9);
     assert!((nodes.commands[at(6)][y] - 50.0).abs() < 1e-9, "{}", nodes.commands[at(6)][y]);
 }
+
+/// The deviation along feed, normal and binormal is the deviation itself, seen in a frame whose
+/// first axis is the way of the nominal tip and whose second stands towards the spindle.
+#[test]
+fn law_the_split_along_the_path_is_the_whole_deviation() {
+    #[derive(Default)]
+    struct Split(Option<Vec3>, usize);
+    impl Observer for Split {
+        fn path(&mut self, batch: &Batch<'_>) {
+            for i in 0..batch.nodes.len() {
+                let d = batch.deviation(i);
+                let (tip, along) = (d.nominal_tip.vector(), batch.along_path_mm[i]);
+                assert!((along.norm() - d.tip_mm.norm()).abs() < 1e-12);
+                if let Some(way) = self.0.and_then(|b| (tip - b).try_normalize(1e-9)) {
+                    let normal = d.nominal_axis.vector() - way * way.dot(&d.nominal_axis.vector());
+                    assert!((along.x - d.tip_mm.dot(&way)).abs() < 1e-12);
+                    if let Some(normal) = normal.try_normalize(1e-6) {
+                        assert!((along.y - d.tip_mm.dot(&normal)).abs() < 1e-12);
+                        let across = way.cross(&normal);
+                        assert!((along.z - d.tip_mm.dot(&across)).abs() < 1e-12);
+                        self.1 += 1;
+                    }
+                }
+                self.0 = Some(tip);
+            }
+        }
+    }
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../machines/i5-engraver/machine.toml");
+    let machine = trueaxis::files::machine(path.as_ref()).0.unwrap();
+    let text = b"G43.4 H1\nG1 F1000 X20 Y5 Z3 A20 C30\nG1 X-20 Y9 Z8 A-10 C80\nM30\n".to_vec();
+    let program = Program::new("p", text, Control::Fanuc);
+    let mut split = Split::default();
+    simulate(&machine, &program, &SetUp::default(), &Options::default(), &mut [&mut split]);
+    assert!(split.1 > 50, "{}", split.1);
+}
