@@ -227,6 +227,24 @@ impl Machine {
         Some(self)
     }
 
+    /// The same machine with another statement of one error; `None`: as if it were not known.
+    pub fn with_error(mut self, index: ErrorIndex, stated: Option<StatedError>) -> Self {
+        if let Some(body) = self.bodies.get_mut(index.body) {
+            let slots = match index.kind {
+                ErrorKind::Location => &mut body.location,
+                ErrorKind::Motion => &mut body.motion,
+            };
+            slots[index.component as usize] = stated;
+        }
+        self
+    }
+
+    /// Where an error of that name stands; `None` if the chain has no such body.
+    pub fn error_index(&self, name: ErrorName) -> Option<ErrorIndex> {
+        let body = self.bodies.iter().position(|b| b.name == name.body)?;
+        Some(ErrorIndex { body, kind: name.kind, component: name.component })
+    }
+
     /// The same machine under another error model.
     pub fn with_model(mut self, model: ErrorModel) -> Self {
         self.model = model;

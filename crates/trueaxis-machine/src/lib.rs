@@ -24,6 +24,7 @@ mod inverse;
 pub mod models;
 pub mod tcp;
 mod tool;
+pub mod twist;
 
 pub use chain::{ErrorFrame, ErrorModel, Machine, Squareness};
 pub use deviation::Deviation;

@@ -16,6 +16,7 @@
 
 pub mod files;
 pub mod identify;
+pub mod measure;
 pub mod predict;
 pub mod report;
 pub mod simulate;

@@ -119,6 +119,12 @@ impl ErrorValues {
         six.0[index.component as usize] = value;
     }
 
+    /// Adds to one value, in mm or rad.
+    pub fn add(&mut self, index: ErrorIndex, by: f64) {
+        let six = self.bodies[index.body].six_mut(index.kind);
+        six.0[index.component as usize] += by;
+    }
+
     /// Only this error, all others zero.
     pub fn only(&self, index: ErrorIndex) -> Self {
         let mut alone = Self::default();

@@ -1,0 +1,213 @@
+//! The design of a measurement: how every reading follows every unknown, before anything is read.
+//!
+//! ```text
+//!     J = ∂reading/∂unknown at the nominal machine;   row = (f·v + m·ω) φ      docs/model.md eq. 107
+//! ```
+
+use super::term::Term;
+use crate::measure::instrument::{SetupUnknown, View};
+use crate::measure::{Instrument, Readings};
+use nalgebra::DMatrix;
+use trueaxis_geometry::Vec3;
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::{Approach, Command};
+use trueaxis_machine::chain::CommandFault;
+use trueaxis_machine::errors::{ErrorIndex, ErrorValues};
+use trueaxis_machine::twist::Reference;
+
+/// What is sought with which instruments on which machine.
+///
+/// The unknowns are numbered: first the terms of the machine, then the unknowns of each set-up.
+#[derive(Debug, Clone)]
+pub struct Design {
+    /// The machine; of the errors that are sought it states nothing.
+    pub machine: Machine,
+    /// What is sought of it.
+    pub terms: Vec<Term>,
+    /// The instruments as they are set up.
+    pub instruments: Vec<Instrument>,
+    /// Where the unknowns of each instrument begin.
+    offsets: Vec<usize>,
+    /// Terms of one error stand together: the error, and its terms.
+    runs: Vec<(ErrorIndex, std::ops::Range<usize>)>,
+}
+
+/// An unknown by its place in the list.
+#[derive(Debug, Clone, Copy)]
+pub enum Unknown<'a> {
+    /// A factor of the machine.
+    Term(&'a Term),
+    /// Something of a set-up.
+    Setup(&'a Instrument, &'a SetupUnknown),
+}
+
+impl Unknown<'_> {
+    /// Its name: `EC0Y`, `probe.ball_x`.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Term(term) => term.name(),
+            Self::Setup(instrument, unknown) => format!("{}.{}", instrument.name, unknown.name),
+        }
+    }
+
+    /// What was known of it before: value and standard uncertainty.
+    pub fn prior(&self) -> Option<(f64, f64)> {
+        match self {
+            Self::Term(term) => term.prior,
+            Self::Setup(_, unknown) => unknown.prior_u.map(|u| (0.0, u)),
+        }
+    }
+
+    /// Whether it is an angle (rad); the others are lengths (mm) or plain numbers.
+    pub fn is_angle(&self) -> bool {
+        use crate::measure::instrument::SetupError;
+        match self {
+            Self::Term(term) => term.error.component.is_rotation(),
+            Self::Setup(instrument, unknown) => match unknown.error {
+                SetupError::ReferenceTurn(_) => true,
+                SetupError::Zero(_) => instrument.sight.is_angle(),
+                _ => false,
+            },
+        }
+    }
+}
+
+impl Design {
+    /// A design; the machine forgets what it states of the errors that are sought.
+    pub fn new(machine: &Machine, terms: Vec<Term>, instruments: Vec<Instrument>) -> Self {
+        let mut machine = machine.clone();
+        let mut runs: Vec<(ErrorIndex, std::ops::Range<usize>)> = Vec::new();
+        for (k, term) in terms.iter().enumerate() {
+            machine = machine.with_error(term.index, None);
+            match runs.last_mut().filter(|(index, _)| *index == term.index) {
+                Some((_, range)) => range.end = k + 1,
+                None => runs.push((term.index, k..k + 1)),
+            }
+        }
+        let mut next = terms.len();
+        let mut offsets = Vec::new();
+        for instrument in &instruments {
+            offsets.push(next);
+            next += instrument.unknowns.len();
+        }
+        offsets.push(next);
+        Self { machine, terms, instruments, offsets, runs }
+    }
+
+    /// How many unknowns.
+    pub fn unknowns(&self) -> usize {
+        self.offsets.last().copied().unwrap_or(0)
+    }
+
+    /// One unknown.
+    pub fn unknown(&self, k: usize) -> Option<Unknown<'_>> {
+        if let Some(term) = self.terms.get(k) {
+            return Some(Unknown::Term(term));
+        }
+        let of = self.offsets.windows(2).position(|w| (w[0]..w[1]).contains(&k))?;
+        let instrument = self.instruments.get(of)?;
+        Some(Unknown::Setup(instrument, instrument.unknowns.get(k - self.offsets[of])?))
+    }
+
+    /// The names of all unknowns.
+    pub fn names(&self) -> Vec<String> {
+        (0..self.unknowns()).filter_map(|k| self.unknown(k)).map(|u| u.name()).collect()
+    }
+
+    /// The unknowns of one set-up among these values.
+    pub fn setup<'v>(&self, instrument: usize, values: &'v [f64]) -> &'v [f64] {
+        &values[self.offsets[instrument]..self.offsets[instrument + 1]]
+    }
+
+    /// The errors of the machine at a command with these values of the unknowns.
+    ///
+    /// # Errors
+    /// A command outside an error table of the machine file.
+    pub fn errors_at(
+        &self,
+        command: &Command,
+        approach: &Approach,
+        values: &[f64],
+    ) -> Result<ErrorValues, CommandFault> {
+        let mut errors = self.machine.errors_at(command, approach)?;
+        for (term, c) in self.terms.iter().zip(values) {
+            errors.add(term.index, c * term.value(command, approach));
+        }
+        Ok(errors)
+    }
+
+    /// What the instrument of a row would read with these values of the unknowns, mm or rad.
+    ///
+    /// # Errors
+    /// A command outside an error table of the machine file.
+    pub fn read(
+        &self,
+        readings: &Readings,
+        i: usize,
+        values: &[f64],
+    ) -> Result<[f64; 3], CommandFault> {
+        let of = readings.instruments[i] as usize;
+        let instrument = &self.instruments[of];
+        let command = &readings.commands[i];
+        let errors = self.errors_at(command, &readings.approaches[i], values)?;
+        let view = instrument.view(&self.machine, command, &errors, readings.directions[i]);
+        Ok(instrument.read(&view, self.setup(of, values)))
+    }
+
+    /// Fills the rows of one reading: `rows[c][k]` is how channel c follows unknown k.
+    ///
+    /// Returns how many channels there are; rows must be as long as there are unknowns.
+    pub fn slopes(&self, readings: &Readings, i: usize, rows: &mut [Vec<f64>; 3]) -> usize {
+        let of = readings.instruments[i] as usize;
+        let instrument = &self.instruments[of];
+        let (command, approach) = (&readings.commands[i], &readings.approaches[i]);
+        let view = self.nominal_view(instrument, command, readings.directions[i]);
+        let wrenches = instrument.wrenches(&view);
+        let channels = instrument.sight.channels();
+        for row in rows.iter_mut().take(channels) {
+            row.iter_mut().for_each(|v| *v = 0.0);
+        }
+        let frames = self.machine.error_frames(command, instrument.reference);
+        for (index, run) in &self.runs {
+            let twist = frames.twist(*index);
+            let on = wrenches.map(|w| w.on(&twist));
+            for k in run.clone() {
+                let phi = self.terms[k].value(command, approach);
+                for c in 0..channels {
+                    rows[c][k] = on[c] * phi;
+                }
+            }
+        }
+        for (j, unknown) in instrument.unknowns.iter().enumerate() {
+            for c in 0..channels {
+                let slope = instrument.setup_slope(unknown.error, c, &wrenches[c], &view);
+                rows[c][self.offsets[of] + j] = slope;
+            }
+        }
+        channels
+    }
+
+    /// The rows of these readings in units of their noise, one *column* each: Jᵀ/u.
+    pub fn columns(&self, readings: &Readings, range: std::ops::Range<usize>) -> DMatrix<f64> {
+        let n = self.unknowns();
+        let mut rows = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
+        let mut values: Vec<f64> = Vec::with_capacity(n * range.len() * 3);
+        for i in range {
+            let noise = self.instruments[readings.instruments[i] as usize].noise;
+            for c in 0..self.slopes(readings, i, &mut rows) {
+                values.extend(rows[c].iter().map(|v| v / noise[c]));
+            }
+        }
+        let m = values.len() / n.max(1);
+        DMatrix::from_vec(n, m, values)
+    }
+
+    fn nominal_view(&self, instrument: &Instrument, command: &Command, direction: Vec3) -> View {
+        let none = ErrorValues::default();
+        let nominal = match instrument.reference {
+            Reference::Workpiece => self.machine.pose(command, &none).relabel(),
+            Reference::Bed => self.machine.tool_on_bed(command, &none).relabel(),
+        };
+        View { nominal, actual: nominal, direction }
+    }
+}

@@ -1,0 +1,312 @@
+//! Weighted least squares on the full nonlinear machine.
+//!
+//! ```text
+//!     min Σ w ((y − f(x))/u)² + Σ ((x − x₀)/u₀)²                           docs/model.md eq. 108
+//!     x ← x + (JᵀWJ)⁺ JᵀW (y − f(x))         J of the nominal machine: the chord method
+//! ```
+//!
+//! J is that of the nominal machine in every pass: errors of 100 µrad change it by 1e-4, so each
+//! pass gains four digits, and what cannot be told apart stays exactly so (the rank is a property
+//! of the plan, not of the noise).
+
+use super::design::Design;
+use crate::measure::Readings;
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use rayon::prelude::*;
+use trueaxis_machine::chain::CommandFault;
+
+/// A combination that is seen less than a millionth as well as the best one is not seen: the
+/// singular values of J with columns scaled to 1, relative to the greatest.
+pub const LEAST_SINGULAR_VALUE: f64 = 1e-6;
+/// A column of J that is so much shorter than the longest is rounding: no reading depends on it.
+const SHORTEST_COLUMN: f64 = 1e-11;
+/// Steps below this share of a standard uncertainty change nothing.
+const SMALLEST_STEP: f64 = 1e-4;
+/// More passes than this do not help.
+const MOST_PASSES: usize = 60;
+/// Rows that one thread takes at a time: fixed, so that sums do not depend on the machine.
+const CHUNK: usize = 512;
+
+/// Why there is no answer.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum FitError {
+    /// There is nothing to fit.
+    #[error("there are no readings")]
+    NoReadings,
+    /// There is nothing to find.
+    #[error("there are no unknowns")]
+    NoUnknowns,
+    /// A row stands where an error table of the machine says nothing.
+    #[error("row {row}: {fault}")]
+    Outside {
+        /// The row, counted from 0.
+        row: usize,
+        /// Why.
+        fault: CommandFault,
+    },
+    /// The readings are too far from what the machine could read.
+    #[error("no fit after {passes} passes: the readings do not belong to this machine and set-up")]
+    NotConverged {
+        /// How many.
+        passes: usize,
+    },
+}
+
+/// What was found.
+#[derive(Debug, Clone)]
+pub struct Fit {
+    /// The unknowns, mm, rad or 1; of a combination that cannot be seen the shortest solution.
+    pub values: Vec<f64>,
+    /// Their covariance by the stated noise, over what can be seen.
+    pub covariance: DMatrix<f64>,
+    /// What the readings say about the unknowns.
+    pub sight: Observability,
+    /// Reading minus model, mm or rad; channels that do not exist are 0.
+    pub residuals: Vec<[f64; 3]>,
+    /// Σ w ((y − f)/u)², without priors.
+    pub chi_square: f64,
+    /// Numbers read less unknowns found.
+    pub degrees_of_freedom: usize,
+    /// How many passes it took.
+    pub passes: usize,
+}
+
+/// What a set of readings can tell about the unknowns.
+#[derive(Debug, Clone)]
+pub struct Observability {
+    /// Singular values of J with columns scaled to 1, in units of the noise, greatest first.
+    pub singular_values: Vec<f64>,
+    /// How many of them are seen.
+    pub rank: usize,
+    /// Combinations that leave all readings as they are: one column each, in mm, rad or 1.
+    pub null_space: DMatrix<f64>,
+    /// Which unknowns are seen, alone and not only in a combination.
+    pub is_seen: Vec<bool>,
+    scale: DVector<f64>,
+    vectors: DMatrix<f64>,
+    inverse: DVector<f64>,
+}
+
+impl Observability {
+    /// From the normal matrix JᵀWJ.
+    pub fn of(normal: &DMatrix<f64>) -> Self {
+        let n = normal.nrows();
+        let length = normal.diagonal().map(|d| d.max(0.0).sqrt());
+        // A column of rounding errors must not be scaled to 1.
+        let least = SHORTEST_COLUMN * length.max();
+        let scale = length.map(|l| if l > least { l } else { 1.0 });
+        let scaled = DMatrix::from_fn(n, n, |i, j| match length[i].min(length[j]) > least {
+            true => normal[(i, j)] / (scale[i] * scale[j]),
+            false => 0.0,
+        });
+        let eigen = SymmetricEigen::new(scaled);
+        let mut order: Vec<usize> = (0..n).collect();
+        order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
+        let singular_values: Vec<f64> =
+            order.iter().map(|k| eigen.eigenvalues[*k].max(0.0).sqrt()).collect();
+        let least = LEAST_SINGULAR_VALUE * singular_values.first().copied().unwrap_or(0.0);
+        let rank = singular_values.iter().take_while(|s| **s > least).count();
+        let vectors = DMatrix::from_fn(n, n, |i, k| eigen.eigenvectors[(i, order[k])]);
+        let null = vectors.columns(rank, n - rank).into_owned();
+        let is_seen = (0..n).map(|i| null.row(i).norm() < 1e-5).collect();
+        let null_space = DMatrix::from_fn(n, n - rank, |i, k| null[(i, k)] / scale[i]);
+        let inverse =
+            DVector::from_fn(n, |k, _| if k < rank { singular_values[k].powi(-2) } else { 0.0 });
+        Self { singular_values, rank, null_space, is_seen, scale, vectors, inverse }
+    }
+
+    /// How much all readings together see of one unknown, in units of the noise per mm, rad or 1.
+    pub fn column_length(&self, unknown: usize) -> f64 {
+        self.scale[unknown]
+    }
+
+    /// The null space with every unknown in units of what is seen of it.
+    pub fn scaled_null_space(&self) -> DMatrix<f64> {
+        let n = self.vectors.nrows();
+        self.vectors.columns(self.rank, n - self.rank).into_owned()
+    }
+
+    /// The part of these values that the readings see; the rest is 0.
+    pub fn seen_part(&self, values: &[f64]) -> Vec<f64> {
+        let scaled = DVector::from_column_slice(values).component_mul(&self.scale);
+        let seen = self.vectors.columns(0, self.rank);
+        let part = seen * seen.tr_mul(&scaled);
+        part.component_div(&self.scale).as_slice().to_vec()
+    }
+
+    /// `(JᵀWJ)⁺ g` over what is seen.
+    pub fn solve(&self, g: &DVector<f64>) -> DVector<f64> {
+        let scaled = g.component_div(&self.scale);
+        let along = self.vectors.tr_mul(&scaled).component_mul(&self.inverse);
+        (&self.vectors * along).component_div(&self.scale)
+    }
+
+    /// `(JᵀWJ)⁺` over what is seen: the covariance of the unknowns.
+    pub fn covariance(&self) -> DMatrix<f64> {
+        let mut half = self.vectors.clone();
+        for (k, mut column) in half.column_iter_mut().enumerate() {
+            column *= self.inverse[k].sqrt();
+        }
+        for (i, mut row) in half.row_iter_mut().enumerate() {
+            row /= self.scale[i];
+        }
+        &half * half.transpose()
+    }
+
+    /// The greatest over the smallest singular value that is seen.
+    pub fn condition(&self) -> f64 {
+        match (self.singular_values.first(), self.rank.checked_sub(1)) {
+            (Some(greatest), Some(last)) => greatest / self.singular_values[last],
+            _ => f64::INFINITY,
+        }
+    }
+}
+
+/// JᵀWJ of these readings and the priors.
+pub fn normal_matrix(design: &Design, readings: &Readings, weights: &[f64]) -> DMatrix<f64> {
+    let n = design.unknowns();
+    let starts: Vec<usize> = (0..readings.len()).step_by(CHUNK).collect();
+    let part = |start: &usize| {
+        let range = *start..(start + CHUNK).min(readings.len());
+        let mut columns = design.columns(readings, range.clone());
+        if !weights.is_empty() {
+            weigh(design, readings, weights, range, &mut columns);
+        }
+        &columns * columns.transpose()
+    };
+    let mut normal = DMatrix::zeros(n, n);
+    // In batches, so that a million rows do not keep a thousand matrices.
+    for batch in starts.chunks(64) {
+        for part in batch.par_iter().map(part).collect::<Vec<_>>() {
+            normal += part;
+        }
+    }
+    for k in 0..n {
+        if let Some((_, u)) = design.unknown(k).and_then(|u| u.prior()) {
+            normal[(k, k)] += u.powi(-2);
+        }
+    }
+    normal
+}
+
+fn weigh(
+    design: &Design,
+    readings: &Readings,
+    weights: &[f64],
+    range: std::ops::Range<usize>,
+    columns: &mut DMatrix<f64>,
+) {
+    let mut next = 0;
+    for i in range {
+        for _ in 0..design.instruments[readings.instruments[i] as usize].sight.channels() {
+            columns.column_mut(next).scale_mut(weights[i].sqrt());
+            next += 1;
+        }
+    }
+}
+
+/// One pass over all readings: residuals and `JᵀW r`.
+fn pass(
+    design: &Design,
+    readings: &Readings,
+    weights: &[f64],
+    values: &[f64],
+    residuals: &mut [[f64; 3]],
+) -> Result<DVector<f64>, FitError> {
+    let n = design.unknowns();
+    let part = |(chunk, residuals): (usize, &mut [[f64; 3]])| {
+        let mut rows = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
+        let mut gradient = DVector::<f64>::zeros(n);
+        for (k, residual) in residuals.iter_mut().enumerate() {
+            let i = chunk * CHUNK + k;
+            let outside = |fault| FitError::Outside { row: i, fault };
+            let read = design.read(readings, i, values).map_err(outside)?;
+            let noise = design.instruments[readings.instruments[i] as usize].noise;
+            let weight = weights.get(i).copied().unwrap_or(1.0);
+            for c in 0..design.slopes(readings, i, &mut rows) {
+                residual[c] = readings.values[i][c] - read[c];
+                let by = weight * residual[c] / (noise[c] * noise[c]);
+                for (g, slope) in gradient.iter_mut().zip(&rows[c]) {
+                    *g += by * slope;
+                }
+            }
+        }
+        Ok(gradient)
+    };
+    let parts: Vec<_> = residuals.par_chunks_mut(CHUNK).enumerate().map(part).collect();
+    let mut gradient = DVector::zeros(n);
+    for part in parts {
+        gradient += part?;
+    }
+    for k in 0..n {
+        if let Some((value, u)) = design.unknown(k).and_then(|u| u.prior()) {
+            gradient[k] += (value - values[k]) / (u * u);
+        }
+    }
+    Ok(gradient)
+}
+
+/// The unknowns from the readings; `weights` of the readings (robust losses), empty for 1.
+///
+/// # Errors
+/// Nothing to fit or to find, a row outside the tables of the machine, no convergence.
+pub fn fit(design: &Design, readings: &Readings, weights: &[f64]) -> Result<Fit, FitError> {
+    if readings.is_empty() {
+        return Err(FitError::NoReadings);
+    }
+    if design.unknowns() == 0 {
+        return Err(FitError::NoUnknowns);
+    }
+    let normal = normal_matrix(design, readings, weights);
+    let sight = Observability::of(&normal);
+    let mut values = DVector::zeros(design.unknowns());
+    let mut residuals = vec![[0.0; 3]; readings.len()];
+    for passes in 1..=MOST_PASSES {
+        let gradient = pass(design, readings, weights, values.as_slice(), &mut residuals)?;
+        let step = sight.solve(&gradient);
+        // In units of its own standard uncertainty.
+        let length = step.dot(&gradient).abs().sqrt();
+        values += &step;
+        if !length.is_finite() {
+            return Err(FitError::NotConverged { passes });
+        }
+        if length < SMALLEST_STEP {
+            let (chi_square, numbers) = chi_square(design, readings, weights, &residuals);
+            return Ok(Fit {
+                values: values.as_slice().to_vec(),
+                covariance: sight.covariance(),
+                degrees_of_freedom: (numbers + priors(design)).saturating_sub(sight.rank),
+                sight,
+                residuals,
+                chi_square,
+                passes,
+            });
+        }
+    }
+    Err(FitError::NotConverged { passes: MOST_PASSES })
+}
+
+/// χ² of the readings, and how many numbers they are.
+fn chi_square(
+    design: &Design,
+    readings: &Readings,
+    weights: &[f64],
+    residuals: &[[f64; 3]],
+) -> (f64, usize) {
+    let (mut chi_square, mut numbers) = (0.0, 0);
+    for (i, residual) in residuals.iter().enumerate() {
+        let instrument = &design.instruments[readings.instruments[i] as usize];
+        let weight = weights.get(i).copied().unwrap_or(1.0);
+        let channels = instrument.sight.channels();
+        for (r, u) in residual.iter().zip(&instrument.noise).take(channels) {
+            chi_square += weight * (r / u).powi(2);
+        }
+        numbers += channels;
+    }
+    (chi_square, numbers)
+}
+
+fn priors(design: &Design) -> usize {
+    let has_prior = |k: &usize| design.unknown(*k).and_then(|u| u.prior()).is_some();
+    (0..design.unknowns()).filter(has_prior).count()
+}

@@ -1,0 +1,163 @@
+//! The instruments of the shop by name: what each reads, and what its parts are called.
+
+use super::instrument::{SetupError, Sight};
+
+/// An instrument of the shop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// A 3-D probe in the spindle, its socket on a ball on the table (document 004), or an R-test.
+    ProbeBall,
+    /// A telescoping bar between two balls.
+    BallBar,
+    /// A touch-trigger probe that hits a ball: every row is a hit, the axes where it triggered.
+    TouchProbeBall,
+    /// A touch-trigger probe that hits a face: every row is a hit, the axes where it triggered.
+    TouchProbeFace,
+    /// A laser along an axis: positioning, or straightness across it.
+    LaserLine,
+    /// Angles of a laser, an electronic level or an autocollimator.
+    LaserAngle,
+    /// A tracker or tracking interferometer that reads the distance to a reflector on the tool.
+    LengthTracker,
+    /// A straightedge or a face of a square under a dial gauge.
+    Artefact,
+    /// Features of a cut test piece, measured by a coordinate measuring machine.
+    CutPiece,
+}
+
+/// Every kind with its name in files.
+const NAMES: [(Kind, &str); 9] = [
+    (Kind::ProbeBall, "probe-ball"),
+    (Kind::BallBar, "ball-bar"),
+    (Kind::TouchProbeBall, "touch-probe-ball"),
+    (Kind::TouchProbeFace, "touch-probe-face"),
+    (Kind::LaserLine, "laser-line"),
+    (Kind::LaserAngle, "laser-angle"),
+    (Kind::LengthTracker, "length-tracker"),
+    (Kind::Artefact, "artefact"),
+    (Kind::CutPiece, "cut-piece"),
+];
+
+impl Kind {
+    /// All of them.
+    pub fn all() -> impl Iterator<Item = Self> {
+        NAMES.into_iter().map(|(kind, _)| kind)
+    }
+
+    /// By its name in files.
+    pub fn find(name: &str) -> Option<Self> {
+        NAMES.into_iter().find(|(_, n)| *n == name).map(|(kind, _)| kind)
+    }
+
+    /// Its name in files.
+    pub fn name(self) -> &'static str {
+        // why: every kind stands in the table, which the test below holds
+        NAMES.into_iter().find(|(kind, _)| *kind == self).map_or("", |(_, name)| name)
+    }
+
+    /// What it reads.
+    pub fn sight(self) -> Sight {
+        match self {
+            Self::ProbeBall => Sight::ProbeOffset,
+            Self::BallBar | Self::TouchProbeBall | Self::LengthTracker => Sight::Distance,
+            Self::TouchProbeFace | Self::LaserLine | Self::Artefact => Sight::Along,
+            Self::LaserAngle => Sight::Turn,
+            Self::CutPiece => Sight::Place,
+        }
+    }
+
+    /// Whether a row is a place where the probe triggered: the axes are the reading.
+    pub fn triggers(self) -> bool {
+        matches!(self, Self::TouchProbeBall | Self::TouchProbeFace)
+    }
+
+    /// What stands at the tool point.
+    pub fn tool_point(self) -> &'static str {
+        match self {
+            Self::ProbeBall => "socket",
+            Self::BallBar => "spindle_ball",
+            Self::TouchProbeBall | Self::TouchProbeFace => "stylus",
+            Self::LaserLine | Self::LaserAngle => "optics",
+            Self::LengthTracker => "reflector",
+            Self::Artefact => "gauge",
+            Self::CutPiece => "tip",
+        }
+    }
+
+    /// What stands at the reference point.
+    pub fn reference_point(self) -> &'static str {
+        match self {
+            Self::ProbeBall | Self::TouchProbeBall => "ball",
+            Self::BallBar => "table_ball",
+            Self::TouchProbeFace => "face",
+            Self::LaserLine | Self::LaserAngle => "beam",
+            Self::LengthTracker => "station",
+            Self::Artefact => "artefact",
+            Self::CutPiece => "datum",
+        }
+    }
+
+    /// What its zero is called.
+    pub fn zero(self) -> &'static str {
+        match self {
+            Self::BallBar => "length",
+            Self::TouchProbeBall | Self::TouchProbeFace => "radius",
+            Self::LengthTracker => "dead_path",
+            _ => "zero",
+        }
+    }
+
+    /// The headings of its readings without unit.
+    pub fn channels(self) -> &'static [&'static str] {
+        match self.sight() {
+            Sight::ProbeOffset | Sight::Place => &["x", "y", "z"],
+            Sight::Distance => &["length"],
+            Sight::Along => &["deviation"],
+            Sight::Turn => &["angle"],
+        }
+    }
+
+    /// What nobody knows of its set-up unless the campaign says so.
+    pub fn usual_unknowns(self) -> Vec<SetupError> {
+        let point = [0, 1, 2].map(SetupError::ReferencePoint);
+        let turn = [0, 1, 2].map(SetupError::ReferenceTurn);
+        match self {
+            Self::ProbeBall => point.to_vec(),
+            Self::BallBar | Self::TouchProbeBall | Self::LengthTracker => {
+                [&point[..], &[SetupError::Zero(0)]].concat()
+            }
+            Self::TouchProbeFace | Self::LaserLine | Self::LaserAngle => vec![SetupError::Zero(0)],
+            // How a straightedge lies is never known to the micrometre.
+            Self::Artefact => [&turn[..], &[SetupError::Zero(0)]].concat(),
+            Self::CutPiece => [point, turn].concat(),
+        }
+    }
+
+    /// The name of an unknown of its set-up, such as `ball_x`.
+    pub fn unknown_name(self, error: SetupError) -> String {
+        let axis = |i: usize| ["x", "y", "z"][i.min(2)];
+        match error {
+            SetupError::ToolPoint(i) => format!("{}_{}", self.tool_point(), axis(i)),
+            SetupError::ReferencePoint(i) => format!("{}_{}", self.reference_point(), axis(i)),
+            SetupError::ReferenceTurn(i) => {
+                format!("{}_turn_{}", self.reference_point(), axis(i))
+            }
+            SetupError::Zero(i) if self.sight().channels() > 1 => {
+                format!("{}_{}", self.zero(), axis(i))
+            }
+            SetupError::Zero(_) => self.zero().to_owned(),
+            SetupError::Scale => "scale".to_owned(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_kind_is_found_by_its_name() {
+        assert!(Kind::all().all(|kind| Kind::find(kind.name()) == Some(kind)));
+        assert_eq!(Kind::find("ball-bar"), Some(Kind::BallBar));
+    }
+}

@@ -1,0 +1,356 @@
+//! Readings: at which commands of the machine which instrument read what.
+
+use super::instrument::{Instrument, Sight};
+use std::fmt::Write as _;
+use trueaxis_geometry::Vec3;
+use trueaxis_geometry::input::{CsvColumn, CsvTable, Diagnostics, Dimension, Place, Unit};
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::{Approach, AxisKind, Command};
+
+/// Readings as columns: one entry a row.
+///
+/// A value is what the instrument reads in all, mm or rad; in files most are deviations from the
+/// nominal reading.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Readings {
+    /// Programmed axis positions, mm and rad; of a touch probe: where it triggered.
+    pub commands: Vec<Command>,
+    /// From which side each axis came.
+    pub approaches: Vec<Approach>,
+    /// Which instrument of the campaign.
+    pub instruments: Vec<u32>,
+    /// The direction of the station, a unit vector in the frame of the instrument's reference.
+    pub directions: Vec<Vec3>,
+    /// The reading, mm or rad; channels that the instrument does not have are 0.
+    pub values: Vec<[f64; 3]>,
+    /// Readings of one group belong together (one place, one cycle): they are held out together.
+    pub groups: Vec<u32>,
+    /// When, s.
+    pub times_s: Vec<f64>,
+    /// The line of the file; 0 if it did not come from one.
+    pub lines: Vec<u32>,
+}
+
+/// One row.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reading {
+    /// Programmed axis positions, mm and rad.
+    pub command: Command,
+    /// From which side each axis came.
+    pub approach: Approach,
+    /// Which instrument.
+    pub instrument: u32,
+    /// The direction of the station.
+    pub direction: Vec3,
+    /// The reading, mm or rad.
+    pub value: [f64; 3],
+    /// Its group.
+    pub group: u32,
+    /// When, s.
+    pub time_s: f64,
+    /// The line of the file.
+    pub line: u32,
+}
+
+impl Readings {
+    /// How many rows.
+    pub fn len(&self) -> usize {
+        self.commands.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.commands.is_empty()
+    }
+
+    /// Adds a row.
+    pub fn push(&mut self, row: Reading) {
+        self.commands.push(row.command);
+        self.approaches.push(row.approach);
+        self.instruments.push(row.instrument);
+        self.directions.push(row.direction);
+        self.values.push(row.value);
+        self.groups.push(row.group);
+        self.times_s.push(row.time_s);
+        self.lines.push(row.line);
+    }
+
+    /// One row.
+    pub fn row(&self, i: usize) -> Reading {
+        Reading {
+            command: self.commands[i],
+            approach: self.approaches[i],
+            instrument: self.instruments[i],
+            direction: self.directions[i],
+            value: self.values[i],
+            group: self.groups[i],
+            time_s: self.times_s[i],
+            line: self.lines[i],
+        }
+    }
+
+    /// The rows that are wanted, in order.
+    pub fn filtered(&self, wanted: impl Fn(usize) -> bool) -> Self {
+        let mut some = Self::default();
+        for i in (0..self.len()).filter(|i| wanted(*i)) {
+            some.push(self.row(i));
+        }
+        some
+    }
+
+    /// Adds the rows of another set; its groups stay apart from ours.
+    pub fn append(&mut self, other: &Self) {
+        let first = self.groups.iter().max().map_or(0, |g| g + 1);
+        for i in 0..other.len() {
+            let row = other.row(i);
+            self.push(Reading { group: row.group.saturating_add(first), ..row });
+        }
+    }
+
+    /// Reads the table of one instrument.
+    ///
+    /// Columns: the axes by letter (mm, deg; an axis that is not named stands at 0), the channels
+    /// of the instrument with their unit (`x_um`, `y_um`, `z_um`; `length_mm`; `deviation_um`;
+    /// `angle_urad`), and if wanted `group`, `time_s`, the direction `n_x`, `n_y`, `n_z` and the
+    /// side from which an axis came, `X_approach` (1, −1). All but `length` are deviations from the
+    /// nominal reading. A touch probe that triggers has no channel: the axes are its reading.
+    pub fn parse(
+        table: &CsvTable,
+        machine: &Machine,
+        instrument: &Instrument,
+        index: u32,
+        problems: &mut Diagnostics,
+    ) -> Option<Self> {
+        let columns = Columns::find(table, machine, instrument, problems)?;
+        let mut readings = Self::default();
+        let mut group = 0;
+        for row in 0..table.rows() {
+            let mut command = Command::default();
+            let mut approach = Approach::default();
+            for (axis, scale, column) in &columns.axes {
+                command[*axis] = column.values[row] * scale;
+            }
+            for (axis, column) in &columns.approaches {
+                approach[*axis] = column.values[row].clamp(-1.0, 1.0);
+            }
+            let direction = columns.direction(row, instrument.direction);
+            let value = columns.value(row, machine, instrument, &command, direction);
+            // Without a column of groups every place is a group: the same commands are one place.
+            let same = row > 0 && readings.commands[row - 1] == command;
+            group = match columns.group {
+                Some(column) => column.values[row].clamp(0.0, 1e9) as u32,
+                None if same || row == 0 => group,
+                None => group + 1,
+            };
+            readings.push(Reading {
+                command,
+                approach,
+                instrument: index,
+                direction,
+                value,
+                group,
+                time_s: columns.time.map_or(0.0, |c| c.values[row]),
+                line: u32::try_from(table.row_place(row).line).unwrap_or(u32::MAX),
+            });
+        }
+        Some(readings)
+    }
+
+    /// The table of one instrument, as [`Readings::parse`] reads it.
+    pub fn table(&self, machine: &Machine, instrument: &Instrument, index: u32) -> String {
+        let mine: Vec<usize> = (0..self.len()).filter(|i| self.instruments[*i] == index).collect();
+        let directed = mine.iter().any(|i| self.directions[*i] != instrument.direction);
+        let approached = mine.iter().any(|i| self.approaches[*i] != Approach::default());
+        let mut text = headings(machine, instrument, directed, approached);
+        for i in mine {
+            let row = self.row(i);
+            // Writing to a String cannot fail.
+            for (axis, q) in machine.axes().iter().zip(row.command) {
+                let shown = if axis.kind == AxisKind::Rotary { q.to_degrees() } else { q };
+                let _ = write!(text, "{shown},");
+            }
+            if approached {
+                for side in row.approach.iter().take(machine.axes().len()) {
+                    let _ = write!(text, "{side},");
+                }
+            }
+            let nominal = match absolute(instrument) {
+                true => [0.0; 3],
+                false => instrument.nominal_reading(machine, &row.command, row.direction),
+            };
+            for c in channels(instrument).take(3) {
+                let scale = if absolute(instrument) { 1.0 } else { shown_scale(instrument) };
+                let _ = write!(text, "{},", (row.value[c] - nominal[c]) * scale);
+            }
+            if directed {
+                let n = row.direction;
+                let _ = write!(text, "{},{},{},", n.x, n.y, n.z);
+            }
+            let _ = writeln!(text, "{},{}", row.group, row.time_s);
+        }
+        text
+    }
+}
+
+fn channels(instrument: &Instrument) -> std::ops::Range<usize> {
+    0..if instrument.kind.triggers() { 0 } else { instrument.sight.channels() }
+}
+
+/// Distances are written whole, everything else against its nominal reading.
+fn absolute(instrument: &Instrument) -> bool {
+    instrument.sight == Sight::Distance
+}
+
+/// From mm or rad to µm or µrad.
+fn shown_scale(instrument: &Instrument) -> f64 {
+    if instrument.sight.is_angle() { 1e6 } else { 1e3 }
+}
+
+fn headings(
+    machine: &Machine,
+    instrument: &Instrument,
+    directed: bool,
+    approached: bool,
+) -> String {
+    let mut names: Vec<String> = machine.axes().iter().map(|a| a.name.to_string()).collect();
+    if approached {
+        names.extend(machine.axes().iter().map(|a| format!("{}_approach", a.name)));
+    }
+    let unit = match (absolute(instrument), instrument.sight.is_angle()) {
+        (true, _) => "mm",
+        (_, true) => "urad",
+        _ => "um",
+    };
+    let named = &instrument.kind.channels()[channels(instrument)];
+    names.extend(named.iter().map(|name| format!("{name}_{unit}")));
+    if directed {
+        names.extend(["n_x", "n_y", "n_z"].map(str::to_owned));
+    }
+    names.extend(["group".to_owned(), "time_s".to_owned()]);
+    names.join(",") + "\n"
+}
+
+/// Which column is what.
+struct Columns<'t> {
+    axes: Vec<(usize, f64, &'t CsvColumn)>,
+    approaches: Vec<(usize, &'t CsvColumn)>,
+    /// The channel, whether it is whole, its unit.
+    channels: Vec<(usize, bool, Unit, &'t CsvColumn)>,
+    normal: Option<[&'t CsvColumn; 3]>,
+    group: Option<&'t CsvColumn>,
+    time: Option<&'t CsvColumn>,
+}
+
+impl<'t> Columns<'t> {
+    fn find(
+        table: &'t CsvTable,
+        machine: &Machine,
+        instrument: &Instrument,
+        problems: &mut Diagnostics,
+    ) -> Option<Self> {
+        let before = problems.has_errors();
+        let mut found = Self {
+            axes: Vec::new(),
+            approaches: Vec::new(),
+            channels: Vec::new(),
+            normal: None,
+            group: None,
+            time: None,
+        };
+        for column in &table.columns {
+            found.take(column, machine, instrument, problems);
+        }
+        let normal = ["n_x", "n_y", "n_z"].map(|name| table.column(name));
+        if let [Some(x), Some(y), Some(z)] = normal {
+            found.normal = Some([x, y, z]);
+        }
+        let missing = |name: &str| format!("the table has no column for {name}");
+        if found.axes.is_empty() {
+            let hint =
+                "head the columns of positions by the letters of the axes: X,Y,Z (mm), A (deg)";
+            problems.error("missing-column", Place::whole(&table.file), missing("the axes"), hint);
+        }
+        for c in channels(instrument) {
+            if !found.channels.iter().any(|(channel, ..)| *channel == c) {
+                let name = instrument.kind.channels()[c];
+                let unit = if instrument.sight.is_angle() { "urad" } else { "um" };
+                let hint = format!("a {} reads `{name}_{unit}`", instrument.kind.name());
+                problems.error("missing-column", Place::whole(&table.file), missing(name), &hint);
+            }
+        }
+        (before || !problems.has_errors()).then_some(found)
+    }
+
+    fn take(
+        &mut self,
+        column: &'t CsvColumn,
+        machine: &Machine,
+        instrument: &Instrument,
+        problems: &mut Diagnostics,
+    ) {
+        let axis = |name: &str| machine.axes().iter().position(|a| a.name.to_string() == name);
+        if let Some(index) = axis(&column.name) {
+            let rotary = machine.axes()[index].kind == AxisKind::Rotary;
+            let scale = if rotary { 1f64.to_radians() } else { 1.0 };
+            return self.axes.push((index, scale, column));
+        }
+        match column.name.as_str() {
+            "n_x" | "n_y" | "n_z" => return,
+            "group" => return self.group = Some(column),
+            "time_s" => return self.time = Some(column),
+            _ => {}
+        }
+        let (name, unit) = column.name.rsplit_once('_').unwrap_or((&column.name, ""));
+        if let Some(index) = axis(name).filter(|_| unit == "approach") {
+            return self.approaches.push((index, column));
+        }
+        let names = instrument.kind.channels();
+        let channel = names.iter().position(|n| *n == name);
+        // A distance may also be told as its deviation.
+        let channel = channel.or((absolute(instrument) && name == "deviation").then_some(0));
+        let Some(channel) = channel.filter(|c| channels(instrument).contains(c)) else {
+            let hint = "known here: the axes, the channels of the instrument, group, time_s, n_x n_y \
+                        n_z, X_approach";
+            let message = format!("`{}` says nothing to a {}", column.name, instrument.kind.name());
+            return problems.warn("unknown-column", column.place.clone(), message, hint);
+        };
+        let angle = instrument.sight.is_angle();
+        let dimension = if angle { Dimension::Angle } else { Dimension::Length };
+        match Unit::find(unit, dimension) {
+            Ok(unit) => self.channels.push((channel, name == "length", unit, column)),
+            Err(e) => problems.error(e.code(), column.place.clone(), e.to_string(), &e.hint()),
+        }
+    }
+
+    fn direction(&self, row: usize, usual: Vec3) -> Vec3 {
+        let Some(normal) = self.normal else { return usual };
+        Vec3::from_iterator(normal.iter().map(|c| c.values[row]))
+            .try_normalize(0.0)
+            .unwrap_or(usual)
+    }
+
+    fn value(
+        &self,
+        row: usize,
+        machine: &Machine,
+        instrument: &Instrument,
+        command: &Command,
+        direction: Vec3,
+    ) -> [f64; 3] {
+        if instrument.kind.triggers() {
+            return [instrument.length_mm, 0.0, 0.0];
+        }
+        let nominal = instrument.nominal_reading(machine, command, direction);
+        let mut value = [0.0; 3];
+        for (channel, whole, unit, column) in &self.channels {
+            let read = unit.to_inner(column.values[row]);
+            let against = match (whole, instrument.length_mm > 0.0) {
+                (true, _) => 0.0,
+                (false, true) if absolute(instrument) => instrument.length_mm,
+                _ => nominal[*channel],
+            };
+            value[*channel] = read + against;
+        }
+        value
+    }
+}
