@@ -28,6 +28,7 @@
 //! It knows no machine: where the axes really go, and how fast, is asked elsewhere. It opens no
 //! file: subprograms come through a [`Library`].
 
+pub mod cl;
 pub mod code;
 pub mod dialect;
 mod heidenhain;
@@ -38,6 +39,7 @@ pub mod moves;
 mod parser;
 pub mod program;
 pub mod sinumerik;
+pub mod writer;
 
 pub use dialect::{Control, Dialect};
 pub use interpreter::{Outcome, Settings, interpret};

@@ -1,0 +1,498 @@
+//! From statements to records: units, modal words, and everything that is wrong.
+
+use super::scan::{Scanner, Statement};
+use super::words::{Major, major};
+use super::{ClCircle, ClCycle, ClPoint, Reading, Record, Word};
+use crate::moves::{Coolant, Feed, FeedMode, Turning};
+use std::collections::HashSet;
+use trueaxis_geometry::input::{Diagnostics, Place};
+
+const INCH_MM: f64 = 25.4;
+
+/// No machine goes that far.
+const FARTHEST_MM: f64 = 1e7;
+
+/// More problems say nothing new.
+const MOST_PROBLEMS: usize = 100;
+
+/// How far from 1 the length of a tool axis may be before it is told.
+const NORM_TOLERANCE: f64 = 1e-4;
+
+pub(super) fn read(name: &str, source: &[u8], reading: &Reading) -> (Vec<Record>, Diagnostics) {
+    let mut reader = Reader::new(name, *reading);
+    let mut scanner = Scanner::new(source);
+    let mut statement = Statement::default();
+    while scanner.next(&mut statement) {
+        let word = reader.word(&statement);
+        let (line, span) = (statement.line, statement.span.clone());
+        reader.records.push(Record { line, span, word });
+    }
+    reader.finish()
+}
+
+struct Reader<'n> {
+    name: &'n str,
+    reading: Reading,
+    records: Vec<Record>,
+    problems: Diagnostics,
+    told: HashSet<String>,
+    count: usize,
+    unit_mm: f64,
+    units_given: bool,
+    /// Of TLAXIS.
+    axis: Option<[f64; 3]>,
+    /// TLAXIS is a comment, by SYN.
+    no_tool_axis: bool,
+    multi_axis: bool,
+    /// The points so far that have their own vector, and those that have none.
+    points: [usize; 2],
+    first_without: u32,
+    rapid: bool,
+    feed: Option<Feed>,
+    tip_mm: Option<[f64; 3]>,
+    /// Points whose vector is not of length 1: how many, the first line, the worst.
+    off: (usize, u32, f64),
+}
+
+/// Why a statement cannot be used: code, message, hint.
+type Fault = (&'static str, String, &'static str);
+
+impl<'n> Reader<'n> {
+    fn new(name: &'n str, reading: Reading) -> Self {
+        let unit_mm = if reading.inches == Some(true) { INCH_MM } else { 1.0 };
+        Self {
+            name,
+            reading,
+            records: Vec::new(),
+            problems: Diagnostics::new(),
+            told: HashSet::new(),
+            count: 0,
+            unit_mm,
+            units_given: false,
+            axis: None,
+            no_tool_axis: false,
+            multi_axis: false,
+            points: [0; 2],
+            first_without: 0,
+            rapid: false,
+            feed: None,
+            tip_mm: None,
+            off: (0, 0, 1.0),
+        }
+    }
+
+    fn place(&self, line: u32) -> Place {
+        Place { file: self.name.to_owned(), line: line as usize, column: 1 }
+    }
+
+    fn error(&mut self, line: u32, (code, message, hint): Fault) {
+        self.count += 1;
+        if self.count <= MOST_PROBLEMS {
+            self.problems.error(code, self.place(line), message, hint);
+        } else if self.count == MOST_PROBLEMS + 1 {
+            let message = format!("more than {MOST_PROBLEMS} problems; the rest is not listed");
+            self.problems.note("too-many-problems", self.place(line), message, "");
+        }
+    }
+
+    /// A warning, once for each subject.
+    fn warn(&mut self, code: &'static str, subject: &str, line: u32, message: String, hint: &str) {
+        if self.told.len() < MOST_PROBLEMS && self.told.insert(format!("{code} {subject}")) {
+            self.problems.warn(code, self.place(line), message, hint);
+        }
+    }
+
+    fn finish(mut self) -> (Vec<Record>, Diagnostics) {
+        let all = self.points[0] + self.points[1];
+        if all == 0 {
+            let message = "the file has no point (GOTO)".to_owned();
+            let hint = "a cutter-location file in APT, or a table x y z i j k, is due here";
+            self.problems.error("no-points", Place::whole(self.name), message, hint);
+        }
+        if self.points[1] > 0 && self.axis.is_none() {
+            let message = format!(
+                "{} of {all} points have no tool axis (first here): 0 0 1 is taken",
+                self.points[1]
+            );
+            let hint = "for more than three axes write MULTAX/ON and GOTO/x,y,z,i,j,k";
+            self.problems.warn("no-tool-axis", self.place(self.first_without), message, hint);
+        }
+        let (count, line, worst) = self.off;
+        if count > 0 {
+            let message = format!(
+                "the tool axis of {count} points is not of length 1 (first here, worst {worst:.6}): \
+                 its direction is taken"
+            );
+            let hint = "does the CAM system write enough digits?";
+            self.problems.warn("axis-not-unit", self.place(line), message, hint);
+        }
+        if all > 0 && !self.units_given && self.reading.inches.is_none() {
+            let message = "the file names no unit: mm is taken".to_owned();
+            let hint = "write UNITS/MM or UNITS/INCHES, or say it";
+            self.problems.note("no-units", Place::whole(self.name), message, hint);
+        }
+        (self.records, self.problems)
+    }
+
+    fn word(&mut self, s: &Statement) -> Word {
+        if s.word.is_empty() {
+            return self.without_word(s);
+        }
+        let Some(major) = major(&s.word) else {
+            if is_heading(s) {
+                return Word::Noted;
+            }
+            let message = format!("`{}` is not a word that is known here: it is kept, not used", s.word);
+            self.warn("unknown-word", &s.word, s.line, message, "does it move the tool?");
+            return Word::Unknown;
+        };
+        match self.known(major, s) {
+            Ok(word) => word,
+            Err(fault) => {
+                self.error(s.line, fault);
+                Word::Noted
+            }
+        }
+    }
+
+    /// A comment, or a row of a table.
+    fn without_word(&mut self, s: &Statement) -> Word {
+        if s.text.trim().is_empty() {
+            return Word::Comment(s.comment.clone());
+        }
+        if s.text.trim_start().starts_with('#') {
+            return Word::Comment(s.text.trim().trim_start_matches('#').trim().to_owned());
+        }
+        match self.point(s) {
+            Ok(point) => Word::Goto(point),
+            Err(fault) => {
+                self.error(s.line, fault);
+                Word::Unknown
+            }
+        }
+    }
+
+    fn known(&mut self, major: Major, s: &Statement) -> Result<Word, Fault> {
+        Ok(match major {
+            Major::Goto => Word::Goto(self.point(s)?),
+            Major::GoDelta => Word::Goto(self.delta(s)?),
+            Major::From => {
+                let rapid = self.rapid;
+                let point = self.point(s)?;
+                self.rapid = rapid;
+                Word::From(point)
+            }
+            Major::Circle => Word::Circle(self.circle(s)?),
+            Major::Rapid => {
+                self.rapid = true;
+                Word::Rapid
+            }
+            Major::Feed => self.feed_word(s)?,
+            Major::Spindle => self.spindle(s)?,
+            Major::Coolant => Word::Coolant(match s.argument(0).to_ascii_uppercase().as_str() {
+                "OFF" => Coolant::Off,
+                "MIST" => Coolant::Mist,
+                _ => Coolant::Flood,
+            }),
+            Major::LoadTool => Word::Tool(tool_number(s.argument(0))?),
+            Major::Load if s.argument(0).eq_ignore_ascii_case("TOOL") => {
+                Word::Tool(tool_number(s.argument(1))?)
+            }
+            Major::Cutter => Word::Cutter {
+                diameter_mm: number(s.argument(0))? * self.unit_mm,
+                corner_radius_mm: match s.argument(1) {
+                    "" => 0.0,
+                    text => number(text)? * self.unit_mm,
+                },
+            },
+            Major::ToolAxis => self.tool_axis(s)?,
+            Major::MultiAxis => {
+                self.multi_axis = !s.argument(0).eq_ignore_ascii_case("OFF");
+                Word::MultiAxis(self.multi_axis)
+            }
+            Major::Units => self.units(s)?,
+            Major::Cycle => self.cycle(s)?,
+            Major::Delay => self.delay(s)?,
+            Major::Stop(optional) => Word::Stop { optional },
+            Major::Insert => Word::Insert(s.rest().to_owned()),
+            Major::Comment => Word::Comment(s.rest().to_owned()),
+            Major::End => Word::End,
+            Major::Synonym => {
+                let names = s.argument(0).eq_ignore_ascii_case("'TLAXIS'");
+                self.no_tool_axis |= names && s.argument(1).starts_with("'$$");
+                Word::Noted
+            }
+            Major::Noted | Major::Load => Word::Noted,
+            Major::NotApplied(what) => {
+                let off = s.argument(0).eq_ignore_ascii_case("OFF");
+                if !off {
+                    let message = format!("{} is noted, not applied: {what}", s.word);
+                    let hint = "check where the tool goes";
+                    self.warn("not-applied", &s.word, s.line, message, hint);
+                }
+                Word::Noted
+            }
+            Major::Motion(what) => {
+                let message = format!("{} is not read: {what}", s.word);
+                let hint = "let the CAM system write points (GOTO)";
+                return Err(("motion-not-read", message, hint));
+            }
+        })
+    }
+
+    fn numbers<const N: usize>(&self, s: &Statement, from: usize) -> Result<[f64; N], Fault> {
+        let mut values = [0.0; N];
+        for (i, value) in values.iter_mut().enumerate() {
+            *value = number(s.argument(from + i))?;
+        }
+        Ok(values)
+    }
+
+    fn place_mm(&self, s: &Statement) -> Result<[f64; 3], Fault> {
+        let place = self.numbers::<3>(s, 0)?.map(|v| v * self.unit_mm);
+        match place.iter().all(|v| v.abs() < FARTHEST_MM) {
+            true => Ok(place),
+            false => {
+                let message = "the point is farther away than any machine reaches".to_owned();
+                Err(("too-far", message, "are the units right?"))
+            }
+        }
+    }
+
+    fn point(&mut self, s: &Statement) -> Result<ClPoint, Fault> {
+        let tip_mm = self.place_mm(s)?;
+        let axis = match s.count() {
+            3 => None,
+            6 => Some(self.vector(s, 3)?),
+            count => {
+                let message = format!("a point has 3 or 6 numbers, not {count}");
+                return Err(("bad-point", message, "write GOTO/x,y,z or GOTO/x,y,z,i,j,k"));
+            }
+        };
+        let axis = self.axis_of_point(axis, s)?;
+        self.tip_mm = Some(tip_mm);
+        let rapid = std::mem::take(&mut self.rapid);
+        Ok(ClPoint { tip_mm, axis, rapid, feed: self.feed })
+    }
+
+    fn axis_of_point(&mut self, own: Option<[f64; 3]>, s: &Statement) -> Result<[f64; 3], Fault> {
+        self.points[usize::from(own.is_none())] += 1;
+        if own.is_none() && self.points[1] == 1 {
+            self.first_without = s.line;
+        }
+        match own.or(self.axis) {
+            Some(axis) => Ok(axis),
+            None if self.multi_axis => {
+                let message = "MULTAX is on, but the point has no tool axis".to_owned();
+                Err(("no-tool-axis", message, "write GOTO/x,y,z,i,j,k, or TLAXIS before it"))
+            }
+            None => Ok([0.0, 0.0, 1.0]),
+        }
+    }
+
+    /// A direction, brought to length 1.
+    fn vector(&mut self, s: &Statement, from: usize) -> Result<[f64; 3], Fault> {
+        let vector = self.numbers::<3>(s, from)?;
+        let norm = vector.iter().map(|v| v * v).sum::<f64>().sqrt();
+        if !(norm > 1e-3 && norm < 1e9) {
+            let message = format!("the tool axis has the length {norm}");
+            return Err(("zero-tool-axis", message, "a vector of length 1 is due here"));
+        }
+        if (norm - 1.0).abs() > NORM_TOLERANCE {
+            let (count, line, worst) = self.off;
+            let worse = (norm - 1.0).abs() > (worst - 1.0).abs();
+            let first = if count == 0 { s.line } else { line };
+            self.off = (count + 1, first, if worse { norm } else { worst });
+        }
+        Ok(vector.map(|v| v / norm))
+    }
+
+    fn delta(&mut self, s: &Statement) -> Result<ClPoint, Fault> {
+        let step = match s.count() {
+            // Along the tool axis.
+            1 => {
+                let length = number(s.argument(0))? * self.unit_mm;
+                self.axis.unwrap_or([0.0, 0.0, 1.0]).map(|v| v * length)
+            }
+            _ => self.place_mm(s)?,
+        };
+        let Some(now) = self.tip_mm else {
+            let message = "GODLTA before the first point".to_owned();
+            return Err(("no-place", message, "write GOTO or FROM before it"));
+        };
+        let tip_mm: [f64; 3] = std::array::from_fn(|i| now[i] + step[i]);
+        let axis = self.axis_of_point(None, s)?;
+        self.tip_mm = Some(tip_mm);
+        let rapid = std::mem::take(&mut self.rapid);
+        Ok(ClPoint { tip_mm, axis, rapid, feed: self.feed })
+    }
+
+    fn circle(&mut self, s: &Statement) -> Result<ClCircle, Fault> {
+        let center_mm = self.place_mm(s)?;
+        let normal = match s.count() {
+            6 | 7 => self.numbers::<3>(s, 3)?,
+            count => {
+                let message = format!("a circle has 6 or 7 numbers, not {count}");
+                return Err(("bad-circle", message, "write CIRCLE/x,y,z,i,j,k,radius"));
+            }
+        };
+        let norm = normal.iter().map(|v| v * v).sum::<f64>().sqrt();
+        if !(norm > 1e-3 && norm < 1e9) {
+            let message = "the normal of the circle has no length".to_owned();
+            return Err(("bad-circle", message, "write CIRCLE/x,y,z,i,j,k,radius"));
+        }
+        Ok(ClCircle { center_mm, normal: normal.map(|v| v / norm) })
+    }
+
+    fn feed_word(&mut self, s: &Statement) -> Result<Word, Fault> {
+        let (mut value, mut mode, mut unit) = (None, FeedMode::PerMinute, self.unit_mm);
+        for argument in s.arguments() {
+            match argument.to_ascii_uppercase().as_str() {
+                "IPM" => (mode, unit) = (FeedMode::PerMinute, INCH_MM),
+                "MMPM" => (mode, unit) = (FeedMode::PerMinute, 1.0),
+                "IPR" => (mode, unit) = (FeedMode::PerRevolution, INCH_MM),
+                "MMPR" => (mode, unit) = (FeedMode::PerRevolution, 1.0),
+                "PERMIN" => mode = FeedMode::PerMinute,
+                "PERREV" => mode = FeedMode::PerRevolution,
+                "RAPID" => {
+                    self.rapid = true;
+                    return Ok(Word::Rapid);
+                }
+                text if value.is_none() && !text.is_empty() => value = Some(number(text)?),
+                _ => {}
+            }
+        }
+        let Some(value) = value.filter(|v| *v > 0.0 && *v < 1e9) else {
+            let message = "FEDRAT has no positive number".to_owned();
+            return Err(("bad-feed", message, "write FEDRAT/500,MMPM"));
+        };
+        let feed = Feed { mode, value: value * unit };
+        self.feed = Some(feed);
+        // A feed ends a rapid that has not moved yet.
+        self.rapid = false;
+        Ok(Word::Feed(feed))
+    }
+
+    fn spindle(&mut self, s: &Statement) -> Result<Word, Fault> {
+        let (mut speed, mut turning) = (None, Turning::Clockwise);
+        for argument in s.arguments() {
+            match argument.to_ascii_uppercase().as_str() {
+                "OFF" => return Ok(Word::Spindle(Turning::Stopped, None)),
+                "CLW" | "ON" | "RPM" | "" => {}
+                "CCLW" => turning = Turning::CounterClockwise,
+                "SFM" | "SMM" | "SURF" => {
+                    let message = "SPINDL with a surface speed is read as rpm 0".to_owned();
+                    let hint = "a milling program names rpm";
+                    self.warn("surface-speed", "", s.line, message, hint);
+                    return Ok(Word::Spindle(turning, None));
+                }
+                text if speed.is_none() => speed = number(text).ok().filter(|v| *v >= 0.0),
+                _ => {}
+            }
+        }
+        Ok(Word::Spindle(turning, speed))
+    }
+
+    fn tool_axis(&mut self, s: &Statement) -> Result<Word, Fault> {
+        if self.no_tool_axis {
+            return Ok(Word::Noted);
+        }
+        let axis = self.vector(s, 0)?;
+        self.axis = Some(axis);
+        Ok(Word::ToolAxis(axis))
+    }
+
+    fn units(&mut self, s: &Statement) -> Result<Word, Fault> {
+        let inches = match s.argument(0).to_ascii_uppercase().as_str() {
+            "INCH" | "INCHES" | "IN" => true,
+            "MM" | "MILLIMETERS" | "MILLIMETRES" => false,
+            other => {
+                let message = format!("`{other}` is no unit of length that is known here");
+                return Err(("unknown-unit", message, "write UNITS/MM or UNITS/INCHES"));
+            }
+        };
+        self.units_given = true;
+        if self.reading.inches.is_none() {
+            self.unit_mm = if inches { INCH_MM } else { 1.0 };
+        }
+        Ok(Word::Inches(self.unit_mm == INCH_MM))
+    }
+
+    /// CYCLE/DRILL,FEDTO,depth,MMPM,feed,RAPTO,clearance,RTRCTO,retract (SolidWorks, Creo), or
+    /// DEPTH … CLEAR … RETURN (CATIA).
+    fn cycle(&mut self, s: &Statement) -> Result<Word, Fault> {
+        let kind = s.argument(0).to_ascii_uppercase();
+        if matches!(kind.as_str(), "OFF" | "NOMORE") {
+            return Ok(Word::CycleOff);
+        }
+        if kind == "INIT" {
+            return Ok(Word::Noted);
+        }
+        if !matches!(kind.as_str(), "DRILL" | "FACE" | "REAM" | "CSINK") {
+            let message = format!("CYCLE/{kind} is read as drilling in one stroke");
+            let hint = "pecks, dwells and the way out of the cycle are left out; check it";
+            self.warn("cycle-not-applied", &kind, s.line, message, hint);
+        }
+        let named = |names: &[&str]| {
+            let at = s.arguments().position(|a| names.iter().any(|n| a.eq_ignore_ascii_case(n)))?;
+            number(s.argument(at + 1)).ok()
+        };
+        let length = |names: &[&str]| named(names).map(|v| v * self.unit_mm);
+        let Some(depth_mm) = length(&["FEDTO", "DEPTH"]).or_else(|| {
+            // CYCLE/TAP,depth,…
+            number(s.argument(1)).ok().map(|v| v * self.unit_mm)
+        }) else {
+            let message = "the cycle has no depth".to_owned();
+            return Err(("bad-cycle", message, "write CYCLE/DRILL,FEDTO,10,MMPM,200,RAPTO,2"));
+        };
+        let clearance_mm = length(&["RAPTO", "CLEAR"]).unwrap_or(0.0).max(0.0);
+        let feeds = [("MMPM", FeedMode::PerMinute, 1.0), ("IPM", FeedMode::PerMinute, INCH_MM)];
+        let turns = [("MMPR", FeedMode::PerRevolution, 1.0), ("IPR", FeedMode::PerRevolution, INCH_MM)];
+        let feed = feeds.into_iter().chain(turns).find_map(|(name, mode, unit)| {
+            let value = named(&[name]).filter(|v| *v > 0.0)?;
+            Some(Feed { mode, value: value * unit })
+        });
+        let retract_mm = length(&["RTRCTO"]).unwrap_or(clearance_mm).max(clearance_mm);
+        Ok(Word::Cycle(ClCycle { depth_mm, clearance_mm, retract_mm, feed }))
+    }
+
+    fn delay(&mut self, s: &Statement) -> Result<Word, Fault> {
+        let time = number(s.argument(0))?;
+        if !(0.0..1e6).contains(&time) {
+            let message = format!("{time} is not a time to wait");
+            return Err(("bad-delay", message, "write DELAY/1.5, in seconds"));
+        }
+        if s.argument(1).eq_ignore_ascii_case("REV") {
+            let message = "DELAY in revolutions is read as no delay".to_owned();
+            self.warn("not-applied", "DELAY", s.line, message, "write it in seconds");
+            return Ok(Word::Noted);
+        }
+        Ok(Word::Delay(time))
+    }
+}
+
+/// Whether a line names the columns of a table.
+fn is_heading(s: &Statement) -> bool {
+    s.word == "X" || s.word.starts_with("TIP_X")
+}
+
+fn tool_number(text: &str) -> Result<u32, Fault> {
+    match number(text)? {
+        n if (0.0..1e8).contains(&n) => Ok(n as u32),
+        n => Err(("bad-tool", format!("{n} is not the number of a tool"), "write LOADTL/1")),
+    }
+}
+
+fn number(text: &str) -> Result<f64, Fault> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        _ => {
+            let shown: String = text.chars().take(40).collect();
+            let message = match text.is_empty() {
+                true => "a number is missing".to_owned(),
+                false => format!("`{shown}` is not a number"),
+            };
+            Err(("bad-number", message, "numbers look like 12.5 or -3"))
+        }
+    }
+}
