@@ -188,12 +188,8 @@ impl ClFile {
         let mut points = self.points().map(|(_, p)| p);
         let first = points.next()?;
         let tilt = |p: &ClPoint| p.axis[0].hypot(p.axis[1]).atan2(p.axis[2]);
-        let start = Extent {
-            points: 1,
-            min_mm: first.tip_mm,
-            max_mm: first.tip_mm,
-            tilt_rad: tilt(first),
-        };
+        let start =
+            Extent { points: 1, min_mm: first.tip_mm, max_mm: first.tip_mm, tilt_rad: tilt(first) };
         Some(points.fold(start, |e, p| Extent {
             points: e.points + 1,
             min_mm: std::array::from_fn(|i| e.min_mm[i].min(p.tip_mm[i])),

@@ -206,7 +206,9 @@ impl Decimals {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum WriteError {
     /// A number that no control reads.
-    #[error("{word} = {value} cannot be written; it must be finite and of a size that machines have")]
+    #[error(
+        "{word} = {value} cannot be written; it must be finite and of a size that machines have"
+    )]
     Number {
         /// The word.
         word: &'static str,

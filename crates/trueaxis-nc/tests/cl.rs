@@ -11,8 +11,7 @@ use support::outside;
 use trueaxis_nc::cl::{ClFile, Reading, Word};
 
 fn read(text: &str) -> (ClFile, Vec<(usize, &'static str)>) {
-    let (file, problems) =
-        ClFile::read("a.cls", text.as_bytes().to_vec(), &Reading::default());
+    let (file, problems) = ClFile::read("a.cls", text.as_bytes().to_vec(), &Reading::default());
     let found = problems.iter().map(|p| (p.place.line, p.code)).collect();
     (file, found)
 }

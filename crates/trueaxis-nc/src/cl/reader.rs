@@ -142,7 +142,8 @@ impl<'n> Reader<'n> {
             if is_heading(s) {
                 return Word::Noted;
             }
-            let message = format!("`{}` is not a word that is known here: it is kept, not used", s.word);
+            let message =
+                format!("`{}` is not a word that is known here: it is kept, not used", s.word);
             self.warn("unknown-word", &s.word, s.line, message, "does it move the tool?");
             return Word::Unknown;
         };
@@ -447,7 +448,8 @@ impl<'n> Reader<'n> {
         };
         let clearance_mm = length(&["RAPTO", "CLEAR"]).unwrap_or(0.0).max(0.0);
         let feeds = [("MMPM", FeedMode::PerMinute, 1.0), ("IPM", FeedMode::PerMinute, INCH_MM)];
-        let turns = [("MMPR", FeedMode::PerRevolution, 1.0), ("IPR", FeedMode::PerRevolution, INCH_MM)];
+        let turns =
+            [("MMPR", FeedMode::PerRevolution, 1.0), ("IPR", FeedMode::PerRevolution, INCH_MM)];
         let feed = feeds.into_iter().chain(turns).find_map(|(name, mode, unit)| {
             let value = named(&[name]).filter(|v| *v > 0.0)?;
             Some(Feed { mode, value: value * unit })

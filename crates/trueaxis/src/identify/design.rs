@@ -4,7 +4,7 @@
 //!     J = ∂reading/∂unknown at the nominal machine;   row = (f·v + m·ω) φ      docs/model.md eq. 107
 //! ```
 
-use super::term::Term;
+use super::term::{Basis, Term};
 use crate::measure::instrument::{SetupUnknown, View};
 use crate::measure::{Instrument, Readings};
 use nalgebra::DMatrix;
@@ -30,6 +30,10 @@ pub struct Design {
     offsets: Vec<usize>,
     /// Terms of one error stand together: the error, and its terms.
     runs: Vec<(ErrorIndex, std::ops::Range<usize>)>,
+    /// The functions that the terms share, each once.
+    functions: Vec<(Option<usize>, Basis)>,
+    /// Which of them each term is.
+    function_of: Vec<usize>,
 }
 
 /// An unknown by its place in the list.
@@ -84,6 +88,16 @@ impl Design {
                 None => runs.push((term.index, k..k + 1)),
             }
         }
+        let mut functions: Vec<(Option<usize>, Basis)> = Vec::new();
+        let mut function_of = Vec::new();
+        for term in &terms {
+            let function = (term.axis, term.basis);
+            let known = functions.iter().position(|f| *f == function);
+            function_of.push(known.unwrap_or(functions.len()));
+            if known.is_none() {
+                functions.push(function);
+            }
+        }
         let mut next = terms.len();
         let mut offsets = Vec::new();
         for instrument in &instruments {
@@ -91,7 +105,7 @@ impl Design {
             next += instrument.unknowns.len();
         }
         offsets.push(next);
-        Self { machine, terms, instruments, offsets, runs }
+        Self { machine, terms, instruments, offsets, runs, functions, function_of }
     }
 
     /// How many unknowns.
@@ -130,10 +144,20 @@ impl Design {
         values: &[f64],
     ) -> Result<ErrorValues, CommandFault> {
         let mut errors = self.machine.errors_at(command, approach)?;
-        for (term, c) in self.terms.iter().zip(values) {
-            errors.add(term.index, c * term.value(command, approach));
+        let phi = self.functions_at(command, approach);
+        for ((term, f), c) in self.terms.iter().zip(&self.function_of).zip(values) {
+            errors.add(term.index, c * phi[*f]);
         }
         Ok(errors)
+    }
+
+    /// φ of every function at a command.
+    fn functions_at(&self, command: &Command, approach: &Approach) -> Vec<f64> {
+        let at = |(axis, basis): &(Option<usize>, Basis)| {
+            let (q, side) = axis.map_or((0.0, 0.0), |i| (command[i], approach[i]));
+            basis.value(q, side)
+        };
+        self.functions.iter().map(at).collect()
     }
 
     /// What the instrument of a row would read with these values of the unknowns, mm or rad.
@@ -154,34 +178,32 @@ impl Design {
         Ok(instrument.read(&view, self.setup(of, values)))
     }
 
-    /// Fills the rows of one reading: `rows[c][k]` is how channel c follows unknown k.
-    ///
-    /// Returns how many channels there are; rows must be as long as there are unknowns.
-    pub fn slopes(&self, readings: &Readings, i: usize, rows: &mut [Vec<f64>; 3]) -> usize {
+    /// Writes how each channel of a reading follows every unknown: one channel after the other,
+    /// each as long as there are unknowns. Returns how many channels there are.
+    pub fn slopes(&self, readings: &Readings, i: usize, out: &mut [f64]) -> usize {
+        let n = self.unknowns();
         let of = readings.instruments[i] as usize;
         let instrument = &self.instruments[of];
         let (command, approach) = (&readings.commands[i], &readings.approaches[i]);
         let view = self.nominal_view(instrument, command, readings.directions[i]);
         let wrenches = instrument.wrenches(&view);
         let channels = instrument.sight.channels();
-        for row in rows.iter_mut().take(channels) {
-            row.iter_mut().for_each(|v| *v = 0.0);
-        }
+        out[..channels * n].fill(0.0);
         let frames = self.machine.error_frames(command, instrument.reference);
+        let phi = self.functions_at(command, approach);
         for (index, run) in &self.runs {
             let twist = frames.twist(*index);
-            let on = wrenches.map(|w| w.on(&twist));
-            for k in run.clone() {
-                let phi = self.terms[k].value(command, approach);
-                for c in 0..channels {
-                    rows[c][k] = on[c] * phi;
+            for (c, wrench) in wrenches.iter().take(channels).enumerate() {
+                let on = wrench.on(&twist);
+                for k in run.clone() {
+                    out[c * n + k] = on * phi[self.function_of[k]];
                 }
             }
         }
         for (j, unknown) in instrument.unknowns.iter().enumerate() {
-            for c in 0..channels {
-                let slope = instrument.setup_slope(unknown.error, c, &wrenches[c], &view);
-                rows[c][self.offsets[of] + j] = slope;
+            for (c, wrench) in wrenches.iter().take(channels).enumerate() {
+                out[c * n + self.offsets[of] + j] =
+                    instrument.setup_slope(unknown.error, c, wrench, &view);
             }
         }
         channels
@@ -190,13 +212,18 @@ impl Design {
     /// The rows of these readings in units of their noise, one *column* each: Jᵀ/u.
     pub fn columns(&self, readings: &Readings, range: std::ops::Range<usize>) -> DMatrix<f64> {
         let n = self.unknowns();
-        let mut rows = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
-        let mut values: Vec<f64> = Vec::with_capacity(n * range.len() * 3);
+        let channels =
+            |i: usize| self.instruments[readings.instruments[i] as usize].sight.channels();
+        let mut values = vec![0.0; n * range.clone().map(channels).sum::<usize>()];
+        let mut next = 0;
         for i in range {
             let noise = self.instruments[readings.instruments[i] as usize].noise;
-            for c in 0..self.slopes(readings, i, &mut rows) {
-                values.extend(rows[c].iter().map(|v| v / noise[c]));
+            let end = next + n * channels(i);
+            self.slopes(readings, i, &mut values[next..end]);
+            for (row, u) in values[next..end].chunks_exact_mut(n.max(1)).zip(noise) {
+                row.iter_mut().for_each(|v| *v /= u);
             }
+            next = end;
         }
         let m = values.len() / n.max(1);
         DMatrix::from_vec(n, m, values)

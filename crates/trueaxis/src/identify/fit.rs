@@ -10,9 +10,11 @@
 //! of the plan, not of the noise).
 
 use super::design::Design;
-use crate::measure::Readings;
+use crate::measure::{Instrument, Readings};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rayon::prelude::*;
+use std::borrow::Cow;
+use std::ops::Range;
 use trueaxis_machine::chain::CommandFault;
 
 /// A combination that is seen less than a millionth as well as the best one is not seen: the
@@ -26,6 +28,8 @@ const SMALLEST_STEP: f64 = 1e-4;
 const MOST_PASSES: usize = 60;
 /// Rows that one thread takes at a time: fixed, so that sums do not depend on the machine.
 const CHUNK: usize = 512;
+/// As many slopes are kept between passes (1 GB); beyond, they are made again.
+const MOST_KEPT: usize = 1 << 27;
 
 /// Why there is no answer.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -162,88 +166,131 @@ impl Observability {
     }
 }
 
-/// JᵀWJ of these readings and the priors.
-pub fn normal_matrix(design: &Design, readings: &Readings, weights: &[f64]) -> DMatrix<f64> {
-    let n = design.unknowns();
-    let starts: Vec<usize> = (0..readings.len()).step_by(CHUNK).collect();
-    let part = |start: &usize| {
-        let range = *start..(start + CHUNK).min(readings.len());
-        let mut columns = design.columns(readings, range.clone());
-        if !weights.is_empty() {
-            weigh(design, readings, weights, range, &mut columns);
-        }
-        &columns * columns.transpose()
-    };
-    let mut normal = DMatrix::zeros(n, n);
-    // In batches, so that a million rows do not keep a thousand matrices.
-    for batch in starts.chunks(64) {
-        for part in batch.par_iter().map(part).collect::<Vec<_>>() {
-            normal += part;
-        }
-    }
-    for k in 0..n {
-        if let Some((_, u)) = design.unknown(k).and_then(|u| u.prior()) {
-            normal[(k, k)] += u.powi(-2);
-        }
-    }
-    normal
+/// J/u by chunks, kept if there is room: what every pass needs again.
+struct Rows<'a> {
+    design: &'a Design,
+    readings: &'a Readings,
+    weights: &'a [f64],
+    kept: Vec<DMatrix<f64>>,
 }
 
-fn weigh(
-    design: &Design,
-    readings: &Readings,
-    weights: &[f64],
-    range: std::ops::Range<usize>,
-    columns: &mut DMatrix<f64>,
-) {
-    let mut next = 0;
-    for i in range {
-        for _ in 0..design.instruments[readings.instruments[i] as usize].sight.channels() {
-            columns.column_mut(next).scale_mut(weights[i].sqrt());
-            next += 1;
+impl<'a> Rows<'a> {
+    fn new(design: &'a Design, readings: &'a Readings, weights: &'a [f64]) -> Self {
+        let mut rows = Self { design, readings, weights, kept: Vec::new() };
+        if 3 * readings.len() * design.unknowns() <= MOST_KEPT {
+            rows.kept = (0..rows.chunks()).into_par_iter().map(|c| rows.made(c)).collect();
         }
+        rows
     }
-}
 
-/// One pass over all readings: residuals and `JᵀW r`.
-fn pass(
-    design: &Design,
-    readings: &Readings,
-    weights: &[f64],
-    values: &[f64],
-    residuals: &mut [[f64; 3]],
-) -> Result<DVector<f64>, FitError> {
-    let n = design.unknowns();
-    let part = |(chunk, residuals): (usize, &mut [[f64; 3]])| {
-        let mut rows = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
-        let mut gradient = DVector::<f64>::zeros(n);
-        for (k, residual) in residuals.iter_mut().enumerate() {
-            let i = chunk * CHUNK + k;
-            let outside = |fault| FitError::Outside { row: i, fault };
-            let read = design.read(readings, i, values).map_err(outside)?;
-            let noise = design.instruments[readings.instruments[i] as usize].noise;
-            let weight = weights.get(i).copied().unwrap_or(1.0);
-            for c in 0..design.slopes(readings, i, &mut rows) {
-                residual[c] = readings.values[i][c] - read[c];
-                let by = weight * residual[c] / (noise[c] * noise[c]);
-                for (g, slope) in gradient.iter_mut().zip(&rows[c]) {
-                    *g += by * slope;
+    fn chunks(&self) -> usize {
+        self.readings.len().div_ceil(CHUNK)
+    }
+
+    fn range(&self, chunk: usize) -> Range<usize> {
+        chunk * CHUNK..((chunk + 1) * CHUNK).min(self.readings.len())
+    }
+
+    fn made(&self, chunk: usize) -> DMatrix<f64> {
+        let mut columns = self.design.columns(self.readings, self.range(chunk));
+        if !self.weights.is_empty() {
+            let mut next = 0;
+            for i in self.range(chunk) {
+                for _ in 0..self.instrument(i).sight.channels() {
+                    columns.column_mut(next).scale_mut(self.weights[i].sqrt());
+                    next += 1;
                 }
             }
         }
-        Ok(gradient)
-    };
-    let parts: Vec<_> = residuals.par_chunks_mut(CHUNK).enumerate().map(part).collect();
-    let mut gradient = DVector::zeros(n);
-    for part in parts {
-        gradient += part?;
+        columns
     }
-    for k in 0..n {
-        if let Some((value, u)) = design.unknown(k).and_then(|u| u.prior()) {
+
+    fn columns(&self, chunk: usize) -> Cow<'_, DMatrix<f64>> {
+        self.kept.get(chunk).map_or_else(|| Cow::Owned(self.made(chunk)), Cow::Borrowed)
+    }
+
+    fn instrument(&self, i: usize) -> &Instrument {
+        &self.design.instruments[self.readings.instruments[i] as usize]
+    }
+
+    fn weight(&self, i: usize) -> f64 {
+        self.weights.get(i).copied().unwrap_or(1.0)
+    }
+
+    /// JᵀWJ with the priors.
+    fn normal(&self) -> DMatrix<f64> {
+        let n = self.design.unknowns();
+        let mut normal = DMatrix::zeros(n, n);
+        let chunks: Vec<usize> = (0..self.chunks()).collect();
+        // In batches, so that a million rows do not keep a thousand matrices; summed in order, so
+        // that the result does not depend on the threads.
+        for batch in chunks.chunks(64) {
+            let part = |c: &usize| {
+                let columns = self.columns(*c);
+                columns.as_ref() * columns.transpose()
+            };
+            for part in batch.par_iter().map(part).collect::<Vec<_>>() {
+                normal += part;
+            }
+        }
+        for (k, _, u) in priors(self.design) {
+            normal[(k, k)] += u.powi(-2);
+        }
+        normal
+    }
+
+    /// Residuals at these values, and `JᵀW r`.
+    fn pass(&self, values: &[f64], residuals: &mut [[f64; 3]]) -> Result<DVector<f64>, FitError> {
+        let part = |(chunk, residuals): (usize, &mut [[f64; 3]])| {
+            let mut weighted = Vec::with_capacity(3 * residuals.len());
+            for (i, residual) in self.range(chunk).zip(residuals) {
+                let outside = |fault| FitError::Outside { row: i, fault };
+                let read = self.design.read(self.readings, i, values).map_err(outside)?;
+                let (instrument, root) = (self.instrument(i), self.weight(i).sqrt());
+                for c in 0..instrument.sight.channels() {
+                    residual[c] = self.readings.values[i][c] - read[c];
+                    weighted.push(root * residual[c] / instrument.noise[c]);
+                }
+            }
+            Ok(self.columns(chunk).as_ref() * DVector::from_vec(weighted))
+        };
+        let parts: Vec<_> = residuals.par_chunks_mut(CHUNK).enumerate().map(part).collect();
+        let mut gradient = DVector::zeros(self.design.unknowns());
+        for part in parts {
+            gradient += part?;
+        }
+        for (k, value, u) in priors(self.design) {
             gradient[k] += (value - values[k]) / (u * u);
         }
+        Ok(gradient)
     }
-    Ok(gradient)
+
+    /// χ² of the readings, and how many numbers they are.
+    fn chi_square(&self, residuals: &[[f64; 3]]) -> (f64, usize) {
+        let (mut chi_square, mut numbers) = (0.0, 0);
+        for (i, residual) in residuals.iter().enumerate() {
+            let instrument = self.instrument(i);
+            let channels = instrument.sight.channels();
+            for (r, u) in residual.iter().zip(&instrument.noise).take(channels) {
+                chi_square += self.weight(i) * (r / u).powi(2);
+            }
+            numbers += channels;
+        }
+        (chi_square, numbers)
+    }
+}
+
+/// The unknowns of which something was known before: value and standard uncertainty.
+fn priors(design: &Design) -> impl Iterator<Item = (usize, f64, f64)> + '_ {
+    (0..design.unknowns()).filter_map(|k| {
+        let (value, u) = design.unknown(k)?.prior()?;
+        Some((k, value, u))
+    })
+}
+
+/// JᵀWJ of these readings and the priors; `weights` of the readings, empty for 1.
+pub fn normal_matrix(design: &Design, readings: &Readings, weights: &[f64]) -> DMatrix<f64> {
+    Rows { design, readings, weights, kept: Vec::new() }.normal()
 }
 
 /// The unknowns from the readings; `weights` of the readings (robust losses), empty for 1.
@@ -257,12 +304,13 @@ pub fn fit(design: &Design, readings: &Readings, weights: &[f64]) -> Result<Fit,
     if design.unknowns() == 0 {
         return Err(FitError::NoUnknowns);
     }
-    let normal = normal_matrix(design, readings, weights);
-    let sight = Observability::of(&normal);
+    let rows = Rows::new(design, readings, weights);
+    let sight = Observability::of(&rows.normal());
     let mut values = DVector::zeros(design.unknowns());
     let mut residuals = vec![[0.0; 3]; readings.len()];
+    let mut before = 0.0;
     for passes in 1..=MOST_PASSES {
-        let gradient = pass(design, readings, weights, values.as_slice(), &mut residuals)?;
+        let gradient = rows.pass(values.as_slice(), &mut residuals)?;
         let step = sight.solve(&gradient);
         // In units of its own standard uncertainty.
         let length = step.dot(&gradient).abs().sqrt();
@@ -270,43 +318,20 @@ pub fn fit(design: &Design, readings: &Readings, weights: &[f64]) -> Result<Fit,
         if !length.is_finite() {
             return Err(FitError::NotConverged { passes });
         }
-        if length < SMALLEST_STEP {
-            let (chi_square, numbers) = chi_square(design, readings, weights, &residuals);
+        // Steps shrink by a constant factor; what is still to come follows from the last two.
+        if length.min(length * length / before) < SMALLEST_STEP {
+            let (chi_square, numbers) = rows.chi_square(&residuals);
             return Ok(Fit {
                 values: values.as_slice().to_vec(),
                 covariance: sight.covariance(),
-                degrees_of_freedom: (numbers + priors(design)).saturating_sub(sight.rank),
+                degrees_of_freedom: (numbers + priors(design).count()).saturating_sub(sight.rank),
                 sight,
                 residuals,
                 chi_square,
                 passes,
             });
         }
+        before = length;
     }
     Err(FitError::NotConverged { passes: MOST_PASSES })
-}
-
-/// χ² of the readings, and how many numbers they are.
-fn chi_square(
-    design: &Design,
-    readings: &Readings,
-    weights: &[f64],
-    residuals: &[[f64; 3]],
-) -> (f64, usize) {
-    let (mut chi_square, mut numbers) = (0.0, 0);
-    for (i, residual) in residuals.iter().enumerate() {
-        let instrument = &design.instruments[readings.instruments[i] as usize];
-        let weight = weights.get(i).copied().unwrap_or(1.0);
-        let channels = instrument.sight.channels();
-        for (r, u) in residual.iter().zip(&instrument.noise).take(channels) {
-            chi_square += weight * (r / u).powi(2);
-        }
-        numbers += channels;
-    }
-    (chi_square, numbers)
-}
-
-fn priors(design: &Design) -> usize {
-    let has_prior = |k: &usize| design.unknown(*k).and_then(|u| u.prior()).is_some();
-    (0..design.unknowns()).filter(has_prior).count()
 }
