@@ -1,3 +1,5 @@
+mod thermal;
+
 use crate::output::{Answer, Format, Outcome, finish};
 use clap::{Args, Subcommand};
 use serde_json::{Value, json};
@@ -17,6 +19,8 @@ pub struct Arguments {
 enum What {
     /// The coefficient of expansion of a scale, from laser runs at two or more temperatures
     Expansion(ExpansionArguments),
+    /// A linear model of an error that drifts with temperatures, from logs of whole cycles
+    Thermal(thermal::Arguments),
 }
 
 /// The runs.
@@ -36,7 +40,13 @@ struct ExpansionArguments {
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
-    let What::Expansion(arguments) = &arguments.what;
+    match &arguments.what {
+        What::Expansion(arguments) => run_expansion(arguments),
+        What::Thermal(arguments) => thermal::run(arguments),
+    }
+}
+
+fn run_expansion(arguments: &ExpansionArguments) -> Outcome {
     let (runs, mut problems) = read_runs(&arguments.file);
     let answer = runs.map(|runs| answer(&runs, arguments, &mut problems));
     finish(problems, answer)

@@ -7,7 +7,8 @@
 //!   deviations, troubles;
 //! - *predict*: [`predict`](mod@predict): is the test piece that this machine cuts within its
 //!   tolerances, how sure is that, and which error is to blame;
-//! - *identify*: [`identify`]: the expansion of a scale from laser runs at two temperatures;
+//! - *identify*: [`identify`]: the expansion of a scale from laser runs at two temperatures, thermal
+//!   models of errors from logs;
 //! - *verify*: [`verify`]: readings of instruments evaluated by ISO 230;
 //! - [`report`]: all that as text, JSON and self-contained HTML pages.
 //!

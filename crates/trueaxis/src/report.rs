@@ -21,6 +21,8 @@ mod simulation_page;
 mod simulation_plots;
 mod simulation_views;
 mod text;
+mod thermal;
+mod thermal_page;
 
 pub use evaluation::{Evaluation, evaluation_text};
 pub use evaluation_html::evaluation_html;
@@ -32,6 +34,8 @@ pub use plots::DrawingError;
 pub use simulation::{Simulation, simulation_json, simulation_text, trouble_code, trouble_text};
 pub use simulation_page::simulation_html;
 pub use text::text;
+pub use thermal::{thermal_json, thermal_lines, thermal_text};
+pub use thermal_page::thermal_html;
 
 use crate::predict::{Index, Prediction, Share};
 use trueaxis_machine::axis::{Axis, AxisKind, Command};

@@ -68,11 +68,9 @@ fn candidates(machine: &Machine) -> Vec<ErrorIndex> {
         }
     }
     let body = machine.bodies().len() - 1;
-    let spindle = [Component::A, Component::B].map(|component| ErrorIndex {
-        body,
-        kind: ErrorKind::Location,
-        component,
-    });
+    // The tilt of the spindle; on a swivelling head also where it sits (the pivot length).
+    let tool = [Component::A, Component::B, Component::X, Component::Y, Component::Z];
+    let spindle = tool.map(|component| ErrorIndex { body, kind: ErrorKind::Location, component });
     across.into_iter().chain(spindle).chain(along).collect()
 }
 
