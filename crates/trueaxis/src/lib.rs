@@ -16,6 +16,7 @@
 
 pub mod files;
 pub mod identify;
+mod parquet_log;
 pub mod predict;
 pub mod report;
 pub mod simulate;
