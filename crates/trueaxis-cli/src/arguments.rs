@@ -11,7 +11,7 @@ use trueaxis::geometry::input::{
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{Approach, AxisKind, Command};
 use trueaxis::machine::errors::BodyName;
-use trueaxis::machine::heat::{Conditions, TemperatureLog};
+use trueaxis::machine::heat::{Conditions, TemperatureRun};
 
 /// The machine and the tool in it.
 #[derive(Args)]
@@ -29,12 +29,27 @@ pub struct MachineArguments {
     /// temperature of its error table and the workpiece at 20 degC
     #[arg(long, value_name = "\"scale_x=30.5 workpiece=31\"")]
     temperature: Option<String>,
-    /// The same from a log: a CSV file with time_s and one column per sensor (scale_x_degC)
+    /// The same from a log: a file (CSV, or Parquet) with time_s and one column per sensor
+    /// (scale_x_degC)
     #[arg(long, value_name = "LOG.csv", conflicts_with = "temperature")]
     temperature_log: Option<PathBuf>,
-    /// At which time of the log, s; without it at its end
-    #[arg(long, value_name = "S", requires = "temperature_log")]
+    /// Held at this time of the log, s; without it at its end
+    #[arg(long, value_name = "S", requires = "temperature_log", allow_negative_numbers = true)]
     log_time: Option<String>,
+}
+
+/// Temperatures that follow the log while a program runs.
+#[derive(Args)]
+pub struct LogStart {
+    /// The program begins at this time of the log, s, and the temperatures follow it from there
+    #[arg(
+        long,
+        value_name = "S",
+        requires = "temperature_log",
+        conflicts_with = "log_time",
+        allow_negative_numbers = true
+    )]
+    log_start: Option<String>,
 }
 
 impl MachineArguments {
@@ -48,6 +63,30 @@ impl MachineArguments {
         let (machine, found) = files::machine(&self.machine);
         problems.append(found);
         let machine = self.at_temperatures(machine?, problems)?;
+        self.with_tool(machine, problems)
+    }
+
+    /// The same with a log that the temperatures follow, if a start is given: then the machine is
+    /// that of the start.
+    pub fn read_from(
+        &self,
+        start: &LogStart,
+        problems: &mut Diagnostics,
+    ) -> Option<(Machine, Option<TemperatureRun>)> {
+        let (Some(text), Some(path)) = (&start.log_start, &self.temperature_log) else {
+            return Some((self.read(problems)?, None));
+        };
+        let (machine, found) = files::machine(&self.machine);
+        problems.append(found);
+        let start_s = log_time("--log-start", text, problems);
+        let log = files::temperature_log(path, problems);
+        let run = TemperatureRun { log: Arc::new(log?), start_s: start_s? };
+        let conditions = conditions_at(&run, "--log-start", problems)?;
+        let machine = machine?.at(&conditions, problems)?;
+        Some((self.with_tool(machine, problems)?, Some(run)))
+    }
+
+    fn with_tool(&self, machine: Machine, problems: &mut Diagnostics) -> Option<Machine> {
         let length_mm = match (&self.tool, &self.tool_length) {
             (Some(name), _) => named_tool(&machine, name, problems)?,
             (None, Some(text)) => tool_length(text, problems)?,
@@ -62,7 +101,8 @@ impl MachineArguments {
         let conditions = match (&self.temperature, &self.temperature_log) {
             (Some(text), _) => Conditions::typed("--temperature", text, problems)?,
             (None, Some(path)) => {
-                let time_s = self.log_time.as_deref().map(|t| log_time(t, problems));
+                let time_s = self.log_time.as_deref();
+                let time_s = time_s.map(|t| log_time("--log-time", t, problems));
                 conditions_of(path, time_s, problems)?
             }
             (None, None) => return Some(machine),
@@ -76,12 +116,13 @@ impl MachineArguments {
     }
 }
 
-fn log_time(text: &str, problems: &mut Diagnostics) -> Option<f64> {
+fn log_time(name: &str, text: &str, problems: &mut Diagnostics) -> Option<f64> {
+    let plain = parse_quantity(text, Dimension::Ratio);
     let refuse = |e: QuantityError| {
-        let hint = "a plain number, in s: --log-time 3600";
-        problems.error(e.code(), argument("--log-time"), e.to_string(), hint);
+        let hint = format!("a plain number, in s, or with its unit: {name} 3600, {name} \"1 h\"");
+        problems.error(e.code(), argument(name), e.to_string(), &hint);
     };
-    parse_quantity(text, Dimension::Ratio).map_err(refuse).ok()
+    plain.or_else(|_| parse_quantity(text, Dimension::Time)).map_err(refuse).ok()
 }
 
 /// `time_s`: none for the end of the log, an inner none if it could not be read.
@@ -90,13 +131,21 @@ fn conditions_of(
     time_s: Option<Option<f64>>,
     problems: &mut Diagnostics,
 ) -> Option<Conditions> {
-    let text = files::text(path, "a CSV log of temperatures", problems)?;
-    let log = TemperatureLog::parse(&path.display().to_string(), &text, problems)?;
-    let (first, last) = (*log.times_s().first()?, *log.times_s().last()?);
-    let conditions = Arc::new(log).at(time_s.unwrap_or(Some(last))?);
+    let log = files::temperature_log(path, problems)?;
+    let last_s = *log.times_s().last()?;
+    let run = TemperatureRun { log: Arc::new(log), start_s: time_s.unwrap_or(Some(last_s))? };
+    conditions_at(&run, "--log-time", problems)
+}
+
+fn conditions_at(
+    run: &TemperatureRun,
+    name: &str,
+    problems: &mut Diagnostics,
+) -> Option<Conditions> {
+    let conditions = run.log.at(run.start_s);
     if conditions.is_none() {
-        let message = format!("the log covers {first} s to {last} s");
-        problems.error("outside-log", argument("--log-time"), message, "choose a time in it");
+        let outside = run.log.outside(run.start_s);
+        problems.error(outside.code, argument(name), outside.message, &outside.hint);
     }
     conditions
 }

@@ -7,7 +7,7 @@ use trueaxis::geometry::input::{Diagnostics, Place};
 use trueaxis::part::tolerance;
 use trueaxis::predict::holes::{is_hole_study, predict_holes, read_hole_study};
 use trueaxis::predict::{Error, Prediction, Study, predict, read_study};
-use trueaxis::report::{self, holes_json, holes_text};
+use trueaxis::report::{self, holes_html, holes_json, holes_text};
 
 /// The study to predict.
 #[derive(Args)]
@@ -40,9 +40,13 @@ pub struct Arguments {
     format: Format,
 }
 
-/// Holes on a circle: text or JSON, no page.
+/// Holes on a circle.
 fn run_holes(arguments: &Arguments) -> Outcome {
-    let (study, problems) = read_hole_study(&arguments.study);
+    let (study, mut problems) = read_hole_study(&arguments.study);
+    if !arguments.no_report {
+        // Before the work, not after it.
+        may_write(&arguments.report, &REPORT, &mut problems);
+    }
     if report(problems) {
         return Outcome::Unusable;
     }
@@ -56,14 +60,15 @@ fn run_holes(arguments: &Arguments) -> Outcome {
     };
     let mut problems = Diagnostics::new();
     let place = Place::whole(&arguments.study.display().to_string());
-    if !arguments.no_report {
-        let message = "a study of holes has no HTML report: none is written".to_owned();
-        problems.note("no-report", place.clone(), message, "use --format json, or --no-report");
-    }
     for warning in &prediction.warnings {
         problems.warn("machine-only-compensation", place.clone(), warning.clone(), "");
     }
     report(problems);
+    if !arguments.no_report
+        && let Err(outcome) = write_report(&arguments.report, holes_html(&study, &prediction))
+    {
+        return outcome;
+    }
     let answer = match arguments.format {
         Format::Json => Answer::Json(holes_json(&study, &prediction)),
         Format::Text => Answer::Text(holes_text(&study, &prediction)),
@@ -145,6 +150,7 @@ fn refused(study: &Path, error: &Error) -> Outcome {
         }
         Error::Table { .. } => "cover the travel by the table, or say outside = \"clamp\" for it",
         Error::TooFewSamples(_) => "0, or 2 and more",
+        Error::LogEnds { .. } => "take a longer log, or start earlier in it",
         _ => "move the part on the machine, tilt it, or change the tool, and ask again",
     };
     unusable(error.code(), &study.display().to_string(), &error.to_string(), hint)

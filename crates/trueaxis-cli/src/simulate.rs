@@ -1,4 +1,4 @@
-use crate::arguments::MachineArguments;
+use crate::arguments::{LogStart, MachineArguments};
 use crate::output::{Answer, Format, Outcome, report, report_and, show, tell};
 use crate::path_file::{BODIES, PathTable, may_write_path};
 use crate::report_file::{REPORT, may_write, unusable, write_report};
@@ -9,12 +9,13 @@ use std::path::{Path, PathBuf};
 use trueaxis::files::Part;
 use trueaxis::geometry::input::{Diagnostics, Dimension, Place, parse_quantity};
 use trueaxis::machine::Machine;
+use trueaxis::machine::heat::TemperatureRun;
 use trueaxis::nc::{Control, Program};
 use trueaxis::report::{Simulation, simulation_html, simulation_json, simulation_text};
 use trueaxis::simulate::collide::{BodyModel, load_models};
 use trueaxis::simulate::{
-    AxisWatch, Batch, BodyTable, CONTROLS, Collisions, Densify, Observer, Options, Run, Series,
-    SetUp, Summary, Timing, TroubleList, control_named, read_program, read_setup, simulate,
+    AxisWatch, Batch, BodyTable, CONTROLS, Collisions, Densify, Drift, Observer, Options, Run,
+    Series, SetUp, Summary, Timing, TroubleList, control_named, read_program, read_setup, simulate,
 };
 
 /// The program to simulate.
@@ -24,8 +25,11 @@ Examples:
   trueaxis simulate machines/wyxzcat-gantry/machine.toml examples/02_simulate/impeller-840d.mpf
   trueaxis simulate machines/i5-engraver/machine.toml examples/02_simulate/ring-fanuc.nc --format json
   trueaxis simulate MACHINE.toml PART.ngc --setup PART.setup.toml --path path.csv --chord 0.002
+  trueaxis simulate MACHINE.toml PART.mpf --temperature-log hall.csv --log-start \"2 h\"
 
-Without --setup work offsets and tool lengths are 0; a file PROGRAM.setup.toml beside the program is
+With --log-start every place of the path is evaluated at the temperatures of its own time (within
+0.01 K), and the summary tells the drift: how far the deviation has moved since the start. A program
+that outlasts its log is an error. Without --setup work offsets and tool lengths are 0; a file PROGRAM.setup.toml beside the program is
 taken by itself. Exit status: 0 no grave trouble, 1 a collision, a rapid move through stock or an
 axis beyond its travel, 2 unusable input; then nothing is written.")]
 pub struct Arguments {
@@ -59,6 +63,8 @@ pub struct Arguments {
 /// The program, its set-up, and how finely it is cut.
 #[derive(Args)]
 pub struct ProgramArguments {
+    #[command(flatten)]
+    pub log: LogStart,
     /// The NC program
     #[arg(value_name = "PROGRAM")]
     program: PathBuf,
@@ -124,7 +130,7 @@ impl ProgramArguments {
     /// Reads program and set-up; what is wrong goes to `problems`.
     pub fn read(
         &self,
-        machine: Machine,
+        (machine, temperatures): (Machine, Option<TemperatureRun>),
         keep_going: bool,
         problems: &mut Diagnostics,
     ) -> Option<Job> {
@@ -134,6 +140,7 @@ impl ProgramArguments {
             None => None,
         };
         let options = self.options(keep_going, problems);
+        let options = options.map(|options| Options { temperatures, ..options });
         let setup = setup?;
         let program = read_program(&self.program, control, &setup, problems)?;
         let control = program.dialect().control;
@@ -177,7 +184,9 @@ impl ProgramArguments {
             None => Timing::LookAhead,
             Some(a) => Timing::ThreePhase { acceleration: a?, smooth: self.smooth },
         };
-        Some(Options { densify, rounding_mm: rounding_mm?, timing, most_jumps, keep_going })
+        let rounding_mm = rounding_mm?;
+        let temperatures = None;
+        Some(Options { densify, rounding_mm, timing, most_jumps, keep_going, temperatures })
     }
 }
 
@@ -194,7 +203,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let mut problems = Diagnostics::new();
     let job = arguments
         .machine
-        .read(&mut problems)
+        .read_from(&arguments.program.log, &mut problems)
         .and_then(|m| arguments.program.read(m, arguments.keep_going, &mut problems))
         .map(|job| arguments.with_models(job, &mut problems));
     // Before the work, not after it.
@@ -246,7 +255,7 @@ impl Arguments {
             None => None,
         };
         let (found, table) = self.walk(job, part.as_ref(), bodies.as_ref());
-        let Found { run, summary, troubles, series } = found;
+        let Found { run, summary, troubles, series, drift } = found;
         let end = if self.keep_going { "simulated on behind them" } else { "nothing was written" };
         let errors = report_and(run.problems.clone(), end);
         if errors && !self.keep_going {
@@ -265,6 +274,7 @@ impl Arguments {
             summary: &summary,
             troubles: &troubles,
             path_file: path_file.as_deref(),
+            drift: drift.as_ref(),
         };
         if let (Some(path), Some(part)) = (&self.path, part) {
             part.put_in_place().map_err(|e| unwritable(path, &e))?;
@@ -300,6 +310,8 @@ impl Arguments {
         let mut watch = AxisWatch::on(&job.machine);
         let mut collisions = if self.no_collisions { None } else { job.collisions() };
         let mut progress = Progress::through(&job.program);
+        let temperatures = job.options.temperatures.as_ref();
+        let mut drift = temperatures.and_then(|run| Drift::of(&job.machine, &job.setup, run));
         let mut observers: Vec<&mut dyn Observer> = vec![&mut summary, &mut watch, &mut progress];
         if let Some(collisions) = &mut collisions {
             observers.push(collisions);
@@ -307,12 +319,15 @@ impl Arguments {
         if !self.no_report {
             observers.push(&mut series);
         }
+        if let Some(drift) = &mut drift {
+            observers.push(drift);
+        }
         if let Some(table) = &mut table {
             observers.push(table.observer());
         }
         let begin = |part: &'_ Part| {
             let out = BufWriter::with_capacity(1 << 16, part.file().try_clone()?);
-            Ok::<_, std::io::Error>(BodyTable::new(&job.machine, &job.setup, out))
+            Ok::<_, std::io::Error>(BodyTable::new(out))
         };
         let mut bodies = bodies.map(begin).transpose();
         if let Ok(Some(bodies)) = &mut bodies {
@@ -322,7 +337,7 @@ impl Arguments {
         progress.bar.finish_and_clear();
         let logs = [Some(watch.log), collisions.map(|c| c.log)];
         let troubles = TroubleList::of(logs.into_iter().flatten());
-        let found = Found { run, summary, troubles, series };
+        let found = Found { run, summary, troubles, series, drift };
         let written = table.map_or(Ok(()), PathTable::finish);
         let bodies = bodies.and_then(|b| b.map_or(Ok(()), |b| b.finish().map(drop)));
         (found, written.and(bodies))
@@ -348,6 +363,7 @@ struct Found {
     summary: Summary,
     troubles: TroubleList,
     series: Series,
+    drift: Option<Drift>,
 }
 
 /// How far the main program has come; only a terminal sees it, and only if it takes a while.

@@ -43,7 +43,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 fn answer(arguments: &Arguments, problems: &mut Diagnostics) -> Option<Answer> {
-    let machine = arguments.machine.read(problems)?;
+    let machine = arguments.machine.read_from(&arguments.program.log, problems)?;
     let job = arguments.program.read(machine, false, problems)?;
     let Some(line) = block_line(&job.program, arguments.block) else {
         let message = format!("the program has no block {}", arguments.block);
@@ -57,21 +57,12 @@ fn answer(arguments: &Arguments, problems: &mut Diagnostics) -> Option<Answer> {
         let message = format!("line {line} is never executed, or does nothing: {}", found.text);
         problems.warn("nothing-to-trace", argument("--block"), message, "choose another block");
     }
-    let machine = tooled(&job, &found);
-    let budget = found.nodes.last().and_then(|node| budget(&machine, node));
+    let last = found.machine.as_ref().zip(found.nodes.last());
+    let budget = last.and_then(|(machine, node)| budget(machine, node));
     Some(match arguments.format {
         Format::Json => Answer::Json(document(&job, arguments.block, &found, budget)),
         Format::Text => Answer::Text(text(&job, &found, budget)),
     })
-}
-
-/// The machine with the tool of the block.
-fn tooled(job: &Job, found: &Trace) -> Machine {
-    let machine = job.setup.mounted(&job.machine);
-    match job.setup.tools.get(&found.tool) {
-        Some(tool) => machine.with_tip(tool.tip_mm),
-        None => machine,
-    }
 }
 
 fn budget(machine: &Machine, node: &TracedNode) -> Option<(Budget, Bodies)> {

@@ -483,3 +483,65 @@ fn paper_holes_of_the_torque_arm() {
     near(&left[..2], &[-470.448, -163.944], 0.51);
     assert_eq!(sets[0]["holes"].as_array().map(Vec::len), Some(32));
 }
+
+#[test]
+fn holes_over_a_log_leave_a_report() {
+    let folder = Folder::new("shift");
+    let page = folder.path("shift.html");
+    let file = "examples/03_predict/torque-arm-over-a-shift.toml";
+    let ran = trueaxis(&["predict", file, "--report", &page, "--format", "json"]);
+    assert!(ran.status <= 1 && ran.err.contains("report: "), "{}", ran.err);
+    let found = ran.json();
+    let sets = |key: &str| found[key].as_array().map_or(0, Vec::len);
+    assert_eq!((sets("sets"), sets("sets_at_start")), (3, 3));
+    // Three hours in 32 shares, each hole in the middle of its own.
+    near(&[number(&found["sets"][0]["holes"][0]["time_s"])], &[10_800.0 / 64.0], 1e-9);
+    // The tables are known to 2 µm each.
+    assert!(number(&found["sets"][0]["u_worst_mm"]) > 0.001);
+    let page = std::fs::read_to_string(page).expect("a report");
+    for words in
+        ["<svg", "arrows magnified ", "WARNING", "MAKES THE PART WORSE", "u, µm", "after, s"]
+    {
+        assert!(page.contains(words), "{words}");
+    }
+}
+
+#[test]
+fn simulations_over_a_log_tell_the_drift() {
+    let folder = Folder::new("drift");
+    let log = "time_s,scale_x_degC,scale_y_degC,workpiece_degC\n0,24,24,24\n9000,33,30,25\n";
+    let log = folder.file("hall.csv", log);
+    let program = "G21 G90 G94\nG1 X3000 Y1000 F2000\nG1 X0 Y0\nM30\n";
+    let program = folder.file("part.nc", program);
+    let of = |time: &str, value: &str| {
+        let log = ["--temperature-log", &log, time, value];
+        let words = [&["simulate", GANTRY, &program, "--no-report", "--format", "json"], &log[..]];
+        trueaxis(&words.concat())
+    };
+    let found = of("--log-start", "1 h").json();
+    let told = &found["temperatures"];
+    assert_eq!((number(&told["from_s"]), &told["log"]), (3600.0, &serde_json::json!(log)));
+    near(&[number(&told["sensors"]["scale_x"]["lowest_degC"])], &[27.6], 1e-9);
+    // 9 K in 9000 s: in about 95 s at X = 3000 a tenth of a kelvin, 3 µm less what the workpiece
+    // takes along.
+    assert!((1.0..5.0).contains(&number(&told["drift_um"]["value"])), "{told}");
+    let held = of("--log-time", "3600").json();
+    assert!(held["temperatures"].is_null());
+    let late = of("--log-start", "8950");
+    assert_eq!(late.status, 2);
+    assert!(late.err.contains("error[log-ends]") && late.err.contains("part.nc:2"), "{}", late.err);
+    let outside = of("--log-start", "-5");
+    assert!(outside.status == 2 && outside.err.contains("error[outside-log]"), "{}", outside.err);
+    let both = trueaxis(&[
+        "simulate",
+        GANTRY,
+        &program,
+        "--temperature-log",
+        &log,
+        "--log-time",
+        "1",
+        "--log-start",
+        "1",
+    ]);
+    assert_eq!(both.status, 2);
+}

@@ -13,7 +13,7 @@
 use crate::axis::{Approach, Axis, AxisKind, Command};
 use crate::errors::{
     BodyErrors, BodyName, Component, Curve, ErrorIndex, ErrorKind, ErrorName, ErrorValues,
-    OutsideTable, Rotation, Six, StatedError,
+    OutsideTable, Rotation, Six, StatedError, Uncertainties,
 };
 use crate::heat::{HeatModel, ThermalTerm, WorkpieceGrowth};
 use trueaxis_geometry::frame::{Bed, Body, Pose, Tool, Workpiece, rotation};
@@ -115,6 +115,9 @@ pub struct Machine {
     /// How the workpiece has grown, if it is not at 20 °C.
     pub(crate) growth: Option<WorkpieceGrowth>,
 }
+
+/// α_w among the uncertain quantities.
+const WORKPIECE_EXPANSION: &str = "expansion of the workpiece";
 
 /// Commands beyond 10¹² mm or rad are mistakes (as every quantity of a file is), and their powers
 /// no numbers.
@@ -326,22 +329,62 @@ impl Machine {
         Ok(values)
     }
 
-    /// The standard uncertainty of every error at a command; 0 where none is stated.
-    pub fn uncertainties_at(&self, command: &Command) -> ErrorValues {
-        let mut values = ErrorValues::default();
-        for (body, out) in self.bodies.iter().zip(&mut values.bodies) {
-            let q = body.axis.map_or(0.0, |i| command[i]);
-            let u = |stated: &Option<StatedError>| stated.as_ref().map_or(0.0, |e| e.u_at(q));
-            for i in 0..6 {
-                out.location.0[i] = u(&body.location[i]);
-                out.motion.0[i] = u(&body.motion[i]);
-            }
-            for term in &body.thermal {
-                let slot = &mut out.six_mut(term.kind).0[term.component as usize];
-                *slot = slot.hypot(term.u_at(q));
+    /// Every independent quantity that has, or could have, an uncertainty: the stated errors in
+    /// chain order, then the coefficients of the thermal parts, then the expansion of the workpiece.
+    pub fn uncertain_quantities(&self) -> Vec<String> {
+        let stated = self.stated_errors().into_iter().map(|(_, name)| name.to_string());
+        let mut all: Vec<String> = stated.collect();
+        for u in self.bodies.iter().flat_map(|b| &b.thermal).flat_map(|t| &t.u) {
+            if !all.contains(&u.of) {
+                all.push(u.of.clone());
             }
         }
-        values
+        if self.growth.as_ref().is_some_and(|g| g.expansion_per_k.u.is_some()) {
+            all.push(WORKPIECE_EXPANSION.to_owned());
+        }
+        all
+    }
+
+    /// What grows at the present temperatures though nobody says how well its coefficient is known.
+    pub fn coefficients_without_u(&self) -> Vec<String> {
+        let mut names = Vec::new();
+        for body in &self.bodies {
+            let without = body.thermal.iter().filter(|t| t.u.is_empty());
+            names.extend(without.map(|t| {
+                let error = ErrorName { body: body.name, kind: t.kind, component: t.component };
+                format!("{error}({})", t.part.name())
+            }));
+        }
+        if self.growth.as_ref().is_some_and(|g| g.expansion_per_k.u.is_none()) {
+            names.push(WORKPIECE_EXPANSION.to_owned());
+        }
+        names
+    }
+
+    /// How well the errors at a command are known; `quantities` are those of
+    /// [`Machine::uncertain_quantities`], of this machine at any temperatures of the same sensors.
+    pub fn uncertainties_at(&self, command: &Command, quantities: &[String]) -> Uncertainties {
+        let mut found = Uncertainties::default();
+        let at = |body: usize| self.bodies[body].axis.map_or(0.0, |i| command[i]);
+        for (quantity, (index, _)) in self.stated_errors().into_iter().enumerate() {
+            let stated = self.bodies[index.body].stated(index.kind, index.component);
+            found.add(quantity, index, stated.map_or(0.0, |e| e.u_at(at(index.body))));
+        }
+        for (body, b) in self.bodies.iter().enumerate() {
+            for term in &b.thermal {
+                let index = ErrorIndex { body, kind: term.kind, component: term.component };
+                for u in &term.u {
+                    if let Some(quantity) = quantities.iter().position(|q| *q == u.of) {
+                        found.add(quantity, index, u.at(at(body)));
+                    }
+                }
+            }
+        }
+        let expansion = quantities.iter().position(|q| q == WORKPIECE_EXPANSION);
+        if let (Some(growth), Some(quantity)) = (&self.growth, expansion) {
+            found.add_workpiece(quantity, growth.u_at(self.nominal_tip_mm(command)));
+        }
+        found
     }
 
     /// The nominal tip in the workpiece frame, mm.

@@ -53,17 +53,25 @@ impl Traveller {
     }
 
     /// Through an error: shift after rotation.
-    fn displace(&mut self, shift: Vec3, turn_minus_identity: &Mat3) {
+    fn displace(&mut self, error: Option<&Displacement>) {
+        let Some(Displacement { shift, turn_minus_identity }) = error else { return };
         let actual = self.nominal + self.deviation;
         self.deviation += shift * self.place + turn_minus_identity * actual;
     }
 
-    /// Through the inverse of an error.
-    fn displace_back(&mut self, shift: Vec3, inverse_turn_minus_identity: &Mat3) {
+    /// Through the inverse of an error, whose turn is that of the inverse.
+    fn displace_back(&mut self, error: Option<&Displacement>) {
+        let Some(Displacement { shift, turn_minus_identity }) = error else { return };
         let shift = shift * self.place;
         let actual = self.nominal + self.deviation - shift;
-        self.deviation += inverse_turn_minus_identity * actual - shift;
+        self.deviation += turn_minus_identity * actual - shift;
     }
+}
+
+/// An error as a shift and a turn; most of a machine's are zero, and then there is none.
+struct Displacement {
+    shift: Vec3,
+    turn_minus_identity: Mat3,
 }
 
 /// How a body moves at a command, and where its errors act.
@@ -109,29 +117,22 @@ impl Machine {
         travellers: [&mut Traveller; 2],
     ) {
         let body = &self.bodies[i];
-        let rotation = self.model.rotation;
-        let location_turn = errors.location.rotation_minus_identity(rotation);
-        let motion_turn = errors.motion.rotation_minus_identity(rotation);
-        let (location_shift, motion_shift) = (errors.location.shift_mm(), errors.motion.shift_mm());
+        let turn = |six: &Six| six.rotation_minus_identity(self.model.rotation);
         let joint = self.joint(i, command);
+        let location = tilted(&errors.location, joint.as_ref(), turn, turn);
+        let motion = displacement(&errors.motion, turn);
         for traveller in travellers {
             traveller.forward(&body.mounting);
             if let Some(joint) = &joint {
                 if joint.error_stands_still {
                     traveller.forward(&joint.motion);
-                    traveller.displace(motion_shift, &motion_turn);
+                    traveller.displace(motion.as_ref());
                 } else {
-                    traveller.displace(motion_shift, &motion_turn);
+                    traveller.displace(motion.as_ref());
                     traveller.forward(&joint.motion);
                 }
             }
-            match &joint {
-                Some(joint) if joint.tilts_direction_only => {
-                    let tilt = location_turn * joint.motion.shift_mm() + location_shift;
-                    traveller.displace(tilt, &Mat3::zeros());
-                }
-                _ => traveller.displace(location_shift, &location_turn),
-            }
+            traveller.displace(location.as_ref());
             traveller.forward(&body.placement);
         }
     }
@@ -144,27 +145,21 @@ impl Machine {
         travellers: [&mut Traveller; 2],
     ) {
         let body = &self.bodies[i];
-        let location_back = self.inverse_turn_minus_identity(&errors.location);
-        let motion_back = self.inverse_turn_minus_identity(&errors.motion);
-        let (location_shift, motion_shift) = (errors.location.shift_mm(), errors.motion.shift_mm());
+        let turn = |six: &Six| six.rotation_minus_identity(self.model.rotation);
+        let back = |six: &Six| self.inverse_turn_minus_identity(six);
         let joint = self.joint(i, command);
+        let location = tilted(&errors.location, joint.as_ref(), turn, back);
+        let motion = displacement(&errors.motion, back);
         for traveller in travellers {
             traveller.backward(&body.placement);
-            match &joint {
-                Some(joint) if joint.tilts_direction_only => {
-                    let turn = errors.location.rotation_minus_identity(self.model.rotation);
-                    let tilt = turn * joint.motion.shift_mm() + location_shift;
-                    traveller.displace_back(tilt, &Mat3::zeros());
-                }
-                _ => traveller.displace_back(location_shift, &location_back),
-            }
+            traveller.displace_back(location.as_ref());
             if let Some(joint) = &joint {
                 if joint.error_stands_still {
-                    traveller.displace_back(motion_shift, &motion_back);
+                    traveller.displace_back(motion.as_ref());
                     traveller.backward(&joint.motion);
                 } else {
                     traveller.backward(&joint.motion);
-                    traveller.displace_back(motion_shift, &motion_back);
+                    traveller.displace_back(motion.as_ref());
                 }
             }
             traveller.backward(&body.mounting);
@@ -193,6 +188,25 @@ impl Machine {
             Rotation::SmallAngle => -(inverse3(&(Mat3::identity() + turn)) * turn),
         }
     }
+}
+
+/// The displacement of an error, its turn by a function.
+fn displacement(six: &Six, turn: impl Fn(&Six) -> Mat3) -> Option<Displacement> {
+    (!six.is_zero()).then(|| Displacement { shift: six.shift_mm(), turn_minus_identity: turn(six) })
+}
+
+/// That of a location error, which in one model tilts the direction of motion, not what is carried.
+fn tilted(
+    six: &Six,
+    joint: Option<&Joint>,
+    turn: impl Fn(&Six) -> Mat3,
+    turn_felt: impl Fn(&Six) -> Mat3,
+) -> Option<Displacement> {
+    let Some(joint) = joint.filter(|joint| joint.tilts_direction_only) else {
+        return displacement(six, turn_felt);
+    };
+    let shift = turn(six) * joint.motion.shift_mm() + six.shift_mm();
+    (!six.is_zero()).then(|| Displacement { shift, turn_minus_identity: Mat3::zeros() })
 }
 
 /// The deviation of a direction after the actual vector has been made a unit vector again.

@@ -4,10 +4,12 @@ mod curve;
 mod name;
 mod spline;
 mod stated;
+mod uncertain;
 mod values;
 
 pub use curve::{Curve, Harmonic, Outside, OutsideTable};
 pub use name::{BodyName, Component, ErrorKind, ErrorName};
 pub use spline::{Interpolation, Spline, SplineError};
 pub use stated::{Measurement, StatedError, Uncertainty};
+pub use uncertain::Uncertainties;
 pub use values::{BodyErrors, ErrorIndex, ErrorValues, MAX_BODIES, Rotation, Six};

@@ -4,6 +4,7 @@
 //!     machine.toml ──> HeatModel (who grows, by how much, which sensor feels it)
 //!     "scale_x=30.5 workpiece=31", CSV log ──> Conditions (what every sensor says)
 //!     Machine::at(conditions) ──> Machine whose errors contain the thermal parts
+//!     WarmingMachine::at(time) ──> the same while the conditions follow a log
 //! ```
 //!
 //! A machine without conditions has no thermal part: every body stands at the temperature of its
@@ -13,16 +14,19 @@ pub mod conditions;
 pub mod expansion;
 pub mod field;
 mod scale;
+mod warming;
 mod workpiece;
 
 pub use conditions::{Conditions, TemperatureLog};
-pub use scale::{HeatedPlace, Scale, StructureModel};
+pub use scale::{Heated, HeatedPlace, Scale, StructureModel};
+pub use warming::{TemperatureRun, WarmingMachine};
 pub use workpiece::{Settling, Workpiece, WorkpieceGrowth};
 
 use crate::axis::{Command, Travel};
 use crate::chain::Machine;
 use crate::errors::{Component, Curve, ErrorIndex, ErrorKind, ErrorName, ErrorValues, StatedError};
-use trueaxis_geometry::input::{Diagnostics, Measured};
+use field::Source;
+use trueaxis_geometry::input::Diagnostics;
 
 /// The reference temperature of lengths, ISO 1.
 pub const REFERENCE_CELSIUS: f64 = 20.0;
@@ -102,8 +106,17 @@ pub struct ThermalTerm {
     pub part: ErrorPart,
     /// What it adds to the error, mm or rad.
     pub curve: Curve,
-    /// Its standard uncertainty (the absolute value counts), if one is known.
-    pub u: Option<Curve>,
+    /// What one standard uncertainty of each coefficient in it adds, with its sign.
+    pub u: Vec<ThermalU>,
+}
+
+/// What an uncertain coefficient does to a thermal part.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ThermalU {
+    /// The coefficient, such as `expansion of scale X`; the same name is the same coefficient.
+    pub of: String,
+    /// What one standard uncertainty of it adds to the error, mm or rad.
+    pub curve: Curve,
 }
 
 impl ThermalTerm {
@@ -112,9 +125,16 @@ impl ThermalTerm {
         self.curve.at(q).unwrap_or(0.0)
     }
 
-    /// Its standard uncertainty at a position.
+    /// Its standard uncertainty at a position; the coefficients are independent.
     pub fn u_at(&self, q: f64) -> f64 {
-        self.u.as_ref().map_or(0.0, |u| u.at(q).unwrap_or(0.0).abs())
+        self.u.iter().map(|u| u.at(q)).fold(0.0, f64::hypot)
+    }
+}
+
+impl ThermalU {
+    /// What one standard uncertainty adds at a position; its curves have a value everywhere.
+    pub fn at(&self, q: f64) -> f64 {
+        self.curve.at(q).unwrap_or(0.0)
     }
 }
 
@@ -167,12 +187,25 @@ impl Machine {
     /// assert!((warm.deviation(&command, &errors).tip_mm.x - 0.1).abs() < 1e-12);
     /// ```
     pub fn at(&self, conditions: &Conditions, problems: &mut Diagnostics) -> Option<Self> {
+        let now_s = conditions.history().map_or(0.0, |(_, time_s)| time_s);
+        let scales = self.heat.scales.iter();
+        let sources: Vec<_> = scales.map(|scale| scale.sources(conditions, now_s)).collect();
+        self.heated_by(conditions, &sources, problems)
+    }
+
+    /// The same with the heat of each scale known already.
+    fn heated_by(
+        &self,
+        conditions: &Conditions,
+        sources: &[Option<Vec<Source>>],
+        problems: &mut Diagnostics,
+    ) -> Option<Self> {
         let before = problems.iter().count();
         conditions.check_names(&self.heat.sensors(), problems);
         let mut warm = self.without_heat();
-        for scale in &self.heat.scales {
+        for (scale, sources) in self.heat.scales.iter().zip(sources) {
             let axis = &self.axes[scale.axis];
-            let terms = scale.terms(axis, conditions, problems);
+            let terms = scale.terms(axis, conditions, sources.as_deref(), problems);
             // Axes stand behind the workpiece in the chain, in their own order.
             warm.bodies[scale.axis + 1].thermal.extend(terms);
         }
@@ -267,9 +300,4 @@ fn reach_of(travel: Travel) -> (f64, f64) {
 /// The temperature of the error table of a positioning error, if its measurement states it.
 pub(crate) fn measured_celsius(stated: Option<&StatedError>) -> Option<f64> {
     stated.and_then(|s| s.measured.temperature_celsius)
-}
-
-/// The value of a coefficient and its uncertainty, each through the same function.
-fn with_u<T>(coefficient: Measured, make: impl Fn(f64) -> T) -> (T, Option<T>) {
-    (make(coefficient.value), coefficient.u.map(&make))
 }

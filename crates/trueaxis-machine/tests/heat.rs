@@ -202,7 +202,7 @@ fn a_scale_that_carries_the_workpiece_moves_it_back() {
     let cold = hot().deviation(&command, &hot().errors_at(&command, &[0.0; 6]).unwrap());
     let dx = machine.deviation(&command, &errors).tip_mm.x - cold.tip_mm.x;
     assert!((dx - 0.025).abs() < 1e-12, "{dx}");
-    let u = machine.uncertainties_at(&command);
+    let u = machine.uncertainties_at(&command, &machine.uncertain_quantities()).of_errors();
     assert!((u.bodies[2].motion.0[0] - 0.0025).abs() < 1e-15);
 }
 

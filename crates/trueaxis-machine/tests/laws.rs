@@ -401,7 +401,8 @@ fn law_uncertainties_are_those_that_were_stated() {
         let body = machine.bodies().iter().position(|b| b.name.letter() == letter).expect("a body");
         let mut at = Command::default();
         at[0] = x;
-        machine.uncertainties_at(&at).get(ErrorIndex { body, kind, component })
+        let u = machine.uncertainties_at(&at, &machine.uncertain_quantities());
+        u.of_errors().get(ErrorIndex { body, kind, component })
     };
     use {Component as C, ErrorKind::*};
     let same = |ours: f64, theirs: f64| assert!((ours - theirs).abs() < 1e-18, "{ours} {theirs}");

@@ -7,6 +7,7 @@ use std::sync::Mutex;
 use trueaxis_geometry::input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_machine::file::Tables;
+use trueaxis_machine::heat::TemperatureLog;
 
 /// No file that people write or export is longer; a larger one is refused before it fills the memory.
 const MAX_BYTES: u64 = 256 << 20;
@@ -52,6 +53,36 @@ pub fn text(path: &Path, what: &str, problems: &mut Diagnostics) -> Option<Strin
             None
         }
     }
+}
+
+/// Reads a log of temperatures: CSV, or Parquet with the same columns if the file ends in
+/// `.parquet`.
+pub fn temperature_log(path: &Path, problems: &mut Diagnostics) -> Option<TemperatureLog> {
+    let file = path.display().to_string();
+    if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("parquet")) {
+        let source = open(path, "a Parquet log of temperatures", problems)?;
+        let table = crate::parquet_log::table(&file, source, problems)?;
+        return TemperatureLog::from_table(&table, problems);
+    }
+    let text = text(path, "a CSV log of temperatures", problems)?;
+    TemperatureLog::parse(&file, &text, problems)
+}
+
+/// Opens an ordinary file that is not too long; if it cannot be opened, says why.
+fn open(path: &Path, what: &str, problems: &mut Diagnostics) -> Option<fs::File> {
+    let opened = fs::File::open(path).and_then(|file| {
+        let found = file.metadata()?;
+        match found.is_file() && found.len() <= MAX_BYTES {
+            true => Ok(file),
+            false => Err(io::Error::other(format!("no file of at most {MAX_BYTES} bytes"))),
+        }
+    });
+    let complain = |error: io::Error| {
+        let place = Place::whole(&path.display().to_string());
+        let message = format!("cannot be read: {error}");
+        problems.error("unreadable-file", place, message, &format!("{what} is due here"));
+    };
+    opened.map_err(complain).ok()
 }
 
 /// Reads a file that need not be UTF-8, such as an NC program; if it cannot be read, says why.

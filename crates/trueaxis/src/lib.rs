@@ -18,6 +18,7 @@
 pub mod files;
 pub mod identify;
 pub mod measure;
+mod parquet_log;
 pub mod predict;
 pub mod report;
 pub mod simulate;

@@ -14,6 +14,7 @@ mod judge;
 mod monte_carlo;
 mod sensitivity;
 mod study;
+mod temperatures;
 
 pub use blame::{Blame, Share, blame};
 pub use correction::{Correction, corrections};
@@ -22,6 +23,7 @@ pub use judge::{Bench, Judge};
 pub use monte_carlo::{Sampling, Spread, monte_carlo};
 pub use sensitivity::{Sensitivity, propagate, sensitivities};
 pub use study::{Decision, Published, PublishedRow, Study, Variant, read_study};
+pub use temperatures::{Pace, RunningTemperatures};
 
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
@@ -73,6 +75,18 @@ pub enum Error {
         /// Which table.
         source: CommandFault,
     },
+    /// The log of temperatures does not cover the cut.
+    #[error(
+        "tool position {position} is cut after {time_s:.1} s, the log ends after {lasts_s:.1} s"
+    )]
+    LogEnds {
+        /// The tool position, counted from 0.
+        position: usize,
+        /// Its time, s.
+        time_s: f64,
+        /// How long the log goes on behind the start, s.
+        lasts_s: f64,
+    },
     /// The points cannot be evaluated.
     #[error("{0}")]
     Evaluation(#[source] trueaxis_part::Error),
@@ -98,6 +112,7 @@ impl Error {
             Self::Setting(fault) => solving(fault),
             Self::SettingOutOfTravel => "path-leaves-travel",
             Self::Table { .. } => "outside-table",
+            Self::LogEnds { .. } => "log-ends",
             Self::Evaluation(_) => "not-evaluable",
             Self::TooFewSamples(_) => "too-few-samples",
         }
@@ -173,7 +188,7 @@ pub struct Prediction {
 /// Document 000 (Wu et al. 2022) with its errata; docs/model.md eq. 18 to 33.
 pub fn predict(study: &Study, progress: &(dyn Fn(usize) + Sync)) -> Result<Prediction, Error> {
     let (machine, piece) = (&study.machine, study.piece());
-    let cutting = Cutting::new(machine, piece, &study.reference)?;
+    let cutting = Cutting::over(machine, piece, &study.reference, study.temperatures.as_ref())?;
     let judge = Judge { cutting: &cutting, piece };
     let (deviations_mm, sections) = sections(machine, &judge)?;
     let indices = indices(study, &judge, progress)?;
@@ -255,25 +270,29 @@ fn indices(
 
 fn variants(study: &Study) -> Result<Vec<VariantResult>, Error> {
     let (machine, piece) = (&study.machine, study.piece());
-    study
-        .variants
-        .iter()
-        .map(|variant| {
-            let cutting = Cutting::new(machine, piece, &variant.reference)?;
-            let indices_mm = Judge { cutting: &cutting, piece }.once(&|errors, _| *errors)?;
-            Ok(VariantResult { name: variant.name.clone(), indices_mm })
-        })
-        .collect()
+    let result = |name: &str, reference, temperatures| {
+        let cutting = Cutting::over(machine, piece, reference, temperatures)?;
+        let indices_mm = Judge { cutting: &cutting, piece }.once(&|errors, _| *errors)?;
+        Ok(VariantResult { name: name.to_owned(), indices_mm })
+    };
+    let temperatures = study.temperatures.as_ref();
+    let others = study.variants.iter().map(|v| result(&v.name, &v.reference, temperatures));
+    let held = temperatures.map(|_| result(HELD, &study.reference, None));
+    others.chain(held).collect()
 }
+
+/// The variant beside a study over a log.
+const HELD: &str = "the temperatures of the start, held";
 
 /// What a reader of the verdict alone would miss.
 fn warnings(study: &Study, indices: &[Index], sections: &[SectionResult]) -> Vec<String> {
     let mut warnings = other_sections(study, indices, sections);
-    if study.machine.stated_errors().is_empty() {
+    let is_exact = study.machine.stated_errors().is_empty() && !study.machine.is_at_temperatures();
+    if is_exact {
         warnings.push("the machine file states no errors: this is the nominal part".to_owned());
     }
     let missing = |i: &Index| i.u_mm == 0.0;
-    if !study.machine.stated_errors().is_empty() && indices.iter().all(missing) {
+    if !is_exact && indices.iter().all(missing) {
         warnings.push("the machine file states no uncertainties: u is 0 throughout".to_owned());
     }
     for index in indices {

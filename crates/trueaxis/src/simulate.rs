@@ -14,6 +14,7 @@ pub mod collide;
 mod collisions;
 mod curve;
 mod densify;
+mod drift;
 mod orientation;
 #[cfg(feature = "parquet")]
 mod parquet_table;
@@ -22,6 +23,7 @@ mod series;
 mod setup;
 mod summary;
 mod table;
+mod temperatures;
 pub mod timing;
 mod tool_path;
 mod trace;
@@ -32,6 +34,7 @@ pub use body_table::{BODY_HEADINGS, BodyTable};
 pub use clock::{Stamp, Timing, limit_name, limits};
 pub use collisions::Collisions;
 pub use densify::{Densify, pieces};
+pub use drift::{Drift, SensorRange};
 #[cfg(feature = "parquet")]
 pub use parquet_table::ParquetTable;
 pub use program::read_program;
@@ -47,11 +50,12 @@ use axis_path::AxisPath;
 use clock::Clock;
 use program::Folder;
 use std::path::Path;
+use temperatures::Present;
 use tool_path::{BATCH, ToolPath};
 use trueaxis_geometry::input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Command;
-use trueaxis_machine::batch::CompiledMachine;
+use trueaxis_machine::heat::TemperatureRun;
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::moves::Step;
 use trueaxis_nc::{Program, Settings, interpret};
@@ -78,6 +82,8 @@ pub struct Options {
     pub most_jumps: u64,
     /// List errors and go on behind them.
     pub keep_going: bool,
+    /// The log that the temperatures follow; without one the machine keeps those that it has.
+    pub temperatures: Option<TemperatureRun>,
 }
 
 impl Default for Options {
@@ -88,6 +94,7 @@ impl Default for Options {
             timing: Timing::default(),
             most_jumps: Settings::default().most_jumps,
             keep_going: false,
+            temperatures: None,
         }
     }
 }
@@ -104,7 +111,9 @@ pub struct Run {
 /// Runs an NC program on a machine and tells the observers all that happens.
 ///
 /// Memory does not grow with the program. The workpiece frame of all results is that of the
-/// machine file, or of a work offset if the set-up says so.
+/// machine file, or of a work offset if the set-up says so. Where the temperatures follow a log,
+/// every place is evaluated on the machine of its own time; a program that outlasts its log is an
+/// error at the block where the log ends.
 pub fn simulate(
     machine: &Machine,
     program: &Program,
@@ -118,10 +127,15 @@ pub fn simulate(
     let folder = Folder::beside(Path::new(program.file()), control.as_ref(), turn);
     let settings =
         Settings { most_jumps: options.most_jumps, ..setup.settings(options.keep_going) };
-    let mut walk = Walk::new(&machine, setup, options, observers);
+    let mut told = Diagnostics::new();
+    let Some(present) = Present::of(&machine, options.temperatures.as_ref(), &mut told) else {
+        return Run { problems: told, programs: Vec::new() };
+    };
+    let mut walk = Walk::new(&machine, present, setup, options, observers);
     let outcome = interpret(program, &folder, &settings, &mut |step| walk.take(&step));
     let faults = walk.finish();
     let mut problems = outcome.problems;
+    problems.append(told);
     setup.warn_of_zeros(program.file(), &mut problems);
     note_assumed_limits(&machine, program, &mut problems);
     for fault in faults {
@@ -176,6 +190,7 @@ struct Walk<'w, 'o> {
 impl<'w, 'o> Walk<'w, 'o> {
     fn new(
         machine: &'w Machine,
+        present: Present,
         setup: &'w SetUp,
         options: &Options,
         observers: &'w mut [&'o mut dyn Observer],
@@ -183,10 +198,10 @@ impl<'w, 'o> Walk<'w, 'o> {
         let path = AxisPath::new(machine, setup, options.densify, options.rounding_mm);
         let start = *path.command();
         let stretch = Stretch {
-            machine,
             setup,
             clock: Clock::new(machine, start, options.timing),
-            tool_path: ToolPath::new(CompiledMachine::new(machine), start),
+            tool_path: ToolPath::new(present.compiled(), start),
+            present,
             tool: 0,
             at: start,
             // Where the axes stand before the program.
@@ -219,7 +234,7 @@ impl<'w, 'o> Walk<'w, 'o> {
 
 /// The stretch of the path that waits for its times and poses.
 struct Stretch<'w, 'o> {
-    machine: &'w Machine,
+    present: Present,
     setup: &'w SetUp,
     clock: Clock,
     tool_path: ToolPath,
@@ -253,10 +268,17 @@ impl Stretch<'_, '_> {
         }
     }
 
-    /// Everything that has its time, in batches.
+    /// Everything that has its time, in batches of one temperature.
     fn evaluate(&mut self) {
-        while !self.stamps.is_empty() {
-            let count = self.stamps.len().min(BATCH);
+        while let Some(first) = self.stamps.first() {
+            match self.present.advance(first.time_s) {
+                Ok(true) => self.tool_path.change_temperatures(self.present.compiled()),
+                Ok(false) => {}
+                Err(message) => self.faults.push(Fault::untempered(&self.nodes[0], message)),
+            }
+            let most = self.stamps.len().min(BATCH);
+            // The first one at least: it is why the machine is as it is.
+            let count = self.present.holds(&self.stamps[1..most]) + 1;
             let (nodes, stamps) = (&self.nodes[..count], &self.stamps[..count]);
             let batch = self.tool_path.evaluate(self.tool, nodes, stamps, &mut self.faults);
             self.observers.iter_mut().for_each(|o| o.path(&batch));
@@ -270,8 +292,8 @@ impl Stretch<'_, '_> {
         self.rest();
         self.tool = number;
         if let Some(tool) = self.setup.tools.get(&number) {
-            let machine = self.machine.clone().with_tip(tool.tip_mm);
-            self.tool_path.change_tool(CompiledMachine::new(&machine));
+            self.present.change_tip(tool.tip_mm);
+            self.tool_path.change_tool(self.present.compiled());
         }
     }
 

@@ -62,3 +62,64 @@ fn parquet_holds_the_numbers_of_csv() {
     }
     assert_eq!((rows, lines.count()), (reader.metadata().file_metadata().num_rows(), 0));
 }
+
+/// Columns of doubles as a Parquet file.
+fn write_log(path: &Path, columns: &[(&str, &[f64])]) {
+    use parquet::basic::{Repetition, Type as Physical};
+    use parquet::data_type::DoubleType;
+    use parquet::file::writer::SerializedFileWriter;
+    use parquet::schema::types::Type;
+    use std::sync::Arc;
+    let field = |name: &str| {
+        let field = Type::primitive_type_builder(name, Physical::DOUBLE);
+        Arc::new(field.with_repetition(Repetition::REQUIRED).build().expect("a field"))
+    };
+    let fields = columns.iter().map(|(name, _)| field(name)).collect();
+    let schema = Type::group_type_builder("log").with_fields(fields).build().expect("a schema");
+    let file = std::fs::File::create(path).expect("a file");
+    let mut out = SerializedFileWriter::new(file, Arc::new(schema), Default::default())
+        .expect("a Parquet file");
+    let mut group = out.next_row_group().expect("a group");
+    for (_, values) in columns {
+        let mut column = group.next_column().expect("a column").expect("one more");
+        column.typed::<DoubleType>().write_batch(values, None, None).expect("written");
+        column.close().expect("closed");
+    }
+    group.close().expect("closed");
+    out.close().expect("closed");
+}
+
+#[test]
+fn a_log_as_parquet_is_the_log_as_csv() {
+    let folder = std::env::temp_dir().join(format!("trueaxis-log-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let path = folder.join("hall.parquet");
+    let read = || {
+        let mut problems = Diagnostics::new();
+        let log = files::temperature_log(&path, &mut problems);
+        (log, problems.iter().map(|d| d.code).collect::<Vec<_>>())
+    };
+    let (times, celsius) = ([0.0, 1.0, 2.5], [20.0, 20.25, 21.5]);
+    write_log(&path, &[("time_min", &times), ("scale_x_degC", &celsius)]);
+    let (log, codes) = read();
+    let log = log.expect("a log");
+    assert_eq!((log.times_s(), codes), (&[0.0, 60.0, 150.0][..], vec![]));
+    assert_eq!(log.celsius("scale_x"), Some(&celsius[..]));
+    write_log(&path, &[("time_min", &times), ("scale_x_degC", &[20.0, f64::NAN, 21.0])]);
+    assert_eq!(read().1, ["not-a-number"]);
+    // No bytes of a broken file do more than be refused.
+    write_log(&path, &[("time_min", &times), ("scale_x_degC", &celsius)]);
+    let sound = std::fs::read(&path).expect("bytes");
+    for at in 0..sound.len() {
+        for byte in [0, 0xff, sound[at] ^ 0x10] {
+            let mut broken = sound.clone();
+            broken[at] = byte;
+            std::fs::write(&path, &broken).expect("written");
+            let (log, codes) = read();
+            assert!(log.is_some() || !codes.is_empty());
+        }
+        std::fs::write(&path, &sound[..at]).expect("written");
+        assert!(read().0.is_none());
+    }
+    std::fs::remove_dir_all(folder).expect("no folder");
+}

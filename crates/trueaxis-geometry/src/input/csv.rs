@@ -65,6 +65,37 @@ impl CsvTable {
         table
     }
 
+    /// From columns that are no text, such as those of a Parquet file: a row counts as a line.
+    ///
+    /// Columns of different lengths and numbers that are not finite are problems; a table with
+    /// errors must not be used.
+    pub fn from_columns(
+        file: &str,
+        columns: Vec<(String, Vec<f64>)>,
+        problems: &mut Diagnostics,
+    ) -> Self {
+        let rows = columns.first().map_or(0, |c| c.1.len());
+        let mut table = Self { file: file.to_owned(), ..Self::default() };
+        table.lines = (1..=rows).collect();
+        for (column, (name, values)) in columns.into_iter().enumerate() {
+            let place = |line| Place { file: file.to_owned(), line, column: column + 1 };
+            if let Some(row) = values.iter().position(|v| !v.is_finite()) {
+                let message = format!("`{name}` is {} in row {}", values[row], row + 1);
+                problems.error("not-a-number", place(row + 1), message, "every row has a number");
+            }
+            if values.len() != rows {
+                let message = format!("`{name}` has {} rows of {rows}", values.len());
+                problems.error("ragged-row", place(0), message, "one number in each row");
+            }
+            if table.column(&name).is_some() {
+                let message = format!("two columns are named `{name}`");
+                problems.error("duplicate-column", place(0), message, "give each its own name");
+            }
+            table.columns.push(CsvColumn { name, place: place(0), values });
+        }
+        table
+    }
+
     /// The column of that name.
     pub fn column(&self, name: &str) -> Option<&CsvColumn> {
         self.columns.iter().find(|c| c.name == name)

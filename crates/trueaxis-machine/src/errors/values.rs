@@ -14,6 +14,11 @@ impl Six {
         Vec3::new(self.0[0], self.0[1], self.0[2])
     }
 
+    /// Whether there is no error at all.
+    pub fn is_zero(&self) -> bool {
+        self.0.iter().all(|error| *error == 0.0)
+    }
+
     /// `R − I` of the rotation: `R = Rz(EC)·Ry(EB)·Rx(EA)` exactly, or `I + [ε]×`.
     ///
     /// The difference is formed without subtracting 1 from a cosine, so that a microradian keeps
@@ -142,18 +147,6 @@ impl ErrorValues {
             }
         }
         scaled
-    }
-
-    /// Every error `factors` standard uncertainties away from its value: e + z·u.
-    pub fn displaced(&self, u: &Self, factors: &Self) -> Self {
-        let mut displaced = *self;
-        for ((body, u), z) in displaced.bodies.iter_mut().zip(&u.bodies).zip(&factors.bodies) {
-            for i in 0..6 {
-                body.location.0[i] += z.location.0[i] * u.location.0[i];
-                body.motion.0[i] += z.motion.0[i] * u.motion.0[i];
-            }
-        }
-        displaced
     }
 
     fn six(&self, index: ErrorIndex) -> &Six {

@@ -8,14 +8,17 @@ use crate::chain::ChainBody;
 use crate::errors::{Component, ErrorIndex, ErrorKind, ErrorName};
 use crate::heat::expansion::Anchor;
 use crate::heat::{
-    HeatModel, HeatedPlace, REFERENCE_CELSIUS, Scale, Sensor, Settling, StructureModel, Workpiece,
-    measured_celsius,
+    HeatModel, Heated, HeatedPlace, REFERENCE_CELSIUS, Scale, Sensor, Settling, StructureModel,
+    Workpiece, measured_celsius,
 };
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::input::{Dimension, Item, Measured, Section};
 
 /// Nothing that holds a scale or a part grows by more, 1/K (zinc 30e-6, plastics 200e-6).
 const LARGE_EXPANSION: f64 = 300e-6;
+
+/// Heat at places closer than this cannot be told apart, mm.
+const CLOSEST_MM: f64 = 1.0;
 
 /// `[scale.X]` and `[heat.EZ0t]`.
 pub fn read_heat(root: &Section<'_>, axes: &[Axis], bodies: &[ChainBody]) -> HeatModel {
@@ -88,8 +91,9 @@ fn read_scale(
     let fixed_mm = section.quantity("fixed_point", Dimension::Length).unwrap_or(0.0);
     let table_celsius = table_temperature(section, axis, body);
     let sensors = read_sensors(section);
-    let heated = section.section("heated", read_heated);
-    if sensors.is_empty() == heated.is_none() {
+    let is_heated = section.get("heated").is_some();
+    let heated = read_heated(section);
+    if sensors.is_empty() != is_heated {
         let message = "a scale has `sensors`, or one place where it is `heated`".to_owned();
         let hint = format!("sensors = {{ scale_{} = \"0 mm\" }}", axis.name.letter());
         section.error("missing-key", message, &hint.to_lowercase());
@@ -99,7 +103,7 @@ fn read_scale(
         expansion_per_k: alpha?,
         anchor: Anchor { fixed_mm, table_celsius },
         sensors,
-        heated: heated.flatten(),
+        heated,
     })
 }
 
@@ -128,7 +132,48 @@ fn table_temperature(section: &Section<'_>, axis: &Axis, body: &ChainBody) -> f6
     })
 }
 
-fn read_heated(section: &Section<'_>) -> Option<HeatedPlace> {
+/// `heated = { at, near, far, diffusivity, time }`, or a list of them on one scale.
+fn read_heated(section: &Section<'_>) -> Option<Heated> {
+    let item = section.get("heated")?;
+    let list =
+        if item.is_list() { item.list()? } else { section.get("heated").into_iter().collect() };
+    let mut heated: Option<Heated> = None;
+    let mut sound = true;
+    for one in &list {
+        let read = one.section(&section.path("heated"), read_heated_place).flatten();
+        let Some((place, far, diffusivity_mm2_per_s)) = read else {
+            sound = false;
+            continue;
+        };
+        let whole = heated.get_or_insert(Heated {
+            places: Vec::new(),
+            far: far.clone(),
+            diffusivity_mm2_per_s,
+        });
+        if (&whole.far, whole.diffusivity_mm2_per_s) != (&far, diffusivity_mm2_per_s) {
+            let message = "two heated places of one scale differ in `far` or `diffusivity`";
+            let hint = "the scale is one body: it has one diffusivity and one sensor far away";
+            one.error("two-scales-in-one", message.to_owned(), hint);
+            sound = false;
+        }
+        let same = |p: &HeatedPlace| {
+            (p.place_mm - place.place_mm).abs() < CLOSEST_MM || p.near == place.near
+        };
+        if whole.places.iter().any(same) {
+            let message = "two heated places of one scale share their place or their sensor";
+            let hint = "each has a sensor of its own, 1 mm apart at least";
+            one.error("heated-twice", message.to_owned(), hint);
+            sound = false;
+        }
+        whole.places.push(place);
+    }
+    if list.is_empty() {
+        item.error("missing-key", "no place is heated".to_owned(), "name one, or leave it out");
+    }
+    heated.filter(|_| sound)
+}
+
+fn read_heated_place(section: &Section<'_>) -> Option<(HeatedPlace, String, f64)> {
     let place_mm = section.quantity("at", Dimension::Length).unwrap_or(0.0);
     let near = section.require("near", "the sensor at the place").and_then(|i| i.text());
     let far =
@@ -137,13 +182,8 @@ fn read_heated(section: &Section<'_>) -> Option<HeatedPlace> {
     let item = section.require("diffusivity", hint);
     let diffusivity = item.and_then(|i| above_zero(&i, Dimension::Diffusivity));
     let time_s = section.get("time").and_then(|i| above_zero(&i, Dimension::Time));
-    Some(HeatedPlace {
-        place_mm,
-        near: near?.to_owned(),
-        far: far?.to_owned(),
-        diffusivity_mm2_per_s: diffusivity?,
-        time_s,
-    })
+    let place = HeatedPlace { place_mm, near: near?.to_owned(), time_s };
+    Some((place, far?.to_owned(), diffusivity?))
 }
 
 fn above_zero(item: &Item<'_>, dimension: Dimension) -> Option<f64> {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 use trueaxis_geometry::input::{
-    CsvTable, Diagnostics, Dimension, Place, Section, Unit, parse_quantity,
+    CsvTable, Diagnostic, Diagnostics, Dimension, Place, Section, Severity, Unit, parse_quantity,
 };
 
 /// Nothing in a workshop is colder or warmer, °C; what is, was written in °F or in the wrong
@@ -10,12 +10,20 @@ use trueaxis_geometry::input::{
 const POSSIBLE_CELSIUS: std::ops::RangeInclusive<f64> = -40.0..=150.0;
 /// Warmer than a hall: perhaps °F, °C.
 const WARM_CELSIUS: f64 = 45.0;
-/// A step between two rows of a log that no body makes, K.
-const JUMP_K: f64 = 5.0;
-/// The others must have moved by so much before a sensor that stands still is stuck, K.
+/// Smaller steps between two rows of a log are noise, K.
+const JUMP_K: f64 = 2.0;
+/// No body of a machine warms or cools faster, K/s.
+const FASTEST_K_PER_S: f64 = 0.2;
+/// A larger step, many times the usual one of its sensor, is none of a body either, K.
+const LARGE_JUMP_K: f64 = 5.0;
+/// Another must have moved by so much before a sensor that never moves is stuck, K.
 const MOVING_K: f64 = 0.5;
-/// A log needs so many rows before its sensors are judged.
+/// The same before one that stops moving is stuck, K: bodies do not all feel the same heat.
+const MOVING_ON_K: f64 = 2.0;
+/// A log needs so many rows before its sensors are judged, and a sensor so many equal ones.
 const ROWS_TO_JUDGE: usize = 10;
+/// No log is longer, s (300 years); beyond, differences of times lose their digits.
+const LONGEST_S: f64 = 1e10;
 
 /// What one sensor says, and where that was written.
 #[derive(Debug, Clone, PartialEq)]
@@ -197,11 +205,19 @@ impl TemperatureLog {
     pub fn parse(file: &str, text: &str, problems: &mut Diagnostics) -> Option<Self> {
         let mut found = Diagnostics::new();
         let table = CsvTable::parse(file, text, &mut found);
-        let mut log = Self { file: file.to_owned(), ..Self::default() };
-        if !found.has_errors() {
-            log.read_columns(&table, &mut found);
-            log.check_times(&table, &mut found);
-            log.check_sensors(&table, &mut found);
+        let sound = !found.has_errors();
+        problems.append(found);
+        if sound { Self::from_table(&table, problems) } else { None }
+    }
+
+    /// The same from a table that was read already, without errors.
+    pub fn from_table(table: &CsvTable, problems: &mut Diagnostics) -> Option<Self> {
+        let mut found = Diagnostics::new();
+        let mut log = Self { file: table.file.clone(), ..Self::default() };
+        log.read_columns(table, &mut found);
+        log.check_times(table, &mut found);
+        for (name, values) in &log.columns {
+            log.check_sensor(name, values, table, &mut found);
         }
         let sound = !found.has_errors();
         problems.append(found);
@@ -225,19 +241,37 @@ impl TemperatureLog {
                 }
             };
             let values: Vec<f64> = column.values.iter().map(|v| unit.to_inner(*v)).collect();
-            match dimension {
-                Dimension::Time => self.times_s = values,
-                _ => self.columns.push((name.to_owned(), values)),
+            let twice = match dimension {
+                Dimension::Time => !self.times_s.is_empty(),
+                _ => self.celsius(name).is_some(),
+            };
+            if twice {
+                let message = format!("`{name}` has two columns");
+                let hint = "keep the one in the right unit";
+                problems.error("duplicate-column", column.place.clone(), message, hint);
+            } else if dimension == Dimension::Time {
+                self.times_s = values;
+            } else {
+                self.columns.push((name.to_owned(), values));
             }
         }
-        if self.times_s.is_empty() {
-            let message = "the log has no time".to_owned();
-            let hint = "one column `time_s`, and at least one row";
-            problems.error("missing-column", Place::whole(&self.file), message, hint);
+        let lacks = match (self.times_s.is_empty(), self.columns.is_empty()) {
+            (true, _) => Some(("the log has no time", "one column `time_s`, and at least one row")),
+            (_, true) => Some(("the log has no sensor", "one column per sensor: scale_x_degC")),
+            _ => None,
+        };
+        if let (Some((message, hint)), false) = (lacks, problems.has_errors()) {
+            let place = Place::whole(&self.file);
+            problems.error("missing-column", place, message.to_owned(), hint);
         }
     }
 
     fn check_times(&self, table: &CsvTable, problems: &mut Diagnostics) {
+        if let Some(row) = self.times_s.iter().position(|t| t.abs() > LONGEST_S) {
+            let message = format!("the time is {:e} s, more than 300 years", self.times_s[row]);
+            let hint = "count from the begin of the log, in s, min or h";
+            problems.error("impossible-time", table.row_place(row), message, hint);
+        }
         let back = self.times_s.windows(2).position(|w| w[1] <= w[0]);
         if let Some(i) = back {
             let (before, now) = (self.times_s[i], self.times_s[i + 1]);
@@ -247,35 +281,95 @@ impl TemperatureLog {
         }
     }
 
-    fn check_sensors(&self, table: &CsvTable, problems: &mut Diagnostics) {
-        let range = |v: &[f64]| {
-            let (low, high) = v
-                .iter()
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(*x), h.max(*x)));
-            high - low
-        };
-        let widest = self.columns.iter().map(|(_, v)| range(v)).fold(0.0, f64::max);
-        for (name, values) in &self.columns {
-            // The first row of each kind is enough.
-            let place = |row: usize| table.row_place(row);
-            let impossible = values.iter().position(|v| !POSSIBLE_CELSIUS.contains(v));
-            let warm = values.iter().position(|v| *v > WARM_CELSIUS);
-            if let Some(row) = impossible.or(warm) {
-                check_range(name, values[row], &place(row), problems);
-            }
-            if values.len() < ROWS_TO_JUDGE {
+    /// The first row of each kind of problem is enough.
+    fn check_sensor(
+        &self,
+        name: &str,
+        values: &[f64],
+        table: &CsvTable,
+        problems: &mut Diagnostics,
+    ) {
+        let place = |row: usize| table.row_place(row);
+        let impossible = values.iter().position(|v| !POSSIBLE_CELSIUS.contains(v));
+        let warm = values.iter().position(|v| *v > WARM_CELSIUS);
+        if let Some(row) = impossible.or(warm) {
+            check_range(name, values[row], &place(row), problems);
+        }
+        if let Some((from, to)) = self.stuck(values) {
+            let message = match to - from == values.len() {
+                true => format!("`{name}` stands still at {} °C while others move", values[0]),
+                false => format!(
+                    "`{name}` stands still at {} °C for {} rows while others move",
+                    values[from],
+                    to - from
+                ),
+            };
+            problems.warn("stuck-sensor", place(from), message, "is it connected?");
+        }
+        if let Some(row) = self.jump(values) {
+            let (from, to) = (values[row - 1], values[row]);
+            let seconds = self.times_s[row] - self.times_s[row - 1];
+            let message = format!("`{name}` jumps from {from} to {to} °C within {seconds} s");
+            let hint = "a body of a machine moves by 12 K/min at most: a loose sensor, two swapped \
+                        ones, or two logs joined?";
+            problems.warn("jumping-sensor", place(row), message, hint);
+        }
+    }
+
+    /// The rows in which a sensor says the same to the last digit while another one moves.
+    fn stuck(&self, values: &[f64]) -> Option<(usize, usize)> {
+        if values.len() < ROWS_TO_JUDGE || self.times_s.len() != values.len() {
+            return None;
+        }
+        let mut from = 0;
+        for run in values.chunk_by(|a, b| a == b) {
+            let rows = from..from + run.len();
+            from = rows.end;
+            let whole = run.len() == values.len();
+            if !whole && run.len() < ROWS_TO_JUDGE.max(values.len() / 4) {
                 continue;
             }
-            if range(values) == 0.0 && widest >= MOVING_K {
-                let message =
-                    format!("`{name}` stands still at {} °C while others move", values[0]);
-                problems.warn("stuck-sensor", place(0), message, "is it connected?");
+            let least = if whole { MOVING_K } else { MOVING_ON_K };
+            if self.columns.iter().any(|(_, other)| range(&other[rows.clone()]) >= least) {
+                return Some((rows.start, rows.end));
             }
-            if let Some(row) = jump(values) {
-                let (from, to) = (values[row - 1], values[row]);
-                let message = format!("`{name}` jumps from {from} to {to} °C between two rows");
-                problems.warn("jumping-sensor", place(row), message, "is it connected?");
-            }
+        }
+        None
+    }
+
+    /// The first row whose step is no step of a body: too fast, or many times the usual one.
+    fn jump(&self, values: &[f64]) -> Option<usize> {
+        if self.times_s.len() != values.len() {
+            return None;
+        }
+        let mut steps: Vec<f64> = values.windows(2).map(|w| (w[1] - w[0]).abs()).collect();
+        let seconds = self.times_s.windows(2).map(|w| w[1] - w[0]);
+        let is_fast = |(step, s): (&f64, f64)| *step > JUMP_K && *step > FASTEST_K_PER_S * s;
+        let fast = steps.iter().zip(seconds).position(is_fast);
+        let large = steps.iter().position(|s| *s > LARGE_JUMP_K);
+        let large = large.filter(|_| values.len() >= ROWS_TO_JUDGE).filter(|&row| {
+            let height = steps[row];
+            steps.sort_by(f64::total_cmp);
+            height > 10.0 * steps[steps.len() / 2]
+        });
+        [fast, large].into_iter().flatten().min().map(|row| row + 1)
+    }
+
+    /// The file that it was read from.
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// What is wrong with a time that it does not cover.
+    pub fn outside(&self, time_s: f64) -> Diagnostic {
+        let first = self.times_s.first().copied().unwrap_or(0.0);
+        let last = self.times_s.last().copied().unwrap_or(0.0);
+        Diagnostic {
+            code: "outside-log",
+            severity: Severity::Error,
+            place: Place::whole(&self.file),
+            message: format!("{time_s} s lies outside the log, which covers {first} s to {last} s"),
+            hint: "choose a time in it; nothing is told of the time before and after".to_owned(),
         }
     }
 
@@ -319,13 +413,11 @@ impl TemperatureLog {
     }
 }
 
-/// The first row whose step is no step of a body: large, and many times the usual one.
-fn jump(values: &[f64]) -> Option<usize> {
-    let mut steps: Vec<f64> = values.windows(2).map(|w| (w[1] - w[0]).abs()).collect();
-    let found = steps.iter().position(|s| *s > JUMP_K)?;
-    let height = steps[found];
-    steps.sort_by(f64::total_cmp);
-    (height > 10.0 * steps[steps.len() / 2]).then_some(found + 1)
+/// From the lowest to the highest.
+fn range(values: &[f64]) -> f64 {
+    let ends = (f64::INFINITY, f64::NEG_INFINITY);
+    let (low, high) = values.iter().fold(ends, |(l, h), v| (l.min(*v), h.max(*v)));
+    high - low
 }
 
 #[cfg(test)]
@@ -352,16 +444,44 @@ mod tests {
     #[test]
     fn bad_logs_are_named() {
         assert_eq!(codes("time_s,a_degC\n0,20\n10,21\n5,22\n"), ["time-runs-backwards"]);
+        assert_eq!(codes("time_s,a_degC\n0,20\n0,21\n"), ["time-runs-backwards"]);
+        assert_eq!(codes("time_s,a_degC\n0,20\n1e300,21\n"), ["impossible-time"]);
         assert_eq!(codes("time_s,a_degF\n0,68\n"), ["unknown-unit"]);
-        assert_eq!(codes("time_s,a_degC\n0,20\n10,3600\n"), ["impossible-temperature"]);
+        assert_eq!(
+            codes("time_s,a_degC\n0,20\n10,3600\n"),
+            ["impossible-temperature", "jumping-sensor"]
+        );
+        // °F in a column of °C.
         assert_eq!(codes("time_s,a_degC\n0,68\n10,70\n"), ["warm-temperature"]);
         assert_eq!(codes("a_degC\n20\n"), ["missing-column"]);
+        assert_eq!(codes("time_s\n0\n"), ["missing-column"]);
+        assert_eq!(codes("time_s,a_degC\n"), ["missing-column"]);
+        assert_eq!(codes("time_s,a_degC\n0,nan\n"), ["not-a-number"]);
+        assert_eq!(codes("time_s,a_degC\n0,inf\n"), ["not-a-number"]);
+        assert_eq!(codes("time_s,a_degC\n0\n"), ["ragged-row"]);
+        assert_eq!(codes("time_s,time_min,a_degC\n0,0,20\n"), ["duplicate-column"]);
+        // The two columns swapped.
+        let swapped = codes("time_s,a_degC\n20.0,0\n20.1,60\n20.1,120\n20.3,180\n");
+        assert_eq!(swapped, ["time-runs-backwards", "impossible-temperature", "jumping-sensor"]);
+    }
+
+    #[test]
+    fn stuck_and_jumping_sensors_are_named() {
         let rows = |f: fn(usize) -> String| (0..20).map(f).collect::<String>();
         let stuck = rows(|i| format!("{i},21,{}\n", 20.0 + 0.1 * i as f64));
         assert_eq!(codes(&format!("time_s,a_degC,b_degC\n{stuck}")), ["stuck-sensor"]);
+        // It stops in row 8 of 20, while the other goes on by 0.3 K a row.
+        let stops = rows(|i| format!("{i},{},{}\n", 0.3 * i.min(8) as f64, 20.0 + 0.3 * i as f64));
+        assert_eq!(codes(&format!("time_min,a_degC,b_degC\n{stops}")), ["stuck-sensor"]);
+        // A hall at rest: nothing moves.
+        let rest = rows(|i| format!("{i},21,20\n"));
+        assert!(codes(&format!("time_s,a_degC,b_degC\n{rest}")).is_empty());
         let jumps =
             rows(|i| format!("{i},{}\n", if i == 7 { 35.0 } else { 20.0 + 0.1 * i as f64 }));
         assert_eq!(codes(&format!("time_s,a_degC\n{jumps}")), ["jumping-sensor"]);
+        // 3 K are a jump in 1 s, not in 10 min.
+        assert_eq!(codes("time_s,a_degC\n0,20\n1,23\n"), ["jumping-sensor"]);
+        assert!(codes("time_min,a_degC\n0,20\n10,23\n").is_empty());
     }
 
     #[test]

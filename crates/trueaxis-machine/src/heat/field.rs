@@ -10,7 +10,7 @@
 //! sides alike; q is the flux into one side. DIFFERENCE: (001-7) with a changing flux the formula
 //! of the source is not exact: [`Source`] superposes steps (Duhamel).
 
-use std::f64::consts::PI;
+use nalgebra::{DMatrix, DVector};
 
 /// 1/√π, the value of ierfc at 0.
 const IERFC_0: f64 = 0.564_189_583_547_756_3;
@@ -143,6 +143,14 @@ fn heat_content(place: f64, depth: f64, from: f64, to: f64) -> f64 {
     outwards(to) - outwards(from)
 }
 
+/// What a strength of 1 K/mm since some time makes of the temperature at a distance, mm.
+fn strength_to_rise(distance_mm: f64, diffusivity_mm2_per_s: f64, age_s: f64) -> f64 {
+    let depth_mm = (4.0 * diffusivity_mm2_per_s * age_s).sqrt();
+    // At the place itself, the commonest case, the series is known.
+    let shape = if distance_mm == 0.0 { IERFC_0 } else { ierfc(distance_mm.abs() / depth_mm) };
+    depth_mm * shape
+}
+
 /// Heat into a scale at one place, in steps of constant flux.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Source {
@@ -168,23 +176,97 @@ impl Source {
         times_s: &[f64],
         rise_k: &[f64],
     ) -> Option<Self> {
-        let factor = 2.0 * (diffusivity_mm2_per_s / PI).sqrt();
-        let mut steps: Vec<(f64, f64)> = Vec::with_capacity(times_s.len());
-        for (window, rise) in times_s.windows(2).zip(rise_k.iter().skip(1)) {
+        Self::from_rises(&[place_mm], diffusivity_mm2_per_s, times_s, &[rise_k.to_vec()])?.pop()
+    }
+
+    /// The same for several places, each of which also feels the heat of the others.
+    ///
+    /// ```text
+    ///     Σⱼ 2 √(aδ) ierfc(|lᵢ − lⱼ|/√(4aδ)) Δgⱼ = ΔTᵢ(t) − what the earlier steps make of it
+    /// ```
+    ///
+    /// with δ the length of the step, `rises_k` place by place; docs/model.md eq. 97.
+    ///
+    /// `None` if the times do not rise or two places are one.
+    pub fn from_rises(
+        places_mm: &[f64],
+        diffusivity_mm2_per_s: f64,
+        times_s: &[f64],
+        rises_k: &[Vec<f64>],
+    ) -> Option<Vec<Self>> {
+        let count = places_mm.len();
+        let shape = |i: usize, j: usize, age_s: f64| {
+            strength_to_rise(places_mm[i] - places_mm[j], diffusivity_mm2_per_s, age_s)
+        };
+        let mut times: Vec<f64> = Vec::with_capacity(times_s.len());
+        let mut changes: Vec<Vec<f64>> = vec![Vec::with_capacity(times_s.len()); count];
+        for (n, window) in times_s.windows(2).enumerate() {
             let (from, now) = (window[0], window[1]);
-            if from >= now || !rise.is_finite() {
+            if from >= now {
                 return None;
             }
-            // What the earlier steps alone would make of it, without any change at `from`.
-            let mut before = 0.0;
-            let mut past = 0.0;
-            for &(t, g) in &steps {
-                past += factor * (g - before) * (now - t).sqrt();
-                before = g;
+            let missing = DVector::from_fn(count, |i, _| {
+                let mut past = 0.0;
+                for (j, changes) in changes.iter().enumerate() {
+                    let earlier = times.iter().zip(changes);
+                    past += earlier.map(|(t, g)| g * shape(i, j, now - t)).sum::<f64>();
+                }
+                rises_k.get(i).and_then(|r| r.get(n + 1)).map_or(f64::NAN, |rise| rise - past)
+            });
+            let coupling = DMatrix::from_fn(count, count, |i, j| shape(i, j, now - from));
+            let found = coupling.lu().solve(&missing)?;
+            if !found.iter().all(|g| g.is_finite()) {
+                return None;
             }
-            steps.push((from, before + (rise - past) / (factor * (now - from).sqrt())));
+            times.push(from);
+            for (changes, g) in changes.iter_mut().zip(found.iter()) {
+                changes.push(*g);
+            }
         }
-        Some(Self { place_mm, steps })
+        let source = |(place_mm, changes): (&f64, &Vec<f64>)| {
+            let mut strength = 0.0;
+            let steps = times.iter().zip(changes).map(|(t, g)| {
+                strength += g;
+                (*t, strength)
+            });
+            Self { place_mm: *place_mm, steps: steps.collect() }
+        };
+        Some(places_mm.iter().zip(&changes).map(source).collect())
+    }
+
+    /// Constant fluxes, each since its own age before time 0, that make the rises at their places
+    /// what the sensors there say now.
+    ///
+    /// ```text
+    ///     Tᵢ − T∞ = Σⱼ 2 gⱼ √(aτⱼ) ierfc(|lᵢ − lⱼ|/√(4aτⱼ))                   docs/model.md eq. 96
+    /// ```
+    ///
+    /// `None` if two places are one.
+    pub fn constant(
+        places_mm: &[f64],
+        diffusivity_mm2_per_s: f64,
+        ages_s: &[f64],
+        rises_k: &[f64],
+    ) -> Option<Vec<Self>> {
+        let count = places_mm.len();
+        let coupling = DMatrix::from_fn(count, count, |i, j| {
+            let age_s = ages_s.get(j).copied().unwrap_or(f64::NAN);
+            strength_to_rise(places_mm[i] - places_mm[j], diffusivity_mm2_per_s, age_s)
+        });
+        let rises = DVector::from_fn(count, |i, _| rises_k.get(i).copied().unwrap_or(f64::NAN));
+        let found = coupling.lu().solve(&rises)?;
+        let sound = found.iter().all(|g| g.is_finite());
+        let source = |((place_mm, age_s), g): ((&f64, &f64), &f64)| Self {
+            place_mm: *place_mm,
+            steps: vec![(-age_s, *g)],
+        };
+        sound.then(|| places_mm.iter().zip(ages_s).zip(found.iter()).map(source).collect())
+    }
+
+    /// The strength at a time, K/mm.
+    pub fn strength_at(&self, time_s: f64) -> f64 {
+        let past = self.steps.partition_point(|(t, _)| *t <= time_s);
+        past.checked_sub(1).map_or(0.0, |i| self.steps[i].1)
     }
 
     /// The changes of strength before a time: since when, and by how much.
@@ -244,6 +326,7 @@ impl ScaleField {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::PI;
 
     #[test]
     fn at_the_heated_end_the_near_sensor_is_right_and_far_away_the_far_one() {

@@ -1,9 +1,9 @@
 //! Scales and screws as positioning elements, and linear models of single errors.
 
-use super::conditions::Conditions;
+use super::conditions::{Conditions, TemperatureLog};
 use super::expansion::{Anchor, Profile, growth_curve, sampled_curve};
-use super::field::{HeatedAt, ScaleField, Source};
-use super::{ErrorPart, Sensor, ThermalTerm, reach_of, with_u};
+use super::field::{ScaleField, Source};
+use super::{ErrorPart, Sensor, ThermalTerm, ThermalU, reach_of};
 use crate::axis::Axis;
 use crate::errors::{Component, Curve, ErrorIndex, ErrorKind};
 use trueaxis_geometry::input::{Diagnostics, Measured};
@@ -11,19 +11,59 @@ use trueaxis_geometry::input::{Diagnostics, Measured};
 /// The work for a changing flux grows with the square of the rows of its log.
 const MOST_ROWS: usize = 5000;
 
-/// Heat that comes into a scale at one place.
+/// One place where heat comes into a scale.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeatedPlace {
     /// Where, mm.
     pub place_mm: f64,
     /// The sensor there.
     pub near: String,
+    /// Since when its flux has been constant, s; a log tells the flux itself.
+    pub time_s: Option<f64>,
+}
+
+/// A scale that bearings or motors heat, uniform otherwise; the fields of the places add up.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Heated {
+    /// The places, all different.
+    pub places: Vec<HeatedPlace>,
     /// The sensor that the heat has not reached.
     pub far: String,
     /// Thermal diffusivity of the scale, mm²/s.
     pub diffusivity_mm2_per_s: f64,
-    /// Since when the flux has been constant, s; a log tells the flux itself.
-    pub time_s: Option<f64>,
+}
+
+impl Heated {
+    fn places_mm(&self) -> Vec<f64> {
+        self.places.iter().map(|p| p.place_mm).collect()
+    }
+
+    /// What comes in, from typed temperatures: constant, at time 0.
+    fn constant_sources(&self, conditions: &Conditions) -> Option<Vec<Source>> {
+        let far = conditions.celsius(&self.far)?;
+        let rise = |p: &HeatedPlace| Some(conditions.celsius(&p.near)? - far);
+        let ages_s = self.places.iter().map(|p| p.time_s).collect::<Option<Vec<f64>>>()?;
+        let rises_k = self.places.iter().map(rise).collect::<Option<Vec<f64>>>()?;
+        Source::constant(&self.places_mm(), self.diffusivity_mm2_per_s, &ages_s, &rises_k)
+    }
+
+    /// What comes in over the rows of a log up to the first one at `until_s` or behind it; the
+    /// first row is the uniform state.
+    fn logged_sources(&self, log: &TemperatureLog, until_s: f64) -> Option<Vec<Source>> {
+        let rows = log.times_s().partition_point(|t| *t < until_s) + 1;
+        let rows = rows.min(log.times_s().len());
+        if rows > MOST_ROWS {
+            return None;
+        }
+        let far = log.celsius(&self.far)?;
+        let rise = |p: &HeatedPlace| {
+            let near = log.celsius(&p.near)?;
+            Some(near[..rows].iter().zip(far).map(|(n, f)| n - f).collect())
+        };
+        let rises_k = self.places.iter().map(rise).collect::<Option<Vec<Vec<f64>>>>()?;
+        let times_s = &log.times_s()[..rows];
+        Source::from_rises(&self.places_mm(), self.diffusivity_mm2_per_s, times_s, &rises_k)
+    }
 }
 
 /// The scale or screw of a linear axis.
@@ -37,18 +77,39 @@ pub struct Scale {
     pub anchor: Anchor,
     /// Its sensors; with one it is uniform.
     pub sensors: Vec<Sensor>,
-    /// Heat from a bearing or a motor instead.
-    pub heated: Option<HeatedPlace>,
+    /// Heat from bearings or motors instead.
+    pub heated: Option<Heated>,
 }
 
 impl Scale {
-    /// The names of its sensors.
+    /// The names of its sensors, each once.
     pub(super) fn sensors(&self) -> impl Iterator<Item = &str> + Clone {
-        let heated = self.heated.iter().flat_map(|h| [h.near.as_str(), h.far.as_str()]);
-        self.sensors.iter().map(|s| s.name.as_str()).chain(heated)
+        let near = self.heated.iter().flat_map(|h| h.places.iter().map(|p| p.near.as_str()));
+        let far = self.heated.iter().map(|h| h.far.as_str());
+        self.sensors.iter().map(|s| s.name.as_str()).chain(near).chain(far)
     }
 
-    /// What it adds to the errors of its axis.
+    /// The heat that comes into it: over the log of the conditions up to a time, or constant.
+    pub(super) fn sources(&self, conditions: &Conditions, until_s: f64) -> Option<Vec<Source>> {
+        let heated = self.heated.as_ref()?;
+        match conditions.history() {
+            Some((log, _)) => heated.logged_sources(log, until_s),
+            None => heated.constant_sources(conditions),
+        }
+    }
+
+    /// How fast heat lengthens it at a time, in the worst case that all of it counts, mm/s.
+    ///
+    /// ```text
+    ///     dE/dt = α Σ 2 a |g|                                              docs/model.md eq. 98
+    /// ```
+    pub(super) fn growth_mm_per_s(&self, sources: &[Source], time_s: f64) -> f64 {
+        let diffusivity = self.heated.as_ref().map_or(0.0, |h| h.diffusivity_mm2_per_s);
+        let strengths = sources.iter().map(|s| s.strength_at(time_s).abs()).sum::<f64>();
+        self.expansion_per_k.value.abs() * 2.0 * diffusivity * strengths
+    }
+
+    /// What it adds to the errors of its axis; `sources` as from [`Scale::sources`].
     ///
     /// A longer scale carries the *body* too far in its sense of motion: +E for an axis that
     /// carries the tool, −E for one that carries the workpiece (ISO 841), so that a laser reads
@@ -57,6 +118,7 @@ impl Scale {
         &self,
         axis: &Axis,
         conditions: &Conditions,
+        sources: Option<&[Source]>,
         problems: &mut Diagnostics,
     ) -> Vec<ThermalTerm> {
         let body = format!("scale {}", axis.name);
@@ -72,18 +134,21 @@ impl Scale {
             }
             let curve_of = |alpha: f64| match &self.heated {
                 None => self.between_sensors(&celsius, along * alpha, reach),
-                Some(heated) => self.heated_curve(heated, conditions, along * alpha, reach),
+                Some(heated) => {
+                    self.heated_curve(heated, conditions, sources?, along * alpha, reach)
+                }
             };
-            let (curve, u) = with_u(self.expansion_per_k, curve_of);
-            let Some(curve) = curve else {
+            let Some(curve) = curve_of(self.expansion_per_k.value) else {
                 let message = format!("{body}: the flux of its heat is not known");
-                let hint =
-                    "state its `time`, or give a log from the uniform state on, 5000 rows at most";
+                let hint = "state the `time` of each heated place, or give a log from the uniform \
+                            state on, 5000 rows at most";
                 problems.error("unknown-flux", conditions.place().clone(), message, hint);
                 return Vec::new();
             };
+            let u = self.expansion_per_k.u.and_then(curve_of);
+            let u = u.map(|curve| ThermalU { of: format!("expansion of {body}"), curve });
             let (kind, part) = (ErrorKind::Motion, ErrorPart::Scale);
-            terms.push(ThermalTerm { kind, component, part, curve, u: u.flatten() });
+            terms.push(ThermalTerm { kind, component, part, curve, u: u.into_iter().collect() });
         }
         terms
     }
@@ -95,55 +160,27 @@ impl Scale {
 
     fn heated_curve(
         &self,
-        heated: &HeatedPlace,
+        heated: &Heated,
         conditions: &Conditions,
+        sources: &[Source],
         alpha: f64,
         reach: (f64, f64),
     ) -> Option<Curve> {
         let Anchor { fixed_mm, table_celsius } = self.anchor;
-        let place = [heated.place_mm];
-        let constant = heated.time_s.map(|time_s| {
-            Some(HeatedAt {
-                place_mm: heated.place_mm,
-                near_celsius: conditions.celsius(&heated.near)?,
-                far_celsius: conditions.celsius(&heated.far)?,
-                diffusivity_mm2_per_s: heated.diffusivity_mm2_per_s,
-                time_s,
-            })
-        });
-        if let (None, Some(field)) = (conditions.history(), constant) {
-            let field = field?;
-            let rise = |p: f64| field.celsius_at(p) - table_celsius;
-            let integral = |p: f64| field.integral(fixed_mm, p, table_celsius);
-            return Some(sampled_curve(rise, integral, alpha, &place, field.depth_mm(), reach));
-        }
-        let (log, now_s) = conditions.history()?;
-        let (near, far) = (log.celsius(&heated.near)?, log.celsius(&heated.far)?);
-        let rows = log.times_s().partition_point(|t| *t <= now_s);
-        if rows > MOST_ROWS {
-            return None;
-        }
-        let rise: Vec<f64> = near.iter().zip(far).map(|(n, f)| n - f).collect();
-        let diffusivity_mm2_per_s = heated.diffusivity_mm2_per_s;
-        let source = Source::from_rise(
-            heated.place_mm,
-            diffusivity_mm2_per_s,
-            &log.times_s()[..rows],
-            &rise[..rows],
-        )?;
+        let now_s = conditions.history().map_or(0.0, |(_, time_s)| time_s);
         let field = ScaleField {
             initial_celsius: conditions.celsius(&heated.far)?,
-            diffusivity_mm2_per_s,
-            sources: vec![source],
+            diffusivity_mm2_per_s: heated.diffusivity_mm2_per_s,
+            sources: sources.to_vec(),
         };
-        let depth = field.depth_mm(now_s);
-        if depth == 0.0 {
+        let depth_mm = field.depth_mm(now_s);
+        if depth_mm == 0.0 {
             let profile = Profile::new(vec![(0.0, field.initial_celsius)])?;
             return Some(growth_curve(&profile, alpha, self.anchor, reach));
         }
         let rise = |p: f64| field.celsius_at(p, now_s) - table_celsius;
         let integral = |p: f64| field.integral(now_s, [fixed_mm, p], table_celsius);
-        Some(sampled_curve(rise, integral, alpha, &place, depth, reach))
+        Some(sampled_curve(rise, integral, alpha, &heated.places_mm(), depth_mm, reach))
     }
 }
 
@@ -174,18 +211,18 @@ impl StructureModel {
         let sensors = self.coefficients.iter().map(|c| c.0.as_str());
         let celsius = conditions.of(&format!("{}(structure)", self.name), sensors, problems)?;
         let rises = celsius.iter().map(|c| c - self.reference_celsius);
-        let (mut value, mut variance, mut known) = (0.0, 0.0, false);
-        for ((_, c), rise) in self.coefficients.iter().zip(rises) {
+        let (mut value, mut u) = (0.0, Vec::new());
+        for ((sensor, c), rise) in self.coefficients.iter().zip(rises) {
             value += c.value * rise;
-            known |= c.u.is_some();
-            variance += (c.u.unwrap_or(0.0) * rise).powi(2);
+            let of = || format!("{} per K of {sensor}", self.name);
+            u.extend(c.u.map(|u| ThermalU { of: of(), curve: Curve::Constant(u * rise) }));
         }
         Some(ThermalTerm {
             kind: self.index.kind,
             component: self.index.component,
             part: ErrorPart::Structure,
             curve: Curve::Constant(value),
-            u: known.then(|| Curve::Constant(variance.sqrt())),
+            u,
         })
     }
 }

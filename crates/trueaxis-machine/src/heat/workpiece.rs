@@ -31,7 +31,7 @@ impl Workpiece {
         let celsius = conditions.of("workpiece", sensors, problems)?;
         let placed = self.sensors.iter().zip(&celsius).map(|(s, c)| (s.place_mm, *c)).collect();
         Some(WorkpieceGrowth {
-            expansion_per_k: self.expansion_per_k.value,
+            expansion_per_k: self.expansion_per_k,
             fixed_mm: self.fixed_mm,
             along: self.along,
             profile: Profile::new(placed)?,
@@ -43,7 +43,7 @@ impl Workpiece {
 #[derive(Debug, Clone, PartialEq)]
 pub struct WorkpieceGrowth {
     /// α_w, 1/K.
-    pub expansion_per_k: f64,
+    pub expansion_per_k: Measured,
     /// Where it is fixed, in the workpiece frame, mm.
     pub fixed_mm: Vec3,
     /// Unit vector along which the temperature changes.
@@ -65,15 +65,29 @@ impl WorkpieceGrowth {
     /// # Source
     /// Document 001, section 2; ISO 1 for 20 °C.
     pub fn at(&self, p_mm: Vec3) -> Vec3 {
+        self.per_expansion(p_mm) * self.expansion_per_k.value
+    }
+
+    /// What one standard uncertainty of α_w adds to it, mm.
+    ///
+    /// ```text
+    ///     u(E_w) = u(α_w) (T_w − 20 °C) (p − f)                            docs/model.md eq. 86
+    /// ```
+    pub fn u_at(&self, p_mm: Vec3) -> Vec3 {
+        self.per_expansion(p_mm) * self.expansion_per_k.u.unwrap_or(0.0)
+    }
+
+    /// ∂E_w/∂α_w, mm·K.
+    fn per_expansion(&self, p_mm: Vec3) -> Vec3 {
         let from_fixed = p_mm - self.fixed_mm;
         if let Some(celsius) = self.profile.uniform() {
-            return from_fixed * (self.expansion_per_k * (celsius - REFERENCE_CELSIUS));
+            return from_fixed * (celsius - REFERENCE_CELSIUS);
         }
         let (fixed, s) = (self.along.dot(&self.fixed_mm), self.along.dot(&p_mm));
         let across = from_fixed - self.along * (s - fixed);
         let along = self.profile.integral(fixed, s, REFERENCE_CELSIUS);
         let rise = self.profile.celsius_at(s) - REFERENCE_CELSIUS;
-        (self.along * along + across * rise) * self.expansion_per_k
+        self.along * along + across * rise
     }
 }
 
@@ -113,10 +127,14 @@ mod tests {
     fn growth_along_and_across_sensors() {
         let profile = Profile::new(vec![(0.0, 20.0), (1000.0, 30.0)]).unwrap();
         let (fixed_mm, along) = (Vec3::zeros(), Vec3::x());
-        let growth = WorkpieceGrowth { expansion_per_k: 1e-5, fixed_mm, along, profile };
+        let expansion_per_k = Measured { value: 1e-5, u: Some(1e-6) };
+        let growth = WorkpieceGrowth { expansion_per_k, fixed_mm, along, profile };
         // along: 1e-5 · ½ · 10 K · 1000 mm = 0.05 mm; across: 1e-5 · 10 K · 200 mm = 0.02 mm
         let grown = growth.at(Vec3::new(1000.0, 200.0, 0.0));
         assert!((grown - Vec3::new(0.05, 0.02, 0.0)).norm() < 1e-15);
+        // A tenth of α_w is a tenth of the growth.
+        let u = growth.u_at(Vec3::new(1000.0, 200.0, 0.0));
+        assert!((u - Vec3::new(0.005, 0.002, 0.0)).norm() < 1e-15);
     }
 
     #[test]

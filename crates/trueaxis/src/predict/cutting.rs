@@ -1,10 +1,11 @@
 //! The test piece on the machine: commands once, deviations for any set of errors.
 
+use super::temperatures::{CuttingClock, RunningTemperatures};
 use super::{Error, Setting};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Direction, Point};
 use trueaxis_machine::axis::{Approach, Command, MAX_AXES};
-use trueaxis_machine::errors::ErrorValues;
+use trueaxis_machine::errors::{ErrorValues, Uncertainties};
 use trueaxis_machine::{Machine, Target};
 use trueaxis_part::testpiece::{Datum, TestPiece, ToolPosition};
 
@@ -35,11 +36,11 @@ pub struct Reference {
 struct Stop {
     command: Command,
     errors: ErrorValues,
-    u: ErrorValues,
+    u: Uncertainties,
 }
 
-/// The nominal errors at a stop, and their standard uncertainties, become the errors to cut with.
-pub type Change<'a> = dyn Fn(&ErrorValues, &ErrorValues) -> ErrorValues + Sync + 'a;
+/// The nominal errors at a stop, and how well they are known, become the errors to cut with.
+pub type Change<'a> = dyn Fn(&ErrorValues, &Uncertainties) -> ErrorValues + Sync + 'a;
 
 /// The cut of a test piece: everything that does not depend on the values of the errors.
 pub struct Cutting<'a> {
@@ -63,29 +64,48 @@ impl<'a> Cutting<'a> {
         piece: &dyn TestPiece,
         reference: &Reference,
     ) -> Result<Self, Error> {
+        Self::over(machine, piece, reference, None)
+    }
+
+    /// The same while the temperatures follow a log: the errors of each tool position are those of
+    /// its time. The zero was touched, and the reference hole bored, at the start.
+    ///
+    /// # Errors
+    /// As [`Cutting::new`]; a log that ends too early.
+    pub fn over(
+        machine: &'a Machine,
+        piece: &dyn TestPiece,
+        reference: &Reference,
+        temperatures: Option<&RunningTemperatures>,
+    ) -> Result<Self, Error> {
         let positions = piece.tool_positions();
         let setting_command = setting_command(machine, &reference.setting)?;
         let path: Vec<Target> =
             positions.iter().map(|p| Target { tip: p.tip, axis: p.axis }).collect();
         let commands = machine.follow(&path, &setting_command).map_err(Error::Path)?;
+        let mut clock = CuttingClock::of(machine, temperatures, &positions);
+        let quantities = machine.uncertain_quantities();
         let mut approach = Approach::default();
         let mut last = setting_command;
         let mut stops = Vec::with_capacity(commands.len());
         for (i, command) in commands.into_iter().enumerate() {
             update_approach(&mut approach, &last, &command);
-            stops.push(stop(machine, command, &approach, Some(i))?);
+            let at = clock.machine_at(i)?;
+            stops.push(stop(at.unwrap_or(machine), command, &approach, (&quantities, Some(i)))?);
             last = command;
         }
         let setting = match reference.setting {
             Setting::Perfect => None,
             Setting::Touched { .. } => {
-                Some(stop(machine, setting_command, &Approach::default(), None)?)
+                let place = (&quantities[..], None);
+                Some(stop(machine, setting_command, &Approach::default(), place)?)
             }
         };
         let hole = match reference.datum {
             DatumAxis::Ideal => None,
             DatumAxis::ReferenceHole { depth_mm } => {
-                Some((bore(machine, &setting_command, depth_mm)?, depth_mm))
+                let ends = bore(machine, &setting_command, depth_mm, &quantities)?;
+                Some((ends, depth_mm))
             }
         };
         Ok(Self { machine, positions, stops, setting, setting_command, hole })
@@ -150,12 +170,12 @@ fn stop(
     machine: &Machine,
     command: Command,
     approach: &Approach,
-    position: Option<usize>,
+    (quantities, position): (&[String], Option<usize>),
 ) -> Result<Stop, Error> {
     let errors = machine
         .errors_at(&command, approach)
         .map_err(|source| Error::Table { position, source })?;
-    Ok(Stop { command, errors, u: machine.uncertainties_at(&command) })
+    Ok(Stop { command, errors, u: machine.uncertainties_at(&command, quantities) })
 }
 
 /// An axis keeps its side until it turns round.
@@ -183,10 +203,15 @@ fn setting_command(machine: &Machine, setting: &Setting) -> Result<Command, Erro
     best.map(|s| s.command).ok_or(Error::SettingOutOfTravel)
 }
 
-fn bore(machine: &Machine, from: &Command, depth_mm: f64) -> Result<[Stop; 2], Error> {
+fn bore(
+    machine: &Machine,
+    from: &Command,
+    depth_mm: f64,
+    quantities: &[String],
+) -> Result<[Stop; 2], Error> {
     let path =
         [0.0, -depth_mm].map(|z| Target { tip: Point::new(0.0, 0.0, z), axis: Direction::Z });
     let commands = machine.follow(&path, from).map_err(Error::Hole)?;
-    let at = |i: usize| stop(machine, commands[i], &Approach::default(), None);
+    let at = |i: usize| stop(machine, commands[i], &Approach::default(), (quantities, None));
     Ok([at(0)?, at(1)?])
 }

@@ -3,7 +3,8 @@
 //! Document 001: compensating the machine alone can make the part worse, since the growth of the
 //! machine and that of the workpiece no longer cancel.
 
-use super::study::at_temperatures;
+use super::Error;
+use super::temperatures::{CuttingClock, RunningTemperatures, StudyTemperatures};
 use crate::files;
 use std::path::Path;
 use trueaxis_geometry::Vec3;
@@ -12,7 +13,6 @@ use trueaxis_geometry::input::{Diagnostics, Dimension, Place, Section, Source};
 use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_machine::errors::ErrorValues;
 use trueaxis_machine::file::read_vector_mm;
-use trueaxis_machine::heat::Conditions;
 use trueaxis_machine::{Machine, Target};
 
 /// More holes than this are a slip of the pen.
@@ -48,8 +48,10 @@ impl Compensation {
 pub struct HoleStudy {
     /// Its name.
     pub name: String,
-    /// The machine at its temperatures.
+    /// The machine at its temperatures, those of the start if a log runs on.
     pub machine: Machine,
+    /// The log that runs on while the holes are made, if one does.
+    pub temperatures: Option<RunningTemperatures>,
     /// The nominal places, in the workpiece frame, mm.
     pub holes_mm: Vec<Vec3>,
     /// Largest distance of a hole from its place in X and Y, mm, if one is stated.
@@ -67,6 +69,10 @@ pub struct Hole {
     pub increments: [i64; 3],
     /// Where the hole is at 20 °C, less where it should be, mm.
     pub error_mm: Vec3,
+    /// Standard uncertainty of that along x, y, z, mm.
+    pub u_mm: Vec3,
+    /// Standard uncertainty of [`Hole::distance_mm`], mm.
+    pub u_distance_mm: f64,
 }
 
 impl Hole {
@@ -85,6 +91,8 @@ pub struct HoleSet {
     pub holes: Vec<Hole>,
     /// The largest distance from its place, mm.
     pub worst_mm: f64,
+    /// Its standard uncertainty, mm.
+    pub u_worst_mm: f64,
     /// Whether all are in tolerance, if one is stated.
     pub in_tolerance: Option<bool>,
 }
@@ -94,8 +102,14 @@ pub struct HoleSet {
 pub struct HolePrediction {
     /// None, machine, comprehensive.
     pub sets: [HoleSet; 3],
+    /// The same at the temperatures of the start, held, where a log runs on.
+    pub held: Option<[HoleSet; 3]>,
+    /// When each hole is made, s from the start; all 0 without a log.
+    pub times_s: Vec<f64>,
     /// What the reader must know.
     pub warnings: Vec<String>,
+    /// What grows though nobody says how well its coefficient is known: u lacks it.
+    pub without_u: Vec<String>,
 }
 
 /// Whether a study file is about holes.
@@ -125,8 +139,9 @@ fn read(root: &Section<'_>, path: &Path) -> Option<HoleStudy> {
         root.take_over(problems);
         machine
     });
-    let conditions = root.section("temperature", Conditions::read);
-    let machine = machine.and_then(|m| at_temperatures(root, m, conditions.as_ref()));
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let temperatures = StudyTemperatures::read(root, folder, false);
+    let machine = machine.and_then(|m| temperatures.warm(root, m));
     let holes = root.section("holes", read_holes).flatten();
     let compensation = root.section("compensation", |s| {
         let increment_mm = s.quantity("increment", Dimension::Length);
@@ -149,6 +164,7 @@ fn read(root: &Section<'_>, path: &Path) -> Option<HoleStudy> {
     Some(HoleStudy {
         name: name?.to_owned(),
         machine: machine?,
+        temperatures: temperatures.running,
         holes_mm,
         tolerance_mm,
         increment_mm: increment_mm.unwrap_or(1e-3),
@@ -200,33 +216,70 @@ pub fn compensation_increments(error_mm: f64, increment_mm: f64) -> i64 {
 /// # Source
 /// Document 001, section 2 and 3.
 pub fn predict_holes(study: &HoleStudy) -> Result<HolePrediction, Diagnostics> {
+    let running = study.temperatures.as_ref();
+    let sets = drill_all(study, running)?;
+    let held = running.map(|_| drill_all(study, None)).transpose()?;
+    let clock = study.clock(running);
+    let times_s = (0..study.holes_mm.len()).map(|i| clock.time_s(i)).collect();
+    let without_u = study.machine.coefficients_without_u();
+    Ok(HolePrediction { warnings: warnings(&sets), sets, held, times_s, without_u })
+}
+
+impl HoleStudy {
+    /// Each hole is made in the middle of its share of the time.
+    fn clock(&self, running: Option<&RunningTemperatures>) -> CuttingClock {
+        let mut shares: Vec<f64> = (0..self.holes_mm.len()).map(|i| i as f64 + 0.5).collect();
+        shares.push(self.holes_mm.len() as f64);
+        CuttingClock::along(&self.machine, running, &shares)
+    }
+}
+
+fn drill_all(
+    study: &HoleStudy,
+    running: Option<&RunningTemperatures>,
+) -> Result<[HoleSet; 3], Diagnostics> {
     let mut problems = Diagnostics::new();
+    let mut told = |i: usize, message: String, hint: &str| {
+        let message = format!("hole {}{message}", i + 1);
+        problems.error("unreachable-hole", Place::whole(&study.name), message, hint);
+    };
     let sets = Compensation::ALL.map(|compensation| {
+        let mut clock = study.clock(running);
         let mut holes = Vec::with_capacity(study.holes_mm.len());
         for (i, place) in study.holes_mm.iter().enumerate() {
-            match drill(study, *place, compensation) {
+            let machine = match clock.machine_at(i) {
+                Ok(machine) => machine.unwrap_or(&study.machine),
+                Err(ends) if compensation == Compensation::None => {
+                    told(i, format!(": {}", log_end(&ends)), "take a longer log, or start earlier");
+                    break;
+                }
+                Err(_) => break,
+            };
+            match drill(machine, study.increment_mm, *place, compensation) {
                 Ok(hole) => holes.push(hole),
                 Err(message) if compensation == Compensation::None => {
-                    let hint = "move the circle, or extend the table";
-                    let message = format!("hole {}: {message}", i + 1);
-                    problems.error("unreachable-hole", Place::whole(&study.name), message, hint);
+                    told(i, format!(": {message}"), "move the circle, or extend the table");
                 }
                 // The same hole was told already, or lies at the very end of a table.
-                Err(message) => {
-                    let message = format!("hole {}, compensated: {message}", i + 1);
-                    problems.error("unreachable-hole", Place::whole(&study.name), message, "");
-                }
+                Err(message) => told(i, format!(", compensated: {message}"), ""),
             }
         }
-        let worst_mm = holes.iter().map(Hole::distance_mm).fold(0.0, f64::max);
+        let worst = holes.iter().max_by(|a, b| a.distance_mm().total_cmp(&b.distance_mm()));
+        let worst_mm = worst.map_or(0.0, Hole::distance_mm);
+        let u_worst_mm = worst.map_or(0.0, |h| h.u_distance_mm);
         let in_tolerance = study.tolerance_mm.map(|t| worst_mm <= t);
-        HoleSet { compensation, holes, worst_mm, in_tolerance }
+        HoleSet { compensation, holes, worst_mm, u_worst_mm, in_tolerance }
     });
-    if problems.has_errors() {
-        return Err(problems);
+    if problems.has_errors() { Err(problems) } else { Ok(sets) }
+}
+
+fn log_end(ends: &Error) -> String {
+    match ends {
+        Error::LogEnds { time_s, lasts_s, .. } => {
+            format!("it is made after {time_s:.1} s, the log ends after {lasts_s:.1} s")
+        }
+        other => other.to_string(),
     }
-    let warnings = warnings(&sets);
-    Ok(HolePrediction { sets, warnings })
 }
 
 fn warnings(sets: &[HoleSet; 3]) -> Vec<String> {
@@ -242,8 +295,12 @@ fn warnings(sets: &[HoleSet; 3]) -> Vec<String> {
     warnings
 }
 
-fn drill(study: &HoleStudy, place: Vec3, compensation: Compensation) -> Result<Hole, String> {
-    let machine = &study.machine;
+fn drill(
+    machine: &Machine,
+    increment_mm: f64,
+    place: Vec3,
+    compensation: Compensation,
+) -> Result<Hole, String> {
     let (tip, errors) = felt(machine, place)?;
     let error = match compensation {
         Compensation::None => Vec3::zeros(),
@@ -252,10 +309,40 @@ fn drill(study: &HoleStudy, place: Vec3, compensation: Compensation) -> Result<H
         }
         Compensation::Comprehensive => machine.deviation(&tip, &errors).tip_mm,
     };
-    let increments = [0, 1, 2].map(|i| compensation_increments(error[i], study.increment_mm));
-    let added = Vec3::from(increments.map(|n| n as f64 * study.increment_mm));
+    let increments = [0, 1, 2].map(|i| compensation_increments(error[i], increment_mm));
+    let added = Vec3::from(increments.map(|n| n as f64 * increment_mm));
     let (command, errors) = felt(machine, place + added)?;
-    Ok(Hole { increments, error_mm: added + machine.deviation(&command, &errors).tip_mm })
+    let error_mm = added + machine.deviation(&command, &errors).tip_mm;
+    let (u_mm, u_distance_mm) = uncertainty(machine, &command, &errors, error_mm);
+    Ok(Hole { increments, error_mm, u_mm, u_distance_mm })
+}
+
+/// How well the place of a hole is known, along x, y, z and as a distance from where it should be.
+///
+/// ```text
+///     u²(x) = Σ ((x(z = +1) − x(z = −1))/2)²                               docs/model.md eq. 31
+/// ```
+///
+/// over all uncertain quantities of the machine; the compensation stays what it is.
+fn uncertainty(
+    machine: &Machine,
+    command: &Command,
+    errors: &ErrorValues,
+    error_mm: Vec3,
+) -> (Vec3, f64) {
+    let quantities = machine.uncertain_quantities();
+    let known = machine.uncertainties_at(command, &quantities);
+    let along = error_mm.xy().try_normalize(1e-12);
+    let (mut variance, mut of_distance) = (Vec3::zeros(), 0.0);
+    for quantity in 0..quantities.len() {
+        let tip =
+            |z: f64| machine.deviation(command, &known.displaced_by(errors, quantity, z)).tip_mm;
+        let half = 0.5 * (tip(1.0) - tip(-1.0));
+        variance += half.component_mul(&half);
+        // A hole in its very place moves away in every direction.
+        of_distance += along.map_or(half.xy().norm(), |a| a.dot(&half.xy())).powi(2);
+    }
+    (variance.map(f64::sqrt), of_distance.sqrt())
 }
 
 /// The command that brings the upright tool to a place, and the errors there.

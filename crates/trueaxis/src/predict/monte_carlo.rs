@@ -8,7 +8,6 @@ use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use trueaxis_machine::Machine;
-use trueaxis_machine::errors::{ErrorIndex, ErrorValues};
 
 /// Samples that one thread draws in a row; fixed, so that the sums below do not depend on the
 /// number of threads.
@@ -54,7 +53,7 @@ pub struct Spread {
 ///
 /// # Source
 /// JCGM 101:2008, clause 7; one standard-normal factor per stated error (fully correlated along
-/// a curve). The generator is ChaCha8, one stream per sample, so that the same seed gives the same
+/// a curve) and per coefficient of the thermal parts, the expansion of the workpiece among them. The generator is ChaCha8, one stream per sample, so that the same seed gives the same
 /// bits at any number of threads.
 pub fn monte_carlo(
     machine: &Machine,
@@ -65,7 +64,7 @@ pub fn monte_carlo(
     if sampling.samples < 2 {
         return Err(Error::TooFewSamples(sampling.samples));
     }
-    let stated: Vec<ErrorIndex> = machine.stated_errors().into_iter().map(|(i, _)| i).collect();
+    let quantities = machine.uncertain_quantities().len();
     let done = AtomicUsize::new(0);
     let chunks = sampling.samples.div_ceil(CHUNK);
     // Each chunk keeps its own sums; they are added up in order afterwards. Memory stays bounded:
@@ -75,7 +74,7 @@ pub fn monte_carlo(
         .map_init(Bench::default, |bench, c| {
             let range = c * CHUNK..((c + 1) * CHUNK).min(sampling.samples);
             let length = range.len();
-            let chunk = draw_chunk(judge, &stated, (sampling.seed, range), bench);
+            let chunk = draw_chunk(judge, quantities, (sampling.seed, range), bench);
             progress(done.fetch_add(length, Ordering::Relaxed) + length);
             chunk
         })
@@ -95,7 +94,7 @@ struct Chunk {
 
 fn draw_chunk(
     judge: &Judge<'_>,
-    stated: &[ErrorIndex],
+    quantities: usize,
     (seed, range): (u64, std::ops::Range<usize>),
     bench: &mut Bench,
 ) -> Result<Chunk, Error> {
@@ -103,8 +102,8 @@ fn draw_chunk(
     let mut chunk = Chunk { count: 0.0, mean: vec![0.0; n], squares: vec![0.0; n], kept: vec![] };
     let mut indices = vec![0.0; n];
     for sample in range {
-        let factors = draw(stated, seed, sample);
-        judge.indices(&|values, u| values.displaced(u, &factors), bench, &mut indices)?;
+        let factors = draw(quantities, seed, sample);
+        judge.indices(&|values, u| u.displaced(values, &factors), bench, &mut indices)?;
         chunk.count += 1.0;
         for ((mean, squares), &x) in chunk.mean.iter_mut().zip(&mut chunk.squares).zip(&indices) {
             // Welford's update: no difference of large sums.
@@ -119,15 +118,11 @@ fn draw_chunk(
     Ok(chunk)
 }
 
-/// One standard-normal factor per stated error, 0 for the others.
-fn draw(stated: &[ErrorIndex], seed: u64, sample: usize) -> ErrorValues {
+/// One standard-normal factor per uncertain quantity.
+fn draw(quantities: usize, seed: u64, sample: usize) -> Vec<f64> {
     let mut generator = ChaCha8Rng::seed_from_u64(seed);
     generator.set_stream(sample as u64);
-    let mut factors = ErrorValues::default();
-    for &index in stated {
-        factors.set(index, StandardNormal.sample(&mut generator));
-    }
-    factors
+    (0..quantities).map(|_| StandardNormal.sample(&mut generator)).collect()
 }
 
 fn summarise(chunks: &[Chunk], samples: usize, n: usize) -> Vec<Spread> {

@@ -65,7 +65,8 @@ pub fn shifted(judge: &Judge<'_>, index: ErrorIndex, by: f64) -> Result<Vec<f64>
 /// ```
 ///
 /// One standard-normal factor z per stated error moves the whole curve by its standard
-/// uncertainty; the step is one standard uncertainty. `results` cuts with changed errors and
+/// uncertainty, one per coefficient of the thermal parts all that it makes grow; the step is one
+/// standard uncertainty. `results` cuts with changed errors and
 /// returns what is asked about.
 ///
 /// # Errors
@@ -78,14 +79,8 @@ pub fn propagate(
     results: &dyn Fn(&Change<'_>) -> Result<Vec<f64>, Error>,
 ) -> Result<Vec<f64>, Error> {
     let mut variance: Vec<f64> = Vec::new();
-    for (index, _) in machine.stated_errors() {
-        let drawn = |z: f64| {
-            results(&move |values, u| {
-                let mut changed = *values;
-                changed.set(index, values.get(index) + z * u.get(index));
-                changed
-            })
-        };
+    for quantity in 0..machine.uncertain_quantities().len() {
+        let drawn = |z: f64| results(&move |values, u| u.displaced_by(values, quantity, z));
         let (above, below) = (drawn(1.0)?, drawn(-1.0)?);
         variance.resize(above.len(), 0.0);
         for ((sum, a), b) in variance.iter_mut().zip(above).zip(below) {

@@ -2,6 +2,7 @@
 
 use super::cutting::{DatumAxis, Reference};
 use super::monte_carlo::Sampling;
+use super::temperatures::{RunningTemperatures, StudyTemperatures};
 use super::{Index, Setting};
 use crate::files;
 use std::path::{Path, PathBuf};
@@ -11,7 +12,6 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::errors::{BodyName, ErrorKind, ErrorName};
 use trueaxis_machine::file::read_pose;
-use trueaxis_machine::heat::Conditions;
 use trueaxis_part::testpiece::TestPiece;
 use trueaxis_part::tolerance::{Acceptance, Tolerances, Verdict};
 use trueaxis_part::{Shape, TestPieceFile};
@@ -76,6 +76,8 @@ pub struct Study {
     pub tolerances: Tolerances,
     /// Location errors that this study replaces, as written.
     pub what_if: Vec<String>,
+    /// The log that runs on while the part is cut, if one does.
+    pub temperatures: Option<RunningTemperatures>,
     /// How the zero was set, and the datum.
     pub reference: Reference,
     /// What else to look at.
@@ -146,8 +148,8 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Study> {
         root.take_over(problems);
         machine
     });
-    let conditions = root.section("temperature", Conditions::read);
-    let machine = machine.and_then(|m| at_temperatures(root, m, conditions.as_ref()));
+    let temperatures = StudyTemperatures::read(root, folder, true);
+    let machine = machine.and_then(|m| temperatures.warm(root, m));
     let hint = "the file of the test piece, relative to the study file";
     let piece_path = root.require("test_piece", hint).and_then(|i| i.text());
     let test_piece = piece_path.and_then(|p| read_piece(root, &folder.join(p)));
@@ -180,23 +182,10 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Study> {
         variants: variants.unwrap_or_default(),
         reference,
         decision: decision?,
+        temperatures: temperatures.running,
         sampling: sampling.unwrap_or(Some(Sampling::default())).filter(|s| s.samples > 0),
         published,
     })
-}
-
-/// `[temperature] scale_x = "30.5 degC"`: the sensors of the machine file; without it every body
-/// stands at the temperature of its table.
-pub(super) fn at_temperatures(
-    root: &Section<'_>,
-    machine: Machine,
-    conditions: Option<&Conditions>,
-) -> Option<Machine> {
-    let Some(conditions) = conditions else { return Some(machine) };
-    let mut problems = Diagnostics::new();
-    let warm = machine.at(conditions, &mut problems);
-    root.take_over(problems);
-    warm
 }
 
 /// A guard band of nothing would pass what nobody knows.
@@ -207,7 +196,8 @@ fn check_uncertainties(root: &Section<'_>, decision: Option<Decision>, machine: 
         let body = &machine.bodies()[index.body];
         body.stated(name.kind, name.component).is_some_and(|s| s.u.is_none())
     });
-    let names: Vec<String> = without.map(|(_, name)| name.to_string()).collect();
+    let mut names: Vec<String> = without.map(|(_, name)| name.to_string()).collect();
+    names.extend(machine.coefficients_without_u());
     if !names.is_empty() {
         let message = format!("ISO 14253-1 needs u of every error; none for {}", names.join(" "));
         let hint = "state them in the machine file (\"12 ± 1 urad\"), or say rule = \"simple\"";

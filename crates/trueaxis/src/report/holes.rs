@@ -7,22 +7,24 @@ use std::fmt::Write;
 /// The holes as a table, with the verdict and the warning first.
 pub fn holes_text(study: &HoleStudy, prediction: &HolePrediction) -> String {
     let mut text = format!("{}\n  machine  {}\n", study.name, study.machine.name());
+    if let Some(running) = &study.temperatures {
+        // Writing to a String cannot fail.
+        let _ = writeln!(
+            text,
+            "  temperatures of {} from {} s on, the last hole after {:.1} s",
+            running.run.log.file(),
+            running.run.start_s,
+            prediction.times_s.last().copied().unwrap_or(0.0)
+        );
+    }
     for warning in &prediction.warnings {
         let _ = write!(text, "\n  WARNING  {warning}\n");
     }
-    text += "\n  compensation     worst hole, mm   in tolerance\n";
-    for set in &prediction.sets {
-        let verdict = match set.in_tolerance {
-            Some(true) => "yes",
-            Some(false) => "NO",
-            None => "-",
-        };
-        let mark = if set.compensation == study.applied { "  <- applied" } else { "" };
-        let name = set.compensation.name();
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "  {name:<16} {:>14.4}   {verdict}{mark}", set.worst_mm);
+    set_table(&mut text, study, &prediction.sets, "");
+    if let Some(held) = &prediction.held {
+        set_table(&mut text, study, held, ", at the temperatures of the start, held");
     }
-    text += "\n  hole       x         y    dx, dy in µm:   none           machine-only      comprehensive\n";
+    text += "\n  hole       x         y    dx, dy in µm:   none           machine-only      comprehensive      u(dx), u(dy)\n";
     for (i, place) in study.holes_mm.iter().enumerate() {
         let _ = write!(text, "  {:>4} {:>9.3} {:>9.3}           ", i + 1, place.x, place.y);
         for set in &prediction.sets {
@@ -30,9 +32,27 @@ pub fn holes_text(study: &HoleStudy, prediction: &HolePrediction) -> String {
             let error = (set.holes[i].error_mm * 1e4).map(|v| v.round() / 10.0 + 0.0);
             let _ = write!(text, " {:>8.1} {:>8.1}", error.x, error.y);
         }
-        text.push('\n');
+        let u = prediction.sets[0].holes[i].u_mm * 1e3;
+        let _ = writeln!(text, " {:>8.1} {:>6.1}", u.x, u.y);
+    }
+    if !prediction.without_u.is_empty() {
+        let _ = writeln!(text, "\n  u lacks: {} (none stated)", prediction.without_u.join(", "));
     }
     text
+}
+
+fn set_table(text: &mut String, study: &HoleStudy, sets: &[HoleSet; 3], when: &str) {
+    let _ = writeln!(text, "\n  compensation     worst hole, mm    u, mm   in tolerance{when}");
+    for set in sets {
+        let verdict = match set.in_tolerance {
+            Some(true) => "yes",
+            Some(false) => "NO",
+            None => "-",
+        };
+        let mark = if set.compensation == study.applied { "  <- applied" } else { "" };
+        let (name, u_mm) = (set.compensation.name(), set.u_worst_mm);
+        let _ = writeln!(text, "  {name:<16} {:>14.4} {u_mm:>8.4}   {verdict}{mark}", set.worst_mm);
+    }
 }
 
 /// The holes as one document.
@@ -43,7 +63,9 @@ pub fn holes_json(study: &HoleStudy, prediction: &HolePrediction) -> Value {
             "nominal_mm": vector(&study.holes_mm[i], 1.0),
             "actual_mm": vector(&(study.holes_mm[i] + hole.error_mm), 1.0),
             "error_um": vector(&hole.error_mm, 1e3),
+            "u_um": vector(&hole.u_mm, 1e3),
             "compensation_increments": hole.increments,
+            "time_s": prediction.times_s[i],
         })
     };
     let set = |set: &HoleSet| {
@@ -51,6 +73,7 @@ pub fn holes_json(study: &HoleStudy, prediction: &HolePrediction) -> Value {
         json!({
             "compensation": set.compensation.name(),
             "worst_mm": set.worst_mm,
+            "u_worst_mm": set.u_worst_mm,
             "in_tolerance": set.in_tolerance,
             "holes": holes.collect::<Vec<_>>(),
         })
@@ -64,7 +87,11 @@ pub fn holes_json(study: &HoleStudy, prediction: &HolePrediction) -> Value {
         "tolerance_mm": study.tolerance_mm,
         "applied": study.applied.name(),
         "in_tolerance": applied.in_tolerance,
+        "temperature_log": study.temperatures.as_ref().map(|t| t.run.log.file()),
         "sets": prediction.sets.iter().map(set).collect::<Vec<_>>(),
+        "sets_at_start": prediction.held.as_ref()
+            .map(|held| held.iter().map(set).collect::<Vec<_>>()),
+        "u_lacks": prediction.without_u,
         "warnings": prediction.warnings,
     })
 }

@@ -36,6 +36,7 @@ pub fn json(study: &Study, prediction: &Prediction) -> Value {
             .collect::<Vec<_>>(),
         "commands": prediction.commands.iter().map(|c| command(axes, c)).collect::<Vec<_>>(),
         "monte_carlo": study.sampling.map(|s| json!({ "samples": s.samples, "seed": s.seed })),
+        "temperature_log": study.temperatures.as_ref().map(|t| t.run.log.file()),
         "warnings": prediction.warnings,
     })
 }

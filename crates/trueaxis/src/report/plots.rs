@@ -286,7 +286,7 @@ fn polar_legend(
 }
 
 /// 1, 2 or 5 times a power of ten, near the value.
-fn round_step(value: f64) -> f64 {
+pub(super) fn round_step(value: f64) -> f64 {
     let power = 10_f64.powf(value.max(1e-12).log10().floor());
     let steps = [1.0, 2.0, 5.0, 10.0];
     let step = steps.iter().find(|s| **s * power >= value).unwrap_or(&10.0);

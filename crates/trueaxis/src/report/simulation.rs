@@ -1,7 +1,7 @@
 //! A simulation for people and for programs.
 
 use crate::simulate::{
-    Run, SetUp, Summary, Trouble, TroubleKind, TroubleList, Worst, limit_name, shown, unit,
+    Drift, Run, SetUp, Summary, Trouble, TroubleKind, TroubleList, Worst, limit_name, shown, unit,
 };
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
@@ -28,6 +28,8 @@ pub struct Simulation<'a> {
     pub troubles: &'a TroubleList,
     /// The file of the path, if one was written.
     pub path_file: Option<&'a str>,
+    /// What changing temperatures did, where they followed a log.
+    pub drift: Option<&'a Drift>,
 }
 
 /// Troubles that the terminal lists.
@@ -175,7 +177,7 @@ fn write_text(s: &Simulation<'_>, out: &mut String) -> std::fmt::Result {
             axis.reversals
         )?;
     }
-    if machine.stated_errors().is_empty() {
+    if machine.stated_errors().is_empty() && !machine.is_at_temperatures() {
         writeln!(out, "\n  the machine file states no errors: the actual tool is the nominal one")?;
         return write_end(s, out);
     }
@@ -197,11 +199,64 @@ fn write_text(s: &Simulation<'_>, out: &mut String) -> std::fmt::Result {
 }
 
 fn write_end(s: &Simulation<'_>, out: &mut String) -> std::fmt::Result {
+    if let Some(drift) = s.drift {
+        write_drift(s, drift, out)?;
+    }
     write_troubles(s, out)?;
     if let Some(path) = s.path_file {
         writeln!(out, "\n  path: {path}")?;
     }
     Ok(())
+}
+
+fn write_drift(s: &Simulation<'_>, drift: &Drift, out: &mut String) -> std::fmt::Result {
+    let run = drift.run();
+    let (from_s, to_s) = (run.start_s, run.start_s + drift.time_s());
+    writeln!(
+        out,
+        "\n  temperatures of {}, from {} to {} of its time",
+        run.log.file(),
+        clock(from_s),
+        clock(to_s)
+    )?;
+    for sensor in drift.sensors() {
+        let (low, high) = (sensor.lowest_celsius, sensor.highest_celsius);
+        writeln!(out, "  {:<15} {low:>7.2} … {high:.2} °C", sensor.sensor)?;
+    }
+    let worst = &drift.tip;
+    writeln!(
+        out,
+        "  drift of the deviation since the start: {:.2} µm at the most, at {}, {}; {:.2} µm at the end",
+        worst.value * 1e3,
+        s.block(worst.origin),
+        clock(worst.time_s),
+        drift.last_mm * 1e3
+    )?;
+    if drift.unknown > 0 {
+        let places = drift.unknown;
+        writeln!(out, "  not known at {places} places, since an error table ends before them")?;
+    }
+    Ok(())
+}
+
+/// The temperatures and the drift as JSON; null where no log runs.
+fn drift_json(drift: Option<&Drift>) -> Value {
+    let Some(drift) = drift else { return Value::Null };
+    let run = drift.run();
+    let sensors = drift.sensors().into_iter().map(|s| {
+        let range = json!({ "lowest_degC": s.lowest_celsius, "highest_degC": s.highest_celsius });
+        (s.sensor, range)
+    });
+    json!({
+        "log": run.log.file(),
+        "from_s": run.start_s,
+        "to_s": run.start_s + drift.time_s(),
+        "sensors": sensors.collect::<Map<_, _>>(),
+        "drift_um": { "value": drift.tip.value * 1e3, "line": drift.tip.origin.line,
+                      "program": drift.tip.origin.program, "time_s": drift.tip.time_s },
+        "drift_at_end_um": drift.last_mm * 1e3,
+        "drift_unknown_places": drift.unknown,
+    })
 }
 
 fn write_troubles(s: &Simulation<'_>, out: &mut String) -> std::fmt::Result {
@@ -328,6 +383,7 @@ pub fn simulation_json(s: &Simulation<'_>) -> Value {
             .map(|(tool, moves)| json!({ "tool": tool, "moves": moves }))
             .collect::<Vec<_>>(),
         "path_file": s.path_file,
+        "temperatures": drift_json(s.drift),
     })
 }
 

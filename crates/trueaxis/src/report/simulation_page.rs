@@ -440,6 +440,21 @@ fn input_section(s: &Simulation<'_>) -> Markup {
                 tr { td { "machine" } td { (s.machine.name()) " " code { (s.machine.chain_text()) } } }
                 tr { td { "source of the machine" } td { (s.machine.source()) } }
                 tr { td { "stated errors" } td { (s.machine.stated_errors().len()) } }
+                @if let Some(drift) = s.drift {
+                    tr { td { "temperatures" } td {
+                        (drift.run().log.file()) ", from " (format!("{:.1}", drift.run().start_s))
+                        " s of its time"
+                    } }
+                    @for sensor in drift.sensors() { tr {
+                        td { (sensor.sensor) }
+                        td { (format!("{:.2} … {:.2} °C", sensor.lowest_celsius, sensor.highest_celsius)) }
+                    } }
+                    tr { td { "drift" } td {
+                        (um(drift.tip.value)) " µm at the most, at " (s.block(drift.tip.origin)) "; "
+                        (um(drift.last_mm)) " µm at the end: how far the deviation of the tip has \
+                        moved since the start, with feed"
+                    } }
+                }
                 @if let Some(path) = s.path_file { tr { td { "path" } td { code { (path) } } } }
                 tr { td { "made by" } td { "trueaxis " (crate::VERSION) } }
             } } }

@@ -1,11 +1,10 @@
 //! Where every body of the machine is, nominal and actual, as a table written while it comes.
 
-use super::{Batch, Observer, SetUp};
+use super::{Batch, Observer};
 use std::fmt::Write as _;
 use std::io::{self, Write};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Bed, Body, Pose};
-use trueaxis_machine::Machine;
 use trueaxis_machine::errors::ErrorValues;
 
 /// The columns: one line for each body at each place of the path.
@@ -17,7 +16,6 @@ pub const BODY_HEADINGS: &str = "time_s,program,line,body,x_mm,y_mm,z_mm,xx,xy,x
 
 /// Writes the poses of all bodies in the machine frame (the simulation frame of document 002).
 pub struct BodyTable<W: Write> {
-    machine: Machine,
     out: W,
     text: String,
     failed: Option<io::Error>,
@@ -25,9 +23,9 @@ pub struct BodyTable<W: Write> {
 
 impl<W: Write> BodyTable<W> {
     /// Writes the headings.
-    pub fn new(machine: &Machine, setup: &SetUp, mut out: W) -> Self {
+    pub fn new(mut out: W) -> Self {
         let failed = out.write_all(format!("{BODY_HEADINGS}\n").as_bytes()).err();
-        Self { machine: setup.mounted(machine), out, text: String::new(), failed }
+        Self { out, text: String::new(), failed }
     }
 
     /// Writes what is still on its way.
@@ -67,12 +65,12 @@ impl<W: Write> Observer for BodyTable<W> {
                 return;
             }
             // Where the machine file tells no errors, the simulation has told so already.
-            let errors = self.machine.errors_at(&node.command, &batch.approach(i));
-            let nominal = self.machine.body_poses(&node.command, &ErrorValues::default());
-            let actual = self.machine.body_poses(&node.command, &errors.unwrap_or_default());
+            let errors = batch.machine.errors_at(&node.command, &batch.approach(i));
+            let nominal = batch.machine.body_poses(&node.command, &ErrorValues::default());
+            let actual = batch.machine.body_poses(&node.command, &errors.unwrap_or_default());
             self.text.clear();
             for body in 0..nominal.len() {
-                let name = self.machine.bodies()[body].name;
+                let name = batch.machine.bodies()[body].name;
                 let origin = node.origin;
                 let _ =
                     write!(self.text, "{},{},{},{name}", stamp.time_s, origin.program, origin.line);

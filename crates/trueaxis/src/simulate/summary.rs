@@ -19,7 +19,7 @@ pub struct Worst {
 }
 
 impl Worst {
-    fn see(&mut self, value: f64, origin: Origin, time_s: f64) {
+    pub(super) fn see(&mut self, value: f64, origin: Origin, time_s: f64) {
         if value.abs() > self.value.abs() {
             *self = Self { value, origin, time_s };
         }

@@ -12,6 +12,8 @@ pub(super) const BATCH: usize = 4096;
 
 /// A stretch of the path with its times and poses; columns of one length.
 pub struct Batch<'a> {
+    /// The machine with the tool in the spindle, at the temperatures of this stretch.
+    pub machine: &'a Machine,
     /// The tool in the spindle, 0 before the first.
     pub tool: u32,
     /// The nodes.
@@ -74,6 +76,11 @@ impl ToolPath {
         self.tip = None;
     }
 
+    /// The same path goes on with the same tool at other temperatures.
+    pub fn change_temperatures(&mut self, machine: CompiledMachine) {
+        self.machine = machine;
+    }
+
     /// Poses and deviations of nodes; what the machine file cannot tell goes to `faults`.
     pub fn evaluate<'a>(
         &'a mut self,
@@ -90,7 +97,8 @@ impl ToolPath {
         self.split();
         let approaches = self.approaches.each_ref().map(Vec::as_slice);
         let along_path_mm = &self.along_path_mm;
-        Batch { tool, nodes, stamps, poses: &self.poses, along_path_mm, approaches }
+        let machine = self.machine.machine();
+        Batch { machine, tool, nodes, stamps, poses: &self.poses, along_path_mm, approaches }
     }
 
     fn fill(&mut self, nodes: &[Node]) {

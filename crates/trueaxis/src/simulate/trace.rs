@@ -49,6 +49,8 @@ pub struct Trace {
     pub from_s: f64,
     /// How often it was executed.
     pub executions: u64,
+    /// The machine at its end, with its tool and at its temperatures; none if it moves nothing.
+    pub machine: Option<Machine>,
 }
 
 impl Trace {
@@ -107,6 +109,7 @@ pub fn trace(
             nodes: Vec::new(),
             from_s: 0.0,
             executions: 0,
+            machine: None,
         },
         inside: false,
         path_inside: false,
@@ -171,6 +174,7 @@ impl Observer for Tracer {
         if self.done {
             return;
         }
+        let mut here = false;
         for (i, (node, stamp)) in batch.nodes.iter().zip(batch.stamps).enumerate() {
             if !self.is_here(node.origin.program, node.origin.line) {
                 if self.path_inside {
@@ -181,6 +185,10 @@ impl Observer for Tracer {
                 continue;
             }
             self.path_inside = true;
+            // Once a batch: the last one counts.
+            if !std::mem::replace(&mut here, true) {
+                self.trace.machine = Some(batch.machine.clone());
+            }
             if self.trace.nodes.len() < MOST_NODES {
                 self.trace.nodes.push(TracedNode {
                     node: *node,

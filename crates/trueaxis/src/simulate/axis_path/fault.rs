@@ -32,6 +32,19 @@ impl Fault {
     }
 }
 
+impl Fault {
+    /// A place of the path behind the end of the log of temperatures.
+    pub(in crate::simulate) fn untempered(node: &Node, message: String) -> Self {
+        Self {
+            origin: node.origin,
+            word: None,
+            code: "log-ends",
+            message,
+            hint: "take a longer log or an earlier start, or hold one time of it (--log-time)",
+        }
+    }
+}
+
 pub(super) fn fault(
     m: &Move,
     word: Option<u8>,

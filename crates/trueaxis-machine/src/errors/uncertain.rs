@@ -1,0 +1,76 @@
+use super::{ErrorIndex, ErrorValues};
+use trueaxis_geometry::Vec3;
+
+/// What one standard uncertainty of one quantity does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Effect {
+    /// It adds to an error, mm or rad.
+    Error(ErrorIndex, f64),
+    /// It adds to the growth of the workpiece, mm.
+    Workpiece(Vec3),
+}
+
+impl Effect {
+    fn act(&self, errors: &mut ErrorValues, z: f64) {
+        match self {
+            Self::Error(index, u) => errors.set(*index, errors.get(*index) + z * u),
+            Self::Workpiece(u_mm) => errors.workpiece_mm += u_mm * z,
+        }
+    }
+}
+
+/// How well the errors are known at a command: what one standard uncertainty of each uncertain
+/// quantity of the machine adds to them.
+///
+/// The quantities are those of [`crate::Machine::uncertain_quantities`], in their order, and
+/// independent of each other; one may move several errors (the expansion of a scale that lies
+/// across the machine axes).
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Uncertainties(Vec<(usize, Effect)>);
+
+impl Uncertainties {
+    pub(crate) fn add(&mut self, quantity: usize, index: ErrorIndex, u: f64) {
+        if u != 0.0 {
+            self.0.push((quantity, Effect::Error(index, u)));
+        }
+    }
+
+    pub(crate) fn add_workpiece(&mut self, quantity: usize, u_mm: Vec3) {
+        if u_mm != Vec3::zeros() {
+            self.0.push((quantity, Effect::Workpiece(u_mm)));
+        }
+    }
+
+    /// The errors where each quantity is `factors` standard uncertainties away from its value;
+    /// a quantity without a factor keeps it.
+    pub fn displaced(&self, errors: &ErrorValues, factors: &[f64]) -> ErrorValues {
+        let mut displaced = *errors;
+        for (quantity, effect) in &self.0 {
+            effect.act(&mut displaced, factors.get(*quantity).copied().unwrap_or(0.0));
+        }
+        displaced
+    }
+
+    /// The errors where one quantity is `z` standard uncertainties away from its value.
+    pub fn displaced_by(&self, errors: &ErrorValues, quantity: usize, z: f64) -> ErrorValues {
+        let mut displaced = *errors;
+        for (_, effect) in self.0.iter().filter(|(q, _)| *q == quantity) {
+            effect.act(&mut displaced, z);
+        }
+        displaced
+    }
+
+    /// The standard uncertainty of each error; of the growth of the workpiece along each axis.
+    pub fn of_errors(&self) -> ErrorValues {
+        let mut u = ErrorValues::default();
+        for (_, effect) in &self.0 {
+            match effect {
+                Effect::Error(index, value) => u.set(*index, u.get(*index).hypot(*value)),
+                Effect::Workpiece(u_mm) => {
+                    u.workpiece_mm = u.workpiece_mm.zip_map(u_mm, f64::hypot);
+                }
+            }
+        }
+        u
+    }
+}
