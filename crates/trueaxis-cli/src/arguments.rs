@@ -309,23 +309,29 @@ pub fn approach(machine: &Machine, text: &str, problems: &mut Diagnostics) -> Op
     sound.then_some(approach)
 }
 
+/// Reads plain finite numbers; every one that is none is told.
+pub fn numbers(name: &str, text: &str, hint: &str, problems: &mut Diagnostics) -> Option<Vec<f64>> {
+    let read = words(text).into_iter().map(|word| {
+        let refuse = |e: QuantityError| {
+            problems.error(e.code(), argument(name), e.to_string(), hint);
+        };
+        parse_quantity(word, Dimension::Ratio).map_err(refuse).ok()
+    });
+    // All of them first, so that every problem is told.
+    let read: Vec<Option<f64>> = read.collect();
+    read.into_iter().collect()
+}
+
 /// Reads `x y z`: three finite numbers.
 pub fn vector(name: &str, text: &str, problems: &mut Diagnostics) -> Option<Vec3> {
     let words = words(text);
-    let mut refuse = |code, message| {
-        let hint = "three plain numbers, such as \"10 20 30\"";
-        problems.error(code, argument(name), message, hint);
-    };
-    let [x, y, z] = &words[..] else {
-        refuse("bad-vector", format!("`{text}` is {} numbers, not three", words.len()));
+    let hint = "three plain numbers, such as \"10 20 30\"";
+    if words.len() != 3 {
+        let message = format!("`{text}` is {} numbers, not three", words.len());
+        problems.error("bad-vector", argument(name), message, hint);
         return None;
-    };
-    let mut number = |word: &str| {
-        parse_quantity(word, Dimension::Ratio).map_err(|e| refuse(e.code(), e.to_string())).ok()
-    };
-    // All three first, so that every problem is told.
-    let (x, y, z) = (number(x), number(y), number(z));
-    Some(Vec3::new(x?, y?, z?))
+    }
+    numbers(name, text, hint, problems).map(|v| Vec3::new(v[0], v[1], v[2]))
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use trueaxis::files;
 use trueaxis::geometry::input::{Diagnostics, Dimension, Place, parse_quantity};
 use trueaxis::report::{Evaluation, evaluation_html, evaluation_json, evaluation_text};
 use trueaxis::verify::conditions::Conditions;
+use trueaxis::verify::import::Import;
 use trueaxis::verify::write_back::{FIRST_LINE, write_back};
 use trueaxis::verify::{Evaluated, Request, Standard, evaluate, iso230_3};
 
@@ -15,6 +16,8 @@ Examples:
   trueaxis evaluate iso230-2 examples/07_verify/x-axis-laser.csv --report x.html
   trueaxis evaluate iso230-2 examples/07_verify/x-axis-laser.csv --format json
   trueaxis evaluate iso230-4 examples/07_verify/circle-xy.csv
+  trueaxis evaluate iso230-4 PART.qif --feature \"Circle 1\"
+  trueaxis evaluate iso230-2 REPORT.md --import ecmc-md
 
 What is known beside the readings (instrument, temperature, nominal circle) stands in a TOML file of
 the same name beside the data, or in the one that --conditions names.
@@ -24,9 +27,15 @@ pub struct Arguments {
     /// The standard
     #[arg(value_name = "STANDARD")]
     standard: Name,
-    /// The readings: CSV with one line of headings, each with its unit
+    /// The readings: CSV with one line of headings, each with its unit; or a form of --import
     #[arg(value_name = "DATA.csv")]
     data: PathBuf,
+    /// The form of the readings; without it by the ending: .qif and .md, else csv
+    #[arg(long, value_name = "FORM")]
+    import: Option<Form>,
+    /// Which feature of a QIF file: its name or its id
+    #[arg(long, value_name = "NAME")]
+    feature: Option<String>,
     /// Instrument, temperature, nominal circle …, instead of the TOML file beside the data
     #[arg(long, value_name = "FILE.toml")]
     conditions: Option<PathBuf>,
@@ -45,6 +54,20 @@ pub struct Arguments {
     /// For people or for programs
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
+}
+
+/// The forms by their names.
+#[derive(Clone, Copy)]
+struct Form(Import);
+
+impl ValueEnum for Form {
+    fn value_variants<'a>() -> &'a [Self] {
+        const { &[Form(Import::ALL[0]), Form(Import::ALL[1]), Form(Import::ALL[2])] }
+    }
+
+    fn to_possible_value(&self) -> Option<clap::builder::PossibleValue> {
+        Some(clap::builder::PossibleValue::new(self.0.key()).help(self.0.title()))
+    }
 }
 
 /// The standards by their names.
@@ -85,16 +108,23 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     let file = arguments.data.display().to_string();
     let text = files::text(&arguments.data, "a table of readings (CSV)", &mut problems);
+    let standard = arguments.standard.0;
+    let import = arguments.import.map_or_else(|| Import::of(&arguments.data), |form| form.0);
     let evaluated = text.and_then(|text| {
+        let feature = arguments.feature.as_deref();
+        let read = import.read(standard, &file, &text, feature, &mut problems)?;
+        conditions = read.conditions(&conditions);
         let request = Request {
-            standard: arguments.standard.0,
+            standard,
             file: &file,
-            text: &text,
+            text: read.table(),
             conditions: &conditions,
             conditions_file: &conditions_file,
             window_s: window_s.unwrap_or(iso230_3::HOUR_S),
         };
-        evaluate(&request, &mut problems)
+        let mut evaluated = evaluate(&request, &mut problems)?;
+        read.finish(&mut evaluated, &file, &mut problems);
+        Some(evaluated)
     });
     let table = table(arguments, &file, &conditions, evaluated.as_ref(), &mut problems);
     let list = problems.clone();

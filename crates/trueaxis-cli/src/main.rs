@@ -6,6 +6,7 @@
 
 mod arguments;
 mod check;
+mod compensate;
 mod evaluate;
 mod identify;
 mod numbers;
@@ -33,6 +34,7 @@ Examples:
   trueaxis simulate machines/i5-engraver/machine.toml examples/02_simulate/ring-fanuc.nc
   trueaxis predict examples/03_predict/nas979-on-xkas2525.toml
   trueaxis evaluate iso230-2 examples/07_verify/x-axis-laser.csv --report x.html
+  trueaxis compensate values machines/gantry-001/machine.toml --axis X --step 500
   trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml
 
 Exit status: 0 done, 1 the verdict is no, 2 unusable input or arguments.")]
@@ -57,6 +59,8 @@ enum Verb {
     Identify(identify::Arguments),
     /// Predict: will the test piece be good, and which error costs how much of it
     Predict(predict::Arguments),
+    /// Compensate: what the control has to add to its commands
+    Compensate(compensate::Arguments),
     /// Verify: readings of instruments by ISO 230: positioning, circles, diagonals, drift, spindles
     Evaluate(evaluate::Arguments),
 }
@@ -75,6 +79,7 @@ fn main() -> ExitCode {
         Verb::Trace(arguments) => trace::run(&arguments),
         Verb::Identify(arguments) => identify::run(&arguments),
         Verb::Predict(arguments) => predict::run(&arguments),
+        Verb::Compensate(arguments) => compensate::run(&arguments),
         Verb::Evaluate(arguments) => evaluate::run(&arguments),
     };
     match outcome {

@@ -98,3 +98,32 @@ fn the_table_that_is_written_back_can_be_read() {
     assert_eq!(ran.status, 2);
     assert!(std::fs::read_to_string(taken).expect("the file").starts_with("position_mm"));
 }
+
+#[test]
+fn the_forms_of_others_are_read_or_refused_with_what_they_lack() {
+    let import = "crates/trueaxis-cli/tests/import/";
+    let (qif, report) = (format!("{import}circles.qif"), format!("{import}report.md"));
+    let ran = trueaxis(&["evaluate", "iso230-4", &qif, "--feature", "bore", "--format", "json"]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    assert!(ran.err.contains("note[probe-radius]") && ran.err.contains("note[feature-points]"));
+    assert!((ran.json()["G_ccw_um"].as_f64().expect("G") - 6.0).abs() < 2e-3);
+    for (arguments, code, words) in [
+        (vec!["iso230-4", &qif], "which-feature", "bore, boss"),
+        (vec!["iso230-4", &qif, "--feature", "hole"], "unknown-feature", "`hole`"),
+        (vec!["iso230-2", &qif], "no-such-readings", "no runs and no directions"),
+        (vec!["iso230-4", &report], "no-such-readings", "use iso230-2"),
+        (vec!["iso230-4", &report, "--import", "qif"], "bad-xml", "report.md:"),
+        (vec!["iso230-2", DATA, "--import", "ecmc-md"], "empty-table", "no readings"),
+    ] {
+        let ran = trueaxis(&[&["evaluate"], &arguments[..]].concat());
+        assert_eq!((ran.status, ran.out.as_str()), (2, ""), "{}", ran.err);
+        assert!(ran.err.contains(&format!("error[{code}]")), "{code}: {}", ran.err);
+        assert!(ran.err.contains(words), "{words}: {}", ran.err);
+    }
+    let ran = trueaxis(&["evaluate", "iso230-2", &report, "--format", "json"]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    // R and E are not the standard's, B is; each with its line.
+    assert_eq!(ran.err.matches("warning[not-by-the-standard]").count(), 2, "{}", ran.err);
+    assert!(ran.err.contains("prints E = 2.00 µm; by ISO 230-2:2014 E is 4.00 µm"));
+    assert!(ran.err.contains("report.md:39:1"));
+}

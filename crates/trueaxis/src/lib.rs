@@ -7,14 +7,16 @@
 //!   deviations, troubles;
 //! - *predict*: [`predict`](mod@predict): is the test piece that this machine cuts within its
 //!   tolerances, how sure is that, and which error is to blame;
-//! - *identify*: [`identify`]: the expansion of a scale from laser runs at two temperatures, thermal
-//!   models of errors from logs;
+//! - *identify*: [`identify`]: errors of the machine from any mix of instruments, the expansion of
+//!   a scale, thermal models from logs; [`measure`]: what instruments read;
+//! - *compensate*: [`compensate`]: what the control has to add to its commands;
 //! - *verify*: [`verify`]: readings of instruments evaluated by ISO 230;
 //! - [`report`]: all that as text, JSON and self-contained HTML pages.
 //!
 //! The nouns live in crates of their own and are handed on here: [`geometry`], [`machine`],
 //! [`part`].
 
+pub mod compensate;
 pub mod files;
 pub mod identify;
 pub mod measure;

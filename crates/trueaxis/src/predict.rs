@@ -22,7 +22,7 @@ pub use cutting::{Cutting, DatumAxis, Reference};
 pub use judge::{Bench, Judge};
 pub use monte_carlo::{Sampling, Spread, monte_carlo};
 pub use sensitivity::{Sensitivity, propagate, sensitivities};
-pub use study::{Decision, Published, PublishedRow, Study, Variant, read_study};
+pub use study::{Decision, Published, PublishedRow, Study, Variant, parse_study, read_study};
 pub use temperatures::{Pace, RunningTemperatures};
 
 use trueaxis_geometry::Vec3;

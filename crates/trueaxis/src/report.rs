@@ -4,6 +4,7 @@
 //! page that opens offline; [`simulation_text`], [`simulation_json`] and [`simulation_html`] are the
 //! same for a simulation.
 
+mod compensation;
 mod evaluation;
 mod evaluation_circular;
 mod evaluation_html;
@@ -25,6 +26,9 @@ mod text;
 mod thermal;
 mod thermal_page;
 
+pub use compensation::{
+    compensation_csv, compensation_json, compensation_text, compensation_warnings,
+};
 pub use evaluation::{Evaluation, evaluation_text};
 pub use evaluation_html::evaluation_html;
 pub use evaluation_json::evaluation_json;

@@ -7,9 +7,10 @@
 //!   motion of rotary axes.
 //!
 //! Every standard reads a table of named columns ([`sheet`]) and what is known beside it
-//! ([`conditions`]). What a test lacks is a diagnostic with the clause; what can be evaluated is.
+//! ([`conditions`]); the forms of others become such tables in [`import`]. What a test lacks is a diagnostic with the clause; what can be evaluated is.
 
 pub mod conditions;
+pub mod import;
 pub mod iso230_2;
 pub mod iso230_3;
 pub mod iso230_4;

@@ -2,6 +2,8 @@
 
 #![allow(clippy::print_stdout, reason = "the table of differences")]
 
+#[path = "verify/imports.rs"]
+mod imports;
 #[path = "verify/laws.rs"]
 mod laws;
 #[path = "verify/reports.rs"]
@@ -72,6 +74,34 @@ fn oracle_numpy_iso_230_2() {
         for (key, value) in figures.as_object().expect("figures") {
             near(&found[format!("{key}_{unit}")], value, 1e-9, &format!("{name} {key}"));
         }
+    }
+}
+
+/// oracles/positioning_others.py (plain Python, from the definitions).
+#[test]
+fn oracle_python_vdi_3441_and_b5_54() {
+    let all = expected("positioning-others.json");
+    for (name, standards) in all.as_object().expect("cases") {
+        let unit = if name.starts_with('c') { "arcsec" } else { "um" };
+        for (standard, key, group) in
+            [(Standard::Vdi3441, "vdi3441", "vdi3441"), (Standard::B5_54, "b5_54", "b5_54_form")]
+        {
+            let found = example(standard, name);
+            for (figure, value) in standards[key].as_object().expect("figures") {
+                let ours = &found[group][format!("{figure}_{unit}")];
+                near(ours, value, 1e-9, &format!("{name} {key} {figure}"));
+            }
+        }
+    }
+}
+
+/// oracles/iso230.py (numpy): GB/T 17421.2 has the figures of ISO 230-2.
+#[test]
+fn oracle_numpy_gbt_17421_2() {
+    let figures = &expected("iso230-2.json")["x-axis-laser"];
+    let found = example(Standard::Gbt17421_2, "x-axis-laser");
+    for (key, value) in figures.as_object().expect("figures") {
+        near(&found[format!("{key}_um")], value, 1e-9, key);
     }
 }
 

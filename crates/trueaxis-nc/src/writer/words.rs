@@ -164,7 +164,10 @@ impl Writer {
         let decimals = self.decimals.feed;
         let speed = increments(speed, decimals, "S")?;
         let code: &[u8] = match turning {
-            Turning::Stopped => return Ok(self.line(b"M5")),
+            Turning::Stopped => {
+                self.line(b"M5");
+                return Ok(());
+            }
             Turning::Clockwise => b"M3",
             Turning::CounterClockwise => b"M4",
         };

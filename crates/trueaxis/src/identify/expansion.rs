@@ -12,6 +12,10 @@ use trueaxis_geometry::input::{CsvTable, Diagnostics, Dimension, Measured, Secti
 
 /// Temperatures nearer than this say little about an expansion, K.
 const LITTLE_K: f64 = 1.0;
+/// A scale warmer than this was perhaps written in °F, °C.
+const WARM_CELSIUS: f64 = 45.0;
+/// No scale grows more, or shrinks, 1/K.
+const POSSIBLE_PER_K: std::ops::RangeInclusive<f64> = -1e-6..=50e-6;
 /// The uncertainty of a temperature where none is stated, K: a usual contact sensor.
 const SENSOR_U_K: f64 = 0.1;
 /// One strange run of m leaves (m − 1)² times as much in itself as, by the common geometry, in each
@@ -71,10 +75,15 @@ pub fn read_runs(path: &Path) -> (Option<Runs>, Diagnostics) {
     let Some(text) = files::text(path, "a file of laser runs (TOML)", &mut problems) else {
         return (None, problems);
     };
+    parse_runs(path, &text)
+}
+
+/// The same of a text; its table is looked for beside `path`.
+pub fn parse_runs(path: &Path, text: &str) -> (Option<Runs>, Diagnostics) {
     let file = path.display().to_string();
-    let source = Source::new(&file, &text);
+    let source = Source::new(&file, text);
     let runs = source.read(|root| read(root, path));
-    problems.append(source.finish());
+    let problems = source.finish();
     (runs.filter(|_| !problems.has_errors()), problems)
 }
 
@@ -95,8 +104,10 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Runs> {
     root.text("source");
     root.require("run", "[run.cold] temperature = \"29.3 degC\"");
     let mut temperatures = Vec::new();
+    let mut stated = 0;
     root.section("run", |section| {
         for (key, _, item) in section.entries() {
+            stated += 1;
             let read = |s: &Section<'_>| {
                 let hint = "of the scale during the run, such as \"29.3 ± 0.1 degC\"";
                 s.require("temperature", hint)?.measured(Dimension::Temperature)
@@ -114,7 +125,18 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Runs> {
         runs.extend(errors_mm.map(|errors_mm| Run { name, celsius, errors_mm }));
     }
     let positions_mm = positions_mm.unwrap_or_default();
-    check(root, &positions_mm, &runs);
+    for column in &table.columns {
+        let name = column.name.rsplit_once('_').map_or(&*column.name, |(name, _)| name);
+        if name != "position" && !runs.iter().any(|r| r.name == name) && !problems.has_errors() {
+            let message = format!("column `{}` is not used", column.name);
+            let hint = format!("[run.{name}] temperature = \"25 ± 0.1 degC\" would make it a run");
+            problems.warn("unused-column", column.place.clone(), message, &hint);
+        }
+    }
+    // Where some could not be read, that was told; they are not too few besides.
+    if runs.len() == stated {
+        check(root, &positions_mm, &runs);
+    }
     root.take_over(problems);
     Some(Runs { name, positions_mm, runs })
 }
@@ -168,6 +190,12 @@ fn check(root: &Section<'_>, positions_mm: &[f64], runs: &[Run]) {
         }
         _ => {}
     }
+    for run in runs.iter().filter(|r| (WARM_CELSIUS..=150.0).contains(&r.celsius.value)) {
+        let celsius = run.celsius.value;
+        let message = format!("`{}`: {celsius} °C is warm for a scale", run.name);
+        let hint = format!("is it Fahrenheit? that would be {:.1} °C", (celsius - 32.0) / 1.8);
+        root.warn("warm-scale", message, &hint);
+    }
     for run in runs.iter().filter(|r| !(-40.0..=150.0).contains(&r.celsius.value)) {
         let message = format!("`{}`: {} °C has no machine", run.name, run.celsius.value);
         root.error("impossible-temperature", message, "°C = (°F − 32)/1.8");
@@ -214,7 +242,7 @@ pub fn identify_expansion(data: &Runs) -> Expansion {
         u_per_k,
         slope_difference_per_k: (slopes[warmest] - slopes[coldest])
             / (celsius[warmest] - celsius[coldest]),
-        warnings: warnings(data, &by_run),
+        warnings: warnings(data, &by_run, (per_k, u_per_k)),
         slopes,
         residual_mm,
         materials: materials(per_k, u_per_k),
@@ -253,8 +281,16 @@ fn residuals(data: &Runs, p: &[f64], t: &[f64], per_k: f64) -> Vec<Vec<f64>> {
     left.iter().zip(&of_run).map(centred).collect()
 }
 
-fn warnings(data: &Runs, residuals: &[Vec<f64>]) -> Vec<String> {
+fn warnings(data: &Runs, residuals: &[Vec<f64>], (per_k, u_per_k): (f64, f64)) -> Vec<String> {
     let mut warnings = Vec::new();
+    if per_k - 2.0 * u_per_k > *POSSIBLE_PER_K.end()
+        || per_k + 2.0 * u_per_k < *POSSIBLE_PER_K.start()
+    {
+        warnings.push(format!(
+            "no scale has {:.3} µm/(m·K): are two temperatures or two columns swapped, or a unit wrong?",
+            per_k * 1e6
+        ));
+    }
     if data.runs.iter().any(|r| r.celsius.u.is_none()) {
         warnings.push(format!(
             "no uncertainty of the temperature is stated for some runs: ± {SENSOR_U_K} K taken"

@@ -124,10 +124,15 @@ pub fn read_hole_study(path: &Path) -> (Option<HoleStudy>, Diagnostics) {
     let Some(text) = files::text(path, "a study file (TOML)", &mut problems) else {
         return (None, problems);
     };
+    parse_hole_study(path, &text)
+}
+
+/// The same of a text; its machine is looked for beside `path`.
+pub fn parse_hole_study(path: &Path, text: &str) -> (Option<HoleStudy>, Diagnostics) {
     let file = path.display().to_string();
-    let source = Source::new(&file, &text);
+    let source = Source::new(&file, text);
     let study = source.read(|root| read(root, path));
-    problems.append(source.finish());
+    let problems = source.finish();
     (study.filter(|_| !problems.has_errors()), problems)
 }
 

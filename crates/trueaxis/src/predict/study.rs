@@ -130,10 +130,15 @@ pub fn read_study(path: &Path) -> (Option<Study>, Diagnostics) {
     let Some(text) = files::text(path, "a study file (TOML)", &mut problems) else {
         return (None, problems);
     };
+    parse_study(path, &text)
+}
+
+/// The same of a text; what it names is looked for beside `path`.
+pub fn parse_study(path: &Path, text: &str) -> (Option<Study>, Diagnostics) {
     let file = path.display().to_string();
-    let source = Source::new(&file, &text);
+    let source = Source::new(&file, text);
     let study = source.read(|root| read(root, path));
-    problems.append(source.finish());
+    let problems = source.finish();
     (study.filter(|_| !problems.has_errors()), problems)
 }
 

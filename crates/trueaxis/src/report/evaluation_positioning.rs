@@ -242,12 +242,15 @@ pub(super) fn json(m: &Measurement, r: &Positioning, map: &mut Map<String, Value
     put(format!("travel_{unit}"), json!(place(r.kind, m.length())));
     put("positions".into(), r.positions.iter().map(|p| position(r.kind, p)).collect());
     put("budget".into(), budget_json(r));
-    let (unit, scale) = json_units(r.kind)[0];
-    let figure = |v: Option<f64>| json!(v.map(|v| v * scale));
     let (v, b) = (&r.others.vdi3441, &r.others.b554);
     let keyed = |pairs: &[(&str, Option<f64>)]| -> Value {
-        let entry = |(key, v): &(&str, Option<f64>)| (format!("{key}_{unit}"), figure(*v));
-        Value::Object(pairs.iter().map(entry).collect())
+        let entries = json_units(r.kind).iter().flat_map(|(unit, scale)| {
+            let entry = move |(key, v): &(&str, Option<f64>)| {
+                (format!("{key}_{unit}"), json!(v.map(|v| v * scale)))
+            };
+            pairs.iter().map(entry)
+        });
+        Value::Object(entries.collect())
     };
     put("vdi3441".into(), keyed(&[("P", v.p), ("Pa", v.pa), ("Ps", v.ps), ("U", v.u)]));
     let b = [

@@ -170,7 +170,10 @@ pub fn unsound_temperature(value_c: f64) -> Option<String> {
     let celsius = (value_c - 32.0) / 1.8;
     Some(match () {
         () if (250.0..=340.0).contains(&value_c) => {
-            format!("is it kelvin? that would be {:.1} °C", value_c - 273.15)
+            format!(
+                "is it kelvin? that would be {:.1} °C; or are columns swapped?",
+                value_c - 273.15
+            )
         }
         () if SOUND_TEMPERATURES_C.contains(&celsius) => {
             format!("is it Fahrenheit? that would be {celsius:.1} °C; or are columns swapped?")

@@ -41,6 +41,9 @@ pub struct Drift {
     pub channels: Vec<Channel>,
 }
 
+/// No part of a machine begins a test warmer than this, °C.
+const WARM_CELSIUS: f64 = 45.0;
+
 fn dimension(name: &str) -> Option<Dimension> {
     let of = [Dimension::Length, Dimension::Angle, Dimension::Temperature];
     of.into_iter().find(|d| Unit::find(heading(name).1, *d).is_ok())
@@ -92,6 +95,15 @@ pub fn evaluate(
             let message = format!("channel `{}` never changes", column.name);
             let hint = "is the sensor stuck or not connected? it is shown like the others";
             problems.warn("stuck-channel", column.place.clone(), message, hint);
+        }
+        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+        if dimension == Dimension::Temperature && least > WARM_CELSIUS {
+            let message = format!("channel `{name}` never falls below {least:.1} °C");
+            let hint = format!(
+                "is it Fahrenheit? that would be {:.1} °C; or are columns swapped?",
+                (least - 32.0) / 1.8
+            );
+            problems.warn("temperature-range", column.place.clone(), message, &hint);
         }
         channels.push(channel(name, dimension, values, &times_s, window_s));
     }

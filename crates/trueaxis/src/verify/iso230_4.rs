@@ -29,6 +29,9 @@ use crate::verify::conditions::Circle;
 use trueaxis_geometry::input::Diagnostics;
 use trueaxis_part::fit::circle::{Zone, least_squares};
 
+/// No machine is so far off its radius.
+const WRONG_RADIUS: f64 = 0.02;
+
 /// One path, evaluated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PathResult {
@@ -96,6 +99,16 @@ pub fn evaluate(
         let message = "the nominal radius is not known: no F, no D".to_owned();
         let hint = "write [circle] radius = \"150 mm\" in the conditions file, or --radius 150";
         problems.warn("missing-radius", place.clone(), message, hint);
+    }
+    if let (Some(nominal), Some(path)) = (points.radius_mm, paths.first())
+        && (path.circle.radius_mm - nominal).abs() > WRONG_RADIUS * nominal
+    {
+        let message = format!(
+            "the circle has a radius of {:.3} mm, the nominal one {nominal} mm",
+            path.circle.radius_mm
+        );
+        let hint = "is the nominal radius or a unit wrong? F and D are those of the stated one";
+        problems.warn("wrong-radius", place.clone(), message, hint);
     }
     let sense = |s: Sense| paths.iter().find(|p| p.path.sense == s);
     let both = sense(Sense::Clockwise).zip(sense(Sense::CounterClockwise));

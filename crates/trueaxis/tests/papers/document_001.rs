@@ -1,6 +1,7 @@
 //! Our side of document-001.toml.
 
 use crate::{Ours, shop};
+use trueaxis::compensate::values::{Order, ValueTable, compensation_values};
 use trueaxis::geometry::Vec3;
 use trueaxis::geometry::input::Diagnostics;
 use trueaxis::identify::expansion::{identify_expansion, read_runs};
@@ -8,6 +9,7 @@ use trueaxis::machine::Machine;
 use trueaxis::machine::errors::{ErrorValues, Interpolation, Spline};
 use trueaxis::machine::heat::field::{ScaleField, Source};
 use trueaxis::machine::heat::{Conditions, ErrorPart};
+use trueaxis::predict::holes::Compensation;
 
 pub const CLAIMS: &[(&str, Ours)] = &[
     ("001-machine", || both(TESTS, machine_um)),
@@ -21,6 +23,8 @@ pub const CLAIMS: &[(&str, Ours)] = &[
         let before = both(TESTS, whole_um);
         before.iter().zip([7.1, 8.3]).map(|(b, after)| 100.0 * (1.0 - after / b.abs())).collect()
     }),
+    ("001-values", || values(|table| table.nodes[0].value.increments as f64)),
+    ("001-values-machine-only", || values(|table| 1e3 * table.worst[1])),
     ("001-expansion", || {
         let file = shop::root().join("examples/05_identify/y-axis-two-temperatures.toml");
         let (runs, problems) = read_runs(&file);
@@ -62,6 +66,25 @@ fn both(tests: [Test; 2], value: impl Fn(&Machine, &At) -> f64) -> Vec<f64> {
         value(&machine, &At { command, errors, component })
     };
     tests.into_iter().map(one).collect()
+}
+
+/// What `compensate values` says at the two ends, in increments of 1 µm or in µm.
+fn values(of: impl Fn(&ValueTable) -> f64) -> Vec<f64> {
+    let one = |(position, temperatures, component): Test| {
+        let mut problems = Diagnostics::new();
+        let conditions = Conditions::typed("test", temperatures, &mut problems).expect("sound");
+        let machine = shop::machine("gantry-001").at(&conditions, &mut problems).expect("sensors");
+        let command = shop::command(&machine, position);
+        let order = Order {
+            axis: component,
+            command,
+            positions: vec![command[component]],
+            increment: 1e-3,
+            of: Compensation::Comprehensive,
+        };
+        of(&compensation_values(&machine, &order).expect("inside the table"))
+    };
+    TESTS.into_iter().map(one).collect()
 }
 
 fn whole_um(machine: &Machine, at: &At) -> f64 {

@@ -19,6 +19,7 @@ pub const FIGURES: [(&str, &str); 12] = [
 ];
 
 pub struct Report {
+    pub path: std::path::PathBuf,
     pub name: String,
     /// The readings as a table that the product reads.
     pub table: String,
@@ -49,7 +50,8 @@ pub fn read_all(folder: &Path) -> Vec<Report> {
             };
             if text.contains("### Data forward direction") {
                 let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-                reports.push(Report { name, table: table(&text), text });
+                let table = table(&text);
+                reports.push(Report { path, name, table, text });
             }
         }
     }

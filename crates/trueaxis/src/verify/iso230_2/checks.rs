@@ -20,6 +20,8 @@ const OUTLIER_RUN: f64 = 4.0;
 const OUTLIER_READING: f64 = 6.0;
 /// Outlying readings that are named one by one.
 const MOST_NAMED: usize = 10;
+/// So many times wider than the usual gap is the one between clusters of targets.
+const CLUSTERED: f64 = 100.0;
 /// A deviation larger than this, mm or rad, is more likely a slip.
 const LARGEST_DEVIATION: f64 = 1.0;
 
@@ -82,7 +84,7 @@ impl Check<'_> {
 
     fn in_words(&self, position: f64) -> String {
         match self.m.kind {
-            AxisKind::Linear => format!("{position} mm"),
+            AxisKind::Linear => format!("{} mm", (position * 1e9).round() / 1e9),
             AxisKind::Rotary => format!("{} deg", (position.to_degrees() * 1e9).round() / 1e9),
         }
     }
@@ -139,6 +141,14 @@ impl Check<'_> {
                         one on the display";
             self.warn("unequal-targets", message, hint);
         }
+        let largest = gaps.iter().copied().fold(0.0, f64::max);
+        let alone = self.m.targets.iter().all(|t| t.up.len() <= 1 && t.down.len() <= 1);
+        if alone && largest > CLUSTERED * middle {
+            let message =
+                format!("{} targets stand in clusters, each with one reading", positions.len());
+            let hint = "are the columns of targets and actual positions swapped?";
+            self.warn("clustered-targets", message, hint);
+        }
         let even = gaps.iter().all(|gap| (gap - middle).abs() <= 1e-6 * middle);
         if even && gaps.len() > 2 {
             let message = "the targets are equally spaced".to_owned();
@@ -171,6 +181,12 @@ impl Check<'_> {
             let hint = "each target is evaluated with the readings it has";
             self.warn("unequal-runs", message, hint);
         }
+        let readings = || t.iter().flat_map(|t| t.up.iter().chain(&t.down));
+        if let Some(r) = readings().find(|r| r.run as usize > readings().count()) {
+            let message = format!("run {} of {} readings", r.run, readings().count());
+            let hint = "runs are counted 1, 2, 3 …; are the columns of runs and targets swapped?";
+            self.warn("strange-run", message, hint);
+        }
         let twice = |readings: &[Reading]| readings.windows(2).any(|w| w[0].run == w[1].run);
         if let Some(t) = t.iter().find(|t| twice(&t.up) || twice(&t.down)) {
             let message = format!(
@@ -186,7 +202,12 @@ impl Check<'_> {
     }
 
     fn deviations(&mut self) {
-        let large = |r: &&Reading| r.deviation.abs() > LARGEST_DEVIATION;
+        // No axis is further off than it moves.
+        let limit = match self.m.length() {
+            length if length > 0.0 => LARGEST_DEVIATION.min(length),
+            _ => LARGEST_DEVIATION,
+        };
+        let large = |r: &&Reading| r.deviation.abs() > limit;
         let of = |t: &Target| t.up.iter().chain(&t.down).find(large).copied();
         let found = self.m.targets.iter().find_map(|t| of(t).map(|r| (t.position, r)));
         if let Some((position, reading)) = found {
@@ -362,6 +383,21 @@ mod tests {
         assert!(codes(&swapped).contains(&"large-deviation"));
         let near = table(|_, _, _, v| Some(v)).replace("305.7,3,up", "305.71,3,up");
         assert!(codes(&near).contains(&"unequal-targets"));
+        // Deviations in place of targets, targets in place of runs, readings in place of targets.
+        let mut swapped = ["target_mm,run,direction,deviation_um\n"; 3].map(str::to_owned);
+        for (i, target) in [0, 100, 200, 300, 400, 500].into_iter().enumerate() {
+            for run in 1..=5 {
+                let deviation = ((i * 7 + run * 3) % 5) as f64 - 2.0;
+                swapped[0] += &format!("{},{run},up,{target}\n", deviation * 0.05);
+                swapped[1] += &format!("{run},{target},up,{deviation}\n");
+                let actual = f64::from(target) + deviation * 1e-3 + run as f64 * 1e-5;
+                swapped[2] += &format!("{actual},{run},up,{}\n", -deviation);
+            }
+        }
+        let codes = swapped.map(|table| codes(&table));
+        assert!(codes[0].contains(&"large-deviation"), "{codes:?}");
+        assert!(codes[1].contains(&"strange-run"), "{codes:?}");
+        assert!(codes[2].contains(&"clustered-targets"), "{codes:?}");
     }
 
     #[test]

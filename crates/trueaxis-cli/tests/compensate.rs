@@ -1,0 +1,86 @@
+//! `trueaxis compensate` as a user sees it.
+
+mod command;
+
+use command::{Folder, trueaxis};
+
+const GANTRY: &str = "machines/gantry-001/machine.toml";
+const MILL: &str = "machines/three-axis-mill/machine.toml";
+
+/// Document 001: the values at the two ends, and both figures of the warning.
+#[test]
+fn the_ends_of_the_gantry() {
+    for (at, temperatures, value, um) in [
+        ("X=3500", "scale_x=30.5 workpiece=30.5", 54, [-54.1, -485.1]),
+        ("Y=2300", "scale_y=31.2 workpiece=31.2", 87, [-86.93, -340.03]),
+    ] {
+        let arguments = ["compensate", "values", GANTRY, "--at", at, "--temperature", temperatures];
+        let ran = trueaxis(&[&arguments[..], &["--format", "json"]].concat());
+        assert_eq!(ran.status, 0, "{}", ran.err);
+        assert!(ran.err.contains("MAKES THE PART WORSE"), "{}", ran.err);
+        let found = ran.json();
+        assert_eq!(found["schema"], "trueaxis/compensate/1");
+        let node = &found["axes"][0]["positions"][0];
+        assert_eq!(node["value_increments"], value);
+        for (key, expected) in ["none", "machine"].into_iter().zip(um) {
+            let part = node["part_error_um"][key].as_f64().expect("a number");
+            assert!((part - expected).abs() < 0.15, "{key}: {part}, not {expected}");
+        }
+        // The text has the warning on top, and both figures.
+        let ran = trueaxis(&arguments);
+        assert!(ran.out.contains("WARNING") && !ran.err.contains("WORSE"), "{}", ran.out);
+        let [before, after] = um.map(|v: f64| format!("{:.1} µm", v.abs()));
+        assert!(ran.out.contains(&before), "{}", ran.out);
+        assert!(ran.out.contains(&after) || at == "Y=2300", "{}", ran.out);
+    }
+}
+
+#[test]
+fn a_table_goes_into_a_file_and_over_nothing_else() {
+    let folder = Folder::new("compensate-file");
+    let path = folder.path("x.csv");
+    let arguments = [
+        "compensate",
+        "values",
+        MILL,
+        "--axis",
+        "X",
+        "--step",
+        "100",
+        "--format",
+        "csv",
+        "-o",
+        &path,
+    ];
+    let ran = trueaxis(&arguments);
+    assert_eq!((ran.status, ran.out.as_str()), (0, ""), "{}", ran.err);
+    let text = std::fs::read_to_string(&path).expect("the table");
+    assert_eq!(text.lines().filter(|l| !l.starts_with('#')).count(), 8, "{text}");
+    // Both directions of approach stand in it.
+    assert!(text.contains(",value_up_increments,value_down_increments\n-300,-8,"), "{text}");
+    // It may be written again; what is something else may not.
+    assert_eq!(trueaxis(&arguments).status, 0);
+    folder.file("x.csv", "mine");
+    assert_eq!(trueaxis(&arguments).status, 2);
+    assert_eq!(folder.names(), ["x.csv"]);
+}
+
+#[test]
+fn mistakes_are_named() {
+    for (arguments, code) in [
+        (vec!["--axis", "Q"], "unknown-axis"),
+        (vec!["--axis", "X", "--step", "0"], "not-positive"),
+        (vec!["--axis", "X", "--step", "1e-9"], "no-positions"),
+        (vec!["--axis", "X", "--targets", "0 x"], "not-a-number"),
+        (vec!["--axis", "X", "--increment", "1"], "missing-unit"),
+        (vec!["--axis", "X", "--increment", "0 um"], "not-positive"),
+        (vec!["--axis", "X", "--increment", "1e-300 um"], "not-finite"),
+        (vec!["--at", ""], "missing-axis"),
+        (vec!["--at", "X=nan"], "not-finite"),
+        (vec!["--at", "X=0 Y=0", "--format", "csv"], "one-axis"),
+    ] {
+        let ran = trueaxis(&[&["compensate", "values", MILL], &arguments[..]].concat());
+        assert_eq!((ran.status, ran.out.as_str()), (2, ""), "{arguments:?} {}", ran.err);
+        assert!(ran.err.contains(&format!("error[{code}]")), "{code}: {}", ran.err);
+    }
+}

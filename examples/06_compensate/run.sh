@@ -1,0 +1,14 @@
+# What must the control add to its commands? A gantry in a warm hall (document 001).
+set -e
+trueaxis=${TRUEAXIS:-target/release/trueaxis}
+out=${OUT:-.}
+gantry=machines/gantry-001/machine.toml
+# The two ends of document 001: the machine alone would make the part 9 and 4 times worse.
+$trueaxis compensate values $gantry --at "X=3500" --temperature "scale_x=30.5 workpiece=30.5"
+$trueaxis compensate values $gantry --at "Y=2300" --temperature "scale_y=31.2 workpiece=31.2"
+# A table over the travel, for a control.
+$trueaxis compensate values $gantry --axis X --step 350 --temperature "scale_x=30.5 workpiece=30.5"
+$trueaxis compensate values $gantry --axis X --step 350 --temperature "scale_x=30.5 workpiece=30.5" --format csv -o "$out/gantry-x.csv"
+# Both directions of approach, and a rotary axis in ten thousandths of a degree.
+$trueaxis compensate values machines/three-axis-mill/machine.toml --axis X --step 60
+$trueaxis compensate values machines/xkas2525/machine.toml --axis C --step 30 --format json
