@@ -23,7 +23,9 @@ pub const LEAST_SINGULAR_VALUE: f64 = 1e-6;
 /// A column of J that is so much shorter than the longest is rounding: no reading depends on it.
 const SHORTEST_COLUMN: f64 = 1e-11;
 /// Steps below this share of a standard uncertainty change nothing.
-const SMALLEST_STEP: f64 = 1e-4;
+const SMALLEST_STEP: f64 = 1e-9;
+/// Steps below this share that do not shrink any more are rounding.
+const ROUNDING_STEP: f64 = 1e-4;
 /// More passes than this do not help.
 const MOST_PASSES: usize = 60;
 /// Rows that one thread takes at a time: fixed, so that sums do not depend on the machine.
@@ -319,7 +321,8 @@ pub fn fit(design: &Design, readings: &Readings, weights: &[f64]) -> Result<Fit,
             return Err(FitError::NotConverged { passes });
         }
         // Steps shrink by a constant factor; what is still to come follows from the last two.
-        if length.min(length * length / before) < SMALLEST_STEP {
+        let rounding = length < ROUNDING_STEP && length > 0.5 * before;
+        if rounding || length.min(length * length / before) < SMALLEST_STEP {
             let (chi_square, numbers) = rows.chi_square(&residuals);
             return Ok(Fit {
                 values: values.as_slice().to_vec(),
