@@ -449,28 +449,50 @@ impl Machine {
     /// `parent_from_link`, the equation at the top of this file.
     pub(crate) fn link(&self, i: usize, command: &Command, errors: &BodyErrors) -> Link {
         let body = &self.bodies[i];
-        let location_error = self.error_pose(&errors.location);
-        let error_motion = self.error_pose(&errors.motion);
-        let Some(axis) = body.axis else {
-            return body.placement * location_error * body.mounting;
+        // Most errors of a machine are zero: then there is no product.
+        let displaced = |place: Link, six: &Six| match six.is_zero() {
+            true => place,
+            false => place * self.error_pose(six),
         };
-        let joint = nominal_motion(&self.axes[axis], command[axis]);
-        let moved = match (self.axes[axis].kind, body.error_frame, self.model.squareness) {
+        let Some(axis) = body.axis else {
+            return displaced(body.placement, &errors.location) * body.mounting;
+        };
+        let (axis, q) = (&self.axes[axis], command[axis]);
+        let moved = match (axis.kind, body.error_frame, self.model.squareness) {
             (AxisKind::Linear, _, Squareness::Direction) => {
                 // Only the direction of motion is tilted; what is carried keeps its attitude.
-                let tilted = Link::shift(location_error.linear() * joint.shift_mm());
-                Link::shift(errors.location.shift_mm()) * tilted * error_motion
+                let tilt = self.error_pose(&errors.location);
+                let along = tilt.linear() * nominal_motion(axis, q).shift_mm();
+                let tilted = body.placement * Link::shift(errors.location.shift_mm() + along);
+                displaced(tilted, &errors.motion)
             }
-            (AxisKind::Rotary, ErrorFrame::Fixed, _) => location_error * error_motion * joint,
-            _ => location_error * joint * error_motion,
+            (AxisKind::Rotary, ErrorFrame::Fixed, _) => {
+                let placed = displaced(displaced(body.placement, &errors.location), &errors.motion);
+                moved_by(placed, axis, q)
+            }
+            _ => {
+                let placed = displaced(body.placement, &errors.location);
+                displaced(moved_by(placed, axis, q), &errors.motion)
+            }
         };
-        body.placement * moved * body.mounting
+        moved * body.mounting
     }
 
     /// `shift(EX, EY, EZ) · turn(EA, EB, EC)`.
     fn error_pose(&self, six: &Six) -> Link {
         let linear = Mat3::identity() + six.rotation_minus_identity(self.model.rotation);
         Pose::new(linear, six.shift_mm())
+    }
+}
+
+/// `place · J(q)`; a linear axis turns nothing.
+pub(crate) fn moved_by(place: Link, axis: &Axis, q: f64) -> Link {
+    match axis.kind {
+        AxisKind::Linear => {
+            let along = place.linear() * (axis.direction * (axis.sense * q));
+            Pose::new(*place.linear(), place.shift_mm() + along)
+        }
+        AxisKind::Rotary => place * nominal_motion(axis, q),
     }
 }
 

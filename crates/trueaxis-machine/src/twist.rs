@@ -5,7 +5,7 @@
 //! ```
 
 use crate::axis::{AxisKind, Command};
-use crate::chain::{ErrorFrame, Link, Machine, Squareness, nominal_motion};
+use crate::chain::{ErrorFrame, Link, Machine, Squareness, moved_by};
 use crate::errors::{Component, ErrorIndex, ErrorKind, ErrorValues, MAX_BODIES};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Bed, Pose, Tool};
@@ -34,6 +34,7 @@ pub struct Twist {
 #[derive(Debug, Clone, Copy)]
 pub struct ErrorFrames {
     bodies: [BodyFrames; MAX_BODIES],
+    reference_from_tool: Link,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -47,6 +48,11 @@ struct BodyFrames {
 }
 
 impl ErrorFrames {
+    /// The nominal tool as the reference sees it.
+    pub fn reference_from_tool(&self) -> &Link {
+        &self.reference_from_tool
+    }
+
     /// How the tool moves per unit (mm or rad) of one error.
     ///
     /// # Example
@@ -118,7 +124,7 @@ impl Machine {
                 *frame = reference_from_bed * *frame;
             }
         }
-        ErrorFrames { bodies }
+        ErrorFrames { bodies, reference_from_tool: reference_from_bed * bed_from_body }
     }
 
     /// The frames of one body, and on to the next.
@@ -135,16 +141,16 @@ impl Machine {
             *bed_from_body = placed * body.mounting;
             return BodyFrames { frames: [placed; 2], side, tilted_mm: None };
         };
-        let joint = nominal_motion(&self.axes[axis], command[axis]);
-        let moved = placed * joint;
+        let (axis, q) = (&self.axes[axis], command[axis]);
+        let moved = moved_by(placed, axis, q);
         *bed_from_body = moved * body.mounting;
-        let linear = self.axes[axis].kind == AxisKind::Linear;
+        let linear = axis.kind == AxisKind::Linear;
         let stands_still = !linear && body.error_frame == ErrorFrame::Fixed;
         let direction_only = linear && self.model.squareness == Squareness::Direction;
         BodyFrames {
             frames: [placed, if stands_still { placed } else { moved }],
             side,
-            tilted_mm: direction_only.then_some(*joint.shift_mm()),
+            tilted_mm: direction_only.then(|| axis.direction * (axis.sense * q)),
         }
     }
 

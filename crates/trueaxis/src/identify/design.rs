@@ -5,15 +5,13 @@
 //! ```
 
 use super::term::{Basis, Term};
-use crate::measure::instrument::{SetupUnknown, View};
+use crate::measure::instrument::{SetupUnknown, Sight, View};
 use crate::measure::{Instrument, Readings};
 use nalgebra::DMatrix;
-use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_machine::chain::CommandFault;
 use trueaxis_machine::errors::{ErrorIndex, ErrorValues};
-use trueaxis_machine::twist::Reference;
 
 /// What is sought with which instruments on which machine.
 ///
@@ -174,7 +172,12 @@ impl Design {
         let instrument = &self.instruments[of];
         let command = &readings.commands[i];
         let errors = self.errors_at(command, &readings.approaches[i], values)?;
-        let view = instrument.view(&self.machine, command, &errors, readings.directions[i]);
+        let actual = instrument.tool_seen(&self.machine, command, &errors);
+        let nominal = match instrument.sight {
+            Sight::Turn => instrument.tool_seen(&self.machine, command, &ErrorValues::default()),
+            _ => actual, // no other reading asks for it
+        };
+        let view = View { nominal, actual, direction: readings.directions[i] };
         Ok(instrument.read(&view, self.setup(of, values)))
     }
 
@@ -185,11 +188,12 @@ impl Design {
         let of = readings.instruments[i] as usize;
         let instrument = &self.instruments[of];
         let (command, approach) = (&readings.commands[i], &readings.approaches[i]);
-        let view = self.nominal_view(instrument, command, readings.directions[i]);
+        let frames = self.machine.error_frames(command, instrument.reference);
+        let nominal = *frames.reference_from_tool();
+        let view = View { nominal, actual: nominal, direction: readings.directions[i] };
         let wrenches = instrument.wrenches(&view);
         let channels = instrument.sight.channels();
         out[..channels * n].fill(0.0);
-        let frames = self.machine.error_frames(command, instrument.reference);
         let phi = self.functions_at(command, approach);
         for (index, run) in &self.runs {
             let twist = frames.twist(*index);
@@ -227,14 +231,5 @@ impl Design {
         }
         let m = values.len() / n.max(1);
         DMatrix::from_vec(n, m, values)
-    }
-
-    fn nominal_view(&self, instrument: &Instrument, command: &Command, direction: Vec3) -> View {
-        let none = ErrorValues::default();
-        let nominal = match instrument.reference {
-            Reference::Workpiece => self.machine.pose(command, &none).relabel(),
-            Reference::Bed => self.machine.tool_on_bed(command, &none).relabel(),
-        };
-        View { nominal, actual: nominal, direction }
     }
 }

@@ -142,11 +142,16 @@ impl Instrument {
         errors: &ErrorValues,
         direction: Vec3,
     ) -> View {
-        let pose = |errors: &ErrorValues| match self.reference {
+        let nominal = self.tool_seen(machine, command, &ErrorValues::default());
+        View { nominal, actual: self.tool_seen(machine, command, errors), direction }
+    }
+
+    /// reference_from_tool at a command of a machine with these errors.
+    pub fn tool_seen(&self, machine: &Machine, command: &Command, errors: &ErrorValues) -> Link {
+        match self.reference {
             Reference::Workpiece => machine.pose(command, errors).relabel(),
             Reference::Bed => machine.tool_on_bed(command, errors).relabel(),
-        };
-        View { nominal: pose(&ErrorValues::default()), actual: pose(errors), direction }
+        }
     }
 
     /// What it reads at a command of the nominal machine in the nominal set-up.
