@@ -4,6 +4,7 @@
 //! page that opens offline; [`simulation_text`], [`simulation_json`] and [`simulation_html`] are the
 //! same for a simulation.
 
+mod comparison;
 mod evaluation;
 mod evaluation_circular;
 mod evaluation_html;
@@ -14,7 +15,9 @@ mod evaluation_positioning;
 mod holes;
 mod html;
 mod json;
+mod measurement;
 mod page;
+mod picture_page;
 mod plots;
 mod simulation;
 mod simulation_page;
@@ -22,12 +25,14 @@ mod simulation_plots;
 mod simulation_views;
 mod text;
 
+pub use comparison::{comparison_html, comparison_json, comparison_text};
 pub use evaluation::{Evaluation, evaluation_text};
 pub use evaluation_html::evaluation_html;
 pub use evaluation_json::evaluation_json;
 pub use holes::{holes_json, holes_text};
 pub use html::html;
 pub use json::json;
+pub use measurement::{MeasuredReport, measurement_html, measurement_json, measurement_text};
 pub use plots::DrawingError;
 pub use simulation::{Simulation, simulation_json, simulation_text, trouble_code, trouble_text};
 pub use simulation_page::simulation_html;
