@@ -12,6 +12,9 @@ $trueaxis evaluate iso230-4 $verify/circle-xy.csv --report "$out/circle.html"
 $trueaxis evaluate iso230-6 $verify/body-diagonals.csv --report "$out/diagonals.html"
 $trueaxis evaluate iso230-3 $verify/spindle-drift.csv --window "30 min" --report "$out/drift.html"
 $trueaxis evaluate iso230-7 $verify/spindle-motion.csv --report "$out/spindle.html"
+# Does the machine file predict what a probe-ball reads? The same readings again from their seed.
+$trueaxis verify $verify/probe-ball.toml --report "$out/probe-ball.html"
+$trueaxis measure $verify/probe-ball-campaign.toml -o "$out/readings" --truth "$out/truth.toml"
 # The measured error motion as a table for the machine file.
 mkdir -p "$out/mill"
 cp machines/three-axis-mill/machine.toml "$out/mill/machine.toml"

@@ -9,6 +9,7 @@ mod check;
 mod compensate;
 mod evaluate;
 mod identify;
+mod measure;
 mod numbers;
 mod output;
 mod path_file;
@@ -18,6 +19,7 @@ mod report_file;
 mod simulate;
 mod solve;
 mod trace;
+mod verify;
 
 use clap::{Parser, Subcommand};
 use output::Outcome;
@@ -35,6 +37,8 @@ Examples:
   trueaxis predict examples/03_predict/nas979-on-xkas2525.toml
   trueaxis evaluate iso230-2 examples/07_verify/x-axis-laser.csv --report x.html
   trueaxis compensate values machines/gantry-001/machine.toml --axis X --step 500
+  trueaxis measure examples/04_plan/probe-ball.toml
+  trueaxis verify examples/07_verify/probe-ball.toml
   trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml
 
 Exit status: 0 done, 1 the verdict is no, 2 unusable input or arguments.")]
@@ -55,6 +59,8 @@ enum Verb {
     Simulate(simulate::Arguments),
     /// Simulate: one block of a program through every stage, with the share of each error
     Trace(trace::Arguments),
+    /// Measure: what instruments would read on a machine whose errors are known
+    Measure(measure::Arguments),
     /// Identify: what the machine is like, from measurements
     Identify(identify::Arguments),
     /// Predict: will the test piece be good, and which error costs how much of it
@@ -63,6 +69,8 @@ enum Verb {
     Compensate(compensate::Arguments),
     /// Verify: readings of instruments by ISO 230: positioning, circles, diagonals, drift, spindles
     Evaluate(evaluate::Arguments),
+    /// Verify: readings against what a machine file predicts, or against other readings
+    Verify(verify::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -77,10 +85,12 @@ fn main() -> ExitCode {
         Verb::Solve(arguments) => solve::run(&arguments),
         Verb::Simulate(arguments) => simulate::run(&arguments),
         Verb::Trace(arguments) => trace::run(&arguments),
+        Verb::Measure(arguments) => measure::run(&arguments),
         Verb::Identify(arguments) => identify::run(&arguments),
         Verb::Predict(arguments) => predict::run(&arguments),
         Verb::Compensate(arguments) => compensate::run(&arguments),
         Verb::Evaluate(arguments) => evaluate::run(&arguments),
+        Verb::Verify(arguments) => verify::run(&arguments),
     };
     match outcome {
         Outcome::Done => ExitCode::SUCCESS,

@@ -10,6 +10,7 @@ pub mod instrument;
 mod kind;
 pub mod path;
 mod readings;
+pub mod virtual_campaign;
 
 pub use campaign::{Campaign, read_campaign};
 pub use instrument::Instrument;

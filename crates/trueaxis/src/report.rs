@@ -4,6 +4,7 @@
 //! page that opens offline; [`simulation_text`], [`simulation_json`] and [`simulation_html`] are the
 //! same for a simulation.
 
+mod comparison;
 mod compensation;
 mod evaluation;
 mod evaluation_circular;
@@ -16,7 +17,9 @@ mod holes;
 mod holes_html;
 mod html;
 mod json;
+mod measurement;
 mod page;
+mod picture_page;
 mod plots;
 mod simulation;
 mod simulation_page;
@@ -26,6 +29,7 @@ mod text;
 mod thermal;
 mod thermal_page;
 
+pub use comparison::{comparison_html, comparison_json, comparison_text};
 pub use compensation::{
     compensation_csv, compensation_json, compensation_text, compensation_warnings,
 };
@@ -36,6 +40,7 @@ pub use holes::{holes_json, holes_text};
 pub use holes_html::holes_html;
 pub use html::html;
 pub use json::json;
+pub use measurement::{MeasuredReport, measurement_html, measurement_json, measurement_text};
 pub use plots::DrawingError;
 pub use simulation::{Simulation, simulation_json, simulation_text, trouble_code, trouble_text};
 pub use simulation_page::simulation_html;

@@ -6,9 +6,12 @@
 //! - [`iso230_3`]: drift; [`iso230_4`]: circular tests; [`iso230_6`]: diagonals; [`iso230_7`]: error
 //!   motion of rotary axes.
 //!
+//! [`compare`] holds readings against a prediction, or against other readings.
+//!
 //! Every standard reads a table of named columns ([`sheet`]) and what is known beside it
 //! ([`conditions`]); the forms of others become such tables in [`import`]. What a test lacks is a diagnostic with the clause; what can be evaluated is.
 
+pub mod compare;
 pub mod conditions;
 pub mod import;
 pub mod iso230_2;

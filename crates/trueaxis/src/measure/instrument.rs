@@ -89,7 +89,8 @@ pub struct Instrument {
     pub reference_point_mm: Vec3,
     /// n where a station says nothing else, a unit vector in the frame of the reference.
     pub direction: Vec3,
-    /// What the reading is measured against: the length of a bar, the radius of a ball, mm.
+    /// What the reading is measured against: the length of a bar, the radius of a ball, mm; of a
+    /// probe-ball the distance from ball to probe, where the feed of a path counts.
     pub length_mm: f64,
     /// The standard uncertainty of one reading of each channel, mm or rad.
     pub noise: [f64; 3],

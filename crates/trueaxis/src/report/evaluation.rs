@@ -113,7 +113,8 @@ pub fn evaluation_text(evaluation: &Evaluation<'_>) -> String {
     out
 }
 
-fn write_block(out: &mut String, block: &Block) -> std::fmt::Result {
+/// A table for the terminal.
+pub(super) fn write_block(out: &mut String, block: &Block) -> std::fmt::Result {
     /// More rows are in the page and in JSON.
     const MOST_ROWS: usize = 60;
     writeln!(out, "\n  {}", block.title)?;

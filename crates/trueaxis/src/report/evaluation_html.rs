@@ -48,7 +48,7 @@ pub fn evaluation_html(evaluation: &Evaluation<'_>) -> Result<String, super::Dra
     Ok(page.into_string())
 }
 
-fn section(block: &Block) -> Markup {
+pub(super) fn section(block: &Block) -> Markup {
     let small = if block.headings.len() > 6 { "small" } else { "" };
     let side = |i: usize| if block.has_words(i) { "text-align:left" } else { "" };
     html! {

@@ -1,0 +1,55 @@
+//! A page of tables and pictures.
+
+use super::DrawingError;
+use super::evaluation::Block;
+use super::evaluation_html::section;
+use super::evaluation_plots::Picture;
+use super::page::STYLE;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+/// What stands on the page, from above.
+pub(super) struct PicturePage<'a> {
+    pub title: &'a str,
+    /// Under the title.
+    pub lines: &'a [String],
+    /// A verdict, if there is one.
+    pub verdict: Option<Markup>,
+    pub blocks: &'a [Block],
+    pub pictures: &'a [Picture],
+}
+
+/// The page as the text of an HTML file.
+pub(super) fn picture_page(page: &PicturePage<'_>) -> Result<String, DrawingError> {
+    let mut drawn = Vec::new();
+    for picture in page.pictures {
+        drawn.push((picture.title(), picture.note(), picture.svg()?, picture.is_round()));
+    }
+    let text = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (page.title) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body { main {
+                h1 { (page.title) }
+                @for line in page.lines { p.soft { (line) } }
+                @if let Some(verdict) = &page.verdict { (verdict) }
+                @for block in page.blocks { (section(block)) }
+                @for (title, note, svg, round) in &drawn {
+                    section {
+                        h2 { (title) }
+                        @if *round {
+                            div style="max-width:640px;margin:0 auto" { (PreEscaped(svg)) }
+                        } @else { (PreEscaped(svg)) }
+                        @if !note.is_empty() { p.soft { (note) } }
+                    }
+                }
+                p.soft { "made by trueaxis " (crate::VERSION) }
+            } }
+        }
+    };
+    Ok(text.into_string())
+}

@@ -1,0 +1,505 @@
+//! Is the prediction true? Measured readings against a machine file, or against other readings.
+//!
+//! ```text
+//!     verify.toml ──read_comparison──> Comparison {campaign, measured, against, decision}
+//!                 ──compare──> Verified {deviations with U, coverage, places, verdict}
+//! ```
+//!
+//! ```text
+//!     r = y − f(machine file, x̂)      x̂ the set-up that fits best               docs/model.md eq. 117
+//!     u² = u_noise² − j C jᵀ + Σ_e (s_e − j C JᵀW S_e)²         E_n = |r|/(k u)
+//! ```
+//!
+//! Nobody knows to a micrometre where an instrument stands, so its set-up is fitted on both sides;
+//! what that takes away is taken from u too.
+
+mod file;
+mod pairs;
+
+pub use file::read_comparison;
+pub use pairs::{Pairs, pair};
+
+use crate::identify::design::Design;
+use crate::identify::fit::{FitError, fit};
+use crate::identify::term::{Basis, Term};
+use crate::measure::{Campaign, Instrument, Readings};
+use nalgebra::{DMatrix, DVector};
+use std::collections::BTreeMap;
+use trueaxis_machine::Machine;
+use trueaxis_machine::errors::ErrorIndex;
+use trueaxis_part::tolerance::Outcome;
+
+/// Quantile of the normal distribution for 95 %, two-sided.
+const NORMAL_95: f64 = 1.959_963_985;
+
+/// What shall be compared.
+#[derive(Debug, Clone)]
+pub struct Comparison {
+    /// Its name.
+    pub name: String,
+    /// The instruments, and the machine as its file states it.
+    pub campaign: Campaign,
+    /// What was measured.
+    pub measured: Readings,
+    /// What it is compared with.
+    pub against: Against,
+    /// How it is decided.
+    pub decision: Decision,
+}
+
+/// What readings are compared with.
+#[derive(Debug, Clone)]
+pub enum Against {
+    /// What this machine would read.
+    Prediction(Box<Machine>),
+    /// Other readings of the same places, as differences: the places of the second set, less the
+    /// first.
+    Readings(Pairs),
+}
+
+/// How it is decided.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Decision {
+    /// The rule.
+    pub rule: Rule,
+    /// k in U = k·u.
+    pub coverage_factor: f64,
+    /// The largest deviation that is allowed, per instrument, mm or rad.
+    pub tolerance: Vec<Option<f64>>,
+}
+
+/// The decision rule.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rule {
+    /// |r| ≤ tolerance.
+    Simple,
+    /// ISO 14253-1: |r| + U ≤ tolerance passes, |r| − U > tolerance fails.
+    GuardBand,
+    /// Not significantly fewer readings lie within U than should.
+    Coverage,
+}
+
+/// One number of one reading against what was expected.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Deviation {
+    /// The row of the readings.
+    pub row: usize,
+    /// The channel.
+    pub channel: usize,
+    /// Measured less expected, mm or rad.
+    pub value: f64,
+    /// U = k·u.
+    pub expanded: f64,
+}
+
+impl Deviation {
+    /// |r|/U.
+    pub fn normalised(&self) -> f64 {
+        match (self.value, self.expanded > 0.0) {
+            (_, true) => self.value.abs() / self.expanded,
+            (0.0, _) => 0.0,
+            _ => f64::INFINITY,
+        }
+    }
+}
+
+/// A share of readings with its 95 % interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coverage {
+    /// How many numbers.
+    pub count: usize,
+    /// How many of them lie within U.
+    pub inside: usize,
+    /// As many independent numbers say as much: errors of the machine move many readings at once.
+    pub independent: f64,
+    /// The share that should.
+    pub expected: f64,
+    /// Where the true share lies, by Wilson's interval for the independent numbers.
+    pub interval: [f64; 2],
+}
+
+impl Coverage {
+    /// The share.
+    pub fn share(&self) -> f64 {
+        self.inside as f64 / self.count.max(1) as f64
+    }
+
+    /// Whether not significantly fewer lie within U than should.
+    pub fn is_enough(&self) -> bool {
+        self.interval[1] >= self.expected
+    }
+}
+
+/// The deviations of one instrument or one place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// Which instrument or group.
+    pub index: u32,
+    /// How many numbers.
+    pub count: usize,
+    /// Root mean square with the nominal machine, mm or rad; of two sets of readings none.
+    pub rms_before: Option<f64>,
+    /// The same with the machine file, or between both sets.
+    pub rms_after: f64,
+    /// Largest |r|/U.
+    pub worst: f64,
+    /// The share within U.
+    pub coverage: Coverage,
+}
+
+/// A place with its instrument.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlaceOf {
+    /// The instrument.
+    pub instrument: u32,
+    /// A row of that place.
+    pub row: usize,
+    /// Its figures; `index` is the group.
+    pub part: Part,
+}
+
+/// What the comparison says.
+#[derive(Debug, Clone)]
+pub struct Verified {
+    /// The rows that were compared.
+    pub readings: Readings,
+    /// Row after row, channel after channel.
+    pub deviations: Vec<Deviation>,
+    /// All of them.
+    pub coverage: Coverage,
+    /// By instrument.
+    pub instruments: Vec<Part>,
+    /// By place, the worst first.
+    pub places: Vec<PlaceOf>,
+    /// How many numbers pass, fail, or can neither be said to.
+    pub counts: [usize; 3],
+    /// The verdict.
+    pub outcome: Outcome,
+}
+
+/// Holds the readings against what was expected.
+///
+/// # Errors
+/// No readings, readings outside the tables of the machine, readings of another set-up.
+pub fn compare(task: &Comparison) -> Result<Verified, FitError> {
+    let k = task.decision.coverage_factor;
+    let (readings, after, before, spread) = match &task.against {
+        Against::Prediction(machine) => {
+            let instruments = &task.campaign.instruments;
+            let after = Fitted::new(machine, instruments, &task.measured)?;
+            let before = Fitted::new(&nominal(machine), instruments, &task.measured)?;
+            let spread = after.spread(machine, &task.measured);
+            (&task.measured, after, Some(before), spread)
+        }
+        Against::Readings(pairs) => {
+            let machine = nominal(&task.campaign.machine);
+            // Both sets have noise, and each its own set-up.
+            let doubled: Vec<Instrument> = task.campaign.instruments.iter().map(twice).collect();
+            let after = Fitted::new(&machine, &doubled, &pairs.differences)?;
+            let spread = after.spread(&machine, &pairs.differences);
+            (&pairs.differences, after, None, spread)
+        }
+    };
+    let mut deviations = Vec::new();
+    for (row, (residual, u)) in after.residuals.iter().zip(&spread.u).enumerate() {
+        let of = readings.instruments[row] as usize;
+        let channels = task.campaign.instruments[of].sight.channels();
+        for (channel, (value, u)) in residual.iter().zip(u).enumerate().take(channels) {
+            deviations.push(Deviation { row, channel, value: *value, expanded: k * u });
+        }
+    }
+    let before = before.map(|b| b.residuals);
+    let judged = Judged { k, independent: spread.independent, before: before.as_deref() };
+    Ok(Verified::new(task, readings.clone(), deviations, &judged))
+}
+
+/// What all parts are judged by.
+struct Judged<'a> {
+    k: f64,
+    /// The share of the numbers that says as much as all of them.
+    independent: f64,
+    /// Residuals with the nominal machine.
+    before: Option<&'a [[f64; 3]]>,
+}
+
+impl Verified {
+    fn new(
+        task: &Comparison,
+        readings: Readings,
+        deviations: Vec<Deviation>,
+        judged: &Judged<'_>,
+    ) -> Self {
+        let mut by_instrument: BTreeMap<u32, Vec<Deviation>> = BTreeMap::new();
+        let mut by_place: BTreeMap<(u32, u32), Vec<Deviation>> = BTreeMap::new();
+        for deviation in &deviations {
+            let of = readings.instruments[deviation.row];
+            by_instrument.entry(of).or_default().push(*deviation);
+            by_place.entry((of, readings.groups[deviation.row])).or_default().push(*deviation);
+        }
+        let instruments: Vec<Part> =
+            by_instrument.iter().map(|(of, some)| part(*of, some, judged)).collect();
+        let mut places: Vec<PlaceOf> = by_place
+            .iter()
+            .filter_map(|((of, group), some)| {
+                let part = part(*group, some, judged);
+                Some(PlaceOf { instrument: *of, row: some.first()?.row, part })
+            })
+            .collect();
+        places.sort_by(|a, b| b.part.worst.total_cmp(&a.part.worst));
+        let coverage = coverage(&deviations, judged);
+        let mut counts = [0; 3];
+        for deviation in &deviations {
+            let of = readings.instruments[deviation.row] as usize;
+            let judged = judge(&task.decision, of, deviation);
+            counts[match judged {
+                Outcome::Pass => 0,
+                Outcome::Fail => 1,
+                Outcome::Undecided => 2,
+            }] += 1;
+        }
+        let outcome = match (task.decision.rule, counts) {
+            _ if deviations.is_empty() => Outcome::Undecided,
+            (Rule::Coverage, _) if coverage.is_enough() => Outcome::Pass,
+            (Rule::Coverage, _) => Outcome::Fail,
+            (_, [_, 0, 0]) => Outcome::Pass,
+            (_, [_, 0, _]) => Outcome::Undecided,
+            _ => Outcome::Fail,
+        };
+        Self { readings, deviations, coverage, instruments, places, counts, outcome }
+    }
+}
+
+fn judge(decision: &Decision, of: usize, deviation: &Deviation) -> Outcome {
+    let (size, expanded) = (deviation.value.abs(), deviation.expanded);
+    let tolerance = decision.tolerance.get(of).copied().flatten();
+    match (decision.rule, tolerance) {
+        (Rule::Simple, Some(t)) if size <= t => Outcome::Pass,
+        (Rule::GuardBand, Some(t)) if size + expanded <= t => Outcome::Pass,
+        (Rule::GuardBand, Some(t)) if size - expanded <= t => Outcome::Undecided,
+        (Rule::Simple | Rule::GuardBand, Some(_)) => Outcome::Fail,
+        _ if size <= expanded => Outcome::Pass,
+        _ => Outcome::Fail,
+    }
+}
+
+fn part(index: u32, some: &[Deviation], judged: &Judged<'_>) -> Part {
+    let mean = |square: &dyn Fn(&Deviation) -> f64| {
+        (some.iter().map(square).sum::<f64>() / some.len().max(1) as f64).sqrt()
+    };
+    Part {
+        index,
+        count: some.len(),
+        rms_before: judged.before.map(|b| mean(&|d| b[d.row][d.channel].powi(2))),
+        rms_after: mean(&|d| d.value * d.value),
+        worst: some.iter().map(Deviation::normalised).fold(0.0, f64::max),
+        coverage: coverage(some, judged),
+    }
+}
+
+/// Wilson's interval for the share within U; the share to expect of a normal distribution.
+///
+/// *Source:* Wilson 1927, J. Am. Stat. Assoc. 22, 209–212.
+fn coverage(some: &[Deviation], judged: &Judged<'_>) -> Coverage {
+    let inside = some.iter().filter(|d| d.value.abs() <= d.expanded).count();
+    let p = inside as f64 / some.len().max(1) as f64;
+    let n = (some.len() as f64 * judged.independent).max(1.0);
+    let z2 = NORMAL_95 * NORMAL_95;
+    let middle = (p + z2 / (2.0 * n)) / (1.0 + z2 / n);
+    let half = NORMAL_95 / (1.0 + z2 / n) * (p * (1.0 - p) / n + z2 / (4.0 * n * n)).sqrt();
+    let interval = [(middle - half).max(0.0), (middle + half).min(1.0)];
+    let expected = normal_share(judged.k);
+    Coverage { count: some.len(), inside, independent: n, expected, interval }
+}
+
+/// The share of a normal distribution within ±k standard deviations: erf(k/√2).
+fn normal_share(k: f64) -> f64 {
+    if k > 8.0 {
+        return 1.0;
+    }
+    // φ(k) · 2 Σ k^(2n+1)/(1·3·5…(2n+1)): all terms are positive.
+    let (mut term, mut sum, mut n) = (k, k, 1.0);
+    while term > 1e-17 * sum {
+        n += 2.0;
+        term *= k * k / n;
+        sum += term;
+    }
+    sum * (2.0 / std::f64::consts::PI).sqrt() * (-0.5 * k * k).exp()
+}
+
+/// The machine as it would be without errors.
+fn nominal(machine: &Machine) -> Machine {
+    let bare = machine.without_heat();
+    let stated = bare.stated_errors();
+    stated.iter().fold(bare, |m, (index, _)| m.with_error(*index, None))
+}
+
+/// The difference of two readings: √2 as uncertain.
+fn twice(instrument: &Instrument) -> Instrument {
+    let mut twice = instrument.clone();
+    let root = std::f64::consts::SQRT_2;
+    twice.noise = twice.noise.map(|u| u * root);
+    for unknown in &mut twice.unknowns {
+        unknown.prior_u = unknown.prior_u.map(|u| u * root);
+    }
+    twice
+}
+
+/// Readings less what a machine reads with the set-up that fits best.
+struct Fitted {
+    residuals: Vec<[f64; 3]>,
+    /// Of the set-up.
+    covariance: DMatrix<f64>,
+    instruments: Vec<Instrument>,
+}
+
+impl Fitted {
+    fn new(
+        machine: &Machine,
+        instruments: &[Instrument],
+        readings: &Readings,
+    ) -> Result<Self, FitError> {
+        let design = Design::new(machine, Vec::new(), instruments.to_vec());
+        let instruments = instruments.to_vec();
+        if design.unknowns() > 0 {
+            let found = fit(&design, readings, &[])?;
+            let (residuals, covariance) = (found.residuals, found.covariance);
+            return Ok(Self { residuals, covariance, instruments });
+        }
+        if readings.is_empty() {
+            return Err(FitError::NoReadings);
+        }
+        let residual = |row: usize| {
+            let outside = |fault| FitError::Outside { row, fault };
+            let read = design.read(readings, row, &[]).map_err(outside)?;
+            Ok(std::array::from_fn(|c| readings.values[row][c] - read[c]))
+        };
+        let residuals: Result<Vec<[f64; 3]>, FitError> =
+            (0..readings.len()).map(residual).collect();
+        Ok(Self { residuals: residuals?, covariance: DMatrix::zeros(0, 0), instruments })
+    }
+
+    /// The standard uncertainty of every residual: noise, and the stated errors of the machine,
+    /// each less what the fitted set-up takes of it.
+    fn spread(&self, machine: &Machine, readings: &Readings) -> Spread {
+        let terms = uncertain(machine, readings);
+        let errors: Vec<ErrorIndex> = terms.iter().map(|t| t.index).collect();
+        let design = Design::new(machine, terms, self.instruments.clone());
+        let (e, n) = (errors.len(), self.covariance.nrows());
+        let width = e + n;
+        let mut rows = vec![0.0; 3 * width];
+        let quantities = machine.uncertain_quantities();
+        let slopes = |row: usize, rows: &mut [f64]| {
+            let channels = design.slopes(readings, row, rows);
+            let u = machine.uncertainties_at(&readings.commands[row], &quantities).of_errors();
+            for slopes in rows.chunks_exact_mut(width.max(1)).take(channels) {
+                for (slope, index) in slopes.iter_mut().zip(&errors) {
+                    *slope *= u.get(*index);
+                }
+            }
+            (channels, self.instruments[readings.instruments[row] as usize].noise)
+        };
+        // JᵀW S: how each error pulls at the set-up.
+        let mut pull = DMatrix::zeros(n, e);
+        for row in 0..readings.len() {
+            let (channels, noise) = slopes(row, &mut rows);
+            for c in 0..channels {
+                let row = &rows[c * width..(c + 1) * width];
+                let s = DVector::from_column_slice(&row[..e]);
+                let j = DVector::from_column_slice(&row[e..]);
+                pull.ger(noise[c].powi(-2), &j, &s, 1.0);
+            }
+        }
+        let taken = &self.covariance * pull;
+        let mut found = vec![[0.0; 3]; readings.len()];
+        // GᵀG of the shares g = s/u of the errors, and Σ|g|⁴: Σ ρ² over all pairs of numbers.
+        let (mut gram, mut own, mut count) = (DMatrix::<f64>::zeros(e, e), 0.0, 0.0);
+        for (row, found) in found.iter_mut().enumerate() {
+            let (channels, noise) = slopes(row, &mut rows);
+            for c in 0..channels {
+                let row = &rows[c * width..(c + 1) * width];
+                let s = DVector::from_column_slice(&row[..e]);
+                let j = DVector::from_column_slice(&row[e..]);
+                let fitted = j.dot(&(&self.covariance * &j));
+                let left = s - taken.tr_mul(&j);
+                // What is used up by the fit cannot be more than there is.
+                let noise = (noise[c] * noise[c] - fitted).max(0.0);
+                found[c] = (noise + left.norm_squared()).sqrt();
+                let share = if found[c] > 0.0 { left / found[c] } else { left };
+                gram.ger(1.0, &share, &share, 1.0);
+                own += share.norm_squared().powi(2);
+                count += 1.0;
+            }
+        }
+        let pairs = (gram.norm_squared() - own).max(0.0);
+        Spread { u: found, independent: 1.0 / (1.0 + pairs / f64::max(count, 1.0)) }
+    }
+}
+
+/// How uncertain residuals are.
+struct Spread {
+    /// Of each, mm or rad.
+    u: Vec<[f64; 3]>,
+    /// The share of them that says as much as all.
+    independent: f64,
+}
+
+/// The errors that are not known exactly at some of these commands, each as one factor.
+fn uncertain(machine: &Machine, readings: &Readings) -> Vec<Term> {
+    let stated = machine.stated_errors().into_iter();
+    let quantities = machine.uncertain_quantities();
+    let has_u = |index: ErrorIndex| {
+        // Tables of u may be 0 at some positions: a sample of rows decides.
+        let step = (readings.len() / 200).max(1);
+        let mut some = readings.commands.iter().step_by(step);
+        some.any(|command| {
+            machine.uncertainties_at(command, &quantities).of_errors().get(index) > 0.0
+        })
+    };
+    stated
+        .filter(|(index, _)| has_u(*index))
+        .map(|(index, error)| Term {
+            error,
+            index,
+            axis: None,
+            basis: Basis::Constant,
+            prior: None,
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_standard_deviations_hold_95_45_percent() {
+        assert!((normal_share(2.0) - 0.954_499_736).abs() < 1e-9);
+        assert!((normal_share(1.0) - 0.682_689_492).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_guard_band_leaves_the_edge_undecided() {
+        let decision =
+            Decision { rule: Rule::GuardBand, coverage_factor: 2.0, tolerance: vec![Some(10.0)] };
+        let judged =
+            |value| judge(&decision, 0, &Deviation { row: 0, channel: 0, value, expanded: 2.0 });
+        assert_eq!(judged(8.0), Outcome::Pass);
+        assert_eq!(judged(-9.0), Outcome::Undecided);
+        assert_eq!(judged(12.5), Outcome::Fail);
+    }
+
+    #[test]
+    fn wilson_of_95_of_100() {
+        // (0.95 + 0.0192)/1.0384 ± 1.887 √(0.000475 + 0.000096) = 0.9333 ± 0.0451
+        let deviation = |k: usize| Deviation {
+            row: k,
+            channel: 0,
+            value: if k < 95 { 0.0 } else { 3.0 },
+            expanded: 1.0,
+        };
+        let some: Vec<Deviation> = (0..100).map(deviation).collect();
+        let alone = Judged { k: 2.0, independent: 1.0, before: None };
+        let interval = coverage(&some, &alone).interval;
+        assert!((interval[0] - 0.8882).abs() < 1e-3 && (interval[1] - 0.9785).abs() < 1e-3);
+    }
+}
