@@ -11,6 +11,7 @@ mod identify;
 mod numbers;
 mod output;
 mod path_file;
+mod plan;
 mod pose;
 mod predict;
 mod report_file;
@@ -33,6 +34,7 @@ Examples:
   trueaxis simulate machines/i5-engraver/machine.toml examples/02_simulate/ring-fanuc.nc
   trueaxis predict examples/03_predict/nas979-on-xkas2525.toml
   trueaxis evaluate iso230-2 examples/07_verify/x-axis-laser.csv --report x.html
+  trueaxis plan examples/04_plan/probe-ball.toml
   trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml
 
 Exit status: 0 done, 1 the verdict is no, 2 unusable input or arguments.")]
@@ -53,6 +55,8 @@ enum Verb {
     Simulate(simulate::Arguments),
     /// Simulate: one block of a program through every stage, with the share of each error
     Trace(trace::Arguments),
+    /// Plan: what a measurement will tell, its NC programs, the poses that tell most
+    Plan(plan::Arguments),
     /// Identify: what the machine is like, from measurements
     Identify(identify::Arguments),
     /// Predict: will the test piece be good, and which error costs how much of it
@@ -73,6 +77,7 @@ fn main() -> ExitCode {
         Verb::Solve(arguments) => solve::run(&arguments),
         Verb::Simulate(arguments) => simulate::run(&arguments),
         Verb::Trace(arguments) => trace::run(&arguments),
+        Verb::Plan(arguments) => plan::run(&arguments),
         Verb::Identify(arguments) => identify::run(&arguments),
         Verb::Predict(arguments) => predict::run(&arguments),
         Verb::Evaluate(arguments) => evaluate::run(&arguments),

@@ -7,6 +7,7 @@
 //!   deviations, troubles;
 //! - *predict*: [`predict`](mod@predict): is the test piece that this machine cuts within its
 //!   tolerances, how sure is that, and which error is to blame;
+//! - *plan*: [`plan`]: what a measurement will tell, its programs, the poses that tell most;
 //! - *identify*: [`identify`]: the expansion of a scale from laser runs at two temperatures;
 //! - *verify*: [`verify`]: readings of instruments evaluated by ISO 230;
 //! - [`report`]: all that as text, JSON and self-contained HTML pages.
@@ -17,6 +18,7 @@
 pub mod files;
 pub mod identify;
 pub mod measure;
+pub mod plan;
 pub mod predict;
 pub mod report;
 pub mod simulate;

@@ -11,7 +11,7 @@ mod kind;
 pub mod path;
 mod readings;
 
-pub use campaign::{Campaign, read_campaign};
+pub use campaign::{Campaign, read_campaign, usual_setup};
 pub use instrument::Instrument;
 pub use kind::Kind;
 pub use readings::{Reading, Readings};
