@@ -13,6 +13,7 @@ mod measure;
 mod numbers;
 mod output;
 mod path_file;
+mod plan;
 mod pose;
 mod predict;
 mod report_file;
@@ -39,6 +40,7 @@ Examples:
   trueaxis compensate values machines/gantry-001/machine.toml --axis X --step 500
   trueaxis measure examples/04_plan/probe-ball.toml
   trueaxis verify examples/07_verify/probe-ball.toml
+  trueaxis plan examples/04_plan/probe-ball.toml
   trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml
 
 Exit status: 0 done, 1 the verdict is no, 2 unusable input or arguments.")]
@@ -61,6 +63,8 @@ enum Verb {
     Trace(trace::Arguments),
     /// Measure: what instruments would read on a machine whose errors are known
     Measure(measure::Arguments),
+    /// Plan: what a measurement will tell, its NC programs, the poses that tell most
+    Plan(plan::Arguments),
     /// Identify: what the machine is like, from measurements
     Identify(identify::Arguments),
     /// Predict: will the test piece be good, and which error costs how much of it
@@ -86,6 +90,7 @@ fn main() -> ExitCode {
         Verb::Simulate(arguments) => simulate::run(&arguments),
         Verb::Trace(arguments) => trace::run(&arguments),
         Verb::Measure(arguments) => measure::run(&arguments),
+        Verb::Plan(arguments) => plan::run(&arguments),
         Verb::Identify(arguments) => identify::run(&arguments),
         Verb::Predict(arguments) => predict::run(&arguments),
         Verb::Compensate(arguments) => compensate::run(&arguments),

@@ -173,6 +173,12 @@ fn dwell_counts_milliseconds() {
 }
 
 #[test]
+fn the_x_of_a_dwell_moves_nothing() {
+    let found = path(Axis::X, "G1 F100 X20\nG4 X1.5\nY5\nM30\n", &NoLibrary);
+    assert!(!found.is_empty() && found.iter().all(|x| *x == 20.0), "{found:?}");
+}
+
+#[test]
 fn work_offsets_turn_in_space() {
     // About X by 90°: y goes to z. Machine 0, 0, 0 from the origin 0, 0, 5 reads z −5 turned back:
     // the vector (0, 0, −5) is y −5.

@@ -7,6 +7,7 @@
 //!   deviations, troubles;
 //! - *predict*: [`predict`](mod@predict): is the test piece that this machine cuts within its
 //!   tolerances, how sure is that, and which error is to blame;
+//! - *plan*: [`plan`](mod@plan): what a measurement will tell, its programs, the poses that tell most;
 //! - *identify*: [`identify`]: errors of the machine from any mix of instruments, the expansion of
 //!   a scale, thermal models from logs; [`measure`]: what instruments read;
 //! - *compensate*: [`compensate`]: what the control has to add to its commands;
@@ -21,6 +22,7 @@ pub mod files;
 pub mod identify;
 pub mod measure;
 mod parquet_log;
+pub mod plan;
 pub mod predict;
 pub mod report;
 pub mod simulate;

@@ -12,7 +12,7 @@ pub mod path;
 mod readings;
 pub mod virtual_campaign;
 
-pub use campaign::{Campaign, read_campaign};
+pub use campaign::{Campaign, read_campaign, usual_setup};
 pub use instrument::Instrument;
 pub use kind::Kind;
 pub use readings::{Reading, Readings};

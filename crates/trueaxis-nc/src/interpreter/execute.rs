@@ -354,7 +354,9 @@ impl Run<'_> {
             // FANUC counts P in milliseconds and X in seconds.
             Some(p) if macro_words => Some(p / 1000.0),
             Some(p) => Some(p),
-            None if macro_words => self.words.take(b'X').or_else(|| self.words.take(b'U')),
+            None if macro_words => {
+                self.words.take_away(b'X').or_else(|| self.words.take_away(b'U'))
+            }
             None => None,
         };
         let Some(seconds) = seconds.filter(|s| *s >= 0.0) else {

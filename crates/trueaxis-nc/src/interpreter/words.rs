@@ -140,6 +140,13 @@ impl Words {
         Some(self.values[index])
     }
 
+    /// Takes a word that is no axis here: nothing moves by it afterwards (X of a dwell).
+    pub fn take_away(&mut self, letter: u8) -> Option<f64> {
+        let value = self.take(letter);
+        self.present &= !(1 << usize::from(letter - b'A'));
+        value
+    }
+
     /// The value of a word, without using it.
     pub fn look(&self, letter: u8) -> Option<f64> {
         let index = usize::from(letter - b'A');

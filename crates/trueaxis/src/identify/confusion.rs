@@ -3,7 +3,7 @@
 //! The null space of a design is a space; people want sentences with few names. So the basis is
 //! turned until its columns have as few members as we can find.
 
-use super::design::Design;
+use super::design::{Design, Unknown};
 use super::fit::Observability;
 use nalgebra::DMatrix;
 
@@ -47,17 +47,85 @@ impl Confusion {
         text
     }
 
-    /// What that means, in a sentence.
+    /// What that means: which unknowns, how much of each, and why.
     pub fn words(&self, design: &Design) -> String {
-        let names: Vec<String> =
-            self.members.iter().filter_map(|(k, _)| design.unknown(*k)).map(|u| u.name()).collect();
-        match &names[..] {
-            [] => String::new(),
-            [alone] => format!("no reading depends on {alone}"),
+        let unknowns: Vec<(Unknown<'_>, f64)> =
+            self.members.iter().filter_map(|(k, s)| Some((design.unknown(*k)?, *s))).collect();
+        let names: Vec<String> = unknowns.iter().map(|(u, _)| u.name()).collect();
+        let sentence = match &names[..] {
+            [] => return String::new(),
+            [alone] => return format!("no reading depends on {alone}: {NOT_MOVED}"),
             [first, second] => format!("{first} cannot be told from {second}"),
             [first, rest @ .., last] => {
                 format!("{first} cannot be told from {} and {last} together", rest.join(", "))
             }
+        };
+        format!(
+            "{sentence}: {} leave every reading as it is; {}",
+            amounts(&unknowns),
+            why(&unknowns)
+        )
+    }
+}
+
+/// Why a reading depends on something not at all.
+const NOT_MOVED: &str = "no pose moves what it acts on";
+
+/// `10 µm of EX0C and −10 µm of probe.ball_x`: the greatest is 10.
+fn amounts(unknowns: &[(Unknown<'_>, f64)]) -> String {
+    // In µm and µrad; what has no unit is shown as µm/m.
+    let micro = |unknown: &Unknown<'_>, share: f64| {
+        let plain = matches!(
+            unknown,
+            Unknown::Setup(_, s) if s.error == crate::measure::instrument::SetupError::Scale
+        );
+        match (plain, unknown.is_angle()) {
+            (true, _) => (share * 1e6, "µm/m"),
+            (_, true) => (share * 1e6, "µrad"),
+            _ => (share * 1e3, "µm"),
+        }
+    };
+    let greatest = unknowns.iter().map(|(u, s)| micro(u, *s).0.abs()).fold(0.0, f64::max);
+    let one = |(unknown, share): &(Unknown<'_>, f64)| {
+        let (amount, unit) = micro(unknown, *share);
+        let amount = amount * 10.0 / greatest;
+        let sign = if amount < 0.0 { "−" } else { "" };
+        format!("{sign}{} {unit} of {}", significant(amount.abs()), unknown.name())
+    };
+    let all: Vec<String> = unknowns.iter().map(one).collect();
+    match &all[..] {
+        [rest @ .., last] if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
+        _ => all.join(""),
+    }
+}
+
+/// The physical sense of a combination.
+fn why(unknowns: &[(Unknown<'_>, f64)]) -> String {
+    use crate::measure::instrument::SetupError;
+    let setup = unknowns.iter().find_map(|(u, _)| match u {
+        Unknown::Setup(instrument, unknown) => Some((instrument, unknown.error)),
+        Unknown::Term(_) => None,
+    });
+    let machine = unknowns.iter().any(|(u, _)| matches!(u, Unknown::Term(_)));
+    match setup {
+        None => "in these poses they move the tool alike".to_owned(),
+        Some((instrument, _)) if !machine => {
+            format!("they are one and the same to {}", instrument.name)
+        }
+        Some((instrument, error)) => {
+            let (point, tool) = (instrument.kind.reference_point(), instrument.kind.tool_point());
+            let what = match error {
+                SetupError::ReferencePoint(_) => format!("where the {point} stands"),
+                SetupError::ReferenceTurn(_) => format!("how the {point} lies"),
+                SetupError::ToolPoint(2) => format!("how far out the {tool} is (the tool length)"),
+                SetupError::ToolPoint(_) => format!("where the {tool} sits in the spindle"),
+                SetupError::Zero(_) => {
+                    format!("the {} of {}", instrument.kind.zero(), instrument.name)
+                }
+                SetupError::Scale => format!("the scale of {}", instrument.name),
+            };
+            let what = what.replace('_', " ");
+            format!("{what} is not known better than by these readings themselves")
         }
     }
 }

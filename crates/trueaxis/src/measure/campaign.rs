@@ -83,7 +83,9 @@ pub fn read_campaign<T>(
     let file = path.display().to_string();
     let source = Source::new(&file, &text);
     let read = source.read(|root| {
-        for verb in ["path", "limit", "want", "candidates", "truth", "disturb", "fit", "accept"] {
+        const VERBS: [&str; 9] =
+            ["path", "limit", "want", "candidates", "program", "truth", "disturb", "fit", "accept"];
+        for verb in VERBS {
             root.get(verb);
         }
         let campaign = read(root, path)?;
@@ -285,7 +287,7 @@ fn read_instrument(
     }
     let reference = section.get("stands_on").and_then(|i| read_reference(&i));
     let unknowns = match section.get("unknown") {
-        None => usual(kind),
+        None => usual_setup(kind),
         Some(item) => item.section(&section.path("unknown"), |s| read_setup(s, kind))?,
     };
     let tables = section.get("readings").map(|i| read_tables(&i, folder)).unwrap_or_default();
@@ -357,7 +359,8 @@ fn read_tables(item: &Item<'_>, folder: &Path) -> Vec<PathBuf> {
     items.iter().filter_map(|i| i.text()).map(|p| folder.join(p)).collect()
 }
 
-fn usual(kind: Kind) -> Vec<SetupUnknown> {
+/// What nobody knows of a set-up unless the campaign says so.
+pub fn usual_setup(kind: Kind) -> Vec<SetupUnknown> {
     let free = |error| SetupUnknown { name: kind.unknown_name(error), error, prior_u: None };
     kind.usual_unknowns().into_iter().map(free).collect()
 }

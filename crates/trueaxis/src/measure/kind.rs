@@ -71,6 +71,11 @@ impl Kind {
         matches!(self, Self::TouchProbeBall | Self::TouchProbeFace)
     }
 
+    /// Whether the tool stays on a ball, or one length away from it, while rotary axes turn.
+    pub fn holds_a_ball(self) -> bool {
+        matches!(self, Self::ProbeBall | Self::BallBar | Self::TouchProbeBall)
+    }
+
     /// What stands at the tool point.
     pub fn tool_point(self) -> &'static str {
         match self {

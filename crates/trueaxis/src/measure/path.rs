@@ -1,12 +1,34 @@
 //! The paths of a campaign: where the machine stands or goes while an instrument reads.
+//!
+//! ```text
+//!     [[path]] ──kind──> places of the tool point on the workpiece, or axes ──Placing──> commands
+//! ```
+
+mod linear;
+mod placing;
+mod sphere;
+mod spread;
+mod touch;
+
+pub(crate) use placing::turns_about;
+pub use placing::{Placing, Strayed, leaves_travel};
+pub use sphere::{directions_f, directions_s};
+pub use spread::{Poses, read_poses};
+pub use touch::{FreeSide, STAND_OFF_MM, hits};
 
 use super::{Campaign, Reading, Readings};
 use crate::files;
-use trueaxis_geometry::input::{CsvTable, Diagnostics, Dimension, Section};
-use trueaxis_machine::axis::AxisKind;
+use trueaxis_geometry::input::{CsvTable, Diagnostics, Dimension, Item, Section};
+use trueaxis_machine::axis::{AxisKind, Command};
 
 /// More paths in one campaign are a slip of the pen.
 const MOST_PATHS: usize = 200;
+/// More stations on one path are a slip of the pen.
+pub(crate) const MOST_STATIONS: usize = 200_000;
+
+/// What a path may be.
+const KINDS: &str = "\"A\", \"B\", \"C\" (one rotary axis turns), \"F\", \"S\" (document 004), \
+                     \"circle\", \"diagonal\", \"targets\", \"touch\", \"grid\", \"random\", \"table\"";
 
 /// One test path.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,42 +48,131 @@ pub struct Path {
 pub fn read_paths(root: &Section<'_>, campaign: &Campaign) -> Option<Vec<Path>> {
     let Some(item) = root.get("path") else { return Some(Vec::new()) };
     let items = item.list()?;
+    if items.len() > MOST_PATHS {
+        let message = format!("{} paths are more than anybody measures", items.len());
+        item.error("too-many-paths", message, &format!("at most {MOST_PATHS}"));
+        return None;
+    }
     let mut paths = Vec::new();
-    for (i, item) in items.iter().enumerate().take(MOST_PATHS) {
+    for (i, item) in items.iter().enumerate() {
         paths.push(item.section(&format!("path.{}", i + 1), |s| read_path(s, campaign)).flatten());
     }
     paths.into_iter().collect()
 }
 
-fn read_path(section: &Section<'_>, campaign: &Campaign) -> Option<Path> {
+/// Which instrument a section means; the only one need not be named.
+pub(crate) fn read_instrument(section: &Section<'_>, campaign: &Campaign) -> Option<usize> {
     let instrument = match section.text("instrument") {
         Some(name) => campaign.instrument(name),
         None => (campaign.instruments.len() == 1).then_some(0),
     };
-    let Some(instrument) = instrument else {
+    if instrument.is_none() {
         let names: Vec<&str> = campaign.instruments.iter().map(|i| i.name.as_str()).collect();
-        let message = "which instrument reads on this path?".to_owned();
-        section.error(
-            "unknown-instrument",
-            message,
-            &format!("instrument = one of {}", names.join(", ")),
-        );
+        let message = "which instrument reads here?".to_owned();
+        let hint = format!("instrument = one of {}", names.join(", "));
+        section.error("unknown-instrument", message, &hint);
         section.entries();
-        return None;
-    };
-    let kind = section.require("kind", "\"table\" with table = \"poses.csv\"")?;
+    }
+    instrument
+}
+
+pub(crate) fn read_path(section: &Section<'_>, campaign: &Campaign) -> Option<Path> {
+    let instrument = read_instrument(section, campaign)?;
+    let kind = section.require("kind", KINDS)?;
     let name = section.text("name");
     let feed_mm_per_s = section.quantity("feed", Dimension::Velocity);
-    let dwell_s = section.quantity("dwell", Dimension::Time).unwrap_or(1.0);
+    if feed_mm_per_s.is_some_and(|f| f <= 0.0) {
+        let message = "at this feed nothing moves".to_owned();
+        section.error("bad-feed", message, "feed = \"600 mm/min\"; without it the machine stands");
+        return None;
+    }
+    let dwell_s = section.quantity("dwell", Dimension::Time).unwrap_or(1.0).max(0.0);
     let stations = match kind.text()? {
         "table" => read_table(section, campaign, instrument),
+        "A" | "B" | "C" => sphere::read_rotary(section, &kind, campaign, instrument),
+        "F" => sphere::read_f(section, campaign, instrument),
+        "S" => sphere::read_s(section, campaign, instrument),
+        "circle" => linear::read_circle(section, campaign, instrument),
+        "diagonal" => linear::read_diagonal(section, campaign, instrument),
+        "targets" => linear::read_targets(section, campaign, instrument),
+        "touch" => touch::read_touch(section, campaign, instrument),
+        "grid" | "random" => spread::read_spread(section, campaign, instrument),
         other => {
-            kind.error("unknown-path", format!("no path is called `{other}`"), "\"table\"");
+            kind.error("unknown-path", format!("no path is called `{other}`"), KINDS);
+            section.entries();
             None
         }
     };
     let name = name.map_or_else(|| kind.as_text().unwrap_or("path").to_owned(), str::to_owned);
-    Some(Path { name, stations: stations?, feed_mm_per_s, dwell_s })
+    let mut stations = stations?;
+    if stations.is_empty() {
+        section.error("no-stations", format!("path {name} has no station"), "count = 20");
+        return None;
+    }
+    if !placing::check_travel(section, &name, campaign, &stations) {
+        return None;
+    }
+    come_from(&mut stations);
+    Some(Path { name, stations, feed_mm_per_s, dwell_s })
+}
+
+/// From which side each axis comes, by the station before; axes that stand keep theirs. Where a
+/// path states it already (targets, hits) nothing is changed.
+fn come_from(stations: &mut Readings) {
+    if stations.approaches.iter().any(|a| *a != [0.0; 6]) {
+        return;
+    }
+    for i in 1..stations.len() {
+        let (before, here) = (stations.commands[i - 1], stations.commands[i]);
+        let came = stations.approaches[i - 1];
+        stations.approaches[i] = std::array::from_fn(|axis| {
+            let moved = here[axis] - before[axis];
+            // Rounding of an inverse is no motion.
+            if moved.abs() > 1e-9 { moved.signum() } else { came[axis] }
+        });
+    }
+}
+
+/// How many stations; a problem if there are none or too many.
+pub(crate) fn read_count(section: &Section<'_>, key: &str, usual: usize) -> Option<usize> {
+    let Some(item) = section.get(key) else { return Some(usual) };
+    let count = item.count()?;
+    if !(1..=MOST_STATIONS).contains(&count) {
+        let message = format!("{count} is not from 1 to {MOST_STATIONS}");
+        item.error("bad-count", message, &format!("{key} = {usual}"));
+        return None;
+    }
+    Some(count)
+}
+
+/// The position of an axis with its unit.
+pub(crate) fn read_position(item: &Item<'_>, kind: AxisKind) -> Option<f64> {
+    item.quantity(match kind {
+        AxisKind::Linear => Dimension::Length,
+        AxisKind::Rotary => Dimension::Angle,
+    })
+}
+
+/// `at = { A = "90 deg" }`: where the axes stand that the path does not move; 0 if not stated.
+pub(crate) fn read_at(section: &Section<'_>, campaign: &Campaign) -> Option<Command> {
+    let mut command = Command::default();
+    let Some(item) = section.get("at") else { return Some(command) };
+    let read = item.section(&section.path("at"), |s| read_axes(s, campaign, &mut command));
+    read.flatten().map(|()| command)
+}
+
+/// Axes by letter into a command.
+fn read_axes(section: &Section<'_>, campaign: &Campaign, command: &mut Command) -> Option<()> {
+    let mut sound = true;
+    for (i, axis) in campaign.machine.axes().iter().enumerate() {
+        if let Some(item) = section.get(&axis.name.to_string()) {
+            match read_position(&item, axis.kind) {
+                Some(q) => command[i] = q,
+                None => sound = false,
+            }
+        }
+    }
+    sound.then_some(())
 }
 
 /// Poses from a table whose columns are named by axis (mm, deg).
@@ -84,7 +195,8 @@ fn read_table(section: &Section<'_>, campaign: &Campaign, instrument: usize) -> 
             let rotary = axis.kind == AxisKind::Rotary;
             *q = column.values[row] * if rotary { 1f64.to_radians() } else { 1.0 };
         }
-        stations.push(station(command, campaign, instrument, row));
+        let group = table.column("group").map_or(row, |c| c.values[row].clamp(0.0, 1e9) as usize);
+        stations.push(station(command, campaign, instrument, group));
     }
     Some(stations)
 }

@@ -156,6 +156,24 @@ impl Readings {
         Some(readings)
     }
 
+    /// The commands as a table (mm, deg), as a path of kind `table` reads it.
+    pub fn poses(&self, machine: &Machine) -> String {
+        let mut text = String::new();
+        for axis in machine.axes() {
+            text += &format!("{},", axis.name);
+        }
+        text += "group\n";
+        for (command, group) in self.commands.iter().zip(&self.groups) {
+            for (axis, q) in machine.axes().iter().zip(command) {
+                let shown = if axis.kind == AxisKind::Rotary { q.to_degrees() } else { *q };
+                // Writing to a String cannot fail.
+                let _ = write!(text, "{shown},");
+            }
+            let _ = writeln!(text, "{group}");
+        }
+        text
+    }
+
     /// The table of one instrument, as [`Readings::parse`] reads it.
     pub fn table(&self, machine: &Machine, instrument: &Instrument, index: u32) -> String {
         let mine: Vec<usize> = (0..self.len()).filter(|i| self.instruments[*i] == index).collect();

@@ -1,10 +1,12 @@
 //! Our side of document-004.toml: Lei and Hsu 2003.
 
 use crate::Ours;
-use crate::shop::{command, list, machine, nominal, shown, target};
+use crate::shop::{command, list, machine, nominal, root, shown, target};
 use trueaxis::geometry::Vec3;
 use trueaxis::machine::axis::Command;
 use trueaxis::machine::{Machine, Target};
+use trueaxis::measure::path::Path;
+use trueaxis::plan::{Plan, read_plan};
 
 pub const CLAIMS: &[(&str, Ours)] = &[
     ("004-eq-8-10-a30-c90", || linear_axes(30.0, 90.0)),
@@ -26,7 +28,82 @@ pub const CLAIMS: &[(&str, Ours)] = &[
         let turns = |from, to| turning_point('C', tan_squared, from, to);
         vec![turns(110.0, 178.0), turns(182.0, 250.0)]
     }),
+    ("004-path-a-moves", || moved("A")),
+    ("004-path-c-moves", || moved("C")),
+    ("004-path-f-planned", planned_f),
+    ("004-path-s-planned", planned_s),
+    ("004-no-errors", no_errors),
 ];
+
+/// The paths of examples/04_plan/probe-ball.toml.
+fn planned() -> Plan {
+    let file = root().join("examples/04_plan/probe-ball.toml");
+    let (plan, problems) = read_plan(&file);
+    plan.unwrap_or_else(|| panic!("{problems:?}"))
+}
+
+fn path<'p>(plan: &'p Plan, name: &str) -> &'p Path {
+    plan.paths.iter().find(|p| p.name == name).expect("a path")
+}
+
+/// By how much each of X, Y, Z, A, C moves along a path, 0 or 1.
+fn moved(name: &str) -> Vec<f64> {
+    let plan = planned();
+    let machine = &plan.campaign.machine;
+    let commands = &path(&plan, name).stations.commands;
+    let all: Vec<Vec<f64>> = commands.iter().map(|c| shown(machine, c, "XYZAC")).collect();
+    let range = |i: usize| {
+        let values = all.iter().map(|c| c[i]);
+        values.fold((f64::MAX, f64::MIN), |(a, b), v| (a.min(v), b.max(v)))
+    };
+    (0..5).map(|i| f64::from(range(i).1 - range(i).0 > 1e-9)).collect()
+}
+
+/// The largest distance of A and C from 90 − φ/4 and 90 − φ along the planned path F, deg; the pole
+/// keeps the last C.
+fn planned_f() -> Vec<f64> {
+    let plan = planned();
+    let commands = &path(&plan, "F").stations.commands;
+    let steps = (commands.len() - 1) as f64;
+    let mut off = [0.0_f64; 2];
+    for (k, command) in commands.iter().enumerate().take(commands.len() - 1) {
+        let phi = 360.0 * k as f64 / steps;
+        let axes = shown(&plan.campaign.machine, command, "AC");
+        off[0] = off[0].max((axes[0] - (90.0 - phi / 4.0)).abs());
+        off[1] = off[1].max((axes[1] - (90.0 - phi)).abs());
+    }
+    off.to_vec()
+}
+
+/// The stations of the planned path S (every 10 deg) at which A, C and C turn round, deg.
+fn planned_s() -> Vec<f64> {
+    let plan = planned();
+    let commands = &path(&plan, "S").stations.commands;
+    let step = 360.0 / (commands.len() - 1) as f64;
+    let turns = |letter: &str| {
+        let q = |k: usize| shown(&plan.campaign.machine, &commands[k], letter)[0];
+        let is_turn = |k: &usize| (q(*k) - q(k - 1)) * (q(k + 1) - q(*k)) < 0.0;
+        (1..commands.len() - 1).filter(is_turn).map(|k| k as f64 * step).collect::<Vec<f64>>()
+    };
+    [turns("A"), turns("C")].concat()
+}
+
+/// The largest reading of the probe on the machine without errors, mm.
+fn no_errors() -> Vec<f64> {
+    let plan = planned();
+    let probe = &plan.campaign.instruments[0];
+    let reading = |path: &Path| {
+        let stations = &path.stations;
+        let largest = |i: usize| {
+            let command = &stations.commands[i];
+            let read =
+                probe.nominal_reading(&plan.campaign.machine, command, stations.directions[i]);
+            read.iter().fold(0.0_f64, |w, v| w.max(v.abs()))
+        };
+        (0..stations.len()).map(largest).fold(0.0, f64::max)
+    };
+    plan.paths.iter().map(reading).collect()
+}
 
 /// Radius of the spherical test surface.
 const R_W_MM: f64 = 150.0;

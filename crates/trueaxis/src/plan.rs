@@ -1,0 +1,22 @@
+//! Plan: what a measurement will tell, before anybody measures.
+//!
+//! ```text
+//!     campaign.toml ──read_plan──> Plan {campaign, paths, candidates}
+//!     [Path] + Design ──expect──> Expectation: u of every unknown, what cannot be told, what helps
+//!     candidates + limit ──choose──> Chosen: the poses that tell most in the time
+//!     Path ──program──> NC text ──check──> duration, troubles
+//! ```
+
+mod choose;
+mod exchange;
+mod expect;
+mod file;
+pub mod program;
+mod remedy;
+mod trial;
+
+pub use choose::{Chosen, choose};
+pub use exchange::{Candidate, Criterion, Exchange, Selection};
+pub use expect::{Expectation, Expected, Seen, Unobservable, expect, seen};
+pub use file::{Candidates, Limit, Plan, Want, read_plan};
+pub use remedy::remedies;

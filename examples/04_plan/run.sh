@@ -1,0 +1,7 @@
+# What will a measurement tell, and what not? Writes its programs into $OUT.
+set -e
+trueaxis=${TRUEAXIS:-target/release/trueaxis}
+out=${OUT:-.}
+$trueaxis plan examples/04_plan/probe-ball.toml -o "$out/probe-ball" --report "$out/probe-ball.html"
+$trueaxis plan examples/04_plan/touch-probe-5-minutes.toml -o "$out/five-minutes" --dialect fanuc
+$trueaxis plan examples/04_plan/touch-probe-5-minutes.toml --format json
