@@ -3,3 +3,9 @@ set -e
 trueaxis=${TRUEAXIS:-target/release/trueaxis}
 $trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml
 $trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml --format json
+# Which location errors has the machine, and what can a probe on one ball not tell apart?
+$trueaxis identify examples/05_identify/probe-ball.toml --report "${TMPDIR:-/tmp}/probe-ball.html" -o "${TMPDIR:-/tmp}/probe-ball-machine.toml"
+$trueaxis identify examples/05_identify/probe-ball.toml --format json
+# Ball-bar, R-test and laser at once.
+$trueaxis identify examples/05_identify/mixed-instruments.toml
+$trueaxis identify examples/05_identify/mixed-instruments.toml --check-conventions

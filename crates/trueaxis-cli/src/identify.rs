@@ -1,3 +1,5 @@
+mod errors;
+
 use crate::output::{Answer, Format, Outcome, finish};
 use clap::{Args, Subcommand};
 use serde_json::{Value, json};
@@ -8,9 +10,21 @@ use trueaxis::identify::expansion::{Expansion, Runs, identify_expansion, read_ru
 
 /// What to identify.
 #[derive(Args)]
+#[command(
+    args_conflicts_with_subcommands = true,
+    after_help = "\
+Examples:
+  trueaxis identify examples/05_identify/probe-ball.toml --report found.html
+  trueaxis identify examples/05_identify/mixed-instruments.toml -o identified.toml --format json
+  trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml
+
+Exit status: 0 the model explains what can be explained, 1 it does not, 2 unusable input."
+)]
 pub struct Arguments {
     #[command(subcommand)]
-    what: What,
+    what: Option<What>,
+    #[command(flatten)]
+    errors: errors::Arguments,
 }
 
 #[derive(Subcommand)]
@@ -36,7 +50,13 @@ struct ExpansionArguments {
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
-    let What::Expansion(arguments) = &arguments.what;
+    match &arguments.what {
+        None => errors::run(&arguments.errors),
+        Some(What::Expansion(arguments)) => run_expansion(arguments),
+    }
+}
+
+fn run_expansion(arguments: &ExpansionArguments) -> Outcome {
     let (runs, mut problems) = read_runs(&arguments.file);
     let answer = runs.map(|runs| answer(&runs, arguments, &mut problems));
     finish(problems, answer)

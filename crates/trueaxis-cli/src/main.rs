@@ -33,6 +33,7 @@ Examples:
   trueaxis simulate machines/i5-engraver/machine.toml examples/02_simulate/ring-fanuc.nc
   trueaxis predict examples/03_predict/nas979-on-xkas2525.toml
   trueaxis evaluate iso230-2 examples/07_verify/x-axis-laser.csv --report x.html
+  trueaxis identify examples/05_identify/probe-ball.toml
   trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml
 
 Exit status: 0 done, 1 the verdict is no, 2 unusable input or arguments.")]

@@ -13,6 +13,8 @@ mod evaluation_plots;
 mod evaluation_positioning;
 mod holes;
 mod html;
+mod identification;
+mod identification_page;
 mod json;
 mod page;
 mod plots;
@@ -27,6 +29,11 @@ pub use evaluation_html::evaluation_html;
 pub use evaluation_json::evaluation_json;
 pub use holes::{holes_json, holes_text};
 pub use html::html;
+pub use identification::{
+    IdentificationReport, conventions_json, conventions_text, identification_json,
+    identification_text,
+};
+pub use identification_page::identification_html;
 pub use json::json;
 pub use plots::DrawingError;
 pub use simulation::{Simulation, simulation_json, simulation_text, trouble_code, trouble_text};
