@@ -6,3 +6,9 @@ $trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml -
 # How does the spindle drift with temperatures, and which sensors tell? Judged on logs not seen.
 $trueaxis identify thermal examples/05_identify/lathe-thermal.toml
 $trueaxis identify thermal examples/05_identify/lathe-thermal.toml --format json
+# Which location errors has the machine, and what can a probe on one ball not tell apart?
+$trueaxis identify examples/05_identify/probe-ball.toml --report "${TMPDIR:-/tmp}/probe-ball.html" -o "${TMPDIR:-/tmp}/probe-ball-machine.toml"
+$trueaxis identify examples/05_identify/probe-ball.toml --format json
+# Ball-bar, R-test and laser at once.
+$trueaxis identify examples/05_identify/mixed-instruments.toml
+$trueaxis identify examples/05_identify/mixed-instruments.toml --check-conventions

@@ -1,3 +1,4 @@
+mod errors;
 mod thermal;
 
 use crate::output::{Answer, Format, Outcome, finish};
@@ -10,9 +11,21 @@ use trueaxis::identify::expansion::{Expansion, Runs, identify_expansion, read_ru
 
 /// What to identify.
 #[derive(Args)]
+#[command(
+    args_conflicts_with_subcommands = true,
+    after_help = "\
+Examples:
+  trueaxis identify examples/05_identify/probe-ball.toml --report found.html
+  trueaxis identify examples/05_identify/mixed-instruments.toml -o identified.toml --format json
+  trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml
+
+Exit status: 0 the model explains what can be explained, 1 it does not, 2 unusable input."
+)]
 pub struct Arguments {
     #[command(subcommand)]
-    what: What,
+    what: Option<What>,
+    #[command(flatten)]
+    errors: errors::Arguments,
 }
 
 #[derive(Subcommand)]
@@ -41,8 +54,9 @@ struct ExpansionArguments {
 
 pub fn run(arguments: &Arguments) -> Outcome {
     match &arguments.what {
-        What::Expansion(arguments) => run_expansion(arguments),
-        What::Thermal(arguments) => thermal::run(arguments),
+        None => errors::run(&arguments.errors),
+        Some(What::Expansion(arguments)) => run_expansion(arguments),
+        Some(What::Thermal(arguments)) => thermal::run(arguments),
     }
 }
 

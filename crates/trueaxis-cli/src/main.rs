@@ -41,6 +41,7 @@ Examples:
   trueaxis measure examples/04_plan/probe-ball.toml
   trueaxis verify examples/07_verify/probe-ball.toml
   trueaxis plan examples/04_plan/probe-ball.toml
+  trueaxis identify examples/05_identify/probe-ball.toml
   trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml
 
 Exit status: 0 done, 1 the verdict is no, 2 unusable input or arguments.")]

@@ -13,8 +13,15 @@ use trueaxis_machine::heat::TemperatureLog;
 const MAX_BYTES: u64 = 256 << 20;
 
 /// The tables beside a machine file.
-struct Folder {
+pub struct Folder {
     path: PathBuf,
+}
+
+impl Folder {
+    /// The folder of a file.
+    pub fn of(file: &Path) -> Self {
+        Self { path: file.parent().unwrap_or(Path::new("")).to_owned() }
+    }
 }
 
 impl Tables for Folder {
@@ -38,8 +45,7 @@ pub fn machine(path: &Path) -> (Option<Machine>, Diagnostics) {
     let Some(text) = text(path, "a machine file (TOML)", &mut problems) else {
         return (None, problems);
     };
-    let folder = Folder { path: path.parent().unwrap_or(Path::new("")).to_owned() };
-    Machine::check(&path.display().to_string(), &text, &folder)
+    Machine::check(&path.display().to_string(), &text, &Folder::of(path))
 }
 
 /// Reads a text file; if it cannot be read, says why.

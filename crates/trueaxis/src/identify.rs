@@ -4,12 +4,23 @@
 //! - [`thermal`]: linear models of errors that drift with temperatures;
 //! - the errors of the machine from any mix of instruments: [`term`] says what is sought, a
 //!   [`design`] how readings follow it, a [`fit`] finds it, [`confusion`] says what cannot be told
-//!   apart.
+//!   apart; [`errors`](mod@errors) is the whole way from readings to a verdict.
 
+pub mod checks;
+pub mod conflict;
 pub mod confusion;
+pub mod convention;
 pub mod design;
+pub mod errors;
 pub mod expansion;
 pub mod fit;
+pub mod influence;
+pub mod leftover;
+pub mod machine_file;
 pub mod minimal;
+pub mod records;
+pub mod score;
+pub mod selection;
+pub mod statistics;
 pub mod term;
 pub mod thermal;

@@ -16,6 +16,8 @@ mod evaluation_positioning;
 mod holes;
 mod holes_html;
 mod html;
+mod identification;
+mod identification_page;
 mod json;
 mod measurement;
 mod page;
@@ -41,6 +43,11 @@ pub use evaluation_json::evaluation_json;
 pub use holes::{holes_json, holes_text};
 pub use holes_html::holes_html;
 pub use html::html;
+pub use identification::{
+    IdentificationReport, conventions_json, conventions_text, identification_json,
+    identification_text,
+};
+pub use identification_page::identification_html;
 pub use json::json;
 pub use measurement::{MeasuredReport, measurement_html, measurement_json, measurement_text};
 pub use plan::{PlanReport, PlannedPath, plan_json, plan_text};

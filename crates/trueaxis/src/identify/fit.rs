@@ -96,6 +96,11 @@ pub struct Observability {
 impl Observability {
     /// From the normal matrix JᵀWJ.
     pub fn of(normal: &DMatrix<f64>) -> Self {
+        Self::with_threshold(normal, LEAST_SINGULAR_VALUE)
+    }
+
+    /// The same; singular values below this share of the greatest are not seen.
+    pub fn with_threshold(normal: &DMatrix<f64>, threshold: f64) -> Self {
         let n = normal.nrows();
         let length = normal.diagonal().map(|d| d.max(0.0).sqrt());
         // A column of rounding errors must not be scaled to 1.
@@ -110,7 +115,7 @@ impl Observability {
         order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
         let singular_values: Vec<f64> =
             order.iter().map(|k| eigen.eigenvalues[*k].max(0.0).sqrt()).collect();
-        let least = LEAST_SINGULAR_VALUE * singular_values.first().copied().unwrap_or(0.0);
+        let least = threshold * singular_values.first().copied().unwrap_or(0.0);
         let rank = singular_values.iter().take_while(|s| **s > least).count();
         let vectors = DMatrix::from_fn(n, n, |i, k| eigen.eigenvectors[(i, order[k])]);
         let null = vectors.columns(rank, n - rank).into_owned();
@@ -300,6 +305,19 @@ pub fn normal_matrix(design: &Design, readings: &Readings, weights: &[f64]) -> D
 /// # Errors
 /// Nothing to fit or to find, a row outside the tables of the machine, no convergence.
 pub fn fit(design: &Design, readings: &Readings, weights: &[f64]) -> Result<Fit, FitError> {
+    fit_with_threshold(design, readings, weights, LEAST_SINGULAR_VALUE)
+}
+
+/// The same; singular values below this share of the greatest are not seen.
+///
+/// # Errors
+/// As [`fit`].
+pub fn fit_with_threshold(
+    design: &Design,
+    readings: &Readings,
+    weights: &[f64],
+    threshold: f64,
+) -> Result<Fit, FitError> {
     if readings.is_empty() {
         return Err(FitError::NoReadings);
     }
@@ -307,7 +325,7 @@ pub fn fit(design: &Design, readings: &Readings, weights: &[f64]) -> Result<Fit,
         return Err(FitError::NoUnknowns);
     }
     let rows = Rows::new(design, readings, weights);
-    let sight = Observability::of(&rows.normal());
+    let sight = Observability::with_threshold(&rows.normal(), threshold);
     let mut values = DVector::zeros(design.unknowns());
     let mut residuals = vec![[0.0; 3]; readings.len()];
     let mut before = 0.0;

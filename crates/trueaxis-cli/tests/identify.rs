@@ -1,0 +1,157 @@
+//! `trueaxis identify CAMPAIGN.toml` as a user sees it.
+
+mod command;
+
+use command::{Folder, Ran, root, trueaxis};
+
+const CAMPAIGN: &str = "examples/05_identify/probe-ball.toml";
+
+#[test]
+fn the_document_has_the_agreed_keys() {
+    let ran = trueaxis(&["identify", CAMPAIGN, "--format", "json"]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let found = ran.json();
+    assert_eq!(found["schema"], "trueaxis/identify/1");
+    for error in found["errors"].as_array().expect("errors") {
+        let value = ["value_um", "value_urad"].iter().any(|k| error.get(*k).is_some());
+        let u = ["u_um", "u_urad"].iter().any(|k| error.get(*k).is_some());
+        assert!(error["name"].is_string() && value && u, "{error}");
+    }
+    for of in found["unobservable"].as_array().expect("combinations") {
+        for key in ["combination", "words", "resolve_with"] {
+            assert!(of[key].is_string(), "{of}");
+        }
+    }
+    for key in ["rms_in_um", "rms_held_out_um", "repeatability_um", "condition"] {
+        assert!(found[key].as_f64().expect(key) > 0.0);
+    }
+    assert!(found["rank"].as_u64().expect("a rank") > 0);
+    assert_eq!(found["verdict"]["key"], "explained");
+}
+
+#[test]
+fn the_machine_file_is_new_and_the_input_stays() {
+    let folder = Folder::new("identify-output");
+    let machine = root().join("machines/lei-hsu-mill/machine.toml");
+    let before = std::fs::read_to_string(&machine).expect("the machine file");
+    let output = folder.path("found.toml");
+    let page = folder.path("found.html");
+    let ran = trueaxis(&["identify", CAMPAIGN, "-o", &output, "--report", &page]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let written = std::fs::read_to_string(&output).expect("the new file");
+    assert!(written.contains("identified with probe-ball") && written.contains("2026-11-21"));
+    assert!(written.contains("# Models for the collision check"), "comments stay");
+    assert_eq!(trueaxis(&["check", &output]).status, 0);
+    assert!(std::fs::read_to_string(&page).expect("a page").contains("Correlation"));
+    let refused = trueaxis(&["identify", CAMPAIGN, "-o", "machines/lei-hsu-mill/machine.toml"]);
+    assert_eq!(refused.status, 2);
+    assert!(refused.err.contains("not overwritten"), "{}", refused.err);
+    assert_eq!(std::fs::read_to_string(&machine).expect("the machine file"), before);
+}
+
+/// The example with other readings.
+fn with_readings(folder: &Folder, change: impl Fn(usize, &str) -> String) -> String {
+    let csv = root().join("examples/05_identify/probe-ball.csv");
+    let csv = std::fs::read_to_string(csv).expect("the readings");
+    let lines: Vec<String> = csv.lines().enumerate().map(|(i, line)| change(i, line)).collect();
+    folder.file("readings.csv", lines.join("\n") + "\n");
+    let text = std::fs::read_to_string(root().join(CAMPAIGN)).expect("the campaign");
+    let machine = root().join("machines/lei-hsu-mill/machine.toml").display().to_string();
+    let text = text
+        .replace("../../machines/lei-hsu-mill/machine.toml", &machine)
+        .replace("probe-ball.csv", "readings.csv");
+    folder.file("campaign.toml", text)
+}
+
+fn refused(ran: &Ran, code: &str, place: &str) {
+    assert_eq!(ran.status, 2, "{}", ran.err);
+    assert!(ran.err.contains(&format!("error[{code}]")), "{code}: {}", ran.err);
+    assert!(ran.err.contains(place), "{place}: {}", ran.err);
+    assert_eq!(ran.out, "");
+}
+
+#[test]
+fn bad_readings_get_no_confident_answer() {
+    let folder = Folder::new("identify-bad");
+    let same = |line: &str| line.to_owned();
+    let cell = |line: &str, at: usize, value: &dyn Fn(&str) -> String| {
+        let cells = line.split(',').enumerate();
+        cells.map(|(i, c)| if i == at { value(c) } else { same(c) }).collect::<Vec<_>>().join(",")
+    };
+    let campaign = with_readings(&folder, |i, line| match i {
+        9 => cell(line, 5, &|_| "nan".to_owned()),
+        _ => same(line),
+    });
+    refused(&trueaxis(&["identify", &campaign]), "not-a-number", "readings.csv:10");
+    // Few rows, and all in one place.
+    let campaign = with_readings(&folder, |i, line| if i < 7 { same(line) } else { String::new() });
+    refused(&trueaxis(&["identify", &campaign]), "too-few-readings", "campaign.toml");
+    let first = std::cell::RefCell::new(String::new());
+    let campaign = with_readings(&folder, |i, line| {
+        if i == 3 {
+            line.clone_into(&mut first.borrow_mut());
+        }
+        if i <= 3 { same(line) } else { first.borrow().clone() }
+    });
+    refused(&trueaxis(&["identify", &campaign]), "one-place", "campaign.toml");
+    // A sign: the verdict is no, and the convention that fits is named.
+    let campaign = with_readings(&folder, |i, line| {
+        let negated = |z: &str| (-z.parse::<f64>().expect("a reading")).to_string();
+        if i > 2 { cell(line, 7, &negated) } else { same(line) }
+    });
+    let ran = trueaxis(&["identify", &campaign]);
+    assert_eq!(ran.status, 1, "{}{}", ran.out, ran.err);
+    assert!(ran.out.contains("z with the opposite sign: the residual would fall"), "{}", ran.out);
+    // The same file twice.
+    let campaign = with_readings(&folder, |_, line| same(line));
+    let text = std::fs::read_to_string(&campaign).expect("the campaign");
+    let twice = text.replace("\"readings.csv\"", "[\"readings.csv\", \"readings.csv\"]");
+    let campaign = folder.file("campaign.toml", twice);
+    refused(&trueaxis(&["identify", &campaign]), "duplicate-file", "readings.csv");
+    // Another unit: named in the remarks.
+    let campaign = with_readings(&folder, |_, line| line.replace("_um", "_mm"));
+    let ran = trueaxis(&["identify", &campaign, "--check-conventions"]);
+    assert_ne!(ran.status, 0);
+    assert!(
+        format!("{}{}", ran.out, ran.err).contains("µm written as mm"),
+        "{}{}",
+        ran.out,
+        ran.err
+    );
+}
+
+#[test]
+fn an_instrument_that_contradicts_the_others_is_named() {
+    let folder = Folder::new("identify-conflict");
+    let source = root().join("examples/05_identify");
+    let machine = root().join("machines/lei-hsu-mill/machine.toml").display().to_string();
+    for name in ["r-test.csv", "laser-x.csv"] {
+        folder.file(name, std::fs::read(source.join(name)).expect("readings"));
+    }
+    // A bar in whose readings X and Y are swapped: the squareness has the other sign.
+    let bar = std::fs::read_to_string(source.join("ball-bar.csv")).expect("readings");
+    let mirrored: Vec<String> = bar
+        .lines()
+        .enumerate()
+        .map(|(i, line)| match line.rsplit_once(',') {
+            Some((rest, group)) if i > 2 => {
+                let (axes, length) = rest.rsplit_once(',').expect("a length");
+                let length: f64 = length.parse().expect("a length");
+                format!("{axes},{},{group}", 300.0 - length)
+            }
+            _ => line.to_owned(),
+        })
+        .collect();
+    folder.file("ball-bar.csv", mirrored.join("\n") + "\n");
+    let text = std::fs::read_to_string(source.join("mixed-instruments.toml")).expect("a campaign");
+    let text = text.replace("../../machines/lei-hsu-mill/machine.toml", &machine);
+    let ran = trueaxis(&["identify", &folder.file("campaign.toml", text)]);
+    assert!(ran.err.contains("warning[conflicting-instruments]"), "{}{}", ran.out, ran.err);
+    assert!(ran.err.contains("contradicts the others"), "{}", ran.err);
+}
+
+#[test]
+fn a_campaign_and_a_subcommand_do_not_mix() {
+    assert_eq!(trueaxis(&["identify"]).status, 2);
+    assert_eq!(trueaxis(&["identify", CAMPAIGN, "expansion", "x.toml"]).status, 2);
+}

@@ -1,0 +1,151 @@
+//! The readings of a campaign with the file that each came from.
+
+use crate::files;
+use crate::measure::{Campaign, Readings};
+use trueaxis_geometry::input::{CsvTable, Diagnostics, Item, Place, Section};
+
+/// Readings, and where each stands.
+#[derive(Debug, Clone, Default)]
+pub struct Records {
+    /// The rows of all tables, one table after the other.
+    pub readings: Readings,
+    /// The first row of each table, and its file.
+    tables: Vec<(usize, String)>,
+}
+
+impl Records {
+    /// Readings that came from no file.
+    pub fn bare(readings: Readings) -> Self {
+        Self { readings, tables: Vec::new() }
+    }
+
+    /// File and line of a row.
+    pub fn place(&self, row: usize) -> Place {
+        let table = self.tables.iter().rev().find(|(first, _)| *first <= row);
+        let mut place = Place::whole(table.map_or("", |(_, file)| file));
+        place.line = self.readings.lines.get(row).map_or(0, |line| *line as usize);
+        place
+    }
+}
+
+/// Reads all tables of a campaign; a table that is there twice is refused.
+pub fn read_records(campaign: &Campaign, problems: &mut Diagnostics) -> Option<Records> {
+    let mut records = Records::default();
+    let mut texts: Vec<(String, String)> = Vec::new();
+    let mut sound = true;
+    for (index, (instrument, tables)) in
+        campaign.instruments.iter().zip(&campaign.tables).enumerate()
+    {
+        for path in tables {
+            let file = path.display().to_string();
+            let Some(text) = files::text(path, "a table of readings (CSV)", problems) else {
+                sound = false;
+                continue;
+            };
+            if let Some((twin, _)) = texts.iter().find(|(_, known)| *known == text) {
+                let message = format!("the same readings as in {twin}");
+                let hint = "name every table once: readings that count twice look too sure";
+                problems.error("duplicate-file", Place::whole(&file), message, hint);
+                sound = false;
+                continue;
+            }
+            let table = CsvTable::parse(&file, &text, problems);
+            texts.push((file.clone(), text));
+            let index = u32::try_from(index).unwrap_or(u32::MAX);
+            match Readings::parse(&table, &campaign.machine, instrument, index, problems) {
+                Some(read) => {
+                    records.tables.push((records.readings.len(), file));
+                    records.readings.append(&read);
+                }
+                None => sound = false,
+            }
+        }
+        if tables.is_empty() {
+            let message = format!("the instrument {} has no readings", instrument.name);
+            let hint = "readings = \"FILE.csv\" in its section; it is left out";
+            let place = Place::whole(&campaign.path.display().to_string());
+            problems.warn("no-readings", place, message, hint);
+        }
+    }
+    (sound && !problems.has_errors()).then_some(records)
+}
+
+/// Poses are written with four decimals: what is seen ten thousand times less than the best
+/// combination may be rounding, and its uncertainty would be larger than any error.
+const THRESHOLD: f64 = 1e-4;
+
+/// How residuals count.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Loss {
+    /// By their squares.
+    #[default]
+    Squares,
+    /// By their squares up to 1.345 standard deviations, then by their size (Huber 1964).
+    Huber,
+}
+
+/// `[fit]` of a campaign.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// How residuals count.
+    pub loss: Loss,
+    /// Into how many parts the places are split for cross-validation.
+    pub folds: usize,
+    /// Whether cross-validation chooses among the terms of error motions.
+    pub selection: bool,
+    /// Singular values below this share of the greatest are not seen.
+    pub threshold: f64,
+    /// When it was measured, as written.
+    pub date: Option<String>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { loss: Loss::Squares, folds: 10, selection: true, threshold: THRESHOLD, date: None }
+    }
+}
+
+/// Reads `[fit]`.
+pub fn read_options(root: &Section<'_>) -> Options {
+    let mut options = Options::default();
+    root.section("fit", |section| {
+        if let Some(item) = section.get("loss") {
+            options.loss = read_loss(&item);
+        }
+        if let Some((item, folds)) = section.get("folds").and_then(|i| Some((i, i.count()?))) {
+            match (2..=100).contains(&folds) {
+                true => options.folds = folds,
+                false => item.error("bad-folds", "2 to 100 parts make sense".into(), "folds = 10"),
+            }
+        }
+        if let Some(selection) = section.get("selection").and_then(|i| i.flag()) {
+            options.selection = selection;
+        }
+        if let Some(item) = section.get("threshold")
+            && let Some(threshold) = item.number()
+        {
+            match (1e-6..=0.1).contains(&threshold) {
+                true => options.threshold = threshold,
+                false => {
+                    let message = "the threshold of singular values is 1e-6 to 0.1".to_owned();
+                    item.error("bad-threshold", message, "threshold = 1e-4");
+                }
+            }
+        }
+        options.date = section.get("date").and_then(|i| i.date_or_text());
+    });
+    options
+}
+
+fn read_loss(item: &Item<'_>) -> Loss {
+    match item.text() {
+        Some("squares") => Loss::Squares,
+        Some("huber") => Loss::Huber,
+        Some(other) => {
+            let hint = "\"squares\" (default) or \"huber\"";
+            item.error("unknown-word", format!("no loss is called `{other}`"), hint);
+            Loss::Squares
+        }
+        None => Loss::Squares,
+    }
+}
