@@ -12,6 +12,7 @@ mod numbers;
 mod output;
 mod path_file;
 mod pose;
+mod post;
 mod predict;
 mod report_file;
 mod simulate;
@@ -33,6 +34,7 @@ Examples:
   trueaxis simulate machines/i5-engraver/machine.toml examples/02_simulate/ring-fanuc.nc
   trueaxis predict examples/03_predict/nas979-on-xkas2525.toml
   trueaxis evaluate iso230-2 examples/07_verify/x-axis-laser.csv --report x.html
+  trueaxis post machines/i5-engraver/machine.toml examples/06_compensate/bangle.cls --dialect fanuc -o bangle.nc --verify
   trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml
 
 Exit status: 0 done, 1 the verdict is no, 2 unusable input or arguments.")]
@@ -57,6 +59,8 @@ enum Verb {
     Identify(identify::Arguments),
     /// Predict: will the test piece be good, and which error costs how much of it
     Predict(predict::Arguments),
+    /// Compensate: cutter locations into an NC program of one control, with its proof
+    Post(post::Arguments),
     /// Verify: readings of instruments by ISO 230: positioning, circles, diagonals, drift, spindles
     Evaluate(evaluate::Arguments),
 }
@@ -75,6 +79,7 @@ fn main() -> ExitCode {
         Verb::Trace(arguments) => trace::run(&arguments),
         Verb::Identify(arguments) => identify::run(&arguments),
         Verb::Predict(arguments) => predict::run(&arguments),
+        Verb::Post(arguments) => post::run(&arguments),
         Verb::Evaluate(arguments) => evaluate::run(&arguments),
     };
     match outcome {

@@ -6,11 +6,11 @@
 //!
 //! ```
 //! use trueaxis_nc::cl::{ClFile, Reading, Word};
-//! let text = b"UNITS/INCHES\nMULTAX/ON\nFEDRAT/10,IPM\nGOTO/1,2,3, $\n 0,0.6,0.8\nFINI\n".to_vec();
+//! let text = b"UNITS/INCHES\nMULTAX/ON\nFEDRAT/10,IPM\nGOTO/1,2,4, $\n 0,0.6,0.8\nFINI\n".to_vec();
 //! let (file, problems) = ClFile::read("demo.cls", text, &Reading::default());
 //! assert!(!problems.has_errors());
 //! let Word::Goto(point) = &file.records()[3].word else { panic!() };
-//! assert_eq!(point.tip_mm, [25.4, 50.8, 76.2]);
+//! assert_eq!(point.tip_mm, [25.4, 50.8, 101.6]);
 //! assert_eq!(point.axis, [0.0, 0.6, 0.8]);
 //! assert_eq!(point.feed.map(|f| f.value), Some(254.0));
 //! ```
@@ -188,12 +188,8 @@ impl ClFile {
         let mut points = self.points().map(|(_, p)| p);
         let first = points.next()?;
         let tilt = |p: &ClPoint| p.axis[0].hypot(p.axis[1]).atan2(p.axis[2]);
-        let start = Extent {
-            points: 1,
-            min_mm: first.tip_mm,
-            max_mm: first.tip_mm,
-            tilt_rad: tilt(first),
-        };
+        let start =
+            Extent { points: 1, min_mm: first.tip_mm, max_mm: first.tip_mm, tilt_rad: tilt(first) };
         Some(points.fold(start, |e, p| Extent {
             points: e.points + 1,
             min_mm: std::array::from_fn(|i| e.min_mm[i].min(p.tip_mm[i])),

@@ -24,7 +24,7 @@
 //!     writer.write(&block)?;
 //! }
 //! let text = String::from_utf8(writer.finish()).unwrap();
-//! assert!(text.contains("\nG0 X10. A-30.\nG1 X12.5 F500.\nA-30.5\nM9\n"));
+//! assert!(text.contains("\nG0 X10. A-30.\nG94 G1 X12.5 F500.\nA-30.5\nM9\n"));
 //! # Ok::<(), trueaxis_nc::writer::WriteError>(())
 //! ```
 
@@ -206,7 +206,9 @@ impl Decimals {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum WriteError {
     /// A number that no control reads.
-    #[error("{word} = {value} cannot be written; it must be finite and of a size that machines have")]
+    #[error(
+        "{word} = {value} cannot be written; it must be finite and of a size that machines have"
+    )]
     Number {
         /// The word.
         word: &'static str,

@@ -225,9 +225,8 @@ fn law_everything_else_reads_back() {
         let text = writer.finish();
         let steps = read(&text, control);
         let text = String::from_utf8_lossy(&text);
-        let event = |wanted: &Event| {
-            steps.iter().any(|s| matches!(s, Step::Event(e, _) if e == wanted))
-        };
+        let event =
+            |wanted: &Event| steps.iter().any(|s| matches!(s, Step::Event(e, _) if e == wanted));
         assert!(event(&Event::ToolChange(4)), "{text}");
         assert!(event(&Event::SpindleSpeed(12_000.0)), "{text}");
         assert!(event(&Event::Spindle(Turning::Clockwise)), "{text}");
@@ -238,7 +237,10 @@ fn law_everything_else_reads_back() {
         let dwell = MoveKind::Dwell { seconds: 1.5 };
         assert!(moves.iter().any(|m| m.kind == dwell), "{text}");
         let last = moves.last().unwrap();
-        assert_eq!((last.target.0[..3].to_vec(), last.kind), (vec![1.0, 2.0, 3.0], MoveKind::Linear));
+        assert_eq!(
+            (last.target.0[..3].to_vec(), last.kind),
+            (vec![1.0, 2.0, 3.0], MoveKind::Linear)
+        );
     }
 }
 

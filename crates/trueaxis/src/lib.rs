@@ -8,12 +8,14 @@
 //! - *predict*: [`predict`](mod@predict): is the test piece that this machine cuts within its
 //!   tolerances, how sure is that, and which error is to blame;
 //! - *identify*: [`identify`]: the expansion of a scale from laser runs at two temperatures;
+//! - *compensate*: [`compensate`]: cutter locations into programs for one machine;
 //! - *verify*: [`verify`]: readings of instruments evaluated by ISO 230;
 //! - [`report`]: all that as text, JSON and self-contained HTML pages.
 //!
 //! The nouns live in crates of their own and are handed on here: [`geometry`], [`machine`],
 //! [`part`].
 
+pub mod compensate;
 pub mod files;
 pub mod identify;
 pub mod predict;

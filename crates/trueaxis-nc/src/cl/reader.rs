@@ -142,7 +142,8 @@ impl<'n> Reader<'n> {
             if is_heading(s) {
                 return Word::Noted;
             }
-            let message = format!("`{}` is not a word that is known here: it is kept, not used", s.word);
+            let message =
+                format!("`{}` is not a word that is known here: it is kept, not used", s.word);
             self.warn("unknown-word", &s.word, s.line, message, "does it move the tool?");
             return Word::Unknown;
         };
@@ -217,27 +218,31 @@ impl<'n> Reader<'n> {
             Major::Insert => Word::Insert(s.rest().to_owned()),
             Major::Comment => Word::Comment(s.rest().to_owned()),
             Major::End => Word::End,
-            Major::Synonym => {
-                let names = s.argument(0).eq_ignore_ascii_case("'TLAXIS'");
-                self.no_tool_axis |= names && s.argument(1).starts_with("'$$");
-                Word::Noted
-            }
+            Major::Synonym => self.synonym(s),
             Major::Noted | Major::Load => Word::Noted,
-            Major::NotApplied(what) => {
-                let off = s.argument(0).eq_ignore_ascii_case("OFF");
-                if !off {
-                    let message = format!("{} is noted, not applied: {what}", s.word);
-                    let hint = "check where the tool goes";
-                    self.warn("not-applied", &s.word, s.line, message, hint);
-                }
-                Word::Noted
-            }
+            Major::NotApplied(what) => self.not_applied(what, s),
             Major::Motion(what) => {
                 let message = format!("{} is not read: {what}", s.word);
                 let hint = "let the CAM system write points (GOTO)";
                 return Err(("motion-not-read", message, hint));
             }
         })
+    }
+
+    /// SYN/'TLAXIS','$$…': what is written as TLAXIS is a comment.
+    fn synonym(&mut self, s: &Statement) -> Word {
+        let names = s.argument(0).eq_ignore_ascii_case("'TLAXIS'");
+        self.no_tool_axis |= names && s.argument(1).starts_with("'$$");
+        Word::Noted
+    }
+
+    fn not_applied(&mut self, what: &str, s: &Statement) -> Word {
+        if !s.argument(0).eq_ignore_ascii_case("OFF") {
+            let message = format!("{} is noted, not applied: {what}", s.word);
+            let hint = "check where the tool goes";
+            self.warn("not-applied", &s.word, s.line, message, hint);
+        }
+        Word::Noted
     }
 
     fn numbers<const N: usize>(&self, s: &Statement, from: usize) -> Result<[f64; N], Fault> {
@@ -447,7 +452,8 @@ impl<'n> Reader<'n> {
         };
         let clearance_mm = length(&["RAPTO", "CLEAR"]).unwrap_or(0.0).max(0.0);
         let feeds = [("MMPM", FeedMode::PerMinute, 1.0), ("IPM", FeedMode::PerMinute, INCH_MM)];
-        let turns = [("MMPR", FeedMode::PerRevolution, 1.0), ("IPR", FeedMode::PerRevolution, INCH_MM)];
+        let turns =
+            [("MMPR", FeedMode::PerRevolution, 1.0), ("IPR", FeedMode::PerRevolution, INCH_MM)];
         let feed = feeds.into_iter().chain(turns).find_map(|(name, mode, unit)| {
             let value = named(&[name]).filter(|v| *v > 0.0)?;
             Some(Feed { mode, value: value * unit })
