@@ -12,3 +12,6 @@ $trueaxis compensate values $gantry --axis X --step 350 --temperature "scale_x=3
 # Both directions of approach, and a rotary axis in ten thousandths of a degree.
 $trueaxis compensate values machines/three-axis-mill/machine.toml --axis X --step 60
 $trueaxis compensate values machines/xkas2525/machine.toml --axis C --step 30 --format json
+# Cutter locations into programs that fit this machine, read back and simulated.
+$trueaxis post machines/i5-engraver/machine.toml examples/06_compensate/bangle.cls --dialect fanuc -o "$out/bangle.nc" --verify
+$trueaxis post machines/xkas2525/machine.toml examples/06_compensate/blade.cls --dialect sinumerik --tcp off -o "$out/blade.mpf" --verify

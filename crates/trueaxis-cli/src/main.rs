@@ -15,6 +15,7 @@ mod output;
 mod path_file;
 mod plan;
 mod pose;
+mod post;
 mod predict;
 mod report_file;
 mod simulate;
@@ -42,6 +43,7 @@ Examples:
   trueaxis verify examples/07_verify/probe-ball.toml
   trueaxis plan examples/04_plan/probe-ball.toml
   trueaxis identify examples/05_identify/probe-ball.toml
+  trueaxis post machines/i5-engraver/machine.toml examples/06_compensate/bangle.cls --dialect fanuc -o bangle.nc --verify
   trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml
 
 Exit status: 0 done, 1 the verdict is no, 2 unusable input or arguments.")]
@@ -72,6 +74,8 @@ enum Verb {
     Predict(predict::Arguments),
     /// Compensate: what the control has to add to its commands
     Compensate(compensate::Arguments),
+    /// Compensate: cutter locations into an NC program of one control, with its proof
+    Post(post::Arguments),
     /// Verify: readings of instruments by ISO 230: positioning, circles, diagonals, drift, spindles
     Evaluate(evaluate::Arguments),
     /// Verify: readings against what a machine file predicts, or against other readings
@@ -95,6 +99,7 @@ fn main() -> ExitCode {
         Verb::Identify(arguments) => identify::run(&arguments),
         Verb::Predict(arguments) => predict::run(&arguments),
         Verb::Compensate(arguments) => compensate::run(&arguments),
+        Verb::Post(arguments) => post::run(&arguments),
         Verb::Evaluate(arguments) => evaluate::run(&arguments),
         Verb::Verify(arguments) => verify::run(&arguments),
     };

@@ -218,6 +218,15 @@ impl TipControl {
         all.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(near)
     }
 
+    /// The direction of the rotary axis that turns first, seen from the workpiece: where the tool
+    /// stands along it or against it, that axis has no effect. `None` with fewer than two rotary
+    /// axes.
+    pub fn pole(&self) -> Option<Direction<Workpiece>> {
+        let [first, _, ..] = self.aim.turning[..] else { return None };
+        let frames = self.serial.frames(&Command::default());
+        Direction::of(self.serial.axis_in(&frames, first.axis))
+    }
+
     /// How far a command is from a pole: the sine of the angle between the tool axis and the
     /// rotary axis that turns first, seen from the workpiece; 1 with fewer than two rotary axes.
     pub fn pole_sine(&self, command: &Command) -> f64 {

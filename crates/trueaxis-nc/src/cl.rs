@@ -6,11 +6,11 @@
 //!
 //! ```
 //! use trueaxis_nc::cl::{ClFile, Reading, Word};
-//! let text = b"UNITS/INCHES\nMULTAX/ON\nFEDRAT/10,IPM\nGOTO/1,2,3, $\n 0,0.6,0.8\nFINI\n".to_vec();
+//! let text = b"UNITS/INCHES\nMULTAX/ON\nFEDRAT/10,IPM\nGOTO/1,2,4, $\n 0,0.6,0.8\nFINI\n".to_vec();
 //! let (file, problems) = ClFile::read("demo.cls", text, &Reading::default());
 //! assert!(!problems.has_errors());
 //! let Word::Goto(point) = &file.records()[3].word else { panic!() };
-//! assert_eq!(point.tip_mm, [25.4, 50.8, 76.2]);
+//! assert_eq!(point.tip_mm, [25.4, 50.8, 101.6]);
 //! assert_eq!(point.axis, [0.0, 0.6, 0.8]);
 //! assert_eq!(point.feed.map(|f| f.value), Some(254.0));
 //! ```

@@ -24,7 +24,7 @@
 //!     writer.write(&block)?;
 //! }
 //! let text = String::from_utf8(writer.finish()).unwrap();
-//! assert!(text.contains("\nG0 X10. A-30.\nG1 X12.5 F500.\nA-30.5\nM9\n"));
+//! assert!(text.contains("\nG0 X10. A-30.\nG94 G1 X12.5 F500.\nA-30.5\nM9\n"));
 //! # Ok::<(), trueaxis_nc::writer::WriteError>(())
 //! ```
 

@@ -6,13 +6,14 @@ mod support;
 
 use proptest::prelude::*;
 use std::collections::BTreeMap;
-use std::fmt::Write;
 use support::outside;
-use trueaxis_nc::cl::{ClFile, Reading, Word};
+use trueaxis_nc::cl::{ClCircle, ClFile, Reading, Word};
+use trueaxis_nc::moves::Turning;
 
 fn read(text: &str) -> (ClFile, Vec<(usize, &'static str)>) {
     let (file, problems) = ClFile::read("a.cls", text.as_bytes().to_vec(), &Reading::default());
-    let found = problems.iter().map(|p| (p.place.line, p.code)).collect();
+    let mut found: Vec<_> = problems.iter().map(|p| (p.place.line, p.code)).collect();
+    found.sort_unstable();
     (file, found)
 }
 
@@ -74,3 +75,118 @@ fn oracle_cutter_locations_of_others_are_read() {
     }
     println!("simple_curve: {all} points");
 }
+
+#[test]
+fn a_file_by_hand() {
+    let (file, found) = read(
+        "$$ demo\nPARTNO A $ B\nUNITS/MM\nLOADTL/7\nCUTTER/10.,2.\nSPINDL/RPM,1000,CCLW\n\
+         TLAXIS/0,0.6,0.8\nRAPID\nGOTO/1,2,3\nFEDRAT/100,MMPM\nGOTO/4,5, $\n 6\n\
+         CIRCLE/0,0,6,0,0,2\nGOTO/5,4,6\nGODLTA/0,0,1\nDELAY/2\nCOOLNT/OFF\nFINI\n",
+    );
+    assert!(found.is_empty(), "{found:?}");
+    assert_lossless(&file);
+    let points: Vec<_> = file.points().map(|(line, p)| (line, p.tip_mm, p.rapid)).collect();
+    let wanted = [
+        (9, [1.0, 2.0, 3.0], true),
+        (11, [4.0, 5.0, 6.0], false),
+        (14, [5.0, 4.0, 6.0], false),
+        (15, [5.0, 4.0, 7.0], false),
+    ];
+    assert_eq!(points, wanted);
+    assert!(file.points().all(|(_, p)| p.axis == [0.0, 0.6, 0.8]));
+    let has = |word: Word| file.records().iter().any(|r| r.word == word);
+    assert!(has(Word::Tool(7)) && has(Word::Delay(2.0)) && has(Word::End));
+    assert!(has(Word::Cutter { diameter_mm: 10.0, corner_radius_mm: 2.0 }));
+    assert!(has(Word::Spindle(Turning::CounterClockwise, Some(1000.0))));
+    assert!(has(Word::Comment("A $ B".to_owned())));
+    let circle = ClCircle { center_mm: [0.0, 0.0, 6.0], normal: [0.0, 0.0, 1.0] };
+    assert!(has(Word::Circle(circle)));
+}
+
+#[test]
+fn tables_and_inches() {
+    let (file, found) = read("x,y,z,i,j,k\n1,2,3,0,0,1\n4 5 6 0 1 0\n7;8;9;1;0;0\n");
+    assert_eq!(found, [(0, "no-units")]);
+    assert_eq!(file.points().count(), 3);
+    let inches = Reading { inches: Some(true) };
+    let (file, _) = ClFile::read("a", b"UNITS/MM\nGOTO/1,0,0\n".to_vec(), &inches);
+    assert_eq!(file.points().next().map(|(_, p)| p.tip_mm[0]), Some(25.4));
+    let (file, _) = read("UNITS/INCHES\nFEDRAT/100,MMPM\nGOTO/1,0,0\nFEDRAT/10\nGOTO/2,0,0\n");
+    let feeds: Vec<_> = file.points().map(|(_, p)| p.feed.unwrap().value).collect();
+    assert_eq!(feeds, [100.0, 254.0]);
+}
+
+#[test]
+fn what_is_wrong_is_told_with_its_line() {
+    let told = |text: &str| read(text).1;
+    assert_eq!(
+        told("UNITS/MM\nMULTAX/ON\nGOTO/1,2,3\n"),
+        [(3, "no-tool-axis"), (3, "no-tool-axis")]
+    );
+    assert_eq!(told("UNITS/MM\nGOTO/1,2,3\n"), [(2, "no-tool-axis")]);
+    assert_eq!(told("UNITS/MM\nGOTO/1,2,3,0,0,0\nGOTO/0,0,0,0,0,1\n"), [(2, "zero-tool-axis")]);
+    assert_eq!(told("UNITS/MM\nGOTO/1,2,3,0,0,1.00011\n"), [(2, "axis-not-unit")]);
+    assert_eq!(told("UNITS/MM\nGOTO/1,2,3,0,0,1.00009\n"), []);
+    assert_eq!(told("UNITS/MM\nGOTO/1,nan,3\nGOTO/0,0,0,0,0,1\n"), [(2, "bad-number")]);
+    assert_eq!(told("UNITS/MM\nGOTO/1,2\nGOTO/0,0,0,0,0,1\n"), [(2, "bad-number")]);
+    assert_eq!(told("UNITS/MM\nGOTO/1,2,3,4\nGOTO/0,0,0,0,0,1\n"), [(2, "bad-point")]);
+    assert_eq!(told("UNITS/MM\nGOTO/1e9,2,3\nGOTO/0,0,0,0,0,1\n"), [(2, "too-far")]);
+    assert_eq!(told("UNITS/FURLONG\nGOTO/0,0,0,0,0,1\n"), [(0, "no-units"), (1, "unknown-unit")]);
+    assert_eq!(told("UNITS/MM\nGOFWD/C1\nGOTO/0,0,0,0,0,1\n"), [(2, "motion-not-read")]);
+    assert_eq!(told("UNITS/MM\nABRACA/1\nGOTO/0,0,0,0,0,1\n"), [(2, "unknown-word")]);
+    assert_eq!(told("UNITS/MM\nROTABL/90\nGOTO/0,0,0,0,0,1\n"), [(2, "not-applied")]);
+    assert_eq!(told("UNITS/MM\nFEDRAT/-5\nGOTO/0,0,0,0,0,1\n"), [(2, "bad-feed")]);
+    assert_eq!(told("UNITS/MM\n"), [(0, "no-points")]);
+    let endless = "GOTO/x\n".repeat(10_000);
+    assert!(told(&endless).len() < 110);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Any bytes are read without panic and without loss, and no number that comes out is infinite.
+    #[test]
+    fn law_cutter_location_files_survive_any_bytes(
+        bytes in prop::collection::vec(any::<u8>(), 0..200),
+        pieces in prop::collection::vec(0..PIECES.len(), 0..40),
+    ) {
+        let mut text: Vec<u8> = pieces.iter().flat_map(|i| PIECES[*i].bytes()).collect();
+        for source in [bytes.clone(), { text.extend(bytes); text }] {
+            let (file, _) = ClFile::read("a.cls", source, &Reading::default());
+            assert_lossless(&file);
+            for (_, p) in file.points() {
+                prop_assert!(p.tip_mm.iter().chain(&p.axis).all(|v| v.is_finite()));
+                let norm = p.axis.iter().map(|v| v * v).sum::<f64>().sqrt();
+                prop_assert!((norm - 1.0).abs() < 1e-12);
+            }
+        }
+    }
+}
+
+/// Pieces that such files are made of.
+const PIECES: [&str; 24] = [
+    "GOTO/",
+    "1,2,3",
+    ",0,0,1",
+    "\n",
+    "\n",
+    "$\n",
+    "$$ note\n",
+    "RAPID\n",
+    "FEDRAT/100,IPM\n",
+    "CIRCLE/0,0,0,0,0,1,5\n",
+    "MULTAX/ON\n",
+    "UNITS/INCHES\n",
+    "CYCLE/DRILL,FEDTO,5\n",
+    "CYCLE/OFF\n",
+    "SPINDL/",
+    "TLAXIS/0,1,0\n",
+    "1 2 3 0 0 1\n",
+    "(",
+    ")",
+    "'",
+    "PARTNO x\n",
+    "GODLTA/1\n",
+    "SYN/'TLAXIS','$$*'\n",
+    "nan",
+];

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
+use trueaxis_nc::cl::{ClFile, Reading, Word};
 use trueaxis_nc::moves::{Axis, Branch, Coordinates, Frame, Position, Way};
 use trueaxis_nc::{Control, Library, MoveKind, NoLibrary, Program, Settings, Step, interpret};
 
@@ -82,16 +83,17 @@ struct Goto {
     hole: bool,
 }
 
-fn goto_points(text: &str) -> Vec<Goto> {
+fn goto_points(text: Vec<u8>) -> Vec<Goto> {
+    let (file, problems) = ClFile::read("part.apt", text, &Reading::default());
+    assert!(!problems.has_errors(), "{problems:?}");
     let (mut points, mut hole) = (Vec::new(), false);
-    for line in text.lines().map(str::trim) {
-        if line.starts_with("CYCLE/") {
-            hole = line != "CYCLE/OFF";
+    for record in file.records() {
+        match &record.word {
+            Word::Cycle(_) => hole = true,
+            Word::CycleOff => hole = false,
+            Word::Goto(p) => points.push(Goto { point: p.tip_mm, axis: p.axis, hole }),
+            _ => {}
         }
-        let Some(numbers) = line.strip_prefix("GOTO/") else { continue };
-        let n: Vec<f64> = numbers.split(',').map(|v| v.trim().parse().unwrap()).collect();
-        let axis = if n.len() == 6 { [n[3], n[4], n[5]] } else { [0.0, 0.0, 1.0] };
-        points.push(Goto { point: [n[0], n[1], n[2]], axis, hole });
     }
     points
 }
@@ -120,7 +122,7 @@ fn oracle_points_of_the_apt_files_come_back() {
         let set = "aamorim1913__AptPostProcessor";
         let Some(apt) = outside(&format!("cl/{set}/{part}.apt")) else { return };
         let Some(program) = outside(&format!("nc/{set}/{part}/{file}")) else { return };
-        let points = goto_points(&std::fs::read_to_string(apt).unwrap());
+        let points = goto_points(std::fs::read(apt).unwrap());
         let points: Vec<_> = points.into_iter().filter(|g| g.axis == axis).collect();
         let text = std::fs::read(program).unwrap();
         let (steps, _) = run(file, &text, &NoLibrary, &Settings::default());

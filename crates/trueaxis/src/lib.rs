@@ -10,7 +10,8 @@
 //! - *plan*: [`plan`](mod@plan): what a measurement will tell, its programs, the poses that tell most;
 //! - *identify*: [`identify`]: errors of the machine from any mix of instruments, the expansion of
 //!   a scale, thermal models from logs; [`measure`]: what instruments read;
-//! - *compensate*: [`compensate`]: what the control has to add to its commands;
+//! - *compensate*: [`compensate`]: what the control has to add to its commands, and cutter
+//!   locations into programs for one machine;
 //! - *verify*: [`verify`]: readings of instruments evaluated by ISO 230;
 //! - [`report`]: all that as text, JSON and self-contained HTML pages.
 //!

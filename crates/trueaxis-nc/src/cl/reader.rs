@@ -218,27 +218,31 @@ impl<'n> Reader<'n> {
             Major::Insert => Word::Insert(s.rest().to_owned()),
             Major::Comment => Word::Comment(s.rest().to_owned()),
             Major::End => Word::End,
-            Major::Synonym => {
-                let names = s.argument(0).eq_ignore_ascii_case("'TLAXIS'");
-                self.no_tool_axis |= names && s.argument(1).starts_with("'$$");
-                Word::Noted
-            }
+            Major::Synonym => self.synonym(s),
             Major::Noted | Major::Load => Word::Noted,
-            Major::NotApplied(what) => {
-                let off = s.argument(0).eq_ignore_ascii_case("OFF");
-                if !off {
-                    let message = format!("{} is noted, not applied: {what}", s.word);
-                    let hint = "check where the tool goes";
-                    self.warn("not-applied", &s.word, s.line, message, hint);
-                }
-                Word::Noted
-            }
+            Major::NotApplied(what) => self.not_applied(what, s),
             Major::Motion(what) => {
                 let message = format!("{} is not read: {what}", s.word);
                 let hint = "let the CAM system write points (GOTO)";
                 return Err(("motion-not-read", message, hint));
             }
         })
+    }
+
+    /// SYN/'TLAXIS','$$…': what is written as TLAXIS is a comment.
+    fn synonym(&mut self, s: &Statement) -> Word {
+        let names = s.argument(0).eq_ignore_ascii_case("'TLAXIS'");
+        self.no_tool_axis |= names && s.argument(1).starts_with("'$$");
+        Word::Noted
+    }
+
+    fn not_applied(&mut self, what: &str, s: &Statement) -> Word {
+        if !s.argument(0).eq_ignore_ascii_case("OFF") {
+            let message = format!("{} is noted, not applied: {what}", s.word);
+            let hint = "check where the tool goes";
+            self.warn("not-applied", &s.word, s.line, message, hint);
+        }
+        Word::Noted
     }
 
     fn numbers<const N: usize>(&self, s: &Statement, from: usize) -> Result<[f64; N], Fault> {

@@ -267,14 +267,7 @@ impl Writer {
             return Ok(());
         }
         let start = self.text.len();
-        if let Some(mode) = feed.map(|f| f.mode).filter(|m| Some(*m) != self.modal.feed_mode) {
-            self.text.extend_from_slice(match mode {
-                FeedMode::InverseTime => b"G93 ",
-                FeedMode::PerMinute => b"G94 ",
-                FeedMode::PerRevolution => b"G95 ",
-            });
-            (self.modal.feed_mode, self.modal.feed) = (Some(mode), None);
-        }
+        self.feed_mode(feed);
         self.text.extend_from_slice(before);
         let rapid = feed.is_none();
         if self.modal.rapid != Some(rapid) || !before.is_empty() {
@@ -313,6 +306,20 @@ impl Writer {
         }
         self.keep(&place, machine);
         Ok(())
+    }
+
+    /// G93, G94 or G95, where it is another one.
+    fn feed_mode(&mut self, feed: Option<&Feed>) {
+        let mode = feed.map(|f| f.mode);
+        if mode.is_none() || mode == self.modal.feed_mode {
+            return;
+        }
+        self.text.extend_from_slice(match mode {
+            Some(FeedMode::InverseTime) => b"G93 ",
+            Some(FeedMode::PerRevolution) => b"G95 ",
+            Some(FeedMode::PerMinute) | None => b"G94 ",
+        });
+        (self.modal.feed_mode, self.modal.feed) = (mode, None);
     }
 
     /// Keeps what the control now knows; a move from the machine zero leaves the program place

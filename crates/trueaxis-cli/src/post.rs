@@ -1,0 +1,375 @@
+use crate::arguments::MachineArguments;
+use crate::output::{Answer, Format, Outcome, report, show, tell};
+use crate::report_file::unusable;
+use clap::{Args, ValueEnum};
+use serde_json::{Value, json};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use trueaxis::compensate::post::{
+    FeedRule, Largest, PostOptions, Posted, Verification, post, verify,
+};
+use trueaxis::files;
+use trueaxis::geometry::input::{Diagnostics, Dimension, Place, parse_quantity};
+use trueaxis::machine::Machine;
+use trueaxis::nc::Control;
+use trueaxis::nc::cl::{ClFile, Reading};
+use trueaxis::nc::writer::{Decimals, MOST_DECIMALS, Templates, TipWords};
+
+/// The cutter locations, the machine and the control.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  trueaxis post machines/i5-engraver/machine.toml examples/06_compensate/bangle.cls \\
+      --dialect fanuc -o bangle.nc --verify
+  trueaxis post machines/xkas2525/machine.toml examples/06_compensate/blade.cls \\
+      --dialect sinumerik --tcp off -o blade.mpf --verify
+
+The points are taken in the workpiece frame of the machine file. With --tcp on the program has tips
+and tool axes, without it axis positions from the machine zero, tool length and workpiece included.
+Exit status: 0 done, 1 --verify found more than the tolerances (then nothing is written), 2 unusable
+input, or the path leaves the travel.")]
+pub struct Arguments {
+    #[command(flatten)]
+    machine: MachineArguments,
+    /// The cutter-location file: APT of Creo, NCL, CATIA, SolidWorks CAM, or a table x y z i j k
+    #[arg(value_name = "FILE.cls")]
+    file: PathBuf,
+    /// For which control
+    #[arg(long, value_enum)]
+    dialect: Dialect,
+    /// Whether the control keeps the tip of the tool on the path
+    #[arg(long, value_enum, default_value = "on")]
+    tcp: OnOff,
+    /// How the tool axis is written with --tcp on
+    #[arg(long, value_enum, default_value = "angles")]
+    orientation: Orientation,
+    /// Largest distance between path and program, mm
+    #[arg(long, value_name = "MM", default_value = "0.01", allow_negative_numbers = true)]
+    tolerance: String,
+    /// Largest angle of the tool axis between blocks, deg
+    #[arg(long, value_name = "DEG", default_value = "0.05", allow_negative_numbers = true)]
+    axis_tolerance: String,
+    /// A tool axis nearer to a pole than this passes through it, deg
+    #[arg(long, value_name = "DEG", default_value = "0", allow_negative_numbers = true)]
+    pole_tolerance: String,
+    /// How feeds are written
+    #[arg(long, value_enum, default_value = "tip")]
+    feed_mode: FeedMode,
+    /// Feed of the tip where the file has none, mm/min
+    #[arg(long, value_name = "MM_PER_MIN", allow_negative_numbers = true)]
+    feed: Option<String>,
+    /// How far the tool goes back along its axis before it is turned elsewhere, mm
+    #[arg(long, value_name = "MM", default_value = "50", allow_negative_numbers = true)]
+    retract: String,
+    /// The unit of the file, whatever it says
+    #[arg(long, value_enum)]
+    units: Option<Units>,
+    /// Decimals of mm and of degrees
+    #[arg(long, value_name = "MM,DEG", default_value = "4,5")]
+    decimals: String,
+    /// Start, tool call and end of programs (Jinja); without it those of the control
+    #[arg(long, value_name = "FILE.j2")]
+    template: Option<PathBuf>,
+    /// Print the template of the control, to be edited, and end
+    #[arg(long)]
+    show_template: bool,
+    /// Number of the program
+    #[arg(long, value_name = "N", default_value = "1")]
+    number: u32,
+    /// Where the program goes
+    #[arg(short, long, value_name = "FILE", required_unless_present = "show_template")]
+    output: Option<PathBuf>,
+    /// Read the program back, simulate it, and state the largest differences from the file
+    #[arg(long)]
+    verify: bool,
+    /// For people or for programs
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Dialect {
+    /// FANUC 30i and its relatives: G43.4, G43.5
+    Fanuc,
+    /// SINUMERIK 840D: TRAORI
+    Sinumerik,
+    /// HEIDENHAIN Klartext: FUNCTION TCPM, LN
+    Heidenhain,
+    /// LinuxCNC: switchable kinematics
+    Linuxcnc,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum OnOff {
+    /// The program has tips
+    On,
+    /// The program has axis positions
+    Off,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Orientation {
+    /// The rotary axes
+    Angles,
+    /// The tool axis: I J K, A3 B3 C3, TX TY TZ
+    Vectors,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum FeedMode {
+    /// mm/min, so that the tip goes as the file says
+    Tip,
+    /// Inverse time, G93
+    InverseTime,
+    /// As tip, but no axis faster than it can
+    AxisLimit,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Units {
+    /// Millimetres
+    Mm,
+    /// Inches
+    Inch,
+}
+
+impl Dialect {
+    fn control(self) -> Control {
+        match self {
+            Self::Fanuc => Control::Fanuc,
+            Self::Sinumerik => Control::Sinumerik840d,
+            Self::Heidenhain => Control::Heidenhain,
+            Self::Linuxcnc => Control::LinuxCnc,
+        }
+    }
+}
+
+pub fn run(arguments: &Arguments) -> Outcome {
+    if arguments.show_template {
+        let control = arguments.dialect.control();
+        let text = trueaxis::nc::writer::BUILT_IN.iter().find(|(c, _)| *c == control);
+        return show(&Answer::Text(text.map_or(String::new(), |(_, t)| (*t).to_owned())));
+    }
+    let mut problems = Diagnostics::new();
+    let machine = arguments.machine.read(&mut problems);
+    let file = arguments.read_file(&mut problems);
+    let options = arguments.options(&mut problems);
+    if arguments.machine.has_temperatures() {
+        let message = "a program is made for the nominal machine".to_owned();
+        let place = Place::whole("--temperature");
+        problems.error("no-temperature", place, message, "leave it out");
+    }
+    if report(problems) {
+        return Outcome::Unusable;
+    }
+    let (Some(machine), Some(file), Some(options)) = (machine, file, options) else {
+        return Outcome::Unusable;
+    };
+    let (posted, problems) = post(&machine, &file, &options);
+    if report(problems) {
+        return Outcome::Unusable;
+    }
+    let Some(posted) = posted else { return Outcome::Unusable };
+    let proof = arguments.verify.then(|| verify(&machine, &posted, &options));
+    arguments.finish(&machine, &file, &options, &posted, proof.as_ref())
+}
+
+impl Arguments {
+    fn read_file(&self, problems: &mut Diagnostics) -> Option<ClFile> {
+        let text = files::bytes(&self.file, "a cutter-location file", problems)?;
+        let reading = Reading { inches: self.units.map(|u| u == Units::Inch) };
+        let (file, found) = ClFile::read(&self.file.display().to_string(), text, &reading);
+        problems.append(found);
+        Some(file)
+    }
+
+    fn options(&self, problems: &mut Diagnostics) -> Option<PostOptions> {
+        let mut number = |name: &str, text: &str, low: f64| {
+            let value = parse_quantity(text, Dimension::Ratio).ok();
+            let value = value.filter(|v| (low..1e6).contains(v));
+            if value.is_none() {
+                let message = format!("`{text}` is not a number that is of use here");
+                problems.error("bad-number", Place::whole(name), message, "such as 0.01");
+            }
+            value
+        };
+        let tolerance_mm = number("--tolerance", &self.tolerance, 1e-6);
+        let axis_tolerance = number("--axis-tolerance", &self.axis_tolerance, 1e-6);
+        let pole = number("--pole-tolerance", &self.pole_tolerance, 0.0);
+        let retract_mm = number("--retract", &self.retract, 0.0);
+        let feed = self.feed.as_ref().map(|text| number("--feed", text, 1e-3));
+        let digits: Option<Vec<u8>> =
+            self.decimals.split(',').map(|t| t.trim().parse().ok()).collect();
+        let digits = digits.filter(|d| d.len() == 2 && d.iter().all(|d| *d <= MOST_DECIMALS));
+        if digits.is_none() {
+            let message = format!("`{}` are not two numbers of decimals", self.decimals);
+            problems.error("bad-number", Place::whole("--decimals"), message, "such as 3,4");
+        }
+        let templates = match &self.template {
+            Some(path) => Some(read_template(path, problems)?),
+            None => None,
+        };
+        let digits = digits?;
+        let words = match self.orientation {
+            Orientation::Angles => TipWords::Angles,
+            Orientation::Vectors => TipWords::Vectors,
+        };
+        let name = self.output.as_ref().and_then(|p| p.file_stem());
+        Some(PostOptions {
+            tip_words: (self.tcp == OnOff::On).then_some(words),
+            tolerance_mm: tolerance_mm?,
+            axis_tolerance_rad: axis_tolerance?.to_radians(),
+            pole_rad: pole?.to_radians(),
+            feed: match self.feed_mode {
+                FeedMode::Tip => FeedRule::Tip,
+                FeedMode::InverseTime => FeedRule::InverseTime,
+                FeedMode::AxisLimit => FeedRule::AxisLimit,
+            },
+            usual_feed_mm_per_min: match feed {
+                Some(value) => Some(value?),
+                None => None,
+            },
+            retract_mm: retract_mm?,
+            decimals: Decimals { linear: digits[0], angle: digits[1], ..Decimals::default() },
+            templates,
+            name: name.map_or_else(|| "PROGRAM".into(), |n| n.to_string_lossy().into_owned()),
+            number: self.number,
+            ..PostOptions::of(self.dialect.control())
+        })
+    }
+
+    fn finish(
+        &self,
+        machine: &Machine,
+        file: &ClFile,
+        options: &PostOptions,
+        posted: &Posted,
+        proof: Option<&Verification>,
+    ) -> Outcome {
+        let Some(output) = &self.output else { return Outcome::Unusable };
+        let sound = proof.is_none_or(|p| p.is_within(options));
+        if sound {
+            if let Err(error) = files::write(output, &posted.text) {
+                let message = format!("cannot be written: {error}");
+                let shown = output.display().to_string();
+                return unusable("unwritable-file", &shown, &message, "name another file");
+            }
+        } else {
+            tell("the program is not within the tolerances; nothing was written");
+        }
+        let answer = match self.format {
+            Format::Json => Answer::Json(document(machine, file, options, posted, proof, output)),
+            Format::Text => Answer::Text(text(file, options, posted, proof, output, sound)),
+        };
+        match show(&answer) {
+            Outcome::Done if !sound => Outcome::No,
+            shown => shown,
+        }
+    }
+}
+
+fn read_template(path: &Path, problems: &mut Diagnostics) -> Option<Templates> {
+    let text = files::text(path, "a template of programs", problems)?;
+    let refuse = |error: trueaxis::nc::writer::WriteError| {
+        let place = Place::whole(&path.display().to_string());
+        let hint = "--show-template prints one that works";
+        problems.error("bad-template", place, error.to_string(), hint);
+    };
+    Templates::parse(&text).map_err(refuse).ok()
+}
+
+fn lines(text: &[u8]) -> usize {
+    text.iter().filter(|b| **b == b'\n').count()
+}
+
+fn document(
+    machine: &Machine,
+    file: &ClFile,
+    options: &PostOptions,
+    posted: &Posted,
+    proof: Option<&Verification>,
+    output: &Path,
+) -> Value {
+    let largest = |l: &Largest, scale: f64| {
+        json!({
+            "value": l.value * scale,
+            "program_line": l.program_line,
+            "file_line": l.file_line,
+        })
+    };
+    let verify = proof.map(|p| {
+        json!({
+            "within_tolerance": p.is_within(options),
+            "blocks_compared": p.compared,
+            "tip_at_blocks_um": largest(&p.tip_at_ends, 1e3),
+            "axis_at_blocks_urad": largest(&p.axis_at_ends, 1e6),
+            "tip_on_path_um": largest(&p.tip_between, 1e3),
+            "axis_on_path_deg": largest(&p.axis_between, 1_f64.to_degrees()),
+            "axes_beyond_travel": p.troubles.is_grave(),
+        })
+    });
+    json!({
+        "schema": "trueaxis/post/1",
+        "machine": machine.name(),
+        "file": file.name(),
+        "program": output.display().to_string(),
+        "written": proof.is_none_or(|p| p.is_within(options)),
+        "points": file.points().count(),
+        "strokes": posted.strokes,
+        "blocks": posted.blocks,
+        "lines": lines(&posted.text),
+        "rewinds": posted.rewinds,
+        "pole_deviation_deg": posted.pole_deviation_rad.to_degrees(),
+        "tolerance_mm": options.tolerance_mm,
+        "axis_tolerance_deg": options.axis_tolerance_rad.to_degrees(),
+        "verify": verify,
+    })
+}
+
+fn text(
+    file: &ClFile,
+    options: &PostOptions,
+    posted: &Posted,
+    proof: Option<&Verification>,
+    output: &Path,
+    sound: bool,
+) -> String {
+    let mut text = String::new();
+    let points = file.points().count();
+    let what = if sound { "written to" } else { "not written to" };
+    // Writing to a String cannot fail.
+    let _ = writeln!(
+        text,
+        "{points} points -> {} blocks in {} lines, {what} {}",
+        posted.blocks,
+        lines(&posted.text),
+        output.display()
+    );
+    if posted.rewinds > 0 {
+        let _ = writeln!(text, "the tool goes back {} times for an axis to rewind", posted.rewinds);
+    }
+    if posted.pole_deviation_rad > 0.0 {
+        let degrees = posted.pole_deviation_rad.to_degrees();
+        let _ = writeln!(text, "to pass a pole the tool axis was turned by up to {degrees:.6} deg");
+    }
+    let Some(proof) = proof else { return text };
+    let _ = writeln!(text, "\nread back and simulated on the nominal machine:");
+    let _ = writeln!(text, "{:34} {:>14}   at line of program, file", "", "largest");
+    let mut row = |name: &str, l: &Largest, value: String| {
+        let _ = writeln!(text, "  {name:<32} {value:>14}   {}, {}", l.program_line, l.file_line);
+    };
+    let (tip, axis) = (&proof.tip_at_ends, &proof.axis_at_ends);
+    row("tip at the ends of blocks", tip, format!("{:.4} µm", tip.value * 1e3));
+    row("tool axis at the ends of blocks", axis, format!("{:.4} µrad", axis.value * 1e6));
+    let (tip, axis) = (&proof.tip_between, &proof.axis_between);
+    row("tip from the path", tip, format!("{:.4} µm", tip.value * 1e3));
+    row("tool axis from the path", axis, format!("{:.5} deg", axis.value.to_degrees()));
+    let _ = writeln!(
+        text,
+        "  allowed                          {:>11.4} µm and {:.5} deg; {} blocks compared",
+        options.tolerance_mm * 1e3,
+        options.axis_tolerance_rad.to_degrees(),
+        proof.compared
+    );
+    text
+}

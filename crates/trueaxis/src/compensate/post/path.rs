@@ -1,0 +1,245 @@
+//! The strokes of the tool: what the records of the file add up to.
+
+use super::{PostOptions, angle};
+use trueaxis_geometry::Vec3;
+use trueaxis_geometry::frame::rotation;
+use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_nc::cl::{ClCircle, ClCycle, ClFile, ClPoint, Word};
+use trueaxis_nc::moves::{Coolant, Feed, FeedMode, Turning};
+
+/// Where the tool stands in the workpiece.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Stand {
+    pub tip: Vec3,
+    pub axis: Vec3,
+}
+
+/// How the tip gets there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Way {
+    Line,
+    /// About a centre, right-handed about a normal.
+    Arc {
+        center: Vec3,
+        normal: Vec3,
+        angle_rad: f64,
+    },
+}
+
+/// One motion of the file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Stroke {
+    pub to: Stand,
+    pub way: Way,
+    pub rapid: bool,
+    /// mm/min; of no meaning in rapid.
+    pub feed: f64,
+    /// The line of the file.
+    pub line: u32,
+}
+
+/// What happens before a stroke.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Event {
+    Tool { number: u32, text: String },
+    Spindle(Turning, f64),
+    Coolant(Coolant),
+    Dwell(f64),
+    Stop { optional: bool },
+    Comment(String),
+}
+
+/// Strokes, and events each before the stroke of a number.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Path {
+    pub strokes: Vec<Stroke>,
+    pub events: Vec<(usize, Event)>,
+}
+
+/// The great circle between two directions.
+///
+/// a(u) = (sin((1 − u)θ)·a₀ + sin(uθ)·a₁)/sin θ              docs/model.md eq. 120
+pub(super) fn between(from: &Vec3, to: &Vec3, u: f64) -> Vec3 {
+    let theta = angle(from, to);
+    if theta < 1e-9 {
+        return (from * (1.0 - u) + to * u).normalize();
+    }
+    let weighted = from * ((1.0 - u) * theta).sin() + to * (u * theta).sin();
+    weighted.try_normalize(1e-12).unwrap_or(*from)
+}
+
+impl Stroke {
+    /// The place at u of the stroke that begins at `from`.
+    pub fn at(&self, from: &Stand, u: f64) -> Stand {
+        if u == 1.0 {
+            return self.to;
+        }
+        let axis = between(&from.axis, &self.to.axis, u);
+        let straight = from.tip + (self.to.tip - from.tip) * u;
+        let tip = match self.way {
+            Way::Line => straight,
+            Way::Arc { center, normal, angle_rad } => {
+                // A spiral or helix takes its change of radius and height evenly.
+                let turned = rotation(normal, angle_rad * u) * (from.tip - center) + center;
+                let end = rotation(normal, angle_rad) * (from.tip - center) + center;
+                turned + (self.to.tip - end) * u
+            }
+        };
+        Stand { tip, axis }
+    }
+}
+
+/// Everything modal while the records are read.
+struct Builder<'b> {
+    file: &'b ClFile,
+    options: &'b PostOptions,
+    problems: &'b mut Diagnostics,
+    path: Path,
+    circle: Option<ClCircle>,
+    cycle: Option<ClCycle>,
+    speed: f64,
+    told_no_feed: bool,
+    tools: usize,
+}
+
+impl Path {
+    pub fn of(file: &ClFile, options: &PostOptions, problems: &mut Diagnostics) -> Self {
+        let mut builder = Builder {
+            file,
+            options,
+            problems,
+            path: Self::default(),
+            circle: None,
+            cycle: None,
+            speed: 0.0,
+            told_no_feed: false,
+            tools: 0,
+        };
+        for record in file.records() {
+            builder.take(&record.word, record.line);
+        }
+        builder.path
+    }
+
+    /// The place before a stroke; that of the stroke itself before the first.
+    pub fn before(&self, stroke: usize) -> Stand {
+        self.strokes[stroke.saturating_sub(1)].to
+    }
+}
+
+impl Builder<'_> {
+    fn take(&mut self, word: &Word, line: u32) {
+        let event = match word {
+            Word::Goto(point) => return self.point(point, line),
+            Word::Circle(circle) => {
+                self.circle = Some(*circle);
+                return;
+            }
+            Word::Cycle(cycle) => {
+                self.cycle = Some(*cycle);
+                return;
+            }
+            Word::CycleOff => {
+                self.cycle = None;
+                return;
+            }
+            Word::Tool(number) => {
+                self.tools += 1;
+                if self.tools == 2 {
+                    let message = "the file has more than one tool: all are taken to be as long as \
+                                   the machine's";
+                    let hint = "post each tool by itself with --tool-length";
+                    self.problems.warn("one-tool-length", self.place(line), message.into(), hint);
+                }
+                Event::Tool { number: *number, text: String::new() }
+            }
+            Word::Spindle(turning, speed) => {
+                self.speed = speed.unwrap_or(self.speed);
+                Event::Spindle(*turning, self.speed)
+            }
+            Word::Coolant(coolant) => Event::Coolant(*coolant),
+            Word::Delay(seconds) => Event::Dwell(*seconds),
+            Word::Stop { optional } => Event::Stop { optional: *optional },
+            Word::Insert(text) => Event::Comment(text.clone()),
+            _ => return,
+        };
+        self.path.events.push((self.path.strokes.len(), event));
+    }
+
+    fn place(&self, line: u32) -> Place {
+        Place { file: self.file.name().to_owned(), line: line as usize, column: 1 }
+    }
+
+    fn point(&mut self, point: &ClPoint, line: u32) {
+        let (tip, axis) = (Vec3::from(point.tip_mm), Vec3::from(point.axis));
+        let circle = self.circle.take();
+        if let Some(cycle) = self.cycle {
+            return self.hole(tip, axis, &cycle, point, line);
+        }
+        let to = Stand { tip, axis };
+        let Some(feed) = self.feed(point.rapid, point.feed, line) else { return };
+        let from = self.path.strokes.last().map(|s| s.to);
+        let way = match (circle, from) {
+            (Some(circle), Some(from)) => arc(&circle, &from, &to),
+            _ => Way::Line,
+        };
+        self.push(Stroke { to, way, rapid: point.rapid, feed, line });
+    }
+
+    /// A drilling cycle in one stroke: rapid above the hole, down with feed, up in rapid.
+    fn hole(&mut self, tip: Vec3, axis: Vec3, cycle: &ClCycle, point: &ClPoint, line: u32) {
+        let Some(feed) = self.feed(false, cycle.feed.or(point.feed), line) else { return };
+        let at = |height: f64| Stand { tip: tip + axis * height, axis };
+        let way = Way::Line;
+        let rapid = Stroke { to: at(cycle.clearance_mm), way, rapid: true, feed: 0.0, line };
+        self.push(rapid);
+        self.push(Stroke { to: at(-cycle.depth_mm), way, rapid: false, feed, line });
+        self.push(Stroke { to: at(cycle.retract_mm), ..rapid });
+    }
+
+    fn push(&mut self, stroke: Stroke) {
+        self.path.strokes.push(stroke);
+    }
+
+    /// In mm/min; `None` where the file has none, which is told once.
+    fn feed(&mut self, rapid: bool, feed: Option<Feed>, line: u32) -> Option<f64> {
+        if rapid {
+            return Some(0.0);
+        }
+        let value = match feed {
+            Some(Feed { mode: FeedMode::PerRevolution, value }) => Some(value * self.speed),
+            Some(feed) => Some(feed.value),
+            None => self.options.usual_feed_mm_per_min,
+        };
+        let value = value.filter(|v| *v > 0.0);
+        if value.is_none() && !self.told_no_feed {
+            self.told_no_feed = true;
+            let message = match feed {
+                None => "the tool moves before any FEDRAT",
+                Some(_) => "a feed per revolution, but the spindle has no speed",
+            };
+            let hint = "write FEDRAT (and SPINDL) in the file, or give --feed";
+            self.problems.error("no-feed", self.place(line), message.to_owned(), hint);
+        }
+        value
+    }
+}
+
+/// The arc that ends at a point; a line where the circle does not lead there.
+fn arc(circle: &ClCircle, from: &Stand, to: &Stand) -> Way {
+    let (center, normal) = (Vec3::from(circle.center_mm), Vec3::from(circle.normal));
+    let flat = |p: Vec3| {
+        let arm = p - center;
+        arm - normal * normal.dot(&arm)
+    };
+    let (a, b) = (flat(from.tip), flat(to.tip));
+    // Both ends on one circle within the digits of such files, or it is not that circle.
+    if a.norm() < 1e-6 || (a.norm() - b.norm()).abs() > 0.02 + 1e-3 * a.norm() {
+        return Way::Line;
+    }
+    let shortest = normal.dot(&a.cross(&b)).atan2(a.dot(&b));
+    let full = std::f64::consts::TAU;
+    // From the start to the start is a whole circle.
+    let angle_rad = if shortest <= 1e-9 { shortest + full } else { shortest };
+    Way::Arc { center, normal, angle_rad }
+}

@@ -1,0 +1,315 @@
+//! Legs as blocks: safe start and end, events, moves.
+
+use super::axes::Leg;
+use super::cut::{Cutter, Node};
+use super::feed::feed_of;
+use super::path::{Event, Path, Stand};
+use super::{BlockPlace, Fault, PostOptions, Posted};
+use trueaxis_geometry::Vec3;
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::{AxisKind, Command, Travel};
+use trueaxis_machine::tcp::TipControl;
+use trueaxis_nc::moves::{Axis, Coordinates, Feed, FeedMode, Turning};
+use trueaxis_nc::writer::{
+    Block, Heading, Target, Templates, TipWords, ToolCall, WriteError, Writer, axis_coordinates,
+};
+
+/// No control takes a longer program, and no memory should.
+const MOST_BLOCKS: usize = 10_000_000;
+
+/// Everything that is needed while the text grows.
+struct Post<'p> {
+    machine: &'p Machine,
+    control: &'p TipControl,
+    options: &'p PostOptions,
+    path: &'p Path,
+    cutter: &'p Cutter<'p>,
+    writer: Writer,
+    /// The axis of programs for each axis of the machine.
+    names: Vec<Axis>,
+    coordinates: Coordinates,
+    /// Lines written so far.
+    line: u32,
+    places: Vec<BlockPlace>,
+    blocks: usize,
+}
+
+pub(super) fn write(
+    machine: &Machine,
+    control: &TipControl,
+    path: Path,
+    legs: &[Leg],
+    options: &PostOptions,
+) -> Result<Posted, Fault> {
+    let templates = options.templates.clone().unwrap_or_else(|| Templates::of(options.control));
+    let cutter = Cutter::new(machine, control, options);
+    let mut post = Post {
+        machine,
+        control,
+        options,
+        path: &path,
+        cutter: &cutter,
+        writer: Writer::with(options.control, options.decimals, templates),
+        names: names(machine)?,
+        coordinates: axis_coordinates(options.control),
+        line: 0,
+        places: Vec::with_capacity(path.strokes.len()),
+        blocks: 0,
+    };
+    post.program(legs)?;
+    let (text, places, blocks) = (post.writer.finish(), post.places, post.blocks);
+    let rewinds = legs.iter().filter(|leg| !leg.cuts_first).count();
+    let strokes = path.strokes.len();
+    Ok(Posted { text, strokes, blocks, rewinds, pole_deviation_rad: 0.0, places, path })
+}
+
+fn names(machine: &Machine) -> Result<Vec<Axis>, Fault> {
+    let of = |letter: char| Axis::ALL.into_iter().find(|a| char::from(a.letter()) == letter);
+    let names: Option<Vec<Axis>> =
+        machine.axes().iter().map(|axis| of(axis.name.letter())).collect();
+    names.ok_or_else(|| Fault {
+        line: 0,
+        code: "unknown-axis",
+        message: "an axis of the machine has no letter that programs know".into(),
+        hint: "X Y Z A B C U V W are known",
+    })
+}
+
+impl Post<'_> {
+    fn block(&mut self, block: &Block<'_>, line: u32) -> Result<(), Fault> {
+        let before = self.writer.text().len();
+        self.writer.write(block).map_err(|e| unwritable(&e, line))?;
+        let new = &self.writer.text()[before..];
+        self.line += new.iter().filter(|b| **b == b'\n').count() as u32;
+        Ok(())
+    }
+
+    fn program(&mut self, legs: &[Leg]) -> Result<(), Fault> {
+        let made = format!("trueaxis post for {}", self.machine.name());
+        let tip = self.machine.tip_mm();
+        let tool =
+            format!("tool length {:.4} mm, tolerance {} mm", -tip.z, self.options.tolerance_mm);
+        let heading = Heading {
+            name: &self.options.name,
+            number: self.options.number,
+            comments: &[&made, &tool],
+            machine_coordinates: self.options.tip_words.is_none(),
+            tolerance_mm: 0.5 * self.options.tolerance_mm,
+        };
+        self.block(&Block::Start(&heading), 0)?;
+        let named = |e: &(usize, Event)| e.0 == 0 && matches!(e.1, Event::Tool { .. });
+        if !self.path.events.iter().any(named) {
+            self.tool(1, "")?;
+        }
+        for leg in legs {
+            self.leg(leg)?;
+        }
+        self.events(self.path.strokes.len())?;
+        self.block(&Block::End, 0)
+    }
+
+    fn tool(&mut self, number: u32, text: &str) -> Result<(), Fault> {
+        self.block(&Block::Tool(&ToolCall { number, text, speed_per_minute: None }), 0)
+    }
+
+    /// What happens before a stroke.
+    fn events(&mut self, stroke: usize) -> Result<(), Fault> {
+        let path = self.path;
+        let from = path.events.partition_point(|(at, _)| *at < stroke);
+        for (_, event) in path.events[from..].iter().take_while(|(at, _)| *at == stroke) {
+            match event {
+                Event::Tool { number, text } => self.tool(*number, text)?,
+                Event::Spindle(turning, speed) => {
+                    let speed = if *turning == Turning::Stopped { 0.0 } else { *speed };
+                    self.block(&Block::Spindle(*turning, speed), 0)?;
+                }
+                Event::Coolant(coolant) => self.block(&Block::Coolant(*coolant), 0)?,
+                Event::Dwell(seconds) => self.block(&Block::Dwell(*seconds), 0)?,
+                Event::Stop { optional } => {
+                    self.block(&Block::Stop { optional: *optional, message: None }, 0)?;
+                }
+                Event::Comment(text) => self.block(&Block::Comment(text), 0)?,
+            }
+        }
+        Ok(())
+    }
+
+    fn leg(&mut self, leg: &Leg) -> Result<(), Fault> {
+        if leg.cuts_first {
+            self.events(leg.first)?;
+        }
+        let path = self.path;
+        let first = &path.strokes[leg.first];
+        let begin =
+            Node { u: 1.0, stand: first.to, command: self.exact(&first.to, &leg.commands[0]) };
+        self.enter(leg, &begin)?;
+        let mut at = begin;
+        for (k, command) in leg.commands.iter().enumerate().skip(1) {
+            let index = leg.first + k;
+            let stroke = &path.strokes[index];
+            self.events(index)?;
+            let from = Node { u: 0.0, ..at };
+            let mut here = from;
+            let cutter = self.cutter;
+            cutter.cut(stroke, &from, *command, &mut |node| {
+                let node = Node { command: self.exact(&node.stand, &node.command), ..*node };
+                let feed = (!stroke.rapid)
+                    .then(|| feed_of(self.machine, self.options, &here, &node, stroke.feed));
+                self.go(&node, feed, Some(index), stroke.line)?;
+                here = node;
+                Ok(())
+            })?;
+            at = here;
+        }
+        self.leave(&at)
+    }
+
+    /// The rotary axes as they are printed, and the linear axes that go with exactly them.
+    fn exact(&self, stand: &Stand, command: &Command) -> Command {
+        if self.options.tip_words == Some(TipWords::Vectors) {
+            return *command;
+        }
+        let scale = 10_f64.powi(i32::from(self.options.decimals.angle));
+        let mut exact = *command;
+        for (axis, q) in self.machine.axes().iter().zip(&mut exact) {
+            if axis.kind == AxisKind::Rotary {
+                *q = ((q.to_degrees() * scale).round_ties_even() / scale).to_radians();
+            }
+        }
+        match self.control.place(stand.tip, &mut exact) {
+            true => exact,
+            false => *command,
+        }
+    }
+
+    /// To the beginning of a leg: up, over it, down along the tool axis.
+    fn enter(&mut self, leg: &Leg, begin: &Node) -> Result<(), Fault> {
+        let stroke = &self.path.strokes[leg.first];
+        let line = stroke.line;
+        self.raise_z(line)?;
+        let above = self.above(begin);
+        let mut over = Target::default().from_machine_zero();
+        for (i, name) in self.names.iter().enumerate().filter(|(_, n)| **n != Axis::Z) {
+            over = over.at(*name, self.shown(i, above.command[i]));
+        }
+        self.block(&Block::Rapid(over), line)?;
+        if let Some(words) = self.options.tip_words {
+            self.block(&Block::TipOn(words), line)?;
+        }
+        self.go(&above, None, None, line)?;
+        let next = self.path.strokes.get(leg.first + 1).unwrap_or(stroke);
+        let (rapid, feed) = match leg.cuts_first {
+            true => (stroke.rapid, stroke.feed),
+            false => (next.rapid, next.feed),
+        };
+        let feed = (!rapid).then(|| feed_of(self.machine, self.options, &above, begin, feed));
+        self.go(begin, feed, leg.cuts_first.then_some(leg.first), line)
+    }
+
+    /// From the end of a leg: back along the tool axis and up.
+    fn leave(&mut self, end: &Node) -> Result<(), Fault> {
+        let above = self.above(end);
+        self.go(&above, None, None, 0)?;
+        if self.options.tip_words.is_some() {
+            self.block(&Block::TipOff, 0)?;
+        }
+        self.raise_z(0)
+    }
+
+    /// As far back along the tool axis as is wanted and the travel allows.
+    fn above(&self, node: &Node) -> Node {
+        let mut distance = self.options.retract_mm;
+        while distance > 0.05 {
+            let tip = node.stand.tip + node.stand.axis * distance;
+            let stand = Stand { tip, ..node.stand };
+            let mut command = node.command;
+            if self.control.place(tip, &mut command) && self.cutter.inside(&command, 0).is_ok() {
+                return Node { stand, command, ..*node };
+            }
+            distance *= 0.5;
+        }
+        *node
+    }
+
+    /// Z to the end of its travel, away from the part.
+    fn raise_z(&mut self, line: u32) -> Result<(), Fault> {
+        let at = self.names.iter().position(|n| *n == Axis::Z);
+        let Some((axis, Travel::Between(_, high))) =
+            at.map(|i| (Axis::Z, self.machine.axes()[i].travel))
+        else {
+            return Ok(());
+        };
+        let target = Target::default().at(axis, high).from_machine_zero();
+        self.block(&Block::Rapid(target), line)
+    }
+
+    fn shown(&self, axis: usize, q: f64) -> f64 {
+        match self.machine.axes()[axis].kind {
+            AxisKind::Linear => q,
+            AxisKind::Rotary => q.to_degrees(),
+        }
+    }
+
+    /// A block to a place; `stroke` where it is on the path.
+    fn go(
+        &mut self,
+        node: &Node,
+        feed: Option<Feed>,
+        stroke: Option<usize>,
+        line: u32,
+    ) -> Result<(), Fault> {
+        self.cutter.inside(&node.command, line)?;
+        let target = self.target(node);
+        let moves = feed.is_none_or(|f| f.value.is_finite());
+        let block = match feed {
+            // Nothing moves in no time: a rapid block, which is left out if it says nothing new.
+            Some(feed) if moves => Block::Line(target, feed),
+            Some(_) => Block::Line(target, Feed { mode: FeedMode::PerMinute, value: 1.0 }),
+            None => Block::Rapid(target),
+        };
+        let before = self.line;
+        self.block(&block, line)?;
+        if let (Some(stroke), true) = (stroke, self.line > before) {
+            let (line, stroke, until) = (self.line, stroke as u32, node.u);
+            self.places.push(BlockPlace { line, stroke, until });
+            self.blocks += 1;
+        }
+        if self.blocks > MOST_BLOCKS {
+            return Err(Fault {
+                line,
+                code: "too-many-blocks",
+                message: format!("the program would have more than {MOST_BLOCKS} blocks"),
+                hint: "allow a larger --tolerance or --axis-tolerance; are the units right?",
+            });
+        }
+        Ok(())
+    }
+
+    fn target(&self, node: &Node) -> Target {
+        let mut target = Target::default();
+        let vectors = self.options.tip_words == Some(TipWords::Vectors);
+        if self.options.tip_words.is_some() {
+            let Stand { tip, axis } = node.stand;
+            for (i, name) in [Axis::X, Axis::Y, Axis::Z].into_iter().enumerate() {
+                target = target.at(name, tip[i]);
+            }
+            if vectors {
+                return target.along(Vec3::into(axis));
+            }
+        } else {
+            target.coordinates = self.coordinates;
+        }
+        for (i, name) in self.names.iter().enumerate() {
+            let rotary = self.machine.axes()[i].kind == AxisKind::Rotary;
+            if rotary || self.options.tip_words.is_none() {
+                target = target.at(*name, self.shown(i, node.command[i]));
+            }
+        }
+        target
+    }
+}
+
+fn unwritable(error: &WriteError, line: u32) -> Fault {
+    let hint = "another control, template or --feed-mode can";
+    Fault { line, code: "unwritable-block", message: error.to_string(), hint }
+}

@@ -1,0 +1,433 @@
+//! Cutter locations to programs and back, on every machine, for every control.
+
+#![allow(clippy::print_stdout, reason = "the whole set says what it found")]
+
+use proptest::prelude::*;
+use std::f64::consts::{PI, TAU};
+use std::fmt::Write;
+use std::path::PathBuf;
+use trueaxis::compensate::post::{FeedRule, PostOptions, Posted, post, verify};
+use trueaxis::files;
+use trueaxis::geometry::Vec3;
+use trueaxis::machine::Machine;
+use trueaxis::machine::axis::{AxisKind, Command, Travel};
+use trueaxis::machine::file::NoTables;
+use trueaxis::machine::tcp::TipControl;
+use trueaxis::nc::cl::{ClFile, Reading};
+use trueaxis::nc::moves::{Axis, Feed, FeedMode, Move, MoveKind};
+use trueaxis::nc::writer::TipWords;
+use trueaxis::nc::{Control, NoLibrary, Program, Settings, Step, interpret};
+
+const MACHINES: [&str; 8] = [
+    "gantry-001",
+    "head-table",
+    "i5-engraver",
+    "lei-hsu-mill",
+    "nutating-head",
+    "three-axis-mill",
+    "wyxzcat-gantry",
+    "xkas2525",
+];
+
+const CONTROLS: [Control; 4] =
+    [Control::Fanuc, Control::Sinumerik840d, Control::Heidenhain, Control::LinuxCnc];
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn machine(name: &str) -> Machine {
+    files::machine(&root().join("machines").join(name).join("machine.toml")).0.unwrap()
+}
+
+fn cl(text: &str) -> ClFile {
+    let (file, problems) = ClFile::read("a.cls", text.as_bytes().to_vec(), &Reading::default());
+    assert!(!problems.has_errors(), "{problems:?}");
+    file
+}
+
+fn posted(machine: &Machine, text: &str, options: &PostOptions) -> Posted {
+    let (posted, problems) = post(machine, &cl(text), options);
+    posted.unwrap_or_else(|| panic!("{problems:?}\n{text}"))
+}
+
+/// Numbers that look random and are the same every time (SplitMix64).
+struct Dice(u64);
+
+impl Dice {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.next()
+    }
+}
+
+/// A smooth path within the travel of a machine: every axis swings by two sines, so that tips and
+/// tool axes are as free as any surface makes them; poles included.
+fn free_form(machine: &Machine, seed: u64, points: usize) -> String {
+    let mut dice = Dice(seed);
+    let control = TipControl::of(machine).unwrap();
+    let mut swings = Vec::new();
+    for axis in machine.axes() {
+        let (room, most) = match axis.kind {
+            AxisKind::Linear => (150.0, 40.0),
+            AxisKind::Rotary => (50_f64.to_radians(), 25_f64.to_radians()),
+        };
+        let middle = match axis.travel {
+            Travel::Between(low, high) => 0.5 * (low + high),
+            _ => 0.0,
+        };
+        let room = match axis.travel {
+            Travel::Between(low, high) => room.min(0.3 * (high - low)),
+            _ => room,
+        };
+        let middle = middle + dice.between(-0.3, 0.3) * room;
+        let sizes = [dice.between(0.1, 1.0), dice.between(0.0, 0.5)];
+        let most = most.min(0.3 * room);
+        let phases = [dice.between(0.0, TAU), dice.between(0.0, TAU)];
+        swings.push((middle, sizes.map(|s| s * most), phases));
+    }
+    let mut text = "UNITS/MM\nMULTAX/ON\nRAPID\n".to_owned();
+    for k in 0..points {
+        let t = k as f64 / points as f64;
+        let mut command = Command::default();
+        for (q, (middle, sizes, phases)) in command.iter_mut().zip(&swings) {
+            *q = middle
+                + sizes[0] * (TAU * t + phases[0]).sin()
+                + sizes[1] * (2.0 * TAU * t + phases[1]).sin();
+        }
+        let (tip, a) = control.tip_and_axis(&command);
+        let _ = writeln!(
+            text,
+            "GOTO/{:.9},{:.9},{:.9},{:.14},{:.14},{:.14}",
+            tip.x, tip.y, tip.z, a.x, a.y, a.z
+        );
+        if k == 0 {
+            text.push_str("FEDRAT/1200,MMPM\n");
+        }
+    }
+    text + "FINI\n"
+}
+
+/// Every way to write a program: dialect, with tool-centre point by angles or vectors, or without.
+fn ways() -> Vec<PostOptions> {
+    let mut all = Vec::new();
+    for control in CONTROLS {
+        for words in [None, Some(TipWords::Angles), Some(TipWords::Vectors)] {
+            if control != Control::LinuxCnc || words != Some(TipWords::Vectors) {
+                all.push(PostOptions { tip_words: words, ..PostOptions::of(control) });
+            }
+        }
+    }
+    all
+}
+
+/// Posts, verifies, and tells what is out of bounds.
+fn prove(machine: &Machine, text: &str, options: &PostOptions) -> Result<[f64; 4], String> {
+    let (posted, problems) = post(machine, &cl(text), options);
+    let Some(posted) = posted else {
+        return Err(format!("{:?}", problems.iter().map(ToString::to_string).collect::<Vec<_>>()));
+    };
+    let proof = verify(machine, &posted, options);
+    let increment_mm = 1e-4;
+    let found = [
+        proof.tip_at_ends.value,
+        proof.axis_at_ends.value,
+        proof.tip_between.value,
+        proof.axis_between.value,
+    ];
+    let allowed = [
+        increment_mm,
+        1e-6,
+        options.tolerance_mm + increment_mm,
+        options.axis_tolerance_rad + 1e-6,
+    ];
+    let within = found.iter().zip(allowed).all(|(f, a)| *f <= a);
+    let all = proof.compared == posted.blocks && posted.blocks >= posted.strokes / 2;
+    match within && all && proof.is_within(options) {
+        true => Ok(found),
+        false => {
+            let codes: Vec<_> = proof.problems.iter().map(|p| p.code).collect();
+            let grave = proof.troubles.is_grave();
+            Err(format!("{found:?} {:?} {codes:?} grave {grave}", proof.tip_between))
+        }
+    }
+}
+
+fn prove_all(paths: u64, points: usize) -> [f64; 4] {
+    let mut worst = [0.0_f64; 4];
+    let mut faults = Vec::new();
+    for name in MACHINES {
+        let machine = machine(name);
+        for (i, options) in ways().iter().enumerate() {
+            for path in 0..paths {
+                let seed = path * 1000 + 7 * i as u64 + name.len() as u64;
+                match prove(&machine, &free_form(&machine, seed, points), options) {
+                    Ok(found) => {
+                        worst = std::array::from_fn(|k| worst[k].max(found[k]));
+                    }
+                    Err(why) => faults.push(format!(
+                        "{name} {:?} {:?} seed {seed}: {why}",
+                        options.control, options.tip_words
+                    )),
+                }
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{} faults:\n{}", faults.len(), faults.join("\n"));
+    worst
+}
+
+/// CL to NC to simulation on the nominal machine: tips within the tolerance and one least
+/// increment, tool axes within 1e-6, for a sample of random paths on every machine, for every
+/// dialect, with and without tool-centre point.
+#[test]
+fn law_programs_of_free_form_paths_come_back() {
+    let worst = prove_all(2, 24);
+    println!(
+        "worst: tip {:.3e} mm, axis {:.3e}, on the way {:.3e} mm, {:.3e} rad",
+        worst[0], worst[1], worst[2], worst[3]
+    );
+}
+
+/// The whole set: 200 paths. `cargo test --release -p trueaxis --test post -- --ignored`
+#[test]
+#[ignore = "the whole set takes minutes"]
+fn law_programs_of_200_free_form_paths_come_back() {
+    let worst = prove_all(200, 40);
+    println!(
+        "worst: tip {:.3e} mm, axis {:.3e}, on the way {:.3e} mm, {:.3e} rad",
+        worst[0], worst[1], worst[2], worst[3]
+    );
+}
+
+/// The moves with feed of a program.
+fn cuts(posted: &Posted, control: Control) -> Vec<Move> {
+    let program = Program::new("p", posted.text.clone(), control);
+    let mut found = Vec::new();
+    let outcome = interpret(&program, &NoLibrary, &Settings::default(), &mut |step| {
+        if let Step::Move(m) = step
+            && m.kind == MoveKind::Linear
+        {
+            found.push(m);
+        }
+    });
+    assert!(outcome.finished && !outcome.problems.has_errors(), "{:?}", outcome.problems);
+    found
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Without tool-centre point the engraver's programs are equations 1 to 3 of document 003, with
+    /// d = 35 mm, to the digits of the program.
+    ///
+    /// X = x cos C + y sin C, Y = (−x sin C + y cos C) cos A + (z + d) sin A,
+    /// Z = (x sin C − y cos C) sin A + (z + d) cos A
+    #[test]
+    fn law_programs_of_the_engraver_are_equations_1_to_3_of_document_003(
+        x in -30.0..30.0_f64, y in -30.0..30.0_f64, z in -20.0..20.0_f64,
+        tilt in 0.01..1.5_f64, azimuth in -PI..PI,
+    ) {
+        let machine = machine("i5-engraver");
+        let axis = Vec3::new(tilt.sin() * azimuth.cos(), tilt.sin() * azimuth.sin(), tilt.cos());
+        let text = format!(
+            "UNITS/MM\nFEDRAT/100\nGOTO/{x},{y},{z},{},{},{}\n", axis.x, axis.y, axis.z
+        );
+        let options = PostOptions { tip_words: None, ..PostOptions::of(Control::Fanuc) };
+        let all = cuts(&posted(&machine, &text, &options), Control::Fanuc);
+        prop_assert_eq!(all.len(), 1);
+        let at = |axis: Axis| all[0].target[axis];
+        let ((sa, ca), (sc, cc)) =
+            (at(Axis::A).to_radians().sin_cos(), at(Axis::C).to_radians().sin_cos());
+        let d = 35.0;
+        prop_assert!((at(Axis::X) - (x * cc + y * sc)).abs() < 5.1e-5);
+        prop_assert!((at(Axis::Y) - ((-x * sc + y * cc) * ca + (z + d) * sa)).abs() < 5.1e-5);
+        prop_assert!((at(Axis::Z) - ((x * sc - y * cc) * sa + (z + d) * ca)).abs() < 5.1e-5);
+        // a = Rz(C) Rx(A) e_z
+        let is = Vec3::new(sc * sa, -cc * sa, ca);
+        prop_assert!((is - axis).norm() < 2e-7);
+    }
+}
+
+/// A helix round a part on a head whose C stops at ±360 deg: it rewinds, and nothing is lost.
+#[test]
+fn law_rewinds_leave_the_path_as_it_is() {
+    let machine = machine("xkas2525");
+    let mut text = "UNITS/MM\nMULTAX/ON\nFEDRAT/2000,MMPM\n".to_owned();
+    for k in 0..=400 {
+        let u = TAU * f64::from(k) / 80.0;
+        let (s, c) = u.sin_cos();
+        let _ = writeln!(
+            text,
+            "GOTO/{:.6},{:.6},{:.6},{:.12},{:.12},{:.12}",
+            40.0 * c,
+            40.0 * s,
+            20.0 + f64::from(k) / 10.0,
+            0.6 * c,
+            0.6 * s,
+            0.8
+        );
+    }
+    for options in ways() {
+        let posted = posted(&machine, &text, &options);
+        assert!(posted.rewinds >= 2, "{}", posted.rewinds);
+        let proof = verify(&machine, &posted, &options);
+        assert!(proof.is_within(&options), "{proof:?}");
+        assert_eq!(proof.compared, posted.blocks);
+    }
+}
+
+/// A path that passes the pole at any distance is followed exactly, and with a pole tolerance
+/// straight through it, with the deviation that is stated.
+#[test]
+fn law_poles_are_passed_with_the_stated_deviation() {
+    let machine = machine("i5-engraver");
+    for (k, beside) in [0.0, 1e-9, 1e-6, 1e-4, 1e-3, 0.02].into_iter().enumerate() {
+        let mut text = "UNITS/MM\nMULTAX/ON\nFEDRAT/2000,MMPM\n".to_owned();
+        for i in -6..=6 {
+            let tilt = 0.03 * f64::from(i);
+            let _ = writeln!(
+                text,
+                "GOTO/{:.6},{:.6},10,{:.15},{:.15},{:.15}",
+                f64::from(i),
+                5.0,
+                tilt,
+                beside,
+                (1.0 - tilt * tilt - beside * beside).sqrt()
+            );
+        }
+        for options in ways() {
+            let exact = posted(&machine, &text, &options);
+            assert_eq!(exact.pole_deviation_rad, 0.0);
+            let proof = verify(&machine, &exact, &options);
+            assert!(proof.is_within(&options), "{beside} {proof:?}");
+            let wide = PostOptions { pole_rad: 0.005, ..options.clone() };
+            let through = posted(&machine, &text, &wide);
+            let proof = verify(&machine, &through, &wide);
+            assert!(proof.is_within(&wide), "{beside} {proof:?}");
+            let deviates = through.pole_deviation_rad;
+            assert!(
+                (1e-7..0.005).contains(&deviates) == (2..=4).contains(&k),
+                "{beside} {deviates}"
+            );
+            assert!(through.blocks <= exact.blocks);
+        }
+    }
+}
+
+/// With inverse time, and with feed per minute without tool-centre point, the tip takes the time
+/// that the file asks for, or that the slowest axis needs.
+#[test]
+fn law_feeds_keep_the_time_of_the_tip() {
+    let machine = machine("i5-engraver");
+    let text = free_form(&machine, 11, 30);
+    for (rule, words) in [
+        (FeedRule::InverseTime, None),
+        (FeedRule::InverseTime, Some(TipWords::Angles)),
+        (FeedRule::Tip, None),
+    ] {
+        let options =
+            PostOptions { feed: rule, tip_words: words, ..PostOptions::of(Control::Sinumerik840d) };
+        let posted = posted(&machine, &text, &options);
+        let control = TipControl::of(&machine).unwrap();
+        let all = cuts(&posted, options.control);
+        let place = |m: &Move| Vec3::new(m.target.0[0], m.target.0[1], m.target.0[2]);
+        let command = |m: &Move| {
+            let mut command = Command::default();
+            for (q, axis) in command.iter_mut().zip([Axis::C, Axis::A, Axis::X, Axis::Y, Axis::Z]) {
+                let value = m.target[axis];
+                *q = if axis.is_rotary() { value.to_radians() } else { value };
+            }
+            if words.is_some() {
+                assert!(control.place(place(m), &mut command));
+            }
+            command
+        };
+        for pair in all.windows(2) {
+            let (a, b) = (command(&pair[0]), command(&pair[1]));
+            let tip = (control.tip_and_axis(&b).0 - control.tip_and_axis(&a).0).norm();
+            let ways = machine.axes().iter().zip(a.iter().zip(&b));
+            let least =
+                ways.map(|(axis, (a, b))| (b - a).abs() / axis.limits.velocity.unwrap() / 60.0);
+            let wanted = least.fold(tip / 1200.0, f64::max);
+            let minutes = match pair[1].feed {
+                Feed { mode: FeedMode::InverseTime, value } => 1.0 / value,
+                Feed { value, .. } => (place(&pair[1]) - place(&pair[0])).norm() / value,
+            };
+            assert!((minutes - wanted).abs() <= 2e-3 * wanted + 1e-6, "{minutes} {wanted}");
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_posted_is_told_with_its_line() {
+    let told = |machine: &Machine, text: &str, options: &PostOptions| {
+        let (posted, problems) = post(machine, &cl(text), options);
+        assert!(posted.is_none());
+        problems.iter().map(|p| (p.place.line, p.code)).collect::<Vec<_>>()
+    };
+    let engraver = machine("i5-engraver");
+    let options = PostOptions::of(Control::Fanuc);
+    let far = "UNITS/MM\nFEDRAT/9\nGOTO/0,0,0\nGOTO/500,0,0\n";
+    assert_eq!(told(&engraver, far, &options), [(4, "leaves-travel")]);
+    assert_eq!(told(&engraver, "UNITS/MM\nGOTO/0,0,0\n", &options), [(2, "no-feed")]);
+    let below = "UNITS/MM\nFEDRAT/9\nGOTO/0,0,0,0,0,-1\n";
+    assert_eq!(told(&engraver, below, &options), [(3, "leaves-travel")]);
+    let mill = machine("three-axis-mill");
+    let tilted = "UNITS/MM\nFEDRAT/9\nGOTO/0,0,0\nGOTO/0,0,1,0.6,0,0.8\n";
+    assert_eq!(told(&mill, tilted, &options), [(4, "unreachable")]);
+    let inverse =
+        PostOptions { feed: FeedRule::InverseTime, ..PostOptions::of(Control::Heidenhain) };
+    let two = "UNITS/MM\nFEDRAT/9\nGOTO/0,0,0\nGOTO/1,0,0\n";
+    assert_eq!(told(&mill, two, &inverse), [(3, "unwritable-block")]);
+}
+
+/// LinuxCNC's own inverse of tilting rotary tables, with offsets between the axes and tool length,
+/// both senses of turning: the linear axes agree to 1e-9 mm.
+#[test]
+fn oracle_linuxcnc_inverse_of_tilting_tables() {
+    let data = include_str!("data/linuxcnc-trt.csv");
+    let (mut worst, mut count) = (0.0_f64, 0);
+    for line in data.lines().filter(|l| l.starts_with("XYZ")) {
+        let (kind, rest) = line.split_once(',').unwrap();
+        let v: Vec<f64> = rest.split(',').map(|n| n.parse().unwrap()).collect();
+        let tilting = kind.chars().nth(3).unwrap();
+        let ([rx, ry, rz], [dx, dy, dz], tool) = ([v[0], v[1], v[2]], [v[3], v[4], v[5]], v[6]);
+        // LinuxCNC's usual directions turn the table the positive way; ISO 841 the other.
+        let sense = if v[7] == 0.0 { 1 } else { -1 };
+        let text = format!(
+            "[machine]\nname = \"trt\"\nchain = \"w C' {tilting}' b X Y Z t\"\n\
+             [axis.{tilting}]\nsense = {sense}\nplacement = \"{} {} {} mm\"\n\
+             [axis.C]\nsense = {sense}\nplacement = \"{} {} {} mm\"\n\
+             [workpiece]\nplacement = \"{} {} {} mm\"\n[tool]\nlength = \"{tool} mm\"",
+            rx + dx,
+            ry + dy,
+            rz + dz,
+            -dx,
+            -dy,
+            -dz,
+            -rx,
+            -ry,
+            -rz,
+        );
+        let machine = Machine::check("trt.toml", &text, &NoTables).0.unwrap();
+        let control = TipControl::of(&machine).unwrap();
+        // The chain has C, the tilting axis, X, Y, Z in this order.
+        let mut command = [v[12].to_radians(), v[11].to_radians(), 0.0, 0.0, 0.0, 0.0];
+        // LinuxCNC's position has the tool offset in Z: the tip lies below it.
+        assert!(control.place(Vec3::new(v[8], v[9], v[10] - tool), &mut command));
+        for (q, joint) in command[2..5].iter().zip(&v[13..]) {
+            worst = worst.max((q - joint).abs());
+        }
+        count += 1;
+    }
+    println!("{count} positions, worst {worst:.2e} mm");
+    assert!(count == 400 && worst < 1e-9, "{worst}");
+}
