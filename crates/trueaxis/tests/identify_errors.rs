@@ -1,4 +1,5 @@
 //! The whole way from readings to a verdict: over-fit guard, uncertainties, conventions, bad input.
+#![allow(clippy::print_stdout, reason = "says how near the choice comes to the oracle")]
 
 use nalgebra::{DMatrix, DVector};
 use std::path::{Path, PathBuf};
@@ -113,8 +114,8 @@ fn read(
     for i in 0..readings.len() {
         let read = design.read(stations, i, values).expect("within the tables");
         let instrument = &design.instruments[readings.instruments[i] as usize];
-        for c in 0..instrument.sight.channels() {
-            readings.values[i][c] = read[c] + noise * instrument.noise[c] * random.normal();
+        for (c, read) in read.iter().enumerate().take(instrument.sight.channels()) {
+            readings.values[i][c] = read + noise * instrument.noise[c] * random.normal();
         }
     }
     readings
@@ -630,9 +631,9 @@ fn oracle_unobservable_combinations_span_the_null_space_of_numpy() {
                     error => error.to_owned(),
                 };
                 let mut vector = DVector::zeros(ours.len());
-                for k in 0..v.len() {
+                for (k, share) in v.iter().enumerate() {
                     let at = ours.iter().position(|n| *n == number(k)).expect("the same unknowns");
-                    vector[at] = v[k] * sight.column_length(at);
+                    vector[at] = share * sight.column_length(at);
                 }
                 vector.normalize()
             })

@@ -1,5 +1,8 @@
 //! The built command as a user runs it: from the root of the repository.
 
+// Each test program uses a part of this file.
+#![allow(dead_code)]
+
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

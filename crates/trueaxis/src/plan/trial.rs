@@ -239,7 +239,18 @@ fn stations(design: &Design, instrument: usize, axes: &[usize]) -> Readings {
             };
             command[*axis] = within(machine, *axis, share);
         }
-        read_at(own, instrument, placing.as_ref(), machine, &command, k, &mut stations);
+        for (command, direction) in read_at(own, placing.as_ref(), machine, &command) {
+            stations.push(Reading {
+                command,
+                approach: Approach::default(),
+                instrument: u32::try_from(instrument).unwrap_or(u32::MAX),
+                direction,
+                value: [0.0; 3],
+                group: u32::try_from(k).unwrap_or(u32::MAX),
+                time_s: 0.0,
+                line: 0,
+            });
+        }
     }
     stations
 }
@@ -257,15 +268,13 @@ fn within(machine: &Machine, axis: usize, share: f64) -> f64 {
     }
 }
 
+/// What an instrument reads where the rotary axes stand like that.
 fn read_at(
     own: &Instrument,
-    instrument: usize,
     placing: Option<&Placing>,
     machine: &Machine,
     rotary: &Command,
-    pose: usize,
-    stations: &mut Readings,
-) {
+) -> Vec<(Command, Vec3)> {
     let directions = match (placing, own.kind) {
         (Some(placing), Kind::TouchProbeBall) => {
             hits(FreeSide { stem: -Vec3::z() }, placing.tool_axis(rotary), 5)
@@ -275,20 +284,9 @@ fn read_at(
         }
         _ => vec![own.direction],
     };
-    for direction in directions {
+    let contact = |direction: Vec3| {
         let command = placing.map_or(Some(*rotary), |p| p.contact(direction, rotary));
-        let Some(command) = command.filter(|c| leaves_travel(machine, c).is_none()) else {
-            continue;
-        };
-        stations.push(Reading {
-            command,
-            approach: Approach::default(),
-            instrument: u32::try_from(instrument).unwrap_or(u32::MAX),
-            direction,
-            value: [0.0; 3],
-            group: u32::try_from(pose).unwrap_or(u32::MAX),
-            time_s: 0.0,
-            line: 0,
-        });
-    }
+        command.filter(|c| leaves_travel(machine, c).is_none()).map(|c| (c, direction))
+    };
+    directions.into_iter().filter_map(contact).collect()
 }

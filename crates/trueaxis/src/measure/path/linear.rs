@@ -85,7 +85,8 @@ pub(super) fn read_diagonal(
     };
     let along = (0..count).map(|k| at(k as f64 / (count - 1) as f64)).collect::<Vec<_>>();
     let direction = way_of_tool(campaign, instrument, &at(0.0), &at(1.0));
-    there_and_back(section, campaign, instrument, &along, runs, direction, |i| {
+    let runs = Runs { commands: &along, count: runs, direction };
+    there_and_back(section, campaign, instrument, &runs, |i| {
         let mut approach = [0.0; 6];
         for (axis, sign) in &signs {
             approach[*axis] = if i { *sign } else { -sign };
@@ -179,7 +180,8 @@ pub(super) fn read_targets(
             Some(about * if p < 0.0 { -1.0 } else { 1.0 }).filter(|v| v.norm() > 0.5)
         }
     };
-    there_and_back(section, campaign, instrument, &targets, runs, direction, |up| {
+    let runs = Runs { commands: &targets, count: runs, direction };
+    there_and_back(section, campaign, instrument, &runs, |up| {
         let mut approach = [0.0; 6];
         approach[axis] = if up == (p >= 0.0) { 1.0 } else { -1.0 };
         approach
@@ -218,29 +220,36 @@ fn way_of_tool(
     (b - a).try_normalize(1e-9)
 }
 
-/// Runs up and down over the same commands; `approach` of a run up (`true`) or down.
+/// Runs up and down over the same commands.
+struct Runs<'a> {
+    commands: &'a [Command],
+    count: usize,
+    /// In which the tool goes.
+    direction: Option<Vec3>,
+}
+
+/// The stations of runs; `approach` of a run up (`true`) or down.
 fn there_and_back(
     section: &Section<'_>,
     campaign: &Campaign,
     instrument: usize,
-    commands: &[Command],
-    runs: usize,
-    direction: Option<Vec3>,
+    runs: &Runs<'_>,
     approach: impl Fn(bool) -> [f64; 6],
 ) -> Option<Readings> {
     let own = &campaign.instruments[instrument];
+    let commands = runs.commands;
     // What the instrument is told counts: straightness is read across the way.
     let direction = match section.get("direction") {
         Some(item) => trueaxis_machine::file::read_direction(&item)?,
-        None => direction.unwrap_or(own.direction),
+        None => runs.direction.unwrap_or(own.direction),
     };
-    if commands.len().saturating_mul(2 * runs) > MOST_STATIONS {
+    if commands.len().saturating_mul(2 * runs.count) > MOST_STATIONS {
         let message = format!("more than {MOST_STATIONS} stations");
         section.error("bad-count", message, "fewer targets or runs");
         return None;
     }
     let mut stations = Readings::default();
-    for _ in 0..runs {
+    for _ in 0..runs.count {
         for up in [true, false] {
             for k in 0..commands.len() {
                 let k = if up { k } else { commands.len() - 1 - k };
