@@ -93,8 +93,8 @@ proptest! {
             command[x] += node.value.added;
             let errors = machine.errors_at(&command, &[0.0; 6]).expect("no table");
             let off = tip(&command) + machine.deviation(&command, &errors).tip_mm - wanted;
-            // 0.2 mm of compensation times slopes of 1e-3: second order.
-            prop_assert!(off.dot(&direction).abs() < 3e-4, "{} mm at {}", off.dot(&direction), node.position);
+            // Second order: 0.4 mm of compensation times slopes of 1e-3.
+            prop_assert!(off.dot(&direction).abs() < 4e-4, "{} mm at {}", off.dot(&direction), node.position);
         }
     }
 }

@@ -172,8 +172,8 @@ pub fn identify(
     problems: &mut Diagnostics,
 ) -> Option<Identification> {
     let place = Place::whole(&campaign.path.display().to_string());
-    let whole = campaign.design();
     let readings = &records.readings;
+    let whole = campaign.design();
     if readings.is_empty() || whole.unknowns() == 0 {
         let message = match readings.is_empty() {
             true => "there are no readings",

@@ -287,9 +287,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn fifteen_poses_are_three_by_five() {
-        // 3·4 = 12, 4·4 = 16 is too many, 3·5 = 15 fits.
-        assert_eq!(steps(15, 2), [3, 5]);
+    fn fifteen_poses_are_five_by_three() {
+        // 4·3 = 12, 4·4 = 16 is too many, 5·3 = 15 fits.
+        assert_eq!(steps(15, 2), [5, 3]);
         assert_eq!(steps(15, 0), Vec::<usize>::new());
     }
 }

@@ -13,6 +13,7 @@ use crate::measure::path::{Path, Placing, STAND_OFF_MM};
 use crate::measure::{Campaign, Kind};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::input::{Dimension, Section};
+use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
 use trueaxis_machine::file::{read_direction, read_tool_shape};
 use trueaxis_machine::models::ToolSegment;
@@ -134,6 +135,8 @@ pub fn program(
         settings,
         placing: Placing::of(&campaign.machine, own).ok().filter(|_| own.kind.holds_a_ball()),
         high: clear_height(campaign, path, settings),
+        aside: aside(&campaign.machine),
+        turned: None,
     };
     let heading = Heading {
         name: &name,
@@ -200,6 +203,21 @@ struct Written<'a> {
     settings: &'a ProgramSettings,
     placing: Option<Placing>,
     high: Option<(usize, f64)>,
+    /// The axis that takes the tool out of the way of what swings, and where to.
+    aside: Option<(usize, f64)>,
+    /// Where the rotary axes stood last.
+    turned: Option<Vec<f64>>,
+}
+
+/// The longest linear axis across the lift, and the end of its travel.
+fn aside(machine: &Machine) -> Option<(usize, f64)> {
+    let ends = machine.axes().iter().enumerate().filter_map(|(i, axis)| match axis.travel {
+        Travel::Between(from, to) if axis.kind == AxisKind::Linear && axis.name.letter() != 'Z' => {
+            Some((i, to - from, to))
+        }
+        _ => None,
+    });
+    ends.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(i, _, to)| (i, to))
 }
 
 impl Written<'_> {
@@ -267,15 +285,27 @@ impl Written<'_> {
         }
     }
 
-    /// High up, then the other axes, then down to above the station.
+    /// High up, aside while the rotary axes swing, over the station, down to above it.
     fn arrive(&mut self, station: &Command) -> Result<(), ProgramError> {
         let above = self.above(station);
+        let axes = self.campaign.machine.axes().iter().enumerate();
+        let rotary: Vec<usize> =
+            axes.filter(|(_, a)| a.kind == AxisKind::Rotary).map(|(i, _)| i).collect();
+        let turned: Vec<f64> = rotary.iter().map(|i| above[*i]).collect();
         if let Some((z, high)) = self.high {
             let mut up = above;
             up[z] = high;
             self.rapid_axes(&up, |i| i == z)?;
+            if let Some((axis, end)) = self.aside.filter(|_| self.turned.as_ref() != Some(&turned))
+            {
+                let mut clear = up;
+                clear[axis] = end;
+                self.rapid_axes(&clear, |i| i == axis)?;
+                self.rapid_axes(&clear, |i| rotary.contains(&i))?;
+            }
             self.rapid_axes(&up, |_| true)?;
         }
+        self.turned = Some(turned);
         self.rapid_axes(&above, |_| true)
     }
 
