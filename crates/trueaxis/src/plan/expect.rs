@@ -80,7 +80,7 @@ pub struct Seen {
     /// Whether the error is an angle.
     pub is_angle: bool,
     /// The largest |reading| of each channel along the path, mm or rad, for an error of
-    /// [`USUAL_SIZE`].
+    /// 10 µm or 10 µrad.
     pub largest: Vec<f64>,
 }
 
