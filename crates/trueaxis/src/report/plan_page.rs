@@ -133,7 +133,7 @@ fn views(tools: &[(Vec3, Vec3)]) -> Markup {
         p.soft { "Tool point and tool axis on the workpiece; the frame is "
             (figure(VIEW_PX / scale)) " mm wide." }
         @for (title, right, up) in panels {
-            svg width=(VIEW_PX) height=(VIEW_PX + 20.0) role="img" {
+            svg viewBox={ "0 0 " (VIEW_PX) " " (VIEW_PX + 20.0) } style="width: 32%" role="img" {
                 rect width=(VIEW_PX) height=(VIEW_PX) fill="none" stroke="#bbb" {}
                 @for (p, u) in tools {
                     @let (x1, y1) = place(p, right, up);
