@@ -25,7 +25,7 @@ pub struct Arguments {
     #[command(subcommand)]
     what: Option<What>,
     #[command(flatten)]
-    errors: errors::Arguments,
+    errors: errors::CampaignArguments,
 }
 
 #[derive(Subcommand)]

@@ -18,7 +18,7 @@ use trueaxis::report::{
 
 /// What to identify the errors from.
 #[derive(Args)]
-pub struct Arguments {
+pub struct CampaignArguments {
     /// The campaign file: machine, instruments with their readings, what is sought
     #[arg(value_name = "CAMPAIGN.toml", required = true)]
     file: Option<PathBuf>,
@@ -36,7 +36,7 @@ pub struct Arguments {
     format: Format,
 }
 
-pub fn run(arguments: &Arguments) -> Outcome {
+pub fn run(arguments: &CampaignArguments) -> Outcome {
     let Some(file) = &arguments.file else { return Outcome::Unusable };
     let mut problems = Diagnostics::new();
     let (read, found) = read_campaign(file, |root, _| Some(read_options(root)));
