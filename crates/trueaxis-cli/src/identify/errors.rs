@@ -98,7 +98,7 @@ fn check_output(output: &Path, campaign: &Campaign, problems: &mut Diagnostics) 
 }
 
 struct Work<'a> {
-    arguments: &'a Arguments,
+    arguments: &'a CampaignArguments,
     campaign: Campaign,
     options: Options,
     records: Records,
