@@ -2,6 +2,9 @@
 
 #![allow(clippy::print_stdout, reason = "says why it skips")]
 
+mod library;
+
+use library::{checked, warm};
 use proptest::prelude::*;
 use std::sync::Arc;
 use trueaxis_geometry::Vec3;
@@ -179,14 +182,7 @@ reference = "22 degC"
 "#;
 
 fn hot() -> Machine {
-    let (machine, problems) = Machine::check("hot.toml", HOT, &NoTables);
-    machine.unwrap_or_else(|| panic!("{:?}", problems.sorted()))
-}
-
-fn warm(machine: &Machine, text: &str) -> Machine {
-    let mut problems = Diagnostics::new();
-    let conditions = Conditions::typed("t", text, &mut problems).expect("sound");
-    machine.at(&conditions, &mut problems).unwrap_or_else(|| panic!("{:?}", problems.sorted()))
+    checked(HOT, "")
 }
 
 const ALL: &str = "x=25 y_begin=22 y_middle=27 y_end=24 z_near=35 z_far=21 spindle=40 column=25 \

@@ -1,12 +1,15 @@
 //! Temperatures that change, several sources of heat, and what the coefficients' uncertainties do.
 
+mod library;
+
+use library::{checked, warm};
 use proptest::prelude::*;
 use std::sync::Arc;
 use trueaxis_geometry::input::Diagnostics;
 use trueaxis_machine::Machine;
 use trueaxis_machine::file::NoTables;
 use trueaxis_machine::heat::field::{ScaleField, Source, ierfc};
-use trueaxis_machine::heat::{Conditions, TemperatureLog, TemperatureRun, WarmingMachine};
+use trueaxis_machine::heat::{TemperatureLog, TemperatureRun, WarmingMachine};
 
 const HOT: &str = r#"
 machine = { name = "hot", chain = "w X' b Y Z t" }
@@ -35,14 +38,7 @@ column = "-0.5 ± 0.1 um/K"
 "#;
 
 fn hot() -> Machine {
-    let (machine, problems) = Machine::check("hot.toml", HOT, &NoTables);
-    machine.unwrap_or_else(|| panic!("{:?}", problems.sorted()))
-}
-
-fn warm(machine: &Machine, text: &str) -> Machine {
-    let mut problems = Diagnostics::new();
-    let conditions = Conditions::typed("t", text, &mut problems).expect("sound");
-    machine.at(&conditions, &mut problems).unwrap_or_else(|| panic!("{:?}", problems.sorted()))
+    checked(HOT, "")
 }
 
 fn log(text: &str) -> Arc<TemperatureLog> {

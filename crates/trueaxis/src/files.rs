@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_geometry::input::{Diagnostics, Place, Section};
 use trueaxis_machine::Machine;
 use trueaxis_machine::file::Tables;
 use trueaxis_machine::heat::TemperatureLog;
@@ -46,6 +46,16 @@ pub fn machine(path: &Path) -> (Option<Machine>, Diagnostics) {
         return (None, problems);
     };
     Machine::check(&path.display().to_string(), &text, &Folder::of(path))
+}
+
+/// The machine that a study names by `machine = "…"`, relative to the study file, and its path.
+pub fn machine_of(root: &Section<'_>, study: &Path) -> Option<(PathBuf, Machine)> {
+    let hint = "the machine file, relative to this file";
+    let name = root.require("machine", hint)?.text()?;
+    let path = study.parent().unwrap_or(Path::new("")).join(name);
+    let (machine, problems) = machine(&path);
+    root.take_over(problems);
+    Some((path, machine?))
 }
 
 /// Reads a text file; if it cannot be read, says why.

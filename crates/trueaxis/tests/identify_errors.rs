@@ -1,6 +1,9 @@
 //! The whole way from readings to a verdict: over-fit guard, uncertainties, conventions, bad input.
 #![allow(clippy::print_stdout, reason = "says how near the choice comes to the oracle")]
 
+mod library;
+
+use library::{Random, machine, machine_path, root};
 use nalgebra::{DMatrix, DVector};
 use std::path::{Path, PathBuf};
 use trueaxis::geometry::Vec3;
@@ -14,60 +17,11 @@ use trueaxis::identify::minimal::minimal_location_errors;
 use trueaxis::identify::records::{Loss, Options, Records, read_options, read_records};
 use trueaxis::identify::term::{Shape, Term};
 use trueaxis::machine::Machine;
-use trueaxis::machine::axis::{Approach, AxisKind, Travel};
+use trueaxis::machine::axis::{Approach, AxisKind};
 use trueaxis::machine::errors::{Component, ErrorKind, ErrorName};
 use trueaxis::machine::twist::Reference;
 use trueaxis::measure::instrument::{Instrument, SetupUnknown};
 use trueaxis::measure::{Campaign, Kind, Reading, Readings, read_campaign};
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
-
-fn machine_path(name: &str) -> PathBuf {
-    root().join("machines").join(name).join("machine.toml")
-}
-
-fn machine(name: &str) -> Machine {
-    let (machine, problems) = trueaxis::files::machine(&machine_path(name));
-    machine.unwrap_or_else(|| panic!("{problems:?}"))
-}
-
-/// Numbers that are the same in every run (splitmix64).
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn within(&mut self, reach: f64) -> f64 {
-        reach * (2.0 * self.unit() - 1.0)
-    }
-
-    /// Standard normal (Box and Muller).
-    fn normal(&mut self) -> f64 {
-        let (a, b) = (1.0 - self.unit(), self.unit());
-        (-2.0 * a.ln()).sqrt() * (std::f64::consts::TAU * b).cos()
-    }
-}
-
-fn command(random: &mut Random, machine: &Machine) -> [f64; 6] {
-    let mut command = [0.0; 6];
-    for (q, axis) in command.iter_mut().zip(machine.axes()) {
-        let (from, to) = match (axis.travel, axis.kind) {
-            (Travel::Between(from, to), _) => (from, to),
-            (_, AxisKind::Linear) => (-400.0, 400.0),
-            (_, AxisKind::Rotary) => (-1.6, 1.6),
-        };
-        *q = from + (to - from) * random.unit();
-    }
-    command
-}
 
 fn probe(machine: &Machine, kind: Kind) -> Instrument {
     let free = |error| SetupUnknown { name: kind.unknown_name(error), error, prior_u: None };
@@ -89,7 +43,7 @@ fn stations(random: &mut Random, machine: &Machine, count: u32) -> Readings {
     let mut stations = Readings::default();
     for group in 0..count {
         stations.push(Reading {
-            command: command(random, machine),
+            command: random.command(machine, [400.0, 1.6]),
             approach: Approach::default(),
             instrument: 0,
             direction: Vec3::x(),

@@ -1,6 +1,8 @@
 //! What holds for every identification: machines with known errors give their errors back.
 
-use std::path::Path;
+mod library;
+
+use library::{MACHINES, Random, machine};
 use trueaxis::geometry::Vec3;
 use trueaxis::identify::confusion::confusions;
 use trueaxis::identify::design::Design;
@@ -8,58 +10,11 @@ use trueaxis::identify::fit::{Observability, fit, normal_matrix};
 use trueaxis::identify::minimal::minimal_location_errors;
 use trueaxis::identify::term::{Shape, Term};
 use trueaxis::machine::Machine;
-use trueaxis::machine::axis::{Approach, AxisKind, Travel};
+use trueaxis::machine::axis::{Approach, AxisKind};
 use trueaxis::machine::errors::{ErrorName, StatedError};
 use trueaxis::machine::twist::Reference;
 use trueaxis::measure::instrument::{Instrument, SetupUnknown};
 use trueaxis::measure::{Kind, Reading, Readings};
-
-const MACHINES: [&str; 8] = [
-    "xkas2525",
-    "i5-engraver",
-    "lei-hsu-mill",
-    "head-table",
-    "nutating-head",
-    "wyxzcat-gantry",
-    "three-axis-mill",
-    "gantry-001",
-];
-
-fn machine(name: &str) -> Machine {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines").join(name);
-    let (machine, problems) = trueaxis::files::machine(&path.join("machine.toml"));
-    machine.unwrap_or_else(|| panic!("{problems:?}"))
-}
-
-/// Numbers in 0..1 that are the same in every run (splitmix64).
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn within(&mut self, reach: f64) -> f64 {
-        reach * (2.0 * self.unit() - 1.0)
-    }
-}
-
-fn command(random: &mut Random, machine: &Machine) -> [f64; 6] {
-    let mut command = [0.0; 6];
-    for (q, axis) in command.iter_mut().zip(machine.axes()) {
-        let (from, to) = match (axis.travel, axis.kind) {
-            (Travel::Between(from, to), _) => (from, to),
-            (_, AxisKind::Linear) => (-250.0, 250.0),
-            (_, AxisKind::Rotary) => (-1.5, 1.5),
-        };
-        *q = from + (to - from) * random.unit();
-    }
-    command
-}
 
 fn instrument(kind: Kind, machine: &Machine) -> Instrument {
     let free = |error| SetupUnknown { name: kind.unknown_name(error), error, prior_u: None };
@@ -123,7 +78,7 @@ fn stations(random: &mut Random, machine: &Machine, count: u32) -> Readings {
     let mut stations = Readings::default();
     for group in 0..count {
         stations.push(Reading {
-            command: command(random, machine),
+            command: random.command(machine, [250.0, 1.5]),
             approach: Approach::default(),
             instrument: 0,
             direction: Vec3::from_fn(|_, _| random.within(1.0)).normalize(),

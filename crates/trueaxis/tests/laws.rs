@@ -1,6 +1,8 @@
 //! Laws of the prediction: judged by mathematics.
 
-use std::path::{Path, PathBuf};
+mod library;
+
+use library::root;
 use trueaxis::machine::Machine;
 use trueaxis::machine::errors::ErrorValues;
 use trueaxis::machine::file::NoTables;
@@ -8,10 +10,6 @@ use trueaxis::predict::{
     Cutting, DatumAxis, Judge, Reference, Sampling, Setting, Study, corrections, monte_carlo,
     predict, propagate, read_study, sensitivities,
 };
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
 
 fn study() -> Study {
     let path = root().join("examples/03_predict/nas979-on-xkas2525.toml");

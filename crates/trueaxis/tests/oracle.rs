@@ -1,12 +1,11 @@
 //! The prediction of the NAS979 frustum against an independent program (oracles/nas979.py).
 
-use serde_json::Value;
-use std::path::{Path, PathBuf};
-use trueaxis::predict::{Cutting, Prediction, Reference, Setting, Study, predict, read_study};
+mod library;
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
+use library::root;
+use serde_json::Value;
+use std::path::Path;
+use trueaxis::predict::{Cutting, Prediction, Reference, Setting, Study, predict, read_study};
 
 fn study() -> Study {
     let path = root().join("examples/03_predict/nas979-on-xkas2525.toml");

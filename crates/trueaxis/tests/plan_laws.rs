@@ -1,6 +1,8 @@
 //! What holds for every plan: stations, choices, uncertainties, programs.
 
-use std::path::{Path, PathBuf};
+mod library;
+
+use library::{Random, root};
 use std::sync::atomic::{AtomicU32, Ordering};
 use trueaxis::geometry::Vec3;
 use trueaxis::identify::design::Design;
@@ -10,10 +12,6 @@ use trueaxis::measure::path::{FreeSide, hits};
 use trueaxis::nc::Control;
 use trueaxis::plan::program::{check, program};
 use trueaxis::plan::{Criterion, Plan, choose, expect, read_plan};
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
 
 /// A plan of an example of the project.
 fn example(name: &str) -> Plan {
@@ -34,25 +32,6 @@ fn campaign(machine: &str, rest: &str) -> (Option<Plan>, String) {
     std::fs::remove_file(&file).expect("it is there");
     let told = problems.iter().map(|d| format!("{} {}", d.code, d.message)).collect::<Vec<_>>();
     (plan, told.join("\n"))
-}
-
-/// Numbers in 0..1 that are the same in every run (splitmix64).
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// Box and Muller.
-    fn normal(&mut self) -> f64 {
-        let (a, b) = (1.0 - self.unit(), self.unit());
-        (-2.0 * a.ln()).sqrt() * (std::f64::consts::TAU * b).cos()
-    }
 }
 
 /// Machines with two rotary axes: where the ball stands, and the letters.

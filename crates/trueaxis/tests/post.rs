@@ -2,12 +2,13 @@
 
 #![allow(clippy::print_stdout, reason = "the whole set says what it found")]
 
+mod library;
+
+use library::{MACHINES, Random, machine};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
-use std::path::PathBuf;
 use trueaxis::compensate::post::{FeedRule, PostOptions, Posted, post, verify};
-use trueaxis::files;
 use trueaxis::geometry::Vec3;
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{AxisKind, Command, Travel};
@@ -18,27 +19,8 @@ use trueaxis::nc::moves::{Axis, Feed, FeedMode, Move, MoveKind};
 use trueaxis::nc::writer::TipWords;
 use trueaxis::nc::{Control, NoLibrary, Program, Settings, Step, interpret};
 
-const MACHINES: [&str; 8] = [
-    "gantry-001",
-    "head-table",
-    "i5-engraver",
-    "lei-hsu-mill",
-    "nutating-head",
-    "three-axis-mill",
-    "wyxzcat-gantry",
-    "xkas2525",
-];
-
 const CONTROLS: [Control; 4] =
     [Control::Fanuc, Control::Sinumerik840d, Control::Heidenhain, Control::LinuxCnc];
-
-fn root() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
-
-fn machine(name: &str) -> Machine {
-    files::machine(&root().join("machines").join(name).join("machine.toml")).0.unwrap()
-}
 
 fn cl(text: &str) -> ClFile {
     let (file, problems) = ClFile::read("a.cls", text.as_bytes().to_vec(), &Reading::default());
@@ -51,27 +33,10 @@ fn posted(machine: &Machine, text: &str, options: &PostOptions) -> Posted {
     posted.unwrap_or_else(|| panic!("{problems:?}\n{text}"))
 }
 
-/// Numbers that look random and are the same every time (SplitMix64).
-struct Dice(u64);
-
-impl Dice {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
-    }
-}
-
 /// A smooth path within the travel of a machine: every axis swings by two sines, so that tips and
 /// tool axes are as free as any surface makes them; poles included.
 fn free_form(machine: &Machine, seed: u64, points: usize) -> String {
-    let mut dice = Dice(seed);
+    let mut dice = Random(seed);
     let control = TipControl::of(machine).unwrap();
     let mut swings = Vec::new();
     for axis in machine.axes() {

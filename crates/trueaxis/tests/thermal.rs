@@ -2,20 +2,18 @@
 
 #![allow(clippy::print_stdout, reason = "says when the outside files are absent")]
 
+mod library;
+
 #[path = "thermal/laws.rs"]
 mod laws;
 
+use library::root;
 use serde_json::Value;
-use std::path::{Path, PathBuf};
 use trueaxis::geometry::input::Diagnostics;
 use trueaxis::identify::thermal::{
     Logs, Tables, ThermalModel, Zero, identify_thermal, parse_logs, read_logs,
 };
 use trueaxis::report::{thermal_html, thermal_json, thermal_lines, thermal_text};
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
 
 fn expected() -> Value {
     let path = root().join("crates/trueaxis/tests/data/thermal.json");

@@ -2,6 +2,8 @@
 
 #![allow(clippy::print_stdout, reason = "the table of differences")]
 
+mod library;
+
 #[path = "verify/imports.rs"]
 mod imports;
 #[path = "verify/laws.rs"]
@@ -9,16 +11,12 @@ mod laws;
 #[path = "verify/reports.rs"]
 mod reports;
 
+use library::root;
 use serde_json::Value;
-use std::path::Path;
 use trueaxis::geometry::input::Diagnostics;
 use trueaxis::report::{Evaluation, evaluation_html, evaluation_json, evaluation_text};
 use trueaxis::verify::conditions::Conditions;
 use trueaxis::verify::{Evaluated, Request, Standard, evaluate};
-
-fn root() -> std::path::PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
 
 fn expected(name: &str) -> Value {
     let path = root().join("crates/trueaxis/tests/data").join(name);

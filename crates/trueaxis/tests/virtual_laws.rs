@@ -1,6 +1,9 @@
 //! What holds for every virtual measurement, and for the comparison of its readings.
 
-use std::path::{Path as FilePath, PathBuf};
+mod library;
+
+use library::{MACHINES, Random, machine};
+use std::path::PathBuf;
 use trueaxis::geometry::Vec3;
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{AxisKind, Command, MAX_AXES, Travel};
@@ -14,45 +17,11 @@ use trueaxis::measure::virtual_campaign::{
 use trueaxis::measure::{Campaign, Kind, Readings};
 use trueaxis::verify::compare::{Against, Comparison, Decision, Rule, compare, pair};
 
-const MACHINES: [&str; 8] = [
-    "xkas2525",
-    "i5-engraver",
-    "lei-hsu-mill",
-    "head-table",
-    "nutating-head",
-    "wyxzcat-gantry",
-    "three-axis-mill",
-    "gantry-001",
-];
-
 /// The machine of the library, without its errors.
 fn bare(name: &str) -> Machine {
     let stated = machine(name);
     let errors = stated.stated_errors();
     errors.iter().fold(stated.clone(), |m, (index, _)| m.with_error(*index, None))
-}
-
-fn machine(name: &str) -> Machine {
-    let path = FilePath::new(env!("CARGO_MANIFEST_DIR")).join("../../machines").join(name);
-    let (machine, problems) = trueaxis::files::machine(&path.join("machine.toml"));
-    machine.unwrap_or_else(|| panic!("{problems:?}"))
-}
-
-/// Numbers in 0..1 that are the same in every run (splitmix64).
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn within(&mut self, reach: f64) -> f64 {
-        reach * (2.0 * self.unit() - 1.0)
-    }
 }
 
 fn command(random: &mut Random, machine: &Machine) -> Command {

@@ -9,6 +9,7 @@ use trueaxis_geometry::input::Diagnostics;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
 use trueaxis_machine::file::Tables;
+use trueaxis_machine::heat::Conditions;
 
 /// The folders of `machines/` that carry five-axis machines with a known oracle.
 pub const FIVE_AXIS: [&str; 6] =
@@ -45,6 +46,13 @@ pub fn machine_of(name: &str, change: impl Fn(String) -> String) -> Machine {
     let (machine, problems) = Machine::check("machine.toml", &text, &Folder(folder));
     let list: Vec<String> = problems.iter().map(ToString::to_string).collect();
     machine.unwrap_or_else(|| panic!("{name}: {}", list.join("\n")))
+}
+
+/// The machine at these temperatures, degrees Celsius: `"x=25 workpiece=28"`.
+pub fn warm(machine: &Machine, text: &str) -> Machine {
+    let mut problems = Diagnostics::new();
+    let conditions = Conditions::typed("t", text, &mut problems).expect("sound");
+    machine.at(&conditions, &mut problems).unwrap_or_else(|| panic!("{:?}", problems.sorted()))
 }
 
 /// Numbers in 0..1 that are the same in every run (splitmix64).

@@ -99,16 +99,9 @@ pub fn read_campaign<T>(
 fn read(root: &Section<'_>, path: &Path) -> Option<Campaign> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let name = root.require("name", "say what is measured").and_then(|i| i.text());
-    let hint = "the machine file, relative to the campaign file";
-    let machine_path = root.require("machine", hint).and_then(|i| i.text());
-    let machine_path = machine_path.map(|p| folder.join(p));
-    let machine = machine_path.as_deref().and_then(|p| {
-        let (machine, problems) = files::machine(p);
-        root.take_over(problems);
-        machine
-    });
+    let machine = files::machine_of(root, path);
     let conditions = root.section("temperature", Conditions::read);
-    let Some(machine) = machine else {
+    let Some((machine_path, machine)) = machine else {
         root.entries();
         return None;
     };
@@ -138,7 +131,7 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Campaign> {
         name: name?.to_owned(),
         path: path.to_owned(),
         machine,
-        machine_path: machine_path?,
+        machine_path,
         terms,
         instruments,
         tables,

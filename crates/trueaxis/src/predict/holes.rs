@@ -138,12 +138,7 @@ pub fn parse_hole_study(path: &Path, text: &str) -> (Option<HoleStudy>, Diagnost
 
 fn read(root: &Section<'_>, path: &Path) -> Option<HoleStudy> {
     let name = root.require("name", "give the study a name").and_then(|i| i.text());
-    let hint = "the machine file, relative to the study file";
-    let machine = root.require("machine", hint).and_then(|i| i.text()).and_then(|p| {
-        let (machine, problems) = files::machine(&path.parent().unwrap_or(Path::new("")).join(p));
-        root.take_over(problems);
-        machine
-    });
+    let machine = files::machine_of(root, path).map(|(_, machine)| machine);
     let folder = path.parent().unwrap_or(Path::new(""));
     let temperatures = StudyTemperatures::read(root, folder, false);
     let machine = machine.and_then(|m| temperatures.warm(root, m));

@@ -145,14 +145,7 @@ pub fn parse_study(path: &Path, text: &str) -> (Option<Study>, Diagnostics) {
 fn read(root: &Section<'_>, path: &Path) -> Option<Study> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let name = root.require("name", "give the study a name").and_then(|i| i.text());
-    let hint = "the machine file, relative to the study file";
-    let machine_path = root.require("machine", hint).and_then(|i| i.text());
-    let machine_path = machine_path.map(|p| folder.join(p));
-    let machine = machine_path.as_deref().and_then(|p| {
-        let (machine, problems) = files::machine(p);
-        root.take_over(problems);
-        machine
-    });
+    let (machine_path, machine) = files::machine_of(root, path).unzip();
     let temperatures = StudyTemperatures::read(root, folder, true);
     let machine = machine.and_then(|m| temperatures.warm(root, m));
     let hint = "the file of the test piece, relative to the study file";

@@ -1,8 +1,8 @@
 //! An evaluation as one self-contained page: opens offline, no script, no file from elsewhere.
 
 use super::evaluation::{Block, Evaluation};
-use super::page::STYLE;
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use super::page::document;
+use maud::{Markup, PreEscaped, html};
 
 /// The report as the text of an HTML file.
 ///
@@ -14,38 +14,25 @@ pub fn evaluation_html(evaluation: &Evaluation<'_>) -> Result<String, super::Dra
     for picture in &sheets.pictures {
         pictures.push((picture.title(), picture.note(), picture.svg()?, picture.is_round()));
     }
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { (evaluation.title()) }
-                style { (PreEscaped(STYLE)) }
-            }
-            body {
-                main {
-                    h1 { (evaluation.title()) }
-                    p.soft { (evaluation.standard.title()) }
-                    p.soft { (evaluation.circumstances()) }
-                    @for block in &sheets.figures { (section(block)) }
-                    @for (title, note, svg, round) in &pictures {
-                        section {
-                            h2 { (title) }
-                            @if *round {
-                                div style="max-width:640px;margin:0 auto" { (PreEscaped(svg)) }
-                            } @else { (PreEscaped(svg)) }
-                            @if !note.is_empty() { p.soft { (note) } }
-                        }
-                    }
-                    (remarks(evaluation.remarks))
-                    @for block in &sheets.details { (section(block)) }
-                    p.soft { "made by trueaxis " (crate::VERSION) }
-                }
+    let content = html! {
+        h1 { (evaluation.title()) }
+        p.soft { (evaluation.standard.title()) }
+        p.soft { (evaluation.circumstances()) }
+        @for block in &sheets.figures { (section(block)) }
+        @for (title, note, svg, round) in &pictures {
+            section {
+                h2 { (title) }
+                @if *round {
+                    div style="max-width:640px;margin:0 auto" { (PreEscaped(svg)) }
+                } @else { (PreEscaped(svg)) }
+                @if !note.is_empty() { p.soft { (note) } }
             }
         }
+        (remarks(evaluation.remarks))
+        @for block in &sheets.details { (section(block)) }
+        p.soft { "made by trueaxis " (crate::VERSION) }
     };
-    Ok(page.into_string())
+    Ok(document(evaluation.title(), &content))
 }
 
 pub(super) fn section(block: &Block) -> Markup {

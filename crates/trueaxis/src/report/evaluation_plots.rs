@@ -1,16 +1,15 @@
 //! The customary charts of the standards as SVG text.
 
-use super::plots::{COLOURS, DrawingError, FAINT, INK, SHARP, drawing_error, ink, pen, px};
+use super::plots::{
+    Area, COLOURS, Chart, DrawingError, FAINT, Flat, INK, Labels, SHARP, axes, drawing_error, ink,
+    legend, pen, px,
+};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use std::f64::consts::TAU;
 
 type Done = Result<(), DrawingError>;
-type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
-type Flat<'a> = DrawingArea<SVGBackend<'a>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
-type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
-
 const HEIGHT: u32 = 380;
 const WIDTH: u32 = 1000;
 const ROUND: u32 = 640;
@@ -143,39 +142,14 @@ fn range(values: impl Iterator<Item = f64>, margin: f64) -> std::ops::Range<f64>
     low - gap..high + gap
 }
 
-fn tick(value: f64, span: f64) -> String {
-    let digits = (1.0 - span.max(1e-9).log10()).ceil().clamp(0.0, 6.0) as usize;
-    let text = format!("{value:.digits$}");
-    if text.trim_start_matches(['-', '0', '.']).is_empty() { "0".to_owned() } else { text }
-}
-
 fn scatter(area: &Area<'_>, s: &Scatter) -> Done {
     let line = || s.bands.iter().flat_map(|b| &b.line);
     let points = || s.bands.iter().flat_map(|b| &b.points).chain(&s.dashed);
     let xs = range(line().map(|p| p.0).chain(points().map(|p| p.0)), 0.02);
     let bands = line().flat_map(|p| [p.1 - p.2, p.1 + p.2]);
     let ys = range(bands.chain(points().map(|p| p.1)).chain(s.from_zero.then_some(0.0)), 0.12);
-    let (x_span, y_span) = (xs.end - xs.start, ys.end - ys.start);
     let ends = [xs.start, xs.end];
-    let mut chart = ChartBuilder::on(area)
-        .margin(px(12))
-        .x_label_area_size(px(40))
-        .y_label_area_size(px(66))
-        .build_cartesian_2d(xs, ys)
-        .map_err(drawing_error)?;
-    chart
-        .configure_mesh()
-        .x_desc(&s.x)
-        .y_desc(&s.y)
-        .light_line_style(WHITE)
-        .axis_style(pen(INK, 1))
-        .bold_line_style(pen(FAINT, 1))
-        .set_all_tick_mark_size(px(4))
-        .x_label_formatter(&|x| tick(*x, x_span))
-        .y_label_formatter(&|y| tick(*y, y_span))
-        .label_style(ink(13))
-        .draw()
-        .map_err(drawing_error)?;
+    let mut chart = axes(area, &Labels { x: &s.x, y: &s.y }, (xs, ys))?;
     if s.from_zero {
         let zero = LineSeries::new(ends.map(|x| (x, 0.0)), pen(INK, 1));
         chart.draw_series(zero).map_err(drawing_error)?;
@@ -195,16 +169,7 @@ fn scatter(area: &Area<'_>, s: &Scatter) -> Done {
         }
     }
     if s.bands.len() > 1 {
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::UpperLeft)
-            .background_style(WHITE.mix(0.85))
-            .border_style(FAINT)
-            .margin(px(6))
-            .legend_area_size(px(22))
-            .label_font(ink(13))
-            .draw()
-            .map_err(drawing_error)?;
+        legend(&mut chart, SeriesLabelPosition::UpperLeft)?;
     }
     Ok(())
 }

@@ -1,11 +1,11 @@
 //! Holes on a circle as one page that opens offline.
 
-use super::page::STYLE;
+use super::page::document;
 use super::plots::{
     Area, COLOURS, DrawingError, FAINT, INK, draw, drawing_error, ink, pen, px, round_step,
 };
 use crate::predict::holes::{HolePrediction, HoleSet, HoleStudy};
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, PreEscaped, html};
 use plotters::prelude::*;
 use std::f64::consts::TAU;
 
@@ -14,28 +14,17 @@ use std::f64::consts::TAU;
 /// # Errors
 /// A picture that the drawing library refuses.
 pub fn holes_html(study: &HoleStudy, prediction: &HolePrediction) -> Result<String, DrawingError> {
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { (study.name) }
-                style { (PreEscaped(STYLE)) }
-            }
-            body { main {
-                h1 { (study.name) }
-                p.soft { (study.machine.name()) " · " code { (study.machine.chain_text()) } }
-                p.soft { "Numbers of the machine: " (study.machine.source()) }
-                (verdict(study, prediction))
-                (set_section(study, prediction))
-                (plan_section(study, prediction)?)
-                (hole_section(study, prediction))
-                (input_section(study, prediction))
-            } }
-        }
+    let content = html! {
+        h1 { (study.name) }
+        p.soft { (study.machine.name()) " · " code { (study.machine.chain_text()) } }
+        p.soft { "Numbers of the machine: " (study.machine.source()) }
+        (verdict(study, prediction))
+        (set_section(study, prediction))
+        (plan_section(study, prediction)?)
+        (hole_section(study, prediction))
+        (input_section(study, prediction))
     };
-    Ok(page.into_string())
+    Ok(document(&study.name, &content))
 }
 
 fn um(mm: f64) -> String {

@@ -1,13 +1,13 @@
 //! One self-contained page: opens offline, no script, no file from elsewhere.
 
-use super::page::STYLE;
+use super::page::document;
 use super::plots::{
     Bar, COLOURS, ConeMap, Curve, DrawingError, FittedCircle, Labels, Profile, bars, cone_map,
     curves, polar,
 };
 use super::{command_words, decisive, feature, ranked, relief, shown, unit};
 use crate::predict::{DatumAxis, Decision, Prediction, SectionResult, Sensitivity, Study};
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, PreEscaped, html};
 use trueaxis_part::Shape;
 use trueaxis_part::tolerance::Outcome;
 
@@ -19,39 +19,26 @@ const BARS: usize = 10;
 /// # Errors
 /// A picture that the drawing library refuses.
 pub fn html(study: &Study, prediction: &Prediction) -> Result<String, DrawingError> {
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { (study.name) }
-                style { (PreEscaped(STYLE)) }
-            }
-            body {
-                main {
-                    h1 { (study.name) }
-                    p.soft {
-                        (study.machine.name()) " · " code { (study.machine.chain_text()) } " · "
-                        (study.test_piece.name)
-                    }
-                    p.soft { "Numbers of the machine: " (study.machine.source()) }
-                    (verdict(prediction))
-                    (index_section(study, prediction))
-                    (section_pictures(prediction)?)
-                    (map_section(study, prediction)?)
-                    (motion_section(study, prediction)?)
-                    (blame_section(prediction)?)
-                    (correction_section(prediction))
-                    (sensitivity_section(prediction))
-                    (variant_section(prediction))
-                    (published_section(study, prediction))
-                    (input_section(study, prediction))
-                }
-            }
+    let content = html! {
+        h1 { (study.name) }
+        p.soft {
+            (study.machine.name()) " · " code { (study.machine.chain_text()) } " · "
+            (study.test_piece.name)
         }
+        p.soft { "Numbers of the machine: " (study.machine.source()) }
+        (verdict(prediction))
+        (index_section(study, prediction))
+        (section_pictures(prediction)?)
+        (map_section(study, prediction)?)
+        (motion_section(study, prediction)?)
+        (blame_section(prediction)?)
+        (correction_section(prediction))
+        (sensitivity_section(prediction))
+        (variant_section(prediction))
+        (published_section(study, prediction))
+        (input_section(study, prediction))
     };
-    Ok(page.into_string())
+    Ok(document(&study.name, &content))
 }
 
 fn um(mm: f64) -> String {

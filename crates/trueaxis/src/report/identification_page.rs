@@ -3,9 +3,9 @@
 use super::identification::{
     IdentificationReport, MOST_TOLD, conventions_text, rms_words, shown, unit, value_words,
 };
-use super::page::STYLE;
+use super::page::document;
 use crate::identify::errors::Found;
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, PreEscaped, html};
 use std::fmt::Write as _;
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::axis::{AxisKind, iso_841_direction};
@@ -22,32 +22,21 @@ const MOST_MAPPED: usize = 60;
 pub fn identification_html(report: &IdentificationReport<'_>) -> String {
     let found = report.found;
     let class = if found.verdict.is_good() { "pass" } else { "fail" };
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { "Identified: " (report.campaign.name) }
-                style { (PreEscaped(STYLE)) }
-            }
-            body { main {
-                h1 { (report.campaign.name) }
-                p.soft { (report.campaign.machine.name()) " · "
-                    (report.records.readings.len()) " readings in " (found.places) " places"
-                    @if let Some(date) = &report.options.date { " · " (date) } }
-                section class=(format!("verdict {class}")) { strong { (found.verdict.words()) } }
-                (score_section(report))
-                (arrow_section(report))
-                (error_section(report))
-                (unobservable_section(report))
-                (correlation_section(report))
-                (reading_section(report))
-                p.soft { "made by trueaxis " (crate::VERSION) }
-            } }
-        }
+    let content = html! {
+        h1 { (report.campaign.name) }
+        p.soft { (report.campaign.machine.name()) " · "
+            (report.records.readings.len()) " readings in " (found.places) " places"
+            @if let Some(date) = &report.options.date { " · " (date) } }
+        section class=(format!("verdict {class}")) { strong { (found.verdict.words()) } }
+        (score_section(report))
+        (arrow_section(report))
+        (error_section(report))
+        (unobservable_section(report))
+        (correlation_section(report))
+        (reading_section(report))
+        p.soft { "made by trueaxis " (crate::VERSION) }
     };
-    page.into_string()
+    document(&format!("Identified: {}", report.campaign.name), &content)
 }
 
 fn score_section(report: &IdentificationReport<'_>) -> Markup {

@@ -1,7 +1,26 @@
-//! The look of the page; no file from elsewhere.
+//! One self-contained page: opens offline, no script, no file from elsewhere.
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+/// A page with its head, around what it shows.
+pub(super) fn document(title: &str, content: &Markup) -> String {
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (title) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body { main { (content) } }
+        }
+    };
+    page.into_string()
+}
 
 /// Everything that styles the report.
-pub const STYLE: &str = "\
+const STYLE: &str = "\
 :root { --ink:#1f2933; --soft:#5b6773; --line:#d8dee4; --paper:#ffffff; --bg:#f4f6f8;
   --pass:#0b7a4b; --fail:#b3261e; --open:#8a5a00; --accent:#0072b2; }
 * { box-sizing:border-box; }

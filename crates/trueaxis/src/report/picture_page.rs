@@ -4,8 +4,8 @@ use super::DrawingError;
 use super::evaluation::Block;
 use super::evaluation_html::section;
 use super::evaluation_plots::Picture;
-use super::page::STYLE;
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use super::page::document;
+use maud::{Markup, PreEscaped, html};
 
 /// What stands on the page, from above.
 pub(super) struct PicturePage<'a> {
@@ -24,32 +24,21 @@ pub(super) fn picture_page(page: &PicturePage<'_>) -> Result<String, DrawingErro
     for picture in page.pictures {
         drawn.push((picture.title(), picture.note(), picture.svg()?, picture.is_round()));
     }
-    let text = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { (page.title) }
-                style { (PreEscaped(STYLE)) }
+    let content = html! {
+        h1 { (page.title) }
+        @for line in page.lines { p.soft { (line) } }
+        @if let Some(verdict) = &page.verdict { (verdict) }
+        @for block in page.blocks { (section(block)) }
+        @for (title, note, svg, round) in &drawn {
+            section {
+                h2 { (title) }
+                @if *round {
+                    div style="max-width:640px;margin:0 auto" { (PreEscaped(svg)) }
+                } @else { (PreEscaped(svg)) }
+                @if !note.is_empty() { p.soft { (note) } }
             }
-            body { main {
-                h1 { (page.title) }
-                @for line in page.lines { p.soft { (line) } }
-                @if let Some(verdict) = &page.verdict { (verdict) }
-                @for block in page.blocks { (section(block)) }
-                @for (title, note, svg, round) in &drawn {
-                    section {
-                        h2 { (title) }
-                        @if *round {
-                            div style="max-width:640px;margin:0 auto" { (PreEscaped(svg)) }
-                        } @else { (PreEscaped(svg)) }
-                        @if !note.is_empty() { p.soft { (note) } }
-                    }
-                }
-                p.soft { "made by trueaxis " (crate::VERSION) }
-            } }
         }
+        p.soft { "made by trueaxis " (crate::VERSION) }
     };
-    Ok(text.into_string())
+    Ok(document(page.title, &content))
 }

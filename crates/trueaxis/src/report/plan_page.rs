@@ -1,11 +1,11 @@
 //! The page of a plan: bars of the uncertainty to expect, what stays hidden, the poses in three
 //! views.
 
-use super::page::STYLE;
+use super::page::document;
 use super::plan::{PlanReport, PlannedPath, figure, plan_text, shown_unit};
 use super::simulation::clock;
 use crate::plan::{Expectation, Expected};
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, html};
 use trueaxis_geometry::Vec3;
 
 /// Width of the longest bar and of a view, pixels.
@@ -17,37 +17,24 @@ const STROKE_MM: f64 = 40.0;
 /// The plan as one page that opens offline.
 pub fn plan_html(report: &PlanReport<'_>) -> String {
     let campaign = &report.plan.campaign;
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { (campaign.name) }
-                style { (PreEscaped(STYLE)) }
-            }
-            body {
-                main {
-                    h1 { (campaign.name) }
-                    p.soft { (campaign.machine.name()) " · " code { (campaign.machine.chain_text()) } }
-                    section {
-                        h2 { "Uncertainty to expect, U (k = 2)" }
-                        (bars(report))
-                        @if let Some(chosen) = &report.chosen {
-                            p { (chosen.poses) " of " (chosen.candidates) " poses, "
-                                (clock(chosen.time_s)) }
-                        }
-                    }
-                    (hidden(&report.expectation))
-                    @for planned in &report.paths {
-                        section { h2 { "Path " (planned.path.name) } (views(&tools(report, planned))) }
-                    }
-                    section { h2 { "All figures" } pre { (plan_text(report)) } }
-                }
+    let content = html! {
+        h1 { (campaign.name) }
+        p.soft { (campaign.machine.name()) " · " code { (campaign.machine.chain_text()) } }
+        section {
+            h2 { "Uncertainty to expect, U (k = 2)" }
+            (bars(report))
+            @if let Some(chosen) = &report.chosen {
+                p { (chosen.poses) " of " (chosen.candidates) " poses, "
+                    (clock(chosen.time_s)) }
             }
         }
+        (hidden(&report.expectation))
+        @for planned in &report.paths {
+            section { h2 { "Path " (planned.path.name) } (views(&tools(report, planned))) }
+        }
+        section { h2 { "All figures" } pre { (plan_text(report)) } }
     };
-    page.into_string()
+    document(&campaign.name, &content)
 }
 
 fn hidden(expectation: &Expectation) -> Markup {

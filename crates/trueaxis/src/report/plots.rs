@@ -4,6 +4,7 @@ use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use std::f64::consts::{PI, TAU};
+use std::ops::Range;
 
 /// A picture that could not be drawn.
 #[derive(Debug, thiserror::Error)]
@@ -15,7 +16,9 @@ pub(super) fn drawing_error(error: impl std::fmt::Display) -> DrawingError {
 }
 
 pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
-type Flat<'a> = DrawingArea<SVGBackend<'a>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+pub(super) type Chart<'a, 'b> =
+    ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+pub(super) type Flat<'a> = DrawingArea<SVGBackend<'a>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
 /// Colours that people with colour-blindness can tell apart (Okabe and Ito).
 pub const COLOURS: [RGBColor; 7] = [
@@ -95,6 +98,52 @@ fn range(values: impl Iterator<Item = f64>, margin: f64) -> std::ops::Range<f64>
     low - gap..high + gap
 }
 
+/// The two axes with their words and ticks; the chart to draw on.
+pub(super) fn axes<'a, 'b>(
+    area: &'a Area<'b>,
+    labels: &Labels<'_>,
+    (xs, ys): (Range<f64>, Range<f64>),
+) -> Result<Chart<'a, 'b>, DrawingError> {
+    let (x_span, y_span) = (xs.end - xs.start, ys.end - ys.start);
+    let mut chart = ChartBuilder::on(area)
+        .margin(px(12))
+        .x_label_area_size(px(40))
+        .y_label_area_size(px(66))
+        .build_cartesian_2d(xs, ys)
+        .map_err(drawing_error)?;
+    chart
+        .configure_mesh()
+        .x_desc(labels.x)
+        .y_desc(labels.y)
+        .light_line_style(WHITE)
+        .axis_style(pen(INK, 1))
+        .bold_line_style(pen(FAINT, 1))
+        .set_all_tick_mark_size(px(4))
+        .x_label_formatter(&|x| tick(*x, x_span))
+        .y_label_formatter(&|y| tick(*y, y_span))
+        .label_style(ink(13))
+        .draw()
+        .map_err(drawing_error)?;
+    Ok(chart)
+}
+
+/// The box that says which line is which.
+pub(super) fn legend<'a, 'b: 'a>(
+    chart: &mut Chart<'a, 'b>,
+    position: SeriesLabelPosition,
+) -> Result<(), DrawingError> {
+    chart
+        .configure_series_labels()
+        .position(position)
+        .background_style(WHITE.mix(0.85))
+        .border_style(FAINT)
+        .margin(px(6))
+        .legend_area_size(px(22))
+        .label_font(ink(13))
+        .draw()
+        .map_err(drawing_error)
+}
+
 /// Curves over a common x axis.
 ///
 /// # Errors
@@ -107,26 +156,7 @@ pub fn curves(
     draw(size, |area| {
         let xs = range(curves.iter().flat_map(|c| c.points.iter().map(|p| p.0)), 0.0);
         let ys = range(curves.iter().flat_map(|c| c.points.iter().map(|p| p.1)), 0.08);
-        let (x_span, y_span) = (xs.end - xs.start, ys.end - ys.start);
-        let mut chart = ChartBuilder::on(area)
-            .margin(px(12))
-            .x_label_area_size(px(38))
-            .y_label_area_size(px(66))
-            .build_cartesian_2d(xs, ys)
-            .map_err(drawing_error)?;
-        chart
-            .configure_mesh()
-            .x_desc(labels.x)
-            .y_desc(labels.y)
-            .light_line_style(WHITE)
-            .axis_style(pen(INK, 1))
-            .bold_line_style(pen(FAINT, 1))
-            .set_all_tick_mark_size(px(4))
-            .x_label_formatter(&|x| tick(*x, x_span))
-            .y_label_formatter(&|y| tick(*y, y_span))
-            .label_style(ink(13))
-            .draw()
-            .map_err(drawing_error)?;
+        let mut chart = axes(area, labels, (xs, ys))?;
         for (i, curve) in curves.iter().enumerate() {
             let colour = COLOURS[i % COLOURS.len()];
             let line = LineSeries::new(curve.points.iter().copied(), pen(colour, 2));
@@ -137,16 +167,7 @@ pub fn curves(
                 .legend(move |(x, y)| PathElement::new([(x, y), (x + px(16), y)], pen(colour, 3)));
         }
         if curves.len() > 1 {
-            chart
-                .configure_series_labels()
-                .position(SeriesLabelPosition::UpperRight)
-                .background_style(WHITE.mix(0.85))
-                .border_style(FAINT)
-                .margin(px(6))
-                .legend_area_size(px(22))
-                .label_font(ink(13))
-                .draw()
-                .map_err(drawing_error)?;
+            legend(&mut chart, SeriesLabelPosition::UpperRight)?;
         }
         Ok(())
     })

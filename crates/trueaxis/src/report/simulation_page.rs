@@ -1,12 +1,12 @@
 //! The page of a simulation: opens offline, no script, no file from elsewhere.
 
-use super::page::STYLE;
+use super::page::document;
 use super::plots::DrawingError;
 use super::simulation::{Simulation, blocks, clock, control_name, trouble_text};
 use super::simulation_plots::{Mark, Strip, strips};
 use super::simulation_views::tool_path;
 use crate::simulate::{AxisUse, Quantity, Series, Trouble, Worst, shown, unit};
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, PreEscaped, html};
 use std::path::Path;
 use trueaxis_geometry::input::Severity;
 use trueaxis_machine::axis::{AxisKind, Travel};
@@ -21,36 +21,23 @@ const MOST_ROWS: usize = 1000;
 pub fn simulation_html(s: &Simulation<'_>, series: &Series) -> Result<String, DrawingError> {
     let name = Path::new(s.program).file_name().map_or(s.program.into(), |n| n.to_string_lossy());
     let title = format!("{name} on {}", s.machine.name());
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { (title) }
-                style { (PreEscaped(STYLE)) }
-            }
-            body {
-                main {
-                    h1 { (title) }
-                    p.soft {
-                        (control_name(s.control)) " · " code { (s.machine.chain_text()) } " · "
-                        (clock(s.summary.time_s))
-                    }
-                    (verdict(s))
-                    (summary_section(s))
-                    (path_section(s, series)?)
-                    (deviation_section(s, series)?)
-                    (axis_section(s, series)?)
-                    (trouble_section(s))
-                    (tool_section(s))
-                    (message_section(s))
-                    (input_section(s))
-                }
-            }
+    let content = html! {
+        h1 { (title) }
+        p.soft {
+            (control_name(s.control)) " · " code { (s.machine.chain_text()) } " · "
+            (clock(s.summary.time_s))
         }
+        (verdict(s))
+        (summary_section(s))
+        (path_section(s, series)?)
+        (deviation_section(s, series)?)
+        (axis_section(s, series)?)
+        (trouble_section(s))
+        (tool_section(s))
+        (message_section(s))
+        (input_section(s))
     };
-    Ok(page.into_string())
+    Ok(document(&title, &content))
 }
 
 fn verdict(s: &Simulation<'_>) -> Markup {

@@ -1,11 +1,11 @@
 //! A thermal model as one self-contained page.
 
 use super::DrawingError;
-use super::page::STYLE;
+use super::page::document;
 use super::plots::{Curve, Labels, curves};
 use super::thermal::{SCORES, beside, names, score_cells, thermal_lines, verdict, zero};
 use crate::identify::thermal::{Cycle, Logs, Score, ThermalModel};
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, PreEscaped, html};
 
 /// More cycles are not drawn one by one.
 const MOST_DRAWN: usize = 24;
@@ -24,55 +24,44 @@ pub fn thermal_html(logs: &Logs, model: &ThermalModel) -> Result<String, Drawing
     }
     let kind = if model.refusal.is_some() { "verdict fail" } else { "verdict pass" };
     let word = if model.refusal.is_some() { "REFUSED" } else { "MODEL" };
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { (logs.name) }
-                style { (PreEscaped(STYLE)) }
-            }
-            body { main {
-                h1 { (logs.name) }
-                p.soft {
-                    "Thermal model of " (logs.error) " from " (logs.cycles.len())
-                    " cycles; zero: " (zero(logs))
-                }
-                section class=(kind) { strong { (word) } span { (verdict(model)) } }
-                section { h2 { "What it is worth" } (scores_table(logs, model)) }
-                section {
-                    h2 { "More terms: better on what is known, not on what comes" }
-                    (PreEscaped(&scores))
-                }
-                (coefficients(logs, model))
-                section.long {
-                    h2 { "Each cycle, foretold by a model that has not seen it" }
-                    div.grid style="grid-template-columns:repeat(auto-fit,minmax(420px,1fr))" {
-                        @for (cycle, rms_mm, svg) in &cycles {
-                            figure {
-                                (PreEscaped(svg))
-                                figcaption {
-                                    (cycle.name) ": " (format!("{:.2}", rms_mm * 1e3)) " µm left"
-                                }
-                            }
+    let content = html! {
+        h1 { (logs.name) }
+        p.soft {
+            "Thermal model of " (logs.error) " from " (logs.cycles.len())
+            " cycles; zero: " (zero(logs))
+        }
+        section class=(kind) { strong { (word) } span { (verdict(model)) } }
+        section { h2 { "What it is worth" } (scores_table(logs, model)) }
+        section {
+            h2 { "More terms: better on what is known, not on what comes" }
+            (PreEscaped(&scores))
+        }
+        (coefficients(logs, model))
+        section.long {
+            h2 { "Each cycle, foretold by a model that has not seen it" }
+            div.grid style="grid-template-columns:repeat(auto-fit,minmax(420px,1fr))" {
+                @for (cycle, rms_mm, svg) in &cycles {
+                    figure {
+                        (PreEscaped(svg))
+                        figcaption {
+                            (cycle.name) ": " (format!("{:.2}", rms_mm * 1e3)) " µm left"
                         }
                     }
-                    @if logs.cycles.len() > cycles.len() {
-                        p.soft { "and " (logs.cycles.len() - cycles.len()) " more cycles" }
-                    }
                 }
-                @if !model.warnings.is_empty() {
-                    section {
-                        h2 { "What to know of this model" }
-                        ul { @for warning in &model.warnings { li { (warning) } } }
-                    }
-                }
-                p.soft { "made by trueaxis " (crate::VERSION) }
-            } }
+            }
+            @if logs.cycles.len() > cycles.len() {
+                p.soft { "and " (logs.cycles.len() - cycles.len()) " more cycles" }
+            }
         }
+        @if !model.warnings.is_empty() {
+            section {
+                h2 { "What to know of this model" }
+                ul { @for warning in &model.warnings { li { (warning) } } }
+            }
+        }
+        p.soft { "made by trueaxis " (crate::VERSION) }
     };
-    Ok(page.into_string())
+    Ok(document(&logs.name, &content))
 }
 
 fn scores_table(logs: &Logs, model: &ThermalModel) -> Markup {
