@@ -2,11 +2,13 @@
 
 mod library;
 
-use library::{MACHINES, Random, machine};
+use library::{MACHINES, Random, bare, machine};
 use trueaxis::geometry::Vec3;
 use trueaxis::identify::confusion::confusions;
 use trueaxis::identify::design::Design;
-use trueaxis::identify::fit::{Observability, fit, normal_matrix};
+use trueaxis::identify::fit::{
+    LEAST_SINGULAR_VALUE, Model, Observability, Rule, fit, fit_by, normal_matrix,
+};
 use trueaxis::identify::minimal::minimal_location_errors;
 use trueaxis::identify::term::{Shape, Term};
 use trueaxis::machine::Machine;
@@ -185,5 +187,36 @@ fn law_the_slopes_of_a_design_are_the_derivative_of_its_readings() {
                 }
             }
         }
+    }
+}
+
+/// What a linear fit is off by is made of products of errors: half the errors, a quarter of it.
+#[test]
+fn law_the_linear_fit_is_off_by_the_second_order_only() {
+    let mut random = Random(13);
+    let rule = |model| Rule { threshold: LEAST_SINGULAR_VALUE, model };
+    for name in ["lei-hsu-mill", "head-table", "i5-engraver"] {
+        let machine = bare(name);
+        let terms = terms(&machine);
+        let own = instrument(Kind::ProbeBall, &machine);
+        let design = Design::new(&machine, terms.clone(), vec![own]);
+        let stations = stations(&mut random, &machine, 160);
+        let drawn: Vec<f64> = (0..design.unknowns())
+            .map(|k| design.terms.get(k).map_or(0.02, |term| size(&mut random, term)))
+            .collect();
+        let sight = Observability::of(&normal_matrix(&design, &stations, &[]));
+        let values = sight.seen_part(&drawn);
+        let off = |share: f64, model| {
+            let values: Vec<f64> = values.iter().map(|v| v * share).collect();
+            let real = truth(&machine, &terms, &values);
+            let readings = read_by(&real, &design, &stations, &values);
+            let found = fit_by(rule(model), &design, &readings, &[]).expect("a fit");
+            let differences = found.values.iter().zip(&values).zip(&found.sight.is_seen);
+            let seen = differences.filter(|(_, seen)| **seen);
+            seen.map(|((a, b), _)| (a - b).powi(2)).sum::<f64>().sqrt()
+        };
+        let ratio = off(1.0, Model::Linear) / off(0.5, Model::Linear);
+        assert!((ratio - 4.0).abs() < 0.2, "{name}: {ratio}");
+        assert!(off(1.0, Model::Full) < 1e-3 * off(1.0, Model::Linear), "{name}");
     }
 }

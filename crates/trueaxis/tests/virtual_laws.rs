@@ -2,7 +2,7 @@
 
 mod library;
 
-use library::{MACHINES, Random, machine};
+use library::{MACHINES, Random, bare, machine};
 use std::path::PathBuf;
 use trueaxis::geometry::Vec3;
 use trueaxis::machine::Machine;
@@ -16,13 +16,6 @@ use trueaxis::measure::virtual_campaign::{
 };
 use trueaxis::measure::{Campaign, Kind, Readings};
 use trueaxis::verify::compare::{Against, Comparison, Decision, Rule, compare, pair};
-
-/// The machine of the library, without its errors.
-fn bare(name: &str) -> Machine {
-    let stated = machine(name);
-    let errors = stated.stated_errors();
-    errors.iter().fold(stated.clone(), |m, (index, _)| m.with_error(*index, None))
-}
 
 fn command(random: &mut Random, machine: &Machine) -> Command {
     let mut command = Command::default();

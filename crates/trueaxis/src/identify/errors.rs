@@ -10,7 +10,7 @@ use super::conflict::check_conflicts;
 use super::confusion::{Confusion, confusions};
 use super::convention::{ConventionCheck, check_conventions};
 use super::design::{Design, Unknown};
-use super::fit::{Fit, FitError, fit_with_threshold};
+use super::fit::{Fit, FitError, by_rows, fit_by, linear_residuals};
 use super::influence::{Influences, influences};
 use super::leftover::{Field, leftover_fields};
 use super::records::{Loss, Options, Records};
@@ -237,7 +237,7 @@ impl<'a> Work<'a> {
         let numbers: Vec<usize> = (0..whole.unknowns()).filter(chosen).collect();
         let terms = numbers.iter().filter_map(|k| whole.terms.get(*k).copied()).collect();
         let design = Design::new(&whole.machine, terms, whole.instruments.clone());
-        let fit = fit_with_threshold(&design, readings, &weights, options.threshold)?;
+        let fit = fit_by(options.rule(), &design, readings, &weights)?;
         let setup_only = setup_only(&whole, &sums, &priors);
         Ok(Self {
             whole,
@@ -315,7 +315,7 @@ fn robust(
     readings: &Readings,
     options: &Options,
 ) -> Result<(Fit, Vec<f64>), FitError> {
-    let fit = |weights: &[f64]| fit_with_threshold(design, readings, weights, options.threshold);
+    let fit = |weights: &[f64]| fit_by(options.rule(), design, readings, weights);
     let mut found = fit(&[])?;
     if options.loss == Loss::Squares {
         return Ok((found, Vec::new()));
@@ -370,37 +370,6 @@ fn linearised(design: &Design, readings: &Readings, first: &Fit) -> Vec<[f64; 3]
     by_rows(design, readings, |i, c, slopes| {
         first.residuals[i][c] + slopes.iter().zip(values.iter()).map(|(a, b)| a * b).sum::<f64>()
     })
-}
-
-/// What is left of linearised readings with these values.
-fn linear_residuals<'v>(
-    design: &Design,
-    readings: &Readings,
-    z: &[[f64; 3]],
-    values: impl Fn(usize) -> &'v DVector<f64> + Sync,
-) -> Vec<[f64; 3]> {
-    by_rows(design, readings, |i, c, slopes| {
-        z[i][c] - slopes.iter().zip(values(i).iter()).map(|(a, b)| a * b).sum::<f64>()
-    })
-}
-
-fn by_rows(
-    design: &Design,
-    readings: &Readings,
-    number: impl Fn(usize, usize, &[f64]) -> f64 + Sync,
-) -> Vec<[f64; 3]> {
-    let mut out = vec![[0.0; 3]; readings.len()];
-    let n = design.unknowns();
-    out.par_chunks_mut(512).enumerate().for_each(|(chunk, rows)| {
-        let mut slopes = vec![0.0; 3 * n];
-        for (k, row) in rows.iter_mut().enumerate() {
-            let i = chunk * 512 + k;
-            for c in 0..design.slopes(readings, i, &mut slopes) {
-                row[c] = number(i, c, &slopes[c * n..(c + 1) * n]);
-            }
-        }
-    });
-    out
 }
 
 fn sums_of_parts(

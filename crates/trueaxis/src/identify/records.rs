@@ -1,5 +1,6 @@
 //! The readings of a campaign with the file that each came from.
 
+use super::fit::{Model, Rule};
 use crate::files;
 use crate::measure::{Campaign, Readings};
 use trueaxis_geometry::input::{CsvTable, Diagnostics, Item, Place, Section};
@@ -95,13 +96,29 @@ pub struct Options {
     pub selection: bool,
     /// Singular values below this share of the greatest are not seen.
     pub threshold: f64,
+    /// The whole machine, or what is linear of it.
+    pub model: Model,
     /// When it was measured, as written.
     pub date: Option<String>,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { loss: Loss::Squares, folds: 10, selection: true, threshold: THRESHOLD, date: None }
+        Self {
+            loss: Loss::Squares,
+            folds: 10,
+            selection: true,
+            threshold: THRESHOLD,
+            model: Model::Full,
+            date: None,
+        }
+    }
+}
+
+impl Options {
+    /// How the fit goes about it.
+    pub fn rule(&self) -> Rule {
+        Rule { threshold: self.threshold, model: self.model }
     }
 }
 
@@ -110,7 +127,10 @@ pub fn read_options(root: &Section<'_>) -> Options {
     let mut options = Options::default();
     root.section("fit", |section| {
         if let Some(item) = section.get("loss") {
-            options.loss = read_loss(&item);
+            options.loss = read_word(&item, LOSSES);
+        }
+        if let Some(item) = section.get("model") {
+            options.model = read_word(&item, MODELS);
         }
         if let Some((item, folds)) = section.get("folds").and_then(|i| Some((i, i.count()?))) {
             match (2..=100).contains(&folds) {
@@ -137,15 +157,18 @@ pub fn read_options(root: &Section<'_>) -> Options {
     options
 }
 
-fn read_loss(item: &Item<'_>) -> Loss {
-    match item.text() {
-        Some("squares") => Loss::Squares,
-        Some("huber") => Loss::Huber,
-        Some(other) => {
-            let hint = "\"squares\" (default) or \"huber\"";
-            item.error("unknown-word", format!("no loss is called `{other}`"), hint);
-            Loss::Squares
-        }
-        None => Loss::Squares,
-    }
+const LOSSES: [(&str, Loss); 2] = [("squares", Loss::Squares), ("huber", Loss::Huber)];
+const MODELS: [(&str, Model); 2] = [("full", Model::Full), ("linear", Model::Linear)];
+
+/// One of two words; the first is usual.
+fn read_word<T: Copy>(item: &Item<'_>, words: [(&str, T); 2]) -> T {
+    let Some(text) = item.text() else { return words[0].1 };
+    words.iter().find(|(word, _)| *word == text).map_or_else(
+        || {
+            let hint = format!("\"{}\" (usual) or \"{}\"", words[0].0, words[1].0);
+            item.error("unknown-word", format!("`{text}` is none of the choices"), &hint);
+            words[0].1
+        },
+        |(_, found)| *found,
+    )
 }

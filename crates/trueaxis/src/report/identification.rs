@@ -2,6 +2,7 @@
 
 use crate::identify::convention::ConventionCheck;
 use crate::identify::errors::{Found, Identification, Unobservable};
+use crate::identify::fit::Model;
 use crate::identify::records::{Options, Records};
 use crate::identify::score::Rms;
 use crate::measure::Campaign;
@@ -144,12 +145,13 @@ pub fn identification_text(report: &IdentificationReport<'_>) -> String {
     let _ = writeln!(text, "  {}\n", found.verdict.words());
     let _ = writeln!(
         text,
-        "  {} readings in {} places, {} unknowns, rank {}, condition {:.3e}\n",
+        "  {} readings in {} places, {} unknowns, rank {}, condition {:.3e}{}\n",
         report.records.readings.len(),
         found.places,
         found.found.len(),
         found.fit.sight.rank,
-        found.fit.sight.condition()
+        found.fit.sight.condition(),
+        if report.options.model == Model::Linear { ", linear model" } else { "" },
     );
     text += "  root mean square of the residual\n";
     for (words, rms) in report.scores() {
@@ -281,6 +283,10 @@ pub fn identification_json(report: &IdentificationReport<'_>) -> Value {
         "rank": found.fit.sight.rank,
         "condition": found.fit.sight.condition(),
         "threshold": report.options.threshold,
+        "model": match report.options.model {
+            Model::Full => "full",
+            Model::Linear => "linear",
+        },
         "chi_square": found.fit.chi_square,
         "degrees_of_freedom": found.fit.degrees_of_freedom,
         "birge_ratio": found.birge,
