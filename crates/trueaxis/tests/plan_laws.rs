@@ -7,8 +7,10 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use trueaxis::geometry::Vec3;
 use trueaxis::identify::design::Design;
 use trueaxis::identify::fit::fit;
+use trueaxis::machine::axis::AxisKind;
+use trueaxis::machine::tcp::TipControl;
 use trueaxis::measure::Readings;
-use trueaxis::measure::path::{FreeSide, hits};
+use trueaxis::measure::path::{FreeSide, Path, hits};
 use trueaxis::nc::Control;
 use trueaxis::plan::program::{check, program};
 use trueaxis::plan::{Criterion, Plan, choose, expect, read_plan};
@@ -70,6 +72,61 @@ fn law_the_nominal_machine_reads_zero_on_every_path_about_a_ball() {
             let moved = path.stations.commands.windows(2).filter(|w| w[0] != w[1]).count();
             assert!(moved + 2 >= path.stations.len(), "{machine} {} stands still", path.name);
         }
+    }
+}
+
+/// The tests of ISO 10791-6 in kind: what turns, how the bar lies, which machine a name is for.
+#[test]
+fn law_kinematic_tests_turn_what_they_say_and_keep_the_bar() {
+    for ((machine, ball, axes), family) in
+        MACHINES.into_iter().zip(["BK", "BK", "CK", "CK", "AK", "AK"])
+    {
+        // The engraver reaches no higher.
+        let ball = if machine == "i5-engraver" { "50 20 -10 mm" } else { ball };
+        let test = |name: &str, more: &str| {
+            format!(
+                "[unknown]\nlocation = \"minimal\"\n[instrument.bar]\nkind = \"ball-bar\"\n\
+                 table_ball = \"{ball}\"\nlength = \"30 mm\"\nnoise = \"1 um\"\n\
+                 [[path]]\nkind = \"{name}\"\n{more}"
+            )
+        };
+        let turn = "from = \"-20 deg\"\nto = \"20 deg\"\ncount = 9\n";
+        for (number, letter) in [("1", axes[0]), ("2", axes[1])] {
+            let name = format!("{family}{number}");
+            let (plan, told) = campaign(machine, &test(&name, turn));
+            let plan = plan.unwrap_or_else(|| panic!("{machine}: {told}"));
+            let names: Vec<_> = plan.paths.iter().map(|p| p.name.clone()).collect();
+            assert_eq!(names, ["radial", "tangential", "axial"].map(|b| format!("{name} {b}")));
+            let own = &plan.campaign.machine;
+            for path in &plan.paths {
+                keeps_its_length(&plan, path);
+                for (i, axis) in own.axes().iter().enumerate() {
+                    let turns = path.stations.commands.windows(2).any(|w| w[0][i] != w[1][i]);
+                    let due = axis.name.to_string() == letter;
+                    assert!(axis.kind == AxisKind::Linear || turns == due, "{machine} {name}");
+                }
+            }
+        }
+        let cone = test(&format!("{family}3"), "half_angle = \"15 deg\"\ncount = 25\n");
+        let (plan, told) = campaign(machine, &cone);
+        let plan = plan.unwrap_or_else(|| panic!("{machine}: {told}"));
+        keeps_its_length(&plan, &plan.paths[0]);
+        let control = TipControl::of(&plan.campaign.machine).expect("three linear axes");
+        for command in &plan.paths[0].stations.commands {
+            let (_, axis) = control.tip_and_axis(command);
+            assert!((axis.z - 15f64.to_radians().cos()).abs() < 1e-9, "{machine}: {axis}");
+        }
+        let wrong = if family == "AK" { "BK1" } else { "AK1" };
+        let (plan, told) = campaign(machine, &test(wrong, turn));
+        assert!(plan.is_none() && told.contains("other-topology"), "{machine}: {told}");
+    }
+}
+
+fn keeps_its_length(plan: &Plan, path: &Path) {
+    let bar = &plan.campaign.instruments[0];
+    for (command, direction) in path.stations.commands.iter().zip(&path.stations.directions) {
+        let read = bar.nominal_reading(&plan.campaign.machine, command, *direction)[0];
+        assert!((read - bar.length_mm).abs() < 1e-9, "{}: {read}", path.name);
     }
 }
 
@@ -279,7 +336,7 @@ fn law_stations_outside_the_travel_are_named() {
 #[test]
 fn law_linear_paths_are_what_their_names_say() {
     let rest = "[unknown]\nlocation = \"minimal\"\n\
-         [instrument.bar]\nkind = \"ball-bar\"\ntable_ball = \"0 0 -20 mm\"\nlength = \"60 mm\"\nnoise = \"1 um\"\n\
+         [instrument.bar]\nkind = \"ball-bar\"\ntable_ball = \"0 0 -20 mm\"\nlength = \"30 mm\"\nnoise = \"1 um\"\n\
          [instrument.laser]\nkind = \"laser-line\"\nnoise = \"1 um\"\n\
          [[path]]\ninstrument = \"bar\"\nkind = \"circle\"\nplane = \"YZ\"\ncount = 36\n\
          [[path]]\ninstrument = \"laser\"\nkind = \"diagonal\"\ndiagonal = \"+-+\"\ncount = 7\n\

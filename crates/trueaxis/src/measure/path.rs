@@ -4,6 +4,7 @@
 //!     [[path]] ──kind──> places of the tool point on the workpiece, or axes ──Placing──> commands
 //! ```
 
+mod kinematic;
 mod linear;
 mod placing;
 mod sphere;
@@ -12,7 +13,7 @@ mod touch;
 
 pub(crate) use placing::turns_about;
 pub use placing::{Placing, Strayed, leaves_travel};
-pub use sphere::{directions_f, directions_s};
+pub use sphere::{directions_cone, directions_f, directions_s};
 pub use spread::{Poses, read_poses};
 pub use touch::{FreeSide, STAND_OFF_MM, hits};
 
@@ -28,7 +29,7 @@ pub(crate) const MOST_STATIONS: usize = 200_000;
 
 /// What a path may be.
 const KINDS: &str = "\"A\", \"B\", \"C\" (one rotary axis turns), \"F\", \"S\" (document 004), \
-                     \"circle\", \"diagonal\", \"targets\", \"touch\", \"grid\", \"random\", \"table\"";
+                     \"cone\", \"BK1\" … (ISO 10791-6), \"circle\", \"diagonal\", \"targets\", \"touch\", \"grid\", \"random\", \"table\"";
 
 /// One test path.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,7 +58,8 @@ pub fn read_paths(root: &Section<'_>, campaign: &Campaign) -> Option<Vec<Path>> 
     for (i, item) in items.iter().enumerate() {
         paths.push(item.section(&format!("path.{}", i + 1), |s| read_path(s, campaign)).flatten());
     }
-    paths.into_iter().collect()
+    let paths: Option<Vec<Vec<Path>>> = paths.into_iter().collect();
+    paths.map(|p| p.into_iter().flatten().collect())
 }
 
 /// Which instrument a section means; the only one need not be named.
@@ -76,7 +78,8 @@ pub(crate) fn read_instrument(section: &Section<'_>, campaign: &Campaign) -> Opt
     instrument
 }
 
-pub(crate) fn read_path(section: &Section<'_>, campaign: &Campaign) -> Option<Path> {
+/// One `[[path]]`: one path, or those of a test that has several.
+pub(crate) fn read_path(section: &Section<'_>, campaign: &Campaign) -> Option<Vec<Path>> {
     let instrument = read_instrument(section, campaign)?;
     let kind = section.require("kind", KINDS)?;
     let name = section.text("name");
@@ -87,11 +90,43 @@ pub(crate) fn read_path(section: &Section<'_>, campaign: &Campaign) -> Option<Pa
         return None;
     }
     let dwell_s = section.quantity("dwell", Dimension::Time).unwrap_or(1.0).max(0.0);
-    let stations = match kind.text()? {
+    let parts = match kind.text()? {
+        word if kinematic::is_test(word) => {
+            kinematic::read_test(section, &kind, campaign, instrument)
+        }
+        word => read_stations(section, &kind, word, campaign, instrument)
+            .map(|stations| vec![(String::new(), stations)]),
+    };
+    let whole = name.map_or_else(|| kind.as_text().unwrap_or("path").to_owned(), str::to_owned);
+    let path = |(part, mut stations): (String, Readings)| {
+        let name = if part.is_empty() { whole.clone() } else { format!("{whole} {part}") };
+        if stations.is_empty() {
+            section.error("no-stations", format!("path {name} has no station"), "count = 20");
+            return None;
+        }
+        if !placing::check_travel(section, &name, campaign, &stations) {
+            return None;
+        }
+        come_from(&mut stations);
+        Some(Path { name, stations, feed_mm_per_s, dwell_s })
+    };
+    parts?.into_iter().map(path).collect()
+}
+
+/// The stations of a path of this kind.
+fn read_stations(
+    section: &Section<'_>,
+    kind: &Item<'_>,
+    word: &str,
+    campaign: &Campaign,
+    instrument: usize,
+) -> Option<Readings> {
+    match word {
         "table" => read_table(section, campaign, instrument),
-        "A" | "B" | "C" => sphere::read_rotary(section, &kind, campaign, instrument),
+        "A" | "B" | "C" => sphere::read_rotary(section, kind, campaign, instrument),
         "F" => sphere::read_f(section, campaign, instrument),
         "S" => sphere::read_s(section, campaign, instrument),
+        "cone" => sphere::read_cone(section, campaign, instrument),
         "circle" => linear::read_circle(section, campaign, instrument),
         "diagonal" => linear::read_diagonal(section, campaign, instrument),
         "targets" => linear::read_targets(section, campaign, instrument),
@@ -102,18 +137,7 @@ pub(crate) fn read_path(section: &Section<'_>, campaign: &Campaign) -> Option<Pa
             section.entries();
             None
         }
-    };
-    let name = name.map_or_else(|| kind.as_text().unwrap_or("path").to_owned(), str::to_owned);
-    let mut stations = stations?;
-    if stations.is_empty() {
-        section.error("no-stations", format!("path {name} has no station"), "count = 20");
-        return None;
     }
-    if !placing::check_travel(section, &name, campaign, &stations) {
-        return None;
-    }
-    come_from(&mut stations);
-    Some(Path { name, stations, feed_mm_per_s, dwell_s })
 }
 
 /// From which side each axis comes, by the station before; axes that stand keep theirs. Where a

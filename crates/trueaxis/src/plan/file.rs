@@ -103,8 +103,19 @@ fn read_candidates(root: &Section<'_>, item: &Item<'_>, campaign: &Campaign) -> 
     };
     let want = root.section("want", |s| read_want(s, campaign, usual.clone()));
     let want = want.map_or(Some(usual), |w| w);
-    let stations = path?.stations;
-    Some(Candidates { stations, limit: limit?, want: want? })
+    Some(Candidates { stations: joined(path?), limit: limit?, want: want? })
+}
+
+/// The stations of all paths; poses stay apart.
+fn joined(paths: Vec<Path>) -> Readings {
+    let mut stations = Readings::default();
+    for path in paths {
+        let first = stations.groups.iter().max().map_or(0, |last| last + 1);
+        let mut next = path.stations;
+        next.groups.iter_mut().for_each(|group| *group += first);
+        stations.append(&next);
+    }
+    stations
 }
 
 fn read_limit(section: &Section<'_>) -> Option<Limit> {

@@ -15,14 +15,13 @@ use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::file::read_direction;
 
 /// One rotary axis turns, all other rotary axes stand, linear axes follow: paths A and C of
-/// document 004; with a bar along, across or beside the axis the tests of ISO 10791-6 in kind.
+/// document 004; a ball-bar lies along, across or beside the axis.
 pub(super) fn read_rotary(
     section: &Section<'_>,
     kind: &Item<'_>,
     campaign: &Campaign,
     instrument: usize,
 ) -> Option<Readings> {
-    let placing = Placing::for_path(section, campaign, instrument)?;
     let machine = &campaign.machine;
     let letter = kind.as_text()?;
     let is_it = |a: &trueaxis_machine::axis::Axis| {
@@ -34,6 +33,18 @@ pub(super) fn read_rotary(
         section.entries();
         return None;
     };
+    let bar = section.text("bar").unwrap_or("radial");
+    read_turning(section, (axis, bar), campaign, instrument)
+}
+
+/// The same for an axis by its number and a direction of the bar.
+pub(super) fn read_turning(
+    section: &Section<'_>,
+    (axis, bar): (usize, &str),
+    campaign: &Campaign,
+    instrument: usize,
+) -> Option<Readings> {
+    let placing = Placing::for_path(section, campaign, instrument)?;
     let bound = |key: &str| {
         let item = section.require(key, "from = \"90 deg\" and to = \"0 deg\"")?;
         read_position(&item, AxisKind::Rotary)
@@ -42,7 +53,6 @@ pub(super) fn read_rotary(
     let count = read_count(section, "count", 25);
     let back = section.get("back").map_or(Some(false), |i| i.flag());
     let start = read_at(section, campaign);
-    let sight = section.text("bar").unwrap_or("radial");
     let (from, to, count, back, mut rotary) = (from?, to?, count?, back?, start?);
     rotary[axis] = from;
     let at_ball = placing.place(placing.reference_point_mm, &rotary);
@@ -50,7 +60,7 @@ pub(super) fn read_rotary(
         return unreachable_station(section, 0);
     };
     let direction = match campaign.instruments[instrument].sight {
-        Sight::Distance => bar_direction(section, sight, axis, &at_ball, &placing)?,
+        Sight::Distance => bar_direction(section, bar, axis, &at_ball, &placing)?,
         _ => Vec3::zeros(),
     };
     let step = |k: usize| from + (to - from) * k as f64 / (count.max(2) - 1) as f64;
@@ -118,8 +128,8 @@ pub(super) fn read_f(
         section.entries();
         return None;
     }
-    let directions = directions_f(lowest, rise, turns.clamp(-100.0, 100.0), count);
-    read_followed(section, campaign, instrument, &directions)
+    let normals = directions_f(lowest, rise, turns.clamp(-100.0, 100.0), count);
+    read_followed(section, campaign, instrument, &along(&normals))
 }
 
 /// Path S: a circle that leans by `tilt` out of the equator.
@@ -138,7 +148,26 @@ pub(super) fn read_s(
         section.entries();
         return None;
     }
-    read_followed(section, campaign, instrument, &directions_s(tilt, count))
+    read_followed(section, campaign, instrument, &along(&directions_s(tilt, count)))
+}
+
+/// A cone: the tool axis goes round the pole on it, a ball-bar stands square on its surface, as
+/// where a frustum is milled by the side of the cutter.
+pub(super) fn read_cone(
+    section: &Section<'_>,
+    campaign: &Campaign,
+    instrument: usize,
+) -> Option<Readings> {
+    let half = section.require("half_angle", "half_angle = \"15 deg\", of the cone");
+    let count = read_count(section, "count", 37);
+    let (half, count) = (half?.quantity(Dimension::Angle)?, count?);
+    if half <= 0.0 || half >= std::f64::consts::FRAC_PI_2 {
+        let message = format!("{:.3} deg is no half angle of a cone", half.to_degrees());
+        section.error("bad-cone", message, "more than 0 and less than 90 deg");
+        section.entries();
+        return None;
+    }
+    read_followed(section, campaign, instrument, &directions_cone(half, count))
 }
 
 /// The outward normals along path F.
@@ -175,24 +204,45 @@ pub fn directions_s(tilt_rad: f64, count: usize) -> Vec<Vec3> {
     (0..count).map(normal).collect()
 }
 
-/// Commands along outward normals, the tool axis along each; `pole` is where z of the sphere points.
+/// From the ball to the tool point, and the tool axis, round a cone of half angle α.
+///
+/// ```text
+///     u = (cos α cos φ, cos α sin φ, sin α)     n = (−sin α cos φ, −sin α sin φ, cos α)     docs/model.md eq. 161
+/// ```
+///
+/// u is the outward normal of the cone, n its generatrix from the base to the apex: u · n = 0.
+pub fn directions_cone(half_angle_rad: f64, count: usize) -> Vec<[Vec3; 2]> {
+    let (s, c) = half_angle_rad.sin_cos();
+    let one = |k: usize| {
+        let (sin, cos) = (std::f64::consts::TAU * k as f64 / (count.max(2) - 1) as f64).sin_cos();
+        [Vec3::new(c * cos, c * sin, s), Vec3::new(-s * cos, -s * sin, c)]
+    };
+    (0..count).map(one).collect()
+}
+
+/// The tool axis along the outward normal.
+fn along(normals: &[Vec3]) -> Vec<[Vec3; 2]> {
+    normals.iter().map(|u| [*u, *u]).collect()
+}
+
+/// Commands for sides of the ball and tool axes; `pole` is where their z points.
 fn read_followed(
     section: &Section<'_>,
     campaign: &Campaign,
     instrument: usize,
-    normals: &[Vec3],
+    sides: &[[Vec3; 2]],
 ) -> Option<Readings> {
     let placing = Placing::for_path(section, campaign, instrument)?;
     let pole = section.get("pole").map_or(Some(Vec3::z()), |i| read_direction(&i))?;
     let start = read_at(section, campaign)?;
     let along_x = (Vec3::x() - pole * pole.x).try_normalize(1e-6).unwrap_or_else(Vec3::y);
     let along_y = pole.cross(&along_x);
-    let target = |u: &Vec3| {
-        let normal = along_x * u.x + along_y * u.y + pole * u.z;
-        let tip = placing.reference_point_mm + normal * placing.reach_mm;
-        Some(Target { tip: Point::from_vector(tip), axis: Direction::of(normal)? })
+    let target = |side: &[Vec3; 2]| {
+        let [side, axis] = side.map(|u| along_x * u.x + along_y * u.y + pole * u.z);
+        let tip = placing.reference_point_mm + side * placing.reach_mm;
+        Some(Target { tip: Point::from_vector(tip), axis: Direction::of(axis)? })
     };
-    let targets: Vec<Target> = normals.iter().filter_map(target).collect();
+    let targets: Vec<Target> = sides.iter().filter_map(target).collect();
     match placing.machine().follow(&targets, &start) {
         Ok(commands) => {
             let mut stations = Readings::default();
