@@ -120,6 +120,82 @@ fn bad_readings_get_no_confident_answer() {
 }
 
 #[test]
+fn lost_rows_swapped_columns_and_a_ball_on_the_axis_are_told() {
+    let folder = Folder::new("identify-told");
+    // Every place was read twice: of one a reading is lost.
+    let campaign = with_readings(&folder, |i, line| match i {
+        30 => String::new(),
+        _ => line.to_owned(),
+    });
+    let ran = trueaxis(&["identify", &campaign]);
+    assert!(ran.err.contains("warning[uneven-groups]"), "{}", ran.err);
+    assert!(ran.err.contains("1 readings in this group, 2 in most"), "{}", ran.err);
+    let campaign = with_readings(&folder, |i, line| match i {
+        2 => line.replace("x_um,y_um", "y_um,x_um"),
+        _ => line.to_owned(),
+    });
+    let ran = trueaxis(&["identify", &campaign]);
+    assert_eq!(ran.status, 1, "{}{}", ran.out, ran.err);
+    assert!(ran.out.contains("columns in the order y, x, z"), "{}", ran.out);
+    // A ball on the axis of C: turning C moves nothing.
+    let campaign = measured(
+        &folder,
+        "lei-hsu-mill",
+        "[unknown]\nlocation = [\"EX0C\"]\n[instrument.probe]\nkind = \"probe-ball\"\n\
+         ball = \"-60 -40 0 mm\"\nnoise = \"1 um\"\n[[path]]\nkind = \"C\"\nfrom = \"0 deg\"\n\
+         to = \"330 deg\"\ncount = 12\n",
+        str::to_owned,
+    );
+    let ran = trueaxis(&["identify", &campaign]);
+    assert!(ran.err.contains("warning[on-axis]"), "{}", ran.err);
+}
+
+/// A campaign with one instrument, `probe`, that was measured virtually; its readings changed.
+fn measured(folder: &Folder, machine: &str, text: &str, change: impl Fn(&str) -> String) -> String {
+    let machine = root().join("machines").join(machine).join("machine.toml");
+    let text = format!("name = \"bad\"\nmachine = '{}'\n{text}", machine.display());
+    let campaign = folder.file("campaign.toml", &text);
+    let ran = trueaxis(&["measure", &campaign, "-o", &folder.path("measured")]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let csv = std::fs::read_to_string(folder.path("measured/probe.csv")).expect("the readings");
+    folder.file("readings.csv", change(&csv));
+    let noise = "noise = \"1 um\"";
+    let named = text.replace(noise, &format!("{noise}\nreadings = \"readings.csv\""));
+    folder.file("campaign.toml", named)
+}
+
+/// A stylus that reports a hit 31 mm from the ball touched something else.
+#[test]
+fn a_hit_on_the_wrong_side_is_refused_with_its_line() {
+    const HITS: &str = "[unknown]\nlocation = [\"EX0C\", \"EY0C\"]\n[instrument.probe]\n\
+        kind = \"touch-probe-ball\"\nstylus = \"0 0 -90 mm\"\nball = \"60 0 25 mm\"\n\
+        length = \"15.5 mm\"\nnoise = \"1 um\"\n[[path]]\nkind = \"touch\"\nhits = 5\n\
+        poses = [{ C = \"0 deg\" }, { C = \"90 deg\" }, { C = \"180 deg\" }, { C = \"-90 deg\" }]\n";
+    let folder = Folder::new("identify-side");
+    let campaign = measured(&folder, "i5-engraver", HITS, str::to_owned);
+    let ran = trueaxis(&["identify", &campaign]);
+    assert!(!ran.err.contains("wrong-side"), "{}", ran.err);
+    let line = std::cell::Cell::new(0);
+    let moved = |csv: &str| {
+        let head = csv.lines().position(|l| l.contains("X,")).expect("a heading");
+        let axis = csv.lines().nth(head).and_then(|l| l.split(',').position(|c| c == "X"));
+        line.set(head + 8);
+        let shifted = |cell: &str| (cell.parse::<f64>().expect("X") + 31.0).to_string();
+        let cells = |line: &str| {
+            let cells = line.split(',').enumerate();
+            let cells = cells.map(|(k, c)| if Some(k) == axis { shifted(c) } else { c.to_owned() });
+            cells.collect::<Vec<_>>().join(",")
+        };
+        let lines = csv.lines().enumerate();
+        let lines = lines.map(|(i, l)| if i + 1 == head + 8 { cells(l) } else { l.to_owned() });
+        lines.collect::<Vec<_>>().join("\n") + "\n"
+    };
+    let campaign = measured(&folder, "i5-engraver", HITS, moved);
+    let place = format!("readings.csv:{}", line.get());
+    refused(&trueaxis(&["identify", &campaign]), "wrong-side", &place);
+}
+
+#[test]
 fn an_instrument_that_contradicts_the_others_is_named() {
     let folder = Folder::new("identify-conflict");
     let source = root().join("examples/05_identify");

@@ -303,9 +303,25 @@ fn law_what_is_hidden_is_told_with_what_would_tell() {
     assert!(hidden.words.contains("10 µm of EZ0A"), "{}", hidden.words);
     // A table that is lifted and a tool that is shorter differ nowhere but in the zero of Z: with
     // any pose and any tool whose length is not known better.
-    let told: Vec<&str> =
-        expectation.unobservable.iter().filter_map(|h| h.resolve_with.as_deref()).collect();
-    assert!(told.iter().all(|t| t.contains("min)")), "{told:?}");
+    // A lifted table and a shorter tool differ nowhere: only a known length tells.
+    let remedy = hidden.resolve_with.as_deref().expect("a remedy");
+    assert!(remedy.contains("second tool whose length is known"), "{remedy}");
+    // Two centres that differ only where A tilts: the remedy tells, and tells what it promises.
+    let rest = "[unknown]\nlocation = [\"EY0A\", \"EY0C\"]\n\
+                [instrument.probe]\nkind = \"probe-ball\"\nsocket = \"0 0 -330 mm\"\n\
+                noise = \"1 um\"\n[[path]]\nkind = \"C\"\nfrom = \"0 deg\"\nto = \"300 deg\"\n";
+    let hidden = |paths: &str| {
+        let (plan, told) = campaign("lei-hsu-mill", &format!("{rest}{paths}"));
+        let plan = plan.unwrap_or_else(|| panic!("{told}"));
+        let mut stations = Readings::default();
+        plan.paths.iter().for_each(|path| stations.append(&path.stations));
+        expect(&plan.campaign, &plan.campaign.design(), &stations).unobservable
+    };
+    let [only] = hidden("").try_into().expect("one combination");
+    assert!(only.words.contains("EY0A") && only.words.contains("EY0C"), "{}", only.words);
+    let remedy = only.resolve_with.expect("a remedy");
+    assert!(remedy.contains("min)") && remedy.contains('A'), "{remedy}");
+    assert!(hidden("[[path]]\nkind = \"A\"\nfrom = \"90 deg\"\nto = \"0 deg\"\n").is_empty());
 }
 
 #[test]

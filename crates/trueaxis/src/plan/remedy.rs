@@ -12,7 +12,7 @@ const NOTHING: f64 = 1e-6;
 /// What would tell a combination that the readings of a campaign cannot, in words; `None` if no
 /// set-up of the list does.
 ///
-/// A second tool, the ball at another place, more turned poses, and instruments that the campaign
+/// A second tool, a turned spindle, the ball at another place, more turned poses, and instruments that the campaign
 /// does not have are tried in the order of their minutes.
 pub fn remedies(campaign: &Campaign, design: &Design, confusion: &Confusion) -> Option<String> {
     let trials = trials(campaign, design);
@@ -31,7 +31,8 @@ fn tells(trial: &Trial, known: usize, confusion: &Confusion) -> bool {
     let mut along = DVector::zeros(trial.design.unknowns());
     let mut alone = 0.0_f64;
     for (k, share) in confusion.members.iter().filter(|(k, _)| !is_fresh(*k)) {
-        along[*k] = *share;
+        let changed = trial.changed.iter().find(|(changed, _)| changed == k);
+        along[*k] = share * changed.map_or(1.0, |(_, factor)| *factor);
         alone = alone.max((columns.row(*k) * *share).norm());
     }
     let read = columns.tr_mul(&along);

@@ -1,7 +1,7 @@
 //! Further set-ups that might tell what a measurement cannot.
 
 use crate::identify::design::Design;
-use crate::measure::instrument::SetupError;
+use crate::measure::instrument::{SetupError, SetupUnknown};
 use crate::measure::path::{FreeSide, Placing, hits, leaves_travel};
 use crate::measure::{Campaign, Instrument, Kind, Reading, Readings};
 use trueaxis_geometry::Vec3;
@@ -28,6 +28,9 @@ pub(super) struct Trial {
     pub stations: Readings,
     /// The unknowns that are other quantities in this set-up: a moved ball stands elsewhere.
     pub fresh: Vec<usize>,
+    /// The unknowns that count otherwise here: −1 what is off in a spindle that was turned, 0 the
+    /// length of a tool that is known.
+    pub changed: Vec<(usize, f64)>,
 }
 
 /// What may be done, cheapest first; minutes are those of a practised hand.
@@ -45,6 +48,8 @@ pub(super) fn trials(campaign: &Campaign, design: &Design) -> Vec<Trial> {
             let words = format!("{name} at poses with all rotary axes turned");
             trials.push(same(design, instrument, words, 3, &rotary));
         }
+        trials.extend(turned_spindle(design, instrument, &rotary));
+        trials.extend(known_length(design, instrument, &rotary));
         trials.extend(longer_tool(design, instrument, &rotary));
         trials.extend(moved(design, instrument, &rotary));
     }
@@ -60,7 +65,14 @@ fn axes_of(machine: &Machine, kind: AxisKind) -> Vec<usize> {
 
 fn same(design: &Design, instrument: usize, words: String, minutes: u32, axes: &[usize]) -> Trial {
     let stations = stations(design, instrument, axes);
-    Trial { words, minutes, design: design.clone(), stations, fresh: Vec::new() }
+    Trial {
+        words,
+        minutes,
+        design: design.clone(),
+        stations,
+        fresh: Vec::new(),
+        changed: Vec::new(),
+    }
 }
 
 /// Unknowns of a set-up by what they displace.
@@ -77,6 +89,37 @@ fn replaced(design: &Design, instrument: usize, by: Instrument) -> Design {
     Design::new(&design.machine, design.terms.clone(), instruments)
 }
 
+/// Half a turn of the spindle takes what sits off its axis to the other side (ISO 230-7: reversal).
+fn turned_spindle(design: &Design, instrument: usize, rotary: &[usize]) -> Option<Trial> {
+    let off = fresh(design, instrument, |e| matches!(e, SetupError::ToolPoint(0 | 1)));
+    let words = "the same poses with the spindle turned by half a turn";
+    otherwise(design, instrument, rotary, (words, 4), off.into_iter().map(|k| (k, -1.0)))
+}
+
+/// A gauge tool, or one that was measured on a presetter.
+fn known_length(design: &Design, instrument: usize, rotary: &[usize]) -> Option<Trial> {
+    let length = fresh(design, instrument, |e| matches!(e, SetupError::ToolPoint(2)));
+    let words = "the same poses with a second tool whose length is known";
+    otherwise(design, instrument, rotary, (words, 5), length.into_iter().map(|k| (k, 0.0)))
+}
+
+fn otherwise(
+    design: &Design,
+    instrument: usize,
+    rotary: &[usize],
+    (words, minutes): (&str, u32),
+    changed: impl Iterator<Item = (usize, f64)>,
+) -> Option<Trial> {
+    let changed: Vec<(usize, f64)> = changed.collect();
+    if changed.is_empty() {
+        return None;
+    }
+    let words = format!("{}, {words}", design.instruments[instrument].name);
+    let stations = stations(design, instrument, rotary);
+    let design = design.clone();
+    Some(Trial { words, minutes, design, stations, fresh: Vec::new(), changed })
+}
+
 /// What is at the tip is at the tip of a longer tool; how long that is, is known.
 fn longer_tool(design: &Design, instrument: usize, rotary: &[usize]) -> Option<Trial> {
     let own = &design.instruments[instrument];
@@ -88,7 +131,7 @@ fn longer_tool(design: &Design, instrument: usize, rotary: &[usize]) -> Option<T
     let design = replaced(design, instrument, longer);
     let stations = stations(&design, instrument, rotary);
     let words = format!("{}, the same poses with a second tool, 60 mm longer", own.name);
-    Some(Trial { words, minutes: 5, design, stations, fresh: Vec::new() })
+    Some(Trial { words, minutes: 5, design, stations, fresh: Vec::new(), changed: Vec::new() })
 }
 
 /// The ball or the instrument at another place of the table.
@@ -111,7 +154,7 @@ fn moved(design: &Design, instrument: usize, rotary: &[usize]) -> Vec<Trial> {
             matches!(e, SetupError::ReferencePoint(_) | SetupError::ReferenceTurn(_))
         };
         let fresh = fresh(&design, instrument, elsewhere);
-        Trial { words, minutes: 8, design, stations, fresh }
+        Trial { words, minutes: 8, design, stations, fresh, changed: Vec::new() }
     };
     places.into_iter().map(trial).collect()
 }
@@ -134,14 +177,15 @@ fn others(campaign: &Campaign, design: &Design) -> Vec<Trial> {
     let everywhere: Vec<usize> = (0..design.machine.axes().len()).collect();
     let mut trials = Vec::new();
     let further = |kind: Kind, name: &str, reference, direction, axes: &[usize], words, minutes| {
-        let own = further_instrument(&design.machine, kind, name, reference, direction);
+        let mut own = further_instrument(&design.machine, kind, name, reference, direction);
+        own.unknowns.extend(unknown_tool_point(design, kind));
         let mut instruments = design.instruments.clone();
         instruments.push(own);
         let first = design.unknowns();
         let design = Design::new(&design.machine, design.terms.clone(), instruments);
         let stations = stations(&design, design.instruments.len() - 1, axes);
         let fresh = (first..design.unknowns()).collect();
-        Trial { words, minutes, design, stations, fresh }
+        Trial { words, minutes, design, stations, fresh, changed: Vec::new() }
     };
     if !has(Kind::BallBar) {
         let words = "a ball-bar between table and spindle, all axes moved".to_owned();
@@ -183,6 +227,18 @@ fn others(campaign: &Campaign, design: &Design) -> Vec<Trial> {
         trials.push(further(kind, "tracker", table, Vec3::x(), &everywhere, words, 60));
     }
     trials
+}
+
+/// Who does not know where one instrument sits in the spindle does not know it of another either.
+fn unknown_tool_point(design: &Design, kind: Kind) -> Vec<SetupUnknown> {
+    let mut unknown: Vec<SetupUnknown> = Vec::new();
+    for own in design.instruments.iter().flat_map(|i| &i.unknowns) {
+        let is_new = !unknown.iter().any(|u| u.error == own.error);
+        if matches!(own.error, SetupError::ToolPoint(_)) && is_new && !kind.sight().is_angle() {
+            unknown.push(SetupUnknown { name: kind.unknown_name(own.error), ..own.clone() });
+        }
+    }
+    unknown
 }
 
 fn further_instrument(
