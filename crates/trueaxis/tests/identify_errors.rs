@@ -12,13 +12,14 @@ use trueaxis::identify::convention::check_conventions;
 use trueaxis::identify::design::Design;
 use trueaxis::identify::errors::{Identification, Verdict, birge, identify};
 use trueaxis::identify::fit::fit;
-use trueaxis::identify::machine_file::machine_file;
+use trueaxis::identify::machine_file::{MachineFile, machine_file};
 use trueaxis::identify::minimal::minimal_location_errors;
 use trueaxis::identify::records::{Loss, Options, Records, read_options, read_records};
 use trueaxis::identify::term::{Shape, Term};
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{Approach, AxisKind};
 use trueaxis::machine::errors::{Component, ErrorKind, ErrorName};
+use trueaxis::machine::file::Tables;
 use trueaxis::machine::twist::Reference;
 use trueaxis::measure::instrument::{Instrument, SetupUnknown};
 use trueaxis::measure::{Campaign, Kind, Reading, Readings, read_campaign};
@@ -445,11 +446,37 @@ fn law_no_confident_answer_from_too_little() {
 
 #[test]
 fn law_the_machine_file_gives_back_what_was_found() {
+    gives_back(
+        "three-axis-mill",
+        &[("EXZ", "polynomial 2-3"), ("EYZ", "polynomial 2-2 + reversal")],
+    );
+    // Here the errors stand in the table of X: they leave it, the others stay.
+    let made = gives_back("xkas2525", &[("EXX", "polynomial 2-3"), ("EYX", "polynomial 2-2")]);
+    let [(name, table)] = made.tables.try_into().expect("one table");
+    assert_eq!(name, "X-identified.csv");
+    let heading = table.lines().find(|l| l.starts_with("position")).expect("a heading");
+    assert_eq!(heading, "position_mm,EZX_um,EAX_urad,EBX_urad,ECX_urad");
+    assert!(table.lines().any(|l| l == "620.0,-8.5,6.3,-1.4,2.1"), "{table}");
+}
+
+/// The new tables, and those beside the old file.
+struct With<'a>(&'a MachineFile, &'a dyn Tables);
+
+impl Tables for With<'_> {
+    fn text(&self, name: &str) -> Result<String, String> {
+        let made = self.0.tables.iter().find(|(made, _)| made == name);
+        made.map_or_else(|| self.1.text(name), |(_, text)| Ok(text.clone()))
+    }
+
+    fn display(&self, name: &str) -> String {
+        name.to_owned()
+    }
+}
+
+fn gives_back(name: &str, cases: &[(&str, &str)]) -> MachineFile {
     let mut random = Random(29);
-    let name = "three-axis-mill";
     let bare = machine(name);
     let mut terms = minimal_location_errors(&bare);
-    let cases = [("EXZ", "polynomial 2-3"), ("EYZ", "polynomial 2-2 + reversal")];
     for (error, shape) in cases {
         let error = ErrorName::parse(error).expect("a name");
         terms.extend(Shape::parse(shape).expect("a shape").terms(&bare, error));
@@ -470,7 +497,7 @@ fn law_the_machine_file_gives_back_what_was_found() {
     let made = machine_file(&campaign, &found, Some("2026-11-21"), &old, &folder).expect("a file");
     let comments = |text: &str| text.lines().filter(|l| l.starts_with('#')).count();
     assert!(comments(&made.text) >= comments(&old));
-    let (read, problems) = Machine::check("new", &made.text, &folder);
+    let (read, problems) = Machine::check("new", &made.text, &With(&made, &folder));
     let read = read.unwrap_or_else(|| panic!("{problems:?}\n{}", made.text));
     for i in 0..10 {
         let (command, approach) = (&places.commands[i], &places.approaches[i]);
@@ -485,6 +512,7 @@ fn law_the_machine_file_gives_back_what_was_found() {
             }
         }
     }
+    made
 }
 
 fn example(name: &str) -> (Campaign, Options, Records) {

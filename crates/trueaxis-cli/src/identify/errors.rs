@@ -154,8 +154,7 @@ impl Work<'_> {
             Ok(made) => made,
             Err(reason) => {
                 let message = format!("the machine file cannot be edited: {reason}");
-                let hint = "put it beside the machine file if that names tables; an error that a \
-                            table states must leave the table first";
+                let hint = "put it beside the machine file if that names tables";
                 refuse(message, hint, problems);
                 return None;
             }

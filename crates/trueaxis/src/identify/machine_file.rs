@@ -4,6 +4,8 @@
 //! change: what was found gets its value, what cannot be told or is not supported by the readings
 //! becomes a comment. The file is read back before anybody gets it.
 
+mod columns;
+
 use super::errors::Identification;
 use super::term::{Term, stated};
 use crate::measure::Campaign;
@@ -53,6 +55,7 @@ pub fn machine_file(
     );
     for (name, terms) in sought(campaign, found) {
         let entry = entry((campaign, found), (name, &terms), &origin, &mut tables);
+        file.take_out_of_table(name, &origin, &mut tables, beside);
         file.put(name, &entry, &origin);
     }
     let text = file.text();
@@ -222,6 +225,19 @@ fn read_back(
     Ok(())
 }
 
+/// The section that states an error.
+fn header(name: ErrorName) -> String {
+    match name.kind {
+        ErrorKind::Location => "location".to_owned(),
+        ErrorKind::Motion => format!("motion.{}", name.body),
+    }
+}
+
+/// What stands before the `=` of a line.
+fn key_of(line: &str) -> Option<&str> {
+    line.split_once('=').map(|(key, _)| key.trim().trim_matches(['"', '\'']))
+}
+
 /// The file line by line, with the places of its entries.
 struct Lines {
     lines: Vec<String>,
@@ -237,10 +253,7 @@ impl Lines {
     }
 
     fn put(&mut self, name: ErrorName, entry: &Entry, origin: &str) {
-        let header = match name.kind {
-            ErrorKind::Location => "location".to_owned(),
-            ErrorKind::Motion => format!("motion.{}", name.body),
-        };
+        let header = header(name);
         match (self.find(&header, name), entry) {
             (Some((from, to)), Entry::Value(value)) => {
                 let line = format!("{name} = {value} # {origin}");
@@ -260,15 +273,53 @@ impl Lines {
         }
     }
 
+    /// An error that stands in the table of its axis leaves it: a new table without its columns.
+    fn take_out_of_table(
+        &mut self,
+        name: ErrorName,
+        origin: &str,
+        tables: &mut Vec<(String, String)>,
+        beside: &dyn Tables,
+    ) {
+        let header = header(name);
+        let Some((line, table)) = self.table_of(&header) else { return };
+        let made = tables.iter().position(|(made, _)| *made == table);
+        let text = made.map_or_else(|| beside.text(&table).ok(), |i| Some(tables[i].1.clone()));
+        let Some(left) = text.and_then(|text| columns::without(&text, name)) else { return };
+        let new = columns::new_name(&table);
+        tables.retain(|(made, _)| *made != new);
+        if columns::is_bare(&left) {
+            // How it was read between its rows goes with it.
+            let (from, to) = self.section(&header).unwrap_or((line, line + 1));
+            for key in ["table", "interpolation", "outside"] {
+                for own in self.lines[from..to].iter_mut().filter(|l| key_of(l) == Some(key)) {
+                    *own = format!("# {own} # nothing is left of it; {origin}");
+                }
+            }
+            return;
+        }
+        self.lines[line] = format!("table = \"{new}\" # without what stands below; {origin}");
+        tables.push((new, left));
+    }
+
+    /// `table = "X.csv"` of a section: the line and the name.
+    fn table_of(&self, header: &str) -> Option<(usize, String)> {
+        let (from, to) = self.section(header)?;
+        let line = (from..to).find(|i| key_of(&self.lines[*i]) == Some("table"))?;
+        let (_, value) = self.lines[line].split_once('=')?;
+        let value = value.trim_start();
+        let quote = value.chars().next().filter(|c| ['"', '\''].contains(c))?;
+        let (name, _) = value[1..].split_once(quote)?;
+        Some((line, name.to_owned()))
+    }
+
     /// The lines of an entry of a section.
     fn find(&self, header: &str, name: ErrorName) -> Option<(usize, usize)> {
         let (from, to) = self.section(header)?;
         let mut i = from;
         while i < to {
             let end = self.entry_end(i, to);
-            let key =
-                self.lines[i].split_once('=').map(|(key, _)| key.trim().trim_matches(['"', '\'']));
-            if key.and_then(ErrorName::parse) == Some(name) {
+            if key_of(&self.lines[i]).and_then(ErrorName::parse) == Some(name) {
                 return Some((i, end));
             }
             i = end;
