@@ -150,6 +150,24 @@ fn lost_rows_swapped_columns_and_a_ball_on_the_axis_are_told() {
     assert!(ran.err.contains("warning[on-axis]"), "{}", ran.err);
 }
 
+/// Powers up to the fourth over a travel of which a laser saw a quarter.
+#[test]
+fn powers_over_an_unmeasured_travel_are_told() {
+    let folder = Folder::new("identify-range");
+    let rest = |to: u32| {
+        format!(
+            "[unknown]\nlocation = []\n[unknown.motion]\nEXX = \"polynomial 4\"\n[instrument.probe]\n\
+             kind = \"laser-line\"\ndirection = \"1 0 0\"\nnoise = \"1 um\"\n[[path]]\n\
+             kind = \"targets\"\naxis = \"X\"\nfrom = \"0 mm\"\nto = \"{to} mm\"\ncount = 11\n"
+        )
+    };
+    for (to, due) in [(800, true), (3000, false)] {
+        let campaign = measured(&folder, "xkas2525", &rest(to), str::to_owned);
+        let ran = trueaxis(&["identify", &campaign]);
+        assert_eq!(ran.err.contains("warning[short-range]"), due, "{to} mm: {}", ran.err);
+    }
+}
+
 /// A campaign with one instrument, `probe`, that was measured virtually; its readings changed.
 fn measured(folder: &Folder, machine: &str, text: &str, change: impl Fn(&str) -> String) -> String {
     let machine = root().join("machines").join(machine).join("machine.toml");

@@ -3,6 +3,7 @@
 use super::design::Design;
 use super::records::Records;
 use super::statistics::robust_deviation;
+use super::term::Basis;
 use crate::measure::Readings;
 use crate::measure::instrument::Sight;
 use std::collections::BTreeMap;
@@ -15,6 +16,8 @@ use trueaxis_machine::errors::{Component, ErrorIndex, ErrorKind, ErrorValues};
 const ON_AXIS_MM: f64 = 0.5;
 /// Readings further from the nominal one than this, and than twenty times what is usual, are told.
 const FAR_MM: f64 = 0.5;
+/// Powers of three and more are told where less than this share of their range was measured.
+const LEAST_RANGE: f64 = 0.4;
 /// Rows that are told one by one.
 const MOST_TOLD: usize = 10;
 
@@ -71,6 +74,44 @@ pub fn check_records(
     check_size(design, records, problems);
     check_lost_rows(records, problems);
     check_balls_on_axes(design, readings, campaign, problems);
+    check_ranges(design, readings, campaign, problems);
+}
+
+/// Powers over a travel of which little was measured stand in for each other.
+fn check_ranges(
+    design: &Design,
+    readings: &Readings,
+    campaign: &Place,
+    problems: &mut Diagnostics,
+) {
+    let mut told = Vec::new();
+    for term in &design.terms {
+        let (Basis::Legendre { degree, half, .. }, Some(axis)) = (term.basis, term.axis) else {
+            continue;
+        };
+        let positions = readings.commands.iter().map(|c| c[axis]);
+        let (low, high) = positions.fold((f64::MAX, f64::MIN), |(l, h), q| (l.min(q), h.max(q)));
+        // A parabola over a quarter of its range bends by a sixteenth of its size.
+        if degree < 3 || high - low >= LEAST_RANGE * 2.0 * half || told.contains(&term.error) {
+            continue;
+        }
+        told.push(term.error);
+        let machine_axis = &design.machine.axes()[axis];
+        let (unit, by) = match machine_axis.kind {
+            AxisKind::Linear => ("mm", 1.0),
+            AxisKind::Rotary => ("deg", 1f64.to_degrees()),
+        };
+        let message = format!(
+            "{}: powers up to {degree} over {:.0} {unit}, but {} was moved over {:.0} {unit} only: \
+             they look alike there, and values can become large and cancel",
+            term.error,
+            2.0 * half * by,
+            machine_axis.name,
+            (high - low) * by
+        );
+        let hint = "measure over more of the travel, or seek \"polynomial 2\"";
+        problems.warn("short-range", campaign.clone(), message, hint);
+    }
 }
 
 /// Readings that no machine could give: hits on the wrong side, wrong rows, wrong units.
