@@ -16,6 +16,7 @@ fn the_document_has_the_agreed_keys() {
         let value = ["value_um", "value_urad"].iter().any(|k| error.get(*k).is_some());
         let u = ["u_um", "u_urad"].iter().any(|k| error.get(*k).is_some());
         assert!(error["name"].is_string() && value && u, "{error}");
+        assert!(error.get("u").is_some(), "{error}");
     }
     for of in found["unobservable"].as_array().expect("combinations") {
         for key in ["combination", "words", "resolve_with"] {

@@ -248,6 +248,7 @@ pub fn identification_json(report: &IdentificationReport<'_>) -> Value {
         let mut entry = json!({ "name": f.name });
         entry[value_key] = json!(f.value.map(|(v, _)| shown(f, v)));
         entry[u_key] = json!(f.value.map(|(_, u)| shown(f, u)));
+        entry["u"] = entry[u_key].clone();
         entry["z"] = json!(f.z());
         entry
     };
