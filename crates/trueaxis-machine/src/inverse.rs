@@ -10,6 +10,7 @@
 mod direction;
 mod follow;
 mod linear;
+mod placer;
 mod serial;
 pub(crate) mod turns;
 
@@ -19,6 +20,7 @@ use crate::Machine;
 use crate::axis::{AxisKind, Command};
 use crate::errors::BodyName;
 pub(crate) use direction::Aim;
+pub(crate) use placer::Placer;
 pub(crate) use serial::Serial;
 use std::fmt;
 use trueaxis_geometry::frame::{Direction, Point, Workpiece};
@@ -219,6 +221,21 @@ impl Machine {
     /// Document 000, Eq 13 (the k of C by unwinding, errata 000-8); dynamic programming: Bellman
     /// 1957.
     pub fn follow(&self, path: &[Target], from: &Command) -> Result<Vec<Command>, FollowError> {
+        match follow::follow(self, path, from)? {
+            (_, Some(jump)) => Err(jump),
+            (commands, None) => Ok(commands),
+        }
+    }
+
+    /// The same as far as a continuous motion leads: the commands, and the jump that it ends at.
+    ///
+    /// # Errors
+    /// As [`Machine::follow`], without [`FollowFault::Jump`].
+    pub fn follow_on(
+        &self,
+        path: &[Target],
+        from: &Command,
+    ) -> Result<(Vec<Command>, Option<FollowError>), FollowError> {
         follow::follow(self, path, from)
     }
 }
@@ -229,6 +246,8 @@ struct Solver<'m> {
     serial: Serial,
     aim: Aim,
     from: Command,
+    /// Where there are many targets: what places one tip after the other.
+    placer: Option<Placer>,
 }
 
 /// The ways to reach one target, free rotary angles in (−π, π].
@@ -245,18 +264,29 @@ impl<'m> Solver<'m> {
         }
         let serial = Serial::of(machine);
         let aim = Aim::of(&serial, from);
-        Ok(Self { machine, serial, aim, from: *from })
+        Ok(Self { machine, serial, aim, from: *from, placer: None })
     }
 
     fn branches(&self, target: &Target) -> Result<Branches, SolveError> {
+        let mut commands = Vec::new();
+        let held = self.branches_into(target, &mut commands)?;
+        Ok(Branches { commands, held })
+    }
+
+    /// Puts the ways to reach a target in place of what `commands` holds; the axis that is held.
+    fn branches_into(
+        &self,
+        target: &Target,
+        commands: &mut Vec<Command>,
+    ) -> Result<Option<usize>, SolveError> {
+        commands.clear();
         let tip = target.tip.vector();
         if !tip.iter().chain(target.axis.vector().iter()).all(|v| v.is_finite()) {
             return Err(SolveError::NotFinite);
         }
         let aimed = self.aim.at(target.axis.vector()).map_err(|missed| self.unreachable(missed))?;
-        let mut commands = Vec::with_capacity(aimed.angles.len());
         let mut missed = None;
-        for angles in aimed.angles {
+        for angles in aimed.branches() {
             let mut command = self.from;
             for (turn, angle) in self.aim.turning.iter().zip(angles) {
                 if let Some(angle) = angle {
@@ -272,11 +302,10 @@ impl<'m> Solver<'m> {
         if let (true, Some(error)) = (commands.is_empty(), missed) {
             return Err(error);
         }
-        let held = match aimed.first_is_idle {
+        Ok(match aimed.first_is_idle {
             true => Some(self.aim.turning[0].axis),
             false => self.idle_axis(&commands[0]),
-        };
-        Ok(Branches { commands, held })
+        })
     }
 
     /// A held rotary axis that turns about the tool axis.
@@ -309,7 +338,7 @@ impl<'m> Solver<'m> {
                 }
                 let (travel, q) = (self.machine.axes[turn.axis].travel, command[turn.axis]);
                 let others = turns::others(travel, q, self.from[turn.axis]);
-                let shifted = |c: &Command| others.iter().map(|&q| with(c, turn.axis, q)).collect();
+                let shifted = |c: &Command| others.clone().map(|q| with(c, turn.axis, q)).collect();
                 let more: Vec<Command> = turned.iter().flat_map::<Vec<_>, _>(shifted).collect();
                 turned.extend(more);
             }

@@ -49,10 +49,24 @@ pub(crate) struct Aim {
     tool_at_zero: Vec3,
 }
 
-/// The angles (right-handed about each axis) of each branch; `None` keeps the axis where it is.
+/// The angles of one branch, right-handed about each axis; `None` keeps the axis where it is.
+type Angles = [Option<f64>; 2];
+
+/// The branches: two, or one where both meet.
 pub(crate) struct Aimed {
-    pub angles: Vec<[Option<f64>; 2]>,
+    one: Angles,
+    other: Option<Angles>,
     pub first_is_idle: bool,
+}
+
+impl Aimed {
+    fn only(one: Angles) -> Self {
+        Self { one, other: None, first_is_idle: false }
+    }
+
+    pub fn branches(&self) -> impl Iterator<Item = Angles> {
+        [Some(self.one), self.other].into_iter().flatten()
+    }
 }
 
 /// The direction cannot be reached.
@@ -106,12 +120,11 @@ impl Aim {
                 if (alpha - beta).abs() > RESOLUTION_RAD {
                     return Err(missed(only.about, u, v, alpha, beta));
                 }
-                let angles = vec![[Some(turned(only.about, v, u)), None]];
-                Ok(Aimed { angles, first_is_idle: false })
+                Ok(Aimed::only([Some(turned(only.about, v, u)), None]))
             }
             [] => match angle(u, v) {
                 by_rad if by_rad > RESOLUTION_RAD => Err(Missed { closest: v, by_rad }),
-                _ => Ok(Aimed { angles: vec![[None; 2]], first_is_idle: false }),
+                _ => Ok(Aimed::only([None; 2])),
             },
         }
     }
@@ -131,7 +144,8 @@ fn aim_two(a: Vec3, b: Vec3, v: Vec3, u: Vec3) -> Result<Aimed, Missed> {
     }
     if alpha.min(PI - alpha) <= RESOLUTION_RAD {
         let pole = if alpha < 1.0 { a } else { -a };
-        return Ok(Aimed { angles: vec![[None, Some(turned(b, v, pole))]], first_is_idle: true });
+        let one = [None, Some(turned(b, v, pole))];
+        return Ok(Aimed { one, other: None, first_is_idle: true });
     }
     let half_sine = |i: usize| match excess[i].0 {
         e if e <= FLAT_RAD => 0.0,
@@ -147,11 +161,8 @@ fn aim_two(a: Vec3, b: Vec3, v: Vec3, u: Vec3) -> Result<Aimed, Missed> {
         let w = a * alpha.cos() + (towards_b * phi.cos() + n * phi.sin()) * alpha.sin();
         [Some(turned(a, w, u)), Some(turned(b, v, w))]
     };
-    let mut angles = vec![branch(phi)];
-    if up > 0.0 && down > 0.0 {
-        angles.push(branch(-phi));
-    }
-    Ok(Aimed { angles, first_is_idle: false })
+    let other = (up > 0.0 && down > 0.0).then(|| branch(-phi));
+    Ok(Aimed { one: branch(phi), other, first_is_idle: false })
 }
 
 /// The angle between two unit vectors, to rounding everywhere.
@@ -182,7 +193,7 @@ mod tests {
         // w b X Y Z C A t: u = (sin C sin A, −cos C sin A, cos A); C = 90°, A = 30°.
         let u = Vec3::new(0.5, 0.0, 0.75_f64.sqrt());
         let Ok(aimed) = aim_two(Vec3::z(), Vec3::x(), Vec3::z(), u) else { panic!("reachable") };
-        let degrees = aimed.angles.iter().map(|q| q.map(|q| q.unwrap_or(f64::NAN).to_degrees()));
+        let degrees = aimed.branches().map(|q| q.map(|q| q.unwrap_or(f64::NAN).to_degrees()));
         let mut degrees: Vec<[f64; 2]> = degrees.collect();
         degrees.sort_by(|x, y| x[1].total_cmp(&y[1]));
         for (found, wanted) in degrees.iter().zip([[-90.0, -30.0], [90.0, 30.0]]) {

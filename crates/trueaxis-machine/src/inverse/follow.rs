@@ -9,11 +9,12 @@
 //! its turns are put together at the end.
 
 use super::turns::{TIE_RAD, nearest, others};
-use super::{Branches, SolveError, Solver, Target, with};
+use super::{Branches, Placer, SolveError, Solver, Target, with};
 use crate::Machine;
 use crate::axis::{AxisKind, Command, Travel};
 use crate::errors::BodyName;
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::ops::Range;
 use trueaxis_geometry::Vec3;
 
 /// Why a path cannot be followed, and at which of its points.
@@ -62,13 +63,42 @@ fn amount(kind: AxisKind, beyond: f64) -> String {
     }
 }
 
-/// One point of the path and every state that it may be reached in.
-struct Stage {
-    /// The tool axis wanted.
-    axis: Vec3,
+/// The points of the path so far and every state that each may be reached in, one after the other
+/// in common lists.
+#[derive(Default)]
+struct Stages {
+    /// The tool axes wanted.
+    axes: Vec<Vec3>,
+    /// The axis that has no effect at a point.
+    held: Vec<Option<usize>>,
+    /// Where the states of a point end.
+    ends: Vec<usize>,
     states: Vec<Command>,
-    /// The axis that has no effect here.
-    held: Option<usize>,
+    labels: Vec<Label>,
+}
+
+impl Stages {
+    fn with_capacity(points: usize) -> Self {
+        Self {
+            axes: Vec::with_capacity(points),
+            held: Vec::with_capacity(points),
+            ends: Vec::with_capacity(points),
+            states: Vec::with_capacity(2 * points),
+            labels: Vec::with_capacity(2 * points),
+        }
+    }
+
+    fn len(&self) -> usize {
+        self.axes.len()
+    }
+
+    fn range(&self, point: usize) -> Range<usize> {
+        point.checked_sub(1).map_or(0, |before| self.ends[before])..self.ends[point]
+    }
+
+    fn states(&self, point: usize) -> &[Command] {
+        &self.states[self.range(point)]
+    }
 }
 
 /// The best way to a state so far.
@@ -95,28 +125,25 @@ impl Label {
     }
 }
 
+/// The commands as far as a continuous motion leads, and the jump that it ends at.
 pub(super) fn follow(
     machine: &Machine,
     path: &[Target],
     from: &Command,
-) -> Result<Vec<Command>, FollowError> {
+) -> Result<(Vec<Command>, Option<FollowError>), FollowError> {
     let at = |index: usize| move |fault: FollowFault| FollowError { index, fault };
-    let solver = Solver::new(machine, from).map_err(|e| at(0)(e.into()))?;
+    let mut solver = Solver::new(machine, from).map_err(|e| at(0)(e.into()))?;
+    solver.placer = Placer::of(machine, &solver.serial);
     let way = Way { solver: &solver, rotary: machine.rotary_axes().collect() };
-    let mut branches = Vec::with_capacity(path.len());
-    for (i, target) in path.iter().enumerate() {
-        branches.push(solver.branches(target).map_err(|e| at(i)(e.into()))?);
+    let mut stages = Stages::with_capacity(path.len());
+    let mut jump = None;
+    while stages.len() < path.len() && jump.is_none() {
+        let next = stages.len();
+        way.add_stages(path, &mut stages).map_err(|(i, fault)| at(i)(fault))?;
+        jump = (next..stages.len()).find_map(|i| way.label(&mut stages, i).err().map(at(i)));
     }
-    let stages = way.stages(path, &branches).map_err(|(i, fault)| at(i)(fault))?;
-    let Some(first) = stages.first() else {
-        return Ok(Vec::new());
-    };
-    let mut labels = vec![way.start(first)];
-    for (i, pair) in stages.windows(2).enumerate() {
-        let next = way.advance(&pair[0], &labels[i], &pair[1]).map_err(at(i + 1))?;
-        labels.push(next);
-    }
-    Ok(way.walk_back(&stages, &labels))
+    let reached = jump.as_ref().map_or(path.len(), |jump| jump.index);
+    Ok((way.walk_back(&stages, reached), jump))
 }
 
 struct Way<'a> {
@@ -134,107 +161,126 @@ impl Way<'_> {
         !matches!(self.travel(axis), Travel::Between(..))
     }
 
-    fn stages(
-        &self,
-        path: &[Target],
-        branches: &[Branches],
-    ) -> Result<Vec<Stage>, (usize, FollowFault)> {
-        let mut stages: Vec<Stage> = Vec::with_capacity(path.len());
-        for (target, branches) in path.iter().zip(branches) {
-            let states = match self.offered(branches) {
-                Some(_) => Vec::new(),
-                None => self.states(&branches.commands, branches.held),
-            };
-            stages.push(Stage { axis: target.axis.vector(), states, held: branches.held });
+    /// Adds the next point; where its angles are free, all points up to the next one that tells.
+    fn add_stages(&self, path: &[Target], stages: &mut Stages) -> Result<(), (usize, FollowFault)> {
+        let first = stages.len();
+        let mut poles: Vec<Branches> = Vec::new();
+        let mut commands = Vec::with_capacity(2);
+        let mut held = None;
+        for (i, target) in path.iter().enumerate().skip(first) {
+            held = self.solver.branches_into(target, &mut commands).map_err(|e| (i, e.into()))?;
+            if self.offered(held).is_none() {
+                break;
+            }
+            poles.push(Branches { commands: std::mem::take(&mut commands), held });
         }
-        self.offer_neighbours(path, branches, &mut stages).map_err(|(i, e)| (i, e.into()))?;
-        match stages.iter().position(|stage| stage.states.is_empty()) {
-            Some(i) => Err((i, self.leaves_travel(&path[i]))),
-            None => Ok(stages),
+        let tells = first + poles.len();
+        // What the point behind the poles may be reached in; nothing at the end of the path.
+        let mut after = Vec::new();
+        if !poles.is_empty() && tells < path.len() {
+            self.push_states(&commands, held, &mut after);
         }
-    }
-
-    /// The axis whose angle is free at this point: one that aims elsewhere on the path.
-    fn offered(&self, branches: &Branches) -> Option<usize> {
-        let aims = |axis: &usize| self.solver.aim.turning.iter().any(|turn| turn.axis == *axis);
-        branches.held.filter(aims)
-    }
-
-    /// At the poles: the free angles of the nearest points that are none.
-    fn offer_neighbours(
-        &self,
-        path: &[Target],
-        branches: &[Branches],
-        stages: &mut [Stage],
-    ) -> Result<(), (usize, SolveError)> {
-        let regular: Vec<bool> = branches.iter().map(|b| self.offered(b).is_none()).collect();
-        let next_regular = |i: usize| (i..path.len()).find(|&k| regular[k]);
-        let (mut before, mut after) = (None, next_regular(0));
-        for i in 0..path.len() {
-            let Some(axis) = self.offered(&branches[i]) else {
-                before = Some(i);
-                continue;
-            };
-            if after.is_some_and(|k| k < i) {
-                after = next_regular(i);
-            }
-            let neighbours = [before, after].into_iter().flatten();
-            let mut angles: Vec<f64> =
-                neighbours.flat_map(|k| stages[k].states.iter().map(|s| s[axis])).collect();
-            if angles.is_empty() {
-                angles.push(branches[i].commands[0][axis]);
-            }
-            angles.sort_by(f64::total_cmp);
-            angles.dedup_by(|a, b| (*a - *b).abs() < 1e-12);
-            let (mut commands, mut missed) = (Vec::new(), None);
-            for command in &branches[i].commands {
-                for &angle in &angles {
-                    let turned = with(command, axis, angle);
-                    match self.solver.place_tip(turned, &path[i]) {
-                        Ok(command) => commands.push(command),
-                        Err(error) => missed = Some(error),
-                    }
-                }
-            }
-            if let (true, Some(error)) = (commands.is_empty(), missed) {
-                return Err((i, error));
-            }
-            stages[i].states = self.states(&commands, Some(axis));
+        for (i, branches) in (first..).zip(&poles) {
+            let before = first.checked_sub(1).map_or(&[][..], |before| stages.states(before));
+            let offered = self.at_pole(&path[i], branches, [before, &after]);
+            let offered = offered.map_err(|e| (i, e.into()))?;
+            self.add_stage(path, stages, &offered, branches.held)?;
+        }
+        if tells < path.len() {
+            self.add_stage(path, stages, &commands, held)?;
         }
         Ok(())
     }
 
+    fn add_stage(
+        &self,
+        path: &[Target],
+        stages: &mut Stages,
+        commands: &[Command],
+        held: Option<usize>,
+    ) -> Result<(), (usize, FollowFault)> {
+        let (i, before) = (stages.len(), stages.states.len());
+        self.push_states(commands, held, &mut stages.states);
+        if stages.states.len() == before {
+            return Err((i, self.leaves_travel(&path[i])));
+        }
+        stages.axes.push(path[i].axis.vector());
+        stages.held.push(held);
+        stages.ends.push(stages.states.len());
+        Ok(())
+    }
+
+    /// The axis whose angle is free at this point: one that aims elsewhere on the path.
+    fn offered(&self, held: Option<usize>) -> Option<usize> {
+        held.filter(|axis| self.solver.aim.turning.iter().any(|turn| turn.axis == *axis))
+    }
+
+    /// At a pole: the free angles of the nearest points that are none.
+    fn at_pole(
+        &self,
+        target: &Target,
+        branches: &Branches,
+        neighbours: [&[Command]; 2],
+    ) -> Result<Vec<Command>, SolveError> {
+        let Some(axis) = self.offered(branches.held) else {
+            return Ok(branches.commands.clone());
+        };
+        let mut angles: Vec<f64> = neighbours.into_iter().flatten().map(|s| s[axis]).collect();
+        if angles.is_empty() {
+            angles.push(branches.commands[0][axis]);
+        }
+        angles.sort_by(f64::total_cmp);
+        angles.dedup_by(|a, b| (*a - *b).abs() < 1e-12);
+        let (mut commands, mut missed) = (Vec::new(), None);
+        for command in &branches.commands {
+            for &angle in &angles {
+                match self.solver.place_tip(with(command, axis, angle), target) {
+                    Ok(command) => commands.push(command),
+                    Err(error) => missed = Some(error),
+                }
+            }
+        }
+        match missed {
+            Some(error) if commands.is_empty() => Err(error),
+            _ => Ok(commands),
+        }
+    }
+
     /// Every turn of every command that lies within the travel, best to begin with first.
-    fn states(&self, commands: &[Command], held: Option<usize>) -> Vec<Command> {
-        let mut states = Vec::new();
+    fn push_states(&self, commands: &[Command], held: Option<usize>, states: &mut Vec<Command>) {
+        let begin = states.len();
         for command in commands {
-            let mut turned = vec![*command];
+            let own = states.len();
+            states.push(*command);
             for turn in &self.solver.aim.turning {
                 let (axis, travel) = (turn.axis, self.travel(turn.axis));
                 if held == Some(axis) || self.is_endless(axis) {
                     continue;
                 }
-                let other = others(travel, command[axis], 0.0);
-                let more: Vec<Command> = other
-                    .iter()
-                    .flat_map(|&q| turned.iter().map(move |c| with(c, axis, q)))
-                    .collect();
-                turned.extend(more);
+                let end = states.len();
+                for q in others(travel, command[axis], 0.0) {
+                    (own..end).for_each(|k| states.push(with(&states[k], axis, q)));
+                }
             }
-            turned.retain(|c| self.solver.machine.within_travel(c));
-            states.extend(turned);
         }
+        let mut kept = begin;
+        for k in begin..states.len() {
+            if self.solver.machine.within_travel(&states[k]) {
+                states.swap(kept, k);
+                kept += 1;
+            }
+        }
+        states.truncate(kept);
         let angle = |c: &Command, n: usize| self.rotary.get(n).map_or(0.0, |&i| c[i]);
         let outside = |c: &Command| {
             self.rotary.iter().filter(|&&i| c[i] <= -PI - TIE_RAD || c[i] > PI + TIE_RAD).count()
         };
-        states.sort_by(|a, b| {
+        states[begin..].sort_by(|a, b| {
             (outside(a), angle(a, 1) < -TIE_RAD)
                 .cmp(&(outside(b), angle(b, 1) < -TIE_RAD))
                 .then(angle(a, 0).total_cmp(&angle(b, 0)))
                 .then(angle(a, 1).total_cmp(&angle(b, 1)))
         });
-        states
     }
 
     /// The turn of an axis from one state to the next; the shorter way round if it is endless.
@@ -245,59 +291,68 @@ impl Way<'_> {
         }
     }
 
-    fn start(&self, stage: &Stage) -> Vec<Label> {
-        let label = |(rank, state): (usize, &Command)| {
-            let from = &self.solver.from;
-            let turns = self.rotary.iter().map(|&i| self.turn(i, from, state));
-            let cost = turns.map(|turn| turn * turn).sum::<f64>().sqrt();
-            let first = self.rotary.first().map_or(0.0, |&i| self.turn(i, from, state).abs());
-            Label { cost, first, rank, before: 0 }
-        };
-        stage.states.iter().enumerate().map(label).collect()
+    /// The best way to every state of a point whose points before it have theirs.
+    fn label(&self, stages: &mut Stages, point: usize) -> Result<(), FollowFault> {
+        match point.checked_sub(1) {
+            None => {
+                let first = stages.states(0).iter().enumerate();
+                let labels: Vec<Label> = first.map(|(rank, s)| self.start(rank, s)).collect();
+                stages.labels.extend(labels);
+                Ok(())
+            }
+            Some(before) => self.advance(stages, before),
+        }
+    }
+
+    fn start(&self, rank: usize, state: &Command) -> Label {
+        let from = &self.solver.from;
+        let turns = self.rotary.iter().map(|&i| self.turn(i, from, state));
+        let cost = turns.map(|turn| turn * turn).sum::<f64>().sqrt();
+        let first = self.rotary.first().map_or(0.0, |&i| self.turn(i, from, state).abs());
+        Label { cost, first, rank, before: 0 }
     }
 
     /// The best way to every state of the next point; a state that none leads to costs infinity.
-    fn advance(
-        &self,
-        stage: &Stage,
-        labels: &[Label],
-        next: &Stage,
-    ) -> Result<Vec<Label>, FollowFault> {
+    fn advance(&self, stages: &mut Stages, point: usize) -> Result<(), FollowFault> {
         let unreached = Label { cost: f64::INFINITY, first: 0.0, rank: usize::MAX, before: 0 };
-        let mut reached = vec![unreached; next.states.len()];
-        let mut jump = (f64::INFINITY, 0, 0.0);
-        for (after, best) in next.states.iter().zip(&mut reached) {
-            for (before, (state, label)) in stage.states.iter().zip(labels).enumerate() {
+        let (mut jump, mut is_reached) = ((f64::INFINITY, 0, 0.0), false);
+        for next in stages.range(point + 1) {
+            let mut best = unreached;
+            for (before, state) in stages.range(point).enumerate() {
+                let label = stages.labels[state];
                 if label.cost == f64::INFINITY {
                     continue;
                 }
-                let step = Step::between(self, [stage, next], [state, after]);
-                if !self.is_continuous([stage, next], state, &step) {
-                    if step.cost < jump.0 {
-                        jump = (step.cost, step.most, step.turns[step.most].abs());
-                    }
-                    continue;
-                }
+                let ends = [&stages.states[state], &stages.states[next]];
+                let step = Step::between(self, [stages.held[point], stages.held[point + 1]], ends);
                 let first = self.rotary.first().map_or(0.0, |&i| step.turns[i].abs());
                 let (cost, first) = (label.cost + step.cost, label.first + first);
                 let candidate = Label { cost, first, rank: label.rank, before };
-                if candidate.beats(best) {
-                    *best = candidate;
+                // Whether a step is continuous is looked at only where it matters.
+                if !candidate.beats(&best) {
+                    continue;
+                }
+                if self.is_continuous([stages.axes[point], stages.axes[point + 1]], ends[0], &step)
+                {
+                    (best, is_reached) = (candidate, true);
+                } else if step.cost < jump.0 {
+                    jump = (step.cost, step.most, step.turns[step.most].abs());
                 }
             }
+            stages.labels.push(best);
         }
-        if reached.iter().all(|label| label.cost == f64::INFINITY) {
-            let axis = self.solver.machine.axes[jump.1].name;
-            return Err(FollowFault::Jump { axis, by_rad: jump.2 });
+        if is_reached {
+            return Ok(());
         }
-        Ok(reached)
+        let axis = self.solver.machine.axes[jump.1].name;
+        Err(FollowFault::Jump { axis, by_rad: jump.2 })
     }
 
     /// Whether the tool axis stays between its ends on a step: on the way it is never farther from
     /// either end than they are from each other. Looked at halfway, and at every 90° of turning.
-    fn is_continuous(&self, ends: [&Stage; 2], before: &Command, step: &Step) -> bool {
+    fn is_continuous(&self, ends: [Vec3; 2], before: &Command, step: &Step) -> bool {
         let apart = |a: Vec3, b: Vec3| a.cross(&b).norm().atan2(a.dot(&b));
-        let allowed = apart(ends[0].axis, ends[1].axis) + TIE_RAD;
+        let allowed = apart(ends[0], ends[1]) + TIE_RAD;
         let total: f64 = step.turns.iter().map(|turn| turn.abs()).sum();
         if 0.5 * total <= allowed {
             return true;
@@ -309,22 +364,25 @@ impl Way<'_> {
                 *q += turn * part / parts;
             }
             let tool = self.solver.serial.tool_axis(&between);
-            ends.iter().all(|end| apart(tool, end.axis) <= allowed)
+            ends.iter().all(|end| apart(tool, *end) <= allowed)
         })
     }
 
-    fn walk_back(&self, stages: &[Stage], labels: &[Vec<Label>]) -> Vec<Command> {
-        let last = labels.len() - 1;
-        let mut best = 0;
-        for (i, label) in labels[last].iter().enumerate() {
-            if label.beats(&labels[last][best]) {
-                best = i;
-            }
-        }
-        let mut commands = Vec::with_capacity(stages.len());
-        for (stage, labels) in stages.iter().zip(labels).rev() {
-            commands.push(stage.states[best]);
-            best = labels[best].before;
+    /// The commands of the first points, along the best way to the last of them.
+    fn walk_back(&self, stages: &Stages, points: usize) -> Vec<Command> {
+        let mut best: Option<usize> = None;
+        let mut commands = Vec::with_capacity(points);
+        for point in (0..points).rev() {
+            let range = stages.range(point);
+            let labels = &stages.labels[range.clone()];
+            let at = best.unwrap_or_else(|| {
+                (0..labels.len()).fold(0, |best, i| match labels[i].beats(&labels[best]) {
+                    true => i,
+                    false => best,
+                })
+            });
+            commands.push(stages.states[range.start + at]);
+            best = Some(labels[at].before);
         }
         commands.reverse();
         let mut before = self.solver.from;
@@ -374,7 +432,7 @@ struct Step {
 impl Step {
     /// √(Δq1² + Δq2²); where one end is a pole the turn of its idle axis counts twice, so that it
     /// turns while the tool stands, not while it tilts.
-    fn between(way: &Way<'_>, stages: [&Stage; 2], states: [&Command; 2]) -> Self {
+    fn between(way: &Way<'_>, held: [Option<usize>; 2], states: [&Command; 2]) -> Self {
         let (mut turns, mut most) = (Command::default(), 0);
         for &axis in &way.rotary {
             turns[axis] = way.turn(axis, states[0], states[1]);
@@ -382,7 +440,7 @@ impl Step {
                 most = axis;
             }
         }
-        let idle = match (stages[0].held, stages[1].held) {
+        let idle = match (held[0], held[1]) {
             (Some(axis), None) | (None, Some(axis)) => turns[axis].abs(),
             _ => 0.0,
         };

@@ -33,6 +33,11 @@ impl Solver<'_> {
         mut command: Command,
         target: &Target,
     ) -> Result<Command, SolveError> {
+        if let Some(placer) = &self.placer
+            && placer.place(target.tip.vector(), &mut command)
+        {
+            return Ok(command);
+        }
         let linear = self.serial.linear();
         linear.clone().for_each(|i| command[i] = 0.0);
         let frames = self.serial.frames(&command);

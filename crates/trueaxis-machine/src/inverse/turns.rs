@@ -25,24 +25,20 @@ pub(crate) fn nearest(q: f64, near: f64) -> f64 {
 }
 
 /// The other turns of `q` to offer: all inside a travel, the nearest one of an endless axis.
-pub(crate) fn others(travel: Travel, q: f64, from: f64) -> Vec<f64> {
-    match travel {
-        Travel::Unknown => Vec::new(),
+pub(crate) fn others(travel: Travel, q: f64, from: f64) -> impl Iterator<Item = f64> + Clone {
+    let (first, last) = match travel {
+        Travel::Unknown => (0, 0),
         Travel::Unlimited => {
-            let near = nearest(q, from);
-            if (near - q).abs() > 1.0 { vec![near] } else { Vec::new() }
+            let turns = ((nearest(q, from) - q) / TAU).round() as i64;
+            (turns, turns)
         }
         Travel::Between(low, high) => {
             let first = ((low - q) / TAU - TIE_RAD).ceil();
-            (0..)
-                .map(|k| first + f64::from(k))
-                .take_while(|k| q + TAU * k <= high + TIE_RAD * high.abs().max(1.0))
-                .filter(|k| *k != 0.0)
-                .map(|k| q + TAU * k)
-                .filter(|q| travel.contains(*q))
-                .collect()
+            (first as i64, ((high - q) / TAU + TIE_RAD).floor() as i64)
         }
-    }
+    };
+    let turned = (first..=last).filter(|k| *k != 0).map(move |k| q + TAU * k as f64);
+    turned.filter(move |q| travel.contains(*q))
 }
 
 /// Solutions with their marks, best first, those outside the travel last.
@@ -103,7 +99,7 @@ mod tests {
     fn turns_inside_a_travel() {
         let degrees = |travel: Travel, q: f64, from: f64| -> Vec<f64> {
             let turned = others(travel, q.to_radians(), from.to_radians());
-            turned.into_iter().map(|q| q.to_degrees().round()).collect()
+            turned.map(|q| q.to_degrees().round()).collect()
         };
         let twice = Travel::Between(-TAU, TAU);
         assert_eq!(degrees(twice, 90.0, 0.0), [-270.0]);

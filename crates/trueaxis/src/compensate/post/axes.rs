@@ -11,9 +11,6 @@ use trueaxis_machine::{FollowFault, Machine, Target};
 /// Nearer to a pole than this the tool axis is taken for the pole: an angle that no part shows.
 const POLE_RAD: f64 = 2e-7;
 
-/// Targets that are looked at first for one continuous motion.
-const FIRST_WINDOW: usize = 4096;
-
 /// A stroke near a pole is cut at most so often.
 const MOST_CUTS: u32 = 60;
 
@@ -154,11 +151,12 @@ pub(super) fn legs(machine: &Machine, path: &Path) -> Result<Vec<Leg>, Fault> {
     for ends in begins.windows(2) {
         let (mut first, end, mut cuts_first) = (ends[0], ends[1], true);
         while first < end {
-            let (commands, goes_on) = longest(machine, &targets[first..end], &from)
-                .map_err(|(i, fault)| explained(path.strokes[first + i].line, &fault))?;
+            let (commands, jump) = machine
+                .follow_on(&targets[first..end], &from)
+                .map_err(|e| explained(path.strokes[first + e.index].line, &e.fault))?;
             let reached = first + commands.len();
-            if let Some(fault) = goes_on.filter(|_| commands.len() < 2 && !cuts_first) {
-                return Err(explained(path.strokes[reached].line, &fault));
+            if let Some(jump) = jump.filter(|_| commands.len() < 2 && !cuts_first) {
+                return Err(explained(path.strokes[reached].line, &jump.fault));
             }
             from = *commands.last().unwrap_or(&from);
             legs.push(Leg { first, cuts_first, commands });
@@ -170,29 +168,6 @@ pub(super) fn legs(machine: &Machine, path: &Path) -> Result<Vec<Leg>, Fault> {
         }
     }
     Ok(legs)
-}
-
-/// The axis positions as far as a continuous motion leads, and why it does not lead farther.
-fn longest(
-    machine: &Machine,
-    targets: &[Target],
-    from: &Command,
-) -> Result<(Vec<Command>, Option<FollowFault>), (usize, FollowFault)> {
-    // In growing windows: a path with many rewinds is not searched to its end each time.
-    let mut window = FIRST_WINDOW;
-    loop {
-        let length = window.min(targets.len());
-        match machine.follow(&targets[..length], from) {
-            Ok(commands) if length == targets.len() => return Ok((commands, None)),
-            Ok(_) => window = 4 * length,
-            Err(error) if error.index > 0 && matches!(error.fault, FollowFault::Jump { .. }) => {
-                let commands = machine.follow(&targets[..error.index], from);
-                let reached = commands.map_err(|e| (e.index, e.fault))?;
-                return Ok((reached, Some(error.fault)));
-            }
-            Err(error) => return Err((error.index, error.fault)),
-        }
-    }
 }
 
 fn explained(line: u32, fault: &FollowFault) -> Fault {
