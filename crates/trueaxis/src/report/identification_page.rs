@@ -3,7 +3,7 @@
 use super::identification::{
     IdentificationReport, MOST_TOLD, conventions_text, rms_words, shown, unit, value_words,
 };
-use super::page::document;
+use super::page::{THREE, document};
 use crate::identify::errors::Found;
 use maud::{Markup, PreEscaped, html};
 use std::fmt::Write as _;
@@ -13,8 +13,6 @@ use trueaxis_machine::errors::ErrorValues;
 
 /// Most arrows of a picture; of more readings every n-th is shown.
 const MOST_ARROWS: usize = 400;
-/// Three views beside each other.
-const THREE: &str = "grid-template-columns:repeat(3, minmax(0, 1fr))";
 /// Most unknowns of the correlation map.
 const MOST_MAPPED: usize = 60;
 

@@ -19,6 +19,9 @@ pub(super) fn document(title: &str, content: &Markup) -> String {
     page.into_string()
 }
 
+/// Three views beside each other, as the style of a grid.
+pub(super) const THREE: &str = "grid-template-columns:repeat(3, minmax(0, 1fr))";
+
 /// Everything that styles the report.
 const STYLE: &str = "\
 :root { --ink:#1f2933; --soft:#5b6773; --line:#d8dee4; --paper:#ffffff; --bg:#f4f6f8;
@@ -47,6 +50,7 @@ tr.decisive td:first-child { font-weight:600; }
 td.pass, td.fail, td.undecided { font-weight:600; }
 svg { width:100%; height:auto; display:block; }
 code { font-family:ui-monospace, 'DejaVu Sans Mono', monospace; font-size:.9em; }
+pre { overflow-x:auto; font-size:.85rem; }
 figure { margin:0; } figcaption { color:var(--soft); font-size:.9rem; padding-top:4px; }
 table.words th, table.words td { text-align:left; vertical-align:top; }
 table.words td:first-child { white-space:nowrap; }

@@ -1,7 +1,7 @@
 //! The page of a plan: bars of the uncertainty to expect, what stays hidden, the poses in three
 //! views.
 
-use super::page::document;
+use super::page::{THREE, document};
 use super::plan::{PlanReport, PlannedPath, figure, plan_text, shown_unit};
 use super::simulation::clock;
 use crate::plan::{Expectation, Expected};
@@ -119,18 +119,19 @@ fn views(tools: &[(Vec3, Vec3)]) -> Markup {
     html! {
         p.soft { "Tool point and tool axis on the workpiece; the frame is "
             (figure(VIEW_PX / scale)) " mm wide." }
-        @for (title, right, up) in panels {
-            svg viewBox={ "0 0 " (VIEW_PX) " " (VIEW_PX + 20.0) } style="width: 32%" role="img" {
-                rect width=(VIEW_PX) height=(VIEW_PX) fill="none" stroke="#bbb" {}
-                @for (p, u) in tools {
-                    @let (x1, y1) = place(p, right, up);
-                    @let (x2, y2) = place(&(p + u * STROKE_MM), right, up);
-                    line x1=(x1) y1=(y1) x2=(x2) y2=(y2) stroke="#0072b2" stroke-width="0.8" {}
-                    circle cx=(x1) cy=(y1) r="1.8" fill="#d55e00" {}
+        div.grid style=(THREE) {
+            @for (title, right, up) in panels {
+                svg viewBox={ "0 0 " (VIEW_PX) " " (VIEW_PX + 20.0) } role="img" {
+                    rect width=(VIEW_PX) height=(VIEW_PX) fill="none" stroke="#bbb" {}
+                    @for (p, u) in tools {
+                        @let (x1, y1) = place(p, right, up);
+                        @let (x2, y2) = place(&(p + u * STROKE_MM), right, up);
+                        line x1=(x1) y1=(y1) x2=(x2) y2=(y2) stroke="#0072b2" stroke-width="0.8" {}
+                        circle cx=(x1) cy=(y1) r="1.8" fill="#d55e00" {}
+                    }
+                    text x="4" y=(VIEW_PX + 15.0) font-size="12" { (title) }
                 }
-                text x="4" y=(VIEW_PX + 15.0) font-size="12" { (title) }
             }
-            " "
         }
     }
 }
