@@ -1,7 +1,8 @@
 //! Cuts strokes so that what the control does between two blocks stays near the stroke.
 
-use super::path::{Stand, Stroke, Way, between};
+use super::path::{Stand, Stroke, Turn, Way, between};
 use super::{Fault, PostOptions, angle};
+use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::Direction;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
@@ -82,12 +83,14 @@ impl<'c> Cutter<'c> {
     ) -> Result<(), Fault> {
         let begin = Node { u: 0.0, ..*from };
         let end = Node { u: 1.0, stand: stroke.to, command: to };
+        let turn = Turn::between(&begin.stand.axis, &stroke.to.axis);
+        let on_stroke = |u: f64| stroke.on(&begin.stand, &turn, u);
         let mut at = begin;
         // Ends of pieces that wait; the next one on top.
         let mut wait = vec![(end, 0)];
         while let Some((next, halvings)) = wait.pop() {
             let next = self.as_the_control_turns(&at, next);
-            if self.is_near(stroke, &begin.stand, &at, &next) {
+            if self.is_near(stroke, on_stroke, &at, &next) {
                 out(&next)?;
                 at = next;
                 continue;
@@ -95,7 +98,7 @@ impl<'c> Cutter<'c> {
             if halvings >= MOST_HALVINGS {
                 return Err(too_coarse(stroke));
             }
-            let middle = self.middle(stroke, &begin.stand, &at, &next)?;
+            let middle = self.middle(stroke, on_stroke, &at, &next)?;
             wait.push((next, halvings + 1));
             wait.push((middle, halvings + 1));
         }
@@ -128,15 +131,21 @@ impl<'c> Cutter<'c> {
     /// Whether the control, left alone from a to b, stays within the tolerances.
     ///
     /// max |tip(u) − s(u)| ≤ ε,  max ∠(a(u), s_a(u)) ≤ φ,  u = ¼, ½, ¾      docs/model.md eq. 121
-    fn is_near(&self, stroke: &Stroke, from: &Stand, a: &Node, b: &Node) -> bool {
+    fn is_near(
+        &self,
+        stroke: &Stroke,
+        on_stroke: impl Fn(f64) -> Stand,
+        a: &Node,
+        b: &Node,
+    ) -> bool {
         if stroke.way == Way::Line && !self.turns(a, b) {
             return true;
         }
         [0.5, 0.25, 0.75].into_iter().all(|t| {
-            let wanted = stroke.at(from, a.u + (b.u - a.u) * t);
+            let wanted = on_stroke(a.u + (b.u - a.u) * t);
             let is = self.between(a, b, t);
             (is.tip - wanted.tip).norm() <= self.tolerance_mm
-                && angle(&is.axis, &wanted.axis) <= self.axis_tolerance_rad
+                && is_within(&is.axis, &wanted.axis, self.axis_tolerance_rad)
         })
     }
 
@@ -154,9 +163,15 @@ impl<'c> Cutter<'c> {
     }
 
     /// The axis positions halfway on the stroke, next to those halfway between its ends.
-    fn middle(&self, stroke: &Stroke, from: &Stand, a: &Node, b: &Node) -> Result<Node, Fault> {
+    fn middle(
+        &self,
+        stroke: &Stroke,
+        on_stroke: impl Fn(f64) -> Stand,
+        a: &Node,
+        b: &Node,
+    ) -> Result<Node, Fault> {
         let u = 0.5 * (a.u + b.u);
-        let stand = stroke.at(from, u);
+        let stand = on_stroke(u);
         let near = mixed(a, b, 0.5);
         let mut command = near;
         let (_, axis) = self.control.tip_and_axis(&near);
@@ -215,6 +230,14 @@ impl<'c> Cutter<'c> {
                 })
             }
         }
+    }
+}
+
+/// Whether two unit vectors are no farther apart than an angle, which is mostly small.
+fn is_within(a: &Vec3, b: &Vec3, rad: f64) -> bool {
+    match rad < 1.0 {
+        true => a.dot(b) > 0.0 && a.cross(b).norm_squared() <= rad.sin().powi(2),
+        false => angle(a, b) <= rad,
     }
 }
 

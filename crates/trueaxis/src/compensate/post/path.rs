@@ -59,22 +59,45 @@ pub(super) struct Path {
 /// The great circle between two directions.
 ///
 /// a(u) = (sin((1 − u)θ)·a₀ + sin(uθ)·a₁)/sin θ              docs/model.md eq. 120
-pub(super) fn between(from: &Vec3, to: &Vec3, u: f64) -> Vec3 {
-    let theta = angle(from, to);
-    if theta < 1e-9 {
-        return (from * (1.0 - u) + to * u).normalize();
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Turn {
+    from: Vec3,
+    to: Vec3,
+    theta: f64,
+}
+
+impl Turn {
+    pub fn between(from: &Vec3, to: &Vec3) -> Self {
+        Self { from: *from, to: *to, theta: angle(from, to) }
     }
-    let weighted = from * ((1.0 - u) * theta).sin() + to * (u * theta).sin();
-    weighted.try_normalize(1e-12).unwrap_or(*from)
+
+    pub fn at(&self, u: f64) -> Vec3 {
+        if self.theta < 1e-9 {
+            return (self.from * (1.0 - u) + self.to * u).normalize();
+        }
+        let weighted =
+            self.from * ((1.0 - u) * self.theta).sin() + self.to * (u * self.theta).sin();
+        weighted.try_normalize(1e-12).unwrap_or(self.from)
+    }
+}
+
+/// One place of a great circle.
+pub(super) fn between(from: &Vec3, to: &Vec3, u: f64) -> Vec3 {
+    Turn::between(from, to).at(u)
 }
 
 impl Stroke {
     /// The place at u of the stroke that begins at `from`.
     pub fn at(&self, from: &Stand, u: f64) -> Stand {
+        self.on(from, &Turn::between(&from.axis, &self.to.axis), u)
+    }
+
+    /// The same where the turn of the tool axis is known.
+    pub fn on(&self, from: &Stand, turn: &Turn, u: f64) -> Stand {
         if u == 1.0 {
             return self.to;
         }
-        let axis = between(&from.axis, &self.to.axis, u);
+        let axis = turn.at(u);
         let straight = from.tip + (self.to.tip - from.tip) * u;
         let tip = match self.way {
             Way::Line => straight,
