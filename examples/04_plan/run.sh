@@ -3,5 +3,6 @@ set -e
 trueaxis=${TRUEAXIS:-target/release/trueaxis}
 out=${OUT:-.}
 $trueaxis plan examples/04_plan/probe-ball.toml -o "$out/probe-ball" --report "$out/probe-ball.html"
+$trueaxis plan examples/04_plan/ball-bar-10791-6.toml -o "$out/ball-bar"
 $trueaxis plan examples/04_plan/touch-probe-5-minutes.toml -o "$out/five-minutes" --dialect fanuc
 $trueaxis plan examples/04_plan/touch-probe-5-minutes.toml --format json

@@ -127,17 +127,24 @@ fn write_seen(report: &PlanReport<'_>, text: &mut String) -> std::fmt::Result {
         text,
         "\nWhat each path sees: largest reading, µm or µrad, for 10 µm or 10 µrad of each error"
     )?;
-    write!(text, "  {:<14}", "")?;
-    for planned in &report.paths {
-        let names = planned.channels.join(", ");
-        write!(text, " {:>20}", format!("{} ({names})", short(&planned.path.name, 8)))?;
-    }
-    writeln!(text)?;
-    let Some(first) = report.paths.first() else { return Ok(()) };
-    for (k, seen) in first.seen.iter().enumerate() {
-        write!(text, "  {:<14}", seen.name)?;
-        for planned in &report.paths {
-            write!(text, " {:>20}", readings(planned, k))?;
+    let head = |planned: &PlannedPath| {
+        format!("{} ({})", short(&planned.path.name, 16), planned.channels.join(", "))
+    };
+    let cells: Vec<Vec<String>> = report
+        .paths
+        .iter()
+        .map(|planned| {
+            let rows = (0..planned.seen.len()).map(|k| readings(planned, k));
+            std::iter::once(head(planned)).chain(rows).collect()
+        })
+        .collect();
+    let widths: Vec<usize> =
+        cells.iter().map(|c| c.iter().map(|t| t.chars().count()).max().unwrap_or(0)).collect();
+    let names = report.paths.first().into_iter().flat_map(|p| &p.seen).map(|s| s.name.as_str());
+    for (k, name) in std::iter::once("").chain(names).enumerate() {
+        write!(text, "  {name:<14}")?;
+        for (column, width) in cells.iter().zip(&widths) {
+            write!(text, "  {:>width$}", column.get(k).map_or("", String::as_str))?;
         }
         writeln!(text)?;
     }

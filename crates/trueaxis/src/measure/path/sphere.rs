@@ -94,6 +94,8 @@ fn bar_direction(
     match bar {
         "radial" => Some(tangential.cross(&about)),
         "tangential" => Some(tangential),
+        // On the side of the tool, not of what holds the ball.
+        "axial" if about.dot(&placing.tool_axis(at_ball)) < 0.0 => Some(-about),
         "axial" => Some(about),
         other => {
             let message = format!("a bar does not lie `{other}`");
