@@ -12,3 +12,7 @@ $trueaxis identify examples/05_identify/probe-ball.toml --format json
 # Ball-bar, R-test and laser at once.
 $trueaxis identify examples/05_identify/mixed-instruments.toml
 $trueaxis identify examples/05_identify/mixed-instruments.toml --check-conventions
+# Where are the rotary centres, and what must the control be told? Document 003, steps 1 to 4.
+$trueaxis identify rtcp examples/05_identify/rtcp-engraver.toml
+$trueaxis identify rtcp examples/05_identify/rtcp-engraver.toml --format json
+$trueaxis identify rtcp examples/05_identify/rtcp-engraver.toml --programs "${TMPDIR:-/tmp}/rtcp-programs" --dialect fanuc

@@ -1,4 +1,5 @@
 mod errors;
+mod rtcp;
 mod thermal;
 
 use crate::output::{Answer, Format, Outcome, finish};
@@ -18,6 +19,7 @@ Examples:
   trueaxis identify examples/05_identify/probe-ball.toml --report found.html
   trueaxis identify examples/05_identify/mixed-instruments.toml -o identified.toml --format json
   trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml
+  trueaxis identify rtcp examples/05_identify/rtcp-engraver.toml
 
 Exit status: 0 the model explains what can be explained, 1 it does not, 2 unusable input."
 )]
@@ -32,6 +34,8 @@ pub struct Arguments {
 enum What {
     /// The coefficient of expansion of a scale, from laser runs at two or more temperatures
     Expansion(ExpansionArguments),
+    /// The rotary centres for RTCP, from dial or probe readings at turned poses
+    Rtcp(rtcp::Arguments),
     /// A linear model of an error that drifts with temperatures, from logs of whole cycles
     Thermal(thermal::Arguments),
 }
@@ -56,6 +60,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     match &arguments.what {
         None => errors::run(&arguments.errors),
         Some(What::Expansion(arguments)) => run_expansion(arguments),
+        Some(What::Rtcp(arguments)) => rtcp::run(arguments),
         Some(What::Thermal(arguments)) => thermal::run(arguments),
     }
 }

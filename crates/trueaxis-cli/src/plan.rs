@@ -142,7 +142,7 @@ impl Arguments {
     }
 }
 
-fn extension(control: Control) -> &'static str {
+pub fn extension(control: Control) -> &'static str {
     match control {
         Control::Fanuc => "nc",
         Control::LinuxCnc => "ngc",
@@ -152,12 +152,12 @@ fn extension(control: Control) -> &'static str {
 }
 
 /// Letters and digits of a name of people; the number keeps two of one name apart.
-fn file_name(name: &str, number: usize) -> String {
+pub fn file_name(name: &str, number: usize) -> String {
     let plain = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
     format!("{number:02}-{}", name.chars().take(40).map(plain).collect::<String>())
 }
 
-fn written(folder: &std::path::Path, files: &[(String, Vec<u8>)]) -> Result<(), Outcome> {
+pub fn written(folder: &std::path::Path, files: &[(String, Vec<u8>)]) -> Result<(), Outcome> {
     let shown = folder.display().to_string();
     let refuse = |error: std::io::Error| {
         let message = format!("cannot be written: {error}");

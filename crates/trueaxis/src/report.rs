@@ -25,6 +25,7 @@ mod picture_page;
 mod plan;
 mod plan_page;
 mod plots;
+mod rtcp;
 mod simulation;
 mod simulation_page;
 mod simulation_plots;
@@ -53,6 +54,7 @@ pub use measurement::{MeasuredReport, measurement_html, measurement_json, measur
 pub use plan::{PlanReport, PlannedPath, plan_json, plan_text};
 pub use plan_page::plan_html;
 pub use plots::DrawingError;
+pub use rtcp::{RtcpReport, rtcp_json, rtcp_text};
 pub use simulation::{Simulation, simulation_json, simulation_text, trouble_code, trouble_text};
 pub use simulation_page::simulation_html;
 pub use text::text;

@@ -11,6 +11,7 @@ use super::term::{Term, stated};
 use crate::measure::Campaign;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
+use trueaxis_geometry::input::Diagnostic;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::AxisKind;
 use trueaxis_machine::errors::{Curve, ErrorKind, ErrorName};
@@ -236,6 +237,41 @@ fn header(name: ErrorName) -> String {
 /// What stands before the `=` of a line.
 fn key_of(line: &str) -> Option<&str> {
     line.split_once('=').map(|(key, _)| key.trim().trim_matches(['"', '\'']))
+}
+
+/// Puts location errors (mm, rad) with their standard uncertainties into the text of a machine file.
+///
+/// # Errors
+/// In words, why the new text is no machine file with these errors.
+pub fn with_locations(
+    old: &str,
+    errors: &[(ErrorName, f64, f64)],
+    origin: &str,
+    beside: &dyn Tables,
+) -> Result<String, String> {
+    let mut file = Lines::of(old);
+    let origin = one_line(origin);
+    for (name, value, u) in errors {
+        let (scale, unit) = if name.component.is_rotation() { (1e6, "urad") } else { (1e3, "um") };
+        let text = format!("\"{} ± {} {unit}\"", plain(value * scale), plain(u * scale));
+        file.put(*name, &Entry::Value(text), &origin);
+    }
+    let text = file.text();
+    let (machine, problems) = Machine::check("the new machine file", &text, beside);
+    let Some(machine) = machine.filter(|_| !problems.has_errors()) else {
+        let is_error = |d: &&Diagnostic| d.severity == trueaxis_geometry::input::Severity::Error;
+        return Err(problems.iter().find(is_error).map_or_else(String::new, |d| d.message.clone()));
+    };
+    for (name, value, _) in errors {
+        let index = machine.error_index(*name);
+        let stated =
+            index.and_then(|i| machine.bodies()[i.body].stated(ErrorKind::Location, i.component));
+        let read = stated.and_then(|s| s.at(0.0, 0.0).ok()).unwrap_or(f64::NAN);
+        if (read - value).abs().is_nan() || (read - value).abs() > 2e-9 {
+            return Err(format!("{name} would be read as another value"));
+        }
+    }
+    Ok(text)
 }
 
 /// The file line by line, with the places of its entries.

@@ -3,6 +3,7 @@
 use crate::Ours;
 use crate::shop::{command, machine, shown, target};
 use std::f64::consts::PI;
+use trueaxis::identify::rtcp::{Purpose, RtcpStudy, calibrate, read_rtcp};
 
 pub const CLAIMS: &[(&str, Ours)] = &[
     ("003-eq-1-3-A90-C0", || linear_axes(90.0, 0.0)),
@@ -11,6 +12,9 @@ pub const CLAIMS: &[(&str, Ours)] = &[
     ("003-angles", || angles(0)),
     ("003-angles-other-branch", || angles(1)),
     ("003-angles-upright", upright),
+    ("003-rtcp-half-turn", half_turn),
+    ("003-rtcp-mean-of-a-turn", mean_of_a_turn),
+    ("003-rtcp-step-4", step_4),
 ];
 
 /// X, Y, Z for the tool tip (10, 20, 30) at these angles, on the branch that has them.
@@ -39,4 +43,63 @@ fn upright() -> Vec<f64> {
     let from = command(&machine, "C=37");
     let solved = machine.solve(&target([10.0, 20.0, 30.0], [0.0, 0.0, 1.0]), &from);
     shown(&machine, &solved.expect("reachable").solutions[0].command, "CA")
+}
+
+/// X of C and Y of C (µm) from rows of step 1: C (deg), what the tool is off the mandrel in X and Y.
+fn step_1(rows: &[(f64, f64, f64)]) -> Vec<f64> {
+    let mut study = engraver();
+    study.sets.truncate(1);
+    let blank = study.sets[0].rows[0].clone();
+    let c = study.machine.axes().iter().position(|a| a.name.letter() == 'C').expect("a C axis");
+    let row = |(at, x, y): &(f64, f64, f64)| {
+        let mut row = blank.clone();
+        row.command[c] = at.to_radians();
+        row.read_mm = [Some(x * 1e-3), Some(y * 1e-3), None];
+        row
+    };
+    study.sets[0].rows = rows.iter().map(row).collect();
+    let found = calibrate(&study).expect("readings");
+    // A stands at 0: of Y of A and Y of C from A the sum is seen, as the place of C.
+    let value = |name: &str| {
+        let k = found.offsets.iter().position(|o| o.name == name).expect("an offset");
+        found.values_mm[k] * 1e3
+    };
+    vec![value("EX0C"), value("EY0A") + value("EY0C")]
+}
+
+/// The mandrel stands under the spindle at C = 0; half a turn later the tool is (−20, 10) µm off it.
+fn half_turn() -> Vec<f64> {
+    step_1(&[(0.0, 0.0, 0.0), (180.0, -20.0, 10.0)])
+}
+
+/// A mandrel anywhere: it goes round with 33 µm, and the mean says where the axis is.
+fn mean_of_a_turn() -> Vec<f64> {
+    let rows: Vec<(f64, f64, f64)> = (0..8)
+        .map(|k| {
+            let at = 45.0 * f64::from(k);
+            let (s, c) = at.to_radians().sin_cos();
+            (at, -10.0 - 33.0 * c, 5.0 + 33.0 * s)
+        })
+        .collect();
+    step_1(&rows)
+}
+
+/// What RTCP_OFFSET1 Y and RTCP_OFFSET2 Y gain (µm) where A stands 30 µm farther and C does not.
+fn step_4() -> Vec<f64> {
+    let study = engraver();
+    let slots = study.slots.expect("i5");
+    let place = |name: &str| study.centres.terms.iter().position(|t| t.error.to_string() == name);
+    let (a, c_on_a) = (place("EY0A").expect("A"), place("EY0C").expect("C"));
+    let grown = |name: &str| {
+        let slot = slots.slots.iter().find(|s| s.name == name).expect("a name of the control");
+        30.0 * slot.slopes[a] - 30.0 * slot.slopes[c_on_a]
+    };
+    vec![grown("RTCP_OFFSET1_Y"), grown("RTCP_OFFSET2_Y")]
+}
+
+fn engraver() -> RtcpStudy {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let path = root.join("examples/05_identify/rtcp-engraver.toml");
+    let (study, problems) = read_rtcp(&path, Purpose::Result);
+    study.unwrap_or_else(|| panic!("{problems:?}"))
 }
