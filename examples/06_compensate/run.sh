@@ -15,3 +15,5 @@ $trueaxis compensate values machines/xkas2525/machine.toml --axis C --step 30 --
 # Cutter locations into programs that fit this machine, read back and simulated.
 $trueaxis post machines/i5-engraver/machine.toml examples/06_compensate/bangle.cls --dialect fanuc -o "$out/bangle.nc" --verify
 $trueaxis post machines/xkas2525/machine.toml examples/06_compensate/blade.cls --dialect sinumerik --tcp off -o "$out/blade.mpf" --verify
+# A blank as it was probed: the path moved onto it, and the wall that is left (oracles/bangle.py made the example).
+$trueaxis compensate adapt examples/06_compensate/bangle-adapt.toml --report "$out/bangle-adapt.html" --dialect fanuc -o "$out/bangle-adapt.nc" --cl "$out/bangle-adapted.cls"

@@ -1,3 +1,5 @@
+mod adapt;
+
 use crate::arguments::{self, MachineArguments, argument};
 use crate::output::{Answer, Outcome, report, show, tell};
 use clap::{Args, Subcommand, ValueEnum};
@@ -23,6 +25,8 @@ pub struct Arguments {
 
 #[derive(Subcommand)]
 enum What {
+    /// Move a path onto the blank that was probed, and show what wall it leaves
+    Adapt(adapt::AdaptArguments),
     /// Values per axis and position, in least increments, to be added to the command
     Values(ValuesArguments),
 }
@@ -88,7 +92,10 @@ enum Format {
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
-    let What::Values(arguments) = &arguments.what;
+    let arguments = match &arguments.what {
+        What::Adapt(arguments) => return adapt::run(arguments),
+        What::Values(arguments) => arguments,
+    };
     let mut problems = Diagnostics::new();
     if let Some(path) = &arguments.output {
         // Before the work, not after it.

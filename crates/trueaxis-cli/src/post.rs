@@ -88,7 +88,7 @@ pub struct Arguments {
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Dialect {
+pub enum Dialect {
     /// FANUC 30i and its relatives: G43.4, G43.5
     Fanuc,
     /// SINUMERIK 840D: TRAORI
@@ -100,7 +100,7 @@ enum Dialect {
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum OnOff {
+pub enum OnOff {
     /// The program has tips
     On,
     /// The program has axis positions
@@ -134,7 +134,8 @@ enum Units {
 }
 
 impl Dialect {
-    fn control(self) -> Control {
+    /// The control of that name.
+    pub fn control(self) -> Control {
         match self {
             Self::Fanuc => Control::Fanuc,
             Self::Sinumerik => Control::Sinumerik840d,

@@ -16,6 +16,7 @@
 //! ```
 
 mod reader;
+mod rewrite;
 mod scan;
 mod words;
 

@@ -1,7 +1,9 @@
 //! Compensate: what the control has to add to its commands, and programs that fit this machine.
 //!
 //! - [`values`]: per axis and position, in least increments;
+//! - [`adapt`](mod@adapt): a path moved onto the blank that was probed, and what wall it leaves;
 //! - [`post`](mod@post): cutter locations into an NC program of one control, with its proof.
 
+pub mod adapt;
 pub mod post;
 pub mod values;

@@ -4,6 +4,9 @@
 //! page that opens offline; [`simulation_text`], [`simulation_json`] and [`simulation_html`] are the
 //! same for a simulation.
 
+mod adapt;
+mod adapt_maps;
+mod adapt_page;
 mod comparison;
 mod compensation;
 mod evaluation;
@@ -34,6 +37,8 @@ mod text;
 mod thermal;
 mod thermal_page;
 
+pub use adapt::{AdaptReport, AdaptedProgram, adapt_json, adapt_text};
+pub use adapt_page::adapt_html;
 pub use comparison::{comparison_html, comparison_json, comparison_text};
 pub use compensation::{
     compensation_csv, compensation_json, compensation_text, compensation_warnings,
