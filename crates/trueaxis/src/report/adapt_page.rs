@@ -3,9 +3,9 @@
 use super::DrawingError;
 use super::adapt::{AdaptReport, centre};
 use super::adapt_maps::{Layout, Scale, heat_map};
-use super::page::STYLE;
+use super::page::document;
 use super::plots::round_step;
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, PreEscaped, html};
 
 /// The report as the text of an HTML file.
 ///
@@ -15,50 +15,39 @@ pub fn adapt_html(report: &AdaptReport<'_>) -> Result<String, DrawingError> {
     let maps = maps(report)?;
     let sound = report.is_sound();
     let kind = if sound { "verdict pass" } else { "verdict fail" };
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { (report.study.name) }
-                style { (PreEscaped(STYLE)) }
-            }
-            body { main {
-                h1 { (report.study.name) }
-                p.soft {
-                    (report.study.path.name()) " on " (report.study.machine.name()) ", moved onto the blank of "
-                    (report.study.table)
-                }
-                section class=(kind) {
-                    strong { (if sound { "GOOD" } else { "NOT TO BE CUT" }) }
-                    span { (report.verdict()) }
-                }
-                (findings(report))
-                section {
-                    h2 { "Remaining wall" }
-                    div.grid style="grid-template-columns:repeat(auto-fit,minmax(440px,1fr))" {
-                        @for (title, svg) in &maps[..2] { (figure(title, svg)) }
-                    }
-                    p.soft {
-                        (report.map_source()) ". Vermilion: cut through. Least wall allowed "
-                        (report.study.wall.least_mm) " mm."
-                    }
-                    (walls(report))
-                }
-                section.long {
-                    h2 { "What was found, and what is left" }
-                    div.grid style="grid-template-columns:repeat(auto-fit,minmax(440px,1fr))" {
-                        @for (title, svg) in &maps[2..] { (figure(title, svg)) }
-                    }
-                }
-                (registration(report))
-                (field(report))
-                p.soft { "made by trueaxis " (crate::VERSION) }
-            } }
+    let content = html! {
+        h1 { (report.study.name) }
+        p.soft {
+            (report.study.path.name()) " on " (report.study.machine.name()) ", moved onto the blank of "
+            (report.study.table)
         }
+        section class=(kind) {
+            strong { (if sound { "GOOD" } else { "NOT TO BE CUT" }) }
+            span { (report.verdict()) }
+        }
+        (findings(report))
+        section {
+            h2 { "Remaining wall" }
+            div.grid style="grid-template-columns:repeat(auto-fit,minmax(440px,1fr))" {
+                @for (title, svg) in &maps[..2] { (figure(title, svg)) }
+            }
+            p.soft {
+                (report.map_source()) ". Vermilion: cut through. Least wall allowed "
+                (report.study.wall.least_mm) " mm."
+            }
+            (walls(report))
+        }
+        section.long {
+            h2 { "What was found, and what is left" }
+            div.grid style="grid-template-columns:repeat(auto-fit,minmax(440px,1fr))" {
+                @for (title, svg) in &maps[2..] { (figure(title, svg)) }
+            }
+        }
+        (registration(report))
+        (field(report))
+        p.soft { "made by trueaxis " (crate::VERSION) }
     };
-    Ok(page.into_string())
+    Ok(document(&report.study.name, &content))
 }
 
 fn figure(title: &str, svg: &str) -> Markup {
