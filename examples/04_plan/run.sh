@@ -5,3 +5,5 @@ out=${OUT:-.}
 $trueaxis plan examples/04_plan/probe-ball.toml -o "$out/probe-ball" --report "$out/probe-ball.html"
 $trueaxis plan examples/04_plan/touch-probe-5-minutes.toml -o "$out/five-minutes" --dialect fanuc
 $trueaxis plan examples/04_plan/touch-probe-5-minutes.toml --format json
+# Touches all over a free-form bangle, along its normals; the table is what `compensate adapt` reads.
+$trueaxis plan probe-surface examples/04_plan/probe-surface.toml -o "$out/probe-surface" --dialect fanuc

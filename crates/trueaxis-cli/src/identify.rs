@@ -1,4 +1,5 @@
 mod errors;
+mod probe;
 mod thermal;
 
 use crate::output::{Answer, Format, Outcome, finish};
@@ -34,6 +35,8 @@ enum What {
     Expansion(ExpansionArguments),
     /// A linear model of an error that drifts with temperatures, from logs of whole cycles
     Thermal(thermal::Arguments),
+    /// The offset of a stylus ball and its pre-travel by direction, from hits on a ring or sphere
+    Probe(probe::Arguments),
 }
 
 /// The runs.
@@ -57,6 +60,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         None => errors::run(&arguments.errors),
         Some(What::Expansion(arguments)) => run_expansion(arguments),
         Some(What::Thermal(arguments)) => thermal::run(arguments),
+        Some(What::Probe(arguments)) => probe::run(arguments),
     }
 }
 
