@@ -6,3 +6,5 @@ $trueaxis plan examples/04_plan/probe-ball.toml -o "$out/probe-ball" --report "$
 $trueaxis plan examples/04_plan/ball-bar-10791-6.toml -o "$out/ball-bar"
 $trueaxis plan examples/04_plan/touch-probe-5-minutes.toml -o "$out/five-minutes" --dialect fanuc
 $trueaxis plan examples/04_plan/touch-probe-5-minutes.toml --format json
+# Touches all over a free-form bangle, along its normals; the table is what `compensate adapt` reads.
+$trueaxis plan probe-surface examples/04_plan/probe-surface.toml -o "$out/probe-surface" --dialect fanuc

@@ -16,3 +16,8 @@ $trueaxis identify examples/05_identify/mixed-instruments.toml --check-conventio
 $trueaxis identify rtcp examples/05_identify/rtcp-engraver.toml
 $trueaxis identify rtcp examples/05_identify/rtcp-engraver.toml --format json
 $trueaxis identify rtcp examples/05_identify/rtcp-engraver.toml --programs "${TMPDIR:-/tmp}/rtcp-programs" --dialect fanuc
+# Touch probe: offset and pre-travel by direction; raw hits corrected; unknown centre; sphere with two styli.
+$trueaxis identify probe examples/05_identify/ring-60.toml --report "${TMPDIR:-/tmp}/ring-60.html" --table "${TMPDIR:-/tmp}/ring-60-table.csv"
+$trueaxis identify probe examples/05_identify/ring-60.toml --format json --correct examples/05_identify/ring-60-fresh.csv -o "${TMPDIR:-/tmp}/ring-60-corrected.csv"
+$trueaxis identify probe examples/05_identify/ring-turned.toml
+$trueaxis identify probe examples/05_identify/sphere.toml

@@ -1,4 +1,5 @@
 mod errors;
+mod probe;
 mod rtcp;
 mod thermal;
 
@@ -38,6 +39,8 @@ enum What {
     Rtcp(rtcp::Arguments),
     /// A linear model of an error that drifts with temperatures, from logs of whole cycles
     Thermal(thermal::Arguments),
+    /// The offset of a stylus ball and its pre-travel by direction, from hits on a ring or sphere
+    Probe(probe::Arguments),
 }
 
 /// The runs.
@@ -62,6 +65,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         Some(What::Expansion(arguments)) => run_expansion(arguments),
         Some(What::Rtcp(arguments)) => rtcp::run(arguments),
         Some(What::Thermal(arguments)) => thermal::run(arguments),
+        Some(What::Probe(arguments)) => probe::run(arguments),
     }
 }
 

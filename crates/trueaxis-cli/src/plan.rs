@@ -1,6 +1,8 @@
+mod surface;
+
 use crate::output::{Answer, Format, Outcome, report, show, tell};
 use crate::report_file::{REPORT, may_write, unusable, write_report};
-use clap::Args;
+use clap::{Args, Subcommand};
 use std::path::PathBuf;
 use trueaxis::geometry::input::{Diagnostics, Place};
 use trueaxis::identify::design::Design;
@@ -13,19 +15,38 @@ use trueaxis::simulate::{CONTROLS, control_named};
 
 /// What to plan.
 #[derive(Args)]
-#[command(after_help = "\
+#[command(
+    args_conflicts_with_subcommands = true,
+    after_help = "\
 Examples:
   trueaxis plan examples/04_plan/probe-ball.toml
   trueaxis plan examples/04_plan/touch-probe-5-minutes.toml --dialect fanuc -o programs
   trueaxis plan CAMPAIGN.toml --format json
+  trueaxis plan probe-surface examples/04_plan/probe-surface.toml -o programs
 
 Says before anybody measures what each path sees, how well every error will be known, what cannot be
 told apart and what would tell it. Exit status: 0 done, 1 a program would run into something or leave
-the travel, 2 unusable input.")]
+the travel, 2 unusable input."
+)]
 pub struct Arguments {
+    #[command(subcommand)]
+    what: Option<What>,
+    #[command(flatten)]
+    campaign: CampaignArguments,
+}
+
+#[derive(Subcommand)]
+enum What {
+    /// A probing path over a surface, from cutter locations or an STL file
+    ProbeSurface(surface::Arguments),
+}
+
+/// The campaign.
+#[derive(Args)]
+struct CampaignArguments {
     /// The campaign: machine, unknowns, instruments, paths
-    #[arg(value_name = "CAMPAIGN.toml")]
-    file: PathBuf,
+    #[arg(value_name = "CAMPAIGN.toml", required = true)]
+    file: Option<PathBuf>,
     /// Whose NC programs: sinumerik, fanuc, linuxcnc or heidenhain
     #[arg(long, value_name = "NAME", default_value = "sinumerik")]
     dialect: String,
@@ -41,7 +62,15 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
-    let (plan, mut problems) = read_plan(&arguments.file);
+    match &arguments.what {
+        Some(What::ProbeSurface(arguments)) => surface::run(arguments),
+        None => run_campaign(&arguments.campaign),
+    }
+}
+
+fn run_campaign(arguments: &CampaignArguments) -> Outcome {
+    let Some(file) = &arguments.file else { return Outcome::Unusable };
+    let (plan, mut problems) = read_plan(file);
     let control = control_named(&arguments.dialect);
     if control.is_none() {
         let message = format!("`{}` is no control that is known", arguments.dialect);
@@ -50,7 +79,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     if let Some(path) = &arguments.report {
         may_write(path, &REPORT, &mut problems);
     }
-    let chosen = plan.as_ref().and_then(|plan| chosen(plan, arguments, &mut problems));
+    let chosen = plan.as_ref().and_then(|plan| chosen(plan, file, &mut problems));
     if report(problems) {
         return Outcome::Unusable;
     }
@@ -58,11 +87,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
     arguments.planned(&plan, chosen, control).unwrap_or_else(|outcome| outcome)
 }
 
-fn chosen(plan: &Plan, arguments: &Arguments, problems: &mut Diagnostics) -> Option<Chosen> {
+fn chosen(plan: &Plan, file: &std::path::Path, problems: &mut Diagnostics) -> Option<Chosen> {
     match choose(plan, plan.candidates.as_ref()?) {
         Ok(chosen) => Some(chosen),
         Err(why) => {
-            let place = Place::whole(&arguments.file.display().to_string());
+            let place = Place::whole(&file.display().to_string());
             let hint = "more candidates, a wider [limit], or other [want] errors";
             problems.error("no-choice", place, why, hint);
             None
@@ -70,7 +99,7 @@ fn chosen(plan: &Plan, arguments: &Arguments, problems: &mut Diagnostics) -> Opt
     }
 }
 
-impl Arguments {
+impl CampaignArguments {
     fn planned(
         &self,
         plan: &Plan,

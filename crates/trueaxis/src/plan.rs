@@ -13,6 +13,7 @@ mod expect;
 mod file;
 pub mod program;
 mod remedy;
+pub mod surface;
 mod trial;
 
 pub use choose::{Chosen, choose};

@@ -1,5 +1,7 @@
 //! Paths moved onto probed blanks: the example as a whole, laws, and the judgement of other software.
 
+#![allow(clippy::print_stdout, reason = "says how near the laws come to their limits")]
+
 use proptest::prelude::*;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;

@@ -8,6 +8,7 @@
 mod check;
 
 pub use check::{ProgramCheck, check, write_files};
+pub(super) use check::{probe_shape, run};
 
 use crate::measure::path::{Path, Placing, STAND_OFF_MM};
 use crate::measure::{Campaign, Kind};
@@ -333,17 +334,7 @@ impl Written<'_> {
     }
 
     fn target(&self, command: &Command, named: impl Fn(usize) -> bool) -> Target {
-        let axes = self.campaign.machine.axes().iter().enumerate();
-        let mut target = Target::default();
-        for (i, axis) in axes.filter(|(i, _)| named(*i)) {
-            let rotary = axis.kind == AxisKind::Rotary;
-            let letter = axis.name.letter();
-            let found = Axis::ALL.into_iter().find(|a| char::from(a.letter()) == letter);
-            let Some(found) = found else { continue };
-            target = target.at(found, if rotary { command[i].to_degrees() } else { command[i] });
-        }
-        target.coordinates = axis_coordinates(self.control);
-        target
+        axis_target(&self.campaign.machine, self.control, command, named)
     }
 
     fn rapid_axes(
@@ -363,22 +354,50 @@ impl Written<'_> {
 
     /// Towards a place until the probe triggers.
     fn hit(&mut self, target: &Command) -> Result<(), ProgramError> {
-        let mut words = String::new();
-        for (axis, q) in self.campaign.machine.axes().iter().zip(target) {
-            if axis.kind == AxisKind::Linear {
-                let equals =
-                    matches!(self.control, Control::Sinumerik840d) && axis.name.letter() > 'Z';
-                let sign = if equals { "=" } else { "" };
-                words += &format!(" {}{sign}{:.4}", axis.name, q + 0.0);
-            }
-        }
-        let feed = format!("{HIT_MM_PER_MIN:.1}");
-        let text = match self.control {
-            Control::Fanuc => format!("G31{words} F{feed}"),
-            Control::LinuxCnc => format!("G53 G38.2{words} F{feed}"),
-            Control::Sinumerik840d => format!("MEAS=1 G1{words} F{feed}"),
-            Control::Heidenhain => return Err(ProgramError::NoProbing("HEIDENHAIN")),
-        };
+        let text = touch_words(&self.campaign.machine, self.control, target, HIT_MM_PER_MIN)?;
         Ok(self.writer.write(&Block::Text(&text))?)
+    }
+}
+
+/// Axis positions as the words of a block; only the named axes.
+pub(super) fn axis_target(
+    machine: &Machine,
+    control: Control,
+    command: &Command,
+    named: impl Fn(usize) -> bool,
+) -> Target {
+    let mut target = Target::default();
+    for (i, axis) in machine.axes().iter().enumerate().filter(|(i, _)| named(*i)) {
+        let rotary = axis.kind == AxisKind::Rotary;
+        let letter = axis.name.letter();
+        let found = Axis::ALL.into_iter().find(|a| char::from(a.letter()) == letter);
+        let Some(found) = found else { continue };
+        target = target.at(found, if rotary { command[i].to_degrees() } else { command[i] });
+    }
+    target.coordinates = axis_coordinates(control);
+    target
+}
+
+/// Towards a place until the probe triggers: linear axes only.
+pub(super) fn touch_words(
+    machine: &Machine,
+    control: Control,
+    target: &Command,
+    mm_per_min: f64,
+) -> Result<String, ProgramError> {
+    let mut words = String::new();
+    for (axis, q) in machine.axes().iter().zip(target) {
+        if axis.kind == AxisKind::Linear {
+            let equals = matches!(control, Control::Sinumerik840d) && axis.name.letter() > 'Z';
+            let sign = if equals { "=" } else { "" };
+            words += &format!(" {}{sign}{:.4}", axis.name, q + 0.0);
+        }
+    }
+    let feed = format!("{mm_per_min:.1}");
+    match control {
+        Control::Fanuc => Ok(format!("G31{words} F{feed}")),
+        Control::LinuxCnc => Ok(format!("G53 G38.2{words} F{feed}")),
+        Control::Sinumerik840d => Ok(format!("MEAS=1 G1{words} F{feed}")),
+        Control::Heidenhain => Err(ProgramError::NoProbing("HEIDENHAIN")),
     }
 }

@@ -3,6 +3,9 @@
 use crate::Ours;
 use crate::shop::{command, machine, shown, target};
 use std::f64::consts::PI;
+use trueaxis::geometry::input::Diagnostics;
+use trueaxis::identify::probe::datums::{FourHits, xy_datum};
+use trueaxis::identify::probe::{Tables, identify_probe, parse_study};
 use trueaxis::identify::rtcp::{Purpose, RtcpStudy, calibrate, read_rtcp};
 
 pub const CLAIMS: &[(&str, Ours)] = &[
@@ -15,6 +18,9 @@ pub const CLAIMS: &[(&str, Ours)] = &[
     ("003-rtcp-half-turn", half_turn),
     ("003-rtcp-mean-of-a-turn", mean_of_a_turn),
     ("003-rtcp-step-4", step_4),
+    ("003-probe-before", || probe_radii([31.0090, 31.0396])),
+    ("003-probe-after", || probe_radii([30.9978, 31.0069])),
+    ("003-four-hits", four_hits),
 ];
 
 /// X, Y, Z for the tool tip (10, 20, 30) at these angles, on the branch that has them.
@@ -102,4 +108,28 @@ fn engraver() -> RtcpStudy {
     let path = root.join("examples/05_identify/rtcp-engraver.toml");
     let (study, problems) = read_rtcp(&path, Purpose::Result);
     study.unwrap_or_else(|| panic!("{problems:?}"))
+}
+
+/// Least and greatest radius of 60 hits with three lobes between these two, and their range.
+fn probe_radii([low, high]: [f64; 2]) -> Vec<f64> {
+    let mut hits = "angle_deg,radius_mm\n".to_owned();
+    for angle in (0..60).map(|i| 6.0 * f64::from(i)) {
+        let wave = (3.0 * angle.to_radians()).cos();
+        hits += &format!("{angle},{:.12}\n", 0.5 * (low + high) + 0.5 * (high - low) * wave);
+    }
+    let text = "name = 'p'\n[ring]\ndiameter = '62 mm'\ncentre = '0 0 mm'\n[stylus.a]\n\
+                ball_diameter = '4 mm'\nhits = ['h.csv']\n";
+    let load = |_: &str, _: &mut Diagnostics| Some(hits.clone());
+    let tables = Tables { load: &load, show: &str::to_owned };
+    let study = parse_study("p.toml", text, &tables).0.expect("a study");
+    let found = identify_probe(&study, &mut Diagnostics::new()).expect("a calibration");
+    let radius = |d: &f64| found[0].gauge.radius_mm + d;
+    let radii = || found[0].before_mm.iter().map(radius);
+    let least = radii().fold(f64::INFINITY, f64::min);
+    vec![least, radii().fold(0.0, f64::max), found[0].before.range_mm]
+}
+
+fn four_hits() -> Vec<f64> {
+    let hits_mm = [128.97, 70.97, 79.02, 21.02];
+    xy_datum(&FourHits { hits_mm, centre_mm: [100.0, 50.0], ring_radius_mm: 31.0 }).offset_mm.into()
 }

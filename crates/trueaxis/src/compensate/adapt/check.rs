@@ -30,7 +30,7 @@ pub struct Remaining {
 
 /// What should remain of the wall where the tool touches.
 ///
-/// w = t − a (+ d where the inner surface stands), u² = u_t² + u_d²     docs/model.md eq. 158
+/// w = t − a (+ d where the inner surface stands), u² = u_t² + u_d²     docs/model.md eq. 153
 pub fn remaining_wall(study: &AdaptStudy, deviation_mm: f64, u_mm: f64) -> Remaining {
     let wall = &study.wall;
     let moved = if wall.inner == Inner::Nominal { deviation_mm } else { 0.0 };
@@ -95,7 +95,7 @@ fn folds(places: &[MovedPlace]) -> Option<Finding> {
 
 /// How deep the cutter enters the wanted surface at the places that other parts of the path cut.
 ///
-/// g = −min D(x_j) over the wanted places within the cutter's reach       docs/model.md eq. 159
+/// g = −min D(x_j) over the wanted places within the cutter's reach       docs/model.md eq. 154
 fn gouges(study: &AdaptStudy, places: &[MovedPlace]) -> Option<Finding> {
     let cutter = &study.cutter;
     // The wanted places as "stands" whose tips are points of the surface.

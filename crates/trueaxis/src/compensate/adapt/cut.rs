@@ -45,7 +45,7 @@ impl Cell {
 /// Cuts a blank along a path: at each place of the blank a ray along its normal against the swept
 /// cutter.
 ///
-/// s = min over the sweep {s : D(p + s·n) = 0}, w = min(d, s) − inner      docs/model.md eq. 160
+/// s = min over the sweep {s : D(p + s·n) = 0}, w = min(d, s) − inner      docs/model.md eq. 155
 pub fn virtual_cut(
     path: &ClFile,
     cutter: &Cutter,

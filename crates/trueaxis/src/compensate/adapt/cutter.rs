@@ -14,7 +14,7 @@ pub struct Cutter {
 impl Cutter {
     /// From the tip to the point that touches a surface with this normal.
     ///
-    /// o = ρ·a − (R − ρ)·t − ρ·n, t = (n − (n·a)a)/|…|              docs/model.md eq. 156
+    /// o = ρ·a − (R − ρ)·t − ρ·n, t = (n − (n·a)a)/|…|              docs/model.md eq. 151
     ///
     /// ```
     /// use trueaxis::compensate::adapt::Cutter;

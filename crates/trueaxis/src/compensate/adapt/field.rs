@@ -54,7 +54,7 @@ impl Covariance {
     /// Matérn 5/2 over the distance of places and of normals, so that the two sides of a thin wall
     /// are not taken for neighbours; a distance in space knows by itself that a ring closes.
     ///
-    /// k = σ²(1 + √5ρ + 5ρ²/3)·exp(−√5ρ), ρ² = |Δp|²/ℓ² + |Δn|²      docs/model.md eq. 153
+    /// k = σ²(1 + √5ρ + 5ρ²/3)·exp(−√5ρ), ρ² = |Δp|²/ℓ² + |Δn|²      docs/model.md eq. 148
     pub fn between(&self, a: (&Vec3, &Vec3), b: (&Vec3, &Vec3)) -> f64 {
         let square =
             (a.0 - b.0).norm_squared() / self.length_mm.powi(2) + (a.1 - b.1).norm_squared();
@@ -167,7 +167,7 @@ impl Field {
 
     /// The deviation at a place of the nominal surface with its normal.
     ///
-    /// d = hᵀβ + kᵀα, u² = k₀ − kᵀK⁻¹k + gᵀCg, g = h − HᵀK⁻¹k        docs/model.md eq. 154
+    /// d = hᵀβ + kᵀα, u² = k₀ − kᵀK⁻¹k + gᵀCg, g = h − HᵀK⁻¹k        docs/model.md eq. 149
     pub fn at(&self, at: &Vec3, normal: &Vec3) -> Estimate {
         let k = self.covariances(at, normal);
         let h = DVector::from_vec(self.registration.freedoms.basis(at, normal));
@@ -252,7 +252,7 @@ impl Readings {
 
     /// The covariance under which each reading is best foretold by all others, with its uncertainty.
     ///
-    /// min Σ ln vᵢ/2 + min(rᵢ²/vᵢ, 9)/2                            docs/model.md eq. 155
+    /// min Σ ln vᵢ/2 + min(rᵢ²/vᵢ, 9)/2                            docs/model.md eq. 150
     fn choose(&self, stated: &FieldOptions, extra: &[f64]) -> Covariance {
         if let (Some(length_mm), Some(form_mm)) = (stated.length_mm, stated.form_mm) {
             return Covariance { length_mm, form_mm };
@@ -346,7 +346,7 @@ impl Readings {
 
 /// The equations of universal kriging, solved.
 ///
-/// Q = K⁻¹ − K⁻¹H(HᵀK⁻¹H)⁻¹HᵀK⁻¹, rᵢ = (Qd)ᵢ/Qᵢᵢ, vᵢ = 1/Qᵢᵢ         docs/model.md eq. 155
+/// Q = K⁻¹ − K⁻¹H(HᵀK⁻¹H)⁻¹HᵀK⁻¹, rᵢ = (Qd)ᵢ/Qᵢᵢ, vᵢ = 1/Qᵢᵢ         docs/model.md eq. 150
 #[derive(Debug, Clone)]
 struct Solved {
     inverse: DMatrix<f64>,

@@ -120,7 +120,7 @@ fn contact(
 /// Where the offset changes along the surface, the moved surface is tilted; the cutter is raised so
 /// that it touches the tilted surface instead of entering it.
 ///
-/// δ = d + n'·(o(n) − o(n'))/(n'·n), n' ∥ n − ∇d                 docs/model.md eq. 157
+/// δ = d + n'·(o(n) − o(n'))/(n'·n), n' ∥ n − ∇d                 docs/model.md eq. 152
 fn raised_for_slope(study: &AdaptStudy, field: &Field, foot: &Foot, axis: &Vec3) -> f64 {
     let n = foot.normal;
     let e1 = tangent(&n);

@@ -11,7 +11,7 @@ const LEAST_EFFECT: f64 = 0.02;
 
 /// The freedoms of a rigid body that change readings along the normals.
 ///
-/// d = n·τ + ((p − c) × n)·ω                                     docs/model.md eq. 152
+/// d = n·τ + ((p − c) × n)·ω                                     docs/model.md eq. 147
 #[derive(Debug, Clone)]
 pub struct Freedoms {
     /// Rotations count about it.

@@ -43,7 +43,7 @@ impl NominalSurface {
 
     /// The nearest place of the surface.
     ///
-    /// q = x − h·n(q), f(q) = 0                                  docs/model.md eq. 151
+    /// q = x − h·n(q), f(q) = 0                                  docs/model.md eq. 146
     pub fn foot(&self, x: &Vec3) -> Foot {
         let mut at = self.nearest(x).0;
         let mut normal = self.nearest(x).1;

@@ -209,7 +209,7 @@ pub fn directions_s(tilt_rad: f64, count: usize) -> Vec<Vec3> {
 /// From the ball to the tool point, and the tool axis, round a cone of half angle α.
 ///
 /// ```text
-///     u = (cos α cos φ, cos α sin φ, sin α)     n = (−sin α cos φ, −sin α sin φ, cos α)     docs/model.md eq. 161
+///     u = (cos α cos φ, cos α sin φ, sin α)     n = (−sin α cos φ, −sin α sin φ, cos α)     docs/model.md eq. 156
 /// ```
 ///
 /// u is the outward normal of the cone, n its generatrix from the base to the apex: u · n = 0.

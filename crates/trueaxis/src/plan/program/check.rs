@@ -13,6 +13,7 @@ use crate::simulate::{
 use trueaxis_geometry::frame::Pose;
 use trueaxis_geometry::input::{Diagnostics, Severity};
 use trueaxis_geometry::{Mat3, Vec3};
+use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Command;
 use trueaxis_machine::chain::Link;
 use trueaxis_machine::models::{Shape, ToolSegment};
@@ -75,7 +76,7 @@ pub fn check(
     let tool = SetUpTool {
         name: own.kind.name().to_owned(),
         tip_mm: own.tool_point_mm,
-        shape: probe_shape(settings, own.kind, -own.tool_point_mm.z),
+        shape: stated_shape(settings, own.kind, -own.tool_point_mm.z),
         ..SetUpTool::default()
     };
     let setup = SetUp {
@@ -86,22 +87,33 @@ pub fn check(
         ..SetUp::default()
     };
     let program = Program::new(&path.name, text.to_vec(), control);
-    let mut summary = Summary::of(machine);
-    let mut watch = AxisWatch::on(machine);
     // A probe never comes to the nominal place of a hit by a block of its own.
     let stations = match own.kind {
         Kind::TouchProbeBall => &[][..],
         _ => &path.stations.commands[..],
     };
+    run(machine, &campaign.machine_path, &setup, &program, stations)
+}
+
+/// Runs a program with all that stands on the machine.
+pub(in super::super) fn run(
+    machine: &Machine,
+    machine_path: &std::path::Path,
+    setup: &SetUp,
+    program: &Program,
+    stations: &[Command],
+) -> ProgramCheck {
+    let mut summary = Summary::of(machine);
+    let mut watch = AxisWatch::on(machine);
     let mut visits = Visits { nearest: stations.iter().map(|c| (c, f64::INFINITY)).collect() };
     let mut found = Diagnostics::new();
-    let models = load_models(machine, &campaign.machine_path, &mut found);
-    let mut collisions = Collisions::watch(machine, models, &setup);
+    let models = load_models(machine, machine_path, &mut found);
+    let mut collisions = Collisions::watch(machine, models, setup);
     let mut observers: Vec<&mut dyn Observer> = vec![&mut summary, &mut watch, &mut visits];
     if let Some(collisions) = &mut collisions {
         observers.push(collisions);
     }
-    let run = simulate(machine, &program, &setup, &Options::default(), &mut observers);
+    let run = simulate(machine, program, setup, &Options::default(), &mut observers);
     let logs = [Some(watch.log), collisions.map(|c| c.log)];
     let troubles = TroubleList::of(logs.into_iter().flatten());
     let told = |grave: bool| {
@@ -125,17 +137,25 @@ pub fn check(
 }
 
 /// The stated probe, or a slim one: stylus, body, holder.
-fn probe_shape(settings: &ProgramSettings, kind: Kind, length_mm: f64) -> Vec<ToolSegment> {
+fn stated_shape(settings: &ProgramSettings, kind: Kind, length_mm: f64) -> Vec<ToolSegment> {
     if !settings.probe.is_empty() {
         return settings.probe.clone();
     }
+    match kind {
+        Kind::TouchProbeBall | Kind::TouchProbeFace => probe_shape(3.0, length_mm),
+        _ => slim(8.0, 50.0, length_mm),
+    }
+}
+
+/// A slim touch probe.
+pub(in super::super) fn probe_shape(stylus_mm: f64, length_mm: f64) -> Vec<ToolSegment> {
+    slim(stylus_mm, 40.0, length_mm)
+}
+
+fn slim(stylus: f64, body: f64, length_mm: f64) -> Vec<ToolSegment> {
     if length_mm <= 1.0 {
         return Vec::new();
     }
-    let (stylus, body) = match kind {
-        Kind::TouchProbeBall | Kind::TouchProbeFace => (3.0, 40.0),
-        _ => (8.0, 50.0),
-    };
     let slim = (0.45 * length_mm).min(150.0);
     let segment = |diameter_mm, length_mm| ToolSegment { diameter_mm, length_mm };
     vec![segment(stylus, slim), segment(body, length_mm - slim)]

@@ -1,0 +1,116 @@
+//! `trueaxis plan probe-surface` as users call it.
+
+mod command;
+
+use command::{Folder, root, trueaxis};
+
+const STUDY: &str = "examples/04_plan/probe-surface.toml";
+
+/// The bangle of oracles/cutter_locations.py and its outward normal by differences.
+fn bangle_normal(u: f64, v: f64) -> [f64; 3] {
+    let point = |u: f64, v: f64| {
+        let wave = 0.5 * (6.0 * u + 0.35 * v).sin() + 0.25 * (9.0 * u - 0.5 * v).cos();
+        let bulge = 0.9 * (std::f64::consts::PI * (v - 6.0) / 14.0).cos();
+        let r = 31.0 / u.cos().hypot(31.0 / 28.0 * u.sin()) + wave + bulge;
+        [r * u.cos(), r * u.sin(), v]
+    };
+    let slope = |a: [f64; 3], b: [f64; 3]| [0, 1, 2].map(|i| (a[i] - b[i]) / 2e-5);
+    let du = slope(point(u + 1e-5, v), point(u - 1e-5, v));
+    let dv = slope(point(u, v + 1e-5), point(u, v - 1e-5));
+    let n = [
+        du[1] * dv[2] - du[2] * dv[1],
+        du[2] * dv[0] - du[0] * dv[2],
+        du[0] * dv[1] - du[1] * dv[0],
+    ];
+    let norm = n.iter().map(|c| c * c).sum::<f64>().sqrt();
+    n.map(|c| c / norm)
+}
+
+/// Rows of numbers of the nominal table; the last cell must be empty.
+fn rows(text: &str) -> Vec<Vec<f64>> {
+    let mut lines = text.lines().filter(|l| !l.starts_with('#'));
+    assert_eq!(lines.next(), Some("point,x_mm,y_mm,z_mm,i,j,k,deviation_um"));
+    let cells = |l: &str| {
+        let open = l.strip_suffix(',').expect("an empty deviation");
+        open.split(',').map(|c| c.parse().expect("a number")).collect()
+    };
+    lines.map(cells).collect()
+}
+
+#[test]
+fn the_bangle_is_touched_along_its_normals() {
+    let folder = Folder::new("surface");
+    let out = folder.path("out");
+    let ran = trueaxis(&[
+        "plan",
+        "probe-surface",
+        STUDY,
+        "--dialect",
+        "fanuc",
+        "-o",
+        &out,
+        "--format",
+        "json",
+    ]);
+    assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
+    let found = ran.json();
+    assert_eq!(found["schema"], "trueaxis/plan-probe-surface/1");
+    let table = std::fs::read_to_string(format!("{out}/surface.csv")).expect("a table");
+    let rows = rows(&table);
+    assert!(rows.len() > 60, "{}", rows.len());
+    assert_eq!(found["points"].as_array().map(Vec::len), Some(rows.len()));
+    for (i, row) in rows.iter().enumerate() {
+        let normal = bangle_normal(row[2].atan2(row[1]), row[3]);
+        let cosine: f64 = (0..3).map(|k| normal[k] * row[4 + k]).sum();
+        // Neighbours within a millimetre of a waved surface; at its rims they lie to one side.
+        assert!(cosine > 12_f64.to_radians().cos(), "point {}: {cosine}", i + 1);
+        let near = |b: &Vec<f64>| (1..4).map(|k| (b[k] - row[k]).powi(2)).sum::<f64>().sqrt();
+        assert!(rows[..i].iter().all(|b| near(b) >= 4.0 - 1e-5));
+    }
+    let program = std::fs::read_to_string(format!("{out}/surface.nc")).expect("a program");
+    assert_eq!(program.matches("G31").count(), rows.len());
+}
+
+#[test]
+fn a_box_is_touched_from_above_on_a_machine_without_rotary_axes() {
+    let folder = Folder::new("surface-stl");
+    let top = "facet normal 0 0 1\nouter loop\nvertex 0 0 10\nvertex 30 0 10\nvertex 30 20 10\n\
+               endloop\nendfacet\n";
+    let side = "facet normal 1 0 0\nouter loop\nvertex 30 0 0\nvertex 30 20 0\nvertex 30 20 10\n\
+                endloop\nendfacet\n";
+    folder.file("part.stl", format!("solid p\n{top}{side}endsolid p\n"));
+    let machine = root().join("machines/three-axis-mill/machine.toml").display().to_string();
+    let study = |more: &str| {
+        format!(
+            "name = 's'\nmachine = '{machine}'\nspacing = '5 mm'\n{more}\n[probe]\nlength = '100 mm'\n\
+             ball_diameter = '4 mm'\n"
+        )
+    };
+    let run = |text: String, more: &[&str]| {
+        let file = folder.file("s.toml", text);
+        trueaxis(&[&["plan", "probe-surface", &file, "--format", "json"], more].concat())
+    };
+    let up = "stl = 'part.stl'\nfacing = '0 0 1'\nwithin = '20 deg'";
+    let ran = run(study(up), &[]);
+    assert!(ran.status < 2, "{}", ran.err);
+    let found = ran.json();
+    let points = found["points"].as_array().expect("points");
+    assert!(points.len() > 4 && points.iter().all(|p| p["normal"][2] == 1.0), "{points:?}");
+    assert!(points.iter().all(|p| (p["point_mm"][2].as_f64().expect("mm") - 10.0).abs() < 1e-9));
+    for (text, more, code) in [
+        (study(""), &[][..], "missing-key"),
+        (study("stl = 'no.stl'"), &[], "unreadable-file"),
+        (study(up).replace("5 mm", "0 mm"), &[], "not-positive"),
+        (study(up).replace("5 mm", "0.00001 mm"), &[], "too-many-points"),
+        (study(up).replace("0 0 1", "0 0 -1"), &[], "no-points"),
+        (study(up).replace("100 mm", "1e9 mm"), &[], "unreachable-point"),
+        (study(up), &["--dialect", "heidenhain"], "no-program"),
+        (study(up), &["--dialect", "fidia"], "unknown-control"),
+        (study("stl = 'part.stl'\nnormals = 'up'"), &[], "unknown-word"),
+    ] {
+        let ran = run(text.clone(), more);
+        assert_eq!(ran.status, 2, "{code}: {text}\n{}", ran.err);
+        assert!(ran.err.contains(&format!("[{code}]")), "{code}: {}", ran.err);
+        assert_eq!(ran.out, "");
+    }
+}

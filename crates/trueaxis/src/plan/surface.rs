@@ -1,0 +1,19 @@
+//! A probing path over a surface: from cutter locations or an STL file.
+//!
+//! ```text
+//!     study.toml ──read_surface──> SurfaceStudy {machine, candidates, probe}
+//!     candidates ──spread──> points at least a spacing apart
+//!     points ──poses──> reachable points with their rotary axes
+//!     poses ──surface_program──> NC text ──check_surface──> duration, troubles
+//! ```
+//!
+//! The table of the points, with an empty column `deviation`, is what the measured offsets along the
+//! normals are written into.
+
+mod file;
+mod points;
+mod program;
+
+pub use file::{SurfaceStudy, read_surface};
+pub use points::{Candidates, SurfacePoint, nominal_table, spread};
+pub use program::{Pose, check_surface, poses, surface_program};
