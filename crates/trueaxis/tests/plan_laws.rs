@@ -352,7 +352,7 @@ fn law_stations_outside_the_travel_are_named() {
 #[test]
 fn law_linear_paths_are_what_their_names_say() {
     let rest = "[unknown]\nlocation = \"minimal\"\n\
-         [instrument.bar]\nkind = \"ball-bar\"\ntable_ball = \"0 0 -20 mm\"\nlength = \"30 mm\"\nnoise = \"1 um\"\n\
+         [instrument.bar]\nkind = \"ball-bar\"\ntable_ball = \"0 0 -20 mm\"\nlength = \"60 mm\"\nnoise = \"1 um\"\n\
          [instrument.laser]\nkind = \"laser-line\"\nnoise = \"1 um\"\n\
          [[path]]\ninstrument = \"bar\"\nkind = \"circle\"\nplane = \"YZ\"\ncount = 36\n\
          [[path]]\ninstrument = \"laser\"\nkind = \"diagonal\"\ndiagonal = \"+-+\"\ncount = 7\n\

@@ -160,9 +160,9 @@ mod tests {
             .collect();
         let freedoms = Freedoms::of(&points);
         assert_eq!((freedoms.seen.len(), freedoms.held.len()), (4, 2));
-        // Both keep the cylinder on itself: nothing of them across z.
-        for f in &freedoms.held {
-            assert!(f[0].abs() + f[1].abs() + f[3].abs() + f[4].abs() < 1e-6, "{f}");
+        // Both keep the cylinder on itself: no point moves along its normal.
+        for (f, p) in freedoms.held.iter().flat_map(|f| points.iter().map(move |p| (f, p))) {
+            assert!(freedoms.row(&p.at_mm, &p.normal).dot(f).abs() < 1e-9, "{f}");
         }
     }
 }
