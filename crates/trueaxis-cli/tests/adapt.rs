@@ -174,6 +174,12 @@ fn a_blank_in_another_set_up() {
         Some(v)
     });
     told("other", &other, 2, "other-set-up", "allowed are");
+    // The table counts from another zero than the path.
+    let zero = parts().with_rows(|_, mut v| {
+        v[1] += 0.8;
+        Some(v)
+    });
+    told("zero", &zero, 2, "other-zero", "bangle-adapt.cls:");
 }
 
 #[test]

@@ -210,6 +210,16 @@ fn check_layer(study: &AdaptStudy, places: &[MovedPlace], problems: &mut Diagnos
             "is [layer] depth, [layer] path or the cutter another one than in the CAM system?";
         problems.error("other-layer", place, message, hint);
     }
+    let [(low, line), (high, _)] = [off[off.len() / 20], off[off.len() - 1 - off.len() / 20]];
+    if high - low > wall.layer_mm {
+        let place = Place { file: study.path.name().to_owned(), line: line as usize, column: 1 };
+        let message = format!(
+            "nine tenths of the path lie {:.3} to {:.3} mm off the depth that the study says",
+            low, high
+        );
+        let hint = "do the table and the cutter locations count from the same zero?";
+        problems.error("other-zero", place, message, hint);
+    }
 }
 
 fn map(study: &AdaptStudy, field: &Field, path: &ClFile) -> Vec<MapCell> {
