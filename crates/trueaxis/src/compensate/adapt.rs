@@ -95,6 +95,9 @@ pub fn adapt(study: &AdaptStudy) -> (Option<Adaptation>, Diagnostics) {
         return (None, problems);
     }
     check_layer(study, &places, &mut problems);
+    if problems.has_errors() {
+        return (None, problems);
+    }
     let adapted: Vec<ClPoint> = places.iter().map(|p| p.adapted).collect();
     let path = study.path.with_points(&adapted);
     let mut findings = check::check(study, &places);
