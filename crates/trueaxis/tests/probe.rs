@@ -2,11 +2,12 @@
 
 #[path = "probe/laws.rs"]
 mod laws;
+mod library;
 #[path = "probe/virtual_probe.rs"]
 mod virtual_probe;
 
+use library::root;
 use serde_json::Value;
-use std::path::{Path, PathBuf};
 use trueaxis::geometry::Vec3;
 use trueaxis::geometry::input::Diagnostics;
 use trueaxis::identify::probe::{
@@ -15,10 +16,6 @@ use trueaxis::identify::probe::{
 };
 use trueaxis::report::{probe_html, probe_json, probe_table_csv, probe_text};
 use virtual_probe::{VirtualProbe, even};
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
 
 fn expected() -> Value {
     let path = root().join("crates/trueaxis/tests/data/probe.json");

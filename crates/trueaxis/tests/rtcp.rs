@@ -1,10 +1,12 @@
 //! RTCP calibrations: centres that are put in come out, on every machine with two rotary axes.
 
+mod library;
+
+use library::{Random, machine, root};
 use proptest::prelude::*;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use trueaxis::files;
 use trueaxis::geometry::Vec3;
 use trueaxis::identify::rtcp::forecast::forecast;
 use trueaxis::identify::rtcp::program::{off_poses, program};
@@ -28,14 +30,6 @@ const MACHINES: [(&str, Topology); 6] = [
     ("wyxzcat-gantry", Topology::HeadHead),
 ];
 
-fn root() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
-
-fn machine(name: &str) -> Machine {
-    files::machine(&root().join("machines").join(name).join("machine.toml")).0.unwrap()
-}
-
 /// An empty folder that no other test has.
 fn folder() -> PathBuf {
     static NEXT: AtomicUsize = AtomicUsize::new(0);
@@ -45,32 +39,9 @@ fn folder() -> PathBuf {
     folder
 }
 
-/// Numbers that look random and are the same every time (SplitMix64).
-struct Dice(u64);
-
-impl Dice {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn within(&mut self, reach: f64) -> f64 {
-        reach * (2.0 * self.next() - 1.0)
-    }
-
-    /// Box and Muller.
-    fn normal(&mut self) -> f64 {
-        let r = (-2.0 * (1.0 - self.next()).ln()).sqrt();
-        r * (std::f64::consts::TAU * self.next()).cos()
-    }
-}
-
 /// Where the rotary axes stand: 12 poses over their travel, the first upright.
-fn poses(machine: &Machine, dice: &mut Dice) -> Vec<Command> {
-    let pose = |k: usize, dice: &mut Dice| {
+fn poses(machine: &Machine, dice: &mut Random) -> Vec<Command> {
+    let pose = |k: usize, dice: &mut Random| {
         let mut command = Command::default();
         for (q, axis) in command.iter_mut().zip(machine.axes()) {
             if axis.kind == AxisKind::Rotary && k > 0 {
@@ -78,7 +49,7 @@ fn poses(machine: &Machine, dice: &mut Dice) -> Vec<Command> {
                     Travel::Between(from, to) => (from.max(-1.7), to.min(1.7)),
                     _ => (-3.0, 3.0),
                 };
-                *q = from + (to - from) * dice.next();
+                *q = from + (to - from) * dice.unit();
             }
         }
         command
@@ -87,12 +58,12 @@ fn poses(machine: &Machine, dice: &mut Dice) -> Vec<Command> {
 }
 
 /// A study of two sets without values: RTCP on against one ball, off against another.
-fn study(name: &str, dice: &mut Dice) -> RtcpStudy {
+fn study(name: &str, dice: &mut Random) -> RtcpStudy {
     study_with(name, "none", dice)
 }
 
 /// The same with the other errors of the machine file, or without.
-fn study_with(name: &str, errors: &str, dice: &mut Dice) -> RtcpStudy {
+fn study_with(name: &str, errors: &str, dice: &mut Random) -> RtcpStudy {
     let machine = machine(name);
     let centre = working_point(&machine);
     let mut text = format!(
@@ -159,7 +130,7 @@ fn stand_by(study: &mut RtcpStudy) {
 
 /// What would be read on the machine with these offsets, by its own chain: the full pose of the
 /// machine with the errors, and the ball elsewhere than is said.
-fn read(study: &mut RtcpStudy, offsets_mm: &[f64], noise_mm: f64, dice: &mut Dice) {
+fn read(study: &mut RtcpStudy, offsets_mm: &[f64], noise_mm: f64, dice: &mut Random) {
     let control = trueaxis::machine::tcp::TipControl::of(&study.machine).unwrap();
     for set in &mut study.sets {
         let off = Vec3::new(dice.within(0.4), dice.within(0.4), dice.within(0.4));
@@ -215,7 +186,7 @@ proptest! {
     /// that sees that nothing is left to do.
     #[test]
     fn law_centres_come_back(seed in 0_u64..1_000_000) {
-        let mut dice = Dice(seed);
+        let mut dice = Random(seed);
         for (name, _) in MACHINES {
             let mut study = study(name, &mut dice);
             let truth: Vec<f64> = (0..4).map(|_| dice.within(0.5)).collect();
@@ -238,7 +209,7 @@ proptest! {
 /// within 0.1 µm on a machine with 60 errors more, though the indicator is turned by them.
 #[test]
 fn law_other_errors_of_the_machine_file_do_not_count() {
-    let mut dice = Dice(11);
+    let mut dice = Random(11);
     for name in ["i5-engraver", "head-table"] {
         let mut study = study_with(name, "stated", &mut dice);
         let truth: Vec<f64> = (0..4).map(|_| dice.within(0.05)).collect();
@@ -260,7 +231,7 @@ fn law_other_errors_of_the_machine_file_do_not_count() {
 #[test]
 fn law_the_uncertainty_covers() {
     for name in ["i5-engraver", "head-table", "xkas2525"] {
-        let mut dice = Dice(7);
+        let mut dice = Random(7);
         let mut study = study(name, &mut dice);
         let runs = 2000;
         let (mut inside, mut all, mut chi_square, mut free) = (0, 0, 0.0, 0);
@@ -287,7 +258,7 @@ fn law_the_uncertainty_covers() {
 #[test]
 fn law_programs_reach_their_poses() {
     for (name, _) in MACHINES {
-        let study = study(name, &mut Dice(3));
+        let study = study(name, &mut Random(3));
         for control in
             [Control::Fanuc, Control::Sinumerik840d, Control::Heidenhain, Control::LinuxCnc]
         {

@@ -60,17 +60,11 @@ pub fn parse_rtcp(path: &Path, text: &str, purpose: Purpose) -> (Option<RtcpStud
 fn read(root: &Section<'_>, path: &Path, purpose: Purpose) -> Option<RtcpStudy> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let name = root.require("name", "say which machine, when").and_then(|i| i.text());
-    let hint = "the machine file, relative to this file";
-    let item = root.require("machine", hint);
-    let machine_path = item.as_ref().and_then(Item::text).map(|p| folder.join(p));
-    let machine = machine_path.as_deref().and_then(|p| {
-        let (machine, problems) = files::machine(p);
-        root.take_over(problems);
-        machine
-    });
+    let found = files::machine_of(root, path);
+    let item = root.get("machine");
     let date = root.get("date").and_then(|i| i.date_or_text());
     let errors = root.get("errors");
-    let (Some(item), Some(machine)) = (item, machine) else {
+    let (Some(item), Some((machine_path, machine))) = (item, found) else {
         root.entries();
         return None;
     };
@@ -110,7 +104,7 @@ fn read(root: &Section<'_>, path: &Path, purpose: Purpose) -> Option<RtcpStudy> 
     let mut study = RtcpStudy {
         name: name?.to_owned(),
         path: path.to_owned(),
-        machine_path: machine_path?,
+        machine_path,
         set_for_mm: vec![0.0; n],
         now: Vec::new(),
         decimals: 4,

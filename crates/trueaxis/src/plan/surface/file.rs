@@ -72,7 +72,7 @@ fn read(root: &Section<'_>, path: &Path) -> Option<SurfaceStudy> {
     // Every key is asked for before anything is given up, or it would count as unknown.
     let folder = path.parent().unwrap_or(Path::new(""));
     let name = root.require("name", "say which surface").and_then(|i| i.text());
-    let machine = root.require("machine", "machine = \"machine.toml\"").and_then(|i| i.text());
+    let machine = files::machine_of(root, path);
     let unit_mm = read_unit(root);
     let surface = read_candidates(root, folder, unit_mm);
     let part = root.text("part").map(|name| mesh(root, &folder.join(name), unit_mm));
@@ -86,9 +86,7 @@ fn read(root: &Section<'_>, path: &Path) -> Option<SurfaceStudy> {
     let within = root.quantity("within", Dimension::Angle);
     let probe = root.require("probe", "[probe] length = \"120 mm\", ball_diameter = \"2 mm\"");
     let probe = probe.and_then(|item| item.section("probe", read_probe)).flatten();
-    let machine_path = folder.join(machine?);
-    let (machine, found) = files::machine(&machine_path);
-    root.take_over(found);
+    let (machine_path, machine) = machine?;
     let facing = match facing {
         Some(direction) => Some((direction?, within.unwrap_or(80_f64.to_radians()))),
         None => None,
@@ -100,7 +98,6 @@ fn read(root: &Section<'_>, path: &Path) -> Option<SurfaceStudy> {
         Some(stated) => Some(stated?),
         None => of_surface,
     };
-    let machine = machine?;
     let probe = probe?;
     Some(SurfaceStudy {
         file: path.display().to_string(),
