@@ -100,6 +100,13 @@ pub(super) fn read(
         problems.error("empty-table", Place::whole(file), message, hint);
         return None;
     }
+    if let Some(short) = rows.iter().find(|r| r.cells.len() < 3) {
+        let place = Place { file: file.to_owned(), line: short.line, column: 1 };
+        let message = "this row of the table has no reading".to_owned();
+        let hint = "number | target | readings; is the report cut off here?";
+        problems.error("short-row", place, message, hint);
+        return None;
+    }
     let table = table(&rows, runs, unit);
     Some(Imported { table: Cow::Owned(table), printed, ..Imported::default() })
 }
@@ -133,4 +140,18 @@ fn figure(line: &str, number: usize) -> Option<Printed> {
     let (theirs, quantity) = FIGURES.into_iter().find(|(theirs, _)| *theirs == name)?;
     let value_mm = unit.to_inner(value);
     value_mm.is_finite().then_some(Printed { theirs, quantity, value_mm, line: number })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_row_without_a_reading_is_named() {
+        let text = format!("{UP}\n0 | 10 | 10.01 |\n1\n");
+        let mut problems = Diagnostics::new();
+        assert!(read(Standard::Iso230_2, "r.md", &text, &mut problems).is_none());
+        let told = problems.iter().next().map(|d| (d.code, d.place.line));
+        assert_eq!(told, Some(("short-row", 3)));
+    }
 }
