@@ -1,4 +1,4 @@
-use super::{Diagnostics, Place};
+use super::{Diagnostics, Place, Unit};
 
 /// One column of numbers with the name that stands above it.
 #[derive(Debug, Clone, PartialEq)]
@@ -109,6 +109,28 @@ impl CsvTable {
     /// The place of a row, counted from 0.
     pub fn row_place(&self, row: usize) -> Place {
         Place { file: self.file.clone(), line: self.lines[row], column: 1 }
+    }
+
+    /// The numbers of a column in the inner unit (mm, rad, s …), each checked against its bounds; a
+    /// problem with its line if one is beyond them.
+    pub fn in_unit(
+        &self,
+        column: &CsvColumn,
+        unit: Unit,
+        problems: &mut Diagnostics,
+    ) -> Option<Vec<f64>> {
+        let mut values = Vec::with_capacity(column.values.len());
+        for (row, value) in column.values.iter().enumerate() {
+            match unit.checked(*value) {
+                Ok(value) => values.push(value),
+                Err(error) => {
+                    let message = format!("column `{}`: {error}", column.name);
+                    problems.error(error.code(), self.row_place(row), message, &error.hint());
+                    return None;
+                }
+            }
+        }
+        Some(values)
     }
 
     fn read_headings(&mut self, line: usize, text: &str, problems: &mut Diagnostics) {

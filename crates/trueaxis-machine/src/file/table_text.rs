@@ -7,9 +7,7 @@ use crate::errors::{
     Uncertainty,
 };
 use std::f64::consts::TAU;
-use trueaxis_geometry::input::{
-    CsvColumn, CsvTable, Diagnostics, Dimension, Place, QuantityError, Unit,
-};
+use trueaxis_geometry::input::{CsvColumn, CsvTable, Diagnostics, Dimension, Place, Unit};
 
 /// Two positions closer than this, in mm or rad, are one position with two values.
 const CLOSEST: f64 = 1e-9;
@@ -315,21 +313,12 @@ fn in_inner_unit(
     dimension: Dimension,
     problems: &mut Diagnostics,
 ) -> Option<Vec<f64>> {
-    let fault = |e: QuantityError, place: Place, problems: &mut Diagnostics| {
-        let message = format!("column `{}`: {e}", column.name);
-        problems.error(e.code(), place, message, &e.hint());
-        None
-    };
-    let unit = match Unit::find(heading(&column.name).1, dimension) {
-        Ok(unit) => unit,
-        Err(e) => return fault(e, column.place.clone(), problems),
-    };
-    let mut values = Vec::with_capacity(column.values.len());
-    for (row, &value) in column.values.iter().enumerate() {
-        match unit.checked(value) {
-            Ok(value) => values.push(value),
-            Err(e) => return fault(e, table.row_place(row), problems),
+    match Unit::find(heading(&column.name).1, dimension) {
+        Ok(unit) => table.in_unit(column, unit, problems),
+        Err(e) => {
+            let message = format!("column `{}`: {e}", column.name);
+            problems.error(e.code(), column.place.clone(), message, &e.hint());
+            None
         }
     }
-    Some(values)
 }

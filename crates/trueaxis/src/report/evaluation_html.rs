@@ -2,7 +2,8 @@
 
 use super::evaluation::{Block, Evaluation};
 use super::page::document;
-use maud::{Markup, PreEscaped, html};
+use super::picture_page::pictures;
+use maud::{Markup, html};
 
 /// The report as the text of an HTML file.
 ///
@@ -10,24 +11,13 @@ use maud::{Markup, PreEscaped, html};
 /// What the drawing library says.
 pub fn evaluation_html(evaluation: &Evaluation<'_>) -> Result<String, super::DrawingError> {
     let sheets = evaluation.sheets();
-    let mut pictures = Vec::new();
-    for picture in &sheets.pictures {
-        pictures.push((picture.title(), picture.note(), picture.svg()?, picture.is_round()));
-    }
+    let pictures = pictures(&sheets.pictures)?;
     let content = html! {
         h1 { (evaluation.title()) }
         p.soft { (evaluation.standard.title()) }
         p.soft { (evaluation.circumstances()) }
         @for block in &sheets.figures { (section(block)) }
-        @for (title, note, svg, round) in &pictures {
-            section {
-                h2 { (title) }
-                @if *round {
-                    div style="max-width:640px;margin:0 auto" { (PreEscaped(svg)) }
-                } @else { (PreEscaped(svg)) }
-                @if !note.is_empty() { p.soft { (note) } }
-            }
-        }
+        (pictures)
         (remarks(evaluation.remarks))
         @for block in &sheets.details { (section(block)) }
         p.soft { "made by trueaxis " (crate::VERSION) }

@@ -20,15 +20,25 @@ pub(super) struct PicturePage<'a> {
 
 /// The page as the text of an HTML file.
 pub(super) fn picture_page(page: &PicturePage<'_>) -> Result<String, DrawingError> {
-    let mut drawn = Vec::new();
-    for picture in page.pictures {
-        drawn.push((picture.title(), picture.note(), picture.svg()?, picture.is_round()));
-    }
+    let pictures = pictures(page.pictures)?;
     let content = html! {
         h1 { (page.title) }
         @for line in page.lines { p.soft { (line) } }
         @if let Some(verdict) = &page.verdict { (verdict) }
         @for block in page.blocks { (section(block)) }
+        (pictures)
+        p.soft { "made by trueaxis " (crate::VERSION) }
+    };
+    Ok(document(page.title, &content))
+}
+
+/// Pictures with their titles and notes, one section each.
+pub(super) fn pictures(pictures: &[Picture]) -> Result<Markup, DrawingError> {
+    let mut drawn = Vec::new();
+    for picture in pictures {
+        drawn.push((picture.title(), picture.note(), picture.svg()?, picture.is_round()));
+    }
+    Ok(html! {
         @for (title, note, svg, round) in &drawn {
             section {
                 h2 { (title) }
@@ -38,7 +48,5 @@ pub(super) fn picture_page(page: &PicturePage<'_>) -> Result<String, DrawingErro
                 @if !note.is_empty() { p.soft { (note) } }
             }
         }
-        p.soft { "made by trueaxis " (crate::VERSION) }
-    };
-    Ok(document(page.title, &content))
+    })
 }

@@ -166,24 +166,12 @@ fn length(table: &CsvTable, name: &str, problems: &mut Diagnostics) -> Option<Ve
         return None;
     };
     let unit = column.name.rsplit_once('_').map_or("", |(_, unit)| unit);
-    let unit = match Unit::find(unit, Dimension::Length) {
-        Ok(unit) => unit,
+    match Unit::find(unit, Dimension::Length) {
+        Ok(unit) => table.in_unit(column, unit, problems),
         Err(error) => {
             let message = format!("column `{}`: {error}", column.name);
             problems.error(error.code(), column.place.clone(), message, &error.hint());
-            return None;
-        }
-    };
-    let mut values = Vec::with_capacity(column.values.len());
-    for (row, number) in column.values.iter().enumerate() {
-        match unit.checked(*number) {
-            Ok(value) => values.push(value),
-            Err(error) => {
-                let message = format!("`{}`: {error}", column.name);
-                problems.error(error.code(), table.row_place(row), message, &error.hint());
-                return None;
-            }
+            None
         }
     }
-    Some(values)
 }

@@ -285,7 +285,7 @@ fn values(table: &CsvTable, columns: &Columns, problems: &mut Diagnostics) -> Op
             Some(unit) if !holds(column, Dimension::Temperature) => unit,
             _ => unit_of(column, Dimension::Length, problems)?,
         };
-        in_unit(table, column, unit, problems)
+        table.in_unit(column, unit, problems)
     });
     let mut celsius = Vec::new();
     for (_, name) in &columns.sensors {
@@ -295,11 +295,11 @@ fn values(table: &CsvTable, columns: &Columns, problems: &mut Diagnostics) -> Op
             Some(_) => unit_of(column, Dimension::Temperature, problems),
             None => Unit::find("degC", Dimension::Temperature).ok(),
         };
-        celsius.extend(unit.and_then(|unit| in_unit(table, column, unit, problems)));
+        celsius.extend(unit.and_then(|unit| table.in_unit(column, unit, problems)));
     }
     let time = columns.time.as_ref().map(|name| {
         let column = find(table, name, problems)?;
-        in_unit(table, column, unit_of(column, Dimension::Time, problems)?, problems)
+        table.in_unit(column, unit_of(column, Dimension::Time, problems)?, problems)
     });
     let rows = (0..table.rows()).map(|i| i as f64);
     let times_s = match (time, columns.interval_s) {
@@ -357,26 +357,6 @@ fn unit_of(column: &CsvColumn, dimension: Dimension, problems: &mut Diagnostics)
     let message = format!("column `{}`: {error}", column.name);
     problems.error(error.code(), column.place.clone(), message, &hint);
     None
-}
-
-fn in_unit(
-    table: &CsvTable,
-    column: &CsvColumn,
-    unit: Unit,
-    problems: &mut Diagnostics,
-) -> Option<Vec<f64>> {
-    let mut values = Vec::with_capacity(column.values.len());
-    for (row, number) in column.values.iter().enumerate() {
-        match unit.checked(*number) {
-            Ok(value) => values.push(value),
-            Err(error) => {
-                let message = format!("`{}`: {error}", column.name);
-                problems.error(error.code(), table.row_place(row), message, &error.hint());
-                return None;
-            }
-        }
-    }
-    Some(values)
 }
 
 /// The rows of each cycle: all, or those of one value of the cycle column after the other.
