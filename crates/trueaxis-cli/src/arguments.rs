@@ -3,14 +3,14 @@
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+pub use trueaxis::describe::{axis_index, to_inner, to_shown, warn_beyond_travel};
 use trueaxis::files;
 use trueaxis::geometry::Vec3;
 use trueaxis::geometry::input::{
     CsvTable, Diagnostics, Dimension, Place, QuantityError, parse_quantity,
 };
 use trueaxis::machine::Machine;
-use trueaxis::machine::axis::{Approach, AxisKind, Command};
-use trueaxis::machine::errors::BodyName;
+use trueaxis::machine::axis::{Approach, Command};
 use trueaxis::machine::heat::{Conditions, TemperatureRun};
 
 /// The machine and the tool in it.
@@ -234,36 +234,6 @@ fn axis_and_rest<'w>(machine: &Machine, word: &'w str) -> Result<(usize, &'w str
     let index = axis_index(machine, axis.trim())
         .ok_or_else(|| ("unknown-axis", format!("the machine has no axis `{axis}`")))?;
     Ok((index, rest.trim()))
-}
-
-/// The index of an axis by its letter as text.
-pub fn axis_index(machine: &Machine, letter: &str) -> Option<usize> {
-    let mut letters = letter.chars();
-    let name = BodyName::new(letters.next()?)?;
-    letters.next().is_none().then(|| machine.axis_index(name)).flatten()
-}
-
-/// A typed number (mm or degrees) in mm or rad.
-pub fn to_inner(machine: &Machine, axis: usize, number: f64) -> f64 {
-    match machine.axes()[axis].kind {
-        AxisKind::Linear => number,
-        AxisKind::Rotary => number.to_radians(),
-    }
-}
-
-/// An axis position in mm or degrees.
-pub fn to_shown(machine: &Machine, axis: usize, value: f64) -> f64 {
-    let shown = match machine.axes()[axis].kind {
-        AxisKind::Linear => value,
-        AxisKind::Rotary => value.to_degrees(),
-    };
-    shown + 0.0 // no minus before a zero
-}
-
-/// The axes that a position puts outside their travel.
-pub fn beyond_travel(machine: &Machine, command: &Command) -> Vec<BodyName> {
-    let axes = machine.axes().iter().zip(command);
-    axes.filter(|(axis, q)| !axis.travel.contains(**q)).map(|(axis, _)| axis.name).collect()
 }
 
 fn example(machine: &Machine) -> String {

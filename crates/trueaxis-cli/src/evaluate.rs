@@ -3,11 +3,11 @@ use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 use trueaxis::files;
 use trueaxis::geometry::input::{Diagnostics, Dimension, Place, parse_quantity};
-use trueaxis::report::{Evaluation, evaluation_html, evaluation_json, evaluation_text};
+use trueaxis::report::{Evaluation, evaluation_html, evaluation_json, evaluation_text, remarks};
 use trueaxis::verify::conditions::Conditions;
 use trueaxis::verify::import::Import;
 use trueaxis::verify::write_back::{FIRST_LINE, write_back};
-use trueaxis::verify::{Evaluated, Request, Standard, evaluate, iso230_3};
+use trueaxis::verify::{Evaluated, Readings, Standard, evaluate_text, iso230_3};
 
 /// The readings to evaluate.
 #[derive(Args)]
@@ -111,20 +111,19 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let standard = arguments.standard.0;
     let import = arguments.import.map_or_else(|| Import::of(&arguments.data), |form| form.0);
     let evaluated = text.and_then(|text| {
-        let feature = arguments.feature.as_deref();
-        let read = import.read(standard, &file, &text, feature, &mut problems)?;
-        conditions = read.conditions(&conditions);
-        let request = Request {
+        let readings = Readings {
             standard,
             file: &file,
-            text: read.table(),
+            text: &text,
+            import,
+            feature: arguments.feature.as_deref(),
             conditions: &conditions,
             conditions_file: &conditions_file,
             window_s: window_s.unwrap_or(iso230_3::HOUR_S),
         };
-        let mut evaluated = evaluate(&request, &mut problems)?;
-        read.finish(&mut evaluated, &file, &mut problems);
-        Some(evaluated)
+        let (evaluated, known) = evaluate_text(&readings, &mut problems);
+        conditions = known;
+        evaluated
     });
     let table = table(arguments, &file, &conditions, evaluated.as_ref(), &mut problems);
     let list = problems.clone();
@@ -251,11 +250,7 @@ fn answer(
     evaluated: &Evaluated,
     problems: &Diagnostics,
 ) -> Outcome {
-    let remark = |d: &trueaxis::geometry::input::Diagnostic| match d.hint.is_empty() {
-        true => d.message.clone(),
-        false => format!("{} ({})", d.message, d.hint),
-    };
-    let remarks: Vec<String> = problems.iter().map(remark).collect();
+    let remarks = remarks(problems);
     let evaluation = Evaluation {
         standard: arguments.standard.0,
         file,

@@ -3,7 +3,8 @@
 use clap::ValueEnum;
 use serde_json::Value;
 use std::io::{ErrorKind, Write};
-use trueaxis::geometry::input::{Diagnostic, Diagnostics, Severity};
+use trueaxis::geometry::input::{Diagnostics, Severity};
+pub use trueaxis::report::diagnostic_json;
 
 /// More diagnostics than this say nothing new to a reader; a table of a million rows can have a
 /// million of them.
@@ -109,19 +110,6 @@ pub fn report_and(problems: Diagnostics, outcome: &str) -> bool {
         _ => tell(&format!("{errors} errors found; {outcome}")),
     }
     errors > 0
-}
-
-/// A diagnostic as JSON.
-pub fn diagnostic_json(diagnostic: &Diagnostic) -> Value {
-    serde_json::json!({
-        "code": diagnostic.code,
-        "severity": diagnostic.severity.to_string(),
-        "file": diagnostic.place.file,
-        "line": diagnostic.place.line,
-        "column": diagnostic.place.column,
-        "message": diagnostic.message,
-        "hint": diagnostic.hint,
-    })
 }
 
 #[cfg(test)]

@@ -1,5 +1,4 @@
 use crate::arguments::{self, MachineArguments, argument};
-use crate::numbers::{exact, fixed};
 use crate::output::{Answer, Format, Outcome, finish};
 use clap::Args;
 use serde_json::{Map, Value, json};
@@ -10,6 +9,7 @@ use trueaxis::geometry::frame::{Direction, Point, Workpiece};
 use trueaxis::geometry::input::{CsvTable, Diagnostics};
 use trueaxis::machine::axis::Command;
 use trueaxis::machine::{FollowError, FollowFault, Machine, Solutions, SolveError, Target};
+use trueaxis::report::numbers::{exact, fixed};
 
 /// The tool pose to reach.
 #[derive(Args)]

@@ -1,9 +1,7 @@
 //! Every stage of the walk for one block.
 
 use crate::arguments::{MachineArguments, argument, to_shown};
-use crate::numbers::fixed;
 use crate::output::{Answer, Format, Outcome, finish};
-use crate::pose::{self, Bodies, Budget};
 use crate::simulate::{Job, ProgramArguments};
 use clap::Args;
 use serde_json::{Map, Value, json};
@@ -12,6 +10,8 @@ use trueaxis::geometry::input::Diagnostics;
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{AxisKind, Command};
 use trueaxis::nc::moves::{Axis, Event, FeedMode, Move, MoveKind, OrientationPath, Position, Step};
+use trueaxis::report::numbers::fixed;
+use trueaxis::report::{self, Bodies, Budget};
 use trueaxis::simulate::{Trace, TracedNode, block_line, trace};
 
 /// The block to trace.
@@ -67,8 +67,8 @@ fn answer(arguments: &Arguments, problems: &mut Diagnostics) -> Option<Answer> {
 
 fn budget(machine: &Machine, node: &TracedNode) -> Option<(Budget, Bodies)> {
     let errors = machine.errors_at(&node.node.command, &node.approach).ok()?;
-    let budget = pose::budget(machine, &node.node.command, &errors);
-    Some((budget, pose::bodies(machine, &node.node.command, &errors)))
+    let budget = report::budget(machine, &node.node.command, &errors);
+    Some((budget, report::bodies(machine, &node.node.command, &errors)))
 }
 
 fn axes(machine: &Machine, command: &Command) -> Value {
@@ -160,14 +160,14 @@ fn document(job: &Job, block: usize, found: &Trace, budget: Option<(Budget, Bodi
         });
     }
     if let Some((budget, bodies)) = budget {
-        document["budget"] = pose::budget_json(&budget);
-        document["bodies"] = pose::bodies_json(bodies);
+        document["budget"] = report::budget_json(&budget);
+        document["bodies"] = report::bodies_json(&bodies);
     }
     document
 }
 
 fn node(machine: &Machine, n: &TracedNode) -> Value {
-    let mut value = pose::deviation_json(&n.deviation);
+    let mut value = report::deviation_json(&n.deviation);
     let along = n.along_path_mm * 1e3;
     value["deviation"]["feed_um"] = along.x.into();
     value["deviation"]["normal_um"] = along.y.into();
@@ -254,7 +254,7 @@ fn write_text(
     write_path(machine, found, last, out)?;
     write_pose(last, out)?;
     let Some((budget, bodies)) = budget else { return Ok(()) };
-    writeln!(out, "{}{}", pose::bodies_table(&bodies), pose::budget_table(&budget))
+    writeln!(out, "{}{}", report::bodies_table(&bodies), report::budget_table(&budget))
 }
 
 fn write_path(

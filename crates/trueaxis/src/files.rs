@@ -1,9 +1,15 @@
 //! Files in, files out: the only place of the loop that touches the disk.
 
+mod scope;
+
+pub use scope::within;
+
+use scope::{readable, writable};
 use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use trueaxis_geometry::input::{Diagnostics, Place, Section};
 use trueaxis_machine::Machine;
 use trueaxis_machine::file::Tables;
@@ -86,7 +92,7 @@ pub fn temperature_log(path: &Path, problems: &mut Diagnostics) -> Option<Temper
 
 /// Opens an ordinary file that is not too long; if it cannot be opened, says why.
 fn open(path: &Path, what: &str, problems: &mut Diagnostics) -> Option<fs::File> {
-    let opened = fs::File::open(path).and_then(|file| {
+    let opened = readable(path).and_then(fs::File::open).and_then(|file| {
         let found = file.metadata()?;
         match found.is_file() && found.len() <= MAX_BYTES {
             true => Ok(file),
@@ -118,12 +124,17 @@ pub fn bytes(path: &Path, what: &str, problems: &mut Diagnostics) -> Option<Vec<
 pub fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     // One byte more than allowed: a device or a pipe does not say its length.
-    fs::File::open(path)?.take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
+    fs::File::open(readable(path)?)?.take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > MAX_BYTES {
         let message = format!("files of more than {MAX_BYTES} bytes are not read");
         return Err(io::Error::new(io::ErrorKind::InvalidData, message));
     }
     Ok(bytes)
+}
+
+/// Whether an ordinary file stands there that may be read.
+pub fn is_file(path: &Path) -> bool {
+    readable(path).is_ok_and(|path| path.is_file())
 }
 
 fn read_text(path: &Path) -> io::Result<String> {
@@ -163,15 +174,21 @@ impl Part {
     /// As [`write()`].
     pub fn beside(place: &Path) -> io::Result<Self> {
         let refuse = |message| Err(io::Error::new(io::ErrorKind::InvalidInput, message));
+        let place = &*writable(place)?;
         let Some(name) = place.file_name() else {
             return refuse("the path names no file");
         };
         if fs::metadata(place).is_ok_and(|found| !found.is_file()) {
             return refuse("what stands there is no ordinary file");
         }
-        let hidden = format!(".trueaxis-{}-{}.part", std::process::id(), name.display());
+        // Two threads may write the same file: each has a part of its own, the last one in place stays.
+        static COUNT: AtomicUsize = AtomicUsize::new(0);
+        let (process, count) = (std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
+        let hidden = format!(".trueaxis-{process}-{count}-{}.part", name.display());
         let part = place.with_file_name(hidden);
-        let file = fs::File::create(&part)?;
+        // What somebody left under that name, a link perhaps, is not written through.
+        let _ = fs::remove_file(&part);
+        let file = fs::File::create_new(&part)?;
         if let Ok(mut parts) = PARTS.lock() {
             parts.push(part.clone());
         }

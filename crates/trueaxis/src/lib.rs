@@ -2,7 +2,8 @@
 //!
 //! One machine file goes through all of it. So far:
 //!
-//! - *describe*: [`machine`] (a checked machine tool, its poses and errors) and [`files`];
+//! - *describe*: [`machine`] (a checked machine tool, its poses and errors), [`describe`](mod@describe)
+//!   (the machine as data, one error put into its file) and [`files`];
 //! - *simulate*: [`simulate`](mod@simulate): an NC program on the machine as it is: path, time, poses,
 //!   deviations, troubles;
 //! - *predict*: [`predict`](mod@predict): is the test piece that this machine cuts within its
@@ -19,6 +20,7 @@
 //! [`part`].
 
 pub mod compensate;
+pub mod describe;
 pub mod files;
 pub mod identify;
 pub mod measure;

@@ -15,6 +15,7 @@ mod monte_carlo;
 mod sensitivity;
 mod study;
 mod temperatures;
+mod what_if;
 
 pub use blame::{Blame, Share, blame};
 pub use correction::{Correction, corrections};
@@ -24,6 +25,7 @@ pub use monte_carlo::{Sampling, Spread, monte_carlo};
 pub use sensitivity::{Sensitivity, propagate, sensitivities};
 pub use study::{Decision, Published, PublishedRow, Study, Variant, parse_study, read_study};
 pub use temperatures::{Pace, RunningTemperatures};
+pub use what_if::{ErrorChange, WhatIf};
 
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;

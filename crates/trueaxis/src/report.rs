@@ -7,8 +7,11 @@
 mod adapt;
 mod adapt_maps;
 mod adapt_page;
+mod check;
 mod comparison;
 mod compensation;
+mod description;
+mod diagnostic;
 mod evaluation;
 mod evaluation_circular;
 mod evaluation_html;
@@ -23,11 +26,13 @@ mod identification;
 mod identification_page;
 mod json;
 mod measurement;
+pub mod numbers;
 mod page;
 mod picture_page;
 mod plan;
 mod plan_page;
 mod plots;
+mod pose;
 mod probe;
 mod probe_page;
 mod rtcp;
@@ -42,10 +47,13 @@ mod thermal_page;
 
 pub use adapt::{AdaptReport, AdaptedProgram, adapt_json, adapt_text};
 pub use adapt_page::adapt_html;
+pub use check::{check_json, check_text};
 pub use comparison::{comparison_html, comparison_json, comparison_text};
 pub use compensation::{
     compensation_csv, compensation_json, compensation_text, compensation_warnings,
 };
+pub use description::description_json;
+pub use diagnostic::{diagnostic_json, remarks};
 pub use evaluation::{Evaluation, evaluation_text};
 pub use evaluation_html::evaluation_html;
 pub use evaluation_json::evaluation_json;
@@ -62,6 +70,10 @@ pub use measurement::{MeasuredReport, measurement_html, measurement_json, measur
 pub use plan::{PlanReport, PlannedPath, plan_json, plan_text};
 pub use plan_page::plan_html;
 pub use plots::DrawingError;
+pub use pose::{
+    Bodies, Budget, PoseReport, array, bodies, bodies_json, bodies_table, budget, budget_json,
+    budget_table, deviation_json, pose_json, pose_text,
+};
 pub use probe::{corrected_csv, probe_json, probe_table_csv, probe_text};
 pub use probe_page::probe_html;
 pub use rtcp::{RtcpReport, rtcp_json, rtcp_text};

@@ -24,6 +24,7 @@ pub mod sheet;
 pub mod write_back;
 
 use conditions::{Conditions, unsound_temperature};
+use import::Import;
 use iso230_2::{Budget, Measurement, Positioning};
 use iso230_3::Drift;
 use iso230_4::Circular;
@@ -152,6 +153,47 @@ pub fn evaluate(request: &Request<'_>, problems: &mut Diagnostics) -> Option<Eva
             Some(Evaluated::Circular(Box::new(circle)))
         }
     }
+}
+
+/// Readings as somebody hands them over.
+#[derive(Debug, Clone, Copy)]
+pub struct Readings<'a> {
+    /// By which standard.
+    pub standard: Standard,
+    /// The file, as the user named it.
+    pub file: &'a str,
+    /// Its text.
+    pub text: &'a str,
+    /// Its form.
+    pub import: Import,
+    /// Which feature of a form that holds several.
+    pub feature: Option<&'a str>,
+    /// What is known beside the readings.
+    pub conditions: &'a Conditions,
+    /// The file that says it.
+    pub conditions_file: &'a str,
+    /// Length of the windows of ISO 230-3, s.
+    pub window_s: f64,
+}
+
+/// Reads a text of any form and evaluates it; with what is known of the readings in the end: beside
+/// them, and within. No result with errors in `problems`.
+pub fn evaluate_text(
+    readings: &Readings<'_>,
+    problems: &mut Diagnostics,
+) -> (Option<Evaluated>, Conditions) {
+    let Readings { standard, file, text, conditions, conditions_file, window_s, .. } = *readings;
+    let read = readings.import.read(standard, file, text, readings.feature, problems);
+    let Some(read) = read else { return (None, conditions.clone()) };
+    let conditions = read.conditions(conditions);
+    let text = read.table();
+    let request =
+        Request { standard, file, text, conditions: &conditions, conditions_file, window_s };
+    let mut evaluated = evaluate(&request, problems);
+    if let Some(evaluated) = &mut evaluated {
+        read.finish(evaluated, file, problems);
+    }
+    (evaluated, conditions)
 }
 
 /// Temperatures in other units than they say, or under the wrong heading.

@@ -1,14 +1,14 @@
 //! Many positions: a CSV table in, a CSV table or one document out.
 
-use super::{array, deviation};
 use crate::arguments;
-use crate::numbers::exact;
 use crate::output::{Answer, Format};
 use serde_json::{Map, Value, json};
 use std::path::Path;
 use trueaxis::geometry::input::{CsvTable, Diagnostics};
 use trueaxis::machine::axis::{Approach, Command};
 use trueaxis::machine::{Deviation, Machine};
+use trueaxis::report::numbers::exact;
+use trueaxis::report::{PoseReport, array};
 
 const COLUMNS: [&str; 12] = [
     "tip_x_mm",
@@ -44,8 +44,8 @@ pub fn answer(
     let mut rows = Vec::with_capacity(commands.len());
     for (row, command) in commands.iter().enumerate() {
         let place = table.row_place(row);
-        let found = deviation(machine, command, approach, &place, problems);
-        rows.extend(found.map(|(_, d)| numbers(&table, row, &d)));
+        let found = PoseReport::at(machine, command, approach, &place, problems);
+        rows.extend(found.map(|found| numbers(&table, row, &found.deviation)));
     }
     let names: Vec<&str> = table.columns.iter().map(|c| c.name.as_str()).chain(COLUMNS).collect();
     Some(match format {

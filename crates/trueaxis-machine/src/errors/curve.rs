@@ -65,6 +65,32 @@ pub struct Harmonic {
 }
 
 impl Curve {
+    /// The curve of `factor · E(q) + add`.
+    pub(crate) fn changed(&self, factor: f64, add: f64) -> Self {
+        match self {
+            Self::Constant(value) => Self::Constant(factor * value + add),
+            Self::Polynomial { coefficients, origin, scale } => {
+                let mut coefficients: Vec<f64> = coefficients.iter().map(|c| factor * c).collect();
+                match coefficients.first_mut() {
+                    Some(constant) => *constant += add,
+                    None => coefficients.push(add),
+                }
+                Self::Polynomial { coefficients, origin: *origin, scale: *scale }
+            }
+            Self::Fourier { mean, terms } => {
+                let times = |h: &Harmonic| Harmonic {
+                    cosine: factor * h.cosine,
+                    sine: factor * h.sine,
+                    ..*h
+                };
+                Self::Fourier { mean: factor * mean + add, terms: terms.iter().map(times).collect() }
+            }
+            Self::Table { spline, outside } => {
+                Self::Table { spline: spline.changed(factor, add), outside: *outside }
+            }
+        }
+    }
+
     /// The error at a programmed position.
     ///
     /// # Errors
@@ -128,6 +154,25 @@ mod tests {
         for turn in [-720.0, -360.0, 360.0, 1080.0] {
             assert!((at(30.0 + turn) - 1.0).abs() < 1e-12);
             assert!((at(97.0 + turn) - at(97.0)).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_changed_curve_is_the_factor_times_it_and_more() {
+        let line = Spline::new(&[0.0, 2.0, 5.0], &[1.0, 3.0, -1.0], Interpolation::Linear);
+        let harmonic = Harmonic { order: 2.0, cosine: 0.5, sine: -1.0 };
+        let curves = [
+            Curve::Constant(3.0),
+            Curve::Polynomial { coefficients: vec![1.0, 2.0, -1.0], origin: 1.0, scale: 3.0 },
+            Curve::Fourier { mean: 0.2, terms: vec![harmonic] },
+            Curve::Table { spline: line.expect("a table"), outside: Outside::Error },
+        ];
+        for curve in curves {
+            for q in [0.0, 0.7, 2.0, 4.9] {
+                let (old, new) = (curve.at(q), curve.changed(-2.0, 0.25).at(q));
+                let expected = -2.0 * old.expect("inside") + 0.25;
+                assert!((new.expect("inside") - expected).abs() < 1e-14, "{curve:?} at {q}");
+            }
         }
     }
 }

@@ -113,6 +113,14 @@ impl Spline {
         Self { knots, pieces, periodic: false }
     }
 
+    /// The interpolant of `factor · y + add` through the same knots.
+    pub(crate) fn changed(&self, factor: f64, add: f64) -> Self {
+        let piece = |[c0, c1, c2, c3]: &[f64; 4]| {
+            [factor * c0 + add, factor * c1, factor * c2, factor * c3]
+        };
+        Self { pieces: self.pieces.iter().map(piece).collect(), ..self.clone() }
+    }
+
     /// The positions of the knots.
     pub fn knots(&self) -> &[f64] {
         &self.knots

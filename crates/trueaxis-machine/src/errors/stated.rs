@@ -49,6 +49,22 @@ impl StatedError {
         }
     }
 
+    /// The error times a factor, and shifted (mm or rad); its uncertainty stays.
+    ///
+    /// ```
+    /// use trueaxis_machine::errors::StatedError;
+    /// let doubled = StatedError::constant(0.010, Some(0.002)).changed(2.0, 0.001);
+    /// assert!((doubled.at(0.0, 0.0).unwrap() - 0.021).abs() < 1e-15);
+    /// assert_eq!(doubled.u_at(0.0), 0.002);
+    /// ```
+    pub fn changed(&self, factor: f64, add: f64) -> Self {
+        Self {
+            mean: self.mean.changed(factor, add),
+            reversal: self.reversal.as_ref().map(|r| r.changed(factor, 0.0)),
+            ..self.clone()
+        }
+    }
+
     /// The value at a programmed position for a direction of approach (+1, −1, or 0: the mean).
     ///
     /// # Errors

@@ -8,6 +8,7 @@ mod columns;
 
 use super::errors::Identification;
 use super::term::{Term, stated};
+use crate::describe::lines::{Lines, header};
 use crate::measure::Campaign;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -56,8 +57,8 @@ pub fn machine_file(
     );
     for (name, terms) in sought(campaign, found) {
         let entry = entry((campaign, found), (name, &terms), &origin, &mut tables);
-        file.take_out_of_table(name, &origin, &mut tables, beside);
-        file.put(name, &entry, &origin);
+        take_out_of_table(&mut file, name, &origin, &mut tables, beside);
+        put(&mut file, name, &entry, &origin);
     }
     let text = file.text();
     read_back(found, &text, &tables, beside)?;
@@ -226,19 +227,6 @@ fn read_back(
     Ok(())
 }
 
-/// The section that states an error.
-fn header(name: ErrorName) -> String {
-    match name.kind {
-        ErrorKind::Location => "location".to_owned(),
-        ErrorKind::Motion => format!("motion.{}", name.body),
-    }
-}
-
-/// What stands before the `=` of a line.
-fn key_of(line: &str) -> Option<&str> {
-    line.split_once('=').map(|(key, _)| key.trim().trim_matches(['"', '\'']))
-}
-
 /// Puts location errors (mm, rad) with their standard uncertainties into the text of a machine file.
 ///
 /// # Errors
@@ -254,7 +242,7 @@ pub fn with_locations(
     for (name, value, u) in errors {
         let (scale, unit) = if name.component.is_rotation() { (1e6, "urad") } else { (1e3, "um") };
         let text = format!("\"{} ± {} {unit}\"", plain(value * scale), plain(u * scale));
-        file.put(*name, &Entry::Value(text), &origin);
+        put(&mut file, *name, &Entry::Value(text), &origin);
     }
     let text = file.text();
     let (machine, problems) = Machine::check("the new machine file", &text, beside);
@@ -274,141 +262,49 @@ pub fn with_locations(
     Ok(text)
 }
 
-/// The file line by line, with the places of its entries.
-struct Lines {
-    lines: Vec<String>,
+fn put(file: &mut Lines, name: ErrorName, entry: &Entry, origin: &str) {
+    match (file.error(name), entry) {
+        (Some(at), Entry::Value(value)) => {
+            file.replace(at, &format!("{name} = {value} # {origin}"));
+        }
+        (Some(at), Entry::Nothing(why)) => {
+            file.comment_out(at);
+            file.insert(at, &format!("# {name}: {why}; {origin}"));
+        }
+        (None, Entry::Value(value)) => {
+            file.add(&header(name), &format!("{name} = {value} # {origin}"));
+        }
+        (None, Entry::Nothing(_)) => {}
+    }
 }
 
-impl Lines {
-    fn of(text: &str) -> Self {
-        Self { lines: text.lines().map(str::to_owned).collect() }
-    }
-
-    fn text(&self) -> String {
-        self.lines.join("\n") + "\n"
-    }
-
-    fn put(&mut self, name: ErrorName, entry: &Entry, origin: &str) {
-        let header = header(name);
-        match (self.find(&header, name), entry) {
-            (Some((from, to)), Entry::Value(value)) => {
-                let line = format!("{name} = {value} # {origin}");
-                self.lines.splice(from..to, [line]);
-            }
-            (Some((from, to)), Entry::Nothing(why)) => {
-                for line in &mut self.lines[from..to] {
-                    *line = format!("# {line}");
-                }
-                self.lines.insert(from, format!("# {name}: {why}; {origin}"));
-            }
-            (None, Entry::Value(value)) => {
-                let at = self.end_of(&header);
-                self.lines.insert(at, format!("{name} = {value} # {origin}"));
-            }
-            (None, Entry::Nothing(_)) => {}
-        }
-    }
-
-    /// An error that stands in the table of its axis leaves it: a new table without its columns.
-    fn take_out_of_table(
-        &mut self,
-        name: ErrorName,
-        origin: &str,
-        tables: &mut Vec<(String, String)>,
-        beside: &dyn Tables,
-    ) {
-        let header = header(name);
-        let Some((line, table)) = self.table_of(&header) else { return };
-        let made = tables.iter().position(|(made, _)| *made == table);
-        let text = made.map_or_else(|| beside.text(&table).ok(), |i| Some(tables[i].1.clone()));
-        let Some(left) = text.and_then(|text| columns::without(&text, name)) else { return };
-        let new = columns::new_name(&table);
-        tables.retain(|(made, _)| *made != new);
-        if columns::is_bare(&left) {
-            // How it was read between its rows goes with it.
-            let (from, to) = self.section(&header).unwrap_or((line, line + 1));
-            for key in ["table", "interpolation", "outside"] {
-                for own in self.lines[from..to].iter_mut().filter(|l| key_of(l) == Some(key)) {
-                    *own = format!("# {own} # nothing is left of it; {origin}");
-                }
-            }
-            return;
-        }
-        self.lines[line] = format!("table = \"{new}\" # without what stands below; {origin}");
-        tables.push((new, left));
-    }
-
-    /// `table = "X.csv"` of a section: the line and the name.
-    fn table_of(&self, header: &str) -> Option<(usize, String)> {
-        let (from, to) = self.section(header)?;
-        let line = (from..to).find(|i| key_of(&self.lines[*i]) == Some("table"))?;
-        let (_, value) = self.lines[line].split_once('=')?;
-        let value = value.trim_start();
-        let quote = value.chars().next().filter(|c| ['"', '\''].contains(c))?;
-        let (name, _) = value[1..].split_once(quote)?;
-        Some((line, name.to_owned()))
-    }
-
-    /// The lines of an entry of a section.
-    fn find(&self, header: &str, name: ErrorName) -> Option<(usize, usize)> {
-        let (from, to) = self.section(header)?;
-        let mut i = from;
-        while i < to {
-            let end = self.entry_end(i, to);
-            if key_of(&self.lines[i]).and_then(ErrorName::parse) == Some(name) {
-                return Some((i, end));
-            }
-            i = end;
-        }
-        None
-    }
-
-    /// The lines of a section without its heading.
-    fn section(&self, header: &str) -> Option<(usize, usize)> {
-        let heading = |line: &str| {
-            let line = line.split('#').next().unwrap_or("").trim();
-            let inner = line.strip_prefix('[')?.strip_suffix(']')?;
-            Some(inner.replace([' ', '"', '\''], ""))
-        };
-        let from = self.lines.iter().position(|l| heading(l).as_deref() == Some(header))? + 1;
-        let length = self.lines[from..].iter().position(|l| l.trim_start().starts_with('['));
-        Some((from, length.map_or(self.lines.len(), |n| from + n)))
-    }
-
-    /// Where an entry that begins in a line ends: brackets and braces are closed.
-    fn entry_end(&self, from: usize, to: usize) -> usize {
-        let mut depth = 0_i64;
-        for (i, line) in self.lines.iter().enumerate().take(to).skip(from) {
-            let mut quote = None;
-            for c in line.chars() {
-                match (quote, c) {
-                    (None, '"' | '\'') => quote = Some(c),
-                    (Some(q), c) if c == q => quote = None,
-                    (None, '#') => break,
-                    (None, '[' | '{') => depth += 1,
-                    (None, ']' | '}') => depth -= 1,
-                    _ => {}
-                }
-            }
-            if depth <= 0 {
-                return i + 1;
+/// An error that stands in the table of its axis leaves it: a new table without its columns.
+fn take_out_of_table(
+    file: &mut Lines,
+    name: ErrorName,
+    origin: &str,
+    tables: &mut Vec<(String, String)>,
+    beside: &dyn Tables,
+) {
+    let header = header(name);
+    let Some((line, table)) = file.table_of(&header) else { return };
+    let made = tables.iter().position(|(made, _)| *made == table);
+    let text = made.map_or_else(|| beside.text(&table).ok(), |i| Some(tables[i].1.clone()));
+    let Some(left) = text.and_then(|text| columns::without(&text, name)) else { return };
+    let new = columns::new_name(&table);
+    tables.retain(|(made, _)| *made != new);
+    if columns::is_bare(&left) {
+        // How it was read between its rows goes with it.
+        for key in ["table", "interpolation", "outside"] {
+            if let Some(own) = file.key(&header, key) {
+                let why = format!("# {} # nothing is left of it; {origin}", file.line(own));
+                file.replace(own, &why);
             }
         }
-        to
+        return;
     }
-
-    /// Where a new entry of a section goes; the section is made if it is not there.
-    fn end_of(&mut self, header: &str) -> usize {
-        if self.section(header).is_none() {
-            self.lines.extend([String::new(), format!("[{header}]")]);
-            return self.lines.len();
-        }
-        let (from, to) = self.section(header).unwrap_or((self.lines.len(), self.lines.len()));
-        (from..to)
-            .rev()
-            .find(|i| !self.lines[*i].trim().is_empty() && !self.lines[*i].starts_with('#'))
-            .map_or(from, |i| i + 1)
-    }
+    file.replace(line, &format!("table = \"{new}\" # without what stands below; {origin}"));
+    tables.push((new, left));
 }
 
 #[cfg(test)]
@@ -423,8 +319,8 @@ mod tests {
         // why: both are names of ISO 230-1
         let (squareness, offset) =
             (ErrorName::parse("EC0Y").unwrap(), ErrorName::parse("EX0C").unwrap());
-        file.put(squareness, &Entry::Value("\"3 urad\"".into()), "now");
-        file.put(offset, &Entry::Nothing("unseen".into()), "now");
+        put(&mut file, squareness, &Entry::Value("\"3 urad\"".into()), "now");
+        put(&mut file, offset, &Entry::Nothing("unseen".into()), "now");
         assert_eq!(
             file.text(),
             "# mine\n[location] # here\nEC0Y = \"3 urad\" # now\n# EX0C: unseen; now\n# X0C = \"2 um\"\n\n[tool]\n"

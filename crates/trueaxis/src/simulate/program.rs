@@ -97,7 +97,7 @@ impl<'m> Folder<'m> {
         let endings = ["", ".ngc", ".nc", ".spf", ".SPF", ".mpf", ".MPF", ".h", ".H", ".NC"];
         let mut all = cases.iter().flat_map(|c| endings.iter().map(move |e| format!("{c}{e}")));
         plain
-            .then(|| all.find(|n| self.path.join(n).is_file()))
+            .then(|| all.find(|n| files::is_file(&self.path.join(n))))
             .flatten()
             .map(|n| self.path.join(n))
     }

@@ -1,4 +1,4 @@
-//! Numbers as they are printed.
+//! Numbers as they are printed, in every text and document.
 
 /// The shortest text that reads back as the same double: `3000`, `-49.5`, `1.5e-17`.
 pub fn exact(value: f64) -> String {

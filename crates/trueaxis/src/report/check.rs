@@ -1,0 +1,267 @@
+//! A machine file, checked: what the machine is and what it lacks.
+
+use super::numbers::{fixed, rounded};
+use serde_json::{Value, json};
+use std::fmt::Write;
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::{Axis, AxisKind, Carries, Travel};
+use trueaxis_machine::errors::{Component, Curve, ErrorKind, ErrorName};
+
+/// What the machine is and what it lacks.
+pub fn check_text(machine: &Machine) -> String {
+    let mut text = String::new();
+    // Writing to a String cannot fail.
+    let _ = writeln!(text, "{}", machine.name());
+    let _ = writeln!(text, "  chain   {}", machine.chain_text());
+    if !machine.source().is_empty() {
+        text += &wrapped("  source  ", machine.source());
+    }
+    let tools: Vec<_> = machine
+        .tools()
+        .iter()
+        .map(|t| format!("{} ({} mm)", t.name, rounded(t.length_mm)))
+        .collect();
+    if !tools.is_empty() {
+        text += &wrapped("  tools   ", &tools.join(", "));
+    }
+    let _ = writeln!(
+        text,
+        "\n  {:<5} {:<10} {:<23} {:<23} fastest",
+        "axis", "carries", "direction", "travel"
+    );
+    for axis in machine.axes() {
+        let _ = writeln!(text, "{}", axis_line(axis));
+    }
+    text += &errors_text(machine);
+    let lacking = lacks(machine);
+    if lacking.is_empty() {
+        text += "\n  It lacks nothing that a prediction needs.\n";
+    } else {
+        text += "\n  It lacks\n";
+        for line in lacking {
+            text += &wrapped("    - ", &line);
+        }
+    }
+    text
+}
+
+/// Terminals are at least this wide.
+const WIDTH: usize = 100;
+
+fn errors_text(machine: &Machine) -> String {
+    let stated = machine.stated_errors();
+    let of = |kind| stated.iter().filter(|(_, n)| n.kind == kind).count();
+    let (locations, motions) = (of(ErrorKind::Location), of(ErrorKind::Motion));
+    let mut text = format!("\n  errors  {locations} location errors, {motions} error motions\n");
+    for axis in machine.axes() {
+        text += &wrapped(&format!("    {}  ", axis.name), &motions_line(machine, axis));
+    }
+    for (measurement, names) in provenance(machine) {
+        text += &wrapped("    measured ", &format!("{measurement}: {}", names.join(" ")));
+    }
+    text
+}
+
+/// Instrument, date and temperature, each with the errors that they hold for.
+fn provenance(machine: &Machine) -> Vec<(String, Vec<String>)> {
+    let mut groups: Vec<(String, Vec<String>)> = Vec::new();
+    for (index, name) in machine.stated_errors() {
+        let body = &machine.bodies()[index.body];
+        let Some(stated) = body.stated(name.kind, name.component) else { continue };
+        let measured = &stated.measured;
+        let temperature = measured.temperature_celsius.map(|t| format!("{} °C", rounded(t)));
+        let parts = [measured.instrument.clone(), measured.date.clone(), temperature];
+        let words = parts.into_iter().flatten().collect::<Vec<_>>().join(", ");
+        if words.is_empty() {
+            continue;
+        }
+        match groups.iter_mut().find(|(known, _)| *known == words) {
+            Some((_, names)) => names.push(name.to_string()),
+            None => groups.push((words, vec![name.to_string()])),
+        }
+    }
+    groups
+}
+
+/// A long line in several, all under the beginning of the first.
+fn wrapped(head: &str, words: &str) -> String {
+    let mut text = head.to_owned();
+    let mut width = head.len();
+    for (i, word) in words.split(' ').enumerate() {
+        if i > 0 && width + 1 + word.chars().count() > WIDTH {
+            text += &format!("\n{:1$}", "", head.len());
+            width = head.len();
+        } else if i > 0 {
+            text += " ";
+            width += 1;
+        }
+        text += word;
+        width += word.chars().count();
+    }
+    text + "\n"
+}
+
+fn axis_line(axis: &Axis) -> String {
+    let carries = match axis.carries {
+        Carries::Workpiece => "workpiece",
+        Carries::Tool => "tool",
+    };
+    let d = axis.direction;
+    let [x, y, z] = [d.x, d.y, d.z].map(|v| fixed(v, 4));
+    let direction = format!("({x} {y} {z})");
+    let (scale, unit) = shown_unit(axis.kind);
+    let travel = match axis.travel {
+        Travel::Between(from, to) => {
+            format!("{} .. {} {unit}", rounded(from * scale), rounded(to * scale))
+        }
+        Travel::Unlimited => "unlimited".to_owned(),
+        Travel::Unknown => "not stated".to_owned(),
+    };
+    let fastest = match axis.limits.velocity {
+        Some(v) if axis.kind == AxisKind::Linear => format!("{} m/min", rounded(v * 0.06)),
+        Some(v) => format!("{} deg/s", rounded(v.to_degrees())),
+        None => "not stated".to_owned(),
+    };
+    format!("  {:<5} {carries:<10} {direction:<23} {travel:<23} {fastest}", axis.name.to_string())
+}
+
+fn shown_unit(kind: AxisKind) -> (f64, &'static str) {
+    match kind {
+        AxisKind::Linear => (1.0, "mm"),
+        AxisKind::Rotary => (180.0 / std::f64::consts::PI, "deg"),
+    }
+}
+
+/// `EXX EYX table, EAX constant`.
+fn motions_line(machine: &Machine, axis: &Axis) -> String {
+    let body = machine.bodies().iter().find(|b| b.name == axis.name);
+    let mut groups: Vec<(&str, String)> = Vec::new();
+    for component in Component::ALL {
+        let Some(stated) = body.and_then(|b| b.stated(ErrorKind::Motion, component)) else {
+            continue;
+        };
+        let shape = match &stated.mean {
+            Curve::Constant(_) => "constant",
+            Curve::Polynomial { .. } => "polynomial",
+            Curve::Fourier { .. } => "Fourier",
+            Curve::Table { .. } => "table",
+        };
+        let name = ErrorName { body: axis.name, kind: ErrorKind::Motion, component };
+        match groups.last_mut().filter(|(last, _)| *last == shape) {
+            Some((_, names)) => *names += &format!(" {name}"),
+            None => groups.push((shape, name.to_string())),
+        }
+    }
+    let parts: Vec<_> = groups.iter().map(|(shape, names)| format!("{names} {shape}")).collect();
+    if parts.is_empty() { "none stated".to_owned() } else { parts.join(", ") }
+}
+
+/// What a prediction or a simulation would miss.
+fn lacks(machine: &Machine) -> Vec<String> {
+    let mut lacking = Vec::new();
+    let list = |wanted: &dyn Fn(&Axis) -> bool| {
+        let names: Vec<_> =
+            machine.axes().iter().filter(|a| wanted(a)).map(|a| a.name.to_string()).collect();
+        names.join(" ")
+    };
+    let travel = list(&|a| a.travel == Travel::Unknown);
+    if !travel.is_empty() {
+        lacking.push(format!("the travel of {travel}: a path that leaves it will not be noticed"));
+    }
+    let limits = list(&|a| {
+        let l = a.limits;
+        l.velocity.is_none() || l.acceleration.is_none() || l.jerk.is_none()
+    });
+    if !limits.is_empty() {
+        lacking.push(format!("maximum velocity, acceleration or jerk of {limits}: no true timing"));
+    }
+    if machine.models().is_empty() {
+        lacking.push("models of its bodies: no collision will be noticed".to_owned());
+    }
+    if machine.tip_mm().norm() == 0.0 {
+        lacking.push("the length of the tool, taken as 0".to_owned());
+    }
+    let stated = machine.stated_errors();
+    if stated.is_empty() {
+        lacking.push("errors: the actual machine is the nominal one".to_owned());
+    }
+    let unplaced: Vec<String> = machine
+        .bodies()
+        .iter()
+        .filter(|b| b.axis.is_some() && b.location.iter().all(Option::is_none))
+        .map(|b| b.name.to_string())
+        .collect();
+    if !stated.is_empty() && !unplaced.is_empty() {
+        lacking.push(format!("location errors (squareness, offsets) of {}", unplaced.join(" ")));
+    }
+    let missing: Vec<String> = missing_motions(machine);
+    if !stated.is_empty() && !missing.is_empty() {
+        lacking.push(format!("error motions, taken as 0: {}", missing.join(" ")));
+    }
+    let without_u = stated.iter().filter(|(i, n)| {
+        machine.bodies()[i.body].stated(n.kind, n.component).is_some_and(|s| s.u.is_none())
+    });
+    let without_u: Vec<String> = without_u.map(|(_, n)| n.to_string()).collect();
+    if !without_u.is_empty() {
+        lacking.push(format!("standard uncertainties, taken as 0: {}", without_u.join(" ")));
+    }
+    lacking
+}
+
+fn missing_motions(machine: &Machine) -> Vec<String> {
+    let mut missing = Vec::new();
+    for body in machine.bodies().iter().filter(|b| b.axis.is_some()) {
+        for component in Component::ALL {
+            if body.stated(ErrorKind::Motion, component).is_none() {
+                let name = ErrorName { body: body.name, kind: ErrorKind::Motion, component };
+                missing.push(name.to_string());
+            }
+        }
+    }
+    missing
+}
+
+/// The document `trueaxis/check/1`; without a machine only why there is none.
+pub fn check_json(machine: Option<&Machine>, diagnostics: &[Value]) -> Value {
+    let Some(machine) = machine else {
+        return json!({
+            "schema": "trueaxis/check/1", "usable": false, "diagnostics": diagnostics,
+        });
+    };
+    let axes: Vec<Value> = machine.axes().iter().map(axis_json).collect();
+    let tools: Vec<&str> = machine.tools().iter().map(|t| t.name.as_str()).collect();
+    let errors: Vec<String> = machine.stated_errors().iter().map(|(_, n)| n.to_string()).collect();
+    json!({
+        "schema": "trueaxis/check/1",
+        "usable": true,
+        "name": machine.name(),
+        "chain": machine.chain_text(),
+        "source": machine.source(),
+        "axes": axes,
+        "tools": tools,
+        "errors": errors,
+        "measured": provenance(machine)
+            .into_iter()
+            .map(|(measurement, errors)| json!({ "by": measurement, "errors": errors }))
+            .collect::<Vec<_>>(),
+        "lacks": lacks(machine),
+        "diagnostics": diagnostics,
+    })
+}
+
+fn axis_json(axis: &Axis) -> Value {
+    let (scale, unit) = shown_unit(axis.kind);
+    let travel = match axis.travel {
+        Travel::Between(from, to) => json!([rounded(from * scale), rounded(to * scale)]),
+        Travel::Unlimited => json!("unlimited"),
+        Travel::Unknown => Value::Null,
+    };
+    let carries = if axis.carries == Carries::Tool { "tool" } else { "workpiece" };
+    json!({
+        "name": axis.name.to_string(),
+        "carries": carries,
+        "direction": [axis.direction.x, axis.direction.y, axis.direction.z],
+        "sense": axis.sense,
+        format!("travel_{unit}"): travel,
+    })
+}
