@@ -1,0 +1,286 @@
+/** The frame of the page: tabs, the open project and machine, status line, messages. */
+
+import { Api, Refusal, type Diagnostic, type Project } from "./api.ts";
+import { fill, h } from "./dom.ts";
+import { TABS } from "./tabs/index.ts";
+import { chooseTheme, themeChoice, type ThemeChoice } from "./theme.ts";
+
+export interface TabHandle {
+  /** The tab is shown with these parameters of the address (`machine=…&program=…`). */
+  open?(params: Readonly<Record<string, string>>): void;
+  /** Another tab is shown now: stop playing, stop asking. */
+  hide?(): void;
+  /** A file of the project was saved by another window. */
+  changed?(path: string, version: string): void;
+}
+
+export interface Tab {
+  title: string;
+  mount(host: HTMLElement, app: App): TabHandle;
+}
+
+/** One line of the registry: the module is loaded when the tab is first opened. */
+export interface TabEntry {
+  name: string;
+  title: string;
+  load: () => Promise<Tab>;
+}
+
+export interface State {
+  project: Project | null;
+  /** Path of the open machine file, shared by the tabs. */
+  machine: string | null;
+  tab: string;
+  connection: "connecting" | "open" | "lost";
+}
+
+export interface Progress {
+  report(share: number, note?: string): void;
+  done(): void;
+}
+
+interface Mounted {
+  host: HTMLElement;
+  handle: TabHandle | null;
+}
+
+export class App {
+  readonly api = new Api();
+  private state_: State = { project: null, machine: null, tab: "start", connection: "connecting" };
+  private readonly listeners = new Set<(state: Readonly<State>) => void>();
+  private readonly mounted = new Map<string, Mounted>();
+  private readonly bar = h("header", { class: "bar" });
+  private readonly main = h("main", { class: "main", id: "main", tabindex: "-1" });
+  private readonly tabs = h("nav", { class: "tabs", role: "tablist", ariaLabel: "Verbs" });
+  private readonly folder = h("span", { class: "folder" });
+  private readonly note = h("span", { class: "status-note", role: "status" });
+  private readonly link = h("span", { class: "status-link" });
+  private readonly meter = h("progress", { class: "status-meter", max: "1", value: 0, hidden: true, ariaLabel: "Progress" });
+  private readonly toasts = h("div", { class: "toasts", ariaLive: "polite" });
+
+  constructor(root: HTMLElement) {
+    this.buildBar();
+    fill(root, this.bar, this.main, h("footer", { class: "status" }, this.note, this.meter, this.link), this.toasts);
+    this.api.onState = (connection) => this.set({ connection });
+    this.api.onChange = ({ path, version }) => {
+      for (const { handle } of this.mounted.values()) handle?.changed?.(path, version);
+      this.say(`${path} was saved in another window`);
+    };
+    this.subscribe((state) => this.showState(state));
+    window.addEventListener("hashchange", () => void this.route());
+  }
+
+  // ---- store ----
+
+  get state(): Readonly<State> {
+    return this.state_;
+  }
+
+  set(change: Partial<State>): void {
+    this.state_ = { ...this.state_, ...change };
+    for (const listener of this.listeners) listener(this.state_);
+  }
+
+  /** Called at once and at every change; returns the way to stop. */
+  subscribe(listener: (state: Readonly<State>) => void): () => void {
+    this.listeners.add(listener);
+    listener(this.state_);
+    return () => this.listeners.delete(listener);
+  }
+
+  // ---- routing ----
+
+  /** Opens a tab; the parameters stand in the address, so that reload and back work. */
+  go(tab: string, params: Record<string, string | null | undefined> = {}): void {
+    const query = new URLSearchParams();
+    for (const [key, value] of Object.entries(params)) if (value) query.set(key, value);
+    const text = query.toString().replaceAll("%2F", "/");
+    const hash = `#${tab}${text ? `?${text}` : ""}`;
+    if (location.hash === hash) void this.route();
+    else location.hash = hash;
+  }
+
+  has(tab: string): boolean {
+    return TABS.some((entry) => entry.name === tab);
+  }
+
+  async start(): Promise<void> {
+    await this.loadProject();
+    await this.route();
+  }
+
+  async loadProject(): Promise<void> {
+    try {
+      this.set({ project: await this.api.ask("project", {}) });
+    } catch (error) {
+      this.fail(error);
+    }
+  }
+
+  private async route(): Promise<void> {
+    const [name = "", query = ""] = location.hash.replace(/^#/, "").split("?", 2);
+    const entry = TABS.find((tab) => tab.name === name) ?? TABS[0];
+    if (!entry) return;
+    const params = Object.fromEntries(new URLSearchParams(query));
+    const before = this.mounted.get(this.state_.tab);
+    if (this.state_.tab !== entry.name) before?.handle?.hide?.();
+    this.set({ tab: entry.name, ...(params["machine"] ? { machine: params["machine"] } : {}) });
+    document.title = `${entry.title} – TrueAxis`;
+    try {
+      const now = await this.mountTab(entry);
+      for (const [key, { host }] of this.mounted) host.hidden = key !== this.state_.tab;
+      if (this.state_.tab === entry.name) now.handle?.open?.(params);
+    } catch (error) {
+      this.fail(error);
+    }
+  }
+
+  private async mountTab(entry: TabEntry): Promise<Mounted> {
+    const there = this.mounted.get(entry.name);
+    if (there) return there;
+    const host = h("section", { class: `tab tab-${entry.name}`, id: `tab-${entry.name}`, role: "tabpanel", ariaLabel: entry.title });
+    const fresh: Mounted = { host, handle: null };
+    this.mounted.set(entry.name, fresh);
+    this.main.append(host);
+    const tab = await entry.load();
+    fresh.handle = tab.mount(host, this);
+    return fresh;
+  }
+
+  // ---- status and messages ----
+
+  /** One line below; replaces the last. */
+  say(text: string): void {
+    this.note.textContent = text;
+  }
+
+  /** A running job in the status line. */
+  progress(text: string): Progress {
+    this.say(text);
+    this.meter.hidden = false;
+    this.meter.value = 0;
+    return {
+      report: (share, note) => {
+        this.meter.value = share;
+        if (note) this.say(note);
+      },
+      done: () => {
+        this.meter.hidden = true;
+        this.say("");
+      },
+    };
+  }
+
+  /** Shows an error with its hint and the places it names. Aborted requests are not errors. */
+  fail(error: unknown): void {
+    if (error instanceof DOMException && error.name === "AbortError") return;
+    const refusal = Refusal.from(error);
+    const same = [...this.toasts.children].find((t) => (t as HTMLElement).dataset["message"] === refusal.message);
+    same?.remove();
+    const toast = h(
+      "div",
+      { class: "toast", role: "alert", dataMessage: refusal.message },
+      h("strong", {}, refusal.message),
+      refusal.hint ? h("p", { class: "hint" }, refusal.hint) : null,
+      refusal.diagnostics.length > 0 ? diagnosticList(refusal.diagnostics.slice(0, 6)) : null,
+      refusal.diagnostics.length > 6 ? h("p", { class: "muted" }, `and ${refusal.diagnostics.length - 6} more`) : null,
+      h("button", { class: "toast-close", ariaLabel: "Close this message", onclick: () => toast.remove() }, "×"),
+    );
+    this.toasts.append(toast);
+    while (this.toasts.children.length > 4) this.toasts.firstElementChild?.remove();
+  }
+
+  // ---- bar ----
+
+  private buildBar(): void {
+    for (const { name, title } of TABS) {
+      this.tabs.append(h("a", { class: "tab-link", role: "tab", href: `#${name}`, dataTab: name, onclick: (event: MouseEvent) => this.keepMachine(event, name) }, title));
+    }
+    this.tabs.addEventListener("keydown", (event) => this.moveFocus(event));
+    const theme = h(
+      "select",
+      { class: "theme", ariaLabel: "Light or dark", onchange: () => chooseTheme(theme.value as ThemeChoice) },
+      h("option", { value: "auto" }, "System"),
+      h("option", { value: "light" }, "Light"),
+      h("option", { value: "dark" }, "Dark"),
+    );
+    theme.value = themeChoice();
+    fill(this.bar, h("span", { class: "name" }, "TrueAxis"), this.tabs, this.folder, theme);
+  }
+
+  /** A click on a tab keeps the open machine. */
+  private keepMachine(event: MouseEvent, name: string): void {
+    if (event.ctrlKey || event.metaKey || event.shiftKey) return;
+    event.preventDefault();
+    this.go(name, name === "start" ? {} : { machine: this.state_.machine });
+  }
+
+  private moveFocus(event: KeyboardEvent): void {
+    const step = event.key === "ArrowRight" ? 1 : event.key === "ArrowLeft" ? -1 : 0;
+    const links = [...this.tabs.querySelectorAll("a")];
+    const at = links.indexOf(document.activeElement as HTMLAnchorElement);
+    if (step === 0 || at < 0) return;
+    event.preventDefault();
+    links[(at + step + links.length) % links.length]?.focus();
+  }
+
+  private showState(state: Readonly<State>): void {
+    for (const link of this.tabs.querySelectorAll("a")) {
+      const here = link.dataset["tab"] === state.tab;
+      link.setAttribute("aria-selected", String(here));
+    }
+    const folder = state.project?.folder ?? "";
+    this.folder.textContent = folder.replace(/^.*\/(?=[^/]+\/?$)/, "");
+    this.folder.title = folder;
+    this.link.dataset["state"] = state.connection;
+    const version = state.project ? ` ${state.project.version}` : "";
+    this.link.textContent = { connecting: "connecting …", open: `TrueAxis${version}`, lost: "no connection – trying again" }[state.connection];
+  }
+}
+
+/** "machine.toml:41:8  message  hint", one line each. */
+export function diagnosticList(diagnostics: readonly Diagnostic[]): HTMLElement {
+  return h(
+    "ul",
+    { class: "diagnostics" },
+    diagnostics.map((d) => {
+      const place = d.file ? `${d.file}${d.line ? `:${d.line}${d.column ? `:${d.column}` : ""}` : ""}` : d.line ? `line ${d.line}` : "";
+      return h("li", { class: `diagnostic ${d.severity}` }, h("span", { class: "diagnostic-severity" }, d.severity), place ? h("code", {}, place) : null, h("span", {}, d.message), d.hint ? h("span", { class: "hint" }, d.hint) : null);
+    }),
+  );
+}
+
+/** Two parts with a divider that mouse and arrow keys move; above each other on narrow windows. */
+export function split(host: HTMLElement, key: string, share = 0.6): { left: HTMLElement; right: HTMLElement } {
+  const left = h("div", { class: "split-left" });
+  const right = h("div", { class: "split-right" });
+  const divider = h("div", { class: "split-divider", role: "separator", tabindex: "0", ariaLabel: "Resize the picture", ariaOrientation: "vertical", ariaValuemin: "20", ariaValuemax: "80" });
+  const pane = h("div", { class: "split" }, left, divider, right);
+  const set = (value: number): void => {
+    const now = Math.min(0.8, Math.max(0.2, value));
+    pane.style.setProperty("--share", String(now));
+    divider.setAttribute("aria-valuenow", String(Math.round(100 * now)));
+    sessionStorage.setItem(`split-${key}`, String(now));
+  };
+  const current = (): number => Number(pane.style.getPropertyValue("--share"));
+  const kept = Number(sessionStorage.getItem(`split-${key}`));
+  set(kept > 0 ? kept : share);
+  divider.addEventListener("pointerdown", (down) => {
+    divider.setPointerCapture(down.pointerId);
+    const move = (event: PointerEvent): void => {
+      const box = pane.getBoundingClientRect();
+      const stacked = getComputedStyle(pane).flexDirection === "column";
+      set(stacked ? (event.clientY - box.top) / box.height : (event.clientX - box.left) / box.width);
+    };
+    divider.addEventListener("pointermove", move);
+    divider.addEventListener("pointerup", () => divider.removeEventListener("pointermove", move), { once: true });
+  });
+  divider.addEventListener("keydown", (event) => {
+    const step = { ArrowLeft: -0.02, ArrowUp: -0.02, ArrowRight: 0.02, ArrowDown: 0.02 }[event.key];
+    if (step === undefined) return;
+    event.preventDefault();
+    set(current() + step);
+  });
+  host.append(pane);
+  return { left, right };
+}

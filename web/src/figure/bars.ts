@@ -1,0 +1,89 @@
+/** Horizontal bars, signed, with uncertainty: who is to blame, and how sure we are. */
+
+import { s } from "../dom.ts";
+import { number, withUncertainty } from "../format.ts";
+import { figure, ticks, type Drawing, type Figure } from "./figure.ts";
+
+export interface Bar {
+  name: string;
+  value: number;
+  /** Standard uncertainty; the whisker is ± 2u (k = 2). */
+  u?: number | null;
+  colour?: string;
+  /** Shown on hover after the value. */
+  note?: string;
+}
+
+export interface BarSpec {
+  title: string;
+  unit: string;
+  digits?: number;
+  bars: Bar[];
+  /** Default: true if a value is negative. */
+  signed?: boolean;
+  /** A tolerance, drawn as a line. */
+  limit?: { value: number; label: string };
+  /** The same scale for several figures. */
+  max?: number;
+  onpick?: (bar: Bar, index: number) => void;
+}
+
+const ROW = 19;
+
+function drawBars(d: Drawing, spec: BarSpec): void {
+  const digits = spec.digits ?? 1;
+  const names = Math.min(0.4 * d.width, 14 + 6.6 * Math.max(4, ...spec.bars.map((b) => b.name.length)));
+  const values = 26 + 6.4 * Math.max(0, ...spec.bars.map((b) => withUncertainty(b.value, b.u, digits, spec.unit).length - 2));
+  const signed = spec.signed ?? spec.bars.some((b) => b.value < 0);
+  const most = spec.max ?? Math.max(1e-9, spec.limit?.value ?? 0, ...spec.bars.map((b) => Math.abs(b.value) + 2 * (b.u ?? 0)));
+  const [left, right] = [names, Math.max(names + 40, d.width - values)];
+  const x = (v: number): number => (signed ? (left + right) / 2 + (v / most) * ((right - left) / 2) : left + (v / most) * (right - left));
+  const bottom = spec.bars.length * ROW + 4;
+  const t = ticks(signed ? -most : 0, most, (right - left) / 60);
+  for (const v of t.values) {
+    d.svg.append(s("line", { x1: x(v), x2: x(v), y1: 0, y2: bottom, stroke: v === 0 ? "var(--line-strong)" : "var(--line)", "stroke-width": v === 0 ? 1.2 : 0.7 }));
+    d.svg.append(s("text", { x: x(v), y: bottom + 14, "text-anchor": "middle", fill: "var(--muted)" }, number(v, t.digits)));
+  }
+  d.svg.append(s("text", { x: d.width, y: bottom + 14, "text-anchor": "end", fill: "var(--muted)" }, spec.unit));
+  spec.bars.forEach((bar, i) => drawBar(d, spec, bar, i, { x, names, digits }));
+  if (spec.limit) {
+    const at = x(spec.limit.value);
+    d.svg.append(s("line", { x1: at, x2: at, y1: 0, y2: bottom, stroke: "var(--bad)", "stroke-dasharray": "6 3" }), s("text", { x: at - 4, y: bottom - 4, "text-anchor": "end", fill: "var(--bad)" }, spec.limit.label));
+  }
+}
+
+function drawBar(d: Drawing, spec: BarSpec, bar: Bar, i: number, g: { x: (v: number) => number; names: number; digits: number }): void {
+  const y = i * ROW + 3;
+  const [a, b] = [g.x(0), g.x(bar.value)].sort((p, q) => p - q) as [number, number];
+  const colour = bar.colour ?? "var(--series-1)";
+  const text = withUncertainty(bar.value, bar.u, g.digits, spec.unit);
+  const row = s("g", { class: spec.onpick ? "pick" : "" }, s("title", {}, `${bar.name}: ${text}${bar.note ? `, ${bar.note}` : ""}`), s("rect", { x: 0, y: y - 3, width: d.width, height: ROW, fill: "transparent" }));
+  row.append(s("text", { x: g.names - 8, y: y + 11, "text-anchor": "end", fill: "var(--ink)" }, bar.name), s("rect", { x: a, y: y + 1, width: Math.max(0.75, b - a), height: ROW - 8, fill: colour }), s("text", { x: d.width, y: y + 11, "text-anchor": "end", fill: "var(--ink)" }, text));
+  if (bar.u) {
+    const [from, to] = [g.x(bar.value - 2 * bar.u), g.x(bar.value + 2 * bar.u)];
+    const mid = y + ROW / 2 - 2.5;
+    for (const line of [[from, to, mid, mid], [from, from, mid - 4, mid + 4], [to, to, mid - 4, mid + 4]] as const) row.append(s("line", { x1: line[0], x2: line[1], y1: line[2], y2: line[3], stroke: "var(--ink)", "stroke-width": 1.2 }));
+  }
+  const pick = spec.onpick;
+  if (pick) {
+    row.setAttribute("tabindex", "0");
+    row.setAttribute("role", "button");
+    row.setAttribute("aria-label", `${bar.name}: ${text}`);
+    row.addEventListener("click", () => pick(bar, i));
+    row.addEventListener("keydown", (event) => event.key === "Enter" && pick(bar, i));
+  }
+  d.svg.append(row);
+}
+
+export function bars(host: HTMLElement, spec: BarSpec): Figure<BarSpec> {
+  return figure(host, spec, (now) => ({
+    title: now.title,
+    draw: (d) => drawBars(d, now),
+    columns: () => [
+      { heading: "name", values: now.bars.map((b) => b.name) },
+      { heading: `value (${now.unit})`, values: now.bars.map((b) => b.value) },
+      { heading: `u (${now.unit})`, values: now.bars.map((b) => b.u ?? null) },
+    ],
+    height: () => now.bars.length * ROW + 24,
+  }));
+}

@@ -1,0 +1,84 @@
+/** The chain of a machine as a picture: workpiece … bed … tool. */
+
+import type { Link } from "../api.ts";
+import { s } from "../dom.ts";
+import { deg, mm, NARROW_SPACE, number } from "../format.ts";
+import { figure, type Figure } from "./figure.ts";
+
+export interface ChainSpec {
+  title: string;
+  links: readonly Link[];
+  onhover?: (name: string | null) => void;
+}
+
+/** "0 … 6200 mm", "±135 °". */
+export function travelText(link: Pick<Link, "kind" | "travel">): string {
+  if (link.kind !== "linear" && link.kind !== "rotary") return "";
+  if (link.travel === "unlimited") return "unlimited";
+  if (!link.travel) return "no travel stated";
+  const [from, to] = link.travel;
+  const unit = (v: number, digits: number): string => (link.kind === "linear" ? mm(v, digits) : deg(v, digits));
+  const digits = Number.isInteger(from) && Number.isInteger(to) ? 0 : 1;
+  if (from === -to) return `±${unit(to, digits)}`;
+  return `${number(from, digits)}${NARROW_SPACE}…${NARROW_SPACE}${unit(to, digits)}`;
+}
+
+interface Cell {
+  name: string;
+  below: string;
+  kind: Link["kind"] | "bed";
+  body: string;
+}
+
+/** Chain order with the bed where the carriers change. */
+function cellsOf(links: readonly Link[]): Cell[] {
+  const cells: Cell[] = [];
+  let bed = false;
+  for (const link of links) {
+    if (!bed && link.carries === "tool" && link.kind !== "workpiece") {
+      cells.push({ name: "bed", below: "", kind: "bed", body: "b" });
+      bed = true;
+    }
+    const prime = link.carries === "workpiece" ? "\u2032" : "";
+    const name = link.kind === "workpiece" ? "workpiece" : link.kind === "tool" ? "tool" : `${link.name}${prime}`;
+    cells.push({ name, below: travelText(link), kind: link.kind, body: link.name });
+  }
+  return cells;
+}
+
+/** A double arrow for a slide, an arc for a turn. */
+function glyph(kind: Cell["kind"], x: number, y: number): SVGElement[] {
+  const line = { fill: "none", stroke: "var(--muted)", "stroke-width": 1.3 };
+  if (kind === "linear") return [s("path", { d: `M${x - 11} ${y}H${x + 11}M${x - 7} ${y - 3.5}L${x - 11} ${y}L${x - 7} ${y + 3.5}M${x + 7} ${y - 3.5}L${x + 11} ${y}L${x + 7} ${y + 3.5}`, ...line })];
+  if (kind === "rotary") return [s("path", { d: `M${x - 9} ${y + 3}A9 7 0 1 1 ${x + 9} ${y + 3}M${x + 9.5} ${y - 2.5}L${x + 9} ${y + 3}L${x + 4} ${y + 1.2}`, ...line })];
+  return [];
+}
+
+export function chainPicture(host: HTMLElement, spec: ChainSpec): Figure<ChainSpec> {
+  return figure(host, spec, (now) => {
+    const cells = cellsOf(now.links);
+    return {
+      title: now.title,
+      height: () => 64,
+      columns: () => [
+        { heading: "link", values: cells.map((c) => c.name) },
+        { heading: "travel (mm or deg)", values: cells.map((c) => c.below) },
+      ],
+      draw: ({ svg, width }) => {
+        const step = width / cells.length;
+        const box = Math.min(64, step - 10);
+        svg.append(s("line", { x1: step / 2, x2: width - step / 2, y1: 24, y2: 24, stroke: "var(--line-strong)", "stroke-width": 3 }));
+        cells.forEach((cell, i) => {
+          const x = (i + 0.5) * step;
+          const ends = cell.kind === "bed" || cell.kind === "workpiece" || cell.kind === "tool";
+          const fill = cell.kind === "bed" ? "var(--line)" : cell.kind === "workpiece" ? "var(--scene-part)" : cell.kind === "rotary" ? "var(--accent-soft)" : "var(--raised)";
+          const group = s("g", {}, s("title", {}, cell.below || cell.name), s("rect", { x: x - box / 2, y: 3, width: box, height: 42, rx: 3, fill, stroke: "var(--line-strong)", opacity: cell.kind === "workpiece" ? 0.75 : 1 }), s("text", { x, y: ends ? 28 : 20, "text-anchor": "middle", fill: "var(--ink)", "font-weight": "600", "font-size": ends ? Math.min(11.5, box / 6.3) : 12.5 }, cell.name), ...glyph(cell.kind, x, 34));
+          group.addEventListener("pointerenter", () => now.onhover?.(cell.body));
+          group.addEventListener("pointerleave", () => now.onhover?.(null));
+          svg.append(group);
+          if (step > 56) svg.append(s("text", { x, y: 60, "text-anchor": "middle", fill: "var(--muted)", "font-size": Math.min(10.5, step / 7) }, cell.below));
+        });
+      },
+    };
+  });
+}

@@ -1,0 +1,12 @@
+import "./style/base.css";
+import "./style/layout.css";
+import "./style/controls.css";
+import "./style/figure.css";
+import "./style/scene.css";
+import "./style/tabs.css";
+import { App } from "./app.ts";
+import { startTheme } from "./theme.ts";
+
+startTheme();
+const root = document.getElementById("app");
+if (root) void new App(root).start();

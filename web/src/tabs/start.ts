@@ -1,0 +1,135 @@
+/** The first page: what is shipped, one click each, and what the folder holds. */
+
+import type { App, Tab, TabHandle } from "../app.ts";
+import { Refusal, type Example, type FileKind, type Project, type ProjectFile } from "../api.ts";
+import { fill, h } from "../dom.ts";
+import { bytes } from "../format.ts";
+
+const VERBS: readonly [string, string, string][] = [
+  ["describe", "Describe", "What the machine is, and where its tool really is"],
+  ["simulate", "Simulate", "What it does with a program"],
+  ["predict", "Predict", "Whether the part will be good"],
+  ["plan", "Plan", "What to measure, and what it will tell"],
+  ["identify", "Identify", "What the machine is like, from readings"],
+  ["compensate", "Compensate", "What the control has to add"],
+  ["standards", "Standards", "Readings judged by ISO 230"],
+];
+
+const KINDS: readonly [FileKind, string, string | null, string][] = [
+  ["machine", "Machines", "describe", "machine"],
+  ["program", "Programs", "simulate", "program"],
+  ["study", "Studies", "predict", "study"],
+  ["campaign", "Campaigns", "plan", "campaign"],
+  ["readings", "Readings", "standards", "path"],
+  ["setup", "Set-ups", null, ""],
+  ["cl", "Cutter locations", null, ""],
+];
+
+/** Where an example of a tab keeps its path in the address. */
+const PARAMETER: Record<string, string> = { describe: "machine", simulate: "program", predict: "study", plan: "campaign", identify: "campaign", standards: "path" };
+
+function openExample(app: App, example: Example): void {
+  const params: Record<string, string | null | undefined> = { machine: example.machine, program: example.program, standard: example.standard };
+  params[PARAMETER[example.tab] ?? "path"] ??= example.path;
+  app.go(example.tab, params);
+}
+
+function cards(app: App, project: Project): HTMLElement[] {
+  const groups: HTMLElement[] = [];
+  for (const [tab, title, what] of VERBS) {
+    const examples = project.examples.filter((example) => example.tab === tab);
+    if (examples.length === 0 || !app.has(tab)) continue;
+    groups.push(
+      h(
+        "section",
+        { class: "verb" },
+        h("div", { class: "verb-head" }, h("h2", {}, title), h("p", { class: "muted" }, what)),
+        h(
+          "ul",
+          { class: "cards" },
+          examples.map((example) => h("li", {}, h("button", { class: "card", dataExample: example.path, onclick: () => openExample(app, example) }, h("strong", {}, example.title), h("span", {}, example.what)))),
+        ),
+      ),
+    );
+  }
+  return groups;
+}
+
+function fileRow(app: App, file: ProjectFile, tab: string | null, parameter: string): HTMLElement {
+  const name = tab && app.has(tab) ? h("a", { href: `#${tab}?${new URLSearchParams({ [parameter]: file.path }).toString().replaceAll("%2F", "/")}` }, file.path) : h("span", {}, file.path);
+  return h("tr", {}, h("td", {}, name), h("td", { class: "number muted" }, bytes(file.bytes)));
+}
+
+function files(app: App, project: Project): HTMLElement[] {
+  return KINDS.flatMap(([kind, title, tab, parameter]) => {
+    const rows = project.files.filter((file) => file.kind === kind);
+    if (rows.length === 0) return [];
+    return [
+      h(
+        "details",
+        { class: "files", open: rows.length <= 12 },
+        h("summary", {}, title, h("span", { class: "muted" }, ` ${rows.length}`)),
+        h("table", {}, h("tbody", {}, rows.map((file) => fileRow(app, file, tab, parameter)))),
+      ),
+    ];
+  });
+}
+
+/** Which tab reads a dropped file, by its ending. Tabs that take it find it in `droppedFile()`. */
+const ENDINGS: readonly [RegExp, string][] = [
+  [/\.(nc|mpf|ngc|tap|gcode|h|spf|cnc|iso)$/i, "simulate"],
+  [/\.(csv|qif|md)$/i, "standards"],
+];
+
+let dropped: { name: string; text: string } | null = null;
+
+/** The file that was dropped on the first page, once. */
+export function takeDropped(): { name: string; text: string } | null {
+  const file = dropped;
+  dropped = null;
+  return file;
+}
+
+async function take(app: App, file: File | undefined): Promise<void> {
+  if (!file) return;
+  const tab = ENDINGS.find(([ending]) => ending.test(file.name))?.[1];
+  if (!tab || !app.has(tab)) {
+    app.fail(new Refusal("dropped-file", `${file.name} is not a file that this page opens by dropping`, "Drop an NC program or a CSV of readings; machine files and studies belong into the project folder."));
+    return;
+  }
+  dropped = { name: file.name, text: await file.text() };
+  app.go(tab, { dropped: file.name });
+}
+
+function dropZone(app: App): HTMLElement {
+  const input = h("input", { type: "file", class: "drop-input", ariaLabel: "Open a file of this computer", onchange: () => void take(app, input.files?.[0]) });
+  const zone = h("label", { class: "drop" }, h("strong", {}, "Drop a program or readings here"), h("span", { class: "muted" }, "NC programs open in Simulate, CSV readings in Standards. Nothing leaves this computer."), input);
+  const over = (event: DragEvent, on: boolean): void => {
+    event.preventDefault();
+    zone.classList.toggle("over", on);
+  };
+  zone.addEventListener("dragover", (event) => over(event, true));
+  zone.addEventListener("dragleave", (event) => over(event, false));
+  zone.addEventListener("drop", (event) => {
+    over(event, false);
+    void take(app, event.dataTransfer?.files[0]);
+  });
+  return zone;
+}
+
+export const start: Tab = {
+  title: "Start",
+  mount(host: HTMLElement, app: App): TabHandle {
+    let shown: Project | null = null;
+    const left = h("div", { class: "start-examples" });
+    const right = h("div", { class: "start-files" });
+    fill(host, h("div", { class: "start" }, left, right));
+    app.subscribe(({ project }) => {
+      if (project === shown || !project) return;
+      shown = project;
+      fill(left, h("div", { class: "start-head" }, h("h1", {}, "Where is the tool really, and is the part good?"), h("p", { class: "muted" }, "Open an example, or a file of this folder.")), cards(app, project));
+      fill(right, h("h2", {}, "Files of this folder"), h("p", { class: "muted path" }, project.folder), dropZone(app), files(app, project));
+    });
+    return {};
+  },
+};

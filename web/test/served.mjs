@@ -1,0 +1,86 @@
+// One server and one browser for a file of tests; what the page shows is compared with the command line.
+//
+// The binary is that of TRUEAXIS, or target/release/trueaxis; the browser is CHROMIUM, or /usr/bin/chromium.
+
+import { execFile, spawn } from 'node:child_process';
+import { existsSync, mkdirSync } from 'node:fs';
+import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { promisify } from 'node:util';
+import { chromium } from 'playwright-core';
+
+export const root = path.resolve(path.dirname(fileURLToPath(import.meta.url)), '../..');
+const binary = process.env.TRUEAXIS ?? path.join(root, 'target/release/trueaxis');
+const browserPath = process.env.CHROMIUM ?? '/usr/bin/chromium';
+const pictures = process.env.PICTURES ?? path.join(root, 'target/screenshots');
+
+/** Runs the command line; its JSON. A verdict "no" (status 1) is an answer too. */
+export async function cli(...words) {
+  const run = promisify(execFile);
+  const options = { cwd: root, maxBuffer: 1 << 28 };
+  const done = await run(binary, [...words, '--format', 'json'], options).catch((error) => {
+    if (error.code === 1) return error;
+    throw error;
+  });
+  return JSON.parse(done.stdout);
+}
+
+/** Starts `trueaxis serve` on a folder; `stop` ends it. ADDRESS names one that runs already (`npm run live`). */
+export async function serve(folder = root) {
+  if (process.env.ADDRESS && folder === root) return { address: process.env.ADDRESS, stop: () => {} };
+  if (!existsSync(binary)) throw new Error(`${binary} is not there: cargo build --release`);
+  const child = spawn(binary, ['serve', folder, '--port', '0'], { stdio: ['ignore', 'pipe', 'inherit'] });
+  const address = await new Promise((found, failed) => {
+    let text = '';
+    child.stdout.on('data', (piece) => {
+      text += piece;
+      if (text.includes('\n')) found(text.trim());
+    });
+    child.on('exit', (status) => failed(new Error(`trueaxis serve ended with ${status}`)));
+  });
+  return { address, stop: () => child.kill() };
+}
+
+/** Starts the browser, with software rendering. */
+export async function browse() {
+  if (!existsSync(browserPath)) throw new Error(`${browserPath} is not there: install chromium, or set CHROMIUM`);
+  return chromium.launch({
+    executablePath: browserPath,
+    args: [
+      '--headless', '--no-sandbox', '--disable-gpu', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
+      '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
+    ],
+  });
+}
+
+/**
+ * A window that remembers every complaint: console errors and warnings, requests that leave the origin.
+ * `complaints` must be empty at the end of a test.
+ */
+export async function open(browser, address, { dark = false, width = 1400, height = 900 } = {}) {
+  const context = await browser.newContext({
+    viewport: { width, height }, colorScheme: dark ? 'dark' : 'light', acceptDownloads: true,
+  });
+  const page = await context.newPage();
+  const complaints = [];
+  const harmless = /GPU stall due to ReadPixels|Automatic fallback to software WebGL/;
+  page.on('console', (message) => {
+    const loud = ['error', 'warning'].includes(message.type());
+    if (loud && !harmless.test(message.text())) complaints.push(`${message.type()}: ${message.text()}`);
+  });
+  page.on('pageerror', (error) => complaints.push(`error: ${error.message}`));
+  page.on('request', (request) => {
+    const url = request.url();
+    const own = url.startsWith(address) || url.startsWith('data:') || url.startsWith('blob:');
+    if (!own) complaints.push(`request to ${url}`);
+  });
+  page.setDefaultTimeout(30_000);
+  await page.goto(address);
+  return { page, context, complaints };
+}
+
+/** Keeps a picture of the window as a test artefact. */
+export async function picture(page, name) {
+  mkdirSync(pictures, { recursive: true });
+  await page.screenshot({ path: path.join(pictures, `${name}.png`) });
+}

@@ -1,0 +1,37 @@
+// Checks of what needs no browser: number formats and the binary frame. `node test/unit.mjs`
+import assert from "node:assert/strict";
+import { createServer } from "vite";
+
+const vite = await createServer({ server: { middlewareMode: true, hmr: false, ws: false }, appType: "custom", logLevel: "error" });
+const format = await vite.ssrLoadModule("/src/format.ts");
+const { decodeFrame, encodeFrame } = await vite.ssrLoadModule("/src/frame.ts");
+const { thinned } = await vite.ssrLoadModule("/src/scene/layers.ts");
+
+// As Rust prints: format!("{:.1}", 0.25) is 0.2, ("{:.0}", 2.5) is 2, ("{:.0}", 3.5) is 4, ("{:.2}", 1.005) is 1.00.
+for (const [value, digits, text] of [[0.25, 1, "0.2"], [0.35, 1, "0.3"], [0.75, 1, "0.8"], [2.5, 0, "2"], [3.5, 0, "4"], [-2.5, 0, "-2"], [1.005, 2, "1.00"], [-0.04, 1, "0.0"], [29.1234, 1, "29.1"], [1234567.5, 0, "1234568"]]) {
+  assert.equal(format.fixed(value, digits), text, `${value} to ${digits}`);
+}
+assert.equal(format.um(29.1234), "29.1\u202fµm");
+assert.equal(format.um(-3.25), "\u22123.2\u202fµm");
+assert.equal(format.um(Number.NaN), "–");
+assert.equal(format.withUncertainty(12, 1, 1, "µm"), "12.0\u202f±\u202f1.0\u202fµm");
+assert.equal(format.factor(50_000), "×50\u202f000");
+assert.equal(format.clock(125.34), "2:05.3");
+
+const sent = { a: Float64Array.of(1 / 3, -2), b: Uint8Array.of(1, 2, 3), c: Float32Array.of(0.5) };
+const frame = decodeFrame(encodeFrame({ id: 7, what: "x" }, sent));
+assert.equal(frame.header.id, 7);
+assert.deepEqual(frame.f64("a"), sent.a);
+assert.deepEqual(frame.u8("b"), sent.b);
+assert.deepEqual(frame.f32("c"), sent.c);
+assert.throws(() => frame.f64("b"), /no Float64Array "b"/);
+assert.throws(() => decodeFrame(new ArrayBuffer(2)), /shorter/);
+assert.throws(() => decodeFrame(encodeFrame({}, sent).slice(0, -16)), /cut off/);
+
+const n = 100_000;
+const circle = new Float32Array(3 * n).map((_, i) => (i % 3 === 0 ? Math.cos(i / n) : i % 3 === 1 ? Math.sin(i / n) : 0));
+const kept = thinned(circle, new Float32Array(n), undefined, [0, 0], 5000);
+assert.ok(kept.length > 500 && kept.length <= 5000 && kept[0] === 0 && kept.at(-1) === n - 1, `${kept.length} kept`);
+
+await vite.close();
+console.log("unit checks passed");
