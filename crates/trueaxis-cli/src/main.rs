@@ -10,7 +10,6 @@ mod compensate;
 mod evaluate;
 mod identify;
 mod measure;
-mod numbers;
 mod output;
 mod path_file;
 mod plan;
@@ -18,6 +17,8 @@ mod pose;
 mod post;
 mod predict;
 mod report_file;
+#[cfg(feature = "serve")]
+mod serve;
 mod simulate;
 mod solve;
 mod trace;
@@ -45,6 +46,7 @@ Examples:
   trueaxis identify examples/05_identify/probe-ball.toml
   trueaxis post machines/i5-engraver/machine.toml examples/06_compensate/bangle.cls --dialect fanuc -o bangle.nc --verify
   trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml
+  trueaxis serve --open
 
 Exit status: 0 done, 1 the verdict is no, 2 unusable input or arguments.")]
 struct Command {
@@ -80,6 +82,9 @@ enum Verb {
     Evaluate(evaluate::Arguments),
     /// Verify: readings against what a machine file predicts, or against other readings
     Verify(verify::Arguments),
+    /// See it all in a browser, offline: a local server with the page in it
+    #[cfg(feature = "serve")]
+    Serve(serve::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -102,6 +107,8 @@ fn main() -> ExitCode {
         Verb::Post(arguments) => post::run(&arguments),
         Verb::Evaluate(arguments) => evaluate::run(&arguments),
         Verb::Verify(arguments) => verify::run(&arguments),
+        #[cfg(feature = "serve")]
+        Verb::Serve(arguments) => serve::run(&arguments),
     };
     match outcome {
         Outcome::Done => ExitCode::SUCCESS,

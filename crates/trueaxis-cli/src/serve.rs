@@ -1,0 +1,78 @@
+use crate::output::{Outcome, tell};
+use crate::report_file::unusable;
+use clap::Args;
+use std::io::Write;
+use std::net::IpAddr;
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+use trueaxis_serve::{Options, Server};
+
+/// The project to show.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  trueaxis serve                        the folder that you are in
+  trueaxis serve ~/my-machine --open
+  trueaxis serve --listen 0.0.0.0 --port 8080
+
+Prints the address and serves until Ctrl-C. Nothing outside the folder is read or written, and nobody
+but this computer can ask, unless --listen says otherwise: then the printed address has a token, and
+without it nobody is answered. There is no encryption: beyond a trusted network put a TLS proxy before
+it. Exit status: 2 if the folder or the port cannot be used.")]
+pub struct Arguments {
+    /// The project folder: machine files, programs, studies, readings
+    #[arg(value_name = "FOLDER", default_value = ".")]
+    folder: PathBuf,
+    /// Also listen to others: an address of this computer, or 0.0.0.0 for all of them
+    #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1")]
+    listen: IpAddr,
+    /// The port; without it 7841, or any that is free
+    #[arg(long, value_name = "N")]
+    port: Option<u16>,
+    /// Start the browser
+    #[arg(long)]
+    open: bool,
+}
+
+pub fn run(arguments: &Arguments) -> Outcome {
+    let folder = arguments.folder.display().to_string();
+    let options =
+        Options { folder: arguments.folder.clone(), ip: arguments.listen, port: arguments.port };
+    let server = match Server::bind(&options) {
+        Ok(server) => server,
+        Err(error) => {
+            let hint = "name a folder that exists, and a --port that no other program uses";
+            return unusable("cannot-serve", &folder, &format!("cannot be served: {error}"), hint);
+        }
+    };
+    let address = server.address();
+    let mut stdout = std::io::stdout().lock();
+    // Nobody may be reading what is printed; the server serves all the same.
+    let _ = writeln!(stdout, "{address}").and_then(|()| stdout.flush());
+    drop(stdout);
+    tell(&format!("serving {folder}; Ctrl-C ends it"));
+    if arguments.open && !opened(address) {
+        tell("no browser could be started: open the address above");
+    }
+    match server.run() {
+        Ok(()) => Outcome::Done,
+        Err(error) => {
+            let message = format!("cannot be served any longer: {error}");
+            unusable("cannot-serve", &folder, &message, "start it again")
+        }
+    }
+}
+
+/// Starts the browser of the desktop.
+fn opened(address: &str) -> bool {
+    let starters: &[&[&str]] = match std::env::consts::OS {
+        "windows" => &[&["rundll32", "url.dll,FileProtocolHandler"]],
+        "macos" => &[&["open"]],
+        _ => &[&["xdg-open"], &["x-www-browser"], &["firefox"], &["chromium"]],
+    };
+    starters.iter().any(|words| {
+        let mut command = Command::new(words[0]);
+        command.args(&words[1..]).arg(address);
+        command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().is_ok()
+    })
+}

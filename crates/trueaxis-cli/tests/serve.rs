@@ -1,0 +1,242 @@
+//! `trueaxis serve` as a rude world meets it: who may ask, which files it touches, what it survives.
+
+#![cfg(feature = "serve")]
+
+#[path = "serve/client.rs"]
+mod client;
+
+use client::{ask_socket, frame, next, project, repository, serve, serve_kept};
+use serde_json::{Value, json};
+use std::fs;
+use std::io::{Read, Write};
+use std::time::Duration;
+
+#[test]
+fn a_file_is_opened_and_saved_and_no_edit_of_another_window_is_lost() {
+    let served = serve(project("save"), &["--port", "0"]);
+    let opened = served.ask("open", &json!({ "path": "mill/machine.toml" })).json();
+    let (text, version) = (opened["text"].as_str().expect("text"), &opened["version"]);
+    let save = |text: &str, version: &Value| {
+        let body = json!({ "path": "mill/machine.toml", "text": text, "version": version });
+        served.ask("save", &body)
+    };
+    let (_, mut other) = served.socket("");
+    let first = save(&format!("{text}# first window\n"), version);
+    assert_eq!(first.status, 200);
+    let (_, news) = next(&mut other).expect("the other window hears of it");
+    let news: Value = serde_json::from_slice(&news).expect("JSON");
+    assert_eq!(news["changed"]["path"], "mill/machine.toml");
+    // The second window opened the file before the first one saved it.
+    let second = save(&format!("{text}# second window\n"), version);
+    assert_eq!((second.status, &second.json()["error"]["code"]), (409, &json!("conflict")));
+    let there = fs::read_to_string(served.folder.join("mill/machine.toml")).expect("the file");
+    assert!(there.ends_with("# first window\n"));
+    let again = save(&format!("{there}# second window\n"), &first.json()["version"]);
+    assert_eq!(again.status, 200);
+}
+
+#[test]
+fn nothing_outside_the_folder_is_read_or_written() {
+    let folder = project("outside");
+    let secret = folder.with_extension("secret.toml");
+    fs::write(&secret, "secret = \"word\"\n").expect("a file outside");
+    std::os::unix::fs::symlink(&secret, folder.join("mill/link.toml")).expect("a link");
+    std::os::unix::fs::symlink("/etc", folder.join("etc")).expect("a link");
+    fs::create_dir(folder.join(".git")).expect("a folder");
+    fs::write(folder.join(".git/config.toml"), "secret").expect("a hidden file");
+    let served = serve(folder, &["--port", "0"]);
+    let secret_name = secret.file_name().expect("a name").to_string_lossy().into_owned();
+    let absolute = secret.display().to_string();
+    let names = [
+        format!("../{secret_name}"),
+        format!("mill/../../{secret_name}"),
+        absolute,
+        "mill/link.toml".to_owned(),
+        "etc/passwd".to_owned(),
+        "/etc/passwd".to_owned(),
+        ".git/config.toml".to_owned(),
+        "mill/..\\..\\x.toml".to_owned(),
+        "mill/machine.toml\0.csv".to_owned(),
+        "%2e%2e/x.toml".to_owned(),
+        String::new(),
+        "a/".repeat(5000),
+    ];
+    for name in &names {
+        let answer = served.ask("open", &json!({ "path": name }));
+        assert!(matches!(answer.status, 403 | 404 | 422), "{name}: {}", answer.status);
+        assert!(!String::from_utf8_lossy(&answer.body).contains("word"), "{name}");
+        let save = json!({ "path": name, "text": "taken", "version": null });
+        let answer = served.ask("save", &save);
+        assert!(matches!(answer.status, 403 | 409 | 422), "{name}: {}", answer.status);
+    }
+    assert_eq!(fs::read_to_string(&secret).expect("it"), "secret = \"word\"\n");
+    // A machine file may not fetch a table from elsewhere either.
+    let own = format!(
+        "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n[motion.X]\ntable = \"../../{secret_name}\"\n"
+    );
+    let body = json!({ "path": "mill/own.toml", "text": own, "version": null });
+    assert_eq!(served.ask("save", &body).status, 200);
+    let answer = served.ask("describe", &json!({ "machine": "mill/own.toml" }));
+    let said = String::from_utf8_lossy(&answer.body).into_owned();
+    assert!(said.contains("outside the project folder") && !said.contains("word"), "{said}");
+    for path in ["/../Cargo.toml", "/%2e%2e/%2e%2e/etc/passwd", "/mill/machine.toml", "/report/9"] {
+        assert_eq!(served.send(&format!("GET {path}"), "", b"").status, 404, "{path}");
+    }
+    let _ = fs::remove_file(secret);
+    assert!(served.is_alive());
+}
+
+#[test]
+fn only_the_own_page_may_ask() {
+    let served = serve(project("origin"), &["--port", "0"]);
+    let host = &served.host;
+    let json_type = "Content-Type: application/json\r\n";
+    let own = format!("{json_type}Origin: http://{host}\r\n");
+    assert_eq!(served.send("POST /api/project", &own, b"{}").status, 200);
+    let foreign = format!("{json_type}Origin: http://evil.example\r\n");
+    assert_eq!(served.send("POST /api/project", &foreign, b"{}").status, 403);
+    // A form of another page cannot send JSON without asking first.
+    let form = "Content-Type: text/plain\r\n";
+    assert_eq!(served.send("POST /api/project", form, b"{}").status, 415);
+    let rebound = format!("{json_type}Host: evil.example\r\n");
+    assert_eq!(served.send("POST /api/project", &rebound, b"{}").status, 403);
+    assert_eq!(served.socket(&format!("Origin: http://{host}\r\n")).0, 101);
+    assert_eq!(served.socket("Origin: http://evil.example\r\n").0, 403);
+    assert_eq!(served.socket("Origin: null\r\n").0, 403);
+    let page = served.send("GET /", "", b"");
+    let head = page.head.to_ascii_lowercase();
+    assert!(head.contains("content-security-policy: default-src 'none'"), "{head}");
+    assert!(head.contains("x-content-type-options: nosniff"), "{head}");
+}
+
+#[test]
+fn beyond_loopback_the_token_is_needed() {
+    let served = serve(project("token"), &["--port", "0", "--listen", "0.0.0.0"]);
+    let (host, token) = served.host.split_once("/?token=").expect("an address with a token");
+    let named = format!("Content-Type: application/json\r\nHost: {host}\r\n");
+    assert_eq!(served.send("POST /api/project", &named, b"{}").status, 401);
+    let bearer = format!("{named}Authorization: Bearer {token}\r\n");
+    assert_eq!(served.send("POST /api/project", &bearer, b"{}").status, 200);
+    let entry = format!("Host: {host}\r\n");
+    assert_eq!(served.send("GET /", &entry, b"").status, 401);
+    let entered = served.send(&format!("GET /?token={token}"), &entry, b"");
+    assert_eq!(entered.status, 303);
+    assert!(entered.head.contains("HttpOnly") && entered.head.contains("SameSite=Strict"));
+    let cookie = format!("{named}Cookie: trueaxis_token={token}\r\n");
+    assert_eq!(served.send("POST /api/project", &cookie, b"{}").status, 200);
+}
+
+#[test]
+fn malformed_requests_are_answered_and_the_server_goes_on() {
+    let served = serve(project("malformed"), &["--port", "0"]);
+    let host = &served.host;
+    let json_type = "Content-Type: application/json\r\n";
+    for body in ["", "{", "[]", "7", "{\"path\": 7}", "{\"nothing\": 1}", "\u{0}"] {
+        let answer = served.send("POST /api/open", json_type, body.as_bytes());
+        assert_eq!(answer.status, 400, "{body}");
+        assert!(answer.json()["error"]["message"].is_string(), "{body}");
+    }
+    let deep = "[".repeat(200_000);
+    assert_eq!(served.send("POST /api/open", json_type, deep.as_bytes()).status, 400);
+    assert_eq!(served.ask("nonsense", &json!({})).status, 404);
+    assert_eq!(served.send("DELETE /api/open", "", b"").status, 405);
+    // More is announced than is allowed: refused before it is sent.
+    let long = format!(
+        "POST /api/open HTTP/1.1\r\nHost: {host}\r\n{json_type}Content-Length: 99999999999\r\n\r\n"
+    );
+    assert_eq!(served.raw(long.as_bytes()).status, 413);
+    let garbage: Vec<u8> =
+        (0..4096_u32).map(|i| (i.wrapping_mul(2_654_435_761) >> 13) as u8).collect();
+    let _ = served.raw(&garbage);
+    let _ = served.raw(format!("GET / HTTP/1.1\r\nX: {}\r\n\r\n", "x".repeat(1 << 20)).as_bytes());
+    let (_, mut socket) = served.socket("");
+    for words in ["", "{", "[]", "{\"id\": -1}", "{\"id\": 1}", "{\"ask\": \"project\"}"] {
+        socket.write_all(&frame(1, words.as_bytes())).expect("open");
+        let (_, said) = next(&mut socket).expect("an answer");
+        assert!(String::from_utf8_lossy(&said).contains("\"error\""), "{words}");
+    }
+    socket.write_all(&frame(2, &garbage)).expect("open");
+    assert!(String::from_utf8_lossy(&next(&mut socket).expect("an answer").1).contains("error"));
+    let answer = ask_socket(&mut socket, &json!({ "id": 5, "ask": "project" }));
+    assert!(answer["reply"]["files"].is_array());
+    // No frame of a WebSocket at all: the socket is closed, the server stays.
+    socket.write_all(&[0xff; 64]).expect("open");
+    let mut rest = Vec::new();
+    let _ = socket.read_to_end(&mut rest);
+    assert!(served.is_alive());
+}
+
+#[test]
+fn a_hundred_sockets_and_slow_ones_do_not_stop_it() {
+    let served = serve(project("many"), &["--port", "0"]);
+    let sockets: Vec<_> = (0..100).map(|_| served.socket("")).collect();
+    let accepted = sockets.iter().filter(|(status, _)| *status == 101).count();
+    let refused = sockets.iter().filter(|(status, _)| *status == 503).count();
+    assert_eq!((accepted, refused), (64, 36));
+    assert!(served.is_alive());
+    drop(sockets);
+    // A head that never ends is closed after 10 s; meanwhile others are answered.
+    let mut slow = served.connect();
+    slow.write_all(b"GET / HTTP/1.1\r\nHost:").expect("open");
+    // A window that asks for much and reads nothing.
+    let mut deaf = loop {
+        let (status, socket) = served.socket("");
+        if status == 101 {
+            break socket;
+        }
+        std::thread::sleep(Duration::from_millis(50));
+    };
+    for id in 0..200 {
+        let question = json!({ "id": id, "ask": "open", "body": { "path": "mill/machine.toml" } });
+        deaf.write_all(&frame(1, question.to_string().as_bytes())).expect("open");
+    }
+    assert!(served.is_alive());
+    let mut rest = Vec::new();
+    slow.read_to_end(&mut rest).expect("the server ends it");
+    assert!(served.is_alive());
+}
+
+#[test]
+fn killed_while_saving_it_leaves_the_old_file_or_the_new_one() {
+    let folder = project("killed");
+    let path = folder.join("mill/machine.toml");
+    let old = fs::read_to_string(&path).expect("the machine");
+    let new = format!("{old}{}", "# a long comment\n".repeat(200_000));
+    for delay_ms in [0, 1, 2, 4, 8, 16] {
+        fs::write(&path, &old).expect("the old file");
+        let mut served = serve_kept(folder.clone(), &["--port", "0"]);
+        let opened = served.ask("open", &json!({ "path": "mill/machine.toml" })).json();
+        let body =
+            json!({ "path": "mill/machine.toml", "text": new, "version": opened["version"] });
+        let body = body.to_string();
+        let mut stream = served.connect();
+        let head = format!(
+            "POST /api/save HTTP/1.1\r\nHost: {}\r\nContent-Type: application/json\r\nContent-Length: {}\r\n\r\n",
+            served.host,
+            body.len()
+        );
+        stream.write_all(head.as_bytes()).expect("open");
+        stream.write_all(body.as_bytes()).expect("open");
+        std::thread::sleep(Duration::from_millis(delay_ms));
+        served.child.kill().expect("a running server");
+        served.child.wait().expect("it ended");
+        let there = fs::read_to_string(&path).expect("a file is there");
+        assert!(there == old || there == new, "{delay_ms} ms: {} bytes", there.len());
+    }
+    let _ = fs::remove_dir_all(folder);
+}
+
+#[test]
+fn every_shipped_example_is_listed_and_is_there() {
+    let served = serve_kept(repository(), &["--port", "0"]);
+    let listed = served.ask("project", &json!({})).json();
+    let examples = listed["examples"].as_array().expect("examples").clone();
+    assert!(examples.len() >= 15 && listed["diagnostics"] == json!([]), "{listed:#}");
+    let files = listed["files"].as_array().expect("files");
+    for example in &examples {
+        for key in ["path", "machine"] {
+            let Some(path) = example[key].as_str() else { continue };
+            assert!(files.iter().any(|f| f["path"] == path), "{path}");
+        }
+    }
+}

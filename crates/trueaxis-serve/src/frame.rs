@@ -1,0 +1,102 @@
+//! Numbers for the page in one binary piece: a JSON header, then arrays.
+//!
+//! ```text
+//!     u32  length of the header, little endian
+//!     ...  the header, JSON; its "arrays" name what follows: {"name", "type", "count"}
+//!     ...  zeros up to a multiple of 8, then each array, each up to a multiple of 8
+//! ```
+//!
+//! Every array begins at a multiple of 8, so the page looks at it in place.
+
+use serde_json::{Map, Value, json};
+
+/// Numbers of one kind.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Array {
+    F64(Vec<f64>),
+    F32(Vec<f32>),
+    U32(Vec<u32>),
+    U8(Vec<u8>),
+}
+
+impl Array {
+    fn kind(&self) -> (&'static str, usize) {
+        match self {
+            Self::F64(v) => ("f64", v.len()),
+            Self::F32(v) => ("f32", v.len()),
+            Self::U32(v) => ("u32", v.len()),
+            Self::U8(v) => ("u8", v.len()),
+        }
+    }
+
+    fn append_to(&self, bytes: &mut Vec<u8>) {
+        match self {
+            Self::F64(v) => v.iter().for_each(|x| bytes.extend(x.to_le_bytes())),
+            Self::F32(v) => v.iter().for_each(|x| bytes.extend(x.to_le_bytes())),
+            Self::U32(v) => v.iter().for_each(|x| bytes.extend(x.to_le_bytes())),
+            Self::U8(v) => bytes.extend(v),
+        }
+        bytes.resize(bytes.len().next_multiple_of(8), 0);
+    }
+}
+
+/// A header and arrays.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Frame {
+    header: Map<String, Value>,
+    arrays: Vec<(&'static str, Array)>,
+}
+
+impl Frame {
+    pub(crate) fn new() -> Self {
+        Self::default()
+    }
+
+    /// A word of the header.
+    pub(crate) fn say(mut self, key: &str, value: Value) -> Self {
+        self.header.insert(key.to_owned(), value);
+        self
+    }
+
+    pub(crate) fn with(mut self, name: &'static str, array: Array) -> Self {
+        self.arrays.push((name, array));
+        self
+    }
+
+    /// The piece as it goes over the wire; `id` is that of the request.
+    pub(crate) fn bytes(mut self, id: Option<u64>) -> Vec<u8> {
+        if let Some(id) = id {
+            self.header.insert("id".to_owned(), json!(id));
+        }
+        let list = self.arrays.iter().map(|(name, array)| {
+            let (kind, count) = array.kind();
+            json!({ "name": name, "type": kind, "count": count })
+        });
+        let list: Value = list.collect();
+        self.header.insert("arrays".to_owned(), list);
+        let header = Value::Object(self.header).to_string();
+        let mut bytes = (header.len() as u32).to_le_bytes().to_vec();
+        bytes.extend(header.as_bytes());
+        bytes.resize(bytes.len().next_multiple_of(8), 0);
+        self.arrays.iter().for_each(|(_, array)| array.append_to(&mut bytes));
+        bytes
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn arrays_begin_at_multiples_of_eight() {
+        let frame = Frame::new().with("a", Array::U8(vec![7])).with("b", Array::F64(vec![1.5]));
+        let bytes = frame.bytes(Some(3));
+        let length = u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]) as usize;
+        let header: Value = serde_json::from_slice(&bytes[4..4 + length]).unwrap();
+        assert_eq!(header["id"], 3);
+        assert_eq!(header["arrays"][1], json!({ "name": "b", "type": "f64", "count": 1 }));
+        let first = (4 + length).next_multiple_of(8);
+        assert_eq!(bytes[first], 7);
+        assert_eq!(bytes[first + 8..], 1.5_f64.to_le_bytes());
+    }
+}

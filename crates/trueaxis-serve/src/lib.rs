@@ -1,0 +1,163 @@
+//! The loop in a browser: a local server with the page in it.
+//!
+//! ```text
+//!     page ──POST /api/<name>──┐
+//!          ──socket────────────┴─> web ──guard──> desk::answer ──> answers/<tab>.rs ──> trueaxis
+//!                                                   └─ in turn, in time, within the project folder
+//! ```
+//!
+//! All computing is done by the crates below; here requests become calls, and results become JSON
+//! (the documents of the command line) or binary pieces ([decision 13]). The server listens on loopback
+//! only, unless an address is given; then every request needs a token.
+//!
+//! ```no_run
+//! let server = trueaxis_serve::Server::bind(&trueaxis_serve::Options {
+//!     folder: ".".into(),
+//!     ..trueaxis_serve::Options::default()
+//! })?;
+//! println!("{}", server.address());
+//! server.run()?;
+//! # Ok::<(), std::io::Error>(())
+//! ```
+//!
+//! What it does not do: it is no server for the internet (no TLS, one token for all), and it does not
+//! guard against somebody who changes links inside the project folder while it reads.
+//!
+//! [decision 13]: https://github.com/
+
+mod answers;
+mod body;
+mod desk;
+mod frame;
+mod guard;
+mod kept;
+mod page;
+mod project;
+mod refusal;
+mod socket;
+mod web;
+
+use desk::Desk;
+use guard::Guard;
+use hyper_util::rt::{TokioIo, TokioTimer};
+use hyper_util::service::TowerToHyperService;
+use project::Project;
+use std::io;
+use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpListener};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+use tokio::sync::Semaphore;
+
+/// The port where one looks first.
+pub const USUAL_PORT: u16 = 7841;
+
+/// Connections at a time; further ones wait.
+const MOST_CONNECTIONS: usize = 256;
+
+/// How long the head of a request may take.
+const HEAD: Duration = Duration::from_secs(10);
+
+/// How long somebody may not read what was sent to him.
+const UNREAD: Duration = Duration::from_secs(30);
+
+/// What is shown, and where.
+#[derive(Debug, Clone)]
+pub struct Options {
+    /// The project folder; nothing outside it is read or written.
+    pub folder: PathBuf,
+    /// Where to listen; beyond loopback a token is made.
+    pub ip: IpAddr,
+    /// At which port; without one the usual one, or any that is free.
+    pub port: Option<u16>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { folder: ".".into(), ip: Ipv4Addr::LOCALHOST.into(), port: None }
+    }
+}
+
+/// A server that is ready to run.
+pub struct Server {
+    listener: TcpListener,
+    address: String,
+    router: axum::Router,
+}
+
+impl Server {
+    /// Takes the port and the folder; the working directory becomes the folder, so that files are
+    /// called by the same names here and in the page.
+    ///
+    /// # Errors
+    /// If the folder is none, or the port is taken.
+    pub fn bind(options: &Options) -> io::Result<Self> {
+        let project = Project::of(&options.folder)?;
+        std::env::set_current_dir(project.root())?;
+        let listener = listen(options)?;
+        listener.set_nonblocking(true)?;
+        let own = listener.local_addr()?;
+        let loopback = options.ip.is_loopback();
+        let token = if loopback { None } else { Some(token()?) };
+        let address = match &token {
+            Some(token) => format!("http://{own}/?token={token}"),
+            None => format!("http://{own}/"),
+        };
+        let guard = Guard { loopback, port: own.port(), token };
+        Ok(Self { listener, address, router: web::router(Desk::of(project), guard) })
+    }
+
+    /// The address to open, with the token if one is needed.
+    pub fn address(&self) -> &str {
+        &self.address
+    }
+
+    /// Serves until the program ends.
+    ///
+    /// # Errors
+    /// If the system gives no threads or takes the listener away.
+    pub fn run(self) -> io::Result<()> {
+        let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
+        runtime.block_on(accept(self.listener, self.router))
+    }
+}
+
+fn listen(options: &Options) -> io::Result<TcpListener> {
+    let at = |port| TcpListener::bind(SocketAddr::new(options.ip, port));
+    match options.port {
+        Some(port) => at(port),
+        None => at(USUAL_PORT).or_else(|_| at(0)),
+    }
+}
+
+/// 128 bits that nobody guesses.
+fn token() -> io::Result<String> {
+    let mut bytes = [0; 16];
+    getrandom::fill(&mut bytes).map_err(|e| io::Error::other(e.to_string()))?;
+    Ok(bytes.iter().map(|b| format!("{b:02x}")).collect())
+}
+
+async fn accept(listener: TcpListener, router: axum::Router) -> io::Result<()> {
+    let listener = tokio::net::TcpListener::from_std(listener)?;
+    let places = Arc::new(Semaphore::new(MOST_CONNECTIONS));
+    loop {
+        let Ok(place) = places.clone().acquire_owned().await else { return Ok(()) };
+        let Ok((stream, _)) = listener.accept().await else {
+            // Out of file handles, say: others must go first.
+            tokio::time::sleep(Duration::from_millis(50)).await;
+            continue;
+        };
+        let service = TowerToHyperService::new(router.clone());
+        tokio::spawn(async move {
+            let _place = place;
+            let _ = stream.set_nodelay(true);
+            let mut stream = tokio_io_timeout::TimeoutStream::new(stream);
+            stream.set_write_timeout(Some(UNREAD));
+            let mut http = hyper::server::conn::http1::Builder::new();
+            http.timer(TokioTimer::new()).header_read_timeout(HEAD);
+            let connection = http.serve_connection(TokioIo::new(Box::pin(stream)), service);
+            // A connection that breaks off is no fault of the server.
+            let _ = connection.with_upgrades().await;
+        });
+    }
+}

@@ -1,0 +1,143 @@
+//! The ways in: the page, requests by POST, the socket, reports.
+
+use crate::desk::{Desk, Job, Reply, answer};
+use crate::guard::{Guard, add_headers};
+use crate::refusal::Refusal;
+use crate::{page, socket};
+use axum::Router;
+use axum::body::{Body, Bytes, to_bytes};
+use axum::extract::{Path, Request, State, WebSocketUpgrade};
+use axum::http::{StatusCode, header};
+use axum::middleware::{Next, from_fn_with_state};
+use axum::response::{IntoResponse, Response};
+use axum::routing::{get, post};
+use serde_json::{Value, json};
+use std::sync::Arc;
+use std::time::Duration;
+use tokio::sync::Semaphore;
+use tokio::time::timeout;
+
+/// No question is longer: an NC program of a million lines fits.
+const MOST_BYTES: usize = 64 << 20;
+
+/// How long somebody may take to send it.
+const SENDING: Duration = Duration::from_secs(60);
+
+/// Windows at a time.
+const MOST_SOCKETS: usize = 64;
+
+#[derive(Clone)]
+pub(crate) struct Shared {
+    desk: Arc<Desk>,
+    guard: Arc<Guard>,
+    sockets: Arc<Semaphore>,
+}
+
+/// The whole server as one function from requests to answers.
+pub(crate) fn router(desk: Desk, guard: Guard) -> Router {
+    let sockets = Arc::new(Semaphore::new(MOST_SOCKETS));
+    let shared = Shared { desk: Arc::new(desk), guard: Arc::new(guard), sockets };
+    Router::new()
+        .route("/api/socket", get(open_socket))
+        .route("/api/{name}", post(ask))
+        .route("/report/{number}", get(report))
+        .fallback(get(file))
+        .layer(from_fn_with_state(shared.clone(), guarded))
+        .with_state(shared)
+}
+
+/// Nobody gets past this who may not ask; every answer gets its headers here.
+async fn guarded(State(shared): State<Shared>, request: Request, next: Next) -> Response {
+    let report = request.uri().path().starts_with("/report/");
+    let mut response = match shared.guard.cookie(request.uri()) {
+        Some(cookie) => {
+            let to = [(header::LOCATION, "/".parse()), (header::SET_COOKIE, Ok(cookie))];
+            let mut response = StatusCode::SEE_OTHER.into_response();
+            for (name, value) in to {
+                value.map(|value| response.headers_mut().insert(name, value)).ok();
+            }
+            response
+        }
+        None => match shared.guard.check(request.method(), request.headers()) {
+            Ok(()) => next.run(request).await,
+            Err(refusal) => refused(&refusal),
+        },
+    };
+    add_headers(response.headers_mut(), report);
+    response
+}
+
+async fn file(request: Request) -> Response {
+    let path = request.uri().path();
+    match page::file(path) {
+        Some((kind, bytes)) => {
+            ([(header::CONTENT_TYPE, kind)], Bytes::from_static(bytes)).into_response()
+        }
+        None if path == "/" && !page::is_there() => {
+            let words = "This trueaxis was built without the page; POST /api/project answers.\n";
+            words.into_response()
+        }
+        None => refused(&Refusal::new(404, "not-found", "there is nothing here", "go to /")),
+    }
+}
+
+async fn ask(State(shared): State<Shared>, Path(name): Path<String>, body: Body) -> Response {
+    let body = match timeout(SENDING, to_bytes(body, MOST_BYTES)).await {
+        Ok(Ok(body)) => body,
+        Ok(Err(_)) => {
+            let message = format!("the body is longer than {} MB or broke off", MOST_BYTES >> 20);
+            return refused(&Refusal::new(413, "too-long", message, "send less at a time"));
+        }
+        Err(_) => {
+            let message = format!("the body did not come within {} s", SENDING.as_secs());
+            return refused(&Refusal::new(408, "too-slow", message, "send it faster"));
+        }
+    };
+    let body: Value = match serde_json::from_slice(&body) {
+        Ok(value) => value,
+        Err(e) => return refused(&Refusal::bad(format!("the body is no JSON: {e}"), "such as {}")),
+    };
+    match answer(shared.desk, &name, body, Job::new(|_| ())).await {
+        Ok(Reply::Json(value)) => json_response(StatusCode::OK, &value),
+        Ok(Reply::Frame(frame)) => {
+            let kind = [(header::CONTENT_TYPE, "application/octet-stream")];
+            (kind, frame.bytes(None)).into_response()
+        }
+        Err(refusal) => refused(&refusal),
+    }
+}
+
+async fn open_socket(State(shared): State<Shared>, upgrade: WebSocketUpgrade) -> Response {
+    let Ok(place) = shared.sockets.clone().try_acquire_owned() else {
+        let message = format!("{MOST_SOCKETS} windows are open already");
+        return refused(&Refusal::new(503, "busy", message, "close one of them"));
+    };
+    let upgrade = upgrade.max_message_size(MOST_BYTES).max_frame_size(MOST_BYTES);
+    upgrade.on_upgrade(move |socket| async move {
+        socket::serve(socket, shared.desk).await;
+        drop(place);
+    })
+}
+
+async fn report(State(shared): State<Shared>, Path(number): Path<u64>) -> Response {
+    match shared.desk.reports.of_number(number) {
+        Some(html) => {
+            let kind = [(header::CONTENT_TYPE, "text/html; charset=utf-8")];
+            (kind, html.as_str().to_owned()).into_response()
+        }
+        None => {
+            let message = "this report is not kept any more";
+            refused(&Refusal::new(404, "no-report", message, "make it again"))
+        }
+    }
+}
+
+fn json_response(status: StatusCode, value: &Value) -> Response {
+    let kind = [(header::CONTENT_TYPE, "application/json")];
+    (status, kind, value.to_string()).into_response()
+}
+
+fn refused(refusal: &Refusal) -> Response {
+    let status = StatusCode::from_u16(refusal.status).unwrap_or(StatusCode::BAD_REQUEST);
+    json_response(status, &json!({ "error": refusal.json() }))
+}
