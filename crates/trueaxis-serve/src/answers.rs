@@ -4,7 +4,10 @@ mod describe;
 mod machine;
 mod predict;
 mod project;
+mod simulate;
 mod wants;
+
+pub(crate) use simulate::Simulated;
 
 use crate::desk::{Desk, Job, Reply};
 use crate::refusal::Refusal;
@@ -51,6 +54,10 @@ pub(crate) const ANSWERS: &[Answer] = &[
     quick("set-error", describe::set_error),
     long("predict", predict::whole),
     quick("what-if", predict::what_if),
+    long("simulate", simulate::simulate),
+    quick("simulation-at", simulate::at),
+    quick("simulation-block", simulate::block),
+    quick("simulation-path", simulate::path),
+    quick("simulation-curves", simulate::curves),
+    quick("simulation-source", simulate::source),
 ];
-
-pub(crate) struct Simulated;
