@@ -106,13 +106,14 @@ export interface AxisDocument {
 export interface CheckDocument {
   schema: string;
   usable: boolean;
-  name: string;
-  chain: string;
-  source?: string | null;
-  axes: AxisDocument[];
-  errors: string[];
-  lacks: string[];
   diagnostics: Diagnostic[];
+  /** What follows stands there of a usable machine only. */
+  name?: string;
+  chain?: string;
+  source?: string | null;
+  axes?: AxisDocument[];
+  errors?: string[];
+  lacks?: string[];
   [more: string]: unknown;
 }
 

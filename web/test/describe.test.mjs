@@ -7,6 +7,13 @@ import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { browse, cli, open, picture, root, serve } from './served.mjs';
 
+/** A window on an address within the page. */
+async function opened(address, hash, options) {
+  const made = await open(browser, address, options);
+  await made.page.goto(`${address.replace(/\/$/, '')}/#${hash}`);
+  return made;
+}
+
 /** A number to the digits that the page shows, whatever its unit and minus sign. */
 const shown = (text) => Number(text.replace('\u2212', '-').replace(/[^\d.eE+-]/g, ''));
 const near = (text, value, digits, what) =>
@@ -26,12 +33,11 @@ after(async () => {
 /** Does something to the page and waits until the pose that belongs to it is shown. */
 async function settled(page, words) {
   const pose = await cli('pose', ...words);
-  const expected = pose.deviation.tip_um;
-  await page.waitForFunction((tip) => {
-    const cells = [...document.querySelectorAll('[data-test="deviation"] td')].slice(1, 4);
-    const values = cells.map((c) => Number(c.textContent.replace('\u2212', '-').replace(/[^\d.-]/g, '')));
-    return values.length === 3 && values.every((v, i) => Math.abs(v - tip[i]) <= 0.0501);
-  }, expected);
+  await page.waitForFunction((rows) => rows.every(([row, values, most]) => {
+    const cells = [...document.querySelectorAll(`[data-test="${row}"] td`)].slice(1, 4);
+    const shown = cells.map((c) => Number(c.textContent.replace('\u2212', '-').replace(/[^\d.-]/g, '')));
+    return shown.length === 3 && shown.every((v, i) => Math.abs(v - values[i]) <= most);
+  }), [['nominal', pose.nominal.tip_mm, 5.1e-5], ['deviation', pose.deviation.tip_um, 0.0501]]);
   return pose;
 }
 
@@ -122,7 +128,7 @@ test('positions, deviations, shares and the picture are those of the command lin
 
 test('a longer tool and warm sensors count as on the command line', async () => {
   const machine = 'machines/gantry-001/machine.toml';
-  const { page, context, complaints } = await open(browser, `${server.address.replace(/\/$/, '')}/#describe?machine=${machine}&at=X=3500,Y=900`);
+  const { page, context, complaints } = await opened(server.address, `describe?machine=${machine}&at=X=3500,Y=900`);
   await page.waitForSelector('[data-test="deviation"]');
   assert.equal(await page.inputValue('[data-position="X"]'), '3500');
   const degrees = { scale_x: 30.5, scale_y: 29, workpiece: 30.5 };
@@ -149,9 +155,8 @@ async function copied(run) {
   const file = path.join(folder, 'machine.toml');
   cpSync(path.join(root, 'machines/i5-engraver/machine.toml'), file);
   const own = await serve(folder);
-  const address = `${own.address.replace(/\/$/, '')}/#describe?machine=machine.toml`;
   const window = async () => {
-    const made = await open(browser, address);
+    const made = await opened(own.address, 'describe?machine=machine.toml');
     await made.page.waitForSelector('[data-test="deviation"]');
     await made.page.click('[data-page="errors"]');
     return made;

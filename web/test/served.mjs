@@ -28,9 +28,9 @@ export async function cli(...words) {
 /** The page as it is being written in front of a server; for the folders that tests write into. */
 async function live(server) {
   const { createServer } = await import('vite');
-  process.env.SERVER = server;
+  process.env.SERVER = new URL(server).origin;
   const configFile = path.join(root, 'web/dev/live.config.ts');
-  const vite = await createServer({ configFile, logLevel: 'error', server: { port: 5290, hmr: false, ws: false } });
+  const vite = await createServer({ configFile, logLevel: 'error', server: { port: 5290, hmr: false } });
   await vite.listen();
   return vite;
 }
@@ -90,7 +90,7 @@ export async function open(browser, address, { dark = false, width = 1400, heigh
     const own = url.startsWith(address) || url.startsWith('data:') || url.startsWith('blob:');
     if (!own) complaints.push(`request to ${url}`);
   });
-  page.setDefaultTimeout(30_000);
+  page.setDefaultTimeout(Number(process.env.PATIENCE ?? 30_000));
   await page.goto(address);
   return { page, context, complaints };
 }

@@ -34,7 +34,7 @@ export class ErrorTable {
     this.actions = actions;
     fill(
       this.element,
-      h("div", { class: "row errors-tools" }, this.search, this.of_body, h("label", { class: "check" }, this.all, "not stated too"), this.count),
+      h("div", { class: "row errors-tools" }, this.search, this.of_body, h("label", { class: "check" }, this.all, "also not stated"), this.count),
       h("table", { class: "errors" }, h("thead", {}, this.heads), this.body),
       h("p", { class: "hint errors-hint" }, "A value with its unit, ± its standard uncertainty: 12 ± 1 urad. Empty takes the error out of the file. Enter keeps, Escape restores."),
     );

@@ -36,9 +36,9 @@ export class Head {
   private readonly name = h("h1", {});
   private readonly file = h("select", { class: "machine-file", ariaLabel: "Machine file", onchange: () => this.actions.choose(this.file.value) });
   private readonly state = h("span", { class: "edit-state", role: "status", dataTest: "edit-state" });
-  private readonly undo = h("button", { title: "Undo (Ctrl+Z)", onclick: () => this.actions.undo() }, "Undo");
-  private readonly redo = h("button", { title: "Redo (Ctrl+Shift+Z)", onclick: () => this.actions.redo() }, "Redo");
-  private readonly save = h("button", { class: "primary", title: "Save to the machine file (Ctrl+S)", onclick: () => this.actions.save() }, "Save");
+  private readonly undo = h("button", { title: "Undo (Ctrl+Z)", disabled: true, onclick: () => this.actions.undo() }, "Undo");
+  private readonly redo = h("button", { title: "Redo (Ctrl+Shift+Z)", disabled: true, onclick: () => this.actions.redo() }, "Redo");
+  private readonly save = h("button", { class: "primary", title: "Save to the machine file (Ctrl+S)", disabled: true, onclick: () => this.actions.save() }, "Save");
   private readonly save_as = h("button", { title: "Save under another name", onclick: () => this.askName("") }, "Save as …");
   private readonly deviation = h("strong", { class: "deviation", dataTest: "tip-length" }, "–");
   private readonly banner = h("div", { class: "banner", role: "alert", hidden: true });

@@ -93,8 +93,11 @@ export class ErrorRow {
     const elsewhere = error.stated && error.text === null;
     const text = error.text ?? "";
     const untouched = this.box.value === this.committed && this.refused === null;
+    const arrived = this.box.value.trim() === text;
     this.committed = text;
-    if (untouched || document.activeElement !== this.box) this.restore();
+    // What is being typed stays; so does what was refused, until it is mended or given up.
+    const typing = document.activeElement === this.box || this.refused !== null;
+    if (untouched || arrived || !typing) this.restore();
     this.box.readOnly = elsewhere;
     this.box.placeholder = elsewhere ? (error.table ? `column of ${error.table}` : `line ${error.line ?? "–"} of the file`) : `not stated, e.g. 5 ± 1 ${error.unit}`;
     this.box.title = elsewhere ? "edit it there" : text;

@@ -199,7 +199,7 @@ export class DescribeTab implements TabHandle {
     this.file.flush();
     await this.edits;
     const draft = this.draft;
-    if (!draft?.dirty || !this.accepted()) return;
+    if (!draft || !this.accepted() || !draft.dirty) return;
     try {
       await this.write(draft, draft.path, draft.version);
       this.head.closeBanner();
@@ -330,11 +330,13 @@ export class DescribeTab implements TabHandle {
 
   private showFindings({ check }: Description, of_models: readonly Diagnostic[]): void {
     const diagnostics = [...check.diagnostics, ...of_models];
+    // Of a file that is no machine nothing more is said.
+    const lacks = check.lacks ?? [];
     fill(
       this.findings,
       h("h2", {}, "What the check says"),
       diagnostics.length > 0 ? diagnosticList(diagnostics) : h("p", {}, "No errors or warnings."),
-      check.lacks.length > 0 ? [h("h3", { class: "lacks-title" }, "Not stated in the file"), h("ul", { class: "lacks" }, check.lacks.map((text) => h("li", {}, text)))] : null,
+      lacks.length > 0 ? [h("h3", { class: "lacks-title" }, "Not stated in the file"), h("ul", { class: "lacks" }, lacks.map((text) => h("li", {}, text)))] : null,
       check.source ? [h("h3", { class: "lacks-title" }, "Source"), h("p", { class: "muted source" }, check.source)] : null,
     );
   }
