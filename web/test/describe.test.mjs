@@ -1,7 +1,7 @@
 // The Describe tab against the command line: poses, shares of the errors, the picture, and editing that loses nothing.
 
 import assert from 'node:assert/strict';
-import { cpSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
@@ -234,6 +234,23 @@ test('the text of the file is edited with its mistakes by line', () => copied(as
   await page.click('[data-page="errors"]');
   await page.waitForFunction(() => document.querySelector('[data-error="EC0Y"]').value === '19 urad');
   assert.equal(text(), old);
+  assert.deepEqual(complaints, []);
+  await context.close();
+}));
+
+test('a body is drawn from its STL file', () => copied(async ({ file, window, text }) => {
+  const corners = ['0 0 0', '100 0 0', '0 50 0', '0 0 20'];
+  const facet = (list) => `facet normal 0 0 0 outer loop ${list.map((i) => `vertex ${corners[i]}`).join(' ')} endloop endfacet`;
+  const facets = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]].map(facet);
+  writeFileSync(file.replace('machine.toml', 'ram.stl'), `solid ram\n${facets.join('\n')}\nendsolid ram\n`);
+  const [before_models] = text().split('[[model]]');
+  writeFileSync(file, `${before_models}[[model]]\nbody = "Z"\nname = "ram"\nstl = "ram.stl"\nunit = "mm"\nplacement = "1 2 3 mm"\n`);
+  const { page, context, complaints } = await window();
+  const box = await page.evaluate(() => window.trueaxisScene.boxOf('Z'));
+  [1, 2, 3, 101, 52, 23].forEach((value, i) => assert.ok(Math.abs(box[i] - value) < 1e-4, `${box}`));
+  await page.click('[data-page="machine"]');
+  const pose = await settled(page, [file, '--at', '', '--bodies']);
+  await compareScene(page, pose.bodies);
   assert.deepEqual(complaints, []);
   await context.close();
 }));

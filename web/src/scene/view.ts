@@ -63,6 +63,8 @@ export interface SceneProbe {
   /** bed_from_body, 12 numbers, of the nominal (or ghost) body as the scene graph has it. */
   poseOf(name: string, which?: "nominal" | "ghost"): number[] | null;
   nominalTip(): [number, number, number] | null;
+  /** Least and greatest corner of the models of a body, in its own frame, mm. */
+  boxOf(name: string): number[] | null;
   frames(): number;
 }
 
@@ -120,7 +122,7 @@ export class MachineView {
     this.watch = new ResizeObserver(() => this.resize());
     this.watch.observe(this.element);
     this.stop_theme = onTheme(() => this.repaint());
-    window.trueaxisScene = { poseOf: (name, which) => this.poseOf(name, which), nominalTip: () => this.nominalTip(), frames: () => this.drawn };
+    window.trueaxisScene = { poseOf: (name, which) => this.poseOf(name, which), nominalTip: () => this.nominalTip(), boxOf: (name) => this.boxOf(name), frames: () => this.drawn };
   }
 
   private makeRenderer(): WebGLRenderer | null {
@@ -411,6 +413,14 @@ export class MachineView {
     node.updateWorldMatrix(true, false);
     const e = node.matrixWorld.elements;
     return [0, 4, 8, 1, 5, 9, 2, 6, 10, 12, 13, 14].map((i) => e[i] as number);
+  }
+
+  boxOf(name: string): number[] | null {
+    const body = name === "b" ? this.bed : this.bodies.find((b) => b.name === name);
+    if (!body) return null;
+    const box = new Box3();
+    for (const mesh of body.meshes) box.union(new Box3().setFromBufferAttribute(mesh.geometry.getAttribute("position") as never).applyMatrix4(mesh.matrix));
+    return [...box.min.toArray(), ...box.max.toArray()];
   }
 
   /** The tool tip in the workpiece frame, mm, from the scene graph. */

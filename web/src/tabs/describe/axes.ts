@@ -7,17 +7,19 @@ import { digitsOfStep } from "../../format.ts";
 
 export type Positions = Record<string, number>;
 
-/** 0, or the end of the travel next to it; `at` as "X=10,C=45". */
-export function startPositions(links: readonly Link[], at?: string): Positions {
+/** "X=10,C=45" of the address. */
+export function positionsOf(text: string): Positions {
+  const pairs = text.split(/[ ,]+/).map((part) => part.split("="));
+  return Object.fromEntries(pairs.filter(([, value]) => value && Number.isFinite(Number(value))).map(([name, value]) => [name, Number(value)]));
+}
+
+/** 0, or the end of the travel next to it. */
+function startPositions(links: readonly Link[]): Positions {
   const positions: Positions = {};
   for (const link of links) {
     if (link.kind !== "linear" && link.kind !== "rotary") continue;
     const [from, to] = Array.isArray(link.travel) ? link.travel : [-Infinity, Infinity];
     positions[link.name] = Math.min(to, Math.max(from, 0));
-  }
-  for (const part of (at ?? "").split(/[ ,]+/)) {
-    const [name = "", value = ""] = part.split("=");
-    if (name in positions && value !== "" && Number.isFinite(Number(value))) positions[name] = Number(value);
   }
   return positions;
 }

@@ -2,6 +2,7 @@
 
 import type { ErrorEntry, Link, PoseDocument } from "../../api.ts";
 import { fill, h } from "../../dom.ts";
+import type { Positions } from "./axes.ts";
 import { ErrorRow, sizeOf, type RowActions } from "./row.ts";
 import { errorWords } from "./words.ts";
 
@@ -58,9 +59,13 @@ export class ErrorTable {
     this.filter();
   }
 
-  showShares(pose: PoseDocument | null): void {
+  /** What every error does at the present position, and where that is on its curve. */
+  showPose(pose: PoseDocument | null, at: Positions): void {
     const shares = new Map(pose?.budget.map((entry) => [entry.error, Math.hypot(...entry.tip_um)]));
-    for (const row of this.rows) row.setShare(pose && row.error.stated ? (shares.get(row.error.name) ?? 0) : null);
+    for (const row of this.rows) {
+      row.setShare(pose && row.error.stated ? (shares.get(row.error.name) ?? 0) : null);
+      row.markPosition(at[this.links[row.error.body]?.name ?? ""] ?? null);
+    }
   }
 
   private filter(): void {

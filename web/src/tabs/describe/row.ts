@@ -2,7 +2,7 @@
 
 import { Refusal, type ErrorEntry, type Link } from "../../api.ts";
 import { fill, h } from "../../dom.ts";
-import { sparkline } from "../../figure/sparkline.ts";
+import { markedSparkline, type Sparkline } from "../../figure/sparkline.ts";
 import { NARROW_SPACE, NO_NUMBER, number, withUnit } from "../../format.ts";
 import { errorWords, unitText } from "./words.ts";
 
@@ -34,6 +34,8 @@ export class ErrorRow {
   private committed = "";
   private refused: string | null = null;
   private curve_key = "";
+  private spark: Sparkline | null = null;
+  private position: number | null = null;
   private readonly name = h("button", { class: "error-name" });
   private readonly words = h("td", { class: "error-words muted" });
   private readonly value = h("td", { class: "number error-value" });
@@ -83,10 +85,11 @@ export class ErrorRow {
     const key = JSON.stringify(curve);
     if (key === this.curve_key) return;
     this.curve_key = key;
+    this.spark = null;
     if (!curve || curve.at.length < 3) return fill(this.curve);
-    const svg = sparkline({ x: curve.at, y: curve.values, width: 72, height: 20, label: `${name} over the travel, ${valueText(this.error)}` });
+    this.spark = markedSparkline({ x: curve.at, y: curve.values, width: 72, height: 20, label: `${name} over the travel, ${valueText(this.error)}`, at: this.position });
     const [from, to] = [curve.at[0] as number, curve.at.at(-1) as number];
-    fill(this.curve, h("span", { title: `${shape}, ${number(from, 0)} … ${withUnit(to, 0, curve.at_unit === "deg" ? "°" : "mm")}, in ${unitText(unit)}` }, svg));
+    fill(this.curve, h("span", { title: `${shape}, ${number(from, 0)} … ${withUnit(to, 0, curve.at_unit === "deg" ? "°" : "mm")}, in ${unitText(unit)}` }, this.spark.svg));
   }
 
   private showText(error: ErrorEntry): void {
@@ -101,6 +104,7 @@ export class ErrorRow {
     this.box.readOnly = elsewhere;
     this.box.placeholder = elsewhere ? (error.table ? `column of ${error.table}` : `line ${error.line ?? "–"} of the file`) : `not stated, e.g. 5 ± 1 ${error.unit}`;
     this.box.title = elsewhere ? "edit it there" : text;
+    this.box.classList.toggle("long", text.length > 24);
   }
 
   private restore(): void {
@@ -131,6 +135,11 @@ export class ErrorRow {
     } catch (error) {
       this.refuse(Refusal.from(error));
     }
+  }
+
+  markPosition(at: number | null): void {
+    this.position = at;
+    this.spark?.mark(at);
   }
 
   setShare(tip_um: number | null): void {

@@ -8,7 +8,7 @@ import type { Figure } from "../../figure/figure.ts";
 import type { Frame } from "../../frame.ts";
 import { withModels } from "../../scene/models.ts";
 import { MachineView } from "../../scene/view.ts";
-import { Axes, keptPositions } from "./axes.ts";
+import { Axes, keptPositions, positionsOf } from "./axes.ts";
 import { ConditionFields, temperatureText } from "./conditions.ts";
 import { Draft } from "./draft.ts";
 import { ErrorTable } from "./errors.ts";
@@ -76,7 +76,7 @@ export class DescribeTab implements TabHandle {
     const { left, right } = split(host, "describe", 0.55);
     this.view = new MachineView(left);
     left.append(exaggerationBar(this.view));
-    fill(right, this.head.element, this.pages.element);
+    fill(right, h("div", { class: "describe-panel" }, this.head.element, this.pages.element));
     addEventListener("keydown", (event) => this.key(event));
     addEventListener("beforeunload", (event) => {
       this.file.flush();
@@ -125,7 +125,7 @@ export class DescribeTab implements TabHandle {
       this.usable_text = "";
       this.scene_key = this.links_key = "";
       this.conditions.reset();
-      this.axes.at = at ? Object.fromEntries(at.split(/[ ,]+/).map((part) => part.split("=")).map(([name, value]) => [name, Number(value)])) : {};
+      this.axes.at = positionsOf(at ?? "");
       this.refresh();
     } catch (error) {
       this.app.fail(error);
@@ -368,7 +368,7 @@ export class DescribeTab implements TabHandle {
     const { pose, diagnostics } = frame.header;
     this.view.setPoses(frame.f64("nominal"), frame.f64("actual"));
     this.pose.show(pose, diagnostics, temperatureText(this.conditions.now) !== undefined);
-    this.errors.showShares(pose);
+    this.errors.showPose(pose, this.axes.at);
     this.head.showDeviation(pose.deviation.tip_um);
   }
 
@@ -376,7 +376,7 @@ export class DescribeTab implements TabHandle {
     const refusal = Refusal.from(error);
     if (refusal.code === "connection") return this.app.fail(error);
     this.pose.refuse(refusal.message, refusal.hint, refusal.diagnostics);
-    this.errors.showShares(null);
+    this.errors.showPose(null, this.axes.at);
     this.head.showDeviation(null);
   }
 }
