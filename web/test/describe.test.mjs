@@ -233,6 +233,25 @@ test('the text of the file is edited with its mistakes by line', () => copied(as
   await says(page, 'changed, not saved');
   await page.click('[data-page="errors"]');
   await page.waitForFunction(() => document.querySelector('[data-error="EC0Y"]').value === '19 urad');
+
+  // An error that was not stated gets an entry, an empty field takes it out again.
+  await page.keyboard.press('Control+z');
+  await says(page, 'changed, cannot be used yet');
+  await page.keyboard.press('Control+z');
+  await says(page, 'saved');
+  await page.check('.errors-tools input[type="checkbox"]');
+  await setError(page, 'EX0X', '4 ± 0.5 um');
+  await page.waitForFunction(() => document.querySelector('[data-row="EX0X"] .error-value').textContent.startsWith('4.0'));
+  await says(page, 'changed, not saved');
+
+  // Leaving now asks.
+  const asked = page.waitForEvent('dialog');
+  await page.close({ runBeforeUnload: true });
+  const dialog = await asked;
+  assert.equal(dialog.type(), 'beforeunload');
+  await dialog.dismiss();
+  await setError(page, 'EX0X', '');
+  await says(page, 'saved');
   assert.equal(text(), old);
   assert.deepEqual(complaints, []);
   await context.close();

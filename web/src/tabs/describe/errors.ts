@@ -12,7 +12,7 @@ const HEADS: readonly { key: Key | null; title: string; hint: string; class?: st
   { key: "chain", title: "Error", hint: "Sort in the order of the chain" },
   { key: null, title: "", hint: "", class: "error-words" },
   { key: "value", title: "Value", hint: "Sort by the greatest amount; of a curve its least and greatest value", class: "number" },
-  { key: "u", title: "u", hint: "Standard uncertainty, the greatest of a curve. U = 2u (k = 2)", class: "number" },
+  { key: "u", title: "u", hint: "Standard uncertainty, the greatest of a curve. U = 2u (k = 2)", class: "number error-u" },
   { key: null, title: "Over travel", hint: "" },
   { key: "share", title: "Share now", hint: "What it moves the tool tip by at the present position (length). Sort by it", class: "number" },
   { key: null, title: "In the file", hint: "" },

@@ -59,7 +59,7 @@ export class Head {
     const { draft } = now;
     if (this.now?.draft !== draft) this.closeBanner();
     this.now = now;
-    this.name.textContent = now.name;
+    this.name.textContent = this.name.title = now.name;
     fill(this.file, [...new Set([draft.path, ...now.files])].sort().map((path) => h("option", { value: path }, now.dirty.has(path) ? `${path} (not saved)` : path)));
     this.file.value = draft.path;
     this.undo.disabled = !draft.canUndo;

@@ -54,6 +54,8 @@ export class DescribeTab implements TabHandle {
   private described: Description | null = null;
   /** The latest text that is a machine, for the poses. */
   private usable_text = "";
+  /** The name that the machine last had. */
+  private name = "";
   private scene_key = "";
   private links_key = "";
   private picture: Figure<ChainSpec> | null = null;
@@ -93,11 +95,19 @@ export class DescribeTab implements TabHandle {
       return;
     }
     if (wanted !== this.draft?.path) void this.load(wanted, params["at"]);
+    else if (params["at"] && this.described) this.moveTo(this.described, params["at"]);
   }
 
   /** Somebody saved a file, or news was missed: is ours still as we know it? */
   changed(path: string | null): void {
     for (const draft of this.drafts.values()) if (path === null || path === draft.path) void this.compare(draft);
+    // It may be a table or a model that the machine file names.
+    if (this.draft && path !== null && !this.drafts.has(path)) this.refresh();
+  }
+
+  private moveTo({ links }: Description, at: string): void {
+    this.axes.show(links, keptPositions(links, positionsOf(at)));
+    this.askPose();
   }
 
   private machineFiles(): string[] {
@@ -122,7 +132,7 @@ export class DescribeTab implements TabHandle {
       this.app.say(path);
       this.draft = draft;
       this.described = null;
-      this.usable_text = "";
+      this.usable_text = this.name = "";
       this.scene_key = this.links_key = "";
       this.conditions.reset();
       this.axes.at = positionsOf(at ?? "");
@@ -265,7 +275,8 @@ export class DescribeTab implements TabHandle {
     const draft = this.draft;
     if (!draft) return;
     const check = this.described?.check;
-    this.head.show({ name: check?.name || draft.path, draft, usable: check?.usable ?? true, files: this.machineFiles(), dirty: this.dirtyPaths() });
+    this.name = check?.name ?? this.name;
+    this.head.show({ name: this.name || draft.path, draft, usable: check?.usable ?? true, files: this.machineFiles(), dirty: this.dirtyPaths() });
   }
 
   private async showDescription(description: Description): Promise<void> {
@@ -365,7 +376,9 @@ export class DescribeTab implements TabHandle {
   }
 
   private showPose(frame: Frame<PoseHeader>): void {
-    const { pose, diagnostics } = frame.header;
+    const { pose, bodies, diagnostics } = frame.header;
+    // Of a chain that is another one by now; its own pose follows.
+    if (bodies.length !== this.described?.links.length) return;
     this.view.setPoses(frame.f64("nominal"), frame.f64("actual"));
     this.pose.show(pose, diagnostics, temperatureText(this.conditions.now) !== undefined);
     this.errors.showPose(pose, this.axes.at);
@@ -384,5 +397,6 @@ export class DescribeTab implements TabHandle {
 /** Whether Ctrl+Z belongs to a text that is being typed. */
 function typing(target: EventTarget | null): boolean {
   if (target instanceof HTMLTextAreaElement) return true;
-  return target instanceof HTMLInputElement && target.type === "text" && !target.readOnly && target.value !== target.defaultValue;
+  if (!(target instanceof HTMLInputElement) || target.readOnly) return false;
+  return target.type === "number" || (target.type === "text" && target.value !== target.defaultValue);
 }
