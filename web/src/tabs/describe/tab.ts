@@ -15,6 +15,7 @@ import { ErrorTable } from "./errors.ts";
 import { exaggerationBar } from "./exaggeration.ts";
 import { FileText } from "./file.ts";
 import { Head } from "./head.ts";
+import { editKey } from "./keys.ts";
 import { pages } from "./pages.ts";
 import { PosePanels } from "./pose.ts";
 
@@ -190,15 +191,11 @@ export class DescribeTab implements TabHandle {
   }
 
   private key(event: KeyboardEvent): void {
-    if (this.app.state.tab !== "describe" || !(event.ctrlKey || event.metaKey) || event.altKey) return;
-    const key = event.key.toLowerCase();
-    if (key === "s") {
-      event.preventDefault();
-      void this.save();
-    } else if ((key === "z" || key === "y") && !typing(event.target)) {
-      event.preventDefault();
-      this.step(key === "y" || event.shiftKey ? "redo" : "undo");
-    }
+    const wanted = this.app.state.tab === "describe" ? editKey(event) : null;
+    if (!wanted) return;
+    event.preventDefault();
+    if (wanted === "save") void this.save();
+    else this.step(wanted);
   }
 
   // ---- saving ----
@@ -392,11 +389,4 @@ export class DescribeTab implements TabHandle {
     this.errors.showPose(null, this.axes.at);
     this.head.showDeviation(null);
   }
-}
-
-/** Whether Ctrl+Z belongs to a text that is being typed. */
-function typing(target: EventTarget | null): boolean {
-  if (target instanceof HTMLTextAreaElement) return true;
-  if (!(target instanceof HTMLInputElement) || target.readOnly) return false;
-  return target.type === "number" || (target.type === "text" && target.value !== target.defaultValue);
 }
