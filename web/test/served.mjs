@@ -29,14 +29,14 @@ export async function cli(...words) {
 async function live(server) {
   const { createServer } = await import('vite');
   process.env.SERVER = new URL(server).origin;
-  const configFile = path.join(root, 'web/dev/live.config.ts');
+  const configFile = path.join(root, 'web/dev/vite.config.ts');
   const vite = await createServer({ configFile, logLevel: 'error', server: { port: 5290, hmr: false } });
   await vite.listen();
   return vite;
 }
 
 /**
- * Starts `trueaxis serve` on a folder; `stop` ends it. ADDRESS names one that runs already (`npm run live`): then
+ * Starts `trueaxis serve` on a folder; `stop` ends it. ADDRESS names one that runs already (`npm run dev`): then
  * the pages of other folders come from the sources, too.
  */
 export async function serve(folder = root) {
