@@ -16,6 +16,8 @@ export interface HeatmapSpec {
   digits?: number;
   /** Default [−1, 1] with a diverging map if values are signed. */
   range?: [number, number];
+  /** What a cell without a number means, for the readout. */
+  blank?: string;
 }
 
 function drawHeatmap(d: Drawing, spec: HeatmapSpec): void {
@@ -32,15 +34,23 @@ function drawHeatmap(d: Drawing, spec: HeatmapSpec): void {
     for (let j = 0; j < m; j++) {
       const value = spec.values[i * m + j] as number;
       const rect = s("rect", { x: left + j * cell, y: top + i * cell, width: cell - (cell > 6 ? 1 : 0), height: cell - (cell > 6 ? 1 : 0), fill: Number.isFinite(value) ? css(map((value - range[0]) / (range[1] - range[0] || 1))) : "var(--line)" });
-      rect.addEventListener("pointerenter", () => (readout.textContent = `${spec.rows[i]} – ${spec.columns[j]}: ${withUnit(value, spec.digits ?? 2, spec.unit ?? "")}`));
+      rect.addEventListener("pointerenter", () => (readout.textContent = cellText(spec, i, j)));
       d.svg.append(rect);
-      if (cell >= 25 && Number.isFinite(value)) d.svg.append(s("text", { x: left + (j + 0.5) * cell, y: top + (i + 0.5) * cell + 3, "text-anchor": "middle", "font-size": 8, fill: "var(--ink)", "pointer-events": "none" }, number(value, 1)));
+      const ink = map === sequential && Number.isFinite(value) ? (value - range[0] > 0.55 * (range[1] - range[0]) ? "#15191e" : "#ffffff") : "var(--ink)";
+      if (cell >= 25 && Number.isFinite(value)) d.svg.append(s("text", { x: left + (j + 0.5) * cell, y: top + (i + 0.5) * cell + 3, "text-anchor": "middle", "font-size": 8, fill: ink, "pointer-events": "none" }, number(value, 1)));
     }
     if (named && cell >= 9) d.svg.append(s("text", { x: left - 6, y: top + (i + 0.5) * cell + 4, "text-anchor": "end", fill: "var(--muted)", "font-size": Math.min(11, cell) }, spec.rows[i] ?? ""));
   }
   if (named && cell >= 9) spec.columns.forEach((name, j) => d.svg.append(s("text", { transform: `translate(${left + (j + 0.5) * cell + 4} ${top - 6}) rotate(-90)`, fill: "var(--muted)", "font-size": Math.min(11, cell) }, name)));
   d.svg.append(readout);
   addCellKeys(d, spec, readout);
+}
+
+/** "EX0C – A x: 10.00 µm". */
+function cellText(spec: HeatmapSpec, i: number, j: number): string {
+  const value = spec.values[i * spec.columns.length + j] as number;
+  const text = Number.isFinite(value) ? withUnit(value, spec.digits ?? 2, spec.unit ?? "") : (spec.blank ?? withUnit(value, 2, ""));
+  return `${spec.rows[i]} – ${spec.columns[j]}: ${text}`;
 }
 
 /** Arrow keys walk through the cells and read them out. */
@@ -53,7 +63,7 @@ function addCellKeys(d: Drawing, spec: HeatmapSpec, readout: SVGTextElement): vo
     event.preventDefault();
     i = Math.max(0, Math.min(n - 1, i + (step[0] as number)));
     j = Math.max(0, Math.min(m - 1, j + (step[1] as number)));
-    readout.textContent = `${spec.rows[i]} – ${spec.columns[j]}: ${withUnit(spec.values[i * m + j] as number, spec.digits ?? 2, spec.unit ?? "")}`;
+    readout.textContent = cellText(spec, i, j);
   });
 }
 
