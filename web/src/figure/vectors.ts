@@ -70,15 +70,27 @@ function drawBox(d: Drawing, corners: Triple[], [low, high]: [Triple, Triple], v
     }
   }
   ["X", "Y", "Z"].forEach((name, j) => {
-    const away = corners[1 << j] as Triple;
-    const here = corners[0] as Triple;
-    const [dx, dy] = [v.x(away) - v.x(here), v.y(away) - v.y(here)];
+    const [from, to] = outerEdge(corners, j, v);
+    const [dx, dy] = [v.x(to) - v.x(from), v.y(to) - v.y(from)];
     // An edge that is seen from its end has no name.
     if (Math.hypot(dx, dy) < 24 || (high[j] as number) === (low[j] as number)) return;
     const text = `${name} ${number(low[j], 0)} … ${withUnit(high[j], 0, "mm")}`;
     const steep = Math.abs(dy) > Math.abs(dx);
-    d.svg.append(s("text", { x: (v.x(here) + v.x(away)) / 2 + (steep ? -8 : 0), y: (v.y(here) + v.y(away)) / 2 + (steep ? 4 : 18), "text-anchor": steep ? "end" : "middle", fill: "var(--muted)" }, text));
+    const falls = dy * dx > 0;
+    const [x, y] = [(v.x(from) + v.x(to)) / 2, (v.y(from) + v.y(to)) / 2];
+    const flat = Math.abs(dy) < 0.1 * Math.abs(dx);
+    d.svg.append(s("text", { x: x + (steep ? -8 : flat ? 0 : falls ? -8 : 8), y: y + (steep ? 4 : 18), "text-anchor": flat ? "middle" : steep || falls ? "end" : "start", fill: "var(--muted)" }, text));
   });
+}
+
+/** The edge along a direction that lies outside in the picture: below, or at the left if it is upright. */
+function outerEdge(corners: Triple[], j: number, v: View): [Triple, Triple] {
+  const starts = corners.map((_, i) => i).filter((i) => !((i >> j) & 1));
+  const edges = starts.map((i): [Triple, Triple] => [corners[i] as Triple, corners[i | (1 << j)] as Triple]);
+  const [a, b] = edges[0] as [Triple, Triple];
+  const steep = Math.abs(v.y(b) - v.y(a)) > Math.abs(v.x(b) - v.x(a));
+  const outside = ([p, q]: [Triple, Triple]): number => (steep ? -(v.x(p) + v.x(q)) : v.y(p) + v.y(q));
+  return edges.reduce((best, edge) => (outside(edge) > outside(best) + 1e-9 ? edge : best));
 }
 
 function arrowPath(x: number, y: number, dx: number, dy: number): string {

@@ -490,6 +490,14 @@ export class MachineView {
     this.frame(box.getCenter(new Vector3()), from, box);
   }
 
+  /** Looks at the workpiece from where the camera stands: `radius` mm around a point of its frame. */
+  lookAtWorkpiece(point: readonly [number, number, number], radius: number): void {
+    this.scene.updateMatrixWorld(true);
+    const centre = new Vector3(...point).applyMatrix4(this.layers.matrixWorld);
+    const from = this.camera.position.clone().sub(this.controls?.target ?? new Vector3()).normalize();
+    this.frame(centre, from, new Box3(centre.clone().addScalar(-radius), centre.clone().addScalar(radius)));
+  }
+
   /** Puts both cameras so that `box` fills the picture, seen from `from`. */
   private frame(centre: Vector3, from: Vector3, box: Box3): void {
     const aspect = this.size.width / this.size.height;

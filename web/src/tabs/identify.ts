@@ -87,6 +87,7 @@ class IdentifyTab implements TabHandle {
     // Coming back to the tab shows what is there; a question that was stopped is asked again.
     if (asked === this.asked) return;
     this.asked = asked;
+    if (this.figures.length === 0) fill(this.result, h("section", { class: "panel muted" }, "Fitting the errors to the readings, and checking them on readings held out …"));
     try {
       this.show(await this.question.ask(body, `identifying from ${this.dropped?.name ?? this.campaign}`));
     } catch (error) {

@@ -35,7 +35,7 @@ class PlanTab implements TabHandle {
   private readonly head = h("section", { class: "panel form" });
   private readonly summary = h("div");
   private readonly paths = h("div");
-  private readonly stations = h("section", { class: "panel" });
+  private readonly stations = h("section", { class: "panel", hidden: true });
   private readonly result = h("div", { class: "result" });
   private readonly slider: HTMLInputElement;
   private readonly where = h("output", { class: "station-now" });
@@ -46,6 +46,9 @@ class PlanTab implements TabHandle {
   private dialect = "sinumerik";
   private asked = "";
   private machine: string | null = null;
+  private tool_mm = 100;
+  /** The camera comes close once per machine; then it stays where the user put it. */
+  private come_close = false;
   private path = 0;
   private readonly pose = latestOnly<Pose, Frame<PoseHeader>>(
     (pose) => this.app.api.ask("pose", pose),
@@ -60,7 +63,7 @@ class PlanTab implements TabHandle {
     this.view = new MachineView(left);
     this.layer = new StationLayer(this.view);
     this.slider = h("input", { type: "range", min: "0", max: "0", step: "1", value: "0", class: "station-slider", ariaLabel: "Station of the path", oninput: () => this.go(Number(this.slider.value)) });
-    left.append(h("div", { class: "scene-bottom" }, h("div", { class: "scene-control" }, h("span", {}, "Station"), this.slider, this.where)));
+    left.append(h("div", { class: "scene-bottom" }, h("div", { class: "scene-control" }, h("button", { title: "Look at the stations from near", onclick: () => this.layer.closeUp() }, "Close up"), h("span", {}, "Station"), this.slider, this.where)));
     fill(right, this.head, this.summary, this.paths, this.stations, this.result);
   }
 
@@ -91,6 +94,7 @@ class PlanTab implements TabHandle {
     const asked = JSON.stringify(body);
     if (asked === this.asked) return;
     this.asked = asked;
+    if (!this.frame) fill(this.result, h("section", { class: "panel muted" }, "Working out the paths, what they see, and their programs …"));
     try {
       await this.show(await this.question.ask(body, `planning ${this.campaign}`));
     } catch (error) {
@@ -105,6 +109,7 @@ class PlanTab implements TabHandle {
     for (const one of this.figures) one.dispose();
     this.figures = [];
     this.frame = null;
+    this.stations.hidden = true;
     for (const panel of [this.summary, this.paths, this.stations, this.result]) panel.replaceChildren();
   }
 
@@ -125,8 +130,11 @@ class PlanTab implements TabHandle {
     const { header } = frame;
     const { document } = header;
     if (header.machine !== this.machine) {
-      this.view.setMachine(await this.app.api.ask("describe", { machine: header.machine }));
+      const described = await this.app.api.ask("describe", { machine: header.machine });
+      this.view.setMachine(described);
+      this.tool_mm = described.tool.length_mm;
       this.machine = header.machine;
+      this.come_close = true;
     }
     this.clear();
     this.frame = frame;
@@ -156,7 +164,7 @@ class PlanTab implements TabHandle {
     this.path = path;
     fill(this.paths, pathsPanel(header, path, (chosen) => this.choosePath(chosen)));
     this.slider.max = String(Math.max(0, (header.paths[path]?.stations ?? 1) - 1));
-    this.layer.show(this.tools(), 0);
+    this.layer.show(this.tools(), 0, this.tool_mm);
     this.listStations();
     this.go(0);
   }
@@ -194,6 +202,7 @@ class PlanTab implements TabHandle {
     const rows = Array.from({ length: shown }, (_, i) => h("tr", { dataStation: i, tabindex: "0", onclick: () => this.go(i), onkeydown: (event: KeyboardEvent) => event.key === "Enter" && this.go(i) }, h("td", { class: "number" }, String(i + 1)), cells(i)));
     const heading = header.axes.map(({ name, unit }) => h("th", { class: "number" }, `${name}, ${unit === "mm" ? "mm" : "°"}`));
     const name = header.paths[this.path]?.name ?? "";
+    this.stations.hidden = count === 0;
     fill(
       this.stations,
       h("h2", {}, name === "chosen" ? "Stations of the chosen poses" : `Stations of path ${name}`),
@@ -223,6 +232,8 @@ class PlanTab implements TabHandle {
     this.view.setPoses(frame.f64("nominal"), frame.f64("actual"));
     // Where to measure is a matter of the nominal machine.
     this.view.setGhostVisible(false);
+    if (this.come_close) this.layer.closeUp();
+    this.come_close = false;
   }
 }
 

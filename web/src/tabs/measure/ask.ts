@@ -41,7 +41,7 @@ export function isAbort(error: unknown): boolean {
 /** What is wrong with the input and what to do, where the result would stand. */
 export function showRefusal(host: HTMLElement, error: unknown): void {
   const refusal = Refusal.from(error);
-  const told = refusal.diagnostics.some((d) => d.message === refusal.message);
+  const told = refusal.diagnostics.some((d) => refusal.message.endsWith(d.message));
   fill(
     host,
     h(

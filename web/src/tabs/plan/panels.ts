@@ -22,14 +22,14 @@ export function summaryPanel(doc: PlanDocument): HTMLElement {
   const seen = doc.expected.length;
   const told = doc.expected.filter((one) => one.u !== null).length;
   const time_s = doc.paths.reduce((sum, path) => sum + (path.program?.duration_s ?? 0), 0);
-  const good = unsound === 0 && doc.rank === seen;
+  const [state, word] = unsound > 0 ? ["bad", "Not sound"] : doc.rank < seen ? ["warn", "Not all"] : ["", "Tells all"];
   const words = [unsound > 0 ? `${count(unsound, "program")} would run into something or leave the travel` : null, doc.rank < seen ? `${doc.rank} of ${seen} combinations seen, ${told} unknowns can be told alone` : "everything that is sought can be told"].filter(Boolean);
   return h(
     "section",
     { class: "panel" },
     h("h1", {}, doc.name),
     h("p", { class: "muted" }, `${doc.machine}, `, h("code", { class: "chain-text" }, doc.chain)),
-    h("p", { class: `verdict ${good ? "" : unsound > 0 ? "bad" : "warn"}`, role: "status", dataTest: "summary" }, h("span", { class: "verdict-word" }, good ? "Tells all" : unsound > 0 ? "Not sound" : "Not all"), h("span", {}, words.join("; "))),
+    h("p", { class: `verdict ${state}`, role: "status", dataTest: "summary" }, h("span", { class: "verdict-word" }, word), h("span", {}, words.join("; "))),
     h("p", { class: "muted" }, `${count(doc.paths.length, "path")}, ${duration(time_s)} of program together; condition ${significant(doc.condition)}.`),
   );
 }
@@ -42,7 +42,8 @@ export function pathsPanel({ document, paths }: PlanHeader, now: number, choose:
     const minor = program?.minor ?? [];
     const state = !program ? h("span", { class: "muted" }, "no program") : h("span", { class: program.sound ? "sound" : "unsound" }, program.sound ? "sound" : "not sound");
     const notes = [...trouble.map((text) => h("p", { class: "unsound" }, text)), minor.length > 0 ? h("details", { onclick: (event: Event) => event.stopPropagation() }, h("summary", { class: "muted" }, `${minor.length} minor`), minor.slice(0, 100).map((text) => h("p", { class: "muted" }, text))) : null];
-    const kind = paths[i] ? `${paths[i].kind}, ${paths[i].instrument}` : "";
+    const how = path.feed_mm_per_min !== null ? `without a stop at ${number(path.feed_mm_per_min, 0)} mm/min` : path.dwell_s !== null ? `standing ${number(path.dwell_s, 2)} s at each` : null;
+    const kind = [paths[i]?.instrument, paths[i]?.kind, how].filter(Boolean).join(", ");
     const cells = [h("td", {}, h("strong", {}, path.name), h("p", { class: "muted" }, kind)), h("td", { class: "number" }, String(path.stations)), h("td", { class: "number" }, program ? duration(program.duration_s) : "–"), h("td", {}, state, notes)];
     const element = h("tr", { tabindex: "0", ariaSelected: String(i === now), dataPath: path.name, onclick: () => choose(i), onkeydown: (event: KeyboardEvent) => event.key === "Enter" && choose(i) }, cells);
     return element;

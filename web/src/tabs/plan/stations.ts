@@ -11,16 +11,30 @@ export class StationLayer {
   private readonly group = new Group();
   private tools: ArrayLike<number> = [];
   private at = 0;
+  /** Length of the strokes and size of the whole, mm. */
+  private stroke = 40;
+  private middle: [number, number, number] = [0, 0, 0];
+  private extent = 0;
 
   constructor(view: MachineView) {
     this.view = view;
     onTheme(() => this.draw());
   }
 
-  show(tools: ArrayLike<number>, at: number): void {
+  /** `tool_mm`: the length of the tool, so that strokes from one and the same point are seen. */
+  show(tools: ArrayLike<number>, at: number, tool_mm: number): void {
     this.tools = tools;
     this.at = at;
+    const ranges = [0, 1, 2].map((j) => rangeOf(Array.from({ length: Math.floor(tools.length / 6) }, (_, i) => tools[6 * i + j] as number)));
+    this.middle = ranges.map(([low, high]) => (low + high) / 2) as [number, number, number];
+    this.extent = Math.max(...ranges.map(([low, high]) => high - low));
+    this.stroke = Math.max(20, 0.2 * this.extent, 0.4 * tool_mm);
     this.draw();
+  }
+
+  /** Brings all stations close. */
+  closeUp(): void {
+    this.view.lookAtWorkpiece(this.middle, this.extent / 2 + 2.6 * this.stroke);
   }
 
   mark(at: number): void {
@@ -42,9 +56,7 @@ export class StationLayer {
     if (n === 0) return;
     const point = (i: number, along = 0): number[] => [0, 1, 2].map((j) => (this.tools[6 * i + j] as number) + along * (this.tools[6 * i + 3 + j] as number));
     const every = Array.from({ length: n }, (_, i) => i);
-    const extent = Math.max(...[0, 1, 2].map((j) => { const [low, high] = rangeOf(every.map((i) => this.tools[6 * i + j] as number)); return high - low; }));
-    // Long enough to be seen beside the workpiece, short enough not to hide the path.
-    const stroke = Math.max(40, 0.22 * extent);
+    const { stroke } = this;
     this.add(new Line(geometry(every.flatMap((i) => point(i))), new LineBasicMaterial({ color: cssColour("--muted"), transparent: true, opacity: 0.5, depthTest: false })));
     this.add(new LineSegments(geometry(every.flatMap((i) => [...point(i), ...point(i, stroke)])), new LineBasicMaterial({ color: cssColour("--series-1"), transparent: true, opacity: 0.75, depthTest: false })));
     this.add(new Points(geometry(every.flatMap((i) => point(i))), new PointsMaterial({ color: cssColour("--series-1"), size: 5, sizeAttenuation: false, depthTest: false, transparent: true })));

@@ -69,7 +69,7 @@ function polarSpec(picture: PolarPicture, { points }: Arrays, circle: { radius_m
   return {
     title: picture.title,
     unit: "µm",
-    height: 440,
+    height: 560,
     ...circle,
     series: picture.lines.map((one) => ({ name: one.label, colour: seriesColour(one.colour), angle_rad: column(points, one.points, 2, 0), deviation: column(points, one.points, 2, 1) })),
   };
