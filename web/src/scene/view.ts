@@ -351,6 +351,13 @@ export class MachineView {
     this.requestRender();
   }
 
+  /** The arrows of positive motion are in the way of close looks. */
+  setArrowsVisible(visible: boolean): void {
+    for (const arrow of this.arrows) arrow.visible = visible;
+    this.overlay.element.classList.toggle("without-labels", !visible);
+    this.requestRender();
+  }
+
   // ---- poses ----
 
   /**

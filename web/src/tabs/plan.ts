@@ -37,6 +37,7 @@ class PlanTab implements TabHandle {
   private readonly paths = h("div");
   private readonly stations = h("section", { class: "panel", hidden: true });
   private readonly result = h("div", { class: "result" });
+  private readonly programs = h("div");
   private readonly slider: HTMLInputElement;
   private readonly where = h("output", { class: "station-now" });
   private readonly question: Question<PlanHeader>;
@@ -64,7 +65,7 @@ class PlanTab implements TabHandle {
     this.layer = new StationLayer(this.view);
     this.slider = h("input", { type: "range", min: "0", max: "0", step: "1", value: "0", class: "station-slider", ariaLabel: "Station of the path", oninput: () => this.go(Number(this.slider.value)) });
     left.append(h("div", { class: "scene-bottom" }, h("div", { class: "scene-control" }, h("button", { title: "Look at the stations from near", onclick: () => this.layer.closeUp() }, "Close up"), h("span", {}, "Station"), this.slider, this.where)));
-    fill(right, this.head, this.summary, this.paths, this.stations, this.result);
+    fill(right, this.head, this.summary, this.paths, this.result, this.stations, this.programs);
   }
 
   open(params: Readonly<Record<string, string>>): void {
@@ -110,7 +111,7 @@ class PlanTab implements TabHandle {
     this.figures = [];
     this.frame = null;
     this.stations.hidden = true;
-    for (const panel of [this.summary, this.paths, this.stations, this.result]) panel.replaceChildren();
+    for (const panel of [this.summary, this.paths, this.stations, this.result, this.programs]) panel.replaceChildren();
   }
 
   private showForm(): void {
@@ -132,6 +133,7 @@ class PlanTab implements TabHandle {
     if (header.machine !== this.machine) {
       const described = await this.app.api.ask("describe", { machine: header.machine });
       this.view.setMachine(described);
+      this.view.setArrowsVisible(false);
       this.tool_mm = described.tool.length_mm;
       this.machine = header.machine;
       this.come_close = true;
@@ -143,8 +145,8 @@ class PlanTab implements TabHandle {
     this.result.append(confoundedPanel(document.unobservable, "Everything that is sought can be told."));
     if (document.chosen) this.result.append(chosenPanel(document.chosen));
     this.draw(seenPanel(document));
-    this.result.append(programsPanel(header, this.dialectSelect()));
-    if (header.diagnostics.length > 0) this.result.append(h("section", { class: "panel" }, h("h2", {}, "Remarks"), diagnosticList(header.diagnostics)));
+    fill(this.programs, programsPanel(header, this.dialectSelect()));
+    if (header.diagnostics.length > 0) this.programs.append(h("section", { class: "panel" }, h("h2", {}, "Remarks"), diagnosticList(header.diagnostics)));
     // The chosen poses come last, and are what the plan is about.
     const wanted = document.chosen ? header.paths.length - 1 : Math.min(this.path, header.paths.length - 1);
     this.choosePath(Math.max(0, wanted));
@@ -165,6 +167,7 @@ class PlanTab implements TabHandle {
     fill(this.paths, pathsPanel(header, path, (chosen) => this.choosePath(chosen)));
     this.slider.max = String(Math.max(0, (header.paths[path]?.stations ?? 1) - 1));
     this.layer.show(this.tools(), 0, this.tool_mm);
+    this.view.overlay.note("stations", `Strokes: tool axis at every station of ${header.paths[path]?.name ?? "the path"}; the tool is that of the machine file`);
     this.listStations();
     this.go(0);
   }

@@ -36,10 +36,11 @@ const BY_HEADING: readonly [RegExp, string][] = [
   [/\bangle_deg\b/, "iso230-7"],
 ];
 
-function guess(text: string): string {
+/** The standard that the headings are of; null if they are of none. */
+function guess(text: string): string | null {
   const heading = text.split(/\r?\n/).find((line) => line.trim() !== "" && !line.startsWith("#")) ?? "";
   if (text.trimStart().startsWith("<")) return "iso230-4";
-  return BY_HEADING.find(([pattern]) => pattern.test(heading))?.[1] ?? "iso230-2";
+  return BY_HEADING.find(([pattern]) => pattern.test(heading))?.[1] ?? null;
 }
 
 /** The form of a dropped file, by its ending as on the command line. */
@@ -57,6 +58,9 @@ class StandardsTab implements TabHandle {
   private figures: Figure<never>[] = [];
   private standards: Standard[] = [];
   private dropped: TextFile | null = null;
+  private conditions: string | null = null;
+  private standard = "iso230-2";
+  private shown = false;
   private params: Readonly<Record<string, string>> = {};
 
   constructor(host: HTMLElement, app: App) {
@@ -70,12 +74,14 @@ class StandardsTab implements TabHandle {
   }
 
   open(params: Readonly<Record<string, string>>): void {
-    this.params = params;
     const fresh = takeDropped();
     if (fresh) {
       this.take(fresh);
       return;
     }
+    // Coming back by the tab shows what was there.
+    if (!params["path"] && !params["dropped"] && this.shown) return;
+    this.params = params;
     if (!params["path"] && params["dropped"] && this.dropped?.name !== params["dropped"]) this.dropped = null;
     if (params["path"]) this.dropped = null;
     void this.run();
@@ -86,14 +92,13 @@ class StandardsTab implements TabHandle {
   }
 
   changed(path: string): void {
-    if (path === this.params["path"]) void this.run();
+    if (path === this.params["path"] || path === this.conditions) void this.run();
   }
 
   private take(file: TextFile): void {
     this.dropped = file;
-    const wanted = { dropped: file.name, standard: guess(file.text) };
     // The same name again may be another text: `go` routes again even if the address stays.
-    this.app.go("standards", wanted);
+    this.app.go("standards", { dropped: file.name });
   }
 
   /** Changes one field of the form; the address keeps all of them. */
@@ -107,11 +112,9 @@ class StandardsTab implements TabHandle {
       if (this.standards.length === 0) this.standards = await this.app.api.ask<Standard[]>("standards", {});
       const params = this.params;
       const path = this.dropped ? null : (params["path"] ?? null);
-      if (path && !params["standard"]) {
-        const { text } = await this.app.api.ask("open", { path });
-        this.choose({ standard: guess(text) });
-        return;
-      }
+      const standard = params["standard"] ?? (await this.standardIn(path)) ?? "iso230-2";
+      if (params !== this.params) return;
+      this.standard = standard;
       this.showForm();
       if (!path && !this.dropped) {
         this.clear();
@@ -123,12 +126,19 @@ class StandardsTab implements TabHandle {
     } catch (error) {
       if (isAbort(error)) return;
       this.clear();
-      showRefusal(this.result, error);
+      showRefusal(this.result, error, h("p", { class: "note" }, "Readings of the instruments of a campaign are not judged by a standard: drop them in ", h("a", { href: "#identify" }, "Identify"), "."));
     }
   }
 
+  /** By the headings of the readings. */
+  private async standardIn(path: string | null): Promise<string | null> {
+    const text = this.dropped?.text ?? (path ? (await this.app.api.ask("open", { path })).text : "");
+    return guess(text);
+  }
+
   private body(path: string | null): object {
-    const { standard, radius, window, conditions, feature } = this.params;
+    const { standard } = this;
+    const { radius, window, conditions, feature } = this.params;
     const from = this.dropped ? { name: this.dropped.name, text: this.dropped.text, import: formOf(this.dropped.name) } : { path };
     const more = Object.fromEntries(Object.entries({ radius, window, conditions, feature }).filter(([, v]) => v));
     return { standard, ...from, ...more };
@@ -137,19 +147,21 @@ class StandardsTab implements TabHandle {
   private clear(): void {
     for (const one of this.figures) one.dispose();
     this.figures = [];
-    this.charts.replaceChildren();
+    this.shown = false;
+    fill(this.charts, h("p", { class: "empty" }, "The charts stand here. Drop a CSV of readings anywhere on this page."));
     this.result.replaceChildren();
   }
 
   // ---- the form ----
 
   private showForm(): void {
-    const { standard = "iso230-2", path = null, conditions } = this.params;
+    const { standard } = this;
+    const { path = null, conditions } = this.params;
     const choice = h("select", { ariaLabel: "Standard", dataTest: "standard", onchange: () => this.choose({ standard: choice.value, radius: null, window: null }) }, this.standards.map((one) => h("option", { value: one.key }, one.title)));
     choice.value = standard;
     const isReadings = ({ kind }: { kind: string }): boolean => kind === "readings";
     const now = this.dropped ? null : path;
-    const files = fileSelect(this.app, this.dropped ? this.dropped.name : "Readings", "standards", isReadings, now, (chosen) => this.choose({ path: chosen, dropped: null, standard: this.standardOf(chosen), radius: null, window: null, conditions: null, feature: null }));
+    const files = fileSelect(this.app, this.dropped ? this.dropped.name : "Readings", "standards", isReadings, now, (chosen) => this.choose({ path: chosen, dropped: null, standard: null, radius: null, window: null, conditions: null, feature: null }));
     const beside = h("select", { ariaLabel: "Conditions of the test", class: "file-select", onchange: () => this.choose({ conditions: beside.value || null }) }, h("option", { value: "" }, this.dropped ? "none" : "of the same name beside the readings"), this.conditionFiles().map((p) => h("option", { value: p }, p)));
     beside.value = conditions ?? "";
     const field = (key: string, label: string, hint: string): HTMLElement => {
@@ -171,11 +183,6 @@ class StandardsTab implements TabHandle {
     );
   }
 
-  /** Known for the examples; else the headings say it. */
-  private standardOf(path: string): string | null {
-    return this.app.state.project?.examples.find((example) => example.tab === "standards" && example.path === path)?.standard ?? null;
-  }
-
   /** TOML files that may hold conditions: those in the folders of readings. */
   private conditionFiles(): string[] {
     const files = this.app.state.project?.files ?? [];
@@ -190,7 +197,10 @@ class StandardsTab implements TabHandle {
   private show(frame: Frame<Header>, path: string | null): void {
     const { document, pictures, conditions_file, diagnostics } = frame.header;
     this.clear();
+    this.shown = true;
+    this.conditions = conditions_file;
     const circle = kindOf(document) === "circular" ? { radius_mm: as<Circular>(document).radius_mm, axes: as<Circular>(document).axes } : {};
+    this.charts.replaceChildren();
     this.figures = drawPictures(this.charts, frame, pictures, circle);
     const file = path ?? this.dropped?.name ?? document.file;
     const known = [document.machine, document.axis && `axis ${document.axis}`, document.instrument, document.date, document.temperature_degC !== null ? celsius(document.temperature_degC) : null].filter(Boolean);
@@ -207,7 +217,7 @@ class StandardsTab implements TabHandle {
       "dl",
       { class: "tiles" },
       tilesOf(document).map((tile) =>
-        h("div", { class: "tile", title: tile.title, dataTile: tile.symbol }, h("dt", {}, tile.symbol), h("dd", {}, h("strong", {}, number(tile.value, 2)), h("span", { class: "unit" }, `${NARROW_SPACE}${tile.unit}`), tile.U != null ? h("span", { class: "muted tile-u", title: "expanded uncertainty, k = 2" }, `U ${number(tile.U, 2)}`) : null)),
+        h("div", { class: "tile", title: tile.title, dataTile: tile.symbol }, h("dt", {}, tile.symbol, h("span", { class: "muted tile-word" }, tile.word)), h("dd", {}, h("strong", {}, number(tile.value, 2)), h("span", { class: "unit" }, `${NARROW_SPACE}${tile.unit}`), tile.U != null ? h("span", { class: "muted tile-u", title: "expanded uncertainty, k = 2" }, `U ${number(tile.U, 2)}`) : null)),
       ),
     );
   }

@@ -1,9 +1,10 @@
 /** One long question at a time, with its progress in the status line; and what stands at the head of a tab. */
 
 import { diagnosticList, type App } from "../../app.ts";
-import { Refusal, type ProjectFile } from "../../api.ts";
-import { fill, h } from "../../dom.ts";
+import { Refusal, type Diagnostic, type ProjectFile } from "../../api.ts";
+import { fill, h, type Child } from "../../dom.ts";
 import type { Frame } from "../../frame.ts";
+import { count } from "./words.ts";
 
 /** Asks; a newer question drops the older one. */
 export class Question<H> {
@@ -38,9 +39,14 @@ export function isAbort(error: unknown): boolean {
   return error instanceof DOMException && error.name === "AbortError";
 }
 
+/** Most places of one refusal that are told. */
+const MOST_TOLD = 12;
+
 /** What is wrong with the input and what to do, where the result would stand. */
-export function showRefusal(host: HTMLElement, error: unknown): void {
+export function showRefusal(host: HTMLElement, error: unknown, more?: Node): void {
   const refusal = Refusal.from(error);
+  const [errors, others] = [true, false].map((wanted) => refusal.diagnostics.filter((d) => (d.severity === "error") === wanted)) as [Diagnostic[], Diagnostic[]];
+  const list = (all: readonly Diagnostic[]): Child => (all.length > 0 ? [diagnosticList(all.slice(0, MOST_TOLD)), all.length > MOST_TOLD ? h("p", { class: "muted" }, `and ${all.length - MOST_TOLD} more`) : null] : null);
   const told = refusal.diagnostics.some((d) => refusal.message.endsWith(d.message));
   fill(
     host,
@@ -49,8 +55,9 @@ export function showRefusal(host: HTMLElement, error: unknown): void {
       { class: "panel refused", role: "alert" },
       told ? null : h("h2", {}, refusal.message),
       told || !refusal.hint ? null : h("p", { class: "hint" }, refusal.hint),
-      refusal.diagnostics.length > 0 ? diagnosticList(refusal.diagnostics.slice(0, 12)) : null,
-      refusal.diagnostics.length > 12 ? h("p", { class: "muted" }, `and ${refusal.diagnostics.length - 12} more`) : null,
+      list(errors),
+      others.length > 0 ? h("details", { open: errors.length === 0 }, h("summary", { class: "muted" }, count(others.length, "warning or note", "warnings and notes")), list(others)) : null,
+      more,
     ),
   );
 }

@@ -31,6 +31,11 @@ interface Arrays {
   points: Float64Array;
 }
 
+/** The sixth colour looks much like the first: the seventh comes before it. */
+function colourOf(index: number): string {
+  return seriesColour(index === 5 ? 6 : index === 6 ? 5 : index);
+}
+
 /** One column of a slice of entries of `width` numbers. */
 function column(from: Float64Array, [first, count]: Slice, width: number, j: number): Float64Array {
   return Float64Array.from({ length: count }, (_, i) => from[width * (first + i) + j] as number);
@@ -45,7 +50,7 @@ function axisOf(text: string): { label: string; unit?: string } {
 function seriesOf(picture: ScatterPicture, { line, points }: Arrays): Series[] {
   const series: Series[] = [];
   for (const band of picture.bands) {
-    const colour = seriesColour(band.colour);
+    const colour = colourOf(band.colour);
     const half = column(line, band.line, 3, 2);
     series.push({ name: band.label, colour, x: column(line, band.line, 3, 0), y: column(line, band.line, 3, 1), ...(half.some((w) => w > 0) ? { half } : {}) });
     if (band.points[1] > 0) series.push({ name: `${band.label}, readings`, quiet: true, colour, line: false, points: true, x: column(points, band.points, 2, 0), y: column(points, band.points, 2, 1) });
@@ -71,7 +76,7 @@ function polarSpec(picture: PolarPicture, { points }: Arrays, circle: { radius_m
     unit: "µm",
     height: 560,
     ...circle,
-    series: picture.lines.map((one) => ({ name: one.label, colour: seriesColour(one.colour), angle_rad: column(points, one.points, 2, 0), deviation: column(points, one.points, 2, 1) })),
+    series: picture.lines.map((one) => ({ name: one.label, colour: colourOf(one.colour), angle_rad: column(points, one.points, 2, 0), deviation: column(points, one.points, 2, 1) })),
   };
 }
 

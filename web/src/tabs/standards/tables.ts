@@ -155,9 +155,13 @@ export function sheetsOf(document: EvaluateDocument): Sheet[] {
   return { positioning, circular, drift, diagonals, rotation }[kindOf(document)](document);
 }
 
+const WORDS: Record<string, string> = { A: "accuracy", R: "repeatability", E: "systematic", M: "mean", B: "reversal", E_d: "systematic", R_d: "repeatability", B_d: "reversal", A_d: "accuracy" };
+
 /** What stands large at the head: the figures that are asked for first. */
 export interface Tile {
   symbol: string;
+  /** One word beside the symbol, and the whole name. */
+  word: string;
   title: string;
   value: number | null;
   U?: number | null;
@@ -170,17 +174,17 @@ export function tilesOf(document: EvaluateDocument): Tile[] {
       const p = as<Positioning>(document);
       const { key, shown } = unitsOf(p);
       const U = p[`U_${key}`] as Record<string, unknown>;
-      return FIGURES.filter(([name]) => ["A", "R", "E", "M", "B"].includes(name)).map(([name, symbol, title]) => ({ symbol, title, value: value(p, `${name}_${key}`), U: value(U, name), unit: shown }));
+      return FIGURES.filter(([name]) => ["A", "R", "E", "M", "B"].includes(name)).map(([name, symbol, title]) => ({ symbol, word: WORDS[name] ?? "", title, value: value(p, `${name}_${key}`), U: value(U, name), unit: shown }));
     }
     case "circular": {
       const c = as<Circular>(document);
-      return [["G_ccw", "G ccw", "circular deviation"], ["G_cw", "G cw", "circular deviation"], ["G_b", "G(b)", "bidirectional circular deviation"], ["D", "D", "mean bidirectional radial deviation"]].map(([key, symbol, title]) => ({ symbol: symbol as string, title: title as string, value: value(c, `${key}_um`), unit: "µm" })).filter((tile) => tile.value !== null);
+      return [["G_ccw", "G ccw", "circular deviation"], ["G_cw", "G cw", "circular deviation"], ["G_b", "G(b)", "bidirectional circular deviation"], ["D", "D", "mean bidirectional radial deviation"]].map(([key, symbol, title]) => ({ symbol: symbol as string, word: "", title: title as string, value: value(c, `${key}_um`), unit: "µm" })).filter((tile) => tile.value !== null);
     }
     case "diagonals":
-      return VOLUME.filter(([key]) => /_d$/.test(key)).map(([key, , title]) => ({ symbol: key, title, value: value(document, `${key}_um`), unit: "µm" }));
+      return VOLUME.filter(([key]) => /_d$/.test(key)).map(([key, , title]) => ({ symbol: key, word: WORDS[key] ?? "", title, value: value(document, `${key}_um`), unit: "µm" }));
     case "rotation":
-      return as<Rotation>(document).motions.map((m) => ({ symbol: m.sensitive, title: "total error motion", value: m.total_um, unit: "µm" }));
+      return as<Rotation>(document).motions.map((m) => ({ symbol: m.sensitive, word: "total", title: "total error motion", value: m.total_um, unit: "µm" }));
     case "drift":
-      return (sheetsOf(document)[0]?.rows ?? []).filter((row) => row[1] !== "°C").map((row) => ({ symbol: String(row[0]), title: "range over the whole test", value: row[2] as number | null, unit: String(row[1]) }));
+      return (sheetsOf(document)[0]?.rows ?? []).filter((row) => row[1] !== "°C").map((row) => ({ symbol: String(row[0]), word: "range", title: "range over the whole test", value: row[2] as number | null, unit: String(row[1]) }));
   }
 }
