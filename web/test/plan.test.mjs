@@ -1,8 +1,12 @@
 // Plan: what the tab shows is what `trueaxis plan` says; a station puts the machine there.
 import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import path from 'node:path';
 import { after, before, test } from 'node:test';
-import { browse, cli, open, picture, serve } from './served.mjs';
-import { downloaded, exports, shown, table } from './measured.mjs';
+import { browse, cli, open, picture, root, serve } from './served.mjs';
+import { downloaded, drop, exports, shown, table } from './measured.mjs';
 
 const probe = 'examples/04_plan/probe-ball.toml';
 const touch = 'examples/04_plan/touch-probe-5-minutes.toml';
@@ -105,4 +109,22 @@ test('the chosen poses of the five minutes stand against a grid', async () => {
   assert.equal(await page.locator('#tab-plan [data-station]').count(), chosen.readings);
   assert.deepEqual(complaints, []);
   await context.close();
+});
+
+test('readings dropped on a plan are identified with its campaign', async () => {
+  const folder = mkdtempSync(path.join(tmpdir(), 'trueaxis-plan-'));
+  const binary = process.env.TRUEAXIS ?? path.join(root, 'target/release/trueaxis');
+  execFileSync(binary, ['measure', probe, '-o', folder], { cwd: root });
+  const { page, context, complaints } = await open(browser, served.address);
+  await openCampaign(page, probe);
+  await drop(page, '#tab-plan', 'probe.csv', readFileSync(path.join(folder, 'probe.csv'), 'utf8'));
+  await page.waitForSelector('#tab-identify [data-test="verdict"]');
+  // The bars of this campaign are of the errors that were planned for, and what could not be told still cannot.
+  const document = await cli('plan', probe);
+  const text = await page.textContent('#tab-identify [data-test="confounded"]');
+  for (const one of document.unobservable) assert.ok(text.includes(one.combination), one.combination);
+  assert.equal((await table(page, 'values')).length, document.expected.length);
+  assert.deepEqual(complaints, []);
+  await context.close();
+  rmSync(folder, { recursive: true });
 });

@@ -5,7 +5,7 @@ import { download, fill, h } from "../dom.ts";
 import { heatmap, type Figure, type HeatmapSpec } from "../figure/index.ts";
 import type { Frame } from "../frame.ts";
 import { fileSelect, isAbort, Question, reportButton, showRefusal } from "./measure/ask.ts";
-import { dropOn, type TextFile } from "./measure/drop.ts";
+import { dropOn, takeHanded, type TextFile } from "./measure/drop.ts";
 import { sheetTable } from "./measure/table.ts";
 import type { IdentifyHeader, Instrument } from "./identify/documents.ts";
 import { confoundedPanel, foundPanel, identifiedName, outlierPanel, scorePanel, strongPairs, valueSheet, verdictPanel } from "./identify/panels.ts";
@@ -23,6 +23,8 @@ class IdentifyTab implements TabHandle {
   private figures: Figure<never>[] = [];
   private heat: Figure<HeatmapSpec> | null = null;
   private campaign: string | null = null;
+  /** The campaign that the answer on the page is of. */
+  private shown: string | null = null;
   private instruments: Instrument[] = [];
   private files: string[] = [];
   private dropped: TextFile | null = null;
@@ -50,7 +52,9 @@ class IdentifyTab implements TabHandle {
       this.instrument = null;
     }
     this.campaign = campaign;
-    void this.run();
+    const handed = takeHanded();
+    if (handed) this.take(handed);
+    else void this.run();
   }
 
   hide(): void {
@@ -87,6 +91,7 @@ class IdentifyTab implements TabHandle {
     // Coming back to the tab shows what is there; a question that was stopped is asked again.
     if (asked === this.asked) return;
     this.asked = asked;
+    if (this.campaign !== this.shown) this.clear();
     if (this.figures.length === 0) fill(this.result, h("section", { class: "panel muted" }, "Fitting the errors to the readings, and checking them on readings held out …"));
     try {
       this.show(await this.question.ask(body, `identifying from ${this.dropped?.name ?? this.campaign}`));
@@ -94,7 +99,7 @@ class IdentifyTab implements TabHandle {
       if (this.asked === asked) this.asked = "";
       if (isAbort(error)) return;
       this.clear();
-      showRefusal(this.result, error);
+      showRefusal(this.result, error, this.dropped ? undefined : h("p", { class: "note" }, "A CSV of readings that is dropped anywhere on this page is used with this campaign."));
     }
   }
 
@@ -124,14 +129,25 @@ class IdentifyTab implements TabHandle {
       if (this.instruments.length === 0) return null;
       return h("p", { class: "muted note" }, this.instruments.map((one) => `${one.name} (${one.kind}): ${one.tables.join(", ") || "no readings"}`).join(" · "));
     }
-    const of = h("select", { ariaLabel: "Instrument of the dropped readings", dataTest: "instrument", onchange: () => this.choose(of.value) }, h("option", { value: "", disabled: true }, "of which instrument? …"), this.instruments.map((one) => h("option", { value: one.name }, `${one.name} (${one.kind})`)));
-    of.value = this.instrument ?? "";
     const back = h("button", { onclick: () => this.forget() }, "Readings of the campaign");
-    return h("div", { class: "row" }, h("strong", {}, dropped.name), h("span", { class: "muted" }, "instead of the readings of"), this.instruments.length > 1 ? of : h("span", {}, this.instruments[0]?.name ?? "the campaign"), back);
+    return h("div", { class: "row" }, h("strong", {}, dropped.name), h("span", { class: "muted" }, "instead of the readings of"), this.instrumentField(), back);
+  }
+
+  /** Whose readings the dropped ones are: to be chosen if there are several, to be named while nothing is known. */
+  private instrumentField(): HTMLElement {
+    const known = this.instruments;
+    if (known.length === 1) return h("span", {}, known[0]?.name ?? "");
+    if (known.length === 0) {
+      const name = h("input", { type: "text", class: "short", value: this.instrument ?? "", placeholder: "instrument, if there are several", ariaLabel: "Instrument of the dropped readings", onchange: () => this.choose(name.value.trim()) });
+      return name;
+    }
+    const of = h("select", { ariaLabel: "Instrument of the dropped readings", dataTest: "instrument", onchange: () => this.choose(of.value) }, h("option", { value: "", disabled: true }, "of which instrument? …"), known.map((one) => h("option", { value: one.name }, `${one.name} (${one.kind})`)));
+    of.value = this.instrument ?? "";
+    return of;
   }
 
   private choose(instrument: string): void {
-    this.instrument = instrument;
+    this.instrument = instrument || null;
     void this.run();
   }
 
@@ -148,12 +164,14 @@ class IdentifyTab implements TabHandle {
     this.instruments = header.instruments;
     this.files = [header.machine, ...header.instruments.flatMap((one) => one.tables)];
     this.clear();
+    this.shown = this.campaign;
     this.showForm();
     this.residuals.show(frame);
     this.showCorrelation(header.correlation, frame.f64("correlation"));
     fill(this.result, verdictPanel(document), scorePanel(document));
-    this.add(foundPanel("Errors of the machine", document.errors, "Bars: value; whiskers: ± 2u, about 95 %. Grey: not told from zero (|z| below 2)."));
-    this.result.append(confoundedPanel(document.unobservable, "Everything that is sought can be told from these readings."), this.savePanel(header));
+    if (document.errors.length > 0) this.add(foundPanel("Errors of the machine", document.errors, "Bars: value; whiskers: ± 2u, about 95 %. Grey: not told from zero (|z| below 2)."));
+    this.result.append(confoundedPanel(document.unobservable, "Everything that is sought can be told from these readings."));
+    if (document.errors.length > 0) this.result.append(this.savePanel(header));
     if (document.setup.length > 0) this.add(foundPanel("Set-up", document.setup, "Where balls, sockets and optics really sat: found along with the errors, of no interest afterwards."));
     this.result.append(outlierPanel(document), sheetTable(valueSheet(document)));
     this.app.say(this.dropped?.name ?? this.campaign ?? "");
@@ -185,7 +203,7 @@ class IdentifyTab implements TabHandle {
       for (const table of file.tables) download(table.name.replace(/^.*\//, ""), table.text, "text/csv");
     };
     const tables = file.tables.length > 0 ? ` and ${file.tables.map((table) => table.name).join(", ")}` : "";
-    return h("section", { class: "panel" }, h("div", { class: "panel-head" }, h("h2", {}, "The identified machine"), h("button", { class: "primary", dataTest: "save-machine", onclick: save }, "Save the identified machine")), h("p", { class: "muted" }, `${name}${tables}: ${header.machine} with the errors found here in place of its own, each with its uncertainty.`));
+    return h("section", { class: "panel" }, h("div", { class: "panel-head" }, h("h2", {}, "The identified machine"), h("button", { class: "primary", dataTest: "save-machine", onclick: save }, "Save the identified machine")), h("p", { class: "muted" }, `${name}${tables}: ${header.machine} with the errors found here in place of its own, each with its uncertainty.`), header.document.verdict.good ? null : h("p", { class: "unsound" }, "The verdict is not good: something that these errors do not describe is left in the readings."));
   }
 }
 

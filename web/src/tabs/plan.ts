@@ -9,6 +9,7 @@ import type { Frame } from "../frame.ts";
 import { MachineView } from "../scene/view.ts";
 import { confoundedPanel } from "./identify/panels.ts";
 import { fileSelect, isAbort, Question, reportButton, showRefusal } from "./measure/ask.ts";
+import { dropOn, handOver } from "./measure/drop.ts";
 import type { PlanHeader } from "./plan/documents.ts";
 import { chosenPanel, expectedPanel, pathsPanel, programsPanel, seenPanel, summaryPanel } from "./plan/panels.ts";
 import { StationLayer } from "./plan/stations.ts";
@@ -38,12 +39,15 @@ class PlanTab implements TabHandle {
   private readonly stations = h("section", { class: "panel", hidden: true });
   private readonly result = h("div", { class: "result" });
   private readonly programs = h("div");
+  private readonly open_file: HTMLElement;
   private readonly slider: HTMLInputElement;
   private readonly where = h("output", { class: "station-now" });
   private readonly question: Question<PlanHeader>;
   private figures: Figure<never>[] = [];
   private frame: Frame<PlanHeader> | null = null;
   private campaign: string | null = null;
+  /** The campaign that the answer on the page is of. */
+  private shown: string | null = null;
   private dialect = "sinumerik";
   private asked = "";
   private machine: string | null = null;
@@ -65,6 +69,11 @@ class PlanTab implements TabHandle {
     this.layer = new StationLayer(this.view);
     this.slider = h("input", { type: "range", min: "0", max: "0", step: "1", value: "0", class: "station-slider", ariaLabel: "Station of the path", oninput: () => this.go(Number(this.slider.value)) });
     left.append(h("div", { class: "scene-bottom" }, h("div", { class: "scene-control" }, h("button", { title: "Look at the stations from near", onclick: () => this.layer.closeUp() }, "Close up"), h("span", {}, "Station"), this.slider, this.where)));
+    this.open_file = dropOn(host, app, "Readings …", (file) => {
+      handOver(file);
+      app.go("identify", { campaign: this.campaign });
+    });
+    this.open_file.title = "Measured already? Readings opened here, or dropped anywhere on this page, go to Identify";
     fill(right, this.head, this.summary, this.paths, this.result, this.stations, this.programs);
   }
 
@@ -95,6 +104,7 @@ class PlanTab implements TabHandle {
     const asked = JSON.stringify(body);
     if (asked === this.asked) return;
     this.asked = asked;
+    if (this.campaign !== this.shown) this.clear();
     if (!this.frame) fill(this.result, h("section", { class: "panel muted" }, "Working out the paths, what they see, and their programs …"));
     try {
       await this.show(await this.question.ask(body, `planning ${this.campaign}`));
@@ -116,7 +126,7 @@ class PlanTab implements TabHandle {
 
   private showForm(): void {
     const campaigns = fileSelect(this.app, "Campaign", "plan", (file) => file.kind === "campaign", this.campaign, (campaign) => this.app.go("plan", { campaign, dialect: this.dialect }));
-    fill(this.head, h("div", { class: "row" }, h("label", { class: "field grow" }, h("span", {}, "Campaign"), campaigns), reportButton(this.app, { verb: "plan", file: this.campaign })));
+    fill(this.head, h("div", { class: "row" }, h("label", { class: "field grow" }, h("span", {}, "Campaign"), campaigns), this.open_file, reportButton(this.app, { verb: "plan", file: this.campaign })));
   }
 
   private dialectSelect(): HTMLElement {
@@ -140,6 +150,7 @@ class PlanTab implements TabHandle {
     }
     this.clear();
     this.frame = frame;
+    this.shown = this.campaign;
     fill(this.summary, summaryPanel(document));
     this.draw(expectedPanel(document));
     this.result.append(confoundedPanel(document.unobservable, "Everything that is sought can be told."));
@@ -167,7 +178,7 @@ class PlanTab implements TabHandle {
     fill(this.paths, pathsPanel(header, path, (chosen) => this.choosePath(chosen)));
     this.slider.max = String(Math.max(0, (header.paths[path]?.stations ?? 1) - 1));
     this.layer.show(this.tools(), 0, this.tool_mm);
-    this.view.overlay.note("stations", `Strokes: tool axis at every station of ${header.paths[path]?.name ?? "the path"}; the tool is that of the machine file`);
+    this.view.overlay.note("stations", `Strokes: tool axis at every station; the tool is that of the machine file`);
     this.listStations();
     this.go(0);
   }

@@ -10,13 +10,14 @@ import { unitOf, valueOf, type Found, type IdentifyDocument, type IdentifyHeader
 
 export function verdictPanel(doc: IdentifyDocument): HTMLElement {
   const { verdict } = doc;
-  const found = doc.errors.filter((one) => valueOf(one) !== null).length;
+  const told = doc.errors.filter((one) => valueOf(one) !== null).length;
+  const found = doc.errors.length > 0 ? `${told} of ${count(doc.errors.length, "error")} found` : "no error of the machine is sought";
   return h(
     "section",
     { class: "panel" },
     h("h1", {}, doc.name),
     h("p", { class: `verdict ${verdict.good ? "" : "bad"}`, role: "status", dataTest: "verdict" }, h("span", { class: "verdict-word" }, verdict.good ? "Good" : "Not good"), h("span", {}, verdict.words)),
-    h("p", { class: "muted" }, `${count(doc.readings, "reading")} in ${count(doc.places, "place")}: ${found} of ${count(doc.errors.length, "error")} found. Rank ${doc.rank}, condition ${number(doc.condition, 1)}.`),
+    h("p", { class: "muted" }, `${count(doc.readings, "reading")} in ${count(doc.places, "place")}: ${found}. Rank ${doc.rank}, condition ${number(doc.condition, 1)}.`),
     doc.left_out.length > 0 ? h("p", { class: "muted note" }, `Not supported by the readings, and left out: ${doc.left_out.join(", ")}.`) : null,
   );
 }

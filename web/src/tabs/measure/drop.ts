@@ -48,3 +48,17 @@ export function dropOn(host: HTMLElement, app: App, label: string, take: (file: 
   });
   return h("label", { class: "button open-file", title: "Or drop the file anywhere on this page" }, label, input);
 }
+
+let handed: TextFile | null = null;
+
+/** Readings that were dropped on another tab, for Identify. */
+export function handOver(file: TextFile): void {
+  handed = file;
+}
+
+/** The readings that were handed over, once. */
+export function takeHanded(): TextFile | null {
+  const file = handed;
+  handed = null;
+  return file;
+}
