@@ -32,6 +32,26 @@ function values(document) {
   });
 }
 
+/** Seen from above: every arrow before is as long as its data say, by the arrow of the scale below. */
+async function arrowsAreToScale(page) {
+  const { text } = await downloaded(page, () => page.locator('#tab-identify .vectors').getByRole('button', { name: 'Save as CSV' }).click());
+  const rows = text.trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
+  const { scale, words, paths } = await page.$eval('#tab-identify .vectors svg', (svg) => ({
+    paths: [...svg.querySelectorAll('g')].map((group) => group.querySelector('path')?.getAttribute('d') ?? ''),
+    scale: svg.querySelector(':scope > path').getAttribute('d'),
+    words: [...svg.querySelectorAll(':scope > text')].at(-1).textContent,
+  }));
+  const pixels = (path) => {
+    const [x, y, to_x, to_y] = path.match(/-?[\d.]+/g).map(Number);
+    return Math.hypot(to_x - x, to_y - y);
+  };
+  const per_um = pixels(scale) / Number.parseFloat(words);
+  assert.equal(paths.length, rows.length);
+  const far = rows.map((row, i) => ({ um: Math.hypot(row[3], row[4]), path: paths[i] })).filter(({ um }) => um > 5);
+  assert.ok(far.length > 20, `${far.length} arrows above 5 µm`);
+  for (const { um, path: drawn } of far) assert.ok(Math.abs(pixels(drawn) - um * per_um) < 0.02 * um * per_um + 0.3, `${um} µm is ${pixels(drawn)} px`);
+}
+
 test('verdict, scores, errors with uncertainty, residuals, correlation', async () => {
   const { page, context, complaints } = await open(browser, served.address);
   await openCampaign(page, mixed);
@@ -57,6 +77,7 @@ test('verdict, scores, errors with uncertainty, residuals, correlation', async (
   assert.ok((await page.textContent('#tab-identify .vectors svg')).includes(`arrows ${factor}`));
   await page.getByRole('button', { name: 'XY', exact: true }).click();
   assert.match(await page.textContent('#tab-identify .vectors svg'), /X −\d+ … \d+\u202fmm/);
+  await arrowsAreToScale(page);
   await page.getByRole('button', { name: '3-D' }).click();
   await exports(page, '#tab-identify .vectors');
   await picture(page, 'identify');

@@ -50,6 +50,7 @@ test('ISO 230-2: figures with uncertainty, charts, every target', async () => {
     assert.deepEqual(row, [shown(p.target_mm, 1), String(p.n_up), String(p.n_down), ...values.map((v) => shown(v, 2))]);
   });
   assert.match(await page.textContent('#tab-standards [data-test="conditions"]'), /x-axis-laser\.toml/);
+  assert.match(await page.textContent('#tab-standards [data-test="circumstances"]'), /three-axis mill · axis X .* 21\.9 ± 0\.2 °C/);
   assert.equal(await page.locator('#tab-standards .picture .figure-svg').count(), 2);
   await exports(page, '#tab-standards .picture');
   await picture(page, 'standards');

@@ -33,5 +33,9 @@ const circle = new Float32Array(3 * n).map((_, i) => (i % 3 === 0 ? Math.cos(i /
 const kept = thinned(circle, new Float32Array(n), undefined, [0, 0], 5000);
 assert.ok(kept.length > 500 && kept.length <= 5000 && kept[0] === 0 && kept.at(-1) === n - 1, `${kept.length} kept`);
 
+const words = await vite.ssrLoadModule("/src/tabs/measure/words.ts");
+for (const [value, text] of [[0.9196, "0.920"], [1.268, "1.27"], [10.00004, "10.0"], [313.4, "313"], [0, "0.00"], [-24.26, "\u221224.3"], [null, "–"]]) assert.equal(words.significant(value), text, `${value}`);
+for (const [time_s, text] of [[31, "31.0\u202fs"], [59.96, "1\u202fmin 0.0\u202fs"], [313.63, "5\u202fmin 13.6\u202fs"]]) assert.equal(words.duration(time_s), text);
+
 await vite.close();
 console.log("unit checks passed");

@@ -5,7 +5,7 @@ import type { Diagnostic } from "../api.ts";
 import { fill, h } from "../dom.ts";
 import type { Figure } from "../figure/index.ts";
 import type { Frame } from "../frame.ts";
-import { celsius, NARROW_SPACE, number } from "../format.ts";
+import { NARROW_SPACE, number } from "../format.ts";
 import { fileSelect, isAbort, Question, reportButton, showRefusal } from "./measure/ask.ts";
 import { dropOn, type TextFile } from "./measure/drop.ts";
 import { sheetTable } from "./measure/table.ts";
@@ -195,7 +195,7 @@ class StandardsTab implements TabHandle {
   // ---- the answer ----
 
   private show(frame: Frame<Header>, path: string | null): void {
-    const { document, pictures, conditions_file, diagnostics } = frame.header;
+    const { document, text, pictures, conditions_file, diagnostics } = frame.header;
     this.clear();
     this.shown = true;
     this.conditions = conditions_file;
@@ -203,10 +203,11 @@ class StandardsTab implements TabHandle {
     this.charts.replaceChildren();
     this.figures = drawPictures(this.charts, frame, pictures, circle);
     const file = path ?? this.dropped?.name ?? document.file;
-    const known = [document.machine, document.axis && `axis ${document.axis}`, document.instrument, document.date, document.temperature_degC !== null ? celsius(document.temperature_degC) : null].filter(Boolean);
+    // Title, standard, then machine, axis, instrument, date, temperature: as on the command line.
+    const circumstances = text.split("\n")[2]?.trim() ?? file;
     fill(
       this.result,
-      h("section", { class: "panel" }, h("h1", {}, document.name ?? file), h("p", { class: "muted" }, [...known, file].join(" · ")), this.tiles(document), h("p", { class: "muted note", dataTest: "conditions" }, this.conditionsText(document, conditions_file, file)), diagnostics.length > 0 ? diagnosticList(diagnostics) : null),
+      h("section", { class: "panel" }, h("h1", {}, document.name ?? file), h("p", { class: "muted", dataTest: "circumstances" }, circumstances), this.tiles(document), h("p", { class: "muted note", dataTest: "conditions" }, this.conditionsText(document, conditions_file, file)), diagnostics.length > 0 ? diagnosticList(diagnostics) : null),
       sheetsOf(document).map(sheetTable),
     );
     this.app.say(file);

@@ -16,9 +16,9 @@ export function significant(value: number | null | undefined, figures = 3): stri
 
 /** "5 min 13.6 s". */
 export function duration(time_s: number): string {
-  if (time_s < 60) return `${number(time_s, 1)}${NARROW_SPACE}s`;
   // Rounded first: not "1 min 60.0 s".
   const tenths = Math.round(10 * time_s);
+  if (tenths < 600) return `${number(time_s, 1)}${NARROW_SPACE}s`;
   const minutes = Math.floor(tenths / 600);
   return `${minutes}${NARROW_SPACE}min ${number((tenths - 600 * minutes) / 10, 1)}${NARROW_SPACE}s`;
 }
