@@ -5,6 +5,7 @@ import "./style/figure.css";
 import "./style/scene.css";
 import "./style/tabs.css";
 import "./style/describe.css";
+import "./style/measure.css";
 import { App } from "./app.ts";
 import { startTheme } from "./theme.ts";
 

@@ -48,6 +48,9 @@ for (const [name, body, kind, words] of [["EXX", 1, "motion", "positioning of X"
 
 const { nameBeside } = await vite.ssrLoadModule("/src/tabs/describe/head.ts");
 assert.equal(nameBeside("a/m.toml", new Set(["a/m.toml", "a/m-2.toml"])), "a/m-3.toml");
+const words = await vite.ssrLoadModule("/src/tabs/measure/words.ts");
+for (const [value, text] of [[0.9196, "0.920"], [1.268, "1.27"], [10.00004, "10.0"], [313.4, "313"], [0, "0.00"], [-24.26, "\u221224.3"], [null, "–"]]) assert.equal(words.significant(value), text, `${value}`);
+for (const [time_s, text] of [[31, "31.0\u202fs"], [59.96, "1\u202fmin 0.0\u202fs"], [313.63, "5\u202fmin 13.6\u202fs"]]) assert.equal(words.duration(time_s), text);
 
 await vite.close();
 console.log("unit checks passed");

@@ -70,7 +70,7 @@ function drawPolarGrid(svg: SVGSVGElement, spec: PolarSpec, c: Scale, half: numb
   for (let i = -3; i <= 4; i++) {
     const r = c.base + i * c.step * c.k;
     if (r <= 4 || r > half + 1) continue;
-    svg.append(s("circle", { cx: c.cx, cy: c.cy, r, fill: "none", stroke: i === 0 ? "var(--line-strong)" : "var(--line)", "stroke-width": i === 0 ? 1.4 : 0.7, "stroke-dasharray": i === 0 ? null : "2 3" }));
+    svg.append(s("circle", { cx: c.cx, cy: c.cy, r, fill: "none", stroke: i === 0 ? "var(--ink)" : "var(--line)", "stroke-width": i === 0 ? 1.2 : 0.7, "stroke-dasharray": i === 0 ? null : "2 3" }));
     svg.append(s("text", { x: c.cx + r * Math.cos(1.2) + 2, y: c.cy - r * Math.sin(1.2), fill: "var(--muted)", "font-size": 10 }, i === 0 ? `0 ${spec.unit}` : number(i * c.step, Math.max(0, -Math.floor(Math.log10(c.step) + 1e-9)))));
   }
   for (let a = 0; a < 360; a += 30) {
@@ -156,6 +156,6 @@ export function polar(host: HTMLElement, spec: PolarSpec): Figure<PolarSpec> {
         { heading: `${one.name} angle (rad)`, values: one.angle_rad },
         { heading: `${one.name} deviation (${now.unit})`, values: one.deviation },
       ]),
-    height: (width) => now.height ?? Math.min(380, width + 34),
+    height: (width) => Math.min(now.height ?? 380, width + 34),
   }));
 }

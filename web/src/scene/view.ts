@@ -355,6 +355,13 @@ export class MachineView {
     this.requestRender();
   }
 
+  /** The arrows of positive motion are in the way of close looks. */
+  setArrowsVisible(visible: boolean): void {
+    for (const arrow of this.arrows) arrow.visible = visible;
+    this.overlay.element.classList.toggle("without-labels", !visible);
+    this.requestRender();
+  }
+
   // ---- poses ----
 
   /**
@@ -506,6 +513,14 @@ export class MachineView {
     const box = this.bounds();
     const from = this.camera.position.clone().sub(this.controls?.target ?? new Vector3()).normalize();
     this.frame(box.getCenter(new Vector3()), from, box);
+  }
+
+  /** Looks at the workpiece from where the camera stands: `radius` mm around a point of its frame. */
+  lookAtWorkpiece(point: readonly [number, number, number], radius: number): void {
+    this.scene.updateMatrixWorld(true);
+    const centre = new Vector3(...point).applyMatrix4(this.layers.matrixWorld);
+    const from = this.camera.position.clone().sub(this.controls?.target ?? new Vector3()).normalize();
+    this.frame(centre, from, new Box3(centre.clone().addScalar(-radius), centre.clone().addScalar(radius)));
   }
 
   /** Puts both cameras so that `box` fills the picture, seen from `from`. */

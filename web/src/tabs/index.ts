@@ -5,4 +5,7 @@ import type { TabEntry } from "../app.ts";
 export const TABS: readonly TabEntry[] = [
   { name: "start", title: "Start", load: async () => (await import("./start.ts")).start },
   { name: "describe", title: "Describe", load: async () => (await import("./describe.ts")).describe },
+  { name: "plan", title: "Plan", load: async () => (await import("./plan.ts")).plan },
+  { name: "identify", title: "Identify", load: async () => (await import("./identify.ts")).identify },
+  { name: "standards", title: "Standards", load: async () => (await import("./standards.ts")).standards },
 ];
