@@ -5,4 +5,6 @@ import type { TabEntry } from "../app.ts";
 export const TABS: readonly TabEntry[] = [
   { name: "start", title: "Start", load: async () => (await import("./start.ts")).start },
   { name: "describe", title: "Describe", load: async () => (await import("./describe.ts")).describe },
+  { name: "predict", title: "Predict", load: async () => (await import("./predict.ts")).predict },
+  { name: "report", title: "Report", load: async () => (await import("./report.ts")).report },
 ];

@@ -1,0 +1,84 @@
+/** One section of the test piece, magnified, with the circle that is fitted to it. */
+
+import { fill, h } from "../../dom.ts";
+import type { Figure } from "../../figure/figure.ts";
+import { polar, type PolarCircle, type PolarSeries, type PolarSpec } from "../../figure/polar.ts";
+import { mm, number, um } from "../../format.ts";
+import { partOf, type FittedCircle, type PieceFrame, type Section } from "./types.ts";
+
+/** The answer's names, with the letters of ISO 12181-1 and a colour of its own for each. */
+const FITS: readonly [string, string, string][] = [
+  ["minimum zone", "MZC", "var(--series-3)"],
+  ["least squares", "LSC", "var(--series-2)"],
+  ["maximum inscribed", "MIC", "var(--series-4)"],
+  ["minimum circumscribed", "MCC", "var(--series-5)"],
+];
+
+export class Sections {
+  private readonly position = h("select", { ariaLabel: "Section of the test piece", onchange: () => this.draw() });
+  private readonly fit = h("select", { ariaLabel: "Fitted circle", onchange: () => this.draw() }, FITS.map(([name, letters]) => h("option", { value: name }, `${name} (${letters})`)), h("option", { value: "all" }, "all four"));
+  private readonly place = h("div", { class: "predict-polar" });
+  private readonly words = h("p", { class: "fit-words", dataTest: "fit" });
+  private frame: PieceFrame | null = null;
+  private before: PieceFrame | null = null;
+  private figure: Figure<PolarSpec> | null = null;
+
+  constructor(host: HTMLElement) {
+    host.append(h("div", { class: "panel-head" }, h("h2", {}, "Section"), this.position, this.fit), this.words, this.place);
+  }
+
+  show(frame: PieceFrame, before: PieceFrame | null, fresh: boolean): void {
+    this.frame = frame;
+    this.before = before;
+    if (fresh) {
+      const { sections } = frame.header;
+      fill(this.position, sections.map((section, i) => h("option", { value: String(i) }, `position ${i + 1}, z = ${number(section.z_mm, 0)} mm`)));
+      this.position.value = String(Math.min(1, sections.length - 1));
+    }
+    this.draw();
+  }
+
+  private draw(): void {
+    const { frame } = this;
+    const index = Number(this.position.value);
+    const section = frame?.header.sections[index];
+    if (!frame || !section) return;
+    const series = [profile(frame, index, this.before ? "with the changes" : "profile", "var(--series-1)")];
+    if (this.before) series.push({ ...profile(this.before, index, "as in the file", "var(--muted)"), dash: "3 3" });
+    const chosen = section.circles.filter((c) => this.fit.value === "all" || c.name === this.fit.value);
+    const spec: PolarSpec = { title: `Section at z = ${number(section.z_mm, 0)} mm, radius ${mm(section.radius_mm, 3)}`, unit: "µm", radius_mm: section.radius_mm, series, circles: chosen.flatMap((c) => circlesOf(c, section)), axes: ["X", "Y"], height: 350 };
+    if (this.figure) this.figure.update(spec);
+    else this.figure = polar(this.place, spec);
+    fill(this.words, chosen.map((c, i) => [i > 0 ? h("br") : null, wordsOf(c)]));
+  }
+}
+
+function profile(frame: PieceFrame, index: number, name: string, colour: string): PolarSeries {
+  const { sections } = frame.header;
+  const radius = sections[index]?.radius_mm ?? 0;
+  const points = partOf(frame.f64("profile_mm"), sections, index, 2);
+  const n = points.length / 2;
+  const at = (j: number): [number, number] => [points[2 * j] as number, points[2 * j + 1] as number];
+  return {
+    name,
+    colour,
+    closed: true,
+    angle_rad: Float64Array.from({ length: n }, (_, j) => Math.atan2(at(j)[1], at(j)[0])),
+    deviation: Float64Array.from({ length: n }, (_, j) => 1e3 * (Math.hypot(...at(j)) - radius)),
+  };
+}
+
+/** The zone has two circles; the others one. */
+function circlesOf(fit: FittedCircle, section: Section): PolarCircle[] {
+  const [, letters = "", colour = ""] = FITS.find(([name]) => name === fit.name) ?? [];
+  const circle = (radius_mm: number, name: string, dash?: string): PolarCircle => ({ name, colour, x: 1e3 * fit.centre_mm[0], y: 1e3 * fit.centre_mm[1], radius: 1e3 * (radius_mm - section.radius_mm), ...(dash ? { dash } : {}) });
+  if (fit.name === "minimum zone") return [circle(fit.inner_mm, `${letters} inner`, "2 2"), circle(fit.outer_mm, `${letters} outer`)];
+  if (fit.name === "maximum inscribed") return [circle(fit.inner_mm, letters)];
+  if (fit.name === "minimum circumscribed") return [circle(fit.outer_mm, letters)];
+  return [circle(fit.radius_mm, letters)];
+}
+
+function wordsOf(fit: FittedCircle): string {
+  const [x, y] = fit.centre_mm;
+  return `${fit.name}: roundness ${um(1e3 * (fit.outer_mm - fit.inner_mm))}, centre X ${um(1e3 * x)}, Y ${um(1e3 * y)}`;
+}
