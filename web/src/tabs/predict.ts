@@ -125,7 +125,8 @@ class PredictTab implements TabHandle {
       without: (error) => this.tryIt(() => what_if.without(error)),
       correct: (error, text) => this.tryIt(() => what_if.correct(error, text)),
     });
-    const built = { summary, view: new PieceView(scene), sections: new Sections(polar), blame, what_if, details: new Details(place("numbers")) };
+    const view = new PieceView(scene);
+    const built = { summary, view, sections: new Sections(polar, (index) => view.mark(index)), blame, what_if, details: new Details(place("numbers")) };
     this.showPage("blame");
     return built;
   }

@@ -1,7 +1,7 @@
 /** Holes seen along the tool, with an arrow from where each should be to where it will be. */
 
 import { s } from "../../dom.ts";
-import { factor, number, um } from "../../format.ts";
+import { factor, um } from "../../format.ts";
 import { rangeOf } from "../../figure/colours.ts";
 import { figure, roundNumber, type Drawing, type Figure } from "../../figure/figure.ts";
 import type { Hole } from "./types.ts";
@@ -60,7 +60,7 @@ function holeMark(spec: HolePlanSpec, plan: Plan, hole: Hole, i: number, [x, y]:
   const words = `hole ${i + 1}: dX ${um(hole.error_um[0])}, dY ${um(hole.error_um[1])}`;
   const group = s("g", { class: "pick", tabindex: "0", role: "button", "aria-label": words }, s("title", {}, words));
   const within = spec.tolerance_um === null ? 0 : plan.k * spec.tolerance_um;
-  if (within > 3 && within < 0.3 * Math.min(EDGE * 3, 200)) group.append(s("circle", { cx: x, cy: y, r: within, fill: "none", stroke: "var(--line-strong)", "stroke-dasharray": "2 2" }));
+  if (within > 3 && within < EDGE) group.append(s("circle", { cx: x, cy: y, r: within, fill: "none", stroke: "var(--line-strong)", "stroke-dasharray": "2 2" }));
   group.append(s("circle", { cx: x, cy: y, r: spec.chosen === i ? 5 : 3, fill: spec.chosen === i ? "var(--accent)" : "var(--surface)", stroke: "var(--ink)" }), s("circle", { cx: x, cy: y, r: 10, fill: "transparent" }));
   if (length > 1) {
     const [ux, uy] = [dx / length, dy / length];
@@ -84,7 +84,9 @@ function drawScale(d: Drawing, spec: HolePlanSpec, plan: Plan): void {
     s("text", { x: 4, y: d.height - 6, fill: "var(--actual)", "font-weight": "600" }, `arrows ${factor(plan.magnified)}`),
     s("text", { x: d.width - 4, y: d.height - 6, "text-anchor": "end", fill: "var(--muted)" }, "X to the right, Y upwards"),
   );
-  if (spec.tolerance_um !== null) d.svg.append(s("text", { x: d.width - 4, y: 18, "text-anchor": "end", fill: "var(--muted)" }, `tolerance ${number(spec.tolerance_um, 0)} µm (dashed where it fits)`));
+  if (spec.tolerance_um === null) return;
+  const drawn = plan.k * spec.tolerance_um > 3 && plan.k * spec.tolerance_um < EDGE;
+  d.svg.append(s("text", { x: d.width - 4, y: 18, "text-anchor": "end", fill: "var(--muted)" }, `tolerance ${um(spec.tolerance_um, 0)}${drawn ? ", dashed" : ""}`));
 }
 
 export function holePlan(host: HTMLElement, spec: HolePlanSpec): Figure<HolePlanSpec> {

@@ -3,7 +3,7 @@
 import { diagnosticList, split, type App } from "../../app.ts";
 import { fill, h } from "../../dom.ts";
 import type { Figure } from "../../figure/figure.ts";
-import { clock, number, um, withUncertainty } from "../../format.ts";
+import { clock, number, um } from "../../format.ts";
 import { holePlan, type HolePlanSpec } from "./holeplan.ts";
 import { studyChoice } from "./summary.ts";
 import type { HoleSet, HolesHeader } from "./types.ts";
@@ -93,7 +93,7 @@ export class Holes {
     const set = this.document?.sets[this.shown];
     if (!this.document || !set) return;
     const spec: HolePlanSpec = {
-      title: `Compensation: ${word(set.compensation)}, worst hole ${withUncertainty(1e3 * set.worst_mm, set.u_worst_mm * 1e3, 1, "µm")}`,
+      title: `Compensation: ${word(set.compensation)}, worst hole ${um(1e3 * set.worst_mm)}, U ${um(2e3 * set.u_worst_mm)}`,
       holes: set.holes,
       tolerance_um: this.document.tolerance_mm === null ? null : 1e3 * this.document.tolerance_mm,
       colour: COLOURS[this.shown % COLOURS.length] ?? "var(--ink)",

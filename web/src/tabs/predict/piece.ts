@@ -1,12 +1,13 @@
 /** The test piece with its error map. */
 
-import { BufferAttribute, BufferGeometry, DoubleSide, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, Vector3 } from "three";
+import { BufferAttribute, BufferGeometry, DoubleSide, LineBasicMaterial, LineLoop, LineSegments, Mesh, MeshBasicMaterial, Vector3 } from "three";
 import { download, h } from "../../dom.ts";
 import { diverging, divergingDark } from "../../figure/colours.ts";
 import { csvOf, roundNumber } from "../../figure/figure.ts";
 import { factor, number } from "../../format.ts";
 import { MachineView } from "../../scene/view.ts";
 import { cssColour, isDark, onTheme } from "../../theme.ts";
+import { firstShown } from "./sections.ts";
 import { partOf, type PieceFrame } from "./types.ts";
 
 /** Rings drawn from one section to the next; between sections the error is drawn as running straight. */
@@ -26,6 +27,8 @@ export class PieceView {
   private readonly factor_text = h("output", { class: "factor" });
   private readonly outline = new LineSegments(new BufferGeometry(), new LineBasicMaterial());
   private readonly top = new Mesh(new BufferGeometry(), new MeshBasicMaterial({ side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2 }));
+  private readonly marked = new LineLoop(new BufferGeometry(), new LineBasicMaterial());
+  private chosen = 0;
   private frame: PieceFrame | null = null;
   private range = 1;
   private k = 1;
@@ -36,7 +39,7 @@ export class PieceView {
     this.slider = h("input", { type: "range", min: "0", max: "100", step: "1", class: "exaggeration", ariaLabel: "Magnification of the deviations", oninput: () => this.magnify(Number(this.slider.value)) });
     const save = h("button", { class: "figure-save", ariaLabel: "Save the error map as CSV", onclick: () => this.frame && download("error-map.csv", csv(this.frame), "text/csv") }, "CSV");
     host.append(h("div", { class: "scene-bottom" }, h("div", { class: "scene-control" }, "deviations", this.slider, this.factor_text, save)));
-    for (const object of [this.outline, this.top]) object.frustumCulled = false;
+    for (const object of [this.outline, this.top, this.marked]) object.frustumCulled = false;
     onTheme(() => this.draw());
   }
 
@@ -45,6 +48,7 @@ export class PieceView {
     const most = frame.f32("error_um").reduce((m, e) => Math.max(m, Math.abs(e)), 1e-6);
     this.frame = frame;
     if (fresh) {
+      this.chosen = firstShown(frame.header.sections);
       const radius = Math.max(...frame.header.sections.map((s) => s.radius_mm));
       // At the end of the slider the greatest error is about half of the radius.
       this.most = roundNumber((radius / (most / 1e3)) * 0.4);
@@ -57,7 +61,7 @@ export class PieceView {
     this.view.setMachine({ links: [], models: [], tool: { length_mm: 0, diameter_mm: null } });
     this.view.addToWorkpiece(this.outline);
     this.view.addToWorkpiece(this.top);
-    frame.header.sections.forEach((section, i) => this.view.overlay.label(`section ${i}`, `${i + 1}: z = ${number(section.z_mm, 0)} mm`, () => besides(section.radius_mm, section.z_mm, i), "faint"));
+    this.view.addToWorkpiece(this.marked);
     this.magnify(AT_FIRST);
   }
 
@@ -91,6 +95,7 @@ export class PieceView {
     );
     this.drawOutline(rings, m);
     this.drawTop(rings, m);
+    this.drawMarked();
     this.view.requestRender();
   }
 
@@ -107,6 +112,25 @@ export class PieceView {
     this.outline.material.color.set(cssColour("--nominal"));
   }
 
+  /** The section that the polar plot shows. */
+  mark(index: number): void {
+    this.chosen = index;
+    this.drawMarked();
+    this.view.requestRender();
+  }
+
+  private drawMarked(): void {
+    const section = this.frame?.header.sections[this.chosen];
+    const ring = this.frame ? ringsOf(this.frame)[this.chosen * BETWEEN] : undefined;
+    if (!section || !ring) return;
+    // A little outside, so that the surface does not hide it.
+    const points = ring.nominal.map((v, i) => (i % 3 === 2 ? v : 1.004 * (v + this.k * (ring.moved[i] as number))));
+    this.marked.geometry.setAttribute("position", new BufferAttribute(points, 3));
+    this.marked.material.color.set(cssColour("--actual"));
+    const left = new Vector3(-0.85 * section.radius_mm, 0.53 * section.radius_mm, section.z_mm).multiply(new Vector3(1.2, 1.2, 1));
+    this.view.overlay.label("section", `section ${this.chosen + 1}, z = ${number(section.z_mm, 0)} mm`, () => left.clone());
+  }
+
   /** The face on top, so that nobody looks into a hollow piece. */
   private drawTop(rings: readonly Ring[], m: number): void {
     const last = rings.at(-1);
@@ -119,9 +143,6 @@ export class PieceView {
     this.top.material.color.set(cssColour("--scene-linear"));
   }
 }
-
-/** Right and left of the piece in turn, as the first view sees it. */
-const besides = (radius_mm: number, z_mm: number, i: number): Vector3 => new Vector3(0.85, -0.53, 0).multiplyScalar((i % 2 === 0 ? 1.12 : -1.12) * radius_mm).setZ(z_mm);
 
 /** A round number not below, finer than 1, 2, 5. */
 const rounded = (x: number): number => {

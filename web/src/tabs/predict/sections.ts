@@ -23,7 +23,9 @@ export class Sections {
   private before: PieceFrame | null = null;
   private figure: Figure<PolarSpec> | null = null;
 
-  constructor(host: HTMLElement) {
+  /** `onpick`: another section is shown now. */
+  constructor(host: HTMLElement, onpick: (index: number) => void) {
+    this.position.addEventListener("change", () => onpick(Number(this.position.value)));
     host.append(h("div", { class: "panel-head" }, h("h2", {}, "Section"), this.position, this.fit), this.words, this.place);
   }
 
@@ -33,7 +35,7 @@ export class Sections {
     if (fresh) {
       const { sections } = frame.header;
       fill(this.position, sections.map((section, i) => h("option", { value: String(i) }, `position ${i + 1}, z = ${number(section.z_mm, 0)} mm`)));
-      this.position.value = String(Math.min(1, sections.length - 1));
+      this.position.value = String(firstShown(sections));
     }
     this.draw();
   }
@@ -46,12 +48,15 @@ export class Sections {
     const series = [profile(frame, index, this.before ? "with the changes" : "profile", "var(--series-1)")];
     if (this.before) series.push({ ...profile(this.before, index, "as in the file", "var(--muted)"), dash: "3 3" });
     const chosen = section.circles.filter((c) => this.fit.value === "all" || c.name === this.fit.value);
-    const spec: PolarSpec = { title: `Section at z = ${number(section.z_mm, 0)} mm, radius ${mm(section.radius_mm, 3)}`, unit: "µm", radius_mm: section.radius_mm, series, circles: chosen.flatMap((c) => circlesOf(c, section)), axes: ["X", "Y"], height: 350 };
+    const spec: PolarSpec = { title: `z = ${number(section.z_mm, 0)} mm, radius ${mm(section.radius_mm, 3)}`, unit: "µm", radius_mm: section.radius_mm, series, circles: chosen.flatMap((c) => circlesOf(c, section)), axes: ["X", "Y"], height: Math.max(220, Math.min(350, 0.34 * innerHeight)) };
     if (this.figure) this.figure.update(spec);
     else this.figure = polar(this.place, spec);
     fill(this.words, chosen.map((c, i) => [i > 0 ? h("br") : null, wordsOf(c)]));
   }
 }
+
+/** The second from below, where there is one: the test pieces judge roundness there. */
+export const firstShown = (sections: readonly Section[]): number => Math.min(1, sections.length - 1);
 
 function profile(frame: PieceFrame, index: number, name: string, colour: string): PolarSeries {
   const { sections } = frame.header;

@@ -25,6 +25,8 @@ export class Summary {
   private readonly verdict = h("div", { class: "verdict-band", role: "status" });
   private readonly table = h("div", { class: "panel predict-indices" });
   private readonly app: App;
+  /** Low windows show what is judged first. */
+  private all = innerHeight > 840;
 
   constructor(app: App) {
     this.app = app;
@@ -56,14 +58,17 @@ export class Summary {
   }
 
   private showIndices(document: PieceDocument, before: PieceDocument | null): void {
-    const rows = rowsOf(document, before);
+    const every = rowsOf(document, before);
+    const judged = every.filter((row) => row.judged);
+    const rows = this.all || judged.length === 0 ? every : judged;
+    const more = h("button", { class: "figure-save", dataTest: "more-indices", onclick: () => this.toggle(document, before) }, this.all ? "only the judged" : `all ${every.length}`);
     const most = Math.max(1e-9, ...rows.map(({ value, judged, before: b }) => Math.max(value.value + expanded(value, judged), judged?.tolerance_mm ?? 0, b ?? 0)));
     const rule = document.judgements.some((j) => j.expanded_mm !== null) ? "judged by ISO 14253-1 with U" : "simple acceptance: value against tolerance";
-    const save = h("button", { class: "figure-save", ariaLabel: "Save the indices as CSV", onclick: () => download(`${fileName(document.study)}-indices.csv`, csv(rows), "text/csv") }, "CSV");
+    const save = h("button", { class: "figure-save", ariaLabel: "Save the indices as CSV", onclick: () => download(`${fileName(document.study)}-indices.csv`, csv(every), "text/csv") }, "CSV");
     const words = ["index", ...(before ? ["before"] : []), "value", "U (k = 2)", "tolerance", "used", ""];
     fill(
       this.table,
-      h("div", { class: "panel-head" }, h("h2", {}, "Indices, µm"), h("span", { class: "muted" }, rule), save),
+      h("div", { class: "panel-head" }, h("h2", {}, "Indices, µm"), h("span", { class: "muted" }, rule), judged.length > 0 && judged.length < every.length ? more : null, save),
       h(
         "table",
         {},
@@ -71,6 +76,11 @@ export class Summary {
         h("tbody", {}, rows.map((row) => indexRow(row, most, before !== null))),
       ),
     );
+  }
+
+  private toggle(document: PieceDocument, before: PieceDocument | null): void {
+    this.all = !this.all;
+    this.showIndices(document, before);
   }
 }
 
@@ -103,7 +113,7 @@ const COLOURS: Record<Verdict, string> = { pass: "var(--good)", fail: "var(--bad
 /** Value, ± U, tolerance as a tick, all as shares of the width. */
 function bar(value: number, u: number, tolerance: number | null, verdict: Verdict | undefined, before: number | null): SVGSVGElement {
   const x = (share: number): number => 2 + 116 * Math.max(0, Math.min(1, share));
-  const svg = s("svg", { width: 120, height: 14, class: "index-bar", "aria-hidden": "true" });
+  const svg = s("svg", { viewBox: "0 0 120 14", preserveAspectRatio: "none", class: "index-bar", "aria-hidden": "true" });
   svg.append(s("rect", { x: 2, y: 4, width: Math.max(1, x(value) - 2), height: 6, fill: verdict ? COLOURS[verdict] : "var(--line-strong)" }));
   svg.append(s("line", { x1: x(value - u), x2: x(value + u), y1: 7, y2: 7, stroke: "var(--ink)", "stroke-width": 1.2 }));
   if (before !== null) svg.append(s("path", { d: `M${x(before)} 1v12`, stroke: "var(--muted)", "stroke-width": 1, "stroke-dasharray": "2 2" }));

@@ -29,7 +29,7 @@ export class WhatIf {
   private readonly title = h("span", { class: "muted", dataTest: "changes" });
   private readonly time = h("span", { class: "muted", dataTest: "what-if-time", role: "status" });
   private readonly refused = h("p", { class: "what-if-refused", role: "alert", hidden: true });
-  private readonly reset_button = h("button", { onclick: () => this.reset() }, "As in the file");
+  private readonly reset_button = h("button", { dataTest: "reset", onclick: () => this.reset() }, "As in the file");
   private readonly search = h("input", { type: "text", class: "what-if-search", placeholder: "find an error, such as EC0Y", ariaLabel: "Find an error", oninput: () => this.filter() });
   private readonly all_button = h("button", { ariaPressed: "false", onclick: () => this.toggleAll() });
   private readonly rows_place = h("tbody");
