@@ -1,9 +1,13 @@
 //! The requests by name: one file for each tab of the page.
 
 mod describe;
+mod evaluate;
+mod identify;
 mod machine;
+mod plan;
 mod predict;
 mod project;
+mod report;
 mod wants;
 
 use crate::desk::{Desk, Job, Reply};
@@ -51,6 +55,11 @@ pub(crate) const ANSWERS: &[Answer] = &[
     quick("set-error", describe::set_error),
     long("predict", predict::whole),
     quick("what-if", predict::what_if),
+    long("plan", plan::plan),
+    long("identify", identify::identify),
+    quick("standards", evaluate::standards),
+    quick("evaluate", evaluate::evaluate),
+    long("report", report::report),
 ];
 
 pub(crate) struct Simulated;
