@@ -1,4 +1,4 @@
-/** A report as one file: made by the server, shown, saved, printed. */
+/** The pages of the other tabs as one file: made by the server, shown, saved, printed. */
 
 import type { App, Tab, TabHandle } from "../app.ts";
 import type { FileKind } from "../api.ts";
@@ -19,10 +19,13 @@ const VERBS: readonly Verb[] = [
   { name: "plan", title: "Plan: what a campaign will tell", file: ["campaign"], needs_machine: false },
   { name: "identify", title: "Identify: the machine from readings", file: ["campaign"], needs_machine: false },
   { name: "evaluate", title: "Evaluate: readings judged by ISO 230", file: ["readings"], needs_machine: false },
-  { name: "verify", title: "Verify: what was promised against what was measured", file: ["study", "campaign"], needs_machine: false },
+  { name: "verify", title: "Verify: readings against the machine file", file: ["other"], needs_machine: false },
 ];
 
-const STANDARDS = ["iso230-2", "iso230-3", "iso230-4", "iso230-6", "iso230-7", "iso10791-6"];
+interface Standard {
+  key: string;
+  title: string;
+}
 
 interface Made {
   url: string;
@@ -35,7 +38,7 @@ class ReportTab implements TabHandle {
   private readonly verb = h("select", { ariaLabel: "Kind of report", onchange: () => this.showFiles() }, VERBS.map(({ name, title }) => h("option", { value: name }, title)));
   private readonly file = h("select", { ariaLabel: "File", dataTest: "report-file" });
   private readonly machine = h("select", { ariaLabel: "Machine file" });
-  private readonly standard = h("select", { ariaLabel: "Standard" }, STANDARDS.map((name) => h("option", { value: name }, name.replace(/^iso(\d+)-/, "ISO $1-"))));
+  private readonly standard = h("select", { ariaLabel: "Standard" });
   private readonly make = h("button", { class: "primary", onclick: () => void this.run() }, "Make the report");
   private readonly save = h("button", { disabled: true, onclick: () => void this.saveFile() }, "Save HTML");
   private readonly print = h("button", { disabled: true, title: "The browser's print dialog also saves as PDF", onclick: () => this.frame?.contentWindow?.print() }, "Print or PDF");
@@ -52,14 +55,27 @@ class ReportTab implements TabHandle {
     this.showEmpty();
   }
 
+  /** The standards that the server knows, once. */
+  private async loadStandards(): Promise<void> {
+    if (this.standard.options.length > 0) return;
+    const list = await this.app.api.ask<Standard[]>("standards", {});
+    fill(this.standard, list.map(({ key, title }) => h("option", { value: key }, title)));
+  }
+
   open(params: Readonly<Record<string, string>>): void {
+    this.show(params).catch((error: unknown) => this.app.fail(error));
+  }
+
+  private async show(params: Readonly<Record<string, string>>): Promise<void> {
+    await this.loadStandards();
     const verb = params["verb"] ?? this.verb.value;
     this.verb.value = VERBS.some((v) => v.name === verb) ? verb : "predict";
     this.showFiles(params["file"], params["machine"] ?? this.app.state.machine ?? undefined);
-    if (params["standard"] && STANDARDS.includes(params["standard"])) this.standard.value = params["standard"];
+    if (params["standard"]) this.standard.value = params["standard"];
     // A link that names its file asks for the report; coming back to the tab does not ask again.
-    if (params["file"] && location.hash !== this.last) void this.run();
-    this.last = location.hash;
+    const asked = JSON.stringify(params);
+    if (params["file"] && asked !== this.last) void this.run();
+    this.last = asked;
   }
 
   hide(): void {
