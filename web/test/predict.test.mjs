@@ -1,7 +1,7 @@
 // The Predict tab: what it shows is what `trueaxis predict` says, and what-if is what it would say.
 
 import assert from 'node:assert/strict';
-import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { appendFileSync, cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
@@ -165,6 +165,35 @@ test('the single correction that saves the part can be tried', async () => {
   const shown = await shownIndices(page);
   for (const [key, value] of Object.entries(correction.indices_mm)) assert.equal(shown[key].value, micro(value), key);
   assert.deepEqual(complaints, []);
+});
+
+test('a sensor that is warmer: as if the study said so', async () => {
+  const folder = mkdtempSync(path.join(tmpdir(), 'trueaxis-warm-'));
+  const scale = '\n[scale.X]\nexpansion = "10.8 um/(m K)"\nfixed_point = "0 mm"\nsensors = { scale_x = "0 mm" }\n';
+  let own;
+  try {
+    for (const part of ['machines/xkas2525', 'testpieces', 'examples/03_predict']) cpSync(path.join(root, part), path.join(folder, part), { recursive: true });
+    appendFileSync(path.join(folder, 'machines/xkas2525/machine.toml'), scale);
+    const warm = 'examples/03_predict/warm.toml';
+    writeFileSync(path.join(folder, warm), `${readFileSync(path.join(folder, NAS), 'utf8')}\n[temperature]\nscale_x = "31.5 degC"\n`);
+    const expected = await cli('predict', path.join(folder, warm), '--no-report');
+    const cold = await cli('predict', path.join(folder, NAS), '--no-report');
+
+    own = await serve(folder);
+    const { page, complaints } = await open(browser, own.address);
+    await page.goto(`${own.address}/#predict?study=${NAS}`);
+    await page.click('[data-show=what-if]');
+    assertIndices(await shownIndices(page), cold);
+    await whatIf(page, async () => {
+      await page.locator('[data-setting-box=scale_x]').fill('31.5');
+      await page.keyboard.press('Enter');
+    });
+    assertIndices(await shownIndices(page), expected);
+    assert.deepEqual(complaints, []);
+  } finally {
+    own?.stop();
+    rmSync(folder, { recursive: true });
+  }
 });
 
 test('holes, without and with compensation', async () => {

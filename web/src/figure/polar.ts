@@ -72,8 +72,10 @@ function drawPolarGrid(svg: SVGSVGElement, spec: PolarSpec, c: Scale, half: numb
   for (let i = -3; i <= 4; i++) {
     const r = c.base + i * c.step * c.k;
     if (r <= 4 || r > half + 1) continue;
+    // Where rings lie close together, every other one has its number.
+    const numbered = i % 2 === 0 || c.step * c.k >= 13;
     svg.append(s("circle", { cx: c.cx, cy: c.cy, r, fill: "none", stroke: i === 0 ? "var(--line-strong)" : "var(--line)", "stroke-width": i === 0 ? 1.4 : 0.7, "stroke-dasharray": i === 0 ? null : "2 3" }));
-    svg.append(s("text", { x: c.cx + r * Math.cos(1.2) + 2, y: c.cy - r * Math.sin(1.2), fill: "var(--muted)", "font-size": 10 }, i === 0 ? `0 ${spec.unit}` : number(i * c.step, Math.max(0, -Math.floor(Math.log10(c.step) + 1e-9)))));
+    if (numbered) svg.append(s("text", { x: c.cx + r * Math.cos(1.2) + 2, y: c.cy - r * Math.sin(1.2), fill: "var(--muted)", "font-size": 10 }, i === 0 ? `0 ${spec.unit}` : number(i * c.step, Math.max(0, -Math.floor(Math.log10(c.step) + 1e-9)))));
   }
   for (let a = 0; a < 360; a += 30) {
     const [x, y] = [Math.cos((a * Math.PI) / 180), -Math.sin((a * Math.PI) / 180)];

@@ -1,6 +1,6 @@
 /** The test piece before it is cut: is it good, who is to blame, and what if? */
 
-import { split, type App, type Tab, type TabHandle } from "../app.ts";
+import { diagnosticList, split, type App, type Tab, type TabHandle } from "../app.ts";
 import { latestOnly, Refusal } from "../api.ts";
 import { fill, h } from "../dom.ts";
 import { number } from "../format.ts";
@@ -10,7 +10,7 @@ import { Details } from "./predict/details.ts";
 import { Holes } from "./predict/holes.ts";
 import { PieceView } from "./predict/piece.ts";
 import { Sections } from "./predict/sections.ts";
-import { Summary } from "./predict/summary.ts";
+import { studyChoice, Summary } from "./predict/summary.ts";
 import type { HolesHeader, PieceFrame } from "./predict/types.ts";
 import { WhatIf, type Changes } from "./predict/whatif.ts";
 
@@ -79,8 +79,22 @@ class PredictTab implements TabHandle {
       progress.done();
       if (stop.signal.aborted) return;
       this.study = null;
-      this.app.fail(error);
+      this.showFailure(study, Refusal.from(error));
     }
+  }
+
+  /** Nothing of another study stays beside the message. */
+  private showFailure(study: string, refusal: Refusal): void {
+    this.piece_page.hidden = this.holes_page.hidden = true;
+    this.empty.hidden = false;
+    fill(
+      this.empty,
+      h("div", { class: "panel-head" }, h("h1", {}, `${study} cannot be predicted`), studyChoice(this.app, study)),
+      h("p", {}, refusal.message),
+      refusal.hint ? h("p", { class: "hint" }, refusal.hint) : null,
+      diagnosticList(refusal.diagnostics),
+      h("button", { onclick: () => void this.load(study) }, "Try again"),
+    );
   }
 
   // ---- holes ----
@@ -99,7 +113,7 @@ class PredictTab implements TabHandle {
     const { summary, view, sections, blame, what_if, details } = this.piece;
     summary.show(study, frame.header.document, null);
     sections.show(frame, null, true);
-    blame.show(frame.header.document, true);
+    blame.show(frame.header.document, frame.header.document, true);
     details.show(frame, null);
     what_if.open(frame.header);
     // Last: the picture is fitted to the room that the others leave.
@@ -164,7 +178,7 @@ class PredictTab implements TabHandle {
     this.piece.summary.show(this.study, document, earlier);
     this.piece.view.show(frame, false);
     this.piece.sections.show(frame, before, false);
-    this.piece.blame.show(document, false);
+    this.piece.blame.show(document, earlier ?? document, false);
     this.piece.details.show(frame, earlier);
   }
 }

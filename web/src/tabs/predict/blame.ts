@@ -36,14 +36,15 @@ export class Blame {
     host.append(h("div", { class: "panel" }, h("div", { class: "row blame-head" }, this.index, this.group, this.measure), this.words, this.place), this.corrections);
   }
 
-  show(document: PieceDocument, fresh: boolean): void {
+  /** `file` is the prediction of the file: its corrections are shown whatever is changed. */
+  show(document: PieceDocument, file: PieceDocument, fresh: boolean): void {
     this.document = document;
     if (fresh) {
       fill(this.index, [...indicesOf(document.indices).keys()].map((key) => h("option", { value: key }, titleOf(key))));
       this.index.value = worstOf(document)?.index ?? "volumetric_max_mm";
     }
     this.draw();
-    this.showCorrections(document.corrections);
+    if (fresh) this.showCorrections(file);
   }
 
   private draw(): void {
@@ -71,7 +72,7 @@ export class Blame {
     this.words.textContent = shown.length === 0 ? `No error matters to ${titleOf(key)}: ${um(1e3 * value)}.` : `${titleOf(key)} is ${um(1e3 * value)}.${helps}${rest > 0 ? ` ${rest} smaller not shown.` : ""}${this.group.value === "blame" ? " Click: switch off." : ""}`;
   }
 
-  private showCorrections(all: readonly Correction[]): void {
+  private showCorrections({ corrections: all, judgements: judged }: PieceDocument): void {
     if (all.length === 0) {
       fill(this.corrections);
       return;
@@ -85,17 +86,16 @@ export class Blame {
         { dataCorrection: one.error },
         h("td", {}, h("strong", {}, one.error)),
         h("td", { class: "number" }, text),
-        (this.document?.judgements ?? []).map((j) => h("td", { class: "number" }, number(1e3 * (one.indices_mm[j.index] ?? NaN), 1))),
+        judged.map((j) => h("td", { class: "number" }, number(1e3 * (one.indices_mm[j.index] ?? NaN), 1))),
         h("td", { class: "number" }, h("button", { onclick: () => this.actions.correct(one.error, `${change} ${angle ? "urad" : "um"}`) }, "Try")),
       );
     };
-    const judged = this.document?.judgements ?? [];
     fill(
       this.corrections,
       h(
         "div",
         { class: "panel" },
-        h("div", { class: "panel-head" }, h("h2", {}, "One correction that would do"), h("span", { class: "muted" }, "smallest first; indices in µm after it")),
+        h("div", { class: "panel-head" }, h("h2", {}, "One correction that would do"), h("span", { class: "muted" }, "smallest first, from the file as it is; indices in µm after it")),
         h("table", {}, h("thead", {}, h("tr", {}, h("th", {}, "shim"), h("th", { class: "number" }, "by"), judged.map((j) => h("th", { class: "number" }, titleOf(j.index))), h("th", {}))), h("tbody", {}, all.slice(0, 6).map(row))),
       ),
     );

@@ -4,7 +4,7 @@ import { BufferAttribute, BufferGeometry, DoubleSide, LineBasicMaterial, LineLoo
 import { download, h } from "../../dom.ts";
 import { diverging, divergingDark } from "../../figure/colours.ts";
 import { csvOf, roundNumber } from "../../figure/figure.ts";
-import { factor, number } from "../../format.ts";
+import { deg, factor, number, um } from "../../format.ts";
 import { MachineView } from "../../scene/view.ts";
 import { cssColour, isDark, onTheme } from "../../theme.ts";
 import { firstShown } from "./sections.ts";
@@ -96,7 +96,21 @@ export class PieceView {
     this.drawOutline(rings, m);
     this.drawTop(rings, m);
     this.drawMarked();
+    this.markWorst(frame);
     this.view.requestRender();
+  }
+
+  /** Where the part is worst. */
+  private markWorst(frame: PieceFrame): void {
+    const { sections } = frame.header;
+    const errors = frame.f32("error_um");
+    const worst = errors.reduce((w, e, i) => (Math.abs(e) > Math.abs(errors[w] ?? 0) ? i : w), 0);
+    const azimuth = frame.f32("azimuth_rad")[worst] ?? 0;
+    const section = sections.find((_, i) => worst < sections.slice(0, i + 1).reduce((sum, s) => sum + s.points, 0));
+    if (!section) return;
+    const radius = 1.05 * section.radius_mm;
+    const at = new Vector3(radius * Math.cos(azimuth), radius * Math.sin(azimuth), section.z_mm);
+    this.view.overlay.label("worst", `greatest ${um(errors[worst])} at ${deg((azimuth * 180) / Math.PI, 0)}`, () => at.clone(), "faint");
   }
 
   /** Nominal circles of the sections and lines along the cone. */
@@ -127,7 +141,7 @@ export class PieceView {
     const points = ring.nominal.map((v, i) => (i % 3 === 2 ? v : 1.004 * (v + this.k * (ring.moved[i] as number))));
     this.marked.geometry.setAttribute("position", new BufferAttribute(points, 3));
     this.marked.material.color.set(cssColour("--actual"));
-    const left = new Vector3(-0.85 * section.radius_mm, 0.53 * section.radius_mm, section.z_mm).multiply(new Vector3(1.2, 1.2, 1));
+    const left = new Vector3(-0.85 * section.radius_mm, 0.53 * section.radius_mm, section.z_mm).multiply(new Vector3(1.05, 1.05, 1));
     this.view.overlay.label("section", `section ${this.chosen + 1}, z = ${number(section.z_mm, 0)} mm`, () => left.clone());
   }
 

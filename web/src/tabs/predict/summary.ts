@@ -3,7 +3,7 @@
 import type { App } from "../../app.ts";
 import { download, fill, h, s } from "../../dom.ts";
 import { csvOf, fileName } from "../../figure/figure.ts";
-import { number, um } from "../../format.ts";
+import { NO_NUMBER, number, um } from "../../format.ts";
 import { expanded, indicesOf, titleOf, worstOf, type IndexValue, type Judgement, type PieceDocument, type Verdict } from "./types.ts";
 
 const WORDS: Record<Verdict, [string, string]> = {
@@ -63,16 +63,18 @@ export class Summary {
     const rows = this.all || judged.length === 0 ? every : judged;
     const more = h("button", { class: "figure-save", dataTest: "more-indices", onclick: () => this.toggle(document, before) }, this.all ? "only the judged" : `all ${every.length}`);
     const most = Math.max(1e-9, ...rows.map(({ value, judged, before: b }) => Math.max(value.value + expanded(value, judged), judged?.tolerance_mm ?? 0, b ?? 0)));
-    const rule = document.judgements.some((j) => j.expanded_mm !== null) ? "judged by ISO 14253-1 with U" : "simple acceptance: value against tolerance";
+    const certain = every.every(({ value }) => value.u_mm === 0);
+    const u_words = certain ? "no uncertainty stated" : "U for k = 2";
+    const rule = document.judgements.some((j) => j.expanded_mm !== null) ? "judged by ISO 14253-1 with U" : `simple acceptance: value against tolerance; ${u_words}`;
     const save = h("button", { class: "figure-save", ariaLabel: "Save the indices as CSV", onclick: () => download(`${fileName(document.study)}-indices.csv`, csv(every), "text/csv") }, "CSV");
-    const words = ["index", ...(before ? ["before"] : []), "value", "U (k = 2)", "tolerance", "used", ""];
+    const words = ["index", ...(before ? ["before"] : []), "value", "U", "tolerance", "used", ""];
     fill(
       this.table,
       h("div", { class: "panel-head" }, h("h2", {}, "Indices, µm"), h("span", { class: "muted" }, rule), judged.length > 0 && judged.length < every.length ? more : null, save),
       h(
         "table",
         {},
-        h("thead", {}, h("tr", {}, words.map((word, i) => h("th", { class: i === 0 || word === "" ? "" : "number", title: word.startsWith("U") ? "expanded uncertainty; where the study judges by ISO 14253-1, the U of its decision rule" : null }, word)))),
+        h("thead", {}, h("tr", {}, words.map((word, i) => h("th", { class: i === 0 || word === "" ? "" : "number", title: word === "U" ? "expanded uncertainty: that of the decision rule where the study judges by ISO 14253-1, else for k = 2" : null }, word)))),
         h("tbody", {}, rows.map((row) => indexRow(row, most, before !== null))),
       ),
     );
@@ -101,7 +103,7 @@ function indexRow({ key, value, judged, before }: Row, most: number, changed: bo
     h("td", {}, titleOf(key)),
     changed ? cell("before", number(before === undefined ? null : 1e3 * before, 1), "muted") : null,
     cell("value", number(1e3 * value.value, 1), moved ? "moved" : ""),
-    cell("U", number(1e3 * u, 1), "muted"),
+    cell("U", u === 0 ? NO_NUMBER : number(1e3 * u, 1), "muted"),
     cell("tolerance", judged ? number(1e3 * judged.tolerance_mm, 1) : ""),
     cell("used", judged ? `${number(100 * judged.used_ratio, 0)} %` : "", judged?.verdict ?? ""),
     h("td", { class: "bar-cell" }, bar(value.value / most, u / most, judged ? judged.tolerance_mm / most : null, judged?.verdict, changed ? (before ?? 0) / most : null)),

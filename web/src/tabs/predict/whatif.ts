@@ -146,16 +146,18 @@ export class WhatIf {
   }
 
   private reset(): void {
-    for (const row of this.rows) row.reset();
-    for (const one of [...this.rotary.values(), ...this.sensors.values(), ...(this.tool ? [this.tool] : [])]) one.reset();
+    for (const one of [...this.rows, ...this.settings()]) one.reset();
     this.time.textContent = "";
     this.changed();
     this.filter();
   }
 
+  private settings(): Setting[] {
+    return [...this.rotary.values(), ...this.sensors.values(), ...(this.tool ? [this.tool] : [])];
+  }
+
   private showState(): void {
-    const settings = [...this.rotary.values(), ...this.sensors.values(), ...(this.tool ? [this.tool] : [])];
-    const count = this.rows.filter((r) => r.change).length + settings.filter((s) => s.value !== null).length;
+    const count = this.rows.filter((r) => r.change).length + this.settings().filter((s) => s.value !== null).length;
     this.title.textContent = count === 0 ? "nothing changed" : count === 1 ? "1 change" : `${count} changes`;
     this.reset_button.disabled = count === 0;
   }
@@ -167,8 +169,9 @@ export class WhatIf {
     this.showRow(row);
   }
 
-  /** Adds to one error, and shows it; `text` is such as "608.9 urad". */
+  /** Adds to one error of the file as it is, and shows it; `text` is such as "608.9 urad". */
   correct(error: string, text: string): void {
+    for (const one of [...this.rows, ...this.settings()]) one.reset();
     let row = this.rows.find((r) => r.name === error);
     if (!row) {
       // A location error that the machine file does not state is zero.
