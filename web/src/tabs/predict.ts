@@ -49,12 +49,18 @@ class PredictTab implements TabHandle {
   }
 
   open(params: Readonly<Record<string, string>>): void {
-    const wanted = params["study"] ?? this.study ?? this.app.state.project?.files.find((f) => f.kind === "study")?.path ?? null;
+    const wanted = params["study"] ?? this.study ?? this.firstStudy();
     if (wanted === null) {
       fill(this.empty, h("p", {}, "There is no study in this folder. Open an example on the first page, or put a study that names a machine and a test piece into the folder."));
       return;
     }
     if (wanted !== this.study) void this.load(wanted);
+  }
+
+  /** That of the first example, where there are examples. */
+  private firstStudy(): string | null {
+    const project = this.app.state.project;
+    return project?.examples.find((e) => e.tab === "predict")?.path ?? project?.files.find((f) => f.kind === "study")?.path ?? null;
   }
 
   changed(path: string): void {

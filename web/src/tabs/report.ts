@@ -89,7 +89,9 @@ class ReportTab implements TabHandle {
   private showFiles(file?: string, machine?: string): void {
     const verb = VERBS.find((v) => v.name === this.verb.value);
     if (!verb) return;
-    const files = this.app.state.project?.files ?? [];
+    // What the first page offers comes first.
+    const offered = new Set(this.app.state.project?.examples.map((e) => e.path));
+    const files = [...(this.app.state.project?.files ?? [])].sort((a, b) => Number(offered.has(b.path)) - Number(offered.has(a.path)));
     const of = (kinds: readonly FileKind[], also: string | undefined): HTMLElement[] => [...new Set([...(also ? [also] : []), ...files.filter((f) => kinds.includes(f.kind)).map((f) => f.path)])].map((path) => h("option", { value: path }, path));
     fill(this.file, of(verb.file, file));
     if (file) this.file.value = file;

@@ -33,7 +33,7 @@ export class Blame {
 
   constructor(host: HTMLElement, actions: BlameActions) {
     this.actions = actions;
-    host.append(h("div", { class: "panel" }, h("div", { class: "row blame-head" }, this.index, this.group, this.measure), this.words, this.place), this.corrections);
+    host.append(this.corrections, h("div", { class: "panel" }, h("div", { class: "row blame-head" }, this.index, this.group, this.measure), this.words, this.place));
   }
 
   /** `file` is the prediction of the file: its corrections are shown whatever is changed. */
@@ -95,7 +95,7 @@ export class Blame {
       h(
         "div",
         { class: "panel" },
-        h("div", { class: "panel-head" }, h("h2", {}, "One correction that would do"), h("span", { class: "muted" }, "smallest first, from the file as it is; indices in µm after it")),
+        h("div", { class: "panel-head" }, h("h2", {}, "One correction that would do"), h("span", { class: "muted" }, "smallest first, U as it is now; indices in µm after it")),
         h("table", {}, h("thead", {}, h("tr", {}, h("th", {}, "shim"), h("th", { class: "number" }, "by"), judged.map((j) => h("th", { class: "number" }, titleOf(j.index))), h("th", {}))), h("tbody", {}, all.slice(0, 6).map(row))),
       ),
     );

@@ -141,8 +141,9 @@ export class PieceView {
     const points = ring.nominal.map((v, i) => (i % 3 === 2 ? v : 1.004 * (v + this.k * (ring.moved[i] as number))));
     this.marked.geometry.setAttribute("position", new BufferAttribute(points, 3));
     this.marked.material.color.set(cssColour("--actual"));
-    const left = new Vector3(-0.85 * section.radius_mm, 0.53 * section.radius_mm, section.z_mm).multiply(new Vector3(1.05, 1.05, 1));
-    this.view.overlay.label("section", `section ${this.chosen + 1}, z = ${number(section.z_mm, 0)} mm`, () => left.clone());
+    // In front, as the first view sees it.
+    const front = new Vector3(-0.527 * section.radius_mm, -0.85 * section.radius_mm, section.z_mm);
+    this.view.overlay.label("section", `section ${this.chosen + 1}, z = ${number(section.z_mm, 0)} mm`, () => front.clone());
   }
 
   /** The face on top, so that nobody looks into a hollow piece. */
