@@ -4,6 +4,7 @@ import "./style/controls.css";
 import "./style/figure.css";
 import "./style/scene.css";
 import "./style/tabs.css";
+import "./style/describe.css";
 import "./style/predict.css";
 import { App } from "./app.ts";
 import { startTheme } from "./theme.ts";

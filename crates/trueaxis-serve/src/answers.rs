@@ -8,7 +8,10 @@ mod plan;
 mod predict;
 mod project;
 mod report;
+mod simulate;
 mod wants;
+
+pub(crate) use simulate::Simulated;
 
 use crate::desk::{Desk, Job, Reply};
 use crate::refusal::Refusal;
@@ -60,6 +63,10 @@ pub(crate) const ANSWERS: &[Answer] = &[
     quick("standards", evaluate::standards),
     quick("evaluate", evaluate::evaluate),
     long("report", report::report),
+    long("simulate", simulate::simulate),
+    quick("simulation-at", simulate::at),
+    quick("simulation-block", simulate::block),
+    quick("simulation-path", simulate::path),
+    quick("simulation-curves", simulate::curves),
+    quick("simulation-source", simulate::source),
 ];
-
-pub(crate) struct Simulated;

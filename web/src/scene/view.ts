@@ -63,6 +63,8 @@ export interface SceneProbe {
   /** bed_from_body, 12 numbers, of the nominal (or ghost) body as the scene graph has it. */
   poseOf(name: string, which?: "nominal" | "ghost"): number[] | null;
   nominalTip(): [number, number, number] | null;
+  /** Least and greatest corner of the models of a body, in its own frame, mm. */
+  boxOf(name: string): number[] | null;
   frames(): number;
 }
 
@@ -95,6 +97,7 @@ export class MachineView {
   private scheduled = false;
   private drawn = 0;
   private k = 1;
+  private ghost_wanted = true;
   private poses: { nominal: Float64Array; actual: Float64Array } | null = null;
   private arrows: Group[] = [];
   private materials: Partial<Record<Role | "edge" | "ghost" | "ghost-edge", Material>> = {};
@@ -119,7 +122,7 @@ export class MachineView {
     this.watch = new ResizeObserver(() => this.resize());
     this.watch.observe(this.element);
     this.stop_theme = onTheme(() => this.repaint());
-    window.trueaxisScene = { poseOf: (name, which) => this.poseOf(name, which), nominalTip: () => this.nominalTip(), frames: () => this.drawn };
+    window.trueaxisScene = { poseOf: (name, which) => this.poseOf(name, which), nominalTip: () => this.nominalTip(), boxOf: (name) => this.boxOf(name), frames: () => this.drawn };
   }
 
   private makeRenderer(): WebGLRenderer | null {
@@ -154,7 +157,7 @@ export class MachineView {
   // ---- the machine ----
 
   /** Builds the bodies of the chain; models where the machine file has them, else a schematic. */
-  setMachine(machine: MachineDescription): void {
+  setMachine(machine: MachineDescription, keep_view = false): void {
     this.clearMachine();
     this.machine = machine;
     this.bodies = machine.links.map((link) => ({ name: link.name, node: new Group(), ghost: new Group(), meshes: [] }));
@@ -165,7 +168,7 @@ export class MachineView {
       if (body !== this.bed) this.ghost_root.add(body.ghost);
     }
     this.makeMaterials();
-    for (const model of machine.models) this.addPart(model.body, model.name, geometryOf(model.shape), matrixOf(model.placement));
+    for (const model of machine.models) if (!("stl" in model.shape)) this.addPart(model.body, model.name, geometryOf(model.shape), matrixOf(model.placement));
     for (const part of schematic(machine)) this.addPart(part.body, part.name, part.geometry, part.matrix);
     homePoses(machine.links).forEach((pose, i) => this.placeBody(i, pose, pose));
     this.addTool();
@@ -174,7 +177,8 @@ export class MachineView {
     this.addArrows();
     this.addGrid();
     this.ghost_root.visible = false;
-    this.setView("iso");
+    if (!keep_view) this.setView("iso");
+    this.requestRender();
   }
 
   private clearMachine(): void {
@@ -371,11 +375,16 @@ export class MachineView {
       for (let j = 0; j < 16; j++) ghost.elements[j] = (n.elements[j] as number) + exaggeration * ((a.elements[j] as number) - (n.elements[j] as number));
       this.placeBody(i, n, ghost);
     });
-    this.ghost_root.visible = true;
+    this.ghost_root.visible = this.ghost_wanted;
     this.path?.setExaggeration(exaggeration);
     this.surface?.setExaggeration(exaggeration);
-    this.overlay.note("factor", exaggeration === 1 ? "Actual machine: true size (×1)" : `Actual machine: deviations ${factor(exaggeration)}`, "actual");
+    this.noteFactor();
     this.requestRender();
+  }
+
+  private noteFactor(): void {
+    const text = this.k === 1 ? "Actual machine: true size (×1)" : `Actual machine: deviations ${factor(this.k)}`;
+    this.overlay.note("factor", this.ghost_wanted ? text : null, "actual");
   }
 
   setExaggeration(k: number): void {
@@ -389,8 +398,9 @@ export class MachineView {
   }
 
   setGhostVisible(visible: boolean): void {
-    this.ghost_root.visible = visible;
-    this.overlay.note("factor", visible ? `Actual machine: deviations ${factor(this.k)}` : null, "actual");
+    this.ghost_wanted = visible;
+    this.ghost_root.visible = visible && this.poses !== null;
+    this.noteFactor();
     this.requestRender();
   }
 
@@ -410,6 +420,14 @@ export class MachineView {
     node.updateWorldMatrix(true, false);
     const e = node.matrixWorld.elements;
     return [0, 4, 8, 1, 5, 9, 2, 6, 10, 12, 13, 14].map((i) => e[i] as number);
+  }
+
+  boxOf(name: string): number[] | null {
+    const body = name === "b" ? this.bed : this.bodies.find((b) => b.name === name);
+    if (!body) return null;
+    const box = new Box3();
+    for (const mesh of body.meshes) box.union(new Box3().setFromBufferAttribute(mesh.geometry.getAttribute("position") as never).applyMatrix4(mesh.matrix));
+    return [...box.min.toArray(), ...box.max.toArray()];
   }
 
   /** The tool tip in the workpiece frame, mm, from the scene graph. */

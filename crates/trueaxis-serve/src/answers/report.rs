@@ -28,6 +28,10 @@ pub(super) fn report(desk: &Desk, body: &Value, job: &Job) -> Result<Reply, Refu
     let path = desk.project.path(name)?;
     let page = match verb {
         "predict" => prediction(&path, job)?,
+        "simulate" => {
+            let request = json!({ "machine": body.text("machine")?, "program": name });
+            super::simulate::page(desk, &request, job)?
+        }
         "plan" => plan(&body, &path)?,
         "identify" => identification_html(&identified(&path, |_| Ok(None), job)?.report()),
         "evaluate" => {

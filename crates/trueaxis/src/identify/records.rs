@@ -74,37 +74,40 @@ pub fn read_records_with(
         }
         for (file, text) in read {
             sound &= text.is_some_and(|text| {
-                records.add(campaign, index, &file, &text, &texts, problems).is_some_and(|()| {
+                !is_twin(&file, &text, &texts, problems) && {
+                    let table = CsvTable::parse(&file, &text, problems);
                     texts.push((file, text));
-                    true
-                })
+                    records.add(campaign, index, &table, problems).is_some()
+                }
             });
         }
     }
     (sound && !problems.has_errors()).then_some(records)
 }
 
+/// Whether the same readings came before, which is an error.
+fn is_twin(file: &str, text: &str, known: &[(String, String)], problems: &mut Diagnostics) -> bool {
+    let twin = known.iter().find(|(_, known)| known == text);
+    if let Some((twin, _)) = twin {
+        let message = format!("the same readings as in {twin}");
+        let hint = "name every table once: readings that count twice look too sure";
+        problems.error("duplicate-file", Place::whole(file), message, hint);
+    }
+    twin.is_some()
+}
+
 impl Records {
-    /// One table of one instrument; `known` are the tables before it.
+    /// One table of one instrument.
     fn add(
         &mut self,
         campaign: &Campaign,
         index: usize,
-        file: &str,
-        text: &str,
-        known: &[(String, String)],
+        table: &CsvTable,
         problems: &mut Diagnostics,
     ) -> Option<()> {
-        if let Some((twin, _)) = known.iter().find(|(_, known)| known == text) {
-            let message = format!("the same readings as in {twin}");
-            let hint = "name every table once: readings that count twice look too sure";
-            problems.error("duplicate-file", Place::whole(file), message, hint);
-            return None;
-        }
-        let table = CsvTable::parse(file, text, problems);
         let (instrument, number) = (&campaign.instruments[index], u32::try_from(index).ok()?);
-        let read = Readings::parse(&table, &campaign.machine, instrument, number, problems)?;
-        self.tables.push((self.readings.len(), file.to_owned()));
+        let read = Readings::parse(table, &campaign.machine, instrument, number, problems)?;
+        self.tables.push((self.readings.len(), table.file.clone()));
         self.readings.append(&read);
         Some(())
     }
