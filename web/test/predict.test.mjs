@@ -181,7 +181,7 @@ test('a sensor that is warmer: as if the study said so', async () => {
 
     own = await serve(folder);
     const { page, complaints } = await open(browser, own.address);
-    await page.goto(`${own.address}/#predict?study=${NAS}`);
+    await page.goto(new URL(`#predict?study=${NAS}`, own.address).href);
     await page.click('[data-show=what-if]');
     assertIndices(await shownIndices(page), cold);
     await whatIf(page, async () => {
@@ -191,7 +191,7 @@ test('a sensor that is warmer: as if the study said so', async () => {
     assertIndices(await shownIndices(page), expected);
     assert.deepEqual(complaints, []);
   } finally {
-    own?.stop();
+    await own?.stop();
     rmSync(folder, { recursive: true });
   }
 });

@@ -47,7 +47,7 @@ test('the report of a prediction: from its tab, with the verdict, as a file that
 
 test('print prints the report, not the page', async () => {
   const { page, complaints } = await open(browser, server.address);
-  await page.goto(`${server.address}/#report?verb=predict&file=${FAILING}`);
+  await page.goto(new URL(`#report?verb=predict&file=${FAILING}`, server.address).href);
   await made(page);
   const print = page.locator('text=Print or PDF');
   await print.waitFor();
@@ -65,11 +65,11 @@ test('print prints the report, not the page', async () => {
 
 test('readings by a standard; what cannot be reported says why', async () => {
   const { page, complaints } = await open(browser, server.address);
-  await page.goto(`${server.address}/#report?verb=evaluate&file=${LASER}&standard=iso230-2`);
+  await page.goto(new URL(`#report?verb=evaluate&file=${LASER}&standard=iso230-2`, server.address).href);
   await made(page);
   assert.match(await page.frameLocator('.report-frame').locator('body').textContent(), /ISO 230-2/);
 
-  await page.goto(`${server.address}/#report?verb=predict&file=examples/03_predict/none.toml`);
+  await page.goto(new URL(`#report?verb=predict&file=examples/03_predict/none.toml`, server.address).href);
   const toast = page.locator('.toast');
   await toast.waitFor();
   assert.match(await toast.textContent(), /none\.toml/);
