@@ -6,6 +6,7 @@ import "./style/scene.css";
 import "./style/tabs.css";
 import "./style/describe.css";
 import "./style/measure.css";
+import "./style/predict.css";
 import { App } from "./app.ts";
 import { startTheme } from "./theme.ts";
 

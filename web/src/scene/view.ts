@@ -173,10 +173,10 @@ export class MachineView {
     homePoses(machine.links).forEach((pose, i) => this.placeBody(i, pose, pose));
     this.addTool();
     this.addWorkpiece();
+    this.attachLayers();
     this.addArrows();
     this.addGrid();
     this.ghost_root.visible = false;
-    this.attachLayers();
     if (!keep_view) this.setView("iso");
     this.requestRender();
   }
@@ -299,6 +299,8 @@ export class MachineView {
     this.scene.updateMatrixWorld(true);
     const box = new Box3();
     for (const body of [this.bed, ...this.bodies]) for (const mesh of body.meshes) box.expandByObject(mesh);
+    // Without a machine, the part alone is the picture.
+    if (box.isEmpty()) box.expandByObject(this.layers);
     if (box.isEmpty()) box.setFromCenterAndSize(new Vector3(), new Vector3(500, 500, 500));
     return box;
   }
@@ -394,7 +396,12 @@ export class MachineView {
 
   setExaggeration(k: number): void {
     if (this.poses) this.setPoses(this.poses.nominal, this.poses.actual, k);
-    else this.k = k;
+    else {
+      this.k = k;
+      this.path?.setExaggeration(k);
+      this.surface?.setExaggeration(k);
+      this.requestRender();
+    }
   }
 
   setGhostVisible(visible: boolean): void {
