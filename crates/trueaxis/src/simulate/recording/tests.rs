@@ -192,6 +192,26 @@ fn a_path_with_few_points_keeps_the_extremes_and_its_chord() {
     assert!(first <= 1.0 && last >= 1.5 && window.time_s[1] > 1.0);
 }
 
+#[test]
+fn rows_stay_rows_wherever_their_corners_are() {
+    for length in [50, 64, 100, 117] {
+        let mut text = String::from("O1\nG90 G21 G94 F3000\n");
+        for k in 0..40 * length {
+            let (row, along) = (k / length, k % length);
+            let x = if row % 2 == 0 { along } else { length - 1 - along };
+            let _ = writeln!(text, "G1 X{x} Y{:.1} Z{:.3}", row as f64 * 0.5, k as f64 * 1e-4);
+        }
+        let program = Program::new("rows.nc", text.into_bytes(), Control::Fanuc);
+        let (machine, setup) = (machine(), SetUp::default());
+        let options = Options { densify: Densify::Off, ..Options::default() };
+        let mut recorder = Recorder::of(&machine, &setup, &options);
+        simulate(&machine, &program, &setup, &options, &mut [&mut recorder]);
+        let recording = recorder.finish();
+        let drawn = recording.path(0.0, recording.end_s(), 300, Colour::Deviation);
+        assert!(drawn.chord_mm < 0.1 * length as f64, "{length}: {}", drawn.chord_mm);
+    }
+}
+
 /// The greatest distance of a node from the piece that is drawn over it.
 fn chord(drawn: &PathPoints, told: &[Moment]) -> f64 {
     let origin = Vec3::from(drawn.origin_mm);
