@@ -68,7 +68,7 @@ export class Blame {
     if (this.figure) this.figure.update(spec);
     else this.figure = bars(this.place, spec);
     const rest = shown.length - spec.bars.length;
-    const helps = gain && spec.bars.some((b) => b.value < 0) ? " Orange: it helps by opposing others." : "";
+    const helps = gain && spec.bars.some((b) => (b.value ?? 0) < 0) ? " Orange: it helps by opposing others." : "";
     this.words.textContent = shown.length === 0 ? `No error matters to ${titleOf(key)}: ${um(1e3 * value)}.` : `${titleOf(key)} is ${um(1e3 * value)}.${helps}${rest > 0 ? ` ${rest} smaller not shown.` : ""}${this.group.value === "blame" ? " Click: switch off." : ""}`;
   }
 
