@@ -46,7 +46,7 @@ struct Refine<'c> {
     /// mm of the picture for a µm of deviation.
     enlarged: f64,
     detail: Vec<f32>,
-    open: Vec<(usize, usize, f32)>,
+    open: Vec<(usize, usize)>,
 }
 
 impl<'c> Refine<'c> {
@@ -67,16 +67,14 @@ impl<'c> Refine<'c> {
 
     /// Refines the line between the ends of a stretch.
     fn refine(&mut self, nodes: &[usize]) {
-        self.open.push((0, nodes.len() - 1, f32::INFINITY));
-        while let Some((from, to, most)) = self.open.pop() {
+        self.open.push((0, nodes.len() - 1));
+        while let Some((from, to)) = self.open.pop() {
             let far = |k: usize| (self.beside(nodes[from], nodes[to], nodes[k]) as f32, k);
             let inner = (from + 1..to).map(far);
             let Some((far, k)) = inner.max_by(|a, b| a.0.total_cmp(&b.0)) else { continue };
             if far > 0.0 {
-                // No part of a line matters more than the line.
-                let far = far.min(most);
                 self.detail[nodes[k]] = self.detail[nodes[k]].max(far);
-                self.open.extend([(from, k, far), (k, to, far)]);
+                self.open.extend([(from, k), (k, to)]);
             }
         }
     }
