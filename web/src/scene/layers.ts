@@ -145,6 +145,11 @@ export class PathLayer {
     position.needsUpdate = true;
   }
 
+  /** The displaced line. */
+  setGhostVisible(visible: boolean): void {
+    if (this.ghost) this.ghost.visible = visible;
+  }
+
   dispose(): void {
     for (const line of [this.done, this.dim, this.ghost]) {
       line?.geometry.dispose();

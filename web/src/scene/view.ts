@@ -64,6 +64,8 @@ export interface SceneProbe {
   poseOf(name: string, which?: "nominal" | "ghost"): number[] | null;
   nominalTip(): [number, number, number] | null;
   frames(): number;
+  /** What the Simulate tab shows now: the time and the axis positions, mm and deg, in full. */
+  moment?: () => { time_s: number; axes: Record<string, number> } | null;
 }
 
 declare global {
@@ -95,6 +97,7 @@ export class MachineView {
   private scheduled = false;
   private drawn = 0;
   private k = 1;
+  private show_ghost = true;
   private poses: { nominal: Float64Array; actual: Float64Array } | null = null;
   private arrows: Group[] = [];
   private materials: Partial<Record<Role | "edge" | "ghost" | "ghost-edge", Material>> = {};
@@ -154,7 +157,7 @@ export class MachineView {
   // ---- the machine ----
 
   /** Builds the bodies of the chain; models where the machine file has them, else a schematic. */
-  setMachine(machine: MachineDescription): void {
+  setMachine(machine: MachineDescription, keep_camera = false): void {
     this.clearMachine();
     this.machine = machine;
     this.bodies = machine.links.map((link) => ({ name: link.name, node: new Group(), ghost: new Group(), meshes: [] }));
@@ -174,7 +177,7 @@ export class MachineView {
     this.addGrid();
     this.ghost_root.visible = false;
     this.attachLayers();
-    this.setView("iso");
+    if (!keep_camera) this.setView("iso");
   }
 
   private clearMachine(): void {
@@ -358,6 +361,7 @@ export class MachineView {
    * every body point times `exaggeration`: R_n + k·(R_a − R_n), o_n + k·(o_a − o_n); k = 1 is true.
    */
   setPoses(nominal: Float64Array, actual: Float64Array, exaggeration = this.k): void {
+    const changed = exaggeration !== this.k || this.poses === null;
     this.poses = { nominal, actual };
     this.k = exaggeration;
     const n = new Matrix4();
@@ -369,11 +373,11 @@ export class MachineView {
       for (let j = 0; j < 16; j++) ghost.elements[j] = (n.elements[j] as number) + exaggeration * ((a.elements[j] as number) - (n.elements[j] as number));
       this.placeBody(i, n, ghost);
     });
-    this.ghost_root.visible = true;
-    this.path?.setExaggeration(exaggeration);
-    this.surface?.setExaggeration(exaggeration);
-    this.overlay.note("factor", exaggeration === 1 ? "Actual machine: true size (×1)" : `Actual machine: deviations ${factor(exaggeration)}`, "actual");
-    this.requestRender();
+    if (changed) {
+      this.path?.setExaggeration(exaggeration);
+      this.surface?.setExaggeration(exaggeration);
+    }
+    this.showGhost();
   }
 
   setExaggeration(k: number): void {
@@ -382,8 +386,15 @@ export class MachineView {
   }
 
   setGhostVisible(visible: boolean): void {
+    this.show_ghost = visible;
+    this.showGhost();
+  }
+
+  private showGhost(): void {
+    const visible = this.show_ghost && this.poses !== null;
     this.ghost_root.visible = visible;
-    this.overlay.note("factor", visible ? `Actual machine: deviations ${factor(this.k)}` : null, "actual");
+    this.path?.setGhostVisible(this.show_ghost);
+    this.overlay.note("factor", !visible ? null : this.k === 1 ? "Actual machine: true size (×1)" : `Actual machine: deviations ${factor(this.k)}`, "actual");
     this.requestRender();
   }
 
@@ -426,6 +437,11 @@ export class MachineView {
     (this.bodies[w]?.node ?? this.scene).add(this.layers);
   }
 
+  /** More points of a path than this are not drawn. */
+  get mostPathPoints(): number {
+    return this.budget;
+  }
+
   /** Draws a tool path in the workpiece; null takes it away. `bar` is its colour bar. */
   setPath(data: PathData | null, bar?: Omit<ColourBarSpec, "range" | "map">): void {
     if (this.path) this.layers.remove(this.path.group);
@@ -433,6 +449,7 @@ export class MachineView {
     this.path = data ? new PathLayer(data, { dim: cssColour("--muted"), ghost: cssColour("--scene-ghost") }, this.budget) : null;
     if (this.path) {
       this.path.setExaggeration(this.k);
+      this.path.setGhostVisible(this.show_ghost);
       this.layers.add(this.path.group);
     }
     this.showBar(this.path && data && bar ? { ...bar, range: this.path.range, map: data.map } : null);

@@ -6,18 +6,10 @@ import { fill, h, perFrame } from "../dom.ts";
 import { bars, type BarSpec } from "../figure/bars.ts";
 import { chainPicture, travelText, type ChainSpec } from "../figure/chain.ts";
 import type { Figure } from "../figure/figure.ts";
-import { digitsOfStep, factor, mm, number, um, urad } from "../format.ts";
+import { digitsOfStep, mm, number, um, urad } from "../format.ts";
 import type { Frame } from "../frame.ts";
+import { exaggerationControl } from "../scene/exaggeration.ts";
 import { MachineView } from "../scene/view.ts";
-
-/** ×1 … ×50 000 on a slider of 0 … 100. */
-const MOST = 50_000;
-const factorOf = (slider: number): number => {
-  const k = Math.exp((slider / 100) * Math.log(MOST));
-  const power = 10 ** Math.floor(Math.log10(k) - 1 + 1e-9);
-  return Math.max(1, power < 1 ? Math.round(k) : Math.round(k / power) * power);
-};
-const sliderOf = (k: number): number => (100 * Math.log(k)) / Math.log(MOST);
 
 type Direction = "X" | "Y" | "Z" | "axis";
 
@@ -30,8 +22,6 @@ class DescribeTab implements TabHandle {
   private readonly tip = h("section", { class: "panel" });
   private readonly budget = h("section", { class: "panel" });
   private readonly findings = h("section", { class: "panel" });
-  private readonly factor_text = h("output", { class: "factor" });
-  private readonly factor_slider: HTMLInputElement;
   private readonly app: App;
   private machine: string | null = null;
   private described: Description | null = null;
@@ -51,10 +41,7 @@ class DescribeTab implements TabHandle {
     const { left, right } = split(host, "describe", 0.58);
     this.panel = right;
     this.view = new MachineView(left);
-    this.factor_slider = h("input", { type: "range", min: "0", max: "100", step: "0.5", class: "exaggeration", ariaLabel: "Exaggeration of the deviations", oninput: () => this.setFactor(factorOf(Number(this.factor_slider.value))) });
-    const ghost = h("input", { type: "checkbox", checked: true, onchange: () => this.view.setGhostVisible(ghost.checked) });
-    left.append(h("div", { class: "scene-bottom" }, h("div", { class: "scene-control" }, h("label", { class: "check" }, ghost, "actual machine"), this.factor_slider, this.factor_text)));
-    this.setFactor(1000);
+    left.append(h("div", { class: "scene-bottom" }, exaggerationControl(this.view)));
     fill(this.panel, this.head, this.chain, this.axes, this.tip, this.budget, this.findings);
   }
 
@@ -69,13 +56,6 @@ class DescribeTab implements TabHandle {
 
   changed(path: string): void {
     if (path === this.machine) void this.load(path);
-  }
-
-  private setFactor(k: number): void {
-    this.factor_slider.value = String(sliderOf(k));
-    this.factor_slider.setAttribute("aria-valuetext", factor(k));
-    this.factor_text.textContent = factor(k);
-    this.view.setExaggeration(k);
   }
 
   private async load(path: string, at?: string): Promise<void> {
