@@ -4,6 +4,7 @@ import "./style/controls.css";
 import "./style/figure.css";
 import "./style/scene.css";
 import "./style/tabs.css";
+import "./style/simulate.css";
 import { App } from "./app.ts";
 import { startTheme } from "./theme.ts";
 

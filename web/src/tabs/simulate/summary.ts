@@ -1,0 +1,82 @@
+/** What the simulation says in one glance: does it run, how long, how far off; and where the troubles are. */
+
+import { diagnosticList } from "../../app.ts";
+import type { Diagnostic, Refusal } from "../../api.ts";
+import { fill, h, type Child } from "../../dom.ts";
+import { clock, mm, number, um, urad } from "../../format.ts";
+import type { Mark, SimulationHeader } from "./answers.ts";
+
+/** Rows of troubles in the page; the report has all. */
+const MOST_ROWS = 200;
+
+function fact(title: string, value: Child, key: string, more: Child = null): HTMLElement {
+  return h("div", { class: "fact" }, h("span", { class: "muted" }, title), h("strong", { dataTest: key }, value), more);
+}
+
+function verdict(header: SimulationHeader): HTMLElement {
+  const grave = header.marks.filter((m) => m.grave);
+  const kinds = new Map<string, number>();
+  for (const mark of grave) kinds.set(mark.kind, (kinds.get(mark.kind) ?? 0) + 1);
+  const words = [...kinds].map(([kind, n]) => `${n} × ${kind.replaceAll("-", " ")}`).join(", ");
+  return grave.length > 0 ? h("strong", { class: "verdict bad", dataTest: "verdict" }, `Does not run: ${words}`) : h("strong", { class: "verdict good", dataTest: "verdict" }, "Runs: no collision, no over-travel");
+}
+
+export class Summary {
+  readonly element = h("section", { class: "panel simulate-summary", ariaLabel: "Result" });
+  private readonly seek: (time_s: number) => void;
+
+  constructor(seek: (time_s: number) => void) {
+    this.seek = seek;
+  }
+
+  clear(): void {
+    fill(this.element);
+  }
+
+  show(header: SimulationHeader): void {
+    const { document: doc } = header;
+    const worst = doc.deviation.tip_um;
+    const to = worst.value > 0 ? h("button", { class: "link", dataTest: "to-largest", onclick: () => this.seek(worst.time_s) }, `line ${worst.line}`) : null;
+    fill(
+      this.element,
+      h("div", { class: "panel-head" }, verdict(header), h("span", { class: "muted" }, doc.control)),
+      h(
+        "div",
+        { class: "facts" },
+        fact("machining time", [clock(doc.time_s), h("small", {}, " min:s")], "time", h("span", { class: "muted" }, `rapid ${clock(doc.rapid_s)}${doc.dwell_s > 0 ? `, dwell ${clock(doc.dwell_s)}` : ""}`)),
+        fact("largest deviation in feed", um(worst.value), "largest", to),
+        fact("largest across the path", um(Math.max(Math.abs(doc.deviation.normal_um.value), Math.abs(doc.deviation.binormal_um.value))), "across"),
+        fact("largest tilt", urad(doc.deviation.axis_urad.value), "tilt"),
+        fact("path in feed", mm(doc.feed_mm, 0), "feed-path", h("span", { class: "muted" }, `${number(doc.moves, 0)} moves`)),
+      ),
+      this.troubles(header),
+      header.diagnostics.length > 0 ? h("details", { class: "simulate-said", open: header.diagnostics.some((d) => d.severity === "error") }, h("summary", {}, `The program reader says ${header.diagnostics.length === 1 ? "one thing" : `${header.diagnostics.length} things`}`), diagnosticList(header.diagnostics.slice(0, MOST_ROWS))) : null,
+    );
+  }
+
+  /** The program (or machine) cannot be simulated: what is wrong with it. */
+  refuse(refusal: Refusal, again: (() => void) | null): void {
+    const errors = refusal.diagnostics.filter((d: Diagnostic) => d.severity === "error");
+    fill(
+      this.element,
+      h("div", { class: "panel-head" }, h("strong", { class: "verdict bad", dataTest: "verdict" }, errors.length > 0 ? `Cannot be simulated: ${errors.length === 1 ? "one error" : `${errors.length} errors`}` : refusal.message)),
+      refusal.diagnostics.length > 0 ? diagnosticList(refusal.diagnostics.slice(0, MOST_ROWS)) : refusal.hint ? h("p", { class: "hint" }, refusal.hint) : null,
+      again ? h("p", { class: "row" }, h("button", { dataTest: "keep-going", onclick: again }, "Simulate all the same"), h("span", { class: "muted" }, "goes on behind each error")) : null,
+    );
+  }
+
+  private troubles({ marks, document: doc }: SimulationHeader): Child {
+    const grave = marks.filter((m) => m.grave);
+    const rest = marks.filter((m) => !m.grave);
+    const left_out = doc.troubles_left_out > 0 ? h("p", { class: "muted" }, `and ${doc.troubles_left_out} more that the server left out`) : null;
+    return [
+      grave.length > 0 ? h("ul", { class: "troubles grave" }, grave.slice(0, MOST_ROWS).map((m) => this.trouble(m))) : null,
+      rest.length > 0 ? h("details", { class: "simulate-said" }, h("summary", {}, rest.length === 1 ? "One remark" : `${rest.length} remarks`), h("ul", { class: "troubles" }, rest.slice(0, MOST_ROWS).map((m) => this.trouble(m))), rest.length > MOST_ROWS ? h("p", { class: "muted" }, `and ${rest.length - MOST_ROWS} more: see the time line`) : null, left_out) : left_out,
+    ];
+  }
+
+  private trouble(mark: Mark): HTMLElement {
+    const until = mark.until_s !== null && mark.until_s > mark.time_s ? ` to ${clock(mark.until_s)}` : "";
+    return h("li", {}, h("button", { class: "trouble", dataKind: mark.kind, onclick: () => this.seek(mark.time_s) }, h("span", { class: "muted number" }, `${clock(mark.time_s)}${until}`), h("span", { class: "muted number" }, `line ${mark.line}`), h("span", {}, mark.text)));
+  }
+}
