@@ -275,7 +275,7 @@ class TimePlotView implements TimePlot {
       ctx.moveTo(left, y);
       ctx.lineTo(left + width, y);
       ctx.stroke();
-      ctx.fillText(label, left + 4 * pixel, y - 3 * pixel);
+      ctx.fillText(label, left + 4 * pixel, y - 14 * pixel < top ? y + 12 * pixel : y - 3 * pixel);
     }
     ctx.setLineDash([]);
     for (const mark of this.spec.marks ?? []) {

@@ -1,6 +1,6 @@
 /** What is drawn in the frame of the workpiece: tool paths and surfaces, coloured by value. */
 
-import { BufferAttribute, BufferGeometry, Group, Line, LineBasicMaterial, Mesh, MeshBasicMaterial, DoubleSide, Points, PointsMaterial } from "three";
+import { Box3, BufferAttribute, BufferGeometry, Group, Line, LineBasicMaterial, Mesh, MeshBasicMaterial, DoubleSide, Points, PointsMaterial, Vector3 } from "three";
 import { colourTable, rangeOf, sequential, type ColourMap } from "../figure/colours.ts";
 
 export interface PathData {
@@ -143,6 +143,16 @@ export class PathLayer {
     const position = this.ghost.geometry.getAttribute("position") as BufferAttribute;
     displaced(this.data.positions, this.data.deviations, k, position.array as Float32Array);
     position.needsUpdate = true;
+  }
+
+  /** Where the path cuts; all of it if it is rapid throughout. */
+  extent(): Box3 {
+    const box = new Box3();
+    const { positions, rapid } = this.data;
+    const add = (i: number): unknown => box.expandByPoint(new Vector3(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]));
+    for (const i of this.kept) if (!rapid?.[i]) add(i);
+    if (box.isEmpty()) for (const i of this.kept) add(i);
+    return box;
   }
 
   /** The displaced line. */

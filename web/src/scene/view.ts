@@ -49,6 +49,9 @@ const VIEWS: Record<ViewName, { from: [number, number, number]; label: string; t
   z: { from: [0, -0.0001, 1], label: "Z", title: "Look along Z, from above (3)" },
 };
 
+/** The block that is drawn where no workpiece is known. */
+const STAND_IN = "workpiece";
+
 type Role = "bed" | "linear" | "rotary" | "tool" | "part";
 
 interface Body {
@@ -177,6 +180,7 @@ export class MachineView {
     this.addGrid();
     this.ghost_root.visible = false;
     this.attachLayers();
+    this.showStandIn();
     if (!keep_camera) this.setView("iso");
   }
 
@@ -251,7 +255,7 @@ export class MachineView {
     const gap = hits[0]?.distance ?? 0;
     const height = gap > 0.12 * u ? gap : 0.32 * u;
     const z = gap > 0.12 * u ? -gap / 2 : height / 2;
-    this.addPart(w, "workpiece", new BoxGeometry(0.62 * u, 0.62 * u, height), new Matrix4().makeTranslation(0, 0, z));
+    this.addPart(w, STAND_IN, new BoxGeometry(0.62 * u, 0.62 * u, height), new Matrix4().makeTranslation(0, 0, z));
     const axes = new AxesHelper(0.5 * u);
     axes.renderOrder = 9;
     body.node.add(axes);
@@ -447,6 +451,7 @@ export class MachineView {
     if (this.path) this.layers.remove(this.path.group);
     this.path?.dispose();
     this.path = data ? new PathLayer(data, { dim: cssColour("--muted"), ghost: cssColour("--scene-ghost") }, this.budget) : null;
+    this.showStandIn();
     if (this.path) {
       this.path.setExaggeration(this.k);
       this.path.setGhostVisible(this.show_ghost);
@@ -454,6 +459,13 @@ export class MachineView {
     }
     this.showBar(this.path && data && bar ? { ...bar, range: this.path.range, map: data.map } : null);
     this.requestRender();
+  }
+
+  /** The block that stands in for an unknown workpiece would hide the path. */
+  private showStandIn(): void {
+    const w = this.machine?.links.findIndex((l) => l.kind === "workpiece") ?? -1;
+    const body = this.bodies[w];
+    for (const node of [...(body?.node.children ?? []), ...(body?.ghost.children ?? [])]) if (node.name === STAND_IN) node.visible = this.path === null;
   }
 
   /** Other values on the same path. */
@@ -503,6 +515,16 @@ export class MachineView {
 
   fit(): void {
     const box = this.bounds();
+    const from = this.camera.position.clone().sub(this.controls?.target ?? new Vector3()).normalize();
+    this.frame(box.getCenter(new Vector3()), from, box);
+  }
+
+  /** The whole tool path fills the picture, with the tool above it. */
+  fitPath(): void {
+    if (!this.path) return;
+    this.scene.updateMatrixWorld(true);
+    const box = this.path.extent().applyMatrix4(this.path.group.matrixWorld);
+    box.expandByScalar(0.15 * box.getSize(new Vector3()).length() + 1);
     const from = this.camera.position.clone().sub(this.controls?.target ?? new Vector3()).normalize();
     this.frame(box.getCenter(new Vector3()), from, box);
   }

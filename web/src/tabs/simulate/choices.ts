@@ -47,8 +47,8 @@ export class Choices {
       this.element,
       this.labelled("Machine", this.select("machine", this.files("machine", choice.machine), "choose a machine", choice.machine)),
       this.labelled("Program", this.program(), h("label", { class: "button", title: "Or drop it anywhere on this page" }, "Open …", input)),
-      this.labelled("Set-up", this.select("setup", this.files("setup", choice.setup), dropped ? "none" : "beside the program, if there is one", choice.setup)),
-      this.labelled("Control", this.select("control", CONTROLS, "as the program or set-up says", choice.control)),
+      this.labelled("Set-up", this.select("setup", this.files("setup", choice.setup), dropped ? "none" : "beside the program", choice.setup)),
+      this.labelled("Control", this.select("control", CONTROLS, "automatic", choice.control)),
     );
   }
 
@@ -73,7 +73,7 @@ export class Choices {
 
   private files(kind: FileKind, chosen: string | null): [string, string][] {
     const paths = this.app.state.project?.files.filter((f) => f.kind === kind).map((f) => f.path) ?? [];
-    return [...new Set([...(chosen ? [chosen] : []), ...paths])].map((path) => [path, path]);
+    return [...new Set([...(chosen ? [chosen] : []), ...paths])].map((path) => [path, shortName(path)]);
   }
 
   private program(): HTMLElement {
@@ -94,6 +94,14 @@ export class Choices {
     const setup = key === "program" ? { setup: null } : {};
     this.pick({ ...this.choice, ...setup, [key]: value }, key === "program" ? null : this.dropped);
   }
+}
+
+/** What tells files apart comes first: machine files are all named alike, programs are not. */
+function shortName(path: string): string {
+  const [file = path, folder = "", ...rest] = path.split("/").reverse();
+  if (file === "machine.toml" && folder) return `${folder}/${file}`;
+  const where = [...rest.reverse(), folder].filter(Boolean).join("/");
+  return where ? `${file}  –  ${where}` : file;
 }
 
 /** The whole tab takes a dropped program. */

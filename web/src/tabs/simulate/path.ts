@@ -40,7 +40,7 @@ export class ToolPath {
     this.view = view;
     this.failed = failed;
     const buttons = COLOURS.map(([colour, word, title]) => h("button", { title, dataColour: colour, ariaPressed: String(colour === this.colour), onclick: () => this.pick(colour) }, word));
-    this.control = h("div", { class: "scene-control" }, h("span", { class: "muted" }, "Path by"), h("span", { class: "group", role: "group", ariaLabel: "What the colour of the path shows" }, buttons));
+    this.control = h("div", { class: "scene-control" }, h("span", { class: "muted" }, "Path by"), h("span", { class: "group", role: "group", ariaLabel: "What the colour of the path shows" }, buttons), h("button", { title: "Show the path as large as the picture; Fit shows the machine again", dataTest: "look-at-path", onclick: () => view.fitPath() }, "Look at it"));
   }
 
   setSimulation(simulation: Simulation | null): void {

@@ -4,13 +4,18 @@ import { diagnosticList } from "../../app.ts";
 import type { Diagnostic, Refusal } from "../../api.ts";
 import { fill, h, type Child } from "../../dom.ts";
 import { clock, mm, number, um, urad } from "../../format.ts";
-import type { Mark, SimulationHeader } from "./answers.ts";
+import type { Mark, SimulationDocument, SimulationHeader } from "./answers.ts";
 
 /** Rows of troubles in the page; the report has all. */
 const MOST_ROWS = 200;
 
 function fact(title: string, value: Child, key: string, more: Child = null): HTMLElement {
   return h("div", { class: "fact" }, h("span", { class: "muted" }, title), h("strong", { dataTest: key }, value), more);
+}
+
+/** Normal or binormal, whichever is larger: what is seen on the part. */
+function across({ deviation }: SimulationDocument): number {
+  return Math.max(Math.abs(deviation.normal_um.value), Math.abs(deviation.binormal_um.value));
 }
 
 function verdict(header: SimulationHeader): HTMLElement {
@@ -40,16 +45,16 @@ export class Summary {
     fill(
       this.element,
       h("div", { class: "panel-head" }, verdict(header), h("span", { class: "muted" }, doc.control)),
+      this.grave(header.marks),
       h(
         "div",
         { class: "facts" },
         fact("machining time", [clock(doc.time_s), h("small", {}, " min:s")], "time", h("span", { class: "muted" }, `rapid ${clock(doc.rapid_s)}${doc.dwell_s > 0 ? `, dwell ${clock(doc.dwell_s)}` : ""}`)),
-        fact("largest deviation in feed", um(worst.value), "largest", to),
-        fact("largest across the path", um(Math.max(Math.abs(doc.deviation.normal_um.value), Math.abs(doc.deviation.binormal_um.value))), "across"),
-        fact("largest tilt", urad(doc.deviation.axis_urad.value), "tilt"),
-        fact("path in feed", mm(doc.feed_mm, 0), "feed-path", h("span", { class: "muted" }, `${number(doc.moves, 0)} moves`)),
+        fact("largest deviation", um(worst.value), "largest", to),
+        fact("largest across the path", um(across(doc)), "across", h("span", { class: "muted" }, `rms ${um(doc.deviation.tip_rms_um)} in all`)),
+        fact("largest tilt of the tool", urad(doc.deviation.axis_urad.value), "tilt", h("span", { class: "muted" }, `${mm(doc.feed_mm, 0)} in feed, ${number(doc.moves, 0)} moves`)),
       ),
-      this.troubles(header),
+      this.remarks(header),
       header.diagnostics.length > 0 ? h("details", { class: "simulate-said", open: header.diagnostics.some((d) => d.severity === "error") }, h("summary", {}, `The program reader says ${header.diagnostics.length === 1 ? "one thing" : `${header.diagnostics.length} things`}`), diagnosticList(header.diagnostics.slice(0, MOST_ROWS))) : null,
     );
   }
@@ -65,14 +70,23 @@ export class Summary {
     );
   }
 
-  private troubles({ marks, document: doc }: SimulationHeader): Child {
+  private grave(marks: readonly Mark[]): Child {
     const grave = marks.filter((m) => m.grave);
+    if (grave.length === 0) return null;
+    return h("ul", { class: "troubles grave" }, grave.slice(0, MOST_ROWS).map((m) => this.trouble(m)));
+  }
+
+  private remarks({ marks, document: doc }: SimulationHeader): Child {
     const rest = marks.filter((m) => !m.grave);
-    const left_out = doc.troubles_left_out > 0 ? h("p", { class: "muted" }, `and ${doc.troubles_left_out} more that the server left out`) : null;
-    return [
-      grave.length > 0 ? h("ul", { class: "troubles grave" }, grave.slice(0, MOST_ROWS).map((m) => this.trouble(m))) : null,
-      rest.length > 0 ? h("details", { class: "simulate-said" }, h("summary", {}, rest.length === 1 ? "One remark" : `${rest.length} remarks`), h("ul", { class: "troubles" }, rest.slice(0, MOST_ROWS).map((m) => this.trouble(m))), rest.length > MOST_ROWS ? h("p", { class: "muted" }, `and ${rest.length - MOST_ROWS} more: see the time line`) : null, left_out) : left_out,
-    ];
+    const left_out = Math.max(0, rest.length - MOST_ROWS) + doc.troubles_left_out;
+    if (rest.length === 0) return null;
+    return h(
+      "details",
+      { class: "simulate-said" },
+      h("summary", {}, rest.length === 1 ? "One remark" : `${rest.length} remarks`),
+      h("ul", { class: "troubles" }, rest.slice(0, MOST_ROWS).map((m) => this.trouble(m))),
+      left_out > 0 ? h("p", { class: "muted" }, `and ${left_out} more`) : null,
+    );
   }
 
   private trouble(mark: Mark): HTMLElement {
