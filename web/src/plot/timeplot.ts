@@ -125,7 +125,7 @@ class TimePlotView implements TimePlot {
     if (!plot) return;
     if (this.now.parentElement !== plot.over) plot.over.append(this.now);
     const x = this.now_s === null ? -1 : plot.valToPos(this.now_s, "x");
-    this.now.hidden = !(x >= 0 && x <= plot.over.clientWidth);
+    this.now.hidden = !(x >= 0 && x <= plot.bbox.width / devicePixelRatio);
     this.now.style.transform = `translateX(${x.toFixed(1)}px)`;
   }
 

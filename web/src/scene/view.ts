@@ -106,6 +106,7 @@ export class MachineView {
   private materials: Partial<Record<Role | "edge" | "ghost" | "ghost-edge", Material>> = {};
   /** Most points of a path that are drawn: few where the processor has to draw them. */
   private budget = 2_000_000;
+  private software = false;
   private readonly watch: ResizeObserver;
   private readonly stop_theme: () => void;
   private readonly projection = h("button", { onclick: () => this.setOrthographic(this.camera === this.perspective), ariaPressed: "false", title: "Parallel projection (5)" }, "Parallel");
@@ -133,7 +134,8 @@ export class MachineView {
       const renderer = new WebGLRenderer({ antialias: true, alpha: true });
       const gl = renderer.getContext();
       const info = gl.getExtension("WEBGL_debug_renderer_info");
-      if (info && /swiftshader|llvmpipe|software|basic render/i.test(String(gl.getParameter(info.UNMASKED_RENDERER_WEBGL)))) this.budget = 40_000;
+      this.software = info !== null && /swiftshader|llvmpipe|software|basic render/i.test(String(gl.getParameter(info.UNMASKED_RENDERER_WEBGL)));
+      if (this.software) this.budget = 40_000;
       renderer.setPixelRatio(Math.min(2, devicePixelRatio));
       const canvas = renderer.domElement;
       canvas.tabIndex = 0;
@@ -143,6 +145,8 @@ export class MachineView {
       this.element.append(canvas);
       this.controls = new OrbitControls(this.camera, canvas);
       this.controls.addEventListener("change", () => this.requestRender());
+      this.controls.addEventListener("start", () => this.setMoving(true));
+      this.controls.addEventListener("end", () => this.setMoving(false));
       return renderer;
     } catch {
       this.element.append(h("p", { class: "scene-failed" }, "This browser cannot draw in three dimensions (WebGL is off). All figures and tables work without it."));
@@ -637,6 +641,13 @@ export class MachineView {
   }
 
   // ---- drawing ----
+
+  /** While something moves, a processor that has to draw draws fewer points. */
+  setMoving(moving: boolean): void {
+    if (!this.software) return;
+    this.renderer?.setPixelRatio(moving ? 0.6 : Math.min(2, devicePixelRatio));
+    this.requestRender();
+  }
 
   /** Draws at the next frame, once. */
   requestRender(): void {

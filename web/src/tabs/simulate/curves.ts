@@ -81,7 +81,7 @@ export class Curves {
   }
 
   private request(): void {
-    if (this.simulation && this.shown.length > 0) this.ask({ simulation: this.simulation, keys: this.shown, window_s: this.window_s });
+    if (this.simulation && this.shown.length > 0 && this.simulation.header.duration_s > 0) this.ask({ simulation: this.simulation, keys: this.shown, window_s: this.window_s });
   }
 
   private answered(frame: Frame<CurvesHeader>, { simulation, keys, window_s }: Asked): void {

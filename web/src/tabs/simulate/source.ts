@@ -31,6 +31,8 @@ export class SourceList {
   private lines = new Lines("");
   private notes = new Map<number, LineNote[]>();
   private current = 0;
+  /** Height of what is in sight, px. */
+  private sight = 0;
   private scrolled_at = -Infinity;
   /** The scroll position that this list set itself. */
   private own_top = -1;
@@ -89,7 +91,7 @@ export class SourceList {
   // ---- which lines are in sight ----
 
   private rowsInSight(): number {
-    return this.scroll.clientHeight / ROW;
+    return this.sight / ROW;
   }
 
   private height(): number {
@@ -98,7 +100,7 @@ export class SourceList {
 
   /** Lines per px of scrolling. */
   private scale(): number {
-    const way = this.height() - this.scroll.clientHeight;
+    const way = this.height() - this.sight;
     return way > 0 ? Math.max(0, this.lines.count - this.rowsInSight()) / way : 1 / ROW;
   }
 
@@ -115,8 +117,9 @@ export class SourceList {
   }
 
   private resize(): void {
+    this.sight = this.scroll.clientHeight;
     this.tall.style.height = `${this.height()}px`;
-    this.rows.style.height = `${this.scroll.clientHeight}px`;
+    this.rows.style.height = `${this.sight}px`;
     this.draw();
   }
 

@@ -38,10 +38,11 @@ export class Summary {
     fill(this.element);
   }
 
-  show(header: SimulationHeader): void {
+  /** `errors`: how many errors the machine file states. */
+  show(header: SimulationHeader, errors: number): void {
     const { document: doc } = header;
     const worst = doc.deviation.tip_um;
-    const to = worst.value > 0 ? h("button", { class: "link", dataTest: "to-largest", onclick: () => this.seek(worst.time_s) }, `line ${worst.line}`) : null;
+    const to = worst.value > 0 ? h("button", { class: "link", dataTest: "to-largest", onclick: () => this.seek(worst.time_s) }, `line ${worst.line}`) : errors === 0 ? h("span", { class: "muted" }, "the machine file states no errors") : null;
     fill(
       this.element,
       h("div", { class: "panel-head" }, verdict(header), h("span", { class: "muted" }, doc.control)),
