@@ -80,7 +80,7 @@ test('the bangle: largest deviation, the moment, colours, keys, playing', async 
   const worst = document.deviation.tip_um;
   await page.click('[data-test="to-largest"]');
   await shows(page, worst.time_s);
-  await page.waitForFunction((text) => document.querySelector('[data-test="dev-length"]').textContent === text, um(worst.value));
+  await page.waitForFunction((text) => document.querySelector('[data-test="dev-length"]').textContent === text, worst.value.toFixed(1));
   assert.ok((await shown(page, 'place')).startsWith(`line ${worst.line}`));
   await posesAreThoseOf(page, engraver);
 

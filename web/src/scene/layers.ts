@@ -107,7 +107,9 @@ export class PathLayer {
     const rapid = data.rapid;
     this.geometry.setAttribute("color", new BufferAttribute(paint(data.values, data.map ?? sequential, this.range, (i) => (rapid?.[i] ? 70 : 255)), 4, true));
     this.rest = new BufferGeometry().setAttribute("position", position).setIndex(index);
-    this.done = new Line(this.geometry, new LineBasicMaterial({ vertexColors: true, transparent: true }));
+    // Seen through the machine: most of a path lies behind or inside something.
+    this.done = new Line(this.geometry, new LineBasicMaterial({ vertexColors: true, transparent: true, depthTest: false }));
+    this.done.renderOrder = 8;
     this.dim = new Line(this.rest, new LineBasicMaterial({ color: colours.dim, transparent: true, opacity: 0.35 }));
     if (data.deviations) this.ghost = new Line(new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(data.positions.length), 3)).setIndex(index), new LineBasicMaterial({ color: colours.ghost, transparent: true, opacity: 0.8 }));
     this.group.add(this.dim, this.done);

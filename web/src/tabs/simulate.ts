@@ -187,7 +187,7 @@ class SimulateTab implements TabHandle {
     this.simulation = simulation;
     this.busy.hidden = true;
     this.host.classList.add("simulated");
-    this.summary.show(header, this.description?.errors.length ?? 0);
+    this.summary.show(header, this.description?.check.errors.length ?? 0);
     this.readout.setAxes(header.axes);
     this.player.reset(header.duration_s);
     this.timeline.setProgram(header.duration_s, header.marks);

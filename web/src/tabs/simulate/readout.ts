@@ -1,18 +1,18 @@
 /** The present moment in numbers: block, axes, deviation in the workpiece and along the path. */
 
 import { fill, h } from "../../dom.ts";
-import { deg, mm, um, urad, withUnit } from "../../format.ts";
+import { number, withUnit } from "../../format.ts";
 import type { Moment, SimulatedAxis } from "./answers.ts";
 
-const DEVIATIONS: readonly [string, string, (m: Moment) => string][] = [
-  ["dev-X", "X", (m) => um(m.off_tip_um[0])],
-  ["dev-Y", "Y", (m) => um(m.off_tip_um[1])],
-  ["dev-Z", "Z", (m) => um(m.off_tip_um[2])],
-  ["dev-length", "length", (m) => um(Math.hypot(...m.off_tip_um))],
-  ["dev-feed", "feed", (m) => um(m.along_path_um?.[0])],
-  ["dev-normal", "normal", (m) => um(m.along_path_um?.[1])],
-  ["dev-binormal", "binormal", (m) => um(m.along_path_um?.[2])],
-  ["dev-tilt", "tilt", (m) => urad(Math.hypot(...m.off_axis_urad))],
+const DEVIATIONS: readonly [string, string, (m: Moment) => number | undefined][] = [
+  ["dev-X", "X", (m) => m.off_tip_um[0]],
+  ["dev-Y", "Y", (m) => m.off_tip_um[1]],
+  ["dev-Z", "Z", (m) => m.off_tip_um[2]],
+  ["dev-length", "length", (m) => Math.hypot(...m.off_tip_um)],
+  ["dev-feed", "feed", (m) => m.along_path_um?.[0]],
+  ["dev-normal", "normal", (m) => m.along_path_um?.[1]],
+  ["dev-binormal", "binorm.", (m) => m.along_path_um?.[2]],
+  ["dev-tilt", "tilt", (m) => Math.hypot(...m.off_axis_urad)],
 ];
 
 /** What the tip does now. */
@@ -42,11 +42,11 @@ export class Readout {
     fill(
       this.element,
       h("div", { class: "readout-head" }, this.place, this.block, this.speed),
-      h("table", { class: "readout-axes" }, h("thead", {}, heading(axes.map((a) => a.name))), h("tbody", {}, h("tr", {}, axes.map((a) => cell(`axis-${a.name}`))))),
+      h("table", { class: "readout-axes" }, h("thead", {}, heading(axes.map((a) => `${a.name} (${a.unit === "deg" ? "°" : a.unit})`))), h("tbody", {}, h("tr", {}, axes.map((a) => cell(`axis-${a.name}`))))),
       h(
         "table",
         { class: "readout-deviation" },
-        h("caption", {}, "Deviation of the tool tip in the workpiece, along the path, and of the tool axis"),
+        h("caption", {}, "Deviation of the tip (µm) in the workpiece and along the path; tilt (µrad)"),
         h("thead", {}, heading(DEVIATIONS.map(([, word]) => word))),
         h("tbody", {}, h("tr", { class: "deviation-row" }, DEVIATIONS.map(([key]) => cell(key)))),
       ),
@@ -66,12 +66,12 @@ export class Readout {
       const at = moment.axes[axis.name];
       const cell = this.cells.get(`axis-${axis.name}`);
       if (!cell) continue;
-      cell.textContent = axis.unit === "deg" ? deg(at, 4) : mm(at, 4);
+      cell.textContent = number(at, 4);
       cell.classList.toggle("outside", axis.travel !== null && at !== undefined && (at < axis.travel[0] || at > axis.travel[1]));
     }
-    for (const [key, , text] of DEVIATIONS) {
+    for (const [key, , value] of DEVIATIONS) {
       const cell = this.cells.get(key);
-      if (cell) cell.textContent = text(moment);
+      if (cell) cell.textContent = number(value(moment), 1);
     }
   }
 }

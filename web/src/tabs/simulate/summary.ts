@@ -3,7 +3,7 @@
 import { diagnosticList } from "../../app.ts";
 import type { Diagnostic, Refusal } from "../../api.ts";
 import { fill, h, type Child } from "../../dom.ts";
-import { clock, mm, number, um, urad } from "../../format.ts";
+import { clock, mm, um, urad } from "../../format.ts";
 import type { Mark, SimulationDocument, SimulationHeader } from "./answers.ts";
 
 /** Rows of troubles in the page; the report has all. */
@@ -52,8 +52,8 @@ export class Summary {
         { class: "facts" },
         fact("machining time", [clock(doc.time_s), h("small", {}, " min:s")], "time", h("span", { class: "muted" }, `rapid ${clock(doc.rapid_s)}${doc.dwell_s > 0 ? `, dwell ${clock(doc.dwell_s)}` : ""}`)),
         fact("largest deviation", um(worst.value), "largest", to),
-        fact("largest across the path", um(across(doc)), "across", h("span", { class: "muted" }, `rms ${um(doc.deviation.tip_rms_um)} in all`)),
-        fact("largest tilt of the tool", urad(doc.deviation.axis_urad.value), "tilt", h("span", { class: "muted" }, `${mm(doc.feed_mm, 0)} in feed, ${number(doc.moves, 0)} moves`)),
+        fact("across the path", um(across(doc)), "across", h("span", { class: "muted" }, `rms ${um(doc.deviation.tip_rms_um)}`)),
+        fact("tilt of the tool", urad(doc.deviation.axis_urad.value), "tilt", h("span", { class: "muted" }, `${mm(doc.feed_mm, 0)} in feed`)),
       ),
       this.remarks(header),
       header.diagnostics.length > 0 ? h("details", { class: "simulate-said", open: header.diagnostics.some((d) => d.severity === "error") }, h("summary", {}, `The program reader says ${header.diagnostics.length === 1 ? "one thing" : `${header.diagnostics.length} things`}`), diagnosticList(header.diagnostics.slice(0, MOST_ROWS))) : null,
