@@ -75,13 +75,13 @@ class SimulateTab implements TabHandle {
   open(params: Readonly<Record<string, string>>): void {
     this.in_sight = true;
     if (window.trueaxisScene) window.trueaxisScene.moment = () => this.moment;
-    const fresh = takeDropped();
-    const dropped = fresh ?? (params["dropped"] && params["dropped"] === this.dropped?.name ? this.dropped : null);
     const first = this.app.state.project?.files.find((f) => f.kind === "machine")?.path ?? null;
-    const same_tab = !params["program"] && !params["dropped"] && this.choice.machine !== null;
-    // Coming back by the tab's own name shows what was there.
-    if (same_tab && (!params["machine"] || params["machine"] === this.choice.machine)) return;
-    const choice: Choice = { machine: params["machine"] ?? this.app.state.machine ?? first, program: params["program"] ?? null, setup: params["setup"] ?? null, control: params["control"] ?? null };
+    const machine = params["machine"] ?? this.app.state.machine ?? first;
+    // The tab's own link names the machine only: what was open goes on, on that machine.
+    const goes_on = !params["program"] && !params["dropped"];
+    const fresh = takeDropped();
+    const dropped = fresh ?? (goes_on || params["dropped"] === this.dropped?.name ? this.dropped : null);
+    const choice: Choice = goes_on ? { ...this.choice, machine } : { machine, program: params["program"] ?? null, setup: params["setup"] ?? null, control: params["control"] ?? null };
     if (dropped === this.dropped && JSON.stringify(choice) === JSON.stringify(this.choice)) return;
     this.choice = choice;
     this.dropped = dropped;

@@ -27,6 +27,7 @@ export class Curves {
   readonly element: HTMLElement;
   private readonly choice = h("div", { class: "curves-choice" });
   private readonly plots_place = h("div", { class: "curves-plots" });
+  private readonly whole = h("button", { class: "curves-whole", hidden: true, title: "Show the whole time again (double click)", dataTest: "whole-time", onclick: () => this.zoomOut() }, "Whole time");
   private readonly plots = new Map<string, TimePlot>();
   private readonly owner: CurvesOwner;
   private simulation: Simulation | null = null;
@@ -59,6 +60,7 @@ export class Curves {
     this.plots.clear();
     this.simulation = null;
     this.window_s = null;
+    this.whole.hidden = true;
     fill(this.choice);
   }
 
@@ -67,8 +69,7 @@ export class Curves {
     for (const plot of this.plots.values()) plot.setTime(time_s);
   }
 
-  /** Shows the whole time again. */
-  zoomOut(): void {
+  private zoomOut(): void {
     for (const plot of this.plots.values()) plot.zoom(null);
     this.zoomed(null);
   }
@@ -76,6 +77,7 @@ export class Curves {
   private zoomed(window_s: [number, number] | null): void {
     const end = this.simulation?.header.duration_s ?? 0;
     this.window_s = window_s && [Math.max(0, window_s[0]), Math.min(end, window_s[1])];
+    this.whole.hidden = this.window_s === null;
     this.request();
     this.owner.zoomed(this.window_s);
   }
@@ -130,6 +132,7 @@ export class Curves {
       group("Position", all.filter((q) => axes.includes(q.key)), (q) => q.key),
       group("Velocity", all.filter((q) => axes.some((a) => q.key === `${a}.speed`)), (q) => q.key.replace(".speed", "")),
       group("Tip", all.filter((q) => !axes.includes(q.key.replace(".speed", ""))), (q) => SHORT[q.key] ?? q.key),
+      this.whole,
     );
   }
 
