@@ -121,7 +121,6 @@ class SimulateTab implements TabHandle {
     this.stop?.abort();
     const stop = (this.stop = new AbortController());
     const job = this.job(keep_going);
-    const time_s = 0;
     this.clear();
     try {
       await this.showMachine(stop.signal);
@@ -132,7 +131,7 @@ class SimulateTab implements TabHandle {
       }
       const simulation = await this.simulate(job, stop);
       if (stop.signal.aborted) return;
-      await this.take(simulation, time_s);
+      await this.take(simulation);
     } catch (error) {
       if (stop.signal.aborted) return;
       await this.refused(Refusal.from(error), keep_going);
@@ -182,7 +181,7 @@ class SimulateTab implements TabHandle {
     return Simulation.run(this.app, job, { progress, signal: stop.signal });
   }
 
-  private async take(simulation: Simulation, time_s: number): Promise<void> {
+  private async take(simulation: Simulation): Promise<void> {
     const { header } = simulation;
     this.simulation = simulation;
     this.busy.hidden = true;
@@ -194,7 +193,7 @@ class SimulateTab implements TabHandle {
     this.path.setSimulation(simulation);
     this.curves.setSimulation(simulation);
     await this.showProgram(0);
-    this.player.seek(time_s);
+    this.player.seek(0);
     this.app.say("");
   }
 

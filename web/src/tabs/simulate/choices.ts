@@ -84,7 +84,7 @@ export class Choices {
 
   private select(key: keyof Choice, options: readonly (readonly [string, string])[], none: string, value: string | null): HTMLElement {
     const titles: Record<keyof Choice, string> = { machine: "Machine file", program: "NC program", setup: "Set-up: work offsets, tools, stock", control: "Whose program it is" };
-    const select = h("select", { ariaLabel: titles[key], dataChoice: key, onchange: () => this.changed(key, select.value || null) }, h("option", { value: "" }, none), options.map(([path, word]) => h("option", { value: path }, word)));
+    const select = h("select", { ariaLabel: titles[key], dataChoice: key, onchange: () => this.changed(key, select.value || null) }, h("option", { value: "", disabled: key === "machine" || key === "program" }, none), options.map(([path, word]) => h("option", { value: path }, word)));
     select.value = value ?? "";
     return select;
   }
