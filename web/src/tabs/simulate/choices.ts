@@ -24,8 +24,8 @@ const CONTROLS: readonly [string, string][] = [
   ["linuxcnc", "LinuxCNC"],
   ["heidenhain", "HEIDENHAIN"],
 ];
-/** Larger programs do not fit through the page. */
-const MOST_BYTES = 200e6;
+/** The server takes 64 MiB at once; line ends become longer on the way. */
+const MOST_BYTES = 60e6;
 
 export class Choices {
   readonly element = h("section", { class: "panel simulate-choices", ariaLabel: "What is simulated" });
@@ -56,7 +56,7 @@ export class Choices {
   async take(file: File | undefined): Promise<void> {
     if (!file) return;
     if (file.size > MOST_BYTES) {
-      this.app.fail(new Refusal("dropped-file", `${file.name} is larger than 200 MB`, "Put it into the project folder and choose it there, or simulate it with `trueaxis simulate`."));
+      this.app.fail(new Refusal("dropped-file", `${file.name} is larger than 60 MB`, "Put it into the project folder and choose it there, or simulate it with `trueaxis simulate`."));
       return;
     }
     const text = await file.text();
