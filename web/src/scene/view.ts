@@ -77,6 +77,18 @@ declare global {
   }
 }
 
+/** Points per CSS point of a moving picture, without a graphics processor. */
+const HURRIED = 0.75;
+
+/** Whether there is no graphics processor: its context has to be asked before the real one is made. */
+function drawnByProcessor(): boolean {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const info = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = gl && info ? String(gl.getParameter(info.UNMASKED_RENDERER_WEBGL)) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+}
+
 export class MachineView {
   readonly element = h("div", { class: "scene" });
   readonly overlay = new Overlay();
@@ -107,6 +119,8 @@ export class MachineView {
   /** Most points of a path that are drawn: few where the processor has to draw them. */
   private budget = 2_000_000;
   private software = false;
+  private hurries = false;
+  private rest: ReturnType<typeof setTimeout> | undefined;
   private readonly watch: ResizeObserver;
   private readonly stop_theme: () => void;
   private readonly projection = h("button", { onclick: () => this.setOrthographic(this.camera === this.perspective), ariaPressed: "false", title: "Parallel projection (5)" }, "Parallel");
@@ -131,11 +145,9 @@ export class MachineView {
 
   private makeRenderer(): WebGLRenderer | null {
     try {
-      const renderer = new WebGLRenderer({ antialias: true, alpha: true });
-      const gl = renderer.getContext();
-      const info = gl.getExtension("WEBGL_debug_renderer_info");
-      this.software = info !== null && /swiftshader|llvmpipe|software|basic render/i.test(String(gl.getParameter(info.UNMASKED_RENDERER_WEBGL)));
-      if (this.software) this.budget = 40_000;
+      this.software = drawnByProcessor();
+      if (this.software) this.budget = 20_000;
+      const renderer = new WebGLRenderer({ antialias: !this.software, alpha: true });
       renderer.setPixelRatio(Math.min(2, devicePixelRatio));
       const canvas = renderer.domElement;
       canvas.tabIndex = 0;
@@ -145,8 +157,6 @@ export class MachineView {
       this.element.append(canvas);
       this.controls = new OrbitControls(this.camera, canvas);
       this.controls.addEventListener("change", () => this.requestRender());
-      this.controls.addEventListener("start", () => this.setMoving(true));
-      this.controls.addEventListener("end", () => this.setMoving(false));
       return renderer;
     } catch {
       this.element.append(h("p", { class: "scene-failed" }, "This browser cannot draw in three dimensions (WebGL is off). All figures and tables work without it."));
@@ -642,15 +652,25 @@ export class MachineView {
 
   // ---- drawing ----
 
-  /** While something moves, a processor that has to draw draws fewer points. */
-  setMoving(moving: boolean): void {
-    if (!this.software) return;
-    this.renderer?.setPixelRatio(moving ? 0.6 : Math.min(2, devicePixelRatio));
-    this.requestRender();
-  }
-
   /** Draws at the next frame, once. */
   requestRender(): void {
+    if (this.software) this.hurry();
+    this.schedule();
+  }
+
+  /** While something moves, a processor that has to draw draws few points; at rest the picture is smooth. */
+  private hurry(): void {
+    if (!this.hurries) this.renderer?.setPixelRatio(HURRIED);
+    this.hurries = true;
+    clearTimeout(this.rest);
+    this.rest = setTimeout(() => {
+      this.hurries = false;
+      this.renderer?.setPixelRatio(2);
+      this.schedule();
+    }, 250);
+  }
+
+  private schedule(): void {
     if (this.scheduled) return;
     this.scheduled = true;
     requestAnimationFrame(() => {
@@ -695,6 +715,7 @@ export class MachineView {
   dispose(): void {
     this.watch.disconnect();
     this.stop_theme();
+    clearTimeout(this.rest);
     this.setPath(null);
     this.setSurface(null);
     this.clearMachine();

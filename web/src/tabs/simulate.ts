@@ -51,7 +51,7 @@ class SimulateTab implements TabHandle {
     const top = h("div", { class: "simulate-top" });
     const { left, right } = split(top, "simulate", 0.56);
     this.view = new MachineView(left);
-    this.player = new Player({ show: (t) => this.showTime(t), step: (t, step) => this.step(t, step), failed: (e) => this.failed(e), changed: (on) => this.playing(on) });
+    this.player = new Player({ show: (t) => this.showTime(t), step: (t, step) => this.step(t, step), failed: (e) => this.failed(e), changed: (on) => this.transport.setPlaying(on) });
     this.transport = new Transport(this.player);
     this.timeline = new Timeline((t) => this.player.seek(t));
     this.path = new ToolPath(this.view, (e) => this.failed(e));
@@ -259,11 +259,6 @@ class SimulateTab implements TabHandle {
   }
 
   // ---- the moment ----
-
-  private playing(on: boolean): void {
-    this.transport.setPlaying(on);
-    this.view.setMoving(on);
-  }
 
   private step(from_s: number, step: "next" | "previous"): Promise<number> {
     return this.simulation?.step(from_s, step) ?? Promise.resolve(from_s);
