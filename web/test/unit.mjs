@@ -34,7 +34,7 @@ const kept = thinned(circle, new Float32Array(n), undefined, [0, 0], 5000);
 assert.ok(kept.length > 500 && kept.length <= 5000 && kept[0] === 0 && kept.at(-1) === n - 1, `${kept.length} kept`);
 
 const { Lines } = await vite.ssrLoadModule("/src/tabs/simulate/lines.ts");
-for (const [text, lines] of [["", [""]], ["a", ["a"]], ["a\r\n\nb\n", ["a", "", "b"]], ["\n", [""]]]) {
+for (const [text, lines] of [["", []], ["a", ["a"]], ["a\r\n\nb\n", ["a", "", "b"]], ["\n", [""]]]) {
   const read = new Lines(text);
   assert.deepEqual(Array.from({ length: read.count }, (_, i) => read.line(i + 1)), lines, JSON.stringify(text));
 }

@@ -67,8 +67,8 @@ export interface SceneProbe {
   poseOf(name: string, which?: "nominal" | "ghost"): number[] | null;
   nominalTip(): [number, number, number] | null;
   frames(): number;
-  /** What the Simulate tab shows now: the time and the axis positions, mm and deg, in full. */
-  moment?: () => { time_s: number; axes: Record<string, number> } | null;
+  /** What the Simulate tab shows now: the time, the axis positions, mm and deg, and from where they came, in full. */
+  moment?: () => { time_s: number; axes: Record<string, number>; approach: Record<string, number> } | null;
 }
 
 declare global {

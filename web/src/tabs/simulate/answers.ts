@@ -73,6 +73,8 @@ export interface Moment {
   program: number;
   line: number;
   axes: Record<string, number>;
+  /** From which side each axis came: +1, −1, 0 where it has not moved. */
+  approach: Record<string, number>;
   /** The nominal tip in the workpiece frame. */
   tip_mm: Vector;
   off_tip_um: Vector;

@@ -19,8 +19,8 @@ export class Lines {
       if (end < 0) break;
       at = end + 1;
     }
-    // A last line end begins no line.
-    this.count = count > 1 && starts[count - 1] === text.length ? count - 1 : count;
+    // A last line end begins no line, and nothing is no line.
+    this.count = count > 0 && starts[count - 1] === text.length ? count - 1 : count;
     this.starts = starts;
   }
 

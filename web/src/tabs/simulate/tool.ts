@@ -4,6 +4,9 @@ import { Matrix4, Vector3 } from "three";
 import type { Description, ToolShape, Vector } from "../../api.ts";
 import { matrixOf } from "../../scene/shapes.ts";
 
+/** Diameter of a tool of unknown diameter, in lengths: so slim that the path beside it is seen. */
+const SLIM = 0.06;
+
 /** The tip, given in the workpiece frame, carried into the body of the tool by the poses of this moment. */
 export function toolOf(machine: Description, tip_mm: Vector, nominal: Float64Array): ToolShape {
   const pose = (kind: "workpiece" | "tool"): Matrix4 => matrixOf(nominal, 12 * machine.links.findIndex((link) => link.kind === kind), new Matrix4());
@@ -11,5 +14,5 @@ export function toolOf(machine: Description, tip_mm: Vector, nominal: Float64Arr
   const length = tip.length();
   const own = machine.tool;
   if (Math.abs(length - own.length_mm) < 1e-3) return own;
-  return { length_mm: length, diameter_mm: own.diameter_mm, tip_mm: [tip.x, tip.y, tip.z] };
+  return { length_mm: length, diameter_mm: own.diameter_mm ?? SLIM * length, tip_mm: [tip.x, tip.y, tip.z] };
 }
