@@ -38,6 +38,8 @@ export interface TimePlotSpec {
   series: TimeSeries[];
   limits?: TimeLimit[];
   marks?: TimeMark[];
+  /** What is said about the values under the cursor; default every series by its name. */
+  readout?: (index: number) => string;
   /** px without the title; default 130. */
   height?: number;
 }
@@ -250,8 +252,13 @@ class TimePlotView implements TimePlot {
       this.readout.textContent = this.spec.unit;
       return;
     }
+    const time = withUnit(this.spec.time_s[i], 2, "s");
+    if (this.spec.readout) {
+      this.readout.textContent = `${this.spec.readout(i)}   ${time}`;
+      return;
+    }
     const parts = this.spec.series.map((one) => `${one.name} ${withUnit(one.values[i], this.spec.digits ?? 2, this.spec.unit)}`);
-    this.readout.textContent = [withUnit(this.spec.time_s[i], 2, "s"), ...parts].join("   ");
+    this.readout.textContent = [time, ...parts].join("   ");
   }
 
   /** Limits and marks, over the curves. */

@@ -36,6 +36,7 @@ import { cssColour, onTheme } from "../theme.ts";
 import { axisArrow } from "./arrows.ts";
 import { PathLayer, SurfaceLayer, type PathData, type SurfaceData } from "./layers.ts";
 import { Overlay } from "./overlay.ts";
+import { drawnByProcessor, Pace } from "./pace.ts";
 import { homePoses, schematic, unitOf } from "./schematic.ts";
 import { geometryOf, matrixOf, standingCone } from "./shapes.ts";
 
@@ -77,18 +78,6 @@ declare global {
   }
 }
 
-/** Points per CSS point of a moving picture, without a graphics processor. */
-const HURRIED = 0.75;
-
-/** Whether there is no graphics processor: its context has to be asked before the real one is made. */
-function drawnByProcessor(): boolean {
-  const gl = document.createElement("canvas").getContext("webgl2");
-  const info = gl?.getExtension("WEBGL_debug_renderer_info");
-  const name = gl && info ? String(gl.getParameter(info.UNMASKED_RENDERER_WEBGL)) : "";
-  gl?.getExtension("WEBGL_lose_context")?.loseContext();
-  return /swiftshader|llvmpipe|software|basic render/i.test(name);
-}
-
 export class MachineView {
   readonly element = h("div", { class: "scene" });
   readonly overlay = new Overlay();
@@ -116,11 +105,7 @@ export class MachineView {
   private poses: { nominal: Float64Array; actual: Float64Array } | null = null;
   private arrows: Group[] = [];
   private materials: Partial<Record<Role | "edge" | "ghost" | "ghost-edge", Material>> = {};
-  /** Most points of a path that are drawn: few where the processor has to draw them. */
-  private budget = 2_000_000;
-  private software = false;
-  private hurries = false;
-  private rest: ReturnType<typeof setTimeout> | undefined;
+  private pace: Pace | null = null;
   private readonly watch: ResizeObserver;
   private readonly stop_theme: () => void;
   private readonly projection = h("button", { onclick: () => this.setOrthographic(this.camera === this.perspective), ariaPressed: "false", title: "Parallel projection (5)" }, "Parallel");
@@ -145,10 +130,9 @@ export class MachineView {
 
   private makeRenderer(): WebGLRenderer | null {
     try {
-      this.software = drawnByProcessor();
-      if (this.software) this.budget = 20_000;
-      const renderer = new WebGLRenderer({ antialias: !this.software, alpha: true });
-      renderer.setPixelRatio(Math.min(2, devicePixelRatio));
+      const slow = drawnByProcessor();
+      const renderer = new WebGLRenderer({ antialias: !slow, alpha: true });
+      this.pace = new Pace(renderer, slow, () => this.schedule());
       const canvas = renderer.domElement;
       canvas.tabIndex = 0;
       canvas.setAttribute("role", "img");
@@ -457,14 +441,14 @@ export class MachineView {
 
   /** More points of a path than this are not drawn. */
   get mostPathPoints(): number {
-    return this.budget;
+    return this.pace?.most_points ?? 0;
   }
 
   /** Draws a tool path in the workpiece; null takes it away. `bar` is its colour bar. */
   setPath(data: PathData | null, bar?: Omit<ColourBarSpec, "range" | "map">): void {
     if (this.path) this.layers.remove(this.path.group);
     this.path?.dispose();
-    this.path = data ? new PathLayer(data, { dim: cssColour("--muted"), ghost: cssColour("--scene-ghost") }, this.budget) : null;
+    this.path = data ? new PathLayer(data, { dim: cssColour("--muted"), ghost: cssColour("--scene-ghost") }, this.mostPathPoints) : null;
     this.showStandIn();
     if (this.path) {
       this.path.setExaggeration(this.k);
@@ -654,20 +638,8 @@ export class MachineView {
 
   /** Draws at the next frame, once. */
   requestRender(): void {
-    if (this.software) this.hurry();
+    this.pace?.moved();
     this.schedule();
-  }
-
-  /** While something moves, a processor that has to draw draws few points; at rest the picture is smooth. */
-  private hurry(): void {
-    if (!this.hurries) this.renderer?.setPixelRatio(HURRIED);
-    this.hurries = true;
-    clearTimeout(this.rest);
-    this.rest = setTimeout(() => {
-      this.hurries = false;
-      this.renderer?.setPixelRatio(2);
-      this.schedule();
-    }, 250);
   }
 
   private schedule(): void {
@@ -683,6 +655,8 @@ export class MachineView {
     if (this.size.width <= 1 || !this.element.isConnected) return;
     this.scene.updateMatrixWorld();
     this.camera.updateMatrixWorld();
+    const canvas = this.renderer?.domElement;
+    if (canvas) this.path?.setPicture(canvas.width, canvas.height, !this.pace?.hurries);
     this.renderer?.render(this.scene, this.camera);
     this.overlay.update(this.camera, this.size.width, this.size.height);
     this.drawn += 1;
@@ -715,7 +689,7 @@ export class MachineView {
   dispose(): void {
     this.watch.disconnect();
     this.stop_theme();
-    clearTimeout(this.rest);
+    this.pace?.stop();
     this.setPath(null);
     this.setSurface(null);
     this.clearMachine();

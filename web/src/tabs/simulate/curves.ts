@@ -2,6 +2,7 @@
 
 import { latestOnly } from "../../api.ts";
 import { fill, h } from "../../dom.ts";
+import { number, withUnit } from "../../format.ts";
 import type { Frame } from "../../frame.ts";
 import { timePlot, type TimeMark, type TimePlot, type TimePlotSpec } from "../../plot/timeplot.ts";
 import type { CurvesHeader, Quantity, Simulation } from "./answers.ts";
@@ -107,7 +108,12 @@ export class Curves {
       { name: "least", values: low, colour: 0 },
       { name: "greatest", values: high, colour: 0, filled: true },
     ];
-    return { title, unit, digits: unit === "mm" || unit === "deg" ? 3 : 1, time_s, series, limits: lines, marks, height: 118 };
+    const digits = unit === "mm" || unit === "deg" ? 3 : unit === "mm/min" ? 0 : 1;
+    const readout = (i: number): string => {
+      const [least, greatest] = [number(low[i], digits), withUnit(high[i], digits, unit)];
+      return greatest.startsWith(least) ? greatest : `${least} … ${greatest}`;
+    };
+    return { title, unit, digits, time_s, series, limits: lines, marks, readout, height: 118 };
   }
 
   private showPlot(key: string, spec: TimePlotSpec, window_s: [number, number] | null): void {

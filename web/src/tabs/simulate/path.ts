@@ -79,13 +79,13 @@ export class ToolPath {
     if (this.simulation) this.ask({ simulation: this.simulation, colour: this.colour, window_s: this.window_s });
   }
 
-  private answered(frame: Frame<PathHeader>, { simulation, window_s }: Asked): void {
+  private answered(frame: Frame<PathHeader>, { simulation, colour, window_s }: Asked): void {
     if (simulation !== this.simulation) return;
     const { header } = frame;
     this.time_s = frame.f64("time_s");
     const rapid = frame.u8("rapid");
     const deviations = frame.f32("off_um").map((um) => um / 1000);
-    this.view.setPath({ positions: frame.f32("tip_mm"), origin: header.origin_mm, values: frame.f32("value"), rapid, deviations, range: [header.low, header.high] }, { title: header.title, unit: header.unit });
+    this.view.setPath({ positions: frame.f32("tip_mm"), origin: header.origin_mm, values: frame.f32("value"), rapid, deviations, range: [header.low, header.high] }, { title: COLOURS.find(([key]) => key === colour)?.[1] ?? header.title, unit: header.unit });
     const part = window_s ? `path from ${clock(window_s[0])} to ${clock(window_s[1])} min:s` : null;
     const coarse = header.complete ? null : `path drawn within ${mm(header.chord_mm, 3)}`;
     this.view.overlay.note("path", [part, coarse].filter(Boolean).join(", ") || null);
