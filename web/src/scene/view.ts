@@ -441,7 +441,7 @@ export class MachineView {
 
   /** More points of a path than this are not drawn. */
   get mostPathPoints(): number {
-    return this.pace?.most_points ?? 0;
+    return this.pace?.most_points ?? 1000;
   }
 
   /** Draws a tool path in the workpiece; null takes it away. `bar` is its colour bar. */

@@ -35,6 +35,8 @@ class SimulateTab implements TabHandle {
   private readonly curves: Curves;
   private choice: Choice = { machine: null, program: null, setup: null, control: null };
   private dropped: Dropped | null = null;
+  /** Programs that were dropped in this window, by name: going back in the browser finds them. */
+  private readonly kept = new Map<string, Dropped>();
   private description: Description | null = null;
   private simulation: Simulation | null = null;
   private stop: AbortController | null = null;
@@ -80,7 +82,8 @@ class SimulateTab implements TabHandle {
     // The tab's own link names the machine only: what was open goes on, on that machine.
     const goes_on = !params["program"] && !params["dropped"];
     const fresh = takeDropped();
-    const dropped = fresh ?? (goes_on || params["dropped"] === this.dropped?.name ? this.dropped : null);
+    if (fresh) this.keep(fresh);
+    const dropped = goes_on ? this.dropped : (this.kept.get(params["dropped"] ?? "") ?? null);
     const choice: Choice = goes_on ? { ...this.choice, machine } : { machine, program: params["program"] ?? null, setup: params["setup"] ?? null, control: params["control"] ?? null };
     if (dropped === this.dropped && JSON.stringify(choice) === JSON.stringify(this.choice)) return;
     this.choice = choice;
@@ -100,12 +103,16 @@ class SimulateTab implements TabHandle {
   }
 
   private go(choice: Choice, dropped: Dropped | null): void {
-    if (dropped !== this.dropped) {
-      this.dropped = dropped;
-      // The same name with another text is another program.
-      this.choice = { ...this.choice, machine: null };
-    }
+    if (dropped) this.keep(dropped);
     this.app.go("simulate", { machine: choice.machine, program: choice.program, dropped: dropped?.name, setup: choice.setup, control: choice.control });
+  }
+
+  /** The last few only: they may be large. */
+  private keep(dropped: Dropped): void {
+    this.kept.delete(dropped.name);
+    this.kept.set(dropped.name, dropped);
+    const [oldest] = this.kept.keys();
+    if (this.kept.size > 4 && oldest) this.kept.delete(oldest);
   }
 
   private job(keep_going: boolean): Job | null {

@@ -90,9 +90,9 @@ export class Choices {
   }
 
   private changed(key: keyof Choice, value: string | null): void {
-    // The set-up of one program is not that of another.
-    const setup = key === "program" ? { setup: null } : {};
-    this.pick({ ...this.choice, ...setup, [key]: value }, key === "program" ? null : this.dropped);
+    // The set-up and control of one program are not those of another.
+    const fresh = key === "program" ? { setup: null, control: null } : {};
+    this.pick({ ...this.choice, ...fresh, [key]: value }, key === "program" ? null : this.dropped);
   }
 }
 

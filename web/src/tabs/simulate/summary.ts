@@ -22,8 +22,11 @@ function verdict(header: SimulationHeader): HTMLElement {
   const grave = header.marks.filter((m) => m.grave);
   const kinds = new Map<string, number>();
   for (const mark of grave) kinds.set(mark.kind, (kinds.get(mark.kind) ?? 0) + 1);
-  const words = [...kinds].map(([kind, n]) => `${n} × ${kind.replaceAll("-", " ")}`).join(", ");
-  return grave.length > 0 ? h("strong", { class: "verdict bad", dataTest: "verdict" }, `Does not run: ${words}`) : h("strong", { class: "verdict good", dataTest: "verdict" }, "Runs: no collision, no over-travel");
+  const errors = header.diagnostics.filter((d) => d.severity === "error").length;
+  const words = [...kinds].map(([kind, n]) => `${n} × ${kind.replaceAll("-", " ")}`);
+  if (errors > 0) words.unshift(errors === 1 ? "one error in the program" : `${errors} errors in the program`);
+  if (words.length === 0) return h("strong", { class: "verdict good", dataTest: "verdict" }, "Runs: no collision, no over-travel");
+  return h("strong", { class: "verdict bad", dataTest: "verdict" }, `Does not run: ${words.join(", ")}`);
 }
 
 export class Summary {
