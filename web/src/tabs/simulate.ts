@@ -26,7 +26,7 @@ class SimulateTab implements TabHandle {
   private readonly summary = new Summary((time_s) => this.player.seek(time_s));
   private readonly busy = h("section", { class: "panel simulate-busy", hidden: true });
   private readonly source_head = h("div", { class: "panel-head source-head" });
-  private readonly source = new SourceList((line) => void this.toLine(line));
+  private readonly source = new SourceList((line) => this.toLine(line));
   private readonly readout = new Readout();
   private readonly player: Player;
   private readonly transport: Transport;
@@ -254,15 +254,10 @@ class SimulateTab implements TabHandle {
     this.source.show(text, notes);
   }
 
-  private async toLine(line: number): Promise<void> {
+  private toLine(line: number): void {
     const { simulation } = this;
-    if (!simulation) return;
-    try {
-      this.player.pause();
-      this.player.seek(await simulation.timeOf(this.shown_program, line));
-    } catch (error) {
-      this.failed(error);
-    }
+    const program = this.shown_program;
+    if (simulation) this.player.goWhere(() => simulation.timeOf(program, line));
   }
 
   // ---- the moment ----

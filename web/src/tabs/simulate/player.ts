@@ -22,6 +22,11 @@ export class Player {
   /** A time to show once the one under way is shown. */
   private wanted: number | null = null;
   private last_ms = 0;
+  /** Counts what was asked for; older answers do not move anything any more. */
+  private turn = 0;
+  /** Counts the plays: the frames of an earlier one end. */
+  private run = 0;
+  private steps: Promise<void> = Promise.resolve();
   private readonly source: PlayerSource;
 
   constructor(source: PlayerSource) {
@@ -30,13 +35,10 @@ export class Player {
 
   reset(duration_s: number): void {
     this.pause();
+    this.turn += 1;
     this.duration_s = duration_s;
     this.time_s = 0;
     this.wanted = null;
-  }
-
-  get now_s(): number {
-    return this.time_s;
   }
 
   setFactor(factor: number): void {
@@ -51,31 +53,50 @@ export class Player {
   play(): void {
     if (this.playing || !(this.duration_s > 0)) return;
     if (this.time_s >= this.duration_s) this.time_s = 0;
+    this.turn += 1;
     this.playing = true;
     this.last_ms = performance.now();
     this.source.changed(true);
-    requestAnimationFrame((ms) => this.tick(ms));
+    this.run += 1;
+    this.nextFrame(this.run);
   }
 
   pause(): void {
     if (!this.playing) return;
     this.playing = false;
     this.source.changed(false);
+    // While an answer was under way, the time went on: what is shown is where playing goes on.
+    void this.show(this.time_s);
   }
 
   /** Goes to a time; playing goes on from there. */
   seek(time_s: number): void {
-    this.time_s = Math.min(this.duration_s, Math.max(0, time_s));
-    void this.show(this.time_s);
+    this.turn += 1;
+    this.moveTo(time_s);
   }
 
-  async stepBlock(step: "next" | "previous"): Promise<void> {
+  stepBlock(step: "next" | "previous"): void {
+    this.goWhere(() => this.source.step(this.time_s, step));
+  }
+
+  /** Goes where an answer says, one after the other, unless somebody goes elsewhere before it comes. */
+  goWhere(find: () => Promise<number>): void {
     this.pause();
-    try {
-      this.seek(await this.source.step(this.time_s, step));
-    } catch (error) {
-      this.source.failed(error);
-    }
+    const turn = this.turn;
+    this.steps = this.steps.then(async () => {
+      if (turn !== this.turn) return;
+      try {
+        const time_s = await find();
+        if (turn === this.turn) this.moveTo(time_s);
+      } catch (error) {
+        this.source.failed(error);
+      }
+    });
+  }
+
+  private moveTo(time_s: number): void {
+    this.time_s = Math.min(this.duration_s, Math.max(0, time_s));
+    void this.show(this.time_s);
   }
 
   /** One request under way at a time; the latest wish follows it. */
@@ -99,23 +120,29 @@ export class Player {
     }
   }
 
-  private tick(ms: number): void {
-    if (!this.playing) return;
+  private nextFrame(run: number): void {
+    requestAnimationFrame((ms) => this.tick(ms, run));
+  }
+
+  private tick(ms: number, run: number): void {
+    if (!this.playing || run !== this.run) return;
     // A window that was out of sight does not jump.
     const passed_s = Math.min(0.25, Math.max(0, (ms - this.last_ms) / 1000));
     this.last_ms = ms;
     if (this.busy) {
       if (this.factor !== NO_WAITING) this.time_s = Math.min(this.duration_s, this.time_s + passed_s * this.factor);
-      requestAnimationFrame((next) => this.tick(next));
+      this.nextFrame(run);
       return;
     }
-    void this.advance(passed_s).then(() => requestAnimationFrame((next) => this.tick(next)));
+    void this.advance(passed_s).then(() => this.nextFrame(run));
   }
 
   private async advance(passed_s: number): Promise<void> {
     if (this.factor === NO_WAITING) {
+      const turn = this.turn;
       try {
         const next = await this.source.step(this.time_s, "next");
+        if (turn !== this.turn || !this.playing) return;
         this.time_s = next > this.time_s ? next : this.duration_s;
       } catch (error) {
         this.pause();

@@ -36,9 +36,9 @@ export class Transport {
         "div",
         { class: "group", role: "group", ariaLabel: "Run through the program" },
         button("To the start", "Home", HOME, () => player.seek(0)),
-        button("Block back", "←", PREVIOUS, () => void player.stepBlock("previous")),
+        button("Block back", "←", PREVIOUS, () => player.stepBlock("previous")),
         this.play_button,
-        button("Block on", "→", NEXT, () => void player.stepBlock("next")),
+        button("Block on", "→", NEXT, () => player.stepBlock("next")),
         button("To the end", "End", END, () => player.seek(player.duration_s)),
       ),
       speed,
@@ -65,8 +65,8 @@ export class Transport {
     if (event.key === " ") {
       if (at.matches("button, a, summary, label")) return;
       this.player.toggle();
-    } else if (event.key === "ArrowRight") void this.player.stepBlock("next");
-    else if (event.key === "ArrowLeft") void this.player.stepBlock("previous");
+    } else if (event.key === "ArrowRight") this.player.stepBlock("next");
+    else if (event.key === "ArrowLeft") this.player.stepBlock("previous");
     else if (event.key === "Home") this.player.seek(0);
     else if (event.key === "End") this.player.seek(this.player.duration_s);
     else return;
