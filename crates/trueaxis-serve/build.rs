@@ -27,9 +27,7 @@ fn main() {
     {
         Ok(()) => {}
         Err(why) => {
-            // The script ends with an error that cargo shows as it is.
-            eprintln!("{why}");
-            std::process::exit(1);
+            why.lines().for_each(|line| println!("cargo::error={line}"));
         }
     }
 }

@@ -1,7 +1,16 @@
 import { defineConfig } from "vite";
 
-// The pages for looking at figures and scene without a server: `npm run dev`, then /figures.html.
+// `npm run dev`: the page as it is being written, answered by a running `trueaxis serve --port 7841`
+// (or SERVER=http://127.0.0.1:PORT). The server asks for its own origin, so the proxy names that.
+const server = process.env["SERVER"] ?? "http://127.0.0.1:7841";
+const answered = {
+  target: server,
+  ws: true,
+  changeOrigin: true,
+  headers: { origin: server },
+};
+
 export default defineConfig({
-  root: import.meta.dirname,
-  build: { rolldownOptions: { input: ["dev/figures.html"] }, modulePreload: false },
+  root: new URL("..", import.meta.url).pathname,
+  server: { proxy: { "/api": answered, "/report": answered } },
 });

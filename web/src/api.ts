@@ -2,6 +2,8 @@
 
 import { decodeFrame, Frame } from "./frame.ts";
 
+export { latestOnly } from "./latest.ts";
+
 // ---- documents -------------------------------------------------------------------------------
 
 export type Vector = [number, number, number];
@@ -68,6 +70,8 @@ export type Shape =
   | { box: Vector }
   | { cone: { base_diameter_mm: number; top_diameter_mm: number; length_mm: number } }
   | { prism: { outline_mm: [number, number][]; length_mm: number } }
+  /** Its surface comes with `models` (scene/models.ts). */
+  | { stl: { path: string; unit_mm: number } }
   | { mesh: ArrayLike<number> };
 
 export interface Model {
@@ -104,35 +108,61 @@ export interface AxisDocument {
 export interface CheckDocument {
   schema: string;
   usable: boolean;
-  name: string;
-  chain: string;
-  source?: string | null;
-  axes: AxisDocument[];
-  errors: string[];
-  lacks: string[];
   diagnostics: Diagnostic[];
+  /** What follows stands there of a usable machine only. */
+  name?: string;
+  chain?: string;
+  source?: string | null;
+  axes?: AxisDocument[];
+  errors?: string[];
+  lacks?: string[];
   [more: string]: unknown;
 }
 
-/** One error of the machine file with a small plot of it. */
+/** An error motion over the travel of its axis, in the unit of its error. */
+export interface ErrorCurve {
+  at: number[];
+  at_unit: "mm" | "deg";
+  /** The mean of both directions. */
+  values: number[];
+  reversal: number[] | null;
+  /** Standard uncertainty. */
+  u: number[] | null;
+}
+
+/** One error that the machine has or could have. */
 export interface ErrorEntry {
   name: string;
-  /** "location" | "motion" | "heat" … */
-  kind?: string;
-  unit?: string;
-  /** As written in the machine file, if it is one value. */
-  text?: string | null;
-  value?: number | null;
-  u?: number | null;
-  line?: number | null;
-  /** The curve over the travel, for motions. */
-  at?: number[] | null;
-  values?: number[] | null;
+  /** Index in `links`. */
+  body: number;
+  kind: "location" | "motion";
+  unit: "um" | "urad";
+  stated: boolean;
+  shape: "constant" | "polynomial" | "fourier" | "table" | null;
+  /** As people write it, if it has an entry of its own. */
+  text: string | null;
+  line: number | null;
+  /** The table of its axis, if it stands in that. */
+  table: string | null;
+  /** The value if it is the same everywhere. */
+  value: number | null;
+  /** Standard uncertainty; the greatest of a curve. */
+  u: number | null;
+  curve: ErrorCurve | null;
+  measured: { instrument: string | null; date: string | null; temperature_celsius: number | null } | null;
 }
 
 export interface Sensor {
   name: string;
-  celsius?: number | null;
+  /** What it tells of: "scale of X", "EZ0t", "workpiece". */
+  drives: string[];
+}
+
+/** A tool assembly of the machine file. */
+export interface ToolEntry {
+  name: string;
+  length_mm: number;
+  diameter_mm: number | null;
   [more: string]: unknown;
 }
 
@@ -140,9 +170,9 @@ export interface Description extends MachineDescription {
   check: CheckDocument;
   version: string;
   text: string;
-  axes: AxisDocument[];
   errors: ErrorEntry[];
   sensors: Sensor[];
+  tools: ToolEntry[];
 }
 
 export interface PoseBudgetEntry {
@@ -164,6 +194,13 @@ export interface PoseDocument {
 export interface PoseHeader {
   pose: PoseDocument;
   bodies: string[];
+  diagnostics: Diagnostic[];
+}
+
+/** With `corners_mm`: nine numbers per triangle, model after model. */
+export interface ModelsHeader {
+  models: { name: string; body: number | null; placement: number[]; triangles: number }[];
+  diagnostics: Diagnostic[];
 }
 
 /** Names whose replies have a type; every other name may be asked with a type of the caller. */
@@ -174,6 +211,7 @@ export interface Replies {
   describe: Description;
   "set-error": { text: string; diagnostics: Diagnostic[] };
   pose: Frame<PoseHeader>;
+  models: Frame<ModelsHeader>;
 }
 
 // ---- errors ----------------------------------------------------------------------------------
@@ -216,9 +254,12 @@ export interface AskOptions {
   signal?: AbortSignal;
 }
 
+/** A file was saved. Without a path some news was missed: any file may have changed. */
 export interface Change {
-  path: string;
-  version: string;
+  path?: string;
+  version?: string;
+  /** The window that saved it. */
+  window?: string | null;
 }
 
 interface Pending {
@@ -229,19 +270,8 @@ interface Pending {
 
 export type ConnectionState = "connecting" | "open" | "lost";
 
-const TOKEN_KEY = "trueaxis-token";
-
-/** Takes `?token=…` out of the address bar; it lives on in this window only. */
-function takeToken(): string | null {
-  const url = new URL(location.href);
-  const token = url.searchParams.get("token");
-  if (token) {
-    sessionStorage.setItem(TOKEN_KEY, token);
-    url.searchParams.delete("token");
-    history.replaceState(null, "", url);
-  }
-  return token ?? sessionStorage.getItem(TOKEN_KEY);
-}
+/** Some characters that no other window has (`crypto.randomUUID` is not there beyond loopback). */
+const windowName = (): string => [...crypto.getRandomValues(new Uint8Array(8))].map((byte) => byte.toString(16).padStart(2, "0")).join("");
 
 export class Api {
   onState: (state: ConnectionState) => void = () => {};
@@ -252,7 +282,9 @@ export class Api {
   private next_id = 1;
   private retry_ms = 250;
   private retry: ReturnType<typeof setTimeout> | undefined;
-  private readonly token = takeToken();
+  private was_lost = false;
+  /** Goes with every save, so that this window knows its own. */
+  readonly window = windowName();
 
   /** Asks `name`; resolves with the reply, or with a `Frame` where the reply is binary. */
   ask<N extends keyof Replies>(name: N, body: object, options?: AskOptions): Promise<Replies[N]>;
@@ -274,9 +306,7 @@ export class Api {
 
   /** The same over `POST`, for what the browser keeps as a file (reports). */
   async post(name: string, body: object): Promise<Blob> {
-    const headers: Record<string, string> = { "content-type": "application/json" };
-    if (this.token) headers["authorization"] = `Bearer ${this.token}`;
-    const response = await fetch(`api/${name}`, { method: "POST", headers, body: JSON.stringify(body) });
+    const response = await fetch(`api/${name}`, { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(body) });
     if (!response.ok) {
       const doc = (await response.json().catch(() => ({}))) as { error?: RefusalDocument };
       throw refusal(doc.error ?? { code: String(response.status), message: response.statusText });
@@ -295,9 +325,7 @@ export class Api {
     const url = new URL("api/socket", location.href);
     url.protocol = location.protocol === "https:" ? "wss:" : "ws:";
     url.search = url.hash = "";
-    // A browser cannot set headers on a WebSocket: the token goes as a second sub-protocol, and
-    // the server answers with the first.
-    const socket = this.token ? new WebSocket(url, ["trueaxis", `token.${this.token}`]) : new WebSocket(url);
+    const socket = new WebSocket(url);
     socket.binaryType = "arraybuffer";
     return new Promise((resolve, reject) => {
       socket.onopen = () => {
@@ -305,6 +333,9 @@ export class Api {
         this.retry_ms = 250;
         this.onState("open");
         resolve(socket);
+        // What others saved while the connection was gone was not told.
+        if (this.was_lost) this.onChange({});
+        this.was_lost = false;
       };
       socket.onmessage = (event) => this.receive(event.data as string | ArrayBuffer);
       socket.onclose = () => {
@@ -317,6 +348,7 @@ export class Api {
 
   private lose(lost: Refusal): void {
     this.socket = null;
+    this.was_lost = true;
     for (const waiting of this.pending.values()) waiting.reject(lost);
     this.pending.clear();
     this.onState("lost");
@@ -351,31 +383,4 @@ export class Api {
     this.pending.delete(id);
     how(waiting);
   }
-}
-
-/**
- * Sends only the latest of many requests (a slider): one under way, at most one waiting.
- * `answered` is called with every answer that came, in order.
- */
-export function latestOnly<B, R>(send: (body: B) => Promise<R>, answered: (reply: R, body: B) => void, failed: (error: unknown) => void): (body: B) => void {
-  let busy = false;
-  let waiting: B | null = null;
-  const run = async (body: B): Promise<void> => {
-    busy = true;
-    try {
-      answered(await send(body), body);
-    } catch (error) {
-      failed(error);
-    }
-    busy = false;
-    if (waiting !== null) {
-      const next = waiting;
-      waiting = null;
-      void run(next);
-    }
-  };
-  return (body) => {
-    if (busy) waiting = body;
-    else void run(body);
-  };
 }

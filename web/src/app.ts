@@ -1,6 +1,6 @@
 /** The frame of the page: tabs, the open project and machine, status line, messages. */
 
-import { Api, Refusal, type Diagnostic, type Project } from "./api.ts";
+import { Api, Refusal, type Change, type Diagnostic, type Project } from "./api.ts";
 import { fill, h } from "./dom.ts";
 import { TABS } from "./tabs/index.ts";
 import { chooseTheme, themeChoice, type ThemeChoice } from "./theme.ts";
@@ -10,8 +10,8 @@ export interface TabHandle {
   open?(params: Readonly<Record<string, string>>): void;
   /** Another tab is shown now: stop playing, stop asking. */
   hide?(): void;
-  /** A file of the project was saved by another window. */
-  changed?(path: string, version: string): void;
+  /** A file of the project was saved by another window or tab; null: any may have been. */
+  changed?(path: string | null, version: string | null): void;
 }
 
 export interface Tab {
@@ -62,10 +62,7 @@ export class App {
     this.buildBar();
     fill(root, this.bar, this.main, h("footer", { class: "status" }, this.note, this.meter, this.link), this.toasts);
     this.api.onState = (connection) => this.set({ connection });
-    this.api.onChange = ({ path, version }) => {
-      for (const { handle } of this.mounted.values()) handle?.changed?.(path, version);
-      this.say(`${path} was saved in another window`);
-    };
+    this.api.onChange = (change) => this.tellChange(change);
     this.subscribe((state) => this.showState(state));
     window.addEventListener("hashchange", () => void this.route());
   }
@@ -115,6 +112,14 @@ export class App {
     } catch (error) {
       this.fail(error);
     }
+  }
+
+  /** Tells the tabs; the one that saved in this window knows. */
+  private tellChange({ path, version, window: from }: Change): void {
+    const own = from === this.api.window;
+    for (const [name, { handle }] of this.mounted) if (!own || name !== this.state_.tab) handle?.changed?.(path ?? null, version ?? null);
+    if (!own && path) this.say(`${path} was saved in another window`);
+    if (!this.state_.project?.files.some((file) => file.path === path)) void this.loadProject();
   }
 
   private async route(): Promise<void> {

@@ -78,7 +78,7 @@ export function decodeFrame<H = Record<string, unknown>>(buffer: ArrayBuffer): F
   return new Frame<H>(header, arrays);
 }
 
-/** The other direction, for tests and the mock server. */
+/** The other direction, for tests. */
 export function encodeFrame(header: Record<string, unknown>, arrays: Record<string, NumberArray>): ArrayBuffer {
   const kinds = new Map<unknown, ElementType>([[Float64Array, "f64"], [Float32Array, "f32"], [Uint32Array, "u32"], [Uint8Array, "u8"]]);
   const list = Object.entries(arrays).map(([name, a]) => ({ name, type: kinds.get(a.constructor) as ElementType, count: a.length }));

@@ -25,7 +25,20 @@ export async function cli(...words) {
   return JSON.parse(done.stdout);
 }
 
-/** Starts `trueaxis serve` on a folder; `stop` ends it. ADDRESS names one that runs already (`npm run live`). */
+/** The page as it is being written in front of a server; for the folders that tests write into. */
+async function live(server) {
+  const { createServer } = await import('vite');
+  process.env.SERVER = new URL(server).origin;
+  const configFile = path.join(root, 'web/dev/vite.config.ts');
+  const vite = await createServer({ configFile, logLevel: 'error', server: { port: 5290, hmr: false } });
+  await vite.listen();
+  return vite;
+}
+
+/**
+ * Starts `trueaxis serve` on a folder; `stop` ends it. ADDRESS names one that runs already (`npm run dev`): then
+ * the pages of other folders come from the sources, too.
+ */
 export async function serve(folder = root) {
   if (process.env.ADDRESS && folder === root) return { address: process.env.ADDRESS, stop: () => {} };
   if (!existsSync(binary)) throw new Error(`${binary} is not there: cargo build --release`);
@@ -38,7 +51,10 @@ export async function serve(folder = root) {
     });
     child.on('exit', (status) => failed(new Error(`trueaxis serve ended with ${status}`)));
   });
-  return { address, stop: () => child.kill() };
+  if (!process.env.ADDRESS) return { address, stop: () => child.kill() };
+  const vite = await live(address);
+  const stop = () => vite.close().finally(() => child.kill());
+  return { address: vite.resolvedUrls.local[0], stop };
 }
 
 /** Starts the browser, with software rendering. */
@@ -74,7 +90,7 @@ export async function open(browser, address, { dark = false, width = 1400, heigh
     const own = url.startsWith(address) || url.startsWith('data:') || url.startsWith('blob:');
     if (!own) complaints.push(`request to ${url}`);
   });
-  page.setDefaultTimeout(30_000);
+  page.setDefaultTimeout(Number(process.env.PATIENCE ?? 30_000));
   await page.goto(address);
   return { page, context, complaints };
 }

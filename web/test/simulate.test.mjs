@@ -73,6 +73,8 @@ async function posesAreThoseOf(page, machine) {
 test('the impeller: summary, a click on a line, poses', async () => {
   const { page, complaints, context, document } = await example(impeller, gantry);
   await summaryIsThatOf(page, document);
+  // Only the lines in sight are in the page.
+  await page.locator('.source-scroll').press('PageDown');
   await page.click('.source-line[data-line="15"]');
   await page.waitForSelector('.source-line[data-line="15"][aria-current="true"]');
   assert.match(await shown(page, 'block'), /^N130 G1 X24\.9632/);

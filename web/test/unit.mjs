@@ -42,6 +42,24 @@ const many = new Lines(Array.from({ length: 100_000 }, (_, i) => `N${i}`).join("
 assert.equal(many.count, 100_000);
 assert.equal(many.line(99_999), "N99998");
 assert.equal(many.line(100_001), "");
+const { Draft } = await vite.ssrLoadModule("/src/tabs/describe/draft.ts");
+const draft = new Draft("m.toml", "a", "1");
+assert.ok(draft.edit("b") && draft.edit("c") && !draft.edit("c") && draft.dirty);
+assert.ok(draft.undo() && draft.text === "b" && draft.redo() && draft.text === "c" && !draft.redo());
+draft.adopt("theirs", "2");
+assert.ok(!draft.dirty && draft.version === "2" && draft.undo() && draft.text === "c" && draft.dirty);
+assert.ok(draft.edit("d") && !draft.canRedo && draft.undo() && draft.undo() && draft.undo() && !draft.undo() && draft.text === "a");
+
+const { errorWords } = await vite.ssrLoadModule("/src/tabs/describe/words.ts");
+const links = [["w", "workpiece", [0, 0, 1]], ["X", "linear", [1, 0, 0]], ["C", "rotary", [0, 0, 1]], ["B", "rotary", [0, 0.6, 0.8]]].map(([name, kind, direction]) => ({ name, kind, direction }));
+for (const [name, body, kind, words] of [["EXX", 1, "motion", "positioning of X"], ["EYX", 1, "motion", "straightness in Y of X"], ["EAX", 1, "motion", "roll of X"], ["ECX", 1, "motion", "tilt about Z of X"], ["EXC", 2, "motion", "radial error motion in X of C"], ["EZC", 2, "motion", "axial error motion of C"], ["ECC", 2, "motion", "angular positioning of C"], ["EAB", 3, "motion", "error motion about X of B"], ["EC0X", 1, "location", "orientation of X about Z"], ["EX0w", 0, "location", "position of workpiece in X"]])
+  assert.equal(errorWords({ name, body, kind }, links), words);
+
+const { nameBeside } = await vite.ssrLoadModule("/src/tabs/describe/head.ts");
+assert.equal(nameBeside("a/m.toml", new Set(["a/m.toml", "a/m-2.toml"])), "a/m-3.toml");
+const words = await vite.ssrLoadModule("/src/tabs/measure/words.ts");
+for (const [value, text] of [[0.9196, "0.920"], [1.268, "1.27"], [10.00004, "10.0"], [313.4, "313"], [0, "0.00"], [-24.26, "\u221224.3"], [null, "–"]]) assert.equal(words.significant(value), text, `${value}`);
+for (const [time_s, text] of [[31, "31.0\u202fs"], [59.96, "1\u202fmin 0.0\u202fs"], [313.63, "5\u202fmin 13.6\u202fs"]]) assert.equal(words.duration(time_s), text);
 
 await vite.close();
 console.log("unit checks passed");

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use trueaxis::files;
 use trueaxis::geometry::input::{Diagnostics, Dimension, Place, parse_quantity};
 use trueaxis::report::{Evaluation, evaluation_html, evaluation_json, evaluation_text, remarks};
-use trueaxis::verify::conditions::Conditions;
+use trueaxis::verify::conditions::{Conditions, read_conditions};
 use trueaxis::verify::import::Import;
 use trueaxis::verify::write_back::{FIRST_LINE, write_back};
 use trueaxis::verify::{Evaluated, Readings, Standard, evaluate_text, iso230_3};
@@ -229,18 +229,10 @@ fn positive(
 /// The conditions that were named, or those beside the data.
 fn conditions(arguments: &Arguments, problems: &mut Diagnostics) -> (Conditions, String) {
     let beside = arguments.data.with_extension("toml");
-    let path = match &arguments.conditions {
-        Some(path) => path,
-        None if beside.is_file() => &beside,
-        None => return (Conditions::default(), beside.display().to_string()),
-    };
-    let name = path.display().to_string();
-    let Some(text) = files::text(path, "a file of conditions (TOML)", problems) else {
-        return (Conditions::default(), name);
-    };
-    let (conditions, found) = Conditions::read(&name, &text);
-    problems.append(found);
-    (conditions, name)
+    let there = beside.is_file().then_some(&beside);
+    let path = arguments.conditions.as_ref().or(there);
+    let name = path.unwrap_or(&beside).display().to_string();
+    (read_conditions(path.map(PathBuf::as_path), problems), name)
 }
 
 fn answer(

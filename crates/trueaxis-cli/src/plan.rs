@@ -4,13 +4,11 @@ use crate::output::{Answer, Format, Outcome, report, show, tell};
 use crate::report_file::{REPORT, may_write, unusable, write_report};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
-use trueaxis::geometry::input::{Diagnostics, Place};
-use trueaxis::identify::design::Design;
-use trueaxis::measure::path::Path;
+use trueaxis::geometry::input::Place;
 use trueaxis::nc::Control;
-use trueaxis::plan::program::{check, program, write_files};
-use trueaxis::plan::{Chosen, Plan, choose, expect, read_plan, seen};
-use trueaxis::report::{PlanReport, PlannedPath, plan_html, plan_json, plan_text};
+use trueaxis::plan::program::write_files;
+use trueaxis::plan::{Chosen, Plan, chosen, planned, read_plan};
+use trueaxis::report::{plan_html, plan_json, plan_text};
 use trueaxis::simulate::{CONTROLS, control_named};
 
 /// What to plan.
@@ -79,24 +77,12 @@ fn run_campaign(arguments: &CampaignArguments) -> Outcome {
     if let Some(path) = &arguments.report {
         may_write(path, &REPORT, &mut problems);
     }
-    let chosen = plan.as_ref().and_then(|plan| chosen(plan, file, &mut problems));
+    let chosen = plan.as_ref().and_then(|plan| chosen(plan, &mut problems));
     if report(problems) {
         return Outcome::Unusable;
     }
     let (Some(plan), Some(control)) = (plan, control) else { return Outcome::Unusable };
     arguments.planned(&plan, chosen, control).unwrap_or_else(|outcome| outcome)
-}
-
-fn chosen(plan: &Plan, file: &std::path::Path, problems: &mut Diagnostics) -> Option<Chosen> {
-    match choose(plan, plan.candidates.as_ref()?) {
-        Ok(chosen) => Some(chosen),
-        Err(why) => {
-            let place = Place::whole(&file.display().to_string());
-            let hint = "more candidates, a wider [limit], or other [want] errors";
-            problems.error("no-choice", place, why, hint);
-            None
-        }
-    }
 }
 
 impl CampaignArguments {
@@ -107,31 +93,10 @@ impl CampaignArguments {
         control: Control,
     ) -> Result<Outcome, Outcome> {
         let design = plan.campaign.design();
-        let mut paths = plan.paths.clone();
-        if let Some(chosen) = &chosen {
-            paths.push(Path {
-                name: "chosen".to_owned(),
-                stations: chosen.stations.clone(),
-                feed_mm_per_s: None,
-                dwell_s: 1.0,
-            });
-        }
-        let mut stations = trueaxis::measure::Readings::default();
-        paths.iter().for_each(|path| stations.append(&path.stations));
-        let mut files = Vec::new();
-        let planned = paths
-            .into_iter()
-            .map(|path| self.planned_path(plan, &design, path, control, &mut files))
-            .collect();
-        let report = PlanReport {
-            plan,
-            design: &design,
-            expectation: expect(&plan.campaign, &design, &stations),
-            paths: planned,
-            chosen,
-        };
+        let report = planned(plan, &design, chosen, control);
         if let Some(folder) = &self.output {
-            written(folder, &files)?;
+            let files = report.paths.iter().flat_map(|path| path.files.iter().cloned());
+            written(folder, &files.collect::<Vec<_>>())?;
         }
         if let Some(path) = &self.report {
             write_report(path, Ok(plan_html(&report)))?;
@@ -143,47 +108,6 @@ impl CampaignArguments {
         let sound = report.paths.iter().all(|p| p.check.as_ref().is_ok_and(|c| c.is_sound()));
         Ok(if outcome == Outcome::Done && !sound { Outcome::No } else { outcome })
     }
-
-    fn planned_path(
-        &self,
-        plan: &Plan,
-        design: &Design,
-        path: Path,
-        control: Control,
-        files: &mut Vec<(String, Vec<u8>)>,
-    ) -> PlannedPath {
-        let (campaign, settings) = (&plan.campaign, &plan.program);
-        let stem = file_name(&path.name, files.len() / 2 + 1);
-        let index = path.stations.instruments.first().copied().unwrap_or(0);
-        let instrument = &campaign.instruments[index as usize];
-        let table = path.stations.poses(&campaign.machine);
-        let text = program(campaign, &path, settings, control);
-        let check = match &text {
-            Ok(text) => Ok(check(campaign, &path, settings, text, control)),
-            Err(error) => Err(error.to_string()),
-        };
-        if let Ok(text) = text {
-            files.push((format!("{stem}.{}", extension(control)), text));
-        }
-        files.push((format!("{stem}.csv"), table.into_bytes()));
-        let channels = instrument.kind.channels();
-        PlannedPath { seen: seen(design, &path.stations), channels, path, check }
-    }
-}
-
-pub fn extension(control: Control) -> &'static str {
-    match control {
-        Control::Fanuc => "nc",
-        Control::LinuxCnc => "ngc",
-        Control::Sinumerik840d => "mpf",
-        Control::Heidenhain => "h",
-    }
-}
-
-/// Letters and digits of a name of people; the number keeps two of one name apart.
-pub fn file_name(name: &str, number: usize) -> String {
-    let plain = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
-    format!("{number:02}-{}", name.chars().take(40).map(plain).collect::<String>())
 }
 
 pub fn written(folder: &std::path::Path, files: &[(String, Vec<u8>)]) -> Result<(), Outcome> {

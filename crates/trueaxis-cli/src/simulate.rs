@@ -12,10 +12,9 @@ use trueaxis::machine::Machine;
 use trueaxis::machine::heat::TemperatureRun;
 use trueaxis::nc::{Control, Program};
 use trueaxis::report::{Simulation, simulation_html, simulation_json, simulation_text};
-use trueaxis::simulate::collide::{BodyModel, load_models};
 use trueaxis::simulate::{
-    AxisWatch, Batch, BodyTable, CONTROLS, Collisions, Densify, Drift, Observer, Options, Run,
-    Series, SetUp, Summary, Timing, TroubleList, control_named, read_program, read_setup, simulate,
+    BodyTable, CONTROLS, Collisions, Densify, Findings, Job, Observer, Options, ProgramFiles,
+    Progress, Series, Timing, control_named,
 };
 
 /// The program to simulate.
@@ -104,28 +103,6 @@ pub struct ProgramArguments {
     smooth: bool,
 }
 
-/// What the arguments name, read and checked.
-pub struct Job {
-    pub machine: Machine,
-    pub program: Program,
-    pub control: Control,
-    pub setup: SetUp,
-    pub options: Options,
-    /// What the bodies of the machine look like; empty where nobody asks.
-    pub models: Vec<BodyModel>,
-}
-
-impl Job {
-    /// Watches the bodies; what cannot be watched is told.
-    fn collisions(&self) -> Option<Collisions> {
-        let collisions = Collisions::watch(&self.machine, self.models.clone(), &self.setup)?;
-        for (first, second) in collisions.left_out() {
-            tell(&format!("note: {first} and {second} overlap with all axes at 0: not watched"));
-        }
-        Some(collisions)
-    }
-}
-
 impl ProgramArguments {
     /// Reads program and set-up; what is wrong goes to `problems`.
     pub fn read(
@@ -134,29 +111,25 @@ impl ProgramArguments {
         keep_going: bool,
         problems: &mut Diagnostics,
     ) -> Option<Job> {
-        let setup = self.read_setup(&machine, problems);
+        let files = ProgramFiles {
+            program: &self.program,
+            text: None,
+            setup: self.setup.as_deref(),
+            control: None,
+        };
         let control = match &self.control {
-            Some(name) => Some(named_control(name, problems)?),
+            Some(name) => match named_control(name, problems) {
+                Some(control) => Some(control),
+                None => return files.setup(&machine, problems).and(None),
+            },
             None => None,
         };
         let options = self.options(keep_going, problems);
-        let options = options.map(|options| Options { temperatures, ..options });
-        let setup = setup?;
-        let program = read_program(&self.program, control, &setup, problems)?;
-        let control = program.dialect().control;
-        Some(Job { machine, program, control, setup, options: options?, models: Vec::new() })
-    }
-
-    fn read_setup(&self, machine: &Machine, problems: &mut Diagnostics) -> Option<SetUp> {
-        let beside = self.program.with_extension("setup.toml");
-        let path = match &self.setup {
-            Some(path) => path,
-            None if beside.is_file() => &beside,
-            None => return Some(SetUp::default()),
-        };
-        let (setup, found) = read_setup(path, machine);
-        problems.append(found);
-        setup
+        let files = ProgramFiles { control, ..files };
+        // Also with bad options all that is wrong with the files is told.
+        let job = Job::read(machine, &files, options.clone().unwrap_or_default(), problems);
+        let options = Options { temperatures, ..options? };
+        job.map(|job| Job { options, ..job })
     }
 
     fn options(&self, keep_going: bool, problems: &mut Diagnostics) -> Option<Options> {
@@ -185,8 +158,8 @@ impl ProgramArguments {
             Some(a) => Timing::ThreePhase { acceleration: a?, smooth: self.smooth },
         };
         let rounding_mm = rounding_mm?;
-        let temperatures = None;
-        Some(Options { densify, rounding_mm, timing, most_jumps, keep_going, temperatures })
+        let usual = Options::default();
+        Some(Options { densify, rounding_mm, timing, most_jumps, keep_going, ..usual })
     }
 }
 
@@ -218,7 +191,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 impl Arguments {
     fn with_models(&self, mut job: Job, problems: &mut Diagnostics) -> Job {
         if !self.no_collisions {
-            job.models = load_models(&job.machine, self.machine.path(), problems);
+            job = job.with_models(self.machine.path(), problems);
         }
         job
     }
@@ -254,10 +227,9 @@ impl Arguments {
             Some(path) => Some(Part::beside(path).map_err(|e| unwritable(path, &e))?),
             None => None,
         };
-        let (found, table) = self.walk(job, part.as_ref(), bodies.as_ref());
-        let Found { run, summary, troubles, series, drift } = found;
+        let (found, series, table) = self.walk(job, part.as_ref(), bodies.as_ref());
         let end = if self.keep_going { "simulated on behind them" } else { "nothing was written" };
-        let errors = report_and(run.problems.clone(), end);
+        let errors = report_and(found.run.problems.clone(), end);
         if errors && !self.keep_going {
             return Err(Outcome::Unusable);
         }
@@ -265,17 +237,8 @@ impl Arguments {
             table.map_err(|e| unwritable(path, &e))?;
         }
         let path_file = self.path.as_ref().map(|p| p.display().to_string());
-        let simulation = Simulation {
-            machine: &job.machine,
-            program: job.program.file(),
-            control: job.control,
-            setup: &job.setup,
-            run: &run,
-            summary: &summary,
-            troubles: &troubles,
-            path_file: path_file.as_deref(),
-            drift: drift.as_ref(),
-        };
+        let simulation =
+            Simulation { path_file: path_file.as_deref(), ..Simulation::of(job, &found) };
         if let (Some(path), Some(part)) = (&self.path, part) {
             part.put_in_place().map_err(|e| unwritable(path, &e))?;
         }
@@ -289,7 +252,7 @@ impl Arguments {
             Format::Json => Answer::Json(simulation_json(&simulation)),
             Format::Text => Answer::Text(simulation_text(&simulation)),
         };
-        Ok(match (show(&answer), errors, troubles.is_grave()) {
+        Ok(match (show(&answer), errors, found.troubles.is_grave()) {
             (Outcome::Done, true, _) => Outcome::Unusable,
             (Outcome::Done, _, true) => Outcome::No,
             (shown, ..) => shown,
@@ -302,25 +265,19 @@ impl Arguments {
         job: &Job,
         part: Option<&Part>,
         bodies: Option<&Part>,
-    ) -> (Found, std::io::Result<()>) {
+    ) -> (Findings, Series, std::io::Result<()>) {
         let begin = |(path, part)| PathTable::begin(&job.machine, path, part);
         let mut table = self.path.as_deref().zip(part).map(begin);
-        let mut summary = Summary::of(&job.machine);
         let mut series = Series::of(&job.machine);
-        let mut watch = AxisWatch::on(&job.machine);
-        let mut collisions = if self.no_collisions { None } else { job.collisions() };
-        let mut progress = Progress::through(&job.program);
-        let temperatures = job.options.temperatures.as_ref();
-        let mut drift = temperatures.and_then(|run| Drift::of(&job.machine, &job.setup, run));
-        let mut observers: Vec<&mut dyn Observer> = vec![&mut summary, &mut watch, &mut progress];
-        if let Some(collisions) = &mut collisions {
-            observers.push(collisions);
-        }
+        let collisions = if self.no_collisions { None } else { watched(job) };
+        let bar = progress_bar(&job.program);
+        let length = bar.length().unwrap_or(0) as f64;
+        let mut progress = Progress::through(&job.program, |part| {
+            bar.set_position((part * length).round() as u64)
+        });
+        let mut observers: Vec<&mut dyn Observer> = vec![&mut progress];
         if !self.no_report {
             observers.push(&mut series);
-        }
-        if let Some(drift) = &mut drift {
-            observers.push(drift);
         }
         if let Some(table) = &mut table {
             observers.push(table.observer());
@@ -333,14 +290,13 @@ impl Arguments {
         if let Ok(Some(bodies)) = &mut bodies {
             observers.push(bodies);
         }
-        let run = simulate(&job.machine, &job.program, &job.setup, &job.options, &mut observers);
-        progress.bar.finish_and_clear();
-        let logs = [Some(watch.log), collisions.map(|c| c.log)];
-        let troubles = TroubleList::of(logs.into_iter().flatten());
-        let found = Found { run, summary, troubles, series, drift };
+        let found = job.run(collisions, &mut observers);
+        drop(observers);
+        drop(progress);
+        bar.finish_and_clear();
         let written = table.map_or(Ok(()), PathTable::finish);
         let bodies = bodies.and_then(|b| b.map_or(Ok(()), |b| b.finish().map(drop)));
-        (found, written.and(bodies))
+        (found, series, written.and(bodies))
     }
 }
 
@@ -358,41 +314,24 @@ fn unwritable(path: &Path, error: &std::io::Error) -> Outcome {
     unusable("unwritable-file", &shown, &message, "name another --path")
 }
 
-struct Found {
-    run: Run,
-    summary: Summary,
-    troubles: TroubleList,
-    series: Series,
-    drift: Option<Drift>,
+/// Watches the bodies; what cannot be watched is told.
+fn watched(job: &Job) -> Option<Collisions> {
+    let collisions = job.collisions()?;
+    for (first, second) in collisions.left_out() {
+        tell(&format!("note: {first} and {second} overlap with all axes at 0: not watched"));
+    }
+    Some(collisions)
 }
 
 /// How far the main program has come; only a terminal sees it, and only if it takes a while.
-struct Progress {
-    bar: ProgressBar,
-    line: u32,
-}
-
-impl Progress {
-    fn through(program: &Program) -> Self {
-        if !std::io::stderr().is_terminal() {
-            return Self { bar: ProgressBar::hidden(), line: u32::MAX };
-        }
-        let lines = program.source().iter().filter(|b| **b == b'\n').count();
-        let bar = ProgressBar::new(lines as u64 + 1);
-        if let Ok(style) = ProgressStyle::with_template("{wide_bar} line {pos}/{len}, {eta} left") {
-            bar.set_style(style);
-        }
-        Self { bar, line: 0 }
+fn progress_bar(program: &Program) -> ProgressBar {
+    if !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
     }
-}
-
-impl Observer for Progress {
-    fn path(&mut self, batch: &Batch<'_>) {
-        let Some(node) = batch.nodes.last() else { return };
-        // Loops go back; the bar does not.
-        if node.origin.program == 0 && node.origin.line > self.line {
-            self.line = node.origin.line;
-            self.bar.set_position(u64::from(self.line));
-        }
+    let lines = program.source().iter().filter(|b| **b == b'\n').count();
+    let bar = ProgressBar::new(lines as u64 + 1);
+    if let Ok(style) = ProgressStyle::with_template("{wide_bar} line {pos}/{len}, {eta} left") {
+        bar.set_style(style);
     }
+    bar
 }

@@ -2,7 +2,7 @@
 
 use crate::arguments::{MachineArguments, argument, to_shown};
 use crate::output::{Answer, Format, Outcome, finish};
-use crate::simulate::{Job, ProgramArguments};
+use crate::simulate::ProgramArguments;
 use clap::Args;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
@@ -12,7 +12,7 @@ use trueaxis::machine::axis::{AxisKind, Command};
 use trueaxis::nc::moves::{Axis, Event, FeedMode, Move, MoveKind, OrientationPath, Position, Step};
 use trueaxis::report::numbers::fixed;
 use trueaxis::report::{self, Bodies, Budget};
-use trueaxis::simulate::{Trace, TracedNode, block_line, trace};
+use trueaxis::simulate::{Job, Trace, TracedNode, block_line, trace};
 
 /// The block to trace.
 #[derive(Args)]

@@ -5,7 +5,7 @@
 #[path = "serve/client.rs"]
 mod client;
 
-use client::{ask_socket, frame, next, project, repository, serve, serve_kept};
+use client::{ask_socket, cli, frame, next, project, repository, serve, serve_kept};
 use serde_json::{Value, json};
 use std::fs;
 use std::io::{Read, Write};
@@ -239,4 +239,84 @@ fn every_shipped_example_is_listed_and_is_there() {
             assert!(files.iter().any(|f| f["path"] == path), "{path}");
         }
     }
+}
+
+#[test]
+fn answers_are_the_documents_of_the_command_line() {
+    let served = serve_kept(repository(), &["--port", "0"]);
+    let study = "examples/03_predict/nas979-on-xkas2525.toml";
+    let holes = "examples/03_predict/torque-arm.toml";
+    let plan = "examples/04_plan/probe-ball.toml";
+    let campaign = "examples/05_identify/mixed-instruments.toml";
+    let readings = "examples/07_verify/x-axis-laser.csv";
+    let circle = "examples/07_verify/circle-xy.csv";
+    let predict = |file| ["predict", file, "--no-report"];
+    let unsampled = ["predict", study, "--no-report", "--samples", "0"];
+    for (name, body, words) in [
+        ("predict", json!({ "study": study }), &predict(study)[..]),
+        ("what-if", json!({ "study": study }), &unsampled),
+        ("predict", json!({ "study": holes }), &predict(holes)),
+        (
+            "plan",
+            json!({ "campaign": plan, "dialect": "fanuc" }),
+            &["plan", plan, "--dialect", "fanuc"],
+        ),
+        ("identify", json!({ "campaign": campaign }), &["identify", campaign]),
+        (
+            "evaluate",
+            json!({ "standard": "iso230-2", "path": readings }),
+            &["evaluate", "iso230-2", readings],
+        ),
+        (
+            "evaluate",
+            json!({ "standard": "iso230-4", "path": circle, "radius": "150 mm" }),
+            &["evaluate", "iso230-4", circle, "--radius", "150"],
+        ),
+    ] {
+        let answer = served.ask(name, &body);
+        assert_eq!(answer.status, 200, "{name}: {}", String::from_utf8_lossy(&answer.body));
+        assert_eq!(answer.header()["document"], cli(words), "{name}");
+    }
+}
+
+#[test]
+fn dropped_readings_count_as_those_of_the_file() {
+    let served = serve_kept(repository(), &["--port", "0"]);
+    let text = |path| fs::read_to_string(repository().join(path)).expect("readings");
+    let campaign = "examples/05_identify/probe-ball.toml";
+    let csv = text("examples/05_identify/probe-ball.csv");
+    let body = json!({ "campaign": campaign, "name": "mine.csv", "text": csv });
+    let found = served.ask("identify", &body).header();
+    assert_eq!(found["document"]["errors"], cli(&["identify", campaign])["errors"]);
+    let bad = format!("{csv}nonsense,1\n");
+    let line = bad.lines().count();
+    let body = json!({ "campaign": campaign, "name": "mine.csv", "text": bad });
+    let refused = served.ask("identify", &body);
+    assert_eq!(refused.status, 422);
+    let first = &refused.json()["error"]["diagnostics"][0];
+    assert_eq!((&first["file"], &first["line"]), (&json!("mine.csv"), &json!(line)), "{first}");
+    // Two instruments: whose readings are they?
+    let body = json!({ "campaign": "examples/05_identify/mixed-instruments.toml", "text": csv });
+    assert_eq!(served.ask("identify", &body).status, 400);
+    let csv = text("examples/07_verify/x-axis-laser.csv");
+    let body = json!({ "standard": "iso230-2", "name": "mine.csv", "text": csv,
+        "conditions": "examples/07_verify/x-axis-laser.toml" });
+    let judged = served.ask("evaluate", &body).header();
+    let known = cli(&["evaluate", "iso230-2", "examples/07_verify/x-axis-laser.csv"]);
+    assert_eq!(judged["document"]["A_um"], known["A_um"]);
+}
+
+#[test]
+fn reports_are_the_pages_of_the_command_line() {
+    let served = serve_kept(repository(), &["--port", "0"]);
+    let body = json!({ "verb": "predict", "file": "examples/03_predict/cone-on-i5.toml" });
+    let made = served.ask("report", &body).json();
+    let url = made["url"].as_str().expect("an address");
+    let page = served.send(&format!("GET {url}"), "", b"");
+    assert_eq!(page.status, 200);
+    assert!(page.body.starts_with(b"<!DOCTYPE html>"));
+    // Its own style is allowed to it, and nothing else.
+    assert!(page.head.to_ascii_lowercase().contains("style-src 'unsafe-inline'"), "{}", page.head);
+    let body = json!({ "verb": "compensate", "file": "examples/03_predict/cone-on-i5.toml" });
+    assert_eq!(served.ask("report", &body).status, 400);
 }

@@ -186,7 +186,7 @@ impl<'r> Run<'r> {
     fn run(&mut self) -> bool {
         self.emit_frame();
         let mut line = Line::default();
-        loop {
+        while !self.settings.stop.is_asked() {
             let Some(active) = self.stack.last() else { return true };
             let (number, at) = (active.program, active.at);
             let program = Rc::clone(&self.programs[number]);
@@ -213,6 +213,7 @@ impl<'r> Run<'r> {
                 }
             }
         }
+        false
     }
 
     fn block(&mut self, program: &Program, line: &Line) -> Result<Next, Fault> {

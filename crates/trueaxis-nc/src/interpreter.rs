@@ -28,6 +28,7 @@ use crate::dialect::Control;
 use crate::library::Library;
 use crate::moves::{Event, Frame, Move, Origin, Plane, Position, Step};
 use crate::program::{Block, Fault, Label, Places, Program, fault};
+use crate::stop::Stop;
 use crate::{heidenhain, sinumerik};
 use frames::Frames;
 use parameters::Locals;
@@ -61,6 +62,8 @@ pub struct Settings {
     pub work_offsets: BTreeMap<u32, Frame>,
     /// Named read-only parameters of the machine, such as `_ini[axis_x]max_limit`, lower case.
     pub constants: BTreeMap<String, f64>,
+    /// Asked from outside, the execution ends before the next block.
+    pub stop: Stop,
 }
 
 impl Default for Settings {
@@ -78,6 +81,7 @@ impl Default for Settings {
             tool_names: BTreeMap::new(),
             work_offsets: BTreeMap::new(),
             constants: BTreeMap::new(),
+            stop: Stop::default(),
         }
     }
 }
@@ -87,7 +91,7 @@ impl Default for Settings {
 pub struct Outcome {
     /// All problems with their places.
     pub problems: Diagnostics,
-    /// The program came to its end; `false` if an error stopped it.
+    /// The program came to its end; `false` if an error, or somebody, stopped it.
     pub finished: bool,
     /// The programs by the number in [`Origin::program`].
     pub programs: Vec<String>,
@@ -229,7 +233,7 @@ impl<'r> Run<'r> {
         self.check_turn(self.frames.active, 0);
         self.emit_frame();
         let mut block = Block::default();
-        loop {
+        while !self.settings.stop.is_asked() {
             let Some(frame) = self.stack.last() else { return true };
             let program = Rc::clone(&self.programs[frame.program]);
             self.straight_lines(program.source());
@@ -261,6 +265,7 @@ impl<'r> Run<'r> {
                 }
             }
         }
+        false
     }
 
     fn quick_or_block(

@@ -39,6 +39,7 @@ pub mod moves;
 mod parser;
 pub mod program;
 pub mod sinumerik;
+mod stop;
 pub mod writer;
 
 pub use dialect::{Control, Dialect};
@@ -46,3 +47,4 @@ pub use interpreter::{Outcome, Settings, interpret};
 pub use library::{Library, NoLibrary};
 pub use moves::{Event, Move, MoveKind, Step};
 pub use program::Program;
+pub use stop::Stop;

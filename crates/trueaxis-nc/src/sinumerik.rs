@@ -152,7 +152,7 @@ impl<'r> Run<'r> {
     fn run(&mut self) -> bool {
         self.emit_frame();
         let mut tokens = Vec::new();
-        loop {
+        while !self.settings.stop.is_asked() {
             let Some(top) = self.stack.last_mut() else { return true };
             if top.at >= top.span.end || top.leaves_section() {
                 match self.end_of_section() {
@@ -180,6 +180,7 @@ impl<'r> Run<'r> {
                 }
             }
         }
+        false
     }
 
     fn one_block(

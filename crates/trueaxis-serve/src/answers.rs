@@ -1,10 +1,17 @@
 //! The requests by name: one file for each tab of the page.
 
 mod describe;
+mod evaluate;
+mod identify;
 mod machine;
+mod plan;
 mod predict;
 mod project;
+mod report;
+mod simulate;
 mod wants;
+
+pub(crate) use simulate::Simulated;
 
 use crate::desk::{Desk, Job, Reply};
 use crate::refusal::Refusal;
@@ -51,6 +58,15 @@ pub(crate) const ANSWERS: &[Answer] = &[
     quick("set-error", describe::set_error),
     long("predict", predict::whole),
     quick("what-if", predict::what_if),
+    long("plan", plan::plan),
+    long("identify", identify::identify),
+    quick("standards", evaluate::standards),
+    quick("evaluate", evaluate::evaluate),
+    long("report", report::report),
+    long("simulate", simulate::simulate),
+    quick("simulation-at", simulate::at),
+    quick("simulation-block", simulate::block),
+    quick("simulation-path", simulate::path),
+    quick("simulation-curves", simulate::curves),
+    quick("simulation-source", simulate::source),
 ];
-
-pub(crate) struct Simulated;

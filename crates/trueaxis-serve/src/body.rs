@@ -52,6 +52,18 @@ impl<'a> Body<'a> {
         whole.map(|n| n as usize).ok_or_else(|| Self::due(key, "a whole number"))
     }
 
+    /// True or false, or what it is if nothing is said.
+    pub(crate) fn flag(&self, key: &str, usual: bool) -> Result<bool, Refusal> {
+        let flag = |v: &Value| v.as_bool().ok_or_else(|| Self::due(key, "true or false"));
+        self.optional(key).map_or(Ok(usual), flag)
+    }
+
+    /// A list of texts.
+    pub(crate) fn texts(&self, key: &str) -> Result<Vec<&'a str>, Refusal> {
+        let texts = |v: &'a Value| v.as_array()?.iter().map(Value::as_str).collect();
+        self.optional(key).and_then(texts).ok_or_else(|| Self::due(key, "a list of texts"))
+    }
+
     /// Names with numbers; none is an empty list.
     pub(crate) fn numbers(&self, key: &str) -> Result<Vec<(&'a str, f64)>, Refusal> {
         let Some(value) = self.optional(key) else { return Ok(Vec::new()) };

@@ -5,7 +5,7 @@ use crate::guard::{Guard, add_headers};
 use crate::refusal::Refusal;
 use crate::{page, socket};
 use axum::Router;
-use axum::body::{Body, Bytes, to_bytes};
+use axum::body::{Body, Bytes, HttpBody, to_bytes};
 use axum::extract::{Path, Request, State, WebSocketUpgrade};
 use axum::http::{StatusCode, header};
 use axum::middleware::{Next, from_fn_with_state};
@@ -82,12 +82,17 @@ async fn file(request: Request) -> Response {
 }
 
 async fn ask(State(shared): State<Shared>, Path(name): Path<String>, body: Body) -> Response {
+    let too_long = || {
+        let message = format!("the body is longer than {} MB or broke off", MOST_BYTES >> 20);
+        refused(&Refusal::new(413, "too-long", message, "send less at a time"))
+    };
+    // What is announced too long is not waited for.
+    if body.size_hint().lower() > MOST_BYTES as u64 {
+        return too_long();
+    }
     let body = match timeout(SENDING, to_bytes(body, MOST_BYTES)).await {
         Ok(Ok(body)) => body,
-        Ok(Err(_)) => {
-            let message = format!("the body is longer than {} MB or broke off", MOST_BYTES >> 20);
-            return refused(&Refusal::new(413, "too-long", message, "send less at a time"));
-        }
+        Ok(Err(_)) => return too_long(),
         Err(_) => {
             let message = format!("the body did not come within {} s", SENDING.as_secs());
             return refused(&Refusal::new(408, "too-slow", message, "send it faster"));

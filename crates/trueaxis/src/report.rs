@@ -23,6 +23,7 @@ mod holes;
 mod holes_html;
 mod html;
 mod identification;
+mod identification_arrows;
 mod identification_page;
 mod json;
 mod measurement;
@@ -54,9 +55,10 @@ pub use compensation::{
 };
 pub use description::description_json;
 pub use diagnostic::{diagnostic_json, remarks};
-pub use evaluation::{Evaluation, evaluation_text};
+pub use evaluation::{Block, Evaluation, Sheets, evaluation_text};
 pub use evaluation_html::evaluation_html;
 pub use evaluation_json::evaluation_json;
+pub use evaluation_plots::{Band, Picture, Polar, PolarLine, Scatter};
 pub use holes::{holes_json, holes_text};
 pub use holes_html::holes_html;
 pub use html::html;
@@ -64,10 +66,11 @@ pub use identification::{
     IdentificationReport, conventions_json, conventions_text, identification_json,
     identification_text,
 };
+pub use identification_arrows::Arrow;
 pub use identification_page::identification_html;
 pub use json::json;
 pub use measurement::{MeasuredReport, measurement_html, measurement_json, measurement_text};
-pub use plan::{PlanReport, PlannedPath, plan_json, plan_text};
+pub use plan::{PlanReport, plan_json, plan_text};
 pub use plan_page::plan_html;
 pub use plots::DrawingError;
 pub use pose::{

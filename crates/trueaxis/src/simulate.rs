@@ -15,10 +15,12 @@ mod collisions;
 mod curve;
 mod densify;
 mod drift;
+mod job;
 mod orientation;
 #[cfg(feature = "parquet")]
 mod parquet_table;
 mod program;
+mod recording;
 mod series;
 mod setup;
 mod summary;
@@ -35,9 +37,13 @@ pub use clock::{Stamp, Timing, limit_name, limits};
 pub use collisions::Collisions;
 pub use densify::{Densify, pieces};
 pub use drift::{Drift, SensorRange};
+pub use job::{Findings, Job, ProgramFiles, Progress};
 #[cfg(feature = "parquet")]
 pub use parquet_table::ParquetTable;
 pub use program::read_program;
+pub use recording::{
+    AxisRange, Colour, Curves, Moment, PathPoints, QuantityRange, Recorder, Recording,
+};
 pub use series::{PathPoint, Quantity, Series};
 pub use setup::{CONTROLS, Nearness, SetUp, SetUpTool, control_named, parse_setup, read_setup};
 pub use summary::{AxisUse, Reversal, Summary, Worst, shown, unit};
@@ -45,6 +51,7 @@ pub use table::{CsvTable, headings};
 pub use tool_path::Batch;
 pub use trace::{Trace, TracedNode, block_line, trace};
 pub use trouble::{AxisWatch, Log, Trouble, TroubleKind, TroubleList};
+pub use trueaxis_nc::Stop;
 
 use axis_path::AxisPath;
 use clock::Clock;
@@ -84,6 +91,8 @@ pub struct Options {
     pub keep_going: bool,
     /// The log that the temperatures follow; without one the machine keeps those that it has.
     pub temperatures: Option<TemperatureRun>,
+    /// Asked, the simulation ends early; what was found until then is not the whole.
+    pub stop: Stop,
 }
 
 impl Default for Options {
@@ -95,6 +104,7 @@ impl Default for Options {
             most_jumps: Settings::default().most_jumps,
             keep_going: false,
             temperatures: None,
+            stop: Stop::default(),
         }
     }
 }
@@ -106,6 +116,8 @@ pub struct Run {
     pub problems: Diagnostics,
     /// The programs by the number in [`trueaxis_nc::moves::Origin::program`].
     pub programs: Vec<String>,
+    /// Somebody asked it to stop before its end.
+    pub stopped: bool,
 }
 
 /// Runs an NC program on a machine and tells the observers all that happens.
@@ -125,11 +137,14 @@ pub fn simulate(
     let control = TipControl::of(&machine);
     let turn = basic::turn_to_workpiece(&machine, setup);
     let folder = Folder::beside(Path::new(program.file()), control.as_ref(), turn);
-    let settings =
-        Settings { most_jumps: options.most_jumps, ..setup.settings(options.keep_going) };
+    let settings = Settings {
+        most_jumps: options.most_jumps,
+        stop: options.stop.clone(),
+        ..setup.settings(options.keep_going)
+    };
     let mut told = Diagnostics::new();
     let Some(present) = Present::of(&machine, options.temperatures.as_ref(), &mut told) else {
-        return Run { problems: told, programs: Vec::new() };
+        return Run { problems: told, programs: Vec::new(), stopped: false };
     };
     let mut walk = Walk::new(&machine, present, setup, options, observers);
     let outcome = interpret(program, &folder, &settings, &mut |step| walk.take(&step));
@@ -142,7 +157,7 @@ pub fn simulate(
         let place = place(program, &outcome.programs, &fault);
         problems.error(fault.code, place, fault.message, fault.hint);
     }
-    Run { problems, programs: outcome.programs }
+    Run { problems, programs: outcome.programs, stopped: options.stop.is_asked() }
 }
 
 /// Time is as true as the limits of the axes.
@@ -192,13 +207,14 @@ impl<'w, 'o> Walk<'w, 'o> {
         machine: &'w Machine,
         present: Present,
         setup: &'w SetUp,
-        options: &Options,
+        options: &'w Options,
         observers: &'w mut [&'o mut dyn Observer],
     ) -> Self {
         let path = AxisPath::new(machine, setup, options.densify, options.rounding_mm);
         let start = *path.command();
         let stretch = Stretch {
             setup,
+            stop: &options.stop,
             clock: Clock::new(machine, start, options.timing),
             tool_path: ToolPath::new(present.compiled(), start),
             present,
@@ -216,7 +232,7 @@ impl<'w, 'o> Walk<'w, 'o> {
     fn take(&mut self, step: &Step) {
         let sound = self.path.faults.is_empty() && self.stretch.faults.is_empty();
         // Without `keep_going` the first fault ends the simulation.
-        if !(self.keep_going || sound) {
+        if !(self.keep_going || sound) || self.stretch.stop.is_asked() {
             return;
         }
         let stretch = &mut self.stretch;
@@ -236,6 +252,7 @@ impl<'w, 'o> Walk<'w, 'o> {
 struct Stretch<'w, 'o> {
     present: Present,
     setup: &'w SetUp,
+    stop: &'w Stop,
     clock: Clock,
     tool_path: ToolPath,
     tool: u32,
@@ -270,9 +287,12 @@ impl Stretch<'_, '_> {
 
     /// Everything that has its time, in batches of one temperature.
     fn evaluate(&mut self) {
-        while let Some(first) = self.stamps.first() {
+        while let Some(first) = self.stamps.first().filter(|_| !self.stop.is_asked()) {
             match self.present.advance(first.time_s) {
-                Ok(true) => self.tool_path.change_temperatures(self.present.compiled()),
+                Ok(true) => {
+                    let since_s = self.present.since_s();
+                    self.tool_path.change_temperatures(self.present.compiled(), since_s);
+                }
                 Ok(false) => {}
                 Err(message) => self.faults.push(Fault::untempered(&self.nodes[0], message)),
             }

@@ -15,7 +15,13 @@ export interface SparkSpec {
   at?: number | null;
 }
 
-export function sparkline(spec: SparkSpec): SVGSVGElement {
+export interface Sparkline {
+  svg: SVGSVGElement;
+  /** Moves the mark of the present position; null or beyond the curve: none. */
+  mark(at: number | null): void;
+}
+
+export function markedSparkline(spec: SparkSpec): Sparkline {
   const { width = 90, height = 20 } = spec;
   const svg = s("svg", { class: "sparkline", width, height, viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": spec.label });
   const x_range = rangeOf(spec.x);
@@ -26,6 +32,17 @@ export function sparkline(spec: SparkSpec): SVGSVGElement {
   const points = Array.from({ length: Math.min(spec.x.length, spec.y.length) }, (_, i) => `${x(spec.x[i] as number).toFixed(1)} ${y(spec.y[i] as number).toFixed(1)}`);
   svg.append(s("line", { x1: 0, x2: width, y1: y(0), y2: y(0), stroke: "var(--line-strong)", "stroke-width": 0.8 }));
   if (points.length > 1) svg.append(s("path", { d: `M${points.join("L")}`, fill: "none", stroke: "var(--series-1)", "stroke-width": 1.4 }));
-  if (spec.at !== null && spec.at !== undefined) svg.append(s("line", { x1: x(spec.at), x2: x(spec.at), y1: 0, y2: height, stroke: "var(--accent)" }));
-  return svg;
+  const line = s("line", { y1: 0, y2: height, stroke: "var(--accent)", visibility: "hidden" });
+  svg.append(line);
+  const mark = (at: number | null): void => {
+    const seen = at !== null && at >= x_range[0] && at <= x_range[1];
+    line.setAttribute("visibility", seen ? "visible" : "hidden");
+    if (!seen) return;
+    line.setAttribute("x1", x(at).toFixed(1));
+    line.setAttribute("x2", x(at).toFixed(1));
+  };
+  mark(spec.at ?? null);
+  return { svg, mark };
 }
+
+export const sparkline = (spec: SparkSpec): SVGSVGElement => markedSparkline(spec).svg;

@@ -206,8 +206,7 @@ export class SurfaceLayer {
     if (data.rings > 1 && data.points_per_ring > 1) {
       this.geometry.setIndex(grid(data.rings, data.points_per_ring, data.closed));
       this.group.add(new Mesh(this.geometry, new MeshBasicMaterial({ vertexColors: true, side: DoubleSide })));
-    }
-    this.group.add(new Points(this.geometry, new PointsMaterial({ vertexColors: true, size: 3, sizeAttenuation: false })));
+    } else this.group.add(new Points(this.geometry, new PointsMaterial({ vertexColors: true, size: 3, sizeAttenuation: false })));
     for (const child of this.group.children) child.frustumCulled = false;
     this.setExaggeration(1);
   }

@@ -34,6 +34,8 @@ export function geometryOf(shape: Shape): BufferGeometry {
     outline.closePath();
     return new ExtrudeGeometry(outline, { depth: shape.prism.length_mm, bevelEnabled: false });
   }
+  // Of an STL file only the name is known here.
+  if ("stl" in shape) return new BufferGeometry();
   const positions = shape.mesh instanceof Float32Array ? shape.mesh : Float32Array.from(shape.mesh);
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(positions, 3));

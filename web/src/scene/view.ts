@@ -67,6 +67,8 @@ export interface SceneProbe {
   /** bed_from_body, 12 numbers, of the nominal (or ghost) body as the scene graph has it. */
   poseOf(name: string, which?: "nominal" | "ghost"): number[] | null;
   nominalTip(): [number, number, number] | null;
+  /** Least and greatest corner of the models of a body, in its own frame, mm. */
+  boxOf(name: string): number[] | null;
   frames(): number;
   /** What the Simulate tab shows now: the time, the axis positions, mm and deg, and from where they came, in full. */
   moment?: () => { time_s: number; axes: Record<string, number>; approach: Record<string, number> } | null;
@@ -101,7 +103,7 @@ export class MachineView {
   private scheduled = false;
   private drawn = 0;
   private k = 1;
-  private show_ghost = true;
+  private ghost_wanted = true;
   private poses: { nominal: Float64Array; actual: Float64Array } | null = null;
   private arrows: Group[] = [];
   private materials: Partial<Record<Role | "edge" | "ghost" | "ghost-edge", Material>> = {};
@@ -125,7 +127,7 @@ export class MachineView {
     this.watch = new ResizeObserver(() => this.resize());
     this.watch.observe(this.element);
     this.stop_theme = onTheme(() => this.repaint());
-    window.trueaxisScene = { poseOf: (name, which) => this.poseOf(name, which), nominalTip: () => this.nominalTip(), frames: () => this.drawn };
+    window.trueaxisScene = { poseOf: (name, which) => this.poseOf(name, which), nominalTip: () => this.nominalTip(), boxOf: (name) => this.boxOf(name), frames: () => this.drawn };
   }
 
   private makeRenderer(): WebGLRenderer | null {
@@ -158,7 +160,7 @@ export class MachineView {
   // ---- the machine ----
 
   /** Builds the bodies of the chain; models where the machine file has them, else a schematic. */
-  setMachine(machine: MachineDescription, keep_camera = false): void {
+  setMachine(machine: MachineDescription, keep_view = false): void {
     this.clearMachine();
     this.machine = machine;
     this.bodies = machine.links.map((link) => ({ name: link.name, node: new Group(), ghost: new Group(), meshes: [] }));
@@ -169,17 +171,18 @@ export class MachineView {
       if (body !== this.bed) this.ghost_root.add(body.ghost);
     }
     this.makeMaterials();
-    for (const model of machine.models) this.addPart(model.body, model.name, geometryOf(model.shape), matrixOf(model.placement));
+    for (const model of machine.models) if (!("stl" in model.shape)) this.addPart(model.body, model.name, geometryOf(model.shape), matrixOf(model.placement));
     for (const part of schematic(machine)) this.addPart(part.body, part.name, part.geometry, part.matrix);
     homePoses(machine.links).forEach((pose, i) => this.placeBody(i, pose, pose));
     this.addTool();
     this.addWorkpiece();
+    this.attachLayers();
     this.addArrows();
     this.addGrid();
     this.ghost_root.visible = false;
-    this.attachLayers();
     this.showStandIn();
-    if (!keep_camera) this.setView("iso");
+    if (!keep_view) this.setView("iso");
+    this.requestRender();
   }
 
   private clearMachine(): void {
@@ -300,6 +303,8 @@ export class MachineView {
     this.scene.updateMatrixWorld(true);
     const box = new Box3();
     for (const body of [this.bed, ...this.bodies]) for (const mesh of body.meshes) box.expandByObject(mesh);
+    // Without a machine, the part alone is the picture.
+    if (box.isEmpty()) box.expandByObject(this.layers);
     if (box.isEmpty()) box.setFromCenterAndSize(new Vector3(), new Vector3(500, 500, 500));
     return box;
   }
@@ -356,6 +361,13 @@ export class MachineView {
     this.requestRender();
   }
 
+  /** The arrows of positive motion are in the way of close looks. */
+  setArrowsVisible(visible: boolean): void {
+    for (const arrow of this.arrows) arrow.visible = visible;
+    this.overlay.element.classList.toggle("without-labels", !visible);
+    this.requestRender();
+  }
+
   // ---- poses ----
 
   /**
@@ -382,21 +394,30 @@ export class MachineView {
     this.showGhost();
   }
 
+  private noteFactor(): void {
+    const text = this.k === 1 ? "Actual machine: true size (×1)" : `Actual machine: deviations ${factor(this.k)}`;
+    this.overlay.note("factor", this.ghost_wanted ? text : null, "actual");
+  }
+
   setExaggeration(k: number): void {
     if (this.poses) this.setPoses(this.poses.nominal, this.poses.actual, k);
-    else this.k = k;
+    else {
+      this.k = k;
+      this.path?.setExaggeration(k);
+      this.surface?.setExaggeration(k);
+      this.requestRender();
+    }
   }
 
   setGhostVisible(visible: boolean): void {
-    this.show_ghost = visible;
+    this.ghost_wanted = visible;
     this.showGhost();
   }
 
   private showGhost(): void {
-    const visible = this.show_ghost && this.poses !== null;
-    this.ghost_root.visible = visible;
-    this.path?.setGhostVisible(this.show_ghost);
-    this.overlay.note("factor", !visible ? null : this.k === 1 ? "Actual machine: true size (×1)" : `Actual machine: deviations ${factor(this.k)}`, "actual");
+    this.ghost_root.visible = this.ghost_wanted && this.poses !== null;
+    this.path?.setGhostVisible(this.ghost_wanted);
+    this.noteFactor();
     this.requestRender();
   }
 
@@ -416,6 +437,14 @@ export class MachineView {
     node.updateWorldMatrix(true, false);
     const e = node.matrixWorld.elements;
     return [0, 4, 8, 1, 5, 9, 2, 6, 10, 12, 13, 14].map((i) => e[i] as number);
+  }
+
+  boxOf(name: string): number[] | null {
+    const body = name === "b" ? this.bed : this.bodies.find((b) => b.name === name);
+    if (!body) return null;
+    const box = new Box3();
+    for (const mesh of body.meshes) box.union(new Box3().setFromBufferAttribute(mesh.geometry.getAttribute("position") as never).applyMatrix4(mesh.matrix));
+    return [...box.min.toArray(), ...box.max.toArray()];
   }
 
   /** The tool tip in the workpiece frame, mm, from the scene graph. */
@@ -452,7 +481,7 @@ export class MachineView {
     this.showStandIn();
     if (this.path) {
       this.path.setExaggeration(this.k);
-      this.path.setGhostVisible(this.show_ghost);
+      this.path.setGhostVisible(this.ghost_wanted);
       this.layers.add(this.path.group);
     }
     this.showBar(this.path && data && bar ? { ...bar, range: this.path.range, map: data.map } : null);
@@ -525,6 +554,14 @@ export class MachineView {
     box.expandByScalar(0.15 * box.getSize(new Vector3()).length() + 1);
     const from = this.camera.position.clone().sub(this.controls?.target ?? new Vector3()).normalize();
     this.frame(box.getCenter(new Vector3()), from, box);
+  }
+
+  /** Looks at the workpiece from where the camera stands: `radius` mm around a point of its frame. */
+  lookAtWorkpiece(point: readonly [number, number, number], radius: number): void {
+    this.scene.updateMatrixWorld(true);
+    const centre = new Vector3(...point).applyMatrix4(this.layers.matrixWorld);
+    const from = this.camera.position.clone().sub(this.controls?.target ?? new Vector3()).normalize();
+    this.frame(centre, from, new Box3(centre.clone().addScalar(-radius), centre.clone().addScalar(radius)));
   }
 
   /** Puts both cameras so that `box` fills the picture, seen from `from`. */

@@ -1,9 +1,10 @@
 /** What the machine does with a program: play it, see where it is slow, off, or runs into something. */
 
 import { split, type App, type Tab, type TabHandle } from "../app.ts";
-import { Refusal, type Description, type Diagnostic } from "../api.ts";
+import { Refusal, type Diagnostic, type MachineDescription } from "../api.ts";
 import { fill, h } from "../dom.ts";
 import { exaggerationControl } from "../scene/exaggeration.ts";
+import { withModels } from "../scene/models.ts";
 import { MachineView } from "../scene/view.ts";
 import { Simulation, type Job, type Moment } from "./simulate/answers.ts";
 import { Choices, dropTarget, type Choice, type Dropped } from "./simulate/choices.ts";
@@ -37,7 +38,9 @@ class SimulateTab implements TabHandle {
   private dropped: Dropped | null = null;
   /** Programs that were dropped in this window, by name: going back in the browser finds them. */
   private readonly kept = new Map<string, Dropped>();
-  private description: Description | null = null;
+  private drawn: MachineDescription | null = null;
+  /** How many errors the machine file states. */
+  private stated_errors = 0;
   private simulation: Simulation | null = null;
   private stop: AbortController | null = null;
   private moment: Moment | null = null;
@@ -167,8 +170,12 @@ class SimulateTab implements TabHandle {
     if (!machine) return;
     this.app.set({ machine });
     const description = await this.app.api.ask("describe", { machine }, { signal });
-    this.description = description;
-    this.view.setMachine(description);
+    const { links, models, tool } = description;
+    const { machine: drawn } = await withModels(this.app.api, { machine }, { links, models, tool });
+    if (signal.aborted) return;
+    this.drawn = drawn;
+    this.stated_errors = description.check.errors?.length ?? 0;
+    this.view.setMachine(drawn);
   }
 
   private async simulate(job: Job, stop: AbortController): Promise<Simulation> {
@@ -193,7 +200,7 @@ class SimulateTab implements TabHandle {
     this.simulation = simulation;
     this.busy.hidden = true;
     this.host.classList.add("simulated");
-    this.summary.show(header, this.description?.check.errors.length ?? 0);
+    this.summary.show(header, this.stated_errors);
     this.readout.setAxes(header.axes);
     this.player.reset(header.duration_s);
     this.timeline.setProgram(header.duration_s, header.marks);
@@ -287,13 +294,13 @@ class SimulateTab implements TabHandle {
 
   /** The tool of the set-up in place of that of the machine file. */
   private showTool(moment: Moment, nominal: Float64Array): void {
-    const { description } = this;
-    if (!description) return;
-    const tool = toolOf(description, moment.tip_mm, nominal);
+    const { drawn } = this;
+    if (!drawn) return;
+    const tool = toolOf(drawn, moment.tip_mm, nominal);
     const tip = (tool.tip_mm ?? []).map((v) => v.toFixed(3)).join(" ");
     if (tip === this.tool_tip) return;
     this.tool_tip = tip;
-    this.view.setMachine({ ...description, tool }, true);
+    this.view.setMachine({ ...drawn, tool }, true);
   }
 
   private zoomed(window_s: [number, number] | null): void {

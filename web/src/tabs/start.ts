@@ -42,7 +42,7 @@ function cards(app: App, project: Project): HTMLElement[] {
     groups.push(
       h(
         "section",
-        { class: "verb" },
+        { class: "verb", dataVerb: tab },
         h("div", { class: "verb-head" }, h("h2", {}, title), h("p", { class: "muted" }, what)),
         h(
           "ul",

@@ -1,7 +1,7 @@
 //! `trueaxis identify rtcp FILE.toml`: the rotary centres.
 
 use crate::output::{Answer, Format, Outcome, diagnostic_json, report, show, tell};
-use crate::plan::{extension, file_name, written};
+use crate::plan::written;
 use clap::Args;
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -13,6 +13,7 @@ use trueaxis::identify::rtcp::program::{off_poses, program};
 use trueaxis::identify::rtcp::{
     Calibration, Purpose, RtcpStudy, calibrate, machine_file, place_of, read_rtcp,
 };
+use trueaxis::plan::{extension, file_name};
 use trueaxis::report::{RtcpReport, rtcp_json, rtcp_text};
 use trueaxis::simulate::{CONTROLS, control_named};
 

@@ -1,11 +1,12 @@
 //! `trueaxis plan probe-surface FILE.toml`: touch after touch over a surface.
 
-use super::{extension, written};
+use super::written;
 use crate::output::{Answer, Format, Outcome, diagnostic_json, report, show};
 use clap::Args;
 use std::path::PathBuf;
 use trueaxis::geometry::input::{Diagnostics, Place};
 use trueaxis::nc::Control;
+use trueaxis::plan::extension;
 use trueaxis::plan::program::ProgramCheck;
 use trueaxis::plan::surface::{
     Pose, SurfacePoint, SurfaceStudy, check_surface, nominal_table, poses, read_surface, spread,

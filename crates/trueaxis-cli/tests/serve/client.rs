@@ -31,6 +31,13 @@ pub fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
+/// What the command line says in JSON, asked in the repository.
+pub fn cli(words: &[&str]) -> Value {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_trueaxis"));
+    let done = command.args(words).args(["--format", "json"]).current_dir(repository()).output();
+    serde_json::from_slice(&done.expect("the command").stdout).expect("JSON")
+}
+
 /// A project with one machine in it.
 pub fn project(name: &str) -> PathBuf {
     let folder = std::env::temp_dir().join(format!("trueaxis-serve-{name}-{}", std::process::id()));
@@ -75,6 +82,13 @@ pub struct Answer {
 impl Answer {
     pub fn json(&self) -> Value {
         serde_json::from_slice(&self.body).expect("JSON")
+    }
+
+    /// The header of a binary answer.
+    pub fn header(&self) -> Value {
+        let (length, rest) = self.body.split_first_chunk().expect("a length");
+        let length = u32::from_le_bytes(*length) as usize;
+        serde_json::from_slice(&rest[..length]).expect("a JSON header")
     }
 }
 

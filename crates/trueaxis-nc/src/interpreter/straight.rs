@@ -160,7 +160,9 @@ impl Run<'_> {
         let x_mm = if modes.diameter { unit_mm / 2.0 } else { unit_mm };
         let common = Straight { unit_mm, x_mm, incremental: modes.incremental };
         let mut origin = Origin { program: program as u32, line };
-        while let Some(next) = self.straight_line(&common, source, at, origin) {
+        while !self.settings.stop.is_asked()
+            && let Some(next) = self.straight_line(&common, source, at, origin)
+        {
             // What comes may have to tell where this line was.
             (self.start, self.origin) = (at, origin);
             at = next;

@@ -12,7 +12,9 @@ use trueaxis::machine::axis::AxisKind;
 use trueaxis::machine::heat::Conditions;
 use trueaxis::part::fit::circle::Zone;
 use trueaxis::predict::holes::{is_hole_study, predict_holes, read_hole_study};
-use trueaxis::predict::{Prediction, SectionResult, Study, WhatIf, predict, read_study};
+use trueaxis::predict::{
+    Error, Prediction, SectionResult, Study, WhatIf, predict, preview, read_study,
+};
 use trueaxis::report;
 
 /// The whole prediction, as `trueaxis predict --no-report` computes it.
@@ -23,12 +25,11 @@ pub(super) fn whole(desk: &Desk, body: &Value, job: &Job) -> Result<Reply, Refus
         return holes(&path);
     }
     let (study, problems) = study(&path)?;
-    let samples = study.sampling.map_or(0, |s| s.samples).max(1);
-    let tell = |done: usize| job.tell(done as f64 / samples as f64);
-    predicted(desk, &study, &problems, &tell)
+    let prediction = predicted(&study, job)?;
+    Ok(Reply::Frame(frame(desk, &study, &prediction, &problems)))
 }
 
-/// The same without drawing machines, and with changes: as fast as somebody drags a slider.
+/// The same without drawing machines and seeking corrections, and with changes: as fast as somebody drags a slider.
 pub(super) fn what_if(desk: &Desk, body: &Value, _: &Job) -> Result<Reply, Refusal> {
     let known = ["study", "errors", "setting_deg", "tool_length_mm", "temperature"];
     let body = Body::of(body, &known)?;
@@ -46,10 +47,12 @@ pub(super) fn what_if(desk: &Desk, body: &Value, _: &Job) -> Result<Reply, Refus
     };
     let study = changes.put(study, &mut problems).filter(|_| !problems.has_errors());
     let Some(study) = study else { return Err(Refusal::unusable(&problems)) };
-    predicted(desk, &study, &problems, &|_| ())
+    let prediction = preview(&study).map_err(|e| refused(&e))?;
+    Ok(Reply::Frame(frame(desk, &study, &prediction, &problems)))
 }
 
-fn study(path: &Path) -> Result<(Study, Diagnostics), Refusal> {
+/// A study that may be predicted, and what was found in its file.
+pub(super) fn study(path: &Path) -> Result<(Study, Diagnostics), Refusal> {
     let (study, problems) = read_study(path);
     match study.filter(|_| !problems.has_errors()) {
         Some(study) => Ok((study, problems)),
@@ -57,16 +60,19 @@ fn study(path: &Path) -> Result<(Study, Diagnostics), Refusal> {
     }
 }
 
-fn predicted(
-    desk: &Desk,
-    study: &Study,
-    problems: &Diagnostics,
-    tell: &(dyn Fn(usize) + Sync),
-) -> Result<Reply, Refusal> {
-    let prediction = predict(study, tell).map_err(|e| {
-        let hint = "change the setting, the tool or the mounting, and ask again";
-        Refusal::new(422, e.code(), e.to_string(), hint)
-    })?;
+/// The prediction, with its progress through the Monte Carlo samples.
+pub(super) fn predicted(study: &Study, job: &Job) -> Result<Prediction, Refusal> {
+    let samples = study.sampling.map_or(0, |s| s.samples).max(1);
+    let tell = |done: usize| job.tell(done as f64 / samples as f64);
+    predict(study, &tell).map_err(|e| refused(&e))
+}
+
+fn refused(error: &Error) -> Refusal {
+    let hint = "change the setting, the tool or the mounting, and ask again";
+    Refusal::new(422, error.code(), error.to_string(), hint)
+}
+
+fn frame(desk: &Desk, study: &Study, prediction: &Prediction, problems: &Diagnostics) -> Frame {
     let machine = &study.machine;
     let rotary = machine.axes().iter().filter(|a| a.kind == AxisKind::Rotary);
     let errors = machine.stated_errors().into_iter().map(|(_, name)| {
@@ -74,7 +80,7 @@ fn predicted(
     });
     let frame = Frame::new()
         .say("kind", json!("test-piece"))
-        .say("document", report::json(study, &prediction))
+        .say("document", report::json(study, prediction))
         .say("machine", json!(desk.project.name_of(&study.machine_path)))
         .say("rotary", rotary.map(|a| a.name.to_string()).collect())
         .say("tool_length_mm", json!(-machine.tip_mm().z))
@@ -82,7 +88,7 @@ fn predicted(
         .say("sensors", machine.heat().sensors().into())
         .say("sections", prediction.sections.iter().map(section_json).collect())
         .say("diagnostics", diagnostics_json(problems).into());
-    Ok(Reply::Frame(with_sections(frame, &prediction)))
+    with_sections(frame, prediction)
 }
 
 /// Height and fitted circles; the points of all sections stand in the arrays, one after the other.

@@ -1,11 +1,13 @@
-//! What requests say of errors and settings, as the library takes it.
+//! What requests say of errors, settings and controls, as the library takes it.
 
 use crate::body::{Body, short};
 use crate::refusal::Refusal;
 use serde_json::Value;
 use trueaxis::geometry::input::{Dimension, parse_quantity};
 use trueaxis::machine::errors::ErrorName;
+use trueaxis::nc::Control;
 use trueaxis::predict::ErrorChange;
+use trueaxis::simulate::{CONTROLS, control_named};
 
 /// `{"EC0Y": {"factor": 0, "add": "5 urad"}}`; each part may be left out.
 pub(super) fn errors(body: &Body<'_>, key: &str) -> Result<Vec<ErrorChange>, Refusal> {
@@ -34,4 +36,12 @@ fn error(name: &str, change: &Value) -> Result<ErrorChange, Refusal> {
 pub(super) fn setting(body: &Body<'_>, key: &str) -> Result<Vec<(String, f64)>, Refusal> {
     let angles = body.numbers(key)?.into_iter();
     Ok(angles.map(|(letter, deg)| (letter.to_owned(), deg.to_radians())).collect())
+}
+
+/// `dialect`, as `--dialect` of the command line.
+pub(super) fn control(body: &Body<'_>) -> Result<Control, Refusal> {
+    let name = body.optional_text("dialect")?.unwrap_or("sinumerik");
+    control_named(name).ok_or_else(|| {
+        Refusal::bad(format!("`{}` is no control that is known", short(name)), CONTROLS)
+    })
 }

@@ -117,7 +117,8 @@ fn unless_outside(path: &Path, error: io::Error) -> io::Error {
     }
 }
 
-#[cfg(all(test, unix))]
+#[cfg(test)]
+#[cfg(unix)]
 mod tests {
     use super::*;
     use crate::files::{self, read_bytes, write};

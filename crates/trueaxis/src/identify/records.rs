@@ -29,46 +29,88 @@ impl Records {
     }
 }
 
+/// A table of readings that stands in no file of the campaign.
+#[derive(Debug, Clone, Copy)]
+pub struct Dropped<'a> {
+    /// The instrument of the campaign whose tables it replaces.
+    pub instrument: usize,
+    /// What messages call it.
+    pub name: &'a str,
+    /// The table (CSV).
+    pub text: &'a str,
+}
+
 /// Reads all tables of a campaign; a table that is there twice is refused.
 pub fn read_records(campaign: &Campaign, problems: &mut Diagnostics) -> Option<Records> {
+    read_records_with(campaign, None, problems)
+}
+
+/// The same with a table in place of those of one instrument.
+pub fn read_records_with(
+    campaign: &Campaign,
+    dropped: Option<Dropped<'_>>,
+    problems: &mut Diagnostics,
+) -> Option<Records> {
     let mut records = Records::default();
     let mut texts: Vec<(String, String)> = Vec::new();
     let mut sound = true;
-    for (index, (instrument, tables)) in
-        campaign.instruments.iter().zip(&campaign.tables).enumerate()
-    {
-        for path in tables {
-            let file = path.display().to_string();
-            let Some(text) = files::text(path, "a table of readings (CSV)", problems) else {
-                sound = false;
-                continue;
-            };
-            if let Some((twin, _)) = texts.iter().find(|(_, known)| *known == text) {
-                let message = format!("the same readings as in {twin}");
-                let hint = "name every table once: readings that count twice look too sure";
-                problems.error("duplicate-file", Place::whole(&file), message, hint);
-                sound = false;
-                continue;
-            }
-            let table = CsvTable::parse(&file, &text, problems);
-            texts.push((file.clone(), text));
-            let index = u32::try_from(index).unwrap_or(u32::MAX);
-            match Readings::parse(&table, &campaign.machine, instrument, index, problems) {
-                Some(read) => {
-                    records.tables.push((records.readings.len(), file));
-                    records.readings.append(&read);
-                }
-                None => sound = false,
-            }
-        }
-        if tables.is_empty() {
-            let message = format!("the instrument {} has no readings", instrument.name);
+    for (index, tables) in campaign.tables.iter().enumerate() {
+        let read = match dropped.filter(|dropped| dropped.instrument == index) {
+            Some(table) => vec![(table.name.to_owned(), Some(table.text.to_owned()))],
+            None => tables
+                .iter()
+                .map(|path| {
+                    let text = files::text(path, "a table of readings (CSV)", problems);
+                    (path.display().to_string(), text)
+                })
+                .collect(),
+        };
+        if read.is_empty() {
+            let message =
+                format!("the instrument {} has no readings", campaign.instruments[index].name);
             let hint = "readings = \"FILE.csv\" in its section; it is left out";
             let place = Place::whole(&campaign.path.display().to_string());
             problems.warn("no-readings", place, message, hint);
         }
+        for (file, text) in read {
+            sound &= text.is_some_and(|text| {
+                !is_twin(&file, &text, &texts, problems) && {
+                    let table = CsvTable::parse(&file, &text, problems);
+                    texts.push((file, text));
+                    records.add(campaign, index, &table, problems).is_some()
+                }
+            });
+        }
     }
     (sound && !problems.has_errors()).then_some(records)
+}
+
+/// Whether the same readings came before, which is an error.
+fn is_twin(file: &str, text: &str, known: &[(String, String)], problems: &mut Diagnostics) -> bool {
+    let twin = known.iter().find(|(_, known)| known == text);
+    if let Some((twin, _)) = twin {
+        let message = format!("the same readings as in {twin}");
+        let hint = "name every table once: readings that count twice look too sure";
+        problems.error("duplicate-file", Place::whole(file), message, hint);
+    }
+    twin.is_some()
+}
+
+impl Records {
+    /// One table of one instrument.
+    fn add(
+        &mut self,
+        campaign: &Campaign,
+        index: usize,
+        table: &CsvTable,
+        problems: &mut Diagnostics,
+    ) -> Option<()> {
+        let (instrument, number) = (&campaign.instruments[index], u32::try_from(index).ok()?);
+        let read = Readings::parse(table, &campaign.machine, instrument, number, problems)?;
+        self.tables.push((self.readings.len(), table.file.clone()));
+        self.readings.append(&read);
+        Some(())
+    }
 }
 
 /// Poses are written with four decimals: what is seen ten thousand times less than the best

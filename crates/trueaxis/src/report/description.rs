@@ -53,7 +53,7 @@ fn link_json(link: &DescribedLink<'_>) -> Value {
     let direction = link.axis.map_or(Vec3::z(), |a| a.direction);
     let limit = |value: Option<f64>| link.axis.zip(value).map(|(a, v)| rounded(shown(a, v)));
     let limits = link.axis.map(|a| a.limits).unwrap_or_default();
-    let unit = link.axis.map(|a| super::unit(a));
+    let unit = link.axis.map(super::unit);
     let mut document = json!({
         "name": link.body.name.to_string(),
         "kind": kind,

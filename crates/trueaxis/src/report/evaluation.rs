@@ -20,14 +20,19 @@ pub struct Evaluation<'a> {
 }
 
 /// A table with a title; the first column is text.
-pub(super) struct Block {
+pub struct Block {
+    /// Above it.
     pub title: String,
+    /// Below it.
     pub note: &'static str,
+    /// The first line, with units.
     pub headings: Vec<String>,
+    /// The cells.
     pub rows: Vec<Vec<String>>,
 }
 
 impl Block {
+    /// A table without rows.
     pub fn new(title: &str, note: &'static str, headings: &[&str]) -> Self {
         let headings = headings.iter().map(|h| (*h).to_owned()).collect();
         Self { title: title.to_owned(), note, headings, rows: Vec::new() }
@@ -41,16 +46,18 @@ impl Block {
 }
 
 /// What all reports of an evaluation show, in their order.
-pub(super) struct Sheets {
+pub struct Sheets {
     /// Before the pictures.
     pub figures: Vec<Block>,
     /// Behind them.
     pub details: Vec<Block>,
+    /// Between them.
     pub pictures: Vec<Picture>,
 }
 
 impl Evaluation<'_> {
-    pub(super) fn sheets(&self) -> Sheets {
+    /// Tables and pictures.
+    pub fn sheets(&self) -> Sheets {
         match self.evaluated {
             Evaluated::Positioning(measurement, result) => {
                 super::evaluation_positioning::sheets(self.standard, measurement, result)

@@ -103,7 +103,8 @@ impl IdentificationReport<'_> {
         remarks
     }
 
-    pub(super) fn correlation(&self, a: usize, b: usize) -> f64 {
+    /// The correlation of two unknowns by their numbers, −1 to 1.
+    pub fn correlation(&self, a: usize, b: usize) -> f64 {
         let c = &self.found.fit.covariance;
         c[(a, b)] / (c[(a, a)] * c[(b, b)]).sqrt().max(1e-300)
     }

@@ -3,16 +3,13 @@
 use super::identification::{
     IdentificationReport, MOST_TOLD, conventions_text, rms_words, shown, unit, value_words,
 };
+use super::identification_arrows::Arrow;
 use super::page::{THREE, document};
 use crate::identify::errors::Found;
 use maud::{Markup, PreEscaped, html};
 use std::fmt::Write as _;
 use trueaxis_geometry::Vec3;
-use trueaxis_machine::axis::{AxisKind, iso_841_direction};
-use trueaxis_machine::errors::ErrorValues;
 
-/// Most arrows of a picture; of more readings every n-th is shown.
-const MOST_ARROWS: usize = 400;
 /// Most unknowns of the correlation map.
 const MOST_MAPPED: usize = 60;
 
@@ -63,55 +60,11 @@ fn score_section(report: &IdentificationReport<'_>) -> Markup {
     }
 }
 
-/// A reading as an arrow: where the linear axes stand, how far off; mm, in the frame of the machine.
-struct Arrow {
-    at: Vec3,
-    before: Vec3,
-    after: Vec3,
-}
-
-/// The residual along what the instruments see.
-fn arrows(report: &IdentificationReport<'_>) -> Vec<Arrow> {
-    let (design, readings) = (&report.found.design, &report.records.readings);
-    let none = ErrorValues::default();
-    let step = readings.len().div_ceil(MOST_ARROWS).max(1);
-    let rows = (0..readings.len()).step_by(step);
-    rows.filter_map(|i| {
-        let instrument = &design.instruments[readings.instruments[i] as usize];
-        if instrument.sight.is_angle() {
-            return None;
-        }
-        let (machine, command) = (&design.machine, &readings.commands[i]);
-        let view = instrument.view(machine, command, &none, readings.directions[i]);
-        let wrenches = instrument.wrenches(&view);
-        let vector = |r: &[f64; 3]| {
-            (0..instrument.sight.channels()).map(|c| wrenches[c].force * r[c]).sum::<Vec3>()
-        };
-        // What the machine's axes do: in the frame of the machine.
-        let on_bed = machine.tool_on_bed(command, &none);
-        let turn = on_bed.linear() * view.nominal.linear().transpose();
-        let turn = match instrument.reference {
-            trueaxis_machine::twist::Reference::Bed => trueaxis_geometry::Mat3::identity(),
-            trueaxis_machine::twist::Reference::Workpiece => turn,
-        };
-        let axes = machine.axes().iter().zip(command);
-        let linear = axes.filter(|(axis, _)| axis.kind == AxisKind::Linear);
-        let at = linear.map(|(axis, q)| iso_841_direction(axis.name) * *q).sum();
-        let residuals = &report.found.residuals;
-        Some(Arrow {
-            at,
-            before: turn * vector(&residuals.before[i]),
-            after: turn * vector(&residuals.after[i]),
-        })
-    })
-    .collect()
-}
-
 fn arrow_section(report: &IdentificationReport<'_>) -> Markup {
-    let arrows = arrows(report);
+    let arrows = report.arrows();
     let longest =
         |of: fn(&Arrow) -> Vec3| arrows.iter().map(of).map(|v| v.norm()).fold(0.0, f64::max);
-    let (before, after) = (longest(|a| a.before), longest(|a| a.after));
+    let (before, after) = (longest(|a| a.before_mm), longest(|a| a.after_mm));
     if arrows.is_empty() || before <= 0.0 {
         return html! {};
     }
@@ -127,12 +80,12 @@ fn arrow_section(report: &IdentificationReport<'_>) -> Markup {
             h2 { "Residuals where the linear axes stand, in the frame of the machine" }
             p { "Without the errors sought, enlarged " (large) " times; the longest is "
                 (format!("{:.2} µm", before * 1e3)) "." }
-            div.grid style=(THREE) { @for p in row(|a| a.before, large) { (PreEscaped(p)) } }
+            div.grid style=(THREE) { @for p in row(|a| a.before_mm, large) { (PreEscaped(p)) } }
             p { "After identification, enlarged " (small) " times; the longest is "
                 (format!("{:.2} µm", after * 1e3)) "." }
-            div.grid style=(THREE) { @for p in row(|a| a.after, small) { (PreEscaped(p)) } }
+            div.grid style=(THREE) { @for p in row(|a| a.after_mm, small) { (PreEscaped(p)) } }
             p { "The same at the exaggeration of the first row." }
-            div.grid style=(THREE) { @for p in row(|a| a.after, large) { (PreEscaped(p)) } }
+            div.grid style=(THREE) { @for p in row(|a| a.after_mm, large) { (PreEscaped(p)) } }
         }
     }
 }
@@ -145,7 +98,7 @@ fn round_down(value: f64) -> f64 {
 
 fn span(arrows: &[Arrow]) -> f64 {
     let range = |i: usize| {
-        let all = arrows.iter().map(|a| a.at[i]);
+        let all = arrows.iter().map(|a| a.at_mm[i]);
         let (low, high) = all.fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(v), h.max(v)));
         high - low
     };
@@ -162,7 +115,7 @@ fn picture(
     let room = 54.0;
     let span = 1.35 * span(arrows);
     let middle = |i: usize| {
-        let all = arrows.iter().map(|a| a.at[i]);
+        let all = arrows.iter().map(|a| a.at_mm[i]);
         let (low, high) = all.fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(v), h.max(v)));
         0.5 * (low + high)
     };
@@ -197,17 +150,17 @@ fn picture(
         );
     }
     for arrow in arrows {
-        let to = arrow.at + of(arrow) * by;
+        let to = arrow.at_mm + of(arrow) * by;
         let _ = write!(
             svg,
             "<path d=\"M{:.1} {:.1}L{:.1} {:.1}\" stroke=\"#d55e00\" stroke-width=\"1.2\"/>\
              <circle cx=\"{:.1}\" cy=\"{:.1}\" r=\"1.6\" fill=\"#0072b2\"/>",
-            x(arrow.at[u]),
-            y(arrow.at[v]),
+            x(arrow.at_mm[u]),
+            y(arrow.at_mm[v]),
             x(to[u]),
             y(to[v]),
-            x(arrow.at[u]),
-            y(arrow.at[v])
+            x(arrow.at_mm[u]),
+            y(arrow.at_mm[v])
         );
     }
     svg + "</svg>"

@@ -2,27 +2,12 @@
 
 use super::simulation::clock;
 use crate::identify::design::Design;
-use crate::measure::path::Path;
-use crate::plan::program::ProgramCheck;
-use crate::plan::{Chosen, Expectation, Expected, Plan, Seen};
+use crate::plan::{Chosen, Expectation, Expected, Plan, PlannedPath};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// Lines of a check that are shown.
 const MOST_SHOWN: usize = 5;
-
-/// A path with all that was found of it.
-#[derive(Debug, Clone)]
-pub struct PlannedPath {
-    /// The path.
-    pub path: Path,
-    /// What it sees of each error.
-    pub seen: Vec<Seen>,
-    /// The names of what is read.
-    pub channels: &'static [&'static str],
-    /// What the machine would do with its program, or why there is none.
-    pub check: Result<ProgramCheck, String>,
-}
 
 /// All that is told of a plan.
 #[derive(Debug, Clone)]

@@ -2,9 +2,9 @@
 //! views.
 
 use super::page::{THREE, document};
-use super::plan::{PlanReport, PlannedPath, figure, plan_text, shown_unit};
+use super::plan::{PlanReport, figure, plan_text, shown_unit};
 use super::simulation::clock;
-use crate::plan::{Expectation, Expected};
+use crate::plan::{Expectation, Expected, tools};
 use maud::{Markup, html};
 use trueaxis_geometry::Vec3;
 
@@ -30,7 +30,7 @@ pub fn plan_html(report: &PlanReport<'_>) -> String {
         }
         (hidden(&report.expectation))
         @for planned in &report.paths {
-            section { h2 { "Path " (planned.path.name) } (views(&tools(report, planned))) }
+            section { h2 { "Path " (planned.path.name) } (views(&tools(campaign, &planned.path.stations))) }
         }
         section { h2 { "All figures" } pre { (plan_text(report)) } }
     };
@@ -134,21 +134,4 @@ fn views(tools: &[(Vec3, Vec3)]) -> Markup {
             }
         }
     }
-}
-
-/// Tool point and tool axis at every station, on the workpiece.
-fn tools(report: &PlanReport<'_>, planned: &PlannedPath) -> Vec<(Vec3, Vec3)> {
-    let stations = &planned.path.stations;
-    let campaign = &report.plan.campaign;
-    let none = trueaxis_machine::errors::ErrorValues::default();
-    (0..stations.len())
-        .map(|i| {
-            let own = &campaign.instruments[stations.instruments[i] as usize];
-            let command = &stations.commands[i];
-            let view = own.view(&campaign.machine, command, &none, Vec3::x());
-            let r = view.nominal.linear();
-            let point = r * own.tool_point_mm + view.nominal.shift_mm();
-            (point, r.column(2).into_owned())
-        })
-        .collect()
 }

@@ -18,7 +18,17 @@ pub fn read_program(
     setup: &SetUp,
     problems: &mut Diagnostics,
 ) -> Option<Program> {
-    let mut bytes = files::bytes(path, "an NC program", problems)?;
+    let bytes = files::bytes(path, "an NC program", problems)?;
+    program_of(path, bytes, control.or(setup.control), problems)
+}
+
+/// The program of a text that would stand at a path.
+pub(super) fn program_of(
+    path: &Path,
+    mut bytes: Vec<u8>,
+    control: Option<Control>,
+    problems: &mut Diagnostics,
+) -> Option<Program> {
     let file = path.display().to_string();
     if bytes.starts_with(b"\xEF\xBB\xBF") {
         // Editors put this mark before UTF-8 text; no control reads it.
@@ -35,8 +45,7 @@ pub fn read_program(
         problems.error("empty-program", Place::whole(&file), message, "an NC program is due here");
         return None;
     }
-    let control =
-        control.or(setup.control).or_else(|| by_extension(path)).or_else(|| sniff(&bytes));
+    let control = control.or_else(|| by_extension(path)).or_else(|| sniff(&bytes));
     let Some(control) = control else {
         let message = "neither its name nor its first lines say which control it is for".to_owned();
         let hint = format!("give --control {CONTROLS}");

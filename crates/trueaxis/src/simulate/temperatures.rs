@@ -11,7 +11,9 @@ use trueaxis_machine::heat::{TemperatureRun, WarmingMachine};
 pub(super) struct Present {
     machine: Machine,
     warming: Option<WarmingMachine>,
-    /// Until when it holds, s.
+    /// Since when it holds, s.
+    since_s: f64,
+    /// Until when, s.
     until_s: f64,
 }
 
@@ -24,15 +26,20 @@ impl Present {
     ) -> Option<Self> {
         let Some(run) = run else {
             let machine = machine.clone();
-            return Some(Self { machine, warming: None, until_s: f64::INFINITY });
+            return Some(Self { machine, warming: None, since_s: 0.0, until_s: f64::INFINITY });
         };
         let warming = WarmingMachine::new(machine, run, problems)?;
         let (machine, until_s) = warming.at(0.0)?;
-        Some(Self { machine, warming: Some(warming), until_s })
+        Some(Self { machine, warming: Some(warming), since_s: 0.0, until_s })
     }
 
     pub fn compiled(&self) -> CompiledMachine {
         CompiledMachine::new(&self.machine)
+    }
+
+    /// The time of the program whose temperatures the machine has, s.
+    pub fn since_s(&self) -> f64 {
+        self.since_s
     }
 
     pub fn change_tip(&mut self, tip_mm: Vec3) {
@@ -48,7 +55,7 @@ impl Present {
         match warming.at(time_s) {
             Some((machine, until_s)) => {
                 self.machine = machine.with_tip(self.machine.tip_mm());
-                self.until_s = until_s;
+                (self.since_s, self.until_s) = (time_s, until_s);
                 Ok(true)
             }
             None => {

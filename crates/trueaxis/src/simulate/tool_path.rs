@@ -5,6 +5,7 @@ use super::clock::Stamp;
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::axis::{Approach, Command, MAX_AXES, Travel};
 use trueaxis_machine::batch::{BatchError, Commands, CompiledMachine, DeviationTable};
+use trueaxis_machine::errors::ErrorValues;
 use trueaxis_machine::{Deviation, Machine};
 
 /// Nodes that are worked on together.
@@ -14,6 +15,8 @@ pub(super) const BATCH: usize = 4096;
 pub struct Batch<'a> {
     /// The machine with the tool in the spindle, at the temperatures of this stretch.
     pub machine: &'a Machine,
+    /// The time of the program whose temperatures the machine has, s; 0 without a log.
+    pub since_s: f64,
     /// The tool in the spindle, 0 before the first.
     pub tool: u32,
     /// The nodes.
@@ -43,6 +46,7 @@ impl Batch<'_> {
 /// Evaluates nodes on one machine with one tool; its memory does not grow with the path.
 pub(super) struct ToolPath {
     machine: CompiledMachine,
+    since_s: f64,
     axes: usize,
     positions: [Vec<f64>; MAX_AXES],
     approaches: [Vec<f64>; MAX_AXES],
@@ -59,6 +63,7 @@ impl ToolPath {
         Self {
             axes: machine.machine().axes().len(),
             machine,
+            since_s: 0.0,
             positions: Default::default(),
             approaches: Default::default(),
             poses: DeviationTable::zeros(0),
@@ -76,9 +81,9 @@ impl ToolPath {
         self.tip = None;
     }
 
-    /// The same path goes on with the same tool at other temperatures.
-    pub fn change_temperatures(&mut self, machine: CompiledMachine) {
-        self.machine = machine;
+    /// The same path goes on with the same tool at the temperatures of a time.
+    pub fn change_temperatures(&mut self, machine: CompiledMachine, since_s: f64) {
+        (self.machine, self.since_s) = (machine, since_s);
     }
 
     /// Poses and deviations of nodes; what the machine file cannot tell goes to `faults`.
@@ -97,8 +102,16 @@ impl ToolPath {
         self.split();
         let approaches = self.approaches.each_ref().map(Vec::as_slice);
         let along_path_mm = &self.along_path_mm;
-        let machine = self.machine.machine();
-        Batch { machine, tool, nodes, stamps, poses: &self.poses, along_path_mm, approaches }
+        Batch {
+            machine: self.machine.machine(),
+            since_s: self.since_s,
+            tool,
+            nodes,
+            stamps,
+            poses: &self.poses,
+            along_path_mm,
+            approaches,
+        }
     }
 
     fn fill(&mut self, nodes: &[Node]) {
@@ -174,6 +187,17 @@ pub(super) fn path_frame(tangent: Vec3, axis: Vec3) -> [Vec3; 3] {
         (other - tangent * tangent.dot(&other)).normalize()
     });
     [tangent, normal, tangent.cross(&normal)]
+}
+
+/// The errors at a command; where the machine file ends before it, those of the end of the travel,
+/// or none.
+pub(super) fn errors_near(
+    machine: &Machine,
+    command: &Command,
+    approach: &Approach,
+) -> ErrorValues {
+    let inside = || machine.errors_at(&within_travel(machine, command), approach);
+    machine.errors_at(command, approach).or_else(|_| inside()).unwrap_or_default()
 }
 
 /// The nearest command within the travel.

@@ -1,5 +1,7 @@
 //! What is known beside the readings: a small TOML file next to the data.
 
+use crate::files;
+use std::path::Path;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::input::{Diagnostics, Dimension, Item, Measured, Section, Source};
 
@@ -58,6 +60,17 @@ pub struct Conditions {
     pub circle: Circle,
     /// Edges of the volume whose diagonals were measured, mm.
     pub edges_mm: Option<Vec3>,
+}
+
+/// Reads a file of conditions; without one, or if it cannot be read, nothing is known.
+pub fn read_conditions(path: Option<&Path>, problems: &mut Diagnostics) -> Conditions {
+    let what = "a file of conditions (TOML)";
+    let Some((path, text)) = path.and_then(|p| Some((p, files::text(p, what, problems)?))) else {
+        return Conditions::default();
+    };
+    let (conditions, found) = Conditions::read(&path.display().to_string(), &text);
+    problems.append(found);
+    conditions
 }
 
 impl Conditions {

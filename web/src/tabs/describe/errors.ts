@@ -1,0 +1,106 @@
+/** All errors of the machine: search, filter by body, sort, edit in place. */
+
+import type { ErrorEntry, Link, PoseDocument } from "../../api.ts";
+import { fill, h } from "../../dom.ts";
+import type { Positions } from "./axes.ts";
+import { ErrorRow, sizeOf, type RowActions } from "./row.ts";
+import { errorWords } from "./words.ts";
+
+type Key = "chain" | "value" | "u" | "share";
+
+const HEADS: readonly { key: Key | null; title: string; hint: string; class?: string }[] = [
+  { key: "chain", title: "Error", hint: "Sort in the order of the chain" },
+  { key: null, title: "", hint: "", class: "error-words" },
+  { key: "value", title: "Value", hint: "Sort by the greatest amount; of a curve its least and greatest value", class: "number" },
+  { key: "u", title: "u", hint: "Standard uncertainty, the greatest of a curve. U = 2u (k = 2)", class: "number error-u" },
+  { key: null, title: "Over travel", hint: "" },
+  { key: "share", title: "Share now", hint: "What it moves the tool tip by at the present position (length). Sort by it", class: "number" },
+  { key: null, title: "In the file", hint: "" },
+];
+
+export class ErrorTable {
+  readonly element = h("section", { class: "panel errors-panel" });
+  private rows: ErrorRow[] = [];
+  private links: readonly Link[] = [];
+  private key: Key = "chain";
+  private readonly body = h("tbody", {});
+  private readonly heads = h("tr", {});
+  private readonly search = h("input", { type: "text", class: "error-search", placeholder: "Search: EC0Y, tilt, Z …", ariaLabel: "Search errors", oninput: () => this.filter() });
+  private readonly of_body = h("select", { ariaLabel: "Errors of", onchange: () => this.filter() });
+  private readonly all = h("input", { type: "checkbox", onchange: () => this.filter() });
+  private readonly count = h("span", { class: "muted" });
+  private readonly actions: RowActions;
+
+  constructor(actions: RowActions) {
+    this.actions = actions;
+    fill(
+      this.element,
+      h("div", { class: "row errors-tools" }, this.search, this.of_body, h("label", { class: "check" }, this.all, "also not stated"), this.count),
+      h("table", { class: "errors" }, h("thead", {}, this.heads), this.body),
+      h("p", { class: "hint errors-hint" }, "A value with its unit, ± its standard uncertainty: 12 ± 1 urad. Empty takes the error out of the file. Enter keeps, Escape restores."),
+    );
+    this.showHeads();
+  }
+
+  /** Rows that hold what the machine file does not take. */
+  get invalid(): string[] {
+    return this.rows.filter((row) => row.isInvalid).map((row) => row.error.name);
+  }
+
+  show(errors: readonly ErrorEntry[], links: readonly Link[]): void {
+    const same = errors.length === this.rows.length && errors.every((e, i) => this.rows[i]?.error.name === e.name);
+    if (!same) {
+      this.rows = errors.map((error) => new ErrorRow(error, this.actions));
+      fill(this.of_body, h("option", { value: "" }, "all bodies"), links.map((l) => h("option", { value: l.name }, l.kind === "workpiece" ? "workpiece w" : l.kind === "tool" ? "tool t" : `axis ${l.name}`)));
+    }
+    this.links = links;
+    errors.forEach((error, i) => this.rows[i]?.update(error, links));
+    if (!same) this.sort();
+    this.filter();
+  }
+
+  /** What every error does at the present position, and where that is on its curve. */
+  showPose(pose: PoseDocument | null, at: Positions): void {
+    const shares = new Map(pose?.budget.map((entry) => [entry.error, Math.hypot(...entry.tip_um)]));
+    for (const row of this.rows) {
+      row.setShare(pose && row.error.stated ? (shares.get(row.error.name) ?? 0) : null);
+      row.markPosition(at[this.links[row.error.body]?.name ?? ""] ?? null);
+    }
+  }
+
+  private filter(): void {
+    const words = this.search.value.toLowerCase().split(/\s+/).filter(Boolean);
+    let shown = 0;
+    for (const row of this.rows) {
+      const { error } = row;
+      const text = `${error.name} ${errorWords(error, this.links)} ${error.kind} ${error.text ?? ""} ${error.table ?? ""}`.toLowerCase();
+      const there = (error.stated || this.all.checked || row.isInvalid) && (this.of_body.value === "" || this.links[error.body]?.name === this.of_body.value) && words.every((word) => text.includes(word));
+      row.element.hidden = !there;
+      if (there) shown += 1;
+    }
+    const stated = this.rows.filter((row) => row.error.stated).length;
+    this.count.textContent = `${shown} shown, ${stated} stated of ${this.rows.length}`;
+  }
+
+  private sort(): void {
+    const size: Record<Exclude<Key, "chain">, (row: ErrorRow) => number> = { value: (r) => sizeOf(r.error), u: (r) => r.error.u ?? -1, share: (r) => r.share };
+    const key = this.key;
+    const order = key === "chain" ? this.rows : [...this.rows].sort((a, b) => size[key](b) - size[key](a));
+    fill(this.body, order.map((row) => row.element));
+    this.showHeads();
+  }
+
+  private showHeads(): void {
+    fill(
+      this.heads,
+      HEADS.map(({ key, title, hint, class: style }) => {
+        if (key === null) return h("th", { class: style ?? null }, title);
+        const by = (): void => {
+          this.key = key;
+          this.sort();
+        };
+        return h("th", { class: style ?? null, ariaSort: key === this.key ? (key === "chain" ? "ascending" : "descending") : null }, h("button", { class: "sort", title: hint, onclick: by }, title));
+      }),
+    );
+  }
+}
