@@ -257,7 +257,7 @@ class SimulateTab implements TabHandle {
     const choose = h("select", { ariaLabel: "Program", onchange: () => void this.showProgram(Number(choose.value)) }, programs.map((p, i) => h("option", { value: i }, p.name)));
     choose.value = String(this.shown_program);
     const errors = notes.filter((n) => n.severity === "error").length;
-    fill(this.source_head, h("h2", {}, "Source"), programs.length > 1 ? choose : h("code", { class: "muted" }, name), errors > 0 ? h("span", { class: "source-errors" }, errors === 1 ? "1 place underlined" : `${errors} places underlined`) : null);
+    fill(this.source_head, h("h2", {}, "Source"), programs.length > 1 ? choose : h("code", { class: "muted", title: name }, name.replace(/^.*[\\/]/, "")), errors > 0 ? h("span", { class: "source-errors" }, errors === 1 ? "1 place underlined" : `${errors} places underlined`) : null);
     this.source.show(text, notes);
   }
 

@@ -107,7 +107,7 @@ function shortName(path: string): string {
 /** The whole tab takes a dropped program. */
 export function dropTarget(host: HTMLElement, take: (file: File | undefined) => void): void {
   let depth = 0;
-  const over = (on: boolean): void => void host.classList.toggle("drop-over", on);
+  const over = (on: boolean): void => void host.classList.toggle("drop-here", on);
   host.addEventListener("dragenter", (event) => {
     event.preventDefault();
     depth += 1;

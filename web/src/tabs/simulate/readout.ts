@@ -46,7 +46,7 @@ export class Readout {
       h(
         "table",
         { class: "readout-deviation" },
-        h("caption", {}, "Deviation of the tip (µm) in the workpiece and along the path; tilt (µrad)"),
+        h("caption", {}, "Deviation of the tool tip (µm) and tilt of the tool (µrad)"),
         h("thead", {}, heading(DEVIATIONS.map(([, word]) => word))),
         h("tbody", {}, h("tr", { class: "deviation-row" }, DEVIATIONS.map(([key]) => cell(key)))),
       ),

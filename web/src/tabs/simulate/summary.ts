@@ -25,8 +25,8 @@ function verdict(header: SimulationHeader): HTMLElement {
   const errors = header.diagnostics.filter((d) => d.severity === "error").length;
   const words = [...kinds].map(([kind, n]) => `${n} × ${kind.replaceAll("-", " ")}`);
   if (errors > 0) words.unshift(errors === 1 ? "one error in the program" : `${errors} errors in the program`);
-  if (words.length === 0) return h("strong", { class: "verdict good", dataTest: "verdict" }, "Runs: no collision, no over-travel");
-  return h("strong", { class: "verdict bad", dataTest: "verdict" }, `Does not run: ${words.join(", ")}`);
+  if (words.length === 0) return h("strong", { class: "runs good", dataTest: "verdict" }, "Runs: no collision, no over-travel");
+  return h("strong", { class: "runs bad", dataTest: "verdict" }, `Does not run: ${words.join(", ")}`);
 }
 
 export class Summary {
@@ -68,7 +68,7 @@ export class Summary {
     const errors = refusal.diagnostics.filter((d: Diagnostic) => d.severity === "error");
     fill(
       this.element,
-      h("div", { class: "panel-head" }, h("strong", { class: "verdict bad", dataTest: "verdict" }, errors.length > 0 ? `Cannot be simulated: ${errors.length === 1 ? "one error" : `${errors.length} errors`}` : refusal.message)),
+      h("div", { class: "panel-head" }, h("strong", { class: "runs bad", dataTest: "verdict" }, errors.length > 0 ? `Cannot be simulated: ${errors.length === 1 ? "one error" : `${errors.length} errors`}` : refusal.message)),
       refusal.diagnostics.length > 0 ? diagnosticList(refusal.diagnostics.slice(0, MOST_ROWS)) : refusal.hint ? h("p", { class: "hint" }, refusal.hint) : null,
       again ? h("p", { class: "row" }, h("button", { dataTest: "keep-going", onclick: again }, "Simulate all the same"), h("span", { class: "muted" }, "goes on behind each error")) : null,
     );
