@@ -296,7 +296,9 @@ export class Api {
     return new Promise((resolve, reject) => {
       this.pending.set(id, { resolve, reject, onProgress: options.onProgress });
       options.signal?.addEventListener("abort", () => {
-        if (this.pending.delete(id)) reject(new DOMException("aborted", "AbortError"));
+        if (!this.pending.delete(id)) return;
+        if (socket.readyState === WebSocket.OPEN) socket.send(JSON.stringify({ id, stop: true }));
+        reject(new DOMException("aborted", "AbortError"));
       });
       socket.send(JSON.stringify({ id, ask: name, body }));
     });

@@ -7,6 +7,7 @@ import "./style/tabs.css";
 import "./style/describe.css";
 import "./style/measure.css";
 import "./style/predict.css";
+import "./style/simulate.css";
 import { App } from "./app.ts";
 import { startTheme } from "./theme.ts";
 

@@ -36,6 +36,7 @@ import { cssColour, onTheme } from "../theme.ts";
 import { axisArrow } from "./arrows.ts";
 import { PathLayer, SurfaceLayer, type PathData, type SurfaceData } from "./layers.ts";
 import { Overlay } from "./overlay.ts";
+import { drawnByProcessor, Pace } from "./pace.ts";
 import { homePoses, schematic, unitOf } from "./schematic.ts";
 import { geometryOf, matrixOf, standingCone } from "./shapes.ts";
 
@@ -48,6 +49,9 @@ const VIEWS: Record<ViewName, { from: [number, number, number]; label: string; t
   y: { from: [0, -1, 0.0001], label: "Y", title: "Look along Y, from the front (2)" },
   z: { from: [0, -0.0001, 1], label: "Z", title: "Look along Z, from above (3)" },
 };
+
+/** The block that is drawn where no workpiece is known. */
+const STAND_IN = "workpiece";
 
 type Role = "bed" | "linear" | "rotary" | "tool" | "part";
 
@@ -66,6 +70,8 @@ export interface SceneProbe {
   /** Least and greatest corner of the models of a body, in its own frame, mm. */
   boxOf(name: string): number[] | null;
   frames(): number;
+  /** What the Simulate tab shows now: the time, the axis positions, mm and deg, and from where they came, in full. */
+  moment?: () => { time_s: number; axes: Record<string, number>; approach: Record<string, number> } | null;
 }
 
 declare global {
@@ -101,8 +107,7 @@ export class MachineView {
   private poses: { nominal: Float64Array; actual: Float64Array } | null = null;
   private arrows: Group[] = [];
   private materials: Partial<Record<Role | "edge" | "ghost" | "ghost-edge", Material>> = {};
-  /** Most points of a path that are drawn: few where the processor has to draw them. */
-  private budget = 2_000_000;
+  private pace: Pace | null = null;
   private readonly watch: ResizeObserver;
   private readonly stop_theme: () => void;
   private readonly projection = h("button", { onclick: () => this.setOrthographic(this.camera === this.perspective), ariaPressed: "false", title: "Parallel projection (5)" }, "Parallel");
@@ -127,11 +132,9 @@ export class MachineView {
 
   private makeRenderer(): WebGLRenderer | null {
     try {
-      const renderer = new WebGLRenderer({ antialias: true, alpha: true });
-      const gl = renderer.getContext();
-      const info = gl.getExtension("WEBGL_debug_renderer_info");
-      if (info && /swiftshader|llvmpipe|software|basic render/i.test(String(gl.getParameter(info.UNMASKED_RENDERER_WEBGL)))) this.budget = 40_000;
-      renderer.setPixelRatio(Math.min(2, devicePixelRatio));
+      const slow = drawnByProcessor();
+      const renderer = new WebGLRenderer({ antialias: !slow, alpha: true });
+      this.pace = new Pace(renderer, slow, () => this.schedule());
       const canvas = renderer.domElement;
       canvas.tabIndex = 0;
       canvas.setAttribute("role", "img");
@@ -177,6 +180,7 @@ export class MachineView {
     this.addArrows();
     this.addGrid();
     this.ghost_root.visible = false;
+    this.showStandIn();
     if (!keep_view) this.setView("iso");
     this.requestRender();
   }
@@ -252,7 +256,7 @@ export class MachineView {
     const gap = hits[0]?.distance ?? 0;
     const height = gap > 0.12 * u ? gap : 0.32 * u;
     const z = gap > 0.12 * u ? -gap / 2 : height / 2;
-    this.addPart(w, "workpiece", new BoxGeometry(0.62 * u, 0.62 * u, height), new Matrix4().makeTranslation(0, 0, z));
+    this.addPart(w, STAND_IN, new BoxGeometry(0.62 * u, 0.62 * u, height), new Matrix4().makeTranslation(0, 0, z));
     const axes = new AxesHelper(0.5 * u);
     axes.renderOrder = 9;
     body.node.add(axes);
@@ -371,6 +375,7 @@ export class MachineView {
    * every body point times `exaggeration`: R_n + k·(R_a − R_n), o_n + k·(o_a − o_n); k = 1 is true.
    */
   setPoses(nominal: Float64Array, actual: Float64Array, exaggeration = this.k): void {
+    const changed = exaggeration !== this.k || this.poses === null;
     this.poses = { nominal, actual };
     this.k = exaggeration;
     const n = new Matrix4();
@@ -382,11 +387,11 @@ export class MachineView {
       for (let j = 0; j < 16; j++) ghost.elements[j] = (n.elements[j] as number) + exaggeration * ((a.elements[j] as number) - (n.elements[j] as number));
       this.placeBody(i, n, ghost);
     });
-    this.ghost_root.visible = this.ghost_wanted;
-    this.path?.setExaggeration(exaggeration);
-    this.surface?.setExaggeration(exaggeration);
-    this.noteFactor();
-    this.requestRender();
+    if (changed) {
+      this.path?.setExaggeration(exaggeration);
+      this.surface?.setExaggeration(exaggeration);
+    }
+    this.showGhost();
   }
 
   private noteFactor(): void {
@@ -406,7 +411,12 @@ export class MachineView {
 
   setGhostVisible(visible: boolean): void {
     this.ghost_wanted = visible;
-    this.ghost_root.visible = visible && this.poses !== null;
+    this.showGhost();
+  }
+
+  private showGhost(): void {
+    this.ghost_root.visible = this.ghost_wanted && this.poses !== null;
+    this.path?.setGhostVisible(this.ghost_wanted);
     this.noteFactor();
     this.requestRender();
   }
@@ -458,17 +468,31 @@ export class MachineView {
     (this.bodies[w]?.node ?? this.scene).add(this.layers);
   }
 
+  /** More points of a path than this are not drawn. */
+  get mostPathPoints(): number {
+    return this.pace?.most_points ?? 1000;
+  }
+
   /** Draws a tool path in the workpiece; null takes it away. `bar` is its colour bar. */
   setPath(data: PathData | null, bar?: Omit<ColourBarSpec, "range" | "map">): void {
     if (this.path) this.layers.remove(this.path.group);
     this.path?.dispose();
-    this.path = data ? new PathLayer(data, { dim: cssColour("--muted"), ghost: cssColour("--scene-ghost") }, this.budget) : null;
+    this.path = data ? new PathLayer(data, { dim: cssColour("--muted"), ghost: cssColour("--scene-ghost") }, this.mostPathPoints) : null;
+    this.showStandIn();
     if (this.path) {
       this.path.setExaggeration(this.k);
+      this.path.setGhostVisible(this.ghost_wanted);
       this.layers.add(this.path.group);
     }
     this.showBar(this.path && data && bar ? { ...bar, range: this.path.range, map: data.map } : null);
     this.requestRender();
+  }
+
+  /** The block that stands in for an unknown workpiece would hide the path. */
+  private showStandIn(): void {
+    const w = this.machine?.links.findIndex((l) => l.kind === "workpiece") ?? -1;
+    const body = this.bodies[w];
+    for (const node of [...(body?.node.children ?? []), ...(body?.ghost.children ?? [])]) if (node.name === STAND_IN) node.visible = this.path === null;
   }
 
   /** Other values on the same path. */
@@ -518,6 +542,16 @@ export class MachineView {
 
   fit(): void {
     const box = this.bounds();
+    const from = this.camera.position.clone().sub(this.controls?.target ?? new Vector3()).normalize();
+    this.frame(box.getCenter(new Vector3()), from, box);
+  }
+
+  /** The whole tool path fills the picture, with the tool above it. */
+  fitPath(): void {
+    if (!this.path) return;
+    this.scene.updateMatrixWorld(true);
+    const box = this.path.extent().applyMatrix4(this.path.group.matrixWorld);
+    box.expandByScalar(0.15 * box.getSize(new Vector3()).length() + 1);
     const from = this.camera.position.clone().sub(this.controls?.target ?? new Vector3()).normalize();
     this.frame(box.getCenter(new Vector3()), from, box);
   }
@@ -641,6 +675,11 @@ export class MachineView {
 
   /** Draws at the next frame, once. */
   requestRender(): void {
+    this.pace?.moved();
+    this.schedule();
+  }
+
+  private schedule(): void {
     if (this.scheduled) return;
     this.scheduled = true;
     requestAnimationFrame(() => {
@@ -653,6 +692,8 @@ export class MachineView {
     if (this.size.width <= 1 || !this.element.isConnected) return;
     this.scene.updateMatrixWorld();
     this.camera.updateMatrixWorld();
+    const canvas = this.renderer?.domElement;
+    if (canvas) this.path?.setPicture(canvas.width, canvas.height, !this.pace?.hurries);
     this.renderer?.render(this.scene, this.camera);
     this.overlay.update(this.camera, this.size.width, this.size.height);
     this.drawn += 1;
@@ -685,6 +726,7 @@ export class MachineView {
   dispose(): void {
     this.watch.disconnect();
     this.stop_theme();
+    this.pace?.stop();
     this.setPath(null);
     this.setSurface(null);
     this.clearMachine();
