@@ -1,4 +1,5 @@
 mod adapt;
+mod tables;
 
 use crate::arguments::{self, MachineArguments, argument};
 use crate::output::{Answer, Outcome, report, show, tell};
@@ -27,6 +28,8 @@ pub struct Arguments {
 enum What {
     /// Move a path onto the blank that was probed, and show what wall it leaves
     Adapt(adapt::AdaptArguments),
+    /// Tables of a control, read back, and what they leave
+    Tables(tables::TablesArguments),
     /// Values per axis and position, in least increments, to be added to the command
     Values(ValuesArguments),
 }
@@ -94,6 +97,7 @@ enum Format {
 pub fn run(arguments: &Arguments) -> Outcome {
     let arguments = match &arguments.what {
         What::Adapt(arguments) => return adapt::run(arguments),
+        What::Tables(arguments) => return tables::run(arguments),
         What::Values(arguments) => arguments,
     };
     let mut problems = Diagnostics::new();

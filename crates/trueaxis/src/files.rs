@@ -159,6 +159,33 @@ pub fn write(path: &Path, content: &[u8]) -> io::Result<()> {
     part.put_in_place()
 }
 
+/// Writes files into a folder that is new or empty: all of them or none. A folder of another name beside
+/// it is filled, then renamed.
+///
+/// # Errors
+/// Whatever the disk says; what stands in a folder that is not empty stays as it is.
+pub fn write_folder(place: &Path, files: &[(&str, &str)]) -> io::Result<()> {
+    let place = &*writable(place)?;
+    let Some(name) = place.file_name() else {
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "the path names no folder"));
+    };
+    let hidden = format!(".trueaxis-{}-{}.part", std::process::id(), name.display());
+    let part = place.with_file_name(hidden);
+    fs::create_dir(&part)?;
+    let fill = || {
+        for (name, text) in files {
+            let mut file = fs::File::create_new(part.join(name))?;
+            file.write_all(text.as_bytes())?;
+            file.sync_all()?;
+        }
+        // Nothing but an empty folder is replaced.
+        fs::rename(&part, place)
+    };
+    fill().inspect_err(|_| {
+        let _ = fs::remove_dir_all(&part);
+    })
+}
+
 /// A file that is being written beside its place; unless it is put there, it vanishes.
 #[derive(Debug)]
 pub struct Part {
@@ -235,6 +262,20 @@ pub fn remove_parts() {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_folder_is_written_whole_and_over_nothing() {
+        let folder = std::env::temp_dir().join(format!("trueaxis-folder-{}", std::process::id()));
+        fs::create_dir_all(folder.join("empty")).unwrap();
+        for name in ["new", "empty"] {
+            write_folder(&folder.join(name), &[("a", "1"), ("b", "2")]).unwrap();
+            assert_eq!(fs::read(folder.join(name).join("b")).unwrap(), b"2");
+        }
+        assert!(write_folder(&folder.join("new"), &[("c", "3")]).is_err());
+        assert!(write_folder(&folder.join("half"), &[("a", "1"), ("no/b", "2")]).is_err());
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 2);
+        fs::remove_dir_all(folder).unwrap();
+    }
 
     #[test]
     fn nothing_is_left_behind_when_writing_fails() {

@@ -30,6 +30,7 @@ pub mod predict;
 pub mod report;
 pub mod simulate;
 pub mod verify;
+mod volume;
 
 pub use trueaxis_geometry as geometry;
 pub use trueaxis_machine as machine;

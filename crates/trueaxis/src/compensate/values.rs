@@ -205,16 +205,16 @@ fn value(error: f64, increment: f64) -> Option<Value> {
 }
 
 /// How a positive command moves the tool relative to the workpiece, in the workpiece frame.
-enum Sense {
+pub(super) enum Sense {
     Along(Vec3),
     About(Vec3, AboutPose),
 }
 
 /// The nominal attitude of the tool.
-type AboutPose = Mat3;
+pub(super) type AboutPose = Mat3;
 
 impl Sense {
-    fn of(machine: &Machine, axis: usize, command: &Command) -> Self {
+    pub(super) fn of(machine: &Machine, axis: usize, command: &Command) -> Self {
         let nominal = |step: f64| {
             let mut at = *command;
             at[axis] += step;
@@ -235,7 +235,7 @@ impl Sense {
     }
 
     /// How far the tool is off, mm or rad.
-    fn felt(&self, machine: &Machine, command: &Command, errors: &ErrorValues) -> f64 {
+    pub(super) fn felt(&self, machine: &Machine, command: &Command, errors: &ErrorValues) -> f64 {
         match self {
             Self::Along(d) => machine.deviation(command, errors).tip_mm.dot(d),
             Self::About(d, nominal) => {
@@ -283,7 +283,7 @@ fn split(
     [felt(&geometric), felt(&scale), felt(&structure), -felt(&workpiece) + 0.0]
 }
 
-fn body_of(machine: &Machine, axis: usize) -> usize {
+pub(super) fn body_of(machine: &Machine, axis: usize) -> usize {
     // why: every axis moves a body of the chain.
     machine.bodies().iter().position(|b| b.axis == Some(axis)).expect("a body for each axis")
 }

@@ -35,6 +35,9 @@ pub struct Reference {
 #[derive(Debug, Clone)]
 struct Stop {
     command: Command,
+    approach: Approach,
+    /// How far a compensation has moved the nominal tool from where it was programmed: tip (mm), axis.
+    moved: [Vec3; 2],
     errors: ErrorValues,
     u: Uncertainties,
 }
@@ -111,6 +114,33 @@ impl<'a> Cutting<'a> {
         Ok(Self { machine, positions, stops, setting, setting_command, hole })
     }
 
+    /// The same cut with a compensation in the control: what it adds to each command, by the command
+    /// and the direction of travel. The zero is touched, and the hole bored, with it.
+    pub fn compensated(mut self, added: &dyn Fn(&Command, &Approach) -> Command) -> Self {
+        let machine = self.machine;
+        let quantities = machine.uncertain_quantities();
+        let nominal = |command: &Command| machine.deviation(command, &ErrorValues::default());
+        let compensate = |old: &mut Stop| {
+            let mut command = old.command;
+            for (q, c) in command.iter_mut().zip(added(&old.command, &old.approach)) {
+                *q += c;
+            }
+            let (from, to) = (nominal(&old.command), nominal(&command));
+            // Only the sum may lie outside a table, at the end of the travel: then the errors stay.
+            if let Ok(there) = stop(machine, command, &old.approach, (&quantities, None)) {
+                *old = there;
+            }
+            old.command = command;
+            old.moved = [
+                to.nominal_tip.vector() - from.nominal_tip.vector(),
+                to.nominal_axis.vector() - from.nominal_axis.vector(),
+            ];
+        };
+        let hole = self.hole.iter_mut().flat_map(|(ends, _)| ends);
+        self.stops.iter_mut().chain(&mut self.setting).chain(hole).for_each(compensate);
+        self
+    }
+
     /// The ideal tool positions.
     pub fn positions(&self) -> &[ToolPosition] {
         &self.positions
@@ -141,8 +171,12 @@ impl<'a> Cutting<'a> {
     /// s is the distance of the contact from the tip along the tool axis, q₀ the setting command:
     /// the zero was set with the same wrong machine, so its error there is taken off once.
     pub fn cut(&self, change: &Change<'_>, deviations_mm: &mut Vec<Vec3>) -> Datum {
-        let at =
-            |stop: &Stop| self.machine.deviation(&stop.command, &change(&stop.errors, &stop.u));
+        let at = |stop: &Stop| {
+            let mut off = self.machine.deviation(&stop.command, &change(&stop.errors, &stop.u));
+            off.tip_mm += stop.moved[0];
+            off.axis += stop.moved[1];
+            off
+        };
         let zero = self.setting.as_ref().map_or(Vec3::zeros(), |s| at(s).tip_mm);
         deviations_mm.clear();
         for (position, stop) in self.positions.iter().zip(&self.stops) {
@@ -175,7 +209,8 @@ fn stop(
     let errors = machine
         .errors_at(&command, approach)
         .map_err(|source| Error::Table { position, source })?;
-    Ok(Stop { command, errors, u: machine.uncertainties_at(&command, quantities) })
+    let moved = [Vec3::zeros(); 2];
+    Ok(Stop { command, approach: *approach, moved, errors, u: machine.uncertainties_at(&command, quantities) })
 }
 
 /// An axis keeps its side until it turns round.

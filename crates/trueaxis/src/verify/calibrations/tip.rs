@@ -1,14 +1,13 @@
 //! What a change of errors does to the tool over the travel of all axes.
 
+use crate::volume::commands;
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::{Axis, AxisKind, Command, Travel};
+use trueaxis_machine::axis::Command;
 use trueaxis_machine::errors::{ErrorIndex, ErrorName};
 
 /// Poses over the travel of all axes.
 const POSES: u32 = 4096;
-/// An axis without stated ends is looked at this far on both sides: mm.
-const FREE_MM: f64 = 250.0;
 
 /// What one error adds to the change.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,7 +53,7 @@ pub(super) fn tip_change(old: &Machine, new: &Machine) -> TipChange {
     let still = [0.0; 6];
     let indices = indices(old, new);
     let mut alone = vec![0.0_f64; indices.len()];
-    for command in commands(old.axes()) {
+    for command in commands(old.axes(), POSES) {
         let [a, b] = [old, new].map(|machine| machine.errors_at(&command, &still));
         let (Ok(a), Ok(b)) = (a, b) else { continue };
         let (before, after) = (old.deviation(&command, &a), new.deviation(&command, &b));
@@ -114,33 +113,4 @@ fn uncertainty(old: &Machine, new: &Machine, at: &Command) -> f64 {
         }
     }
     variance.sqrt()
-}
-
-/// Poses that fill the travel of all axes evenly: multiples of irrational numbers, and all corners.
-///
-/// The numbers are 1/g, 1/g², … of the root g of gⁿ⁺¹ = g + 1, which leave no direction sparse
-/// (Roberts 2018, after Kronecker).
-fn commands(axes: &[Axis]) -> Vec<Command> {
-    let n = axes.len() as i32;
-    let g = (0..60).fold(2.0_f64, |g, _| (1.0 + g).powf(1.0 / f64::from(n + 1)));
-    let ends: Vec<(f64, f64)> = axes.iter().map(ends).collect();
-    let at = |share: &dyn Fn(usize) -> f64| {
-        let mut command = Command::default();
-        for (i, (from, to)) in ends.iter().enumerate() {
-            command[i] = from + (to - from) * share(i);
-        }
-        command
-    };
-    let corners = (0..1_u32 << n).map(|bits| at(&|i| f64::from(bits >> i & 1)));
-    let inside =
-        (1..=POSES).map(|k| at(&|i| (0.5 + f64::from(k) * g.powi(-(i as i32) - 1)).fract()));
-    corners.chain(inside).collect()
-}
-
-fn ends(axis: &Axis) -> (f64, f64) {
-    match (axis.travel, axis.kind) {
-        (Travel::Between(from, to), _) => (from, to),
-        (_, AxisKind::Rotary) => (-std::f64::consts::PI, std::f64::consts::PI),
-        (_, AxisKind::Linear) => (-FREE_MM, FREE_MM),
-    }
 }

@@ -1,0 +1,179 @@
+//! Where the nodes of a table stand: the fewest that keep the loss of interpolation below a bound.
+
+use super::table::{Node, PER_UNIT, Table};
+use trueaxis_machine::chain::CommandFault;
+
+/// The function is looked at so many places between the ends.
+const LOOKS: i64 = 1024;
+/// Above this many nodes the search goes on in steps of a 32nd, not one by one.
+const ONE_BY_ONE: usize = 64;
+
+/// What a control allows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rule {
+    /// Whether nodes stand at equal distances.
+    pub equal: bool,
+    /// The most nodes of one table.
+    pub most_nodes: usize,
+    /// The least increment of a value, counts.
+    pub increment: f64,
+}
+
+/// Nodes and what is lost between them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Placed {
+    /// In rising order.
+    pub nodes: Vec<Node>,
+    /// The largest difference from the function, counts of the output axis.
+    pub loss: f64,
+}
+
+/// Why there are no nodes.
+#[derive(Debug, Clone, PartialEq)]
+pub enum PlaceFault {
+    /// Even the control's most nodes lose more than the bound; the loss in counts.
+    TooMany(f64),
+    /// Half an increment is more than the bound.
+    Increment,
+    /// The machine's errors are not known there.
+    Machine(CommandFault),
+}
+
+impl From<CommandFault> for PlaceFault {
+    fn from(fault: CommandFault) -> Self {
+        Self::Machine(fault)
+    }
+}
+
+/// A function of a position in counts: what is added rising and falling, in counts.
+pub type Function<'a> = dyn Fn(i64) -> Result<[f64; 2], CommandFault> + 'a;
+
+/// Places nodes from one end to the other.
+///
+/// Free nodes: from each the farthest next one of the looks with which the straight line still holds.
+/// Equal distances: the first number that holds, one by one up
+/// to 64, beyond that within 3 % of the fewest.
+///
+/// # Errors
+/// [`PlaceFault`]
+pub fn place(
+    function: &Function<'_>,
+    (from, to): (i64, i64),
+    (rule, modulo): (Rule, bool),
+    bound: f64,
+) -> Result<Placed, PlaceFault> {
+    if 0.5 * rule.increment > bound {
+        return Err(PlaceFault::Increment);
+    }
+    let places = (0..=LOOKS).map(|i| from + ((to - from) as i128 * i as i128 / LOOKS as i128) as i64);
+    let looks = places.map(|at| Ok((at, function(at)?))).collect::<Result<Vec<_>, CommandFault>>()?;
+    match rule.equal {
+        true => equal(function, &looks, (rule, modulo), bound),
+        false => free(&looks, rule, bound),
+    }
+}
+
+type Look = (i64, [f64; 2]);
+
+fn node((at, [up, down]): &Look, increment: f64) -> Node {
+    let whole = |v: f64| ((v / increment).round() * increment).round() as i64;
+    Node { at: *at, up: whole(*up), down: whole(*down) }
+}
+
+/// The largest difference of a table from the looks.
+fn loss(nodes: &[Node], looks: &[Look], stop_at: f64) -> f64 {
+    let table = Table { input: 0, output: 0, modulo: false, nodes: nodes.to_vec() };
+    let mut most = 0.0_f64;
+    for (at, [up, down]) in looks {
+        let place = *at as f64;
+        let off = (table.at(place, 1.0) - up).abs().max((table.at(place, -1.0) - down).abs());
+        most = most.max(off);
+        if most > stop_at {
+            break;
+        }
+    }
+    most
+}
+
+fn free(looks: &[Look], rule: Rule, bound: f64) -> Result<Placed, PlaceFault> {
+    let mut nodes = vec![node(&looks[0], rule.increment)];
+    let mut start = 0;
+    while start + 1 < looks.len() {
+        let holds = |end: &usize| {
+            let pair = [node(&looks[start], rule.increment), node(&looks[*end], rule.increment)];
+            loss(&pair, &looks[start..=*end], bound) <= bound
+        };
+        // A longer line may hold where a shorter one does not.
+        let end = (start + 1..looks.len()).rev().find(holds).unwrap_or(start + 1);
+        nodes.push(node(&looks[end], rule.increment));
+        start = end;
+    }
+    let lost = loss(&nodes, looks, f64::INFINITY);
+    match nodes.len() > rule.most_nodes || lost > bound {
+        true => Err(PlaceFault::TooMany(lost)),
+        false => Ok(Placed { nodes, loss: lost }),
+    }
+}
+
+fn equal(
+    function: &Function<'_>,
+    looks: &[Look],
+    (rule, modulo): (Rule, bool),
+    bound: f64,
+) -> Result<Placed, PlaceFault> {
+    let (from, to) = (looks[0].0, looks[looks.len() - 1].0);
+    let turn = (360.0 * PER_UNIT) as i64;
+    let mut count = 2;
+    let mut best = f64::INFINITY;
+    while count <= rule.most_nodes {
+        let steps = count as i64 - 1;
+        // A turn closes only if the steps divide it.
+        if !modulo || turn % steps == 0 {
+            let step = (to - from) / steps;
+            let at = (0..count as i64).map(|i| from + i * step);
+            let nodes = at
+                .map(|at| Ok(node(&(at, function(at)?), rule.increment)))
+                .collect::<Result<Vec<_>, CommandFault>>()?;
+            let lost = loss(&nodes, looks, best.max(bound));
+            if lost <= bound {
+                return Ok(Placed { loss: loss(&nodes, looks, f64::INFINITY), nodes });
+            }
+            best = best.min(lost);
+        }
+        count += if count < ONE_BY_ONE || modulo { 1 } else { count / 32 };
+    }
+    Err(PlaceFault::TooMany(best))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RULE: Rule = Rule { equal: false, most_nodes: 256, increment: 1.0 };
+
+    /// 10 µm/m over 1 m is one straight line; the parabola 100 µm·(x/m)² needs √(100/8/1) = 3.5 pieces for 1 µm.
+    #[test]
+    fn as_few_as_the_curvature_asks() {
+        let line = |at: i64| Ok([-1e-5 * at as f64; 2]);
+        let bow = |at: i64| Ok([1e5 * (at as f64 / 1e9).powi(2); 2]);
+        for equal in [false, true] {
+            let rule = (Rule { equal, ..RULE }, false);
+            let placed = place(&line, (0, 1_000_000_000), rule, 1000.0).unwrap();
+            assert_eq!(placed.nodes.len(), 2);
+            assert_eq!(placed.nodes[1].up, -10_000);
+            let placed = place(&bow, (0, 1_000_000_000), rule, 1000.0).unwrap();
+            assert_eq!(placed.nodes.len(), 5, "{placed:?}");
+            assert!(placed.loss <= 1000.0 && placed.loss > 500.0);
+        }
+    }
+
+    #[test]
+    fn what_cannot_be() {
+        let wild = |at: i64| Ok([1e5 * (at as f64 / 1e6).sin(); 2]);
+        let few = (Rule { most_nodes: 10, ..RULE }, false);
+        let fault = place(&wild, (0, 1_000_000_000), few, 1000.0);
+        assert!(matches!(fault, Err(PlaceFault::TooMany(_))), "{fault:?}");
+        let coarse = (Rule { increment: 3000.0, ..RULE }, false);
+        assert_eq!(place(&wild, (0, 1000), coarse, 1000.0), Err(PlaceFault::Increment));
+    }
+}

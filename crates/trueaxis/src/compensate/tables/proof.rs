@@ -1,0 +1,207 @@
+//! What the tables of a control leave: over the volume, of each error alone, of a test piece.
+
+use super::choose::off;
+use super::control::Control;
+use super::lever::{Lever, sum};
+use super::table::Table;
+use super::{TablesError, added};
+use crate::predict::{Cutting, Error, Judge, Study};
+use crate::volume::commands;
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::{Approach, AxisKind, Command, MAX_AXES};
+use trueaxis_machine::errors::{ErrorKind, ErrorName};
+
+/// Poses over the travel of all axes beside the corners, each reached rising and falling.
+const POSES: u32 = 4096;
+/// Poses for each error alone.
+const FEW_POSES: u32 = 96;
+/// Less than this no error does: 1 nm.
+const NOTHING_MM: f64 = 1e-6;
+/// An error counts as represented if this share of what it did is left.
+const SMALL_SHARE: f64 = 0.02;
+
+/// A machine with tables in its control.
+#[derive(Clone, Copy)]
+pub struct Leaves<'a> {
+    /// The machine as it is.
+    pub machine: &'a Machine,
+    /// How its control interpolates.
+    pub control: &'a dyn Control,
+    /// The tables as they were read back.
+    pub tables: &'a [Table],
+}
+
+/// How far the tool is off over the volume.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Left {
+    /// Poses that were looked at, each in two directions.
+    pub poses: usize,
+    /// The largest distance of the tips, mm.
+    pub max_mm: f64,
+    /// Where it is.
+    pub at: Command,
+    /// Root mean square, mm.
+    pub rms_mm: f64,
+    /// The largest angle between the tool axes, rad.
+    pub axis_rad: f64,
+}
+
+/// What one error does alone, and what these tables can leave of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ErrorLoss {
+    /// Which.
+    pub error: ErrorName,
+    /// The most that it moves the tip, mm.
+    pub before_mm: f64,
+    /// The most that is left, mm.
+    pub left_mm: f64,
+    /// Whether the tables represent it.
+    pub represented: bool,
+    /// Where the rest could be put.
+    pub instead: &'static str,
+}
+
+/// What is left over the volume.
+///
+/// # Errors
+/// No pose at all at which the errors are known.
+pub fn left_over(leaves: &Leaves<'_>) -> Result<Left, TablesError> {
+    let mut left = Left::default();
+    let (mut squares, mut count) = (0.0, 0.0);
+    for command in commands(leaves.machine.axes(), POSES) {
+        let mut seen = false;
+        for side in [1.0, -1.0] {
+            let approach = [side; MAX_AXES];
+            let added = leaves.added(&command, &approach);
+            let Some([tip, axis]) = off(leaves.machine, &command, &added, &approach) else { continue };
+            seen = true;
+            squares += tip.norm_squared();
+            count += 1.0;
+            left.axis_rad = left.axis_rad.max(axis.norm());
+            if tip.norm() > left.max_mm {
+                (left.max_mm, left.at) = (tip.norm(), command);
+            }
+        }
+        left.poses += usize::from(seen);
+    }
+    if left.poses == 0 {
+        leaves.machine.errors_at(&Command::default(), &Approach::default())?;
+    }
+    left.rms_mm = (squares / f64::max(count, 1.0)).sqrt();
+    Ok(left)
+}
+
+impl Leaves<'_> {
+    /// What the control adds to a command.
+    pub fn added(&self, command: &Command, approach: &Approach) -> Command {
+        added(self.machine, self.control, self.tables, command, approach)
+    }
+}
+
+/// Each error alone: what tables of these axes, without rounding and with any number of nodes, would leave.
+pub fn error_losses(
+    machine: &Machine,
+    reference: &Command,
+    tables: &[Table],
+    bound_mm: f64,
+    cross: bool,
+) -> Vec<ErrorLoss> {
+    let cold = machine.without_heat();
+    let all = machine.stated_errors();
+    let bare = all.iter().fold(cold.clone(), |m, (index, _)| m.with_error(*index, None));
+    let poses = commands(machine.axes(), FEW_POSES);
+    let mut losses = Vec::new();
+    for (index, error) in all {
+        let stated = cold.bodies()[index.body].stated(index.kind, index.component).cloned();
+        let alone = bare.clone().with_error(index, stated);
+        let Ok(lever) = Lever::new(&alone, *reference) else { continue };
+        let (mut before_mm, mut left_mm) = (0.0_f64, 0.0_f64);
+        for (i, command) in poses.iter().enumerate() {
+            let approach = [if i % 2 == 0 { 1.0 } else { -1.0 }; MAX_AXES];
+            let Some(without) = off(&alone, command, &Command::default(), &approach) else { continue };
+            before_mm = before_mm.max(without[0].norm());
+            let Some(added) = ideal(&lever, tables, command, &approach) else { continue };
+            let Some(with) = off(&alone, command, &added, &approach) else { continue };
+            left_mm = left_mm.max(with[0].norm());
+        }
+        if before_mm > NOTHING_MM {
+            let represented = left_mm <= f64::max(bound_mm.min(0.5 * before_mm), SMALL_SHARE * before_mm);
+            let instead = instead(machine, error, cross);
+            losses.push(ErrorLoss { error, before_mm, left_mm, represented, instead });
+        }
+    }
+    losses.sort_by(|a, b| b.left_mm.total_cmp(&a.left_mm));
+    losses
+}
+
+fn ideal(
+    lever: &Lever<'_>,
+    tables: &[Table],
+    command: &Command,
+    approach: &Approach,
+) -> Option<Command> {
+    let mut total = Command::default();
+    for input in 0..MAX_AXES {
+        let outputs: Vec<usize> =
+            tables.iter().filter(|t| t.input == input).map(|t| t.output).collect();
+        if outputs.is_empty() {
+            continue;
+        }
+        let all = lever.functions(input, command[input], approach[input]).ok()?;
+        let mut some = Command::default();
+        for output in outputs {
+            some[output] = all[output];
+        }
+        total = sum(&total, &some);
+    }
+    Some(total)
+}
+
+/// Where the rest of an error could be put.
+fn instead(machine: &Machine, error: ErrorName, cross: bool) -> &'static str {
+    let axis = machine.axes().iter().find(|a| a.name == error.body);
+    match (error.kind, axis.map(|a| a.kind), error.component.is_rotation()) {
+        (ErrorKind::Location, None, _) => "the work offset, or the tool length and its direction",
+        (ErrorKind::Location, Some(AxisKind::Rotary), _) => {
+            "the control's kinematic parameters (rotary centres and tilts), or the NC program"
+        }
+        (ErrorKind::Location, _, false) => "the zero of the axis",
+        (ErrorKind::Motion, _, true) => {
+            "the NC program; a volumetric compensation for the position alone"
+        }
+        _ if !cross => "a control with cross tables, or the NC program",
+        _ => "the NC program",
+    }
+}
+
+/// An index of a test piece before and after.
+#[derive(Debug, Clone, PartialEq)]
+pub struct IndexLeft {
+    /// Its key.
+    pub key: String,
+    /// Without tables, mm.
+    pub before_mm: f64,
+    /// With the tables as they were read back, mm.
+    pub left_mm: f64,
+}
+
+/// The indices of a test piece cut with the tables; the zero is set with them on.
+///
+/// # Errors
+/// As of [`crate::predict::predict`].
+pub fn piece_left(
+    study: &Study,
+    control: &dyn Control,
+    tables: &[Table],
+) -> Result<Vec<IndexLeft>, Error> {
+    let machine = &study.machine;
+    let plain = |errors: &_, _: &_| *errors;
+    let cutting = Cutting::new(machine, study.piece(), &study.reference)?;
+    let before = Judge { cutting: &cutting, piece: study.piece() }.once(&plain)?;
+    let leaves = Leaves { machine, control, tables };
+    let cutting = cutting.compensated(&|command, approach| leaves.added(command, approach));
+    let after = Judge { cutting: &cutting, piece: study.piece() }.once(&plain)?;
+    let names = study.piece().index_names().iter().map(|n| n.key.to_string());
+    let pairs = names.zip(before.into_iter().zip(after));
+    Ok(pairs.map(|(key, (before_mm, left_mm))| IndexLeft { key, before_mm, left_mm }).collect())
+}

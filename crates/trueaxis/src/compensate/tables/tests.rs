@@ -1,0 +1,193 @@
+use super::*;
+use trueaxis_machine::file::NoTables;
+
+fn machine(axes: &str, errors: &str) -> Machine {
+    let text = format!("[machine]\nname = \"m\"\n{axes}\n[tool]\nlength = \"100 mm\"\n{errors}");
+    let (machine, problems) = Machine::check("m.toml", &text, &NoTables);
+    machine.unwrap_or_else(|| panic!("{problems:?}"))
+}
+
+const THREE: &str = "chain = \"w b X Y Z t\"
+[axis.X]\ntravel = [\"0 mm\", \"1000 mm\"]
+[axis.Y]\ntravel = [\"-200 mm\", \"300 mm\"]
+[axis.Z]\ntravel = [\"-400 mm\", \"0 mm\"]";
+
+const TARGETS: [Target; 4] = [
+    Target::Csv,
+    Target::LinuxCnc { trims: false },
+    Target::LinuxCnc { trims: true },
+    Target::Sinumerik,
+];
+
+fn at(machine: &Machine, compiled: &Compiled, command: [f64; 6], side: f64) -> Command {
+    let control = compiled.order.target.control();
+    let tables = control.read(machine, &compiled.files).unwrap();
+    added(machine, control.as_ref(), &tables, &command, &[side; 6])
+}
+
+/// 10 µm/m: at X = 500 the machine is 5 µm too far, so −5 µm is added, by every control.
+#[test]
+fn ten_micrometres_per_metre() {
+    let errors = "[motion.X]\nEXX = { polynomial = [\"0 um\", \"10 um\"], scale = \"1000 mm\" }";
+    let machine = machine(THREE, errors);
+    for target in TARGETS {
+        let compiled = compile(&machine, &Order::of(target)).unwrap();
+        assert_eq!(compiled.tables.len(), 1, "{target:?}");
+        assert_eq!(compiled.tables[0].table.nodes.len(), 2);
+        for (x, um) in [(0.0, 0.0), (500.0, -5.0), (1000.0, -10.0), (1200.0, -10.0)] {
+            let added = at(&machine, &compiled, [x, 50.0, -7.0, 0.0, 0.0, 0.0], 1.0);
+            assert!((added[0] * 1e3 - um).abs() < 2e-4, "{target:?} {x}: {added:?}");
+        }
+        assert!(compiled.after.max_mm < 1e-6 && (compiled.before.max_mm - 0.010).abs() < 1e-9);
+        assert!((compiled.wrong_sign.max_mm - 0.020).abs() < 1e-6);
+    }
+}
+
+/// A table that stands too far in +X leaves the tool too short: the control adds a positive value.
+#[test]
+fn an_axis_that_carries_the_workpiece() {
+    let axes = THREE.replace("w b X Y Z t", "w X' b Y Z t");
+    let errors = "[motion.X]\nEXX = { polynomial = [\"0 um\", \"10 um\"], scale = \"1000 mm\" }";
+    let machine = machine(&axes, errors);
+    let compiled = compile(&machine, &Order::of(Target::Csv)).unwrap();
+    let added = at(&machine, &compiled, [500.0, 0.0, 0.0, 0.0, 0.0, 0.0], 0.0);
+    assert!((added[0] - 0.005).abs() < 1e-8, "{added:?}");
+}
+
+/// What a control writes: columns of actual positions or trims; Siemens' other sign.
+#[test]
+fn the_files_as_the_controls_want_them() {
+    let errors = "[motion.X]\nEXX = { polynomial = [\"0 um\", \"10 um\"], scale = \"1000 mm\", \
+                  reversal = \"2 um\" }";
+    let machine = machine(THREE, errors);
+    let text = |target, name: &str| {
+        let compiled = compile(&machine, &Order::of(target)).unwrap();
+        compiled.files.iter().find(|f| f.name == name).unwrap().text.clone()
+    };
+    // At X = 1000 the machine is at 1000.011 rising and 1000.009 falling.
+    let actual = text(Target::LinuxCnc { trims: false }, "joint_0_X.comp");
+    assert_eq!(actual, "0.000000 0.001000 -0.001000\n1000.000000 1000.011000 1000.009000\n");
+    let trims = text(Target::LinuxCnc { trims: true }, "joint_0_X.comp");
+    assert_eq!(trims, "0.000000 -0.001000 0.001000\n1000.000000 -0.011000 -0.009000\n");
+    let ini = text(Target::LinuxCnc { trims: true }, "compensation.ini");
+    assert!(ini.contains("[JOINT_0]\nCOMP_FILE = joint_0_X.comp\nCOMP_FILE_TYPE = 1\n"), "{ini}");
+    let cross = text(Target::Sinumerik, "NC_CEC.INI");
+    for line in [
+        "$AN_CEC[0,1]=0.011000",
+        "$AN_CEC_DIRECTION[0]=1",
+        "$AN_CEC[1,1]=0.009000",
+        "$AN_CEC_DIRECTION[1]=-1",
+        "$AN_CEC_OUTPUT_AXIS[1]=(AX1)",
+        "$AN_CEC_MAX[0]=1000.000000",
+    ] {
+        assert!(cross.lines().any(|l| l == line), "{line} in\n{cross}");
+    }
+}
+
+/// Straightness, squareness and positioning of linear axes are functions of one axis each: cross tables
+/// leave no more than the bound of each, and all that is left is what was rounded and interpolated.
+#[test]
+fn what_is_represented_is_gone() {
+    let errors = "[location]\nEC0Y = \"30 urad\"\nEX0X = \"12 um\"\n
+[motion.X]\nEXX = { polynomial = [\"1 um\", \"-20 um\", \"30 um\"], scale = \"1000 mm\" }
+EYX = { polynomial = [\"0 um\", \"5 um\", \"9 um\"], scale = \"1000 mm\" }
+[motion.Y]\nEZY = { polynomial = [\"2 um\", \"0 um\", \"7 um\"], scale = \"300 mm\" }";
+    let machine = machine(THREE, errors);
+    for target in [Target::Csv, Target::Sinumerik] {
+        let order = Order { bound_mm: 0.2e-3, ..Order::of(target) };
+        let compiled = compile(&machine, &order).unwrap();
+        assert!(compiled.errors.iter().all(|e| e.represented), "{:?}", compiled.errors);
+        let losses: f64 = compiled.tables.iter().map(|t| t.loss).sum();
+        assert!(compiled.after.max_mm <= losses + 1e-6, "{:?}", compiled.after);
+        assert!(compiled.after.max_mm < 0.05 * compiled.before.max_mm);
+    }
+    let order = Order::of(Target::LinuxCnc { trims: false });
+    let compiled = compile(&machine, &order).unwrap();
+    let cannot: Vec<String> = compiled.errors.iter().filter(|e| !e.represented).map(|e| e.error.to_string()).collect();
+    assert_eq!(cannot, ["EC0Y", "EYX", "EZY"], "{:?}", compiled.errors);
+    assert!(compiled.after.max_mm > 5e-3);
+}
+
+/// Every format: what is read is what was meant, to the last count; endless axes too.
+#[test]
+fn round_trips() {
+    let axes = "chain = \"w C' b X Y Z t\"\n[axis.C]\ntravel = \"unlimited\"
+[axis.X]\ntravel = [\"-500 mm\", \"500 mm\"]\n[axis.Y]\ntravel = [\"-300 mm\", \"300 mm\"]
+[axis.Z]\ntravel = [\"0 mm\", \"600 mm\"]";
+    let machine = machine(axes, "");
+    let node = |at, up, down| Node { at, up, down };
+    let table = |input, output, nodes: &[table::Node]| Table {
+        input,
+        output,
+        modulo: false,
+        nodes: nodes.to_vec(),
+    };
+    use table::Node;
+    let (x, y) = (1, 2);
+    let own = [
+        table(0, 0, &[node(-90_000_000, 5, 5), node(0, -1, -1), node(90_000_000, 7, 7)]),
+        table(x, x, &[node(-500_000_000, 1234, -99), node(0, 7, 8), node(500_000_000, -4321, 0)]),
+        table(y, y, &[node(-300_000_000, 0, 0), node(300_000_000, -123_456, -123_456)]),
+    ];
+    let cross = [
+        table(x, y, &[node(-500_000_000, 1, 1), node(500_000_000, -2, -2)]),
+        table(y, x, &[node(-300_000_000, 10, -10), node(300_000_000, -20, 20)]),
+    ];
+    let around = Table {
+        modulo: true,
+        ..table(0, x, &[node(0, 4, 4), node(180_000_000, -9, -9), node(360_000_000, 4, 4)])
+    };
+    for target in TARGETS {
+        let control = target.control();
+        let mut tables = own.to_vec();
+        if control.has_cross_tables() {
+            tables.extend(cross.iter().cloned().chain([around.clone()]));
+        }
+        let files = control.write(&machine, &tables);
+        assert_eq!(recovered(&machine, control.as_ref(), &tables, &files).unwrap(), {
+            let mut sorted = tables.clone();
+            sorted.sort_by_key(|t| (t.input, t.output));
+            sorted
+        });
+        // A spoiled file is refused by its name, not read as something else.
+        for file in 0..files.len() {
+            let mut spoiled = files.clone();
+            spoiled[file].text = spoiled[file].text.replace(".", ",");
+            let read = control.read(&machine, &spoiled);
+            let name = &files[file].name;
+            let untouched = spoiled[file].text == files[file].text || name.ends_with(".ini");
+            assert!(untouched || read.is_err_and(|e| &e.file == name), "{name}");
+        }
+    }
+}
+
+#[test]
+fn what_is_refused() {
+    let steep = "[motion.X]\nEXX = { polynomial = [\"0 um\", \"1500 um\"], scale = \"1000 mm\" }";
+    let error = compile(&machine(THREE, steep), &Order::of(Target::Csv)).unwrap_err();
+    assert!(matches!(error, TablesError::TooLarge { .. }), "{error}");
+    let free = THREE.replace("[axis.Z]\ntravel = [\"-400 mm\", \"0 mm\"]", "");
+    let error = compile(&machine(&free, steep), &Order::of(Target::LinuxCnc { trims: false }));
+    assert!(error.is_err());
+    // 256 rows do not follow 60 waves of 100 µm to 0.01 µm.
+    let wavy = "[motion.X]\nEXX = { harmonics = [{ order = 60, amplitude = \"100 um\", phase = \"0 deg\" }], \
+                period = \"1000 mm\" }";
+    let (parsed, _) = Machine::check("m.toml", &format!("[machine]\nname = \"m\"\n{THREE}\n{wavy}"), &NoTables);
+    if let Some(machine) = parsed {
+        let order = Order { bound_mm: 1e-5, ..Order::of(Target::LinuxCnc { trims: false }) };
+        let error = compile(&machine, &order).unwrap_err();
+        assert!(matches!(error, TablesError::TooManyNodes { most: 256, .. }), "{error}");
+    }
+    let order = Order { bound_mm: 1e-5, ..Order::of(Target::Sinumerik) };
+    let gentle = "[motion.X]\nEXX = { polynomial = [\"0 um\", \"10 um\"], scale = \"1000 mm\" }";
+    let error = compile(&machine(THREE, gentle), &order).unwrap_err();
+    assert!(matches!(error, TablesError::Increment { .. }), "{error}");
+}
+
+#[test]
+fn what_is_not_known_well_enough_stays_out() {
+    let errors = "[motion.X]\nEXX = { polynomial = [\"0 um\", \"2 um\"], scale = \"1000 mm\", u = \"3 um\" }";
+    let compiled = compile(&machine(THREE, errors), &Order::of(Target::Csv)).unwrap();
+    assert!(compiled.tables.is_empty());
+    assert!(compiled.left_out[0].reason.contains("uncertainty"), "{:?}", compiled.left_out);
+}

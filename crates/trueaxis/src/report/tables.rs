@@ -1,0 +1,217 @@
+//! Compensation tables and what they leave, as text and JSON.
+
+use crate::compensate::tables::proof::{ErrorLoss, IndexLeft, Left};
+use crate::compensate::tables::{Compiled, LeftOut, Made, shown};
+use crate::describe::to_shown;
+use serde_json::{Map, Value as Json, json};
+use std::fmt::Write;
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::{AxisKind, Command};
+
+/// What there is to tell.
+pub struct TablesReport<'a> {
+    /// The machine.
+    pub machine: &'a Machine,
+    /// The tables.
+    pub compiled: &'a Compiled,
+    /// The control, as the command line calls it.
+    pub target: &'a str,
+    /// The files as they were written.
+    pub files: &'a [String],
+    /// Study and indices of the test piece.
+    pub piece: Option<(&'a str, &'a [IndexLeft])>,
+}
+
+/// More errors than this tell a reader nothing new.
+const MOST_SHOWN: usize = 12;
+
+/// The tables for people.
+pub fn tables_text(report: &TablesReport<'_>) -> String {
+    let TablesReport { machine, compiled, .. } = report;
+    let name = |axis: usize| machine.axes()[axis].name;
+    let mut text = format!(
+        "{}   {}\n\n{} tables, made with the other axes at {}\n",
+        machine.name(),
+        machine.chain_text(),
+        report.target,
+        place_text(machine, &compiled.reference)
+    );
+    for Made { table, loss, largest } in &compiled.tables {
+        let (moved, nodes) = (&machine.axes()[table.output], table.nodes.len());
+        let both = if table.is_directional() { ", by direction" } else { "" };
+        // Writing to a String cannot fail.
+        let _ = writeln!(
+            text,
+            "  {} moves {}: {nodes} nodes{both}, at most {}, interpolation loses {}",
+            name(table.input),
+            name(table.output),
+            shown(moved, *largest),
+            shown(moved, *loss)
+        );
+    }
+    for LeftOut { input, output, largest, reason } in &compiled.left_out {
+        let size = shown(&machine.axes()[*output], *largest);
+        let _ = writeln!(
+            text,
+            "  left out: {} moves {}, at most {size}: {reason}",
+            name(*input),
+            name(*output)
+        );
+    }
+    text += &left_text(report);
+    text += &errors_text(&compiled.errors);
+    if let Some((study, indices)) = report.piece {
+        let _ = writeln!(text, "\nTest piece {study}, µm without and with the tables");
+        for index in indices {
+            let [a, b] = [index.before_mm, index.left_mm].map(|v| v * 1e3);
+            let _ = writeln!(text, "  {:<34} {a:>9.3} {b:>9.3}", index.key);
+        }
+    }
+    for line in compiled.advice {
+        let _ = writeln!(text, "\nNote: {line}");
+    }
+    for file in report.files {
+        let _ = writeln!(text, "{file}");
+    }
+    text
+}
+
+fn left_text(report: &TablesReport<'_>) -> String {
+    let Compiled { before, after, wrong_sign, .. } = report.compiled;
+    let line = |left: &Left| {
+        format!(
+            "{:9.2} µm at most, {:9.2} µm rms, tool axis {:7.2} µrad",
+            left.max_mm * 1e3,
+            left.rms_mm * 1e3,
+            left.axis_rad * 1e6
+        )
+    };
+    format!(
+        "\nTool tip over the travel of all axes, {} poses, each from both sides, files read back\n  \
+         without tables {}\n  with tables    {}\n  wrong sign     {}\n  the most is left at {}\n",
+        after.poses,
+        line(before),
+        line(after),
+        line(wrong_sign),
+        place_text(report.machine, &after.at)
+    )
+}
+
+fn errors_text(errors: &[ErrorLoss]) -> String {
+    let (represented, not): (Vec<_>, Vec<_>) = errors.iter().partition(|e| e.represented);
+    let names: Vec<String> = represented.iter().map(|e| e.error.to_string()).collect();
+    let mut text = format!("\nRepresented: {}\n", names.join(" "));
+    if !not.is_empty() {
+        text += "Not represented, each alone, µm at the tip\n    error    before      left  instead\n";
+    }
+    for e in not.iter().take(MOST_SHOWN) {
+        let [before, left] = [e.before_mm, e.left_mm].map(|v| v * 1e3);
+        let _ = writeln!(text, "  {:>7} {before:9.2} {left:9.2}  {}", e.error.to_string(), e.instead);
+    }
+    if not.len() > MOST_SHOWN {
+        let _ = writeln!(text, "  … and {} smaller ones", not.len() - MOST_SHOWN);
+    }
+    text
+}
+
+fn place_text(machine: &Machine, command: &Command) -> String {
+    let one = |(i, axis): (usize, &trueaxis_machine::axis::Axis)| {
+        format!("{}={}", axis.name, round(to_shown(machine, i, command[i])))
+    };
+    machine.axes().iter().enumerate().map(one).collect::<Vec<_>>().join(" ")
+}
+
+/// Without the noise of radians.
+fn round(value: f64) -> f64 {
+    (value * 1e6).round() / 1e6 + 0.0
+}
+
+/// The tables as one document.
+pub fn tables_json(report: &TablesReport<'_>) -> Json {
+    let TablesReport { machine, compiled, .. } = report;
+    let (represented, not): (Vec<_>, Vec<_>) = compiled.errors.iter().partition(|e| e.represented);
+    let cannot = not.iter().map(|e| {
+        json!({
+            "error": e.error.to_string(),
+            "before_um": e.before_mm * 1e3,
+            "left_um": e.left_mm * 1e3,
+            "instead": e.instead,
+        })
+    });
+    let piece = report.piece.map(|(study, indices)| {
+        let one = |i: &IndexLeft| {
+            json!({ "index": i.key, "before_um": i.before_mm * 1e3, "left_um": i.left_mm * 1e3 })
+        };
+        json!({ "study": study, "indices": indices.iter().map(one).collect::<Vec<_>>() })
+    });
+    json!({
+        "schema": "trueaxis/compensate-tables/1",
+        "machine": machine.name(),
+        "target": report.target,
+        "files": report.files,
+        "added_to": "command",
+        "reference": place_json(machine, &compiled.reference),
+        "tables": compiled.tables.iter().map(|t| made_json(machine, t)).collect::<Vec<_>>(),
+        "left_out": compiled.left_out.iter().map(|t| out_json(machine, t)).collect::<Vec<_>>(),
+        "represents": represented.iter().map(|e| e.error.to_string()).collect::<Vec<_>>(),
+        "cannot": cannot.collect::<Vec<_>>(),
+        "before_um": left_json(machine, &compiled.before, None),
+        "left_um": left_json(machine, &compiled.after, Some(piece)),
+        "wrong_sign_um": left_json(machine, &compiled.wrong_sign, None),
+        "notes": compiled.advice,
+    })
+}
+
+fn left_json(machine: &Machine, left: &Left, piece: Option<Option<Json>>) -> Json {
+    let mut json = json!({
+        "max": left.max_mm * 1e3,
+        "rms": left.rms_mm * 1e3,
+        "at": place_json(machine, &left.at),
+        "poses": left.poses,
+        "axis_urad": left.axis_rad * 1e6,
+    });
+    if let Some(piece) = piece {
+        json["test_piece"] = piece.unwrap_or(Json::Null);
+    }
+    json
+}
+
+fn place_json(machine: &Machine, command: &Command) -> Json {
+    let one = |(i, axis): (usize, &trueaxis_machine::axis::Axis)| {
+        (axis.name.to_string(), json!(round(to_shown(machine, i, command[i]))))
+    };
+    Json::Object(machine.axes().iter().enumerate().map(one).collect::<Map<_, _>>())
+}
+
+/// The key and the factor of a correction.
+fn unit(machine: &Machine, axis: usize) -> (&'static str, f64) {
+    match machine.axes()[axis].kind {
+        AxisKind::Linear => ("um", 1e3),
+        AxisKind::Rotary => ("urad", 1e6),
+    }
+}
+
+fn made_json(machine: &Machine, made: &Made) -> Json {
+    let Made { table, loss, largest } = made;
+    let (unit, factor) = unit(machine, table.output);
+    let name = |axis: usize| machine.axes()[axis].name.to_string();
+    let mut json = json!({
+        "input": name(table.input),
+        "output": name(table.output),
+        "nodes": table.nodes.len(),
+        "by_direction": table.is_directional(),
+        "modulo": table.modulo,
+    });
+    json[format!("loss_{unit}")] = json!(loss * factor);
+    json[format!("largest_{unit}")] = json!(largest * factor);
+    json
+}
+
+fn out_json(machine: &Machine, out: &LeftOut) -> Json {
+    let (unit, factor) = unit(machine, out.output);
+    let name = |axis: usize| machine.axes()[axis].name.to_string();
+    let mut json =
+        json!({ "input": name(out.input), "output": name(out.output), "reason": out.reason });
+    json[format!("largest_{unit}")] = json!(out.largest * factor);
+    json
+}
