@@ -17,3 +17,6 @@ $trueaxis post machines/i5-engraver/machine.toml examples/06_compensate/bangle.c
 $trueaxis post machines/xkas2525/machine.toml examples/06_compensate/blade.cls --dialect sinumerik --tcp off -o "$out/blade.mpf" --verify
 # A blank as it was probed: the path moved onto it, and the wall that is left (oracles/bangle.py made the example).
 $trueaxis compensate adapt examples/06_compensate/bangle-adapt.toml --report "$out/bangle-adapt.html" --dialect fanuc -o "$out/bangle-adapt.nc" --cl "$out/bangle-adapted.cls"
+# Tables of controls: files, what they represent, what they leave of the tool and of a test piece.
+$trueaxis compensate tables machines/three-axis-mill/machine.toml --target linuxcnc -o "$out/mill-linuxcnc"
+$trueaxis compensate tables machines/xkas2525/machine.toml --target sinumerik -o "$out/xkas-sinumerik" --piece examples/03_predict/nas979-on-xkas2525.toml

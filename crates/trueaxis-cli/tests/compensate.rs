@@ -84,3 +84,64 @@ fn mistakes_are_named() {
         assert!(ran.err.contains(&format!("error[{code}]")), "{code}: {}", ran.err);
     }
 }
+
+/// What the issue asks of the document, and that nothing is half-written.
+#[test]
+fn tables_of_a_control() {
+    let folder = Folder::new("compensate-tables");
+    for (target, files) in [("csv", 1), ("linuxcnc", 4), ("sinumerik", 2)] {
+        let out = folder.path(target);
+        let arguments = ["compensate", "tables", MILL, "--target", target, "-o", &out];
+        let ran = trueaxis(&[&arguments[..], &["--format", "json"]].concat());
+        assert_eq!(ran.status, 0, "{}", ran.err);
+        let found = ran.json();
+        assert_eq!(found["schema"], "trueaxis/compensate-tables/1");
+        assert_eq!(found["target"], target);
+        let written = found["files"].as_array().expect("files");
+        assert_eq!(written.len(), files);
+        assert!(written.iter().all(|f| std::fs::metadata(f.as_str().expect("a path")).is_ok()));
+        assert!(found["represents"].as_array().is_some_and(|r| r.contains(&"EXX".into())));
+        let number = |path: &str| found.pointer(path).and_then(|v| v.as_f64()).expect("a number");
+        let check = &found["tables"][0]["check"];
+        let added = check["added_um"].as_f64().expect("a number");
+        assert!(added.abs() > 5.0 && check["position"].is_number(), "{check}");
+        assert!(number("/left_um/max") < number("/before_um/max"));
+        assert!(number("/wrong_sign_um/rms") > number("/before_um/rms"));
+        assert!(found["left_um"]["test_piece"].is_null());
+        // Nothing is overwritten.
+        let again = trueaxis(&arguments);
+        assert_eq!(again.status, 2);
+        assert!(again.err.contains("unwritable-folder"), "{}", again.err);
+    }
+    for (extra, code) in [
+        (&["--limit", "2 um"][..], "too-large"),
+        (&["--bound", "0.01 um", "--target", "sinumerik"], "bound-below-increment"),
+        (&["--bound", "-1 um"], "not-positive"),
+        (&["--bound", "nan um"], "bad-"),
+        (&["--at", "Q=1"], "unknown-axis"),
+    ] {
+        let out = folder.path("refused");
+        let target = if extra.contains(&"--target") { &[][..] } else { &["--target", "csv"] };
+        let arguments = ["compensate", "tables", MILL, "-o", &out];
+        let ran = trueaxis(&[&arguments[..], target, extra].concat());
+        assert_eq!(ran.status, 2, "{extra:?}");
+        assert!(ran.err.contains(code), "{extra:?}: {}", ran.err);
+        assert!(std::fs::metadata(&out).is_err(), "{extra:?}: something was written");
+    }
+}
+
+/// The test piece of a study is cut with the tables.
+#[test]
+fn tables_and_a_test_piece() {
+    let folder = Folder::new("compensate-tables-piece");
+    let out = folder.path("xkas");
+    let study = "examples/03_predict/nas979-on-xkas2525.toml";
+    let arguments = ["compensate", "tables", "machines/xkas2525/machine.toml", "--target", "csv"];
+    let ran =
+        trueaxis(&[&arguments[..], &["-o", &out, "--piece", study, "--format", "json"]].concat());
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let found = ran.json();
+    let indices = found["left_um"]["test_piece"]["indices"].as_array().expect("indices").clone();
+    assert!(indices.len() >= 11);
+    assert!(indices.iter().all(|i| i["left_um"] != i["before_um"]));
+}

@@ -33,19 +33,24 @@ pub struct TablesArguments {
     output: PathBuf,
     /// Where the other axes stand, axes not named at 0; without it in the middle of linear travels,
     /// rotary axes at 0
-    #[arg(long, value_name = "\"X=.. Y=..\"")]
+    #[arg(long, value_name = "\"X=.. Y=..\"", allow_hyphen_values = true)]
     at: Option<String>,
     /// The most that interpolation and rounding of one table of a linear axis may lose
-    #[arg(long, value_name = "\"1 um\"", default_value = "1 um")]
+    #[arg(long, value_name = "\"1 um\"", default_value = "1 um", allow_hyphen_values = true)]
     bound: String,
     /// The same of a rotary axis
-    #[arg(long, value_name = "\"5 urad\"", default_value = "5 urad")]
+    #[arg(long, value_name = "\"5 urad\"", default_value = "5 urad", allow_hyphen_values = true)]
     bound_angle: String,
     /// A larger correction of a linear axis is refused
-    #[arg(long, value_name = "\"1 mm\"", default_value = "1 mm")]
+    #[arg(long, value_name = "\"1 mm\"", default_value = "1 mm", allow_hyphen_values = true)]
     limit: String,
     /// The same of a rotary axis
-    #[arg(long, value_name = "\"1 mrad\"", default_value = "1000 urad")]
+    #[arg(
+        long,
+        value_name = "\"1000 urad\"",
+        default_value = "1000 urad",
+        allow_hyphen_values = true
+    )]
     limit_angle: String,
     /// LinuxCNC: 0 for actual positions, 1 for trims
     #[arg(long, value_enum, default_value = "0")]
@@ -92,9 +97,10 @@ pub fn run(arguments: &TablesArguments) -> Outcome {
         }
         _ => None,
     };
-    let piece = found.as_ref().zip(arguments.piece.as_deref()).and_then(|((machine, compiled), path)| {
-        cut(path, machine, compiled, &mut problems)
-    });
+    let piece = found
+        .as_ref()
+        .zip(arguments.piece.as_deref())
+        .and_then(|((machine, compiled), path)| cut(path, machine, compiled, &mut problems));
     let failed = report(problems);
     match found {
         Some((machine, compiled)) if !failed => arguments.finish(&machine, &compiled, piece),
@@ -126,8 +132,10 @@ impl TablesArguments {
             }
             Control::Sinumerik => Target::Sinumerik,
         };
-        let length = |name, text, problems: &mut _| above_zero(name, text, Dimension::Length, problems);
-        let angle = |name, text, problems: &mut _| above_zero(name, text, Dimension::Angle, problems);
+        let length =
+            |name, text, problems: &mut _| above_zero(name, text, Dimension::Length, problems);
+        let angle =
+            |name, text, problems: &mut _| above_zero(name, text, Dimension::Angle, problems);
         let bound_mm = length("--bound", &self.bound, problems);
         let bound_rad = angle("--bound-angle", &self.bound_angle, problems);
         let limit_mm = length("--limit", &self.limit, problems);
@@ -159,7 +167,8 @@ impl TablesArguments {
             let shown = self.output.display().to_string();
             return unusable("unwritable-folder", &shown, &message, "name another --output");
         }
-        let written = compiled.files.iter().map(|f| self.output.join(&f.name).display().to_string());
+        let written =
+            compiled.files.iter().map(|f| self.output.join(&f.name).display().to_string());
         let study = self.piece.as_ref().map(|p| p.display().to_string());
         let shown = TablesReport {
             machine,
@@ -186,7 +195,12 @@ fn above_zero(
         Ok(_) => ("not-positive", format!("`{text}` is not above zero")),
         Err(e) => (e.code(), e.to_string()),
     };
-    problems.error(code, argument(name), message, "above zero, with its unit: \"1 um\", \"5 urad\"");
+    problems.error(
+        code,
+        argument(name),
+        message,
+        "above zero, with its unit: \"1 um\", \"5 urad\"",
+    );
     None
 }
 
@@ -203,9 +217,11 @@ fn refuse(error: &TablesError, problems: &mut Diagnostics) {
             "MACHINE.toml",
             "the errors must be known over the whole travel: measure more, or say outside = \"clamp\" or \"extend\"",
         ),
-        TablesError::TooLarge { .. } => {
-            ("too-large", "--limit", "is it an error of the machine? then raise --limit or --limit-angle")
-        }
+        TablesError::TooLarge { .. } => (
+            "too-large",
+            "--limit",
+            "is it an error of the machine? then raise --limit or --limit-angle",
+        ),
         TablesError::TooManyNodes { .. } => {
             ("too-many-nodes", "--bound", "allow a larger loss: --bound or --bound-angle")
         }

@@ -24,7 +24,7 @@ use choose::{Candidate, choose};
 use control::{Control, File, ReadFault};
 use lever::Lever;
 use place::{PlaceFault, Placed};
-use proof::{ErrorLoss, Left, Leaves, error_losses, left_over};
+use proof::{ErrorLoss, Leaves, Left, error_losses, left_over};
 use table::{PER_UNIT, Table, count_of, counts};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Axis, AxisKind, Command, Travel};
@@ -324,7 +324,11 @@ fn range(axis: &Axis, control: &dyn Control) -> Result<((i64, i64), bool), Table
         (Travel::Between(from, to), _) => {
             // A count that the rounding of a file's numbers has moved over the end still counts.
             let (from, to) = ((unit(from) - 1e-3).ceil() as i64, (unit(to) + 1e-3).floor() as i64);
-            if from < to { Ok(((from, to), false)) } else { Err(TablesError::UnknownTravel(axis.name)) }
+            if from < to {
+                Ok(((from, to), false))
+            } else {
+                Err(TablesError::UnknownTravel(axis.name))
+            }
         }
         (Travel::Unlimited, true) => Ok(((0, turn), true)),
         (Travel::Unlimited, false) => Ok(((-turn, turn), false)),

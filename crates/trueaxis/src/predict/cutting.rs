@@ -210,7 +210,13 @@ fn stop(
         .errors_at(&command, approach)
         .map_err(|source| Error::Table { position, source })?;
     let moved = [Vec3::zeros(); 2];
-    Ok(Stop { command, approach: *approach, moved, errors, u: machine.uncertainties_at(&command, quantities) })
+    Ok(Stop {
+        command,
+        approach: *approach,
+        moved,
+        errors,
+        u: machine.uncertainties_at(&command, quantities),
+    })
 }
 
 /// An axis keeps its side until it turns round.

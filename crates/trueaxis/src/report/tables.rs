@@ -1,6 +1,7 @@
 //! Compensation tables and what they leave, as text and JSON.
 
 use crate::compensate::tables::proof::{ErrorLoss, IndexLeft, Left};
+use crate::compensate::tables::table::{PER_UNIT, Table, count_of};
 use crate::compensate::tables::{Compiled, LeftOut, Made, shown};
 use crate::describe::to_shown;
 use serde_json::{Map, Value as Json, json};
@@ -36,16 +37,16 @@ pub fn tables_text(report: &TablesReport<'_>) -> String {
         report.target,
         place_text(machine, &compiled.reference)
     );
-    for Made { table, loss, largest } in &compiled.tables {
+    for Made { table, loss, .. } in &compiled.tables {
         let (moved, nodes) = (&machine.axes()[table.output], table.nodes.len());
         let both = if table.is_directional() { ", by direction" } else { "" };
         // Writing to a String cannot fail.
         let _ = writeln!(
             text,
-            "  {} moves {}: {nodes} nodes{both}, at most {}, interpolation loses {}",
+            "  {} moves {}: {nodes} nodes{both}, {}, loses {} between the nodes",
             name(table.input),
             name(table.output),
-            shown(moved, *largest),
+            check_text(machine, table),
             shown(moved, *loss)
         );
     }
@@ -76,6 +77,16 @@ pub fn tables_text(report: &TablesReport<'_>) -> String {
     text
 }
 
+/// What is added where, by the node that adds most.
+fn check_text(machine: &Machine, table: &Table) -> String {
+    let Some(node) = table.largest() else { return String::new() };
+    let [input, output] = [table.input, table.output].map(|i| &machine.axes()[i]);
+    let unit = if input.kind == AxisKind::Linear { "mm" } else { "deg" };
+    let added = shown(output, node.up as f64 * count_of(machine, table.output));
+    let place = round(node.at as f64 / PER_UNIT);
+    format!("adds {added} to {} at {}={place} {unit}", output.name, input.name)
+}
+
 fn left_text(report: &TablesReport<'_>) -> String {
     let Compiled { before, after, wrong_sign, .. } = report.compiled;
     let line = |left: &Left| {
@@ -102,11 +113,13 @@ fn errors_text(errors: &[ErrorLoss]) -> String {
     let names: Vec<String> = represented.iter().map(|e| e.error.to_string()).collect();
     let mut text = format!("\nRepresented: {}\n", names.join(" "));
     if !not.is_empty() {
-        text += "Not represented, each alone, µm at the tip\n    error    before      left  instead\n";
+        text +=
+            "Not represented, each alone, µm at the tip\n    error    before      left  instead\n";
     }
     for e in not.iter().take(MOST_SHOWN) {
         let [before, left] = [e.before_mm, e.left_mm].map(|v| v * 1e3);
-        let _ = writeln!(text, "  {:>7} {before:9.2} {left:9.2}  {}", e.error.to_string(), e.instead);
+        let _ =
+            writeln!(text, "  {:>7} {before:9.2} {left:9.2}  {}", e.error.to_string(), e.instead);
     }
     if not.len() > MOST_SHOWN {
         let _ = writeln!(text, "  … and {} smaller ones", not.len() - MOST_SHOWN);
@@ -202,6 +215,11 @@ fn made_json(machine: &Machine, made: &Made) -> Json {
         "by_direction": table.is_directional(),
         "modulo": table.modulo,
     });
+    if let Some(node) = table.largest() {
+        json["check"] = json!({ "position": round(node.at as f64 / PER_UNIT) });
+        let added = node.up as f64 * count_of(machine, table.output);
+        json["check"][format!("added_{unit}")] = json!(added * factor);
+    }
     json[format!("loss_{unit}")] = json!(loss * factor);
     json[format!("largest_{unit}")] = json!(largest * factor);
     json

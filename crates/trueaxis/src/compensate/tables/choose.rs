@@ -3,6 +3,7 @@
 
 use super::control::Control;
 use super::lever::{errors_near, sum};
+use super::table::Table;
 use super::{LeftOut, Made, added};
 use crate::volume::commands;
 use trueaxis_geometry::Vec3;
@@ -33,24 +34,39 @@ pub fn choose(
     });
     let mut so_far = vec![Command::default(); poses.len()];
     let mut rms = size(machine, &poses, &so_far);
-    let (mut kept, mut worse) = (Vec::new(), Vec::new());
-    for made in candidates {
-        let one = std::slice::from_ref(&made.table);
-        let with: Vec<Command> = poses
-            .iter()
-            .zip(&so_far)
-            .map(|(q, c)| sum(c, &added(machine, control, one, q, &Approach::default())))
-            .collect();
-        let new = size(machine, &poses, &with);
-        if new < rms * (1.0 - GAIN) {
-            (rms, so_far) = (new, with);
-            kept.push(made);
-        } else {
-            let reason = "it would not make the tool better over the volume";
-            let (input, output) = (made.table.input, made.table.output);
-            worse.push(LeftOut { input, output, largest: made.largest, reason });
+    let (mut kept, mut open) = (Vec::new(), candidates);
+    // What does harm alone may help beside another table: as long as one has been taken, look again.
+    loop {
+        let (taken, mut again) = (kept.len(), Vec::new());
+        for made in open {
+            let one = std::slice::from_ref(&made.table);
+            let with: Vec<Command> = poses
+                .iter()
+                .zip(&so_far)
+                .map(|(q, c)| sum(c, &added(machine, control, one, q, &Approach::default())))
+                .collect();
+            let new = size(machine, &poses, &with);
+            if new < rms * (1.0 - GAIN) {
+                (rms, so_far) = (new, with);
+                kept.push(made);
+            } else {
+                again.push(made);
+            }
+        }
+        open = again;
+        if kept.len() == taken {
+            break;
         }
     }
+    let reason = "it would not make the tool better over the volume";
+    let worse =
+        open.into_iter().map(|Made { table: Table { input, output, .. }, largest, .. }| LeftOut {
+            input,
+            output,
+            largest,
+            reason,
+        });
+    let worse = worse.collect();
     kept.sort_by_key(|m| (m.table.input != m.table.output, m.table.input, m.table.output));
     (kept, worse)
 }

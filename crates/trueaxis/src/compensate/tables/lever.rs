@@ -6,7 +6,7 @@
 //!     f_io(q_i) = c_o(q_i; others at the reference) − its mean,      f_oo: + the mean of c_o
 //! ```
 //!
-//! docs/model.md eq. 162, 163. The means are over one set of poses in the volume: so functions of one axis
+//! docs/model.md eq. 170, 171. The means are over one set of poses in the volume: so functions of one axis
 //! each are recovered exactly, and where tables are missing the constant is the one that leaves least. Squareness of a rotary axis, say, is left to the linear axes: turning an axis
 //! against an error of another body is right in one pose and wrong in the next.
 
@@ -40,8 +40,12 @@ impl<'a> Lever<'a> {
     /// A reference that an error table does not cover.
     pub fn new(machine: &'a Machine, reference: Command) -> Result<Self, CommandFault> {
         let axes = machine.axes().len();
-        let mut lever =
-            Self { machine, reference, mean: Command::default(), mean_of: vec![Command::default(); axes] };
+        let mut lever = Self {
+            machine,
+            reference,
+            mean: Command::default(),
+            mean_of: vec![Command::default(); axes],
+        };
         lever.whole(0, reference[0], 0.0)?;
         let mut count = 0.0;
         for pose in commands(machine.axes(), POSES) {

@@ -46,7 +46,8 @@ impl Control for LinuxCnc {
 
     fn write(&self, machine: &Machine, tables: &[Table]) -> Vec<File> {
         let order = axis_order(machine);
-        let letters: Vec<String> = order.iter().map(|i| machine.axes()[*i].name.to_string()).collect();
+        let letters: Vec<String> =
+            order.iter().map(|i| machine.axes()[*i].name.to_string()).collect();
         let mut ini = format!(
             "# TrueAxis: put these lines into the sections that the INI file has already;\n\
              # joints in the order of\n[TRAJ]\nCOORDINATES = {}\n",

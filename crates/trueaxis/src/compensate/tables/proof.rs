@@ -73,7 +73,9 @@ pub fn left_over(leaves: &Leaves<'_>) -> Result<Left, TablesError> {
         for side in [1.0, -1.0] {
             let approach = [side; MAX_AXES];
             let added = leaves.added(&command, &approach);
-            let Some([tip, axis]) = off(leaves.machine, &command, &added, &approach) else { continue };
+            let Some([tip, axis]) = off(leaves.machine, &command, &added, &approach) else {
+                continue;
+            };
             seen = true;
             squares += tip.norm_squared();
             count += 1.0;
@@ -118,14 +120,17 @@ pub fn error_losses(
         let (mut before_mm, mut left_mm) = (0.0_f64, 0.0_f64);
         for (i, command) in poses.iter().enumerate() {
             let approach = [if i % 2 == 0 { 1.0 } else { -1.0 }; MAX_AXES];
-            let Some(without) = off(&alone, command, &Command::default(), &approach) else { continue };
+            let Some(without) = off(&alone, command, &Command::default(), &approach) else {
+                continue;
+            };
             before_mm = before_mm.max(without[0].norm());
             let Some(added) = ideal(&lever, tables, command, &approach) else { continue };
             let Some(with) = off(&alone, command, &added, &approach) else { continue };
             left_mm = left_mm.max(with[0].norm());
         }
         if before_mm > NOTHING_MM {
-            let represented = left_mm <= f64::max(bound_mm.min(0.5 * before_mm), SMALL_SHARE * before_mm);
+            let represented =
+                left_mm <= f64::max(bound_mm.min(0.5 * before_mm), SMALL_SHARE * before_mm);
             let instead = instead(machine, error, cross);
             losses.push(ErrorLoss { error, before_mm, left_mm, represented, instead });
         }

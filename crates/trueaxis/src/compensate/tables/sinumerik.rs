@@ -93,7 +93,8 @@ impl Control for Sinumerik {
                 axis.copied().ok_or_else(|| ReadFault::new(&file.name, format!("no axis `{name}`")))
             };
             for one in assignments(file)?.into_values() {
-                let (input, output) = (axis(one.text(file, "INPUT_AXIS")?)?, axis(one.text(file, "OUTPUT_AXIS")?)?);
+                let (input, output) =
+                    (axis(one.text(file, "INPUT_AXIS")?)?, axis(one.text(file, "OUTPUT_AXIS")?)?);
                 join(file, &mut tables, one.table(file, (input, output))?)?;
             }
         }
@@ -105,7 +106,7 @@ impl Control for Sinumerik {
             "MD38000 and MD18342 at least the number of points; they re-format the memory: save the data first",
             "before loading: MD32700 $MA_ENC_COMP_ENABLE and MD32710 $MA_CEC_ENABLE 0, after it 1; SD41300 $SN_CEC_TABLE_ENABLE[t] = 1",
             "MD10200 and MD10210 at least 10 000 increments per mm and degree; MD32720 $MA_CEC_MAX_SUM above the largest value",
-            "check the sign: with the table on, the axis must move by what `added` says; if it moves the other way, do not use the tables",
+            "check the sign with one table and a dial: switched on at the place that is named, the axis must move by what the table adds; if it moves the other way, do not use the tables",
         ]
     }
 }
@@ -122,7 +123,11 @@ fn encoder_text(table: &Table, axis: usize) -> String {
     text
 }
 
-fn cross_text(table: &Table, (input, output): (usize, usize), (t, direction): (usize, i8)) -> String {
+fn cross_text(
+    table: &Table,
+    (input, output): (usize, usize),
+    (t, direction): (usize, i8),
+) -> String {
     let mut text = String::new();
     for (i, n) in table.nodes.iter().enumerate() {
         let added = if direction < 0 { n.down } else { n.up };
@@ -175,8 +180,10 @@ impl Assigned {
         if count != self.values.len() as i64 {
             return Err(ReadFault::new(&file.name, "one value for each STEP from MIN to MAX"));
         }
-        let nodes = self.values.iter().map(|(i, value)| {
-            Node { at: min + *i as i64 * step, up: -value, down: -value }
+        let nodes = self.values.iter().map(|(i, value)| Node {
+            at: min + *i as i64 * step,
+            up: -value,
+            down: -value,
         });
         let (input, output) = axes;
         let modulo = self.text(file, "IS_MODULO")? == "1";
@@ -196,7 +203,8 @@ fn assignments(file: &File) -> Result<BTreeMap<(usize, String), Assigned>, ReadF
         if line.is_empty() || line.starts_with('%') || line == "CHANDATA(1)" || line == "M17" {
             continue;
         }
-        let fault = || ReadFault::new(&file.name, format!("line {}: $AA_ENC_COMP… or $AN_CEC…", i + 1));
+        let fault =
+            || ReadFault::new(&file.name, format!("line {}: $AA_ENC_COMP… or $AN_CEC…", i + 1));
         let (name, value) = line.split_once('=').ok_or_else(fault)?;
         let (name, index) = name.trim().split_once('[').ok_or_else(fault)?;
         let index: Vec<&str> = index.trim_end_matches(']').split(',').map(str::trim).collect();
@@ -230,7 +238,11 @@ fn assignments(file: &File) -> Result<BTreeMap<(usize, String), Assigned>, ReadF
 }
 
 /// Puts a table to the others; the two of one pair of axes that act in one direction each are one.
-fn join(file: &File, tables: &mut Vec<Table>, (table, direction): (Table, i64)) -> Result<(), ReadFault> {
+fn join(
+    file: &File,
+    tables: &mut Vec<Table>,
+    (table, direction): (Table, i64),
+) -> Result<(), ReadFault> {
     let same = |t: &&mut Table| (t.input, t.output) == (table.input, table.output);
     match (direction, tables.iter_mut().find(same)) {
         (-1, Some(rising)) if rising.nodes.len() == table.nodes.len() => {
@@ -239,7 +251,12 @@ fn join(file: &File, tables: &mut Vec<Table>, (table, direction): (Table, i64)) 
             }
         }
         (0 | 1, None) => tables.push(table),
-        _ => return Err(ReadFault::new(&file.name, "each pair of axes once, DIRECTION 1 before −1")),
+        _ => {
+            return Err(ReadFault::new(
+                &file.name,
+                "each pair of axes once, DIRECTION 1 before −1",
+            ));
+        }
     }
     Ok(())
 }

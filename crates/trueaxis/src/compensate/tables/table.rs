@@ -39,6 +39,11 @@ impl Table {
         self.nodes.iter().any(|n| n.up != n.down)
     }
 
+    /// The node that adds most, rising: for a look at the control whether the sign is right.
+    pub fn largest(&self) -> Option<&Node> {
+        self.nodes.iter().max_by_key(|n| n.up.abs())
+    }
+
     /// The same with the other sign.
     pub fn negated(&self) -> Self {
         let nodes = self.nodes.iter().map(|n| Node { at: n.at, up: -n.up, down: -n.down });
