@@ -1,5 +1,7 @@
 //! What is kept against the simulation itself.
 
+// So that whoever reads this file alone, such as the house rules, knows what it is.
+#[cfg(test)]
 use super::super::series::Quantity;
 use super::super::{Batch, Densify, Observer, Options, Run, SetUp, SetUpTool, Stop, simulate};
 use super::detail::from_piece;
