@@ -16,6 +16,7 @@
 pub mod axis;
 pub mod batch;
 pub mod chain;
+pub mod compensate;
 mod deviation;
 pub mod errors;
 pub mod file;

@@ -83,7 +83,10 @@ impl Curve {
                     sine: factor * h.sine,
                     ..*h
                 };
-                Self::Fourier { mean: factor * mean + add, terms: terms.iter().map(times).collect() }
+                Self::Fourier {
+                    mean: factor * mean + add,
+                    terms: terms.iter().map(times).collect(),
+                }
             }
             Self::Table { spline, outside } => {
                 Self::Table { spline: spline.changed(factor, add), outside: *outside }
