@@ -26,17 +26,17 @@ use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Direction, Point, Workpiece};
 
 /// The tip is met within this, mm: some ten times the rounding of a chain of 10 m.
-const MET_MM: f64 = 1e-10;
+pub(crate) const MET_MM: f64 = 1e-10;
 
 /// The tool axis is met within this, rad: some hundred times the rounding of a chain.
-const MET_RAD: f64 = 1e-13;
+pub(crate) const MET_RAD: f64 = 1e-13;
 
 /// Evaluations of the chain after which a pose is given up; three are usual.
 const MOST_EVALUATIONS: u32 = 12;
 
 /// Below this volume the three linear axes do not span the space: 1 mm of the tip would cost more
 /// than 1 m of an axis.
-const FLAT: f64 = 1e-3;
+pub(crate) const FLAT: f64 = 1e-3;
 
 /// No rotary axis moves by more than so many times the deviation of the tool axis, unless told
 /// otherwise: the tool axis is then at least 0.57° away from the rotary axis that would swing.
@@ -229,6 +229,18 @@ impl Compensator {
     /// What is compensated.
     pub fn scope(&self) -> Scope {
         self.scope
+    }
+
+    pub(crate) fn most_swing(&self) -> f64 {
+        self.most_swing
+    }
+
+    pub(crate) fn placing(&self) -> [usize; 3] {
+        self.placing
+    }
+
+    pub(crate) fn rotary(&self) -> &[usize] {
+        &self.rotary
     }
 
     /// The command at which the actual tool stands where the nominal one stands at `command`.

@@ -1,0 +1,370 @@
+//! W poses at a time to their compensated commands; generic over the vector instructions, with the
+//! habits of `kernel.rs`.
+
+use super::{CommandColumns, CompensationError, CompensationJob, Effort, Fast, one};
+use crate::axis::MAX_AXES;
+use crate::batch::Inputs;
+use crate::batch::kernel::{
+    State, difference, dot, lanes_at, poses, product, rotation, sine_cosine, slide, slide_along,
+    splat3, splat33, sum, turn_pair_about,
+};
+use crate::batch::lanes::Lanes;
+use crate::batch::steps::Step;
+use crate::compensate::{FLAT, MET_MM, MET_RAD};
+
+/// Evaluations of the chain after which a pose goes to the scalar path.
+const MOST_EVALUATIONS: u32 = 8;
+
+/// How the nominal tool moves per unit of the axes that compensate, and where it is.
+struct Columns<L> {
+    /// Of the tip: three linear axes, two rotary ones.
+    tip: [[L; 3]; 5],
+    /// Of the tool axis: the rotary ones.
+    axis: [[L; 3]; 2],
+    /// The tip and the tool axis that are wanted.
+    wanted: [[L; 3]; 2],
+}
+
+/// One step: from what is left to the motion of the axes.
+struct Inverse<L> {
+    /// Of the linear axes per mm of the tip.
+    linear: [[L; 3]; 3],
+    /// Of the rotary axes per rad of the tool axis.
+    rotary: [[L; 3]; 2],
+    /// How the tip moves per rad of the rotary axes.
+    swung: [[L; 3]; 2],
+}
+
+/// W commands and approaches on their way.
+struct Group<const W: usize> {
+    positions: [[f64; W]; MAX_AXES],
+    approaches: [[f64; W]; MAX_AXES],
+}
+
+/// Computes a job.
+#[inline(always)]
+pub(in crate::batch) fn run<const W: usize, L: Lanes<W>>(
+    job: &CompensationJob<'_>,
+    out: &mut CommandColumns<'_>,
+) -> Result<Effort, CompensationError> {
+    let mut effort = Effort::default();
+    for at in (0..out.len()).step_by(W) {
+        let count = W.min(out.len() - at);
+        let full = u32::MAX >> (32 - count);
+        let (settled, evaluations) = group::<W, L>(job, out, at, full);
+        effort.evaluations += evaluations;
+        let open = full & !settled;
+        if open != 0 {
+            effort = effort + by_scalar(job, out, at, open)?;
+        }
+    }
+    Ok(effort)
+}
+
+/// The poses `at ..` whose bit is set, by the scalar path.
+#[cold]
+#[inline(never)]
+fn by_scalar(
+    job: &CompensationJob<'_>,
+    out: &mut CommandColumns<'_>,
+    at: usize,
+    open: u32,
+) -> Result<Effort, CompensationError> {
+    let lanes = (0..32).filter(|lane| open >> lane & 1 == 1);
+    lanes.fold(Ok(Effort::default()), |effort, lane| {
+        Ok(effort? + one(job.compensator, job.inputs, out, [job.first, at + lane])?)
+    })
+}
+
+/// The lanes that are compensated and written, and the evaluations of all of them.
+#[inline(always)]
+fn group<const W: usize, L: Lanes<W>>(
+    job: &CompensationJob<'_>,
+    out: &mut CommandColumns<'_>,
+    at: usize,
+    full: u32,
+) -> (u32, u64) {
+    let fast = job.fast;
+    let mut group = load::<W>(job, at, full.count_ones() as usize);
+    let columns = columns::<W, L>(fast, &group);
+    let (inverse, mut left_out) = inverse::<W, L>(fast, &columns);
+    let (mut settled, mut evaluations) = (0, 0);
+    for _ in 0..MOST_EVALUATIONS {
+        let (state, outside) = poses::<W, L>(&fast.plan, &inputs_of(job, &group), 0);
+        let (tip, axis) = missed(fast, &state, &columns.wanted);
+        left_out |= outside;
+        evaluations += u64::from((full & !settled & !left_out).count_ones());
+        let mut open = dot(&tip, &tip).outside(0.0, MET_MM * MET_MM);
+        if fast.turning.is_some() {
+            open |= dot(&axis, &axis).outside(0.0, MET_RAD * MET_RAD);
+        }
+        let met = full & !open & !settled & !left_out;
+        if met != 0 {
+            left_out |= beyond_travel::<W, L>(fast, &group);
+            let met = met & !left_out;
+            write(out, &group, at, met, full);
+            settled |= met;
+        }
+        if (settled | left_out) & full == full {
+            break;
+        }
+        step::<W, L>(fast, &inverse, tip, axis, &mut group);
+    }
+    (settled, evaluations)
+}
+
+/// The last pose is repeated in the lanes left over.
+#[inline(always)]
+fn load<const W: usize>(job: &CompensationJob<'_>, at: usize, count: usize) -> Group<W> {
+    let first = job.first + at;
+    let mut group = Group { positions: [[0.0; W]; MAX_AXES], approaches: [[0.0; W]; MAX_AXES] };
+    let inputs = job.inputs;
+    for axis in 0..MAX_AXES {
+        fill(&mut group.positions[axis], inputs.positions[axis], first, count);
+        fill(&mut group.approaches[axis], inputs.approaches[axis], first, count);
+    }
+    group
+}
+
+#[inline(always)]
+fn fill<const W: usize>(to: &mut [f64; W], column: &[f64], first: usize, count: usize) {
+    if column.is_empty() {
+        return;
+    }
+    match column[first..].first_chunk() {
+        Some(chunk) => *to = *chunk,
+        None => {
+            for (i, slot) in to.iter_mut().enumerate() {
+                *slot = column[first + i.min(count - 1)];
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn inputs_of<'a, const W: usize>(job: &CompensationJob<'_>, group: &'a Group<W>) -> Inputs<'a> {
+    let mut inputs = Inputs { positions: [&[]; MAX_AXES], approaches: [&[]; MAX_AXES] };
+    for axis in 0..MAX_AXES {
+        inputs.positions[axis] = &group.positions[axis];
+        if !job.inputs.approaches[axis].is_empty() {
+            inputs.approaches[axis] = &group.approaches[axis];
+        }
+    }
+    inputs
+}
+
+/// Reached minus wanted tip and tool axis.
+#[inline(always)]
+fn missed<const W: usize, L: Lanes<W>>(
+    fast: &Fast,
+    state: &State<L>,
+    wanted: &[[L; 3]; 2],
+) -> ([L; 3], [L; 3]) {
+    let mut tip = sum(difference(state.tip, wanted[0]), state.tip_deviation);
+    if let Some((per_mm, fixed_mm)) = &fast.growth {
+        let per_mm = L::splat(*per_mm);
+        let from_fixed = difference(state.tip, splat3(&(*fixed_mm).into()));
+        tip = [
+            from_fixed[0].times_from(per_mm, tip[0]),
+            from_fixed[1].times_from(per_mm, tip[1]),
+            from_fixed[2].times_from(per_mm, tip[2]),
+        ];
+    }
+    (tip, sum(difference(state.axis, wanted[1]), state.axis_deviation))
+}
+
+/// The nominal Jacobian, carried from the tip to the workpiece.
+#[inline(always)]
+fn columns<const W: usize, L: Lanes<W>>(fast: &Fast, group: &Group<W>) -> Columns<L> {
+    let zero = [L::splat(0.0); 3];
+    let [tip, axis, ..] = &fast.plan.steps.start;
+    let mut all = Columns { tip: [zero; 5], axis: [zero; 2], wanted: [splat3(tip), splat3(axis)] };
+    for step in &fast.plan.steps.list {
+        match step {
+            Step::Error { .. } | Step::Motion { .. } => {}
+            Step::Place { linear, shift_mm } => {
+                rotate(&mut all, &splat33(linear));
+                all.wanted[0] = sum(all.wanted[0], splat3(shift_mm));
+            }
+            Step::Shift { shift_mm } => all.wanted[0] = sum(all.wanted[0], splat3(shift_mm)),
+            Step::SlideAlong { axis, along, per_unit } => {
+                let q = lanes_at::<W, L>(&group.positions[*axis], 0);
+                slide_along(&mut all.wanted[0], *along, q, L::splat(*per_unit));
+                let mut direction = [0.0; 3];
+                direction[*along] = *per_unit;
+                add_slide(&mut all, fast, *axis, &direction);
+            }
+            Step::Slide { axis, per_unit } => {
+                let q = lanes_at::<W, L>(&group.positions[*axis], 0);
+                slide(&mut all.wanted[0], &splat3(per_unit), q);
+                add_slide(&mut all, fast, *axis, per_unit);
+            }
+            Step::TurnAbout { axis, about, sense } => {
+                let (sin, cos) = sine_cosine(lanes_at::<W, L>(&group.positions[*axis], 0));
+                let sin = sin * L::splat(*sense);
+                for v in &mut all.tip {
+                    turn_pair_about(v, *about, sin, cos);
+                }
+                for v in all.axis.iter_mut().chain(&mut all.wanted) {
+                    turn_pair_about(v, *about, sin, cos);
+                }
+                let mut direction = [0.0; 3];
+                direction[*about] = *sense;
+                add_turn(&mut all, fast, *axis, &direction);
+            }
+            Step::Turn { axis, direction, sense } => {
+                let (sin, cos) = sine_cosine(lanes_at::<W, L>(&group.positions[*axis], 0));
+                let sin = sin * L::splat(*sense);
+                rotate(&mut all, &rotation(splat3(direction), sin, cos));
+                add_turn(&mut all, fast, *axis, &direction.map(|d| d * sense));
+            }
+        }
+    }
+    all
+}
+
+#[inline(always)]
+fn rotate<const W: usize, L: Lanes<W>>(all: &mut Columns<L>, m: &[[L; 3]; 3]) {
+    for v in &mut all.tip {
+        *v = product(m, v);
+    }
+    for v in all.axis.iter_mut().chain(&mut all.wanted) {
+        *v = product(m, v);
+    }
+}
+
+#[inline(always)]
+fn add_slide<const W: usize, L: Lanes<W>>(
+    all: &mut Columns<L>,
+    fast: &Fast,
+    axis: usize,
+    per_unit: &[f64; 3],
+) {
+    for (slot, &placing) in fast.placing.iter().enumerate() {
+        if placing == axis {
+            all.tip[slot] = splat3(per_unit);
+        }
+    }
+}
+
+#[inline(always)]
+fn add_turn<const W: usize, L: Lanes<W>>(
+    all: &mut Columns<L>,
+    fast: &Fast,
+    axis: usize,
+    per_unit: &[f64; 3],
+) {
+    let Some(turning) = &fast.turning else { return };
+    for (slot, &turning) in turning.iter().enumerate() {
+        if turning == axis {
+            all.tip[3 + slot] = cross(splat3(per_unit), all.wanted[0]);
+            all.axis[slot] = cross(splat3(per_unit), all.wanted[1]);
+        }
+    }
+}
+
+#[inline(always)]
+fn cross<const W: usize, L: Lanes<W>>(a: [L; 3], b: [L; 3]) -> [L; 3] {
+    [
+        a[1].times_minus(b[2], a[2] * b[1]),
+        a[2].times_minus(b[0], a[0] * b[2]),
+        a[0].times_minus(b[1], a[1] * b[0]),
+    ]
+}
+
+#[inline(always)]
+fn scaled<const W: usize, L: Lanes<W>>(v: [L; 3], by: L) -> [L; 3] {
+    [v[0] * by, v[1] * by, v[2] * by]
+}
+
+/// The inverse of the columns, and the lanes where the scalar path shall judge.
+#[inline(always)]
+fn inverse<const W: usize, L: Lanes<W>>(fast: &Fast, columns: &Columns<L>) -> (Inverse<L>, u32) {
+    let one = L::splat(1.0);
+    let [d1, d2, d3, t1, t2] = columns.tip;
+    let normals = [cross(d2, d3), cross(d3, d1), cross(d1, d2)];
+    let volume = dot(&d1, &normals[0]);
+    let mut left_out = !volume.outside(-FLAT, FLAT);
+    let per_volume = one / volume;
+    let linear = [
+        scaled(normals[0], per_volume),
+        scaled(normals[1], per_volume),
+        scaled(normals[2], per_volume),
+    ];
+    let mut rotary = [[L::splat(0.0); 3]; 2];
+    if fast.turning.is_some() {
+        // The two columns span the plane across the tool axis: (CᵀC)⁻¹Cᵀ.
+        let [c1, c2] = columns.axis;
+        let (a, b, c) = (dot(&c1, &c1), dot(&c1, &c2), dot(&c2, &c2));
+        let determinant = a.times_minus(c, b * b);
+        // σ₁² ≤ a + c, so that σ₂² ≥ determinant/(a + c).
+        let room = (a + c).times_from(L::splat(fast.weakest_square), determinant);
+        left_out |= room.outside(0.0, f64::INFINITY);
+        let per_determinant = one / determinant;
+        rotary = [
+            scaled(difference(scaled(c1, c), scaled(c2, b)), per_determinant),
+            scaled(difference(scaled(c2, a), scaled(c1, b)), per_determinant),
+        ];
+    }
+    (Inverse { linear, rotary, swung: [t1, t2] }, left_out)
+}
+
+/// Moves the axes: the rotary ones for the tool axis, the linear ones for the tip.
+#[inline(always)]
+fn step<const W: usize, L: Lanes<W>>(
+    fast: &Fast,
+    inverse: &Inverse<L>,
+    tip: [L; 3],
+    axis: [L; 3],
+    group: &mut Group<W>,
+) {
+    let mut missing = tip;
+    if let Some(turning) = &fast.turning {
+        for slot in 0..2 {
+            let by = dot(&inverse.rotary[slot], &axis);
+            missing = difference(missing, scaled(inverse.swung[slot], by));
+            move_back(&mut group.positions[turning[slot]], by);
+        }
+    }
+    for slot in 0..3 {
+        move_back(&mut group.positions[fast.placing[slot]], dot(&inverse.linear[slot], &missing));
+    }
+}
+
+#[inline(always)]
+fn move_back<const W: usize, L: Lanes<W>>(position: &mut [f64; W], by: L) {
+    (L::load(position) - by).store(position);
+}
+
+/// The lanes with an axis beyond its travel.
+#[inline(always)]
+fn beyond_travel<const W: usize, L: Lanes<W>>(fast: &Fast, group: &Group<W>) -> u32 {
+    let mut beyond = 0;
+    for (position, (from, to)) in group.positions.iter().zip(&fast.travel) {
+        beyond |= L::load(position).outside(*from, *to);
+    }
+    beyond
+}
+
+/// Writes the lanes of a mask; a pose depends on its own command only, so each as soon as it is met.
+#[inline(always)]
+fn write<const W: usize>(
+    out: &mut CommandColumns<'_>,
+    group: &Group<W>,
+    at: usize,
+    lanes: u32,
+    full: u32,
+) {
+    for (column, position) in out.each().iter_mut().zip(&group.positions) {
+        match column[at..].first_chunk_mut() {
+            Some(to) if lanes == full => *to = *position,
+            _ => {
+                for lane in 0..W {
+                    if lanes >> lane & 1 == 1 {
+                        column[at + lane] = position[lane];
+                    }
+                }
+            }
+        }
+    }
+}
