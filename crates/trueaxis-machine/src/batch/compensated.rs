@@ -126,7 +126,7 @@ impl Fast {
             plan: Plan::of(machine)?,
             placing: compensator.placing(),
             turning,
-            weakest_square: 4.0 * compensator.most_swing().powi(-2),
+            weakest_square: 2.25 * compensator.most_swing().powi(-2),
             travel,
             growth,
         })

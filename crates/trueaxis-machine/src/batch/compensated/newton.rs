@@ -15,6 +15,10 @@ use crate::compensate::{FLAT, MET_MM, MET_RAD};
 /// Evaluations of the chain after which a pose goes to the scalar path.
 const MOST_EVALUATIONS: u32 = 8;
 
+/// A last step that is not judged starts from here at most, mm and rad.
+const CLOSE_MM: f64 = 1e-7;
+const CLOSE_RAD: f64 = 1e-10;
+
 /// How the nominal tool moves per unit of the axes that compensate, and where it is.
 struct Columns<L> {
     /// Of the tip: three linear axes, two rotary ones.
@@ -89,28 +93,58 @@ fn group<const W: usize, L: Lanes<W>>(
     let columns = columns::<W, L>(fast, &group);
     let (inverse, mut left_out) = inverse::<W, L>(fast, &columns);
     let (mut settled, mut evaluations) = (0, 0);
+    let mut before = [L::splat(0.0); 2];
     for _ in 0..MOST_EVALUATIONS {
         let (state, outside) = poses::<W, L>(&fast.plan, &inputs_of(job, &group), 0);
         let (tip, axis) = missed(fast, &state, &columns.wanted);
         left_out |= outside;
         evaluations += u64::from((full & !settled & !left_out).count_ones());
-        let mut open = dot(&tip, &tip).outside(0.0, MET_MM * MET_MM);
-        if fast.turning.is_some() {
-            open |= dot(&axis, &axis).outside(0.0, MET_RAD * MET_RAD);
-        }
-        let met = full & !open & !settled & !left_out;
+        let now = [dot(&tip, &tip), dot(&axis, &axis)];
+        let (far, farther) = not_met::<W, L>(fast, now, before);
+        let met = full & !far & !settled & !left_out;
         if met != 0 {
             left_out |= beyond_travel::<W, L>(fast, &group);
-            let met = met & !left_out;
-            write(out, &group, at, met, full);
-            settled |= met;
+            write(out, &group, at, met & !left_out, full);
+            settled |= met & !left_out;
         }
         if (settled | left_out) & full == full {
             break;
         }
         step::<W, L>(fast, &inverse, tip, axis, &mut group);
+        let met = full & !farther & !settled & !left_out;
+        if met != 0 {
+            left_out |= beyond_travel::<W, L>(fast, &group);
+            write(out, &group, at, met & !left_out, full);
+            settled |= met & !left_out;
+        }
+        if (settled | left_out) & full == full {
+            break;
+        }
+        before = now;
     }
     (settled, evaluations)
+}
+
+/// The lanes that are not met, and those that will not be met by one more step either.
+///
+/// A step shrinks what is left by the factor that the step before has shown; where that leads below
+/// the limit the step is taken and not judged again. `now` and `before` are the squares of what is
+/// and was left of tip and tool axis; nothing was left before the first step, so that it is judged.
+#[inline(always)]
+fn not_met<const W: usize, L: Lanes<W>>(fast: &Fast, now: [L; 2], before: [L; 2]) -> (u32, u32) {
+    let (mut far, mut farther) = (0, 0);
+    let parts = if fast.turning.is_some() { 2 } else { 1 };
+    for part in 0..parts {
+        let (met, close) = [(MET_MM, CLOSE_MM), (MET_RAD, CLOSE_RAD)][part];
+        let (met, close) = (met * met, close * close);
+        let now_far = now[part].outside(0.0, met);
+        // |now|·|now|/|before| > met, without the quotient.
+        let excess = before[part].times_from(L::splat(met), now[part] * now[part]);
+        far |= now_far;
+        let slow = excess.outside(f64::NEG_INFINITY, 0.0) | now[part].outside(0.0, close);
+        farther |= now_far & slow;
+    }
+    (far, farther)
 }
 
 /// The last pose is repeated in the lanes left over.
