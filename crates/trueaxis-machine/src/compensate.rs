@@ -14,6 +14,8 @@
 
 mod columns;
 mod rotary;
+#[cfg(test)]
+mod tests;
 
 use crate::axis::{Approach, AxisKind, Command, Travel};
 use crate::chain::{CommandFault, Machine};
