@@ -6,11 +6,12 @@
 //!
 //! The same poses as [`Compensator::at`], to the same 1e-10 mm and 1e-13 rad, by steps with the
 //! Jacobian of the *nominal* machine at the programmed command: each step leaves some 10⁻⁴ of what
-//! was there (the size of the errors' slopes and angles), and what is left is judged by the chain
-//! with its errors. Poses near a pole, at travel ends, with large errors or outside the compiled
+//! was there (the size of the errors' angles and slopes), and what is left is judged by the chain
+//! with its errors, or by the factor that the steps have shown (docs/model.md eq. 163). Poses near a pole, at travel ends, with large errors or outside the compiled
 //! form go to [`Compensator::at`] itself; so every pose has its answer.
 
 mod columns;
+mod jacobian;
 pub(super) mod newton;
 
 pub use columns::{CommandColumns, CommandTable};

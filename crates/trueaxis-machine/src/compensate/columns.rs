@@ -64,14 +64,14 @@ impl Columns {
             }
         };
         let mut turn = back;
-        for i in side..count {
+        for (i, link) in links.iter().enumerate().take(count).skip(side) {
             put(i, turn);
-            turn *= links[i].linear();
+            turn *= link.linear();
         }
         turn = -back;
-        for i in (0..side).rev() {
+        for (i, link) in links.iter().enumerate().take(side).rev() {
             put(i, turn);
-            turn *= links[i].linear();
+            turn *= link.linear();
         }
         columns.finish(machine, command, axis);
         columns

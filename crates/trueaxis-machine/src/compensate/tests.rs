@@ -1,5 +1,7 @@
 //! How fast the steps converge: what is left after each, from the inside.
 
+// So that whoever reads this file alone, such as the house rules, knows what it is.
+#[cfg(test)]
 use super::{Compensator, Scope, Trial};
 use crate::Machine;
 use crate::compensate::columns::Columns;
