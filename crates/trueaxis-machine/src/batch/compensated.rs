@@ -16,6 +16,7 @@ pub(super) mod newton;
 
 pub use columns::{CommandColumns, CommandTable};
 
+use super::steps::location_errors;
 #[cfg(target_arch = "x86_64")]
 use super::x86;
 use super::{BatchError, Commands, Inputs, InstructionSet, Plan, TASK_POSES, lanes};
@@ -94,7 +95,8 @@ struct Fast {
     placing: [usize; 3],
     /// The rotary axes that turn the tool; `None` if they stay.
     turning: Option<[usize; 2]>,
-    /// Below this square the weaker direction of the tool axis is left to the scalar path.
+    /// Below this square the weaker direction of the nominal tool axis is left to the scalar path,
+    /// which asks the actual one.
     weakest_square: f64,
     /// From where to where each axis goes.
     travel: [(f64, f64); MAX_AXES],
@@ -123,15 +125,28 @@ impl Fast {
                 *ends = (from, to);
             }
         }
+        let plan = Plan::of(machine)?;
+        let weakest = 1.0 / compensator.most_swing() + largest_turn(machine, &plan, &travel);
         Some(Self {
-            plan: Plan::of(machine)?,
+            plan,
             placing: compensator.placing(),
             turning,
-            weakest_square: 2.25 * compensator.most_swing().powi(-2),
+            weakest_square: weakest * weakest,
             travel,
             growth,
         })
     }
+}
+
+/// A bound of the angle between the actual and the nominal tool as seen from any body, rad.
+fn largest_turn(machine: &Machine, plan: &Plan, travel: &[(f64, f64); MAX_AXES]) -> f64 {
+    let turns = |values: [f64; 6]| values[3..].iter().map(|v| v.abs()).sum::<f64>();
+    let location = machine.bodies().iter().map(|body| turns(location_errors(body).0));
+    let motions = plan.motions.iter().map(|motion| {
+        let (from, to) = travel[motion.axis];
+        3.0 * motion.largest_turn(plan.ranges[motion.axis].within(from, to))
+    });
+    location.chain(motions).sum()
 }
 
 /// What a kernel is given: poses `first ..` of the inputs.
