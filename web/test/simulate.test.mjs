@@ -2,7 +2,7 @@
 // FLUID=1 also measures the frames a second of a program of 10⁶ blocks.
 
 import assert from 'node:assert/strict';
-import { cpSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
@@ -144,6 +144,33 @@ test('a collision is a mark that jumps to it', async () => {
   await page.waitForSelector(`.source-line[data-line="${trouble.line}"][aria-current="true"] .source-mark.error`);
   assert.deepEqual(complaints, []);
   await context.close();
+});
+
+test('tool and stock of the set-up are in the picture', async () => {
+  const folder = mkdtempSync(path.join(os.tmpdir(), 'trueaxis-setup-'));
+  cpSync(path.join(root, path.dirname(engraver)), path.join(folder, 'machine'), { recursive: true });
+  cpSync(path.join(root, collision), path.join(folder, 'short.nc'));
+  const setup = readFileSync(path.join(root, collision.replace('.nc', '.setup.toml')), 'utf8');
+  const stock = '[stock]\nbox = "70 60 20 mm"\nplacement = "0 0 15 mm"\n\n[[fixture]]\nname = "vice"\nbox = "90 12 20 mm"\nplacement = "0 45 5 mm"\n';
+  writeFileSync(path.join(folder, 'short.setup.toml'), `${setup}\n${stock}`);
+  const own = await serve(folder);
+  try {
+    const { page, complaints } = await open(browser, own.address);
+    await page.goto(`${own.address}#simulate?machine=machine/machine.toml&program=short.nc`);
+    await simulated(page);
+    const seen = (what, body) => page.evaluate(([key, name]) => globalThis.trueaxisScene[key](name), [what, body]);
+    assert.deepEqual(await seen('partsOf', 'w'), ['stock', 'vice']);
+    // The box of both: x ± 45, y from −30 to 51, z from −5 to 25 mm.
+    assert.deepEqual(await seen('boxOf', 'w'), [-45, -30, -5, 45, 51, 25]);
+    await page.click('.timeline-track');
+    await page.waitForFunction(() => globalThis.trueaxisScene.partsOf('t').includes('tool holder'));
+    const [x, , tip, , , top] = await seen('boxOf', 't');
+    assert.deepEqual([x, tip, top].map(Math.round), [-16, -90, 0], 'a holder of 32 mm, 90 mm from tip to gauge line');
+    assert.deepEqual(complaints, []);
+  } finally {
+    await own.stop();
+    rmSync(folder, { recursive: true, force: true });
+  }
 });
 
 /** As if somebody dropped the file on the page. */

@@ -2,6 +2,19 @@
 
 import { BoxGeometry, BufferAttribute, BufferGeometry, CylinderGeometry, ExtrudeGeometry, Matrix4, Shape as Outline, Vector3 } from "three";
 import type { Shape } from "../api.ts";
+import type { Role } from "./materials.ts";
+
+/** A piece of geometry that moves with one body. */
+export interface Part {
+  /** Index in `links`; null is the bed. */
+  body: number | null;
+  name: string;
+  geometry: BufferGeometry;
+  /** body_from_part */
+  matrix: Matrix4;
+  /** Default: that of its body. */
+  role?: Role;
+}
 
 /** 12 numbers (rotation row by row, origin) -> matrix. */
 export function matrixOf(p: ArrayLike<number>, offset = 0, into = new Matrix4()): Matrix4 {
