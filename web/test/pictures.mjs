@@ -20,13 +20,17 @@ from PIL import Image
 source, target, width, most = sys.argv[1], sys.argv[2], int(sys.argv[3]), int(sys.argv[4])
 picture = Image.open(source).convert("RGB")
 picture = picture.resize((width, round(picture.height * width / picture.width)), Image.LANCZOS)
-for colours in (256, 128, 64, 32):
-    picture.quantize(colours, method=Image.MEDIANCUT, dither=Image.Dither.NONE).save(target, optimize=True)
+# One half of the palette for what covers most of the picture, one for what is rare: a thin coloured line.
+for half in (128, 64, 32, 16):
+    both = [colour for method in (Image.MEDIANCUT, Image.MAXCOVERAGE) for colour in picture.quantize(half, method).getpalette()[:3 * half]]
+    palette = Image.new("P", (1, 1))
+    palette.putpalette(both)
+    picture.quantize(palette=palette, dither=Image.Dither.NONE).save(target, optimize=True)
     if os.path.getsize(target) <= most:
         break
 else:
     sys.exit(f"{target} has {os.path.getsize(target)} bytes, at most {most} are wanted")
-print(f"{target}: {os.path.getsize(target)} bytes, {colours} colours")
+print(f"{target}: {os.path.getsize(target)} bytes, at most {2 * half} colours")
 `;
 
 /** What each picture shows: where, and what is done there. */

@@ -1,11 +1,11 @@
 /** The bodies of the machine in the scene graph: each nominal and solid, and actual as a ghost. */
 
-import { Box3, EdgesGeometry, Group, LineSegments, Matrix4, Mesh } from "three";
+import { Box3, EdgesGeometry, Group, LineSegments, Matrix4, Mesh, type Vector3 } from "three";
 import type { Link } from "../api.ts";
 import { cssColour } from "../theme.ts";
 import { disposeMaterials, makeMaterials, type Role } from "./materials.ts";
 import { homePoses } from "./schematic.ts";
-import { matrixOf, type Part } from "./shapes.ts";
+import { cornersOf, matrixOf, type Part } from "./shapes.ts";
 
 /** A part as it is drawn. */
 export interface DrawnPart {
@@ -130,11 +130,13 @@ export class Bodies {
     return box;
   }
 
-  /** Bounds of what is seen of all bodies where they stand now; may be empty. */
-  bounds(): Box3 {
-    const box = new Box3();
-    for (const { solid } of this.parts) if (solid.visible) box.expandByObject(solid);
-    return box;
+  /** Corners of the boxes around what is seen, where the bodies stand now. */
+  corners(): Vector3[] {
+    return this.parts.filter(({ solid }) => solid.visible).flatMap(({ solid }) => {
+      solid.geometry.computeBoundingBox();
+      const box = solid.geometry.boundingBox;
+      return box && !box.isEmpty() ? cornersOf(box).map((corner) => corner.applyMatrix4(solid.matrixWorld)) : [];
+    });
   }
 
   // ---- poses ----

@@ -1,6 +1,6 @@
 /** From where the scene is seen: two cameras, the mouse and the keys that move them, the buttons over the picture. */
 
-import { type Box3, OrthographicCamera, PerspectiveCamera, Vector3 } from "three";
+import { Box3, OrthographicCamera, PerspectiveCamera, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { h } from "../dom.ts";
 
@@ -18,8 +18,8 @@ const KEYS: Record<string, ViewName> = { "0": "iso", "1": "x", "2": "y", "3": "z
 const TURNS: Record<string, [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
 interface Seen {
-  /** Bounds of everything. */
-  bounds: () => Box3;
+  /** What the whole picture has to show. */
+  corners: () => Vector3[];
   moved: () => void;
 }
 
@@ -61,33 +61,36 @@ export class ViewCamera {
   // ---- what is seen ----
 
   setView(name: ViewName): void {
-    this.look(new Vector3(...VIEWS[name].from).normalize(), this.seen.bounds());
+    this.look(new Vector3(...VIEWS[name].from).normalize(), this.seen.corners());
   }
 
   fit(): void {
-    this.show(this.seen.bounds());
+    this.show(this.seen.corners());
   }
 
-  /** `box` fills the picture, seen from where the camera stands, or opposite if what faces `front` is hidden from there. */
-  show(box: Box3, front = new Vector3(0, 0, 1)): void {
+  /** Points fill the picture, seen from where the camera stands, or opposite if what faces `front` is hidden from there. */
+  show(corners: readonly Vector3[], front = new Vector3(0, 0, 1)): void {
     const from = this.arm().normalize();
     const level = front.clone().setZ(0);
     const away = from.dot(level);
     if (level.length() > 0.3 && away < 0) from.addScaledVector(level, (-2 * away) / level.lengthSq());
-    this.look(from, box);
+    this.look(from, corners);
   }
 
-  private look(from: Vector3, box: Box3): void {
-    const centre = box.getCenter(new Vector3());
+  private look(from: Vector3, corners: readonly Vector3[]): void {
     const right = new Vector3(0, 0, 1).cross(from).normalize();
     const up = from.clone().cross(right);
+    // In the directions of the picture: to the right, up, towards the camera.
+    const seen = new Box3().setFromPoints(corners.map((p) => new Vector3(p.dot(right), p.dot(up), p.dot(from))));
+    const middle = seen.getCenter(new Vector3());
+    const centre = new Vector3().addScaledVector(right, middle.x).addScaledVector(up, middle.y).addScaledVector(from, middle.z);
     let distance = 0;
     this.half = 0;
-    for (let i = 0; i < 8; i++) {
-      const corner = new Vector3(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z).sub(centre);
-      const seen = 1.08 * Math.max(Math.abs(corner.dot(up)), Math.abs(corner.dot(right)) / this.aspect);
-      this.half = Math.max(this.half, seen);
-      distance = Math.max(distance, corner.dot(from) + seen / this.tangent());
+    for (const corner of corners) {
+      const off = corner.clone().sub(centre);
+      const half = 1.08 * Math.max(Math.abs(off.dot(up)), Math.abs(off.dot(right)) / this.aspect);
+      this.half = Math.max(this.half, half);
+      distance = Math.max(distance, off.dot(from) + half / this.tangent());
     }
     for (const camera of [this.perspective, this.orthographic]) {
       camera.position.copy(centre).addScaledVector(from, distance);

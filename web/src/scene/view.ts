@@ -15,7 +15,7 @@ import { drawnByProcessor, Pace } from "./pace.ts";
 import { savePng } from "./picture.ts";
 import { probeOf } from "./probe.ts";
 import { schematic, unitOf } from "./schematic.ts";
-import { geometryOf, matrixOf } from "./shapes.ts";
+import { cornersOf, geometryOf, matrixOf } from "./shapes.ts";
 import { toolParts, workpieceBlock } from "./tool.ts";
 import { type BarWords, WorkpieceLayers } from "./workpiece.ts";
 
@@ -25,7 +25,7 @@ export class MachineView {
   private readonly scene = new Scene();
   private readonly renderer: WebGLRenderer | null;
   private pace: Pace | null = null;
-  private readonly camera = new ViewCamera({ bounds: () => this.bounds(), moved: () => this.requestRender() });
+  private readonly camera = new ViewCamera({ corners: () => this.corners(), moved: () => this.requestRender() });
   private readonly bodies = new Bodies();
   private readonly layers = new WorkpieceLayers(this.overlay.legend);
   private machine: MachineDescription | null = null;
@@ -174,13 +174,18 @@ export class MachineView {
     this.overlay.note("grid", `grid ${this.grid.step_mm} mm`);
   }
 
-  private bounds(): Box3 {
+  /** What the whole picture has to show. */
+  private corners(): Vector3[] {
     this.scene.updateMatrixWorld(true);
-    const box = this.bodies.bounds();
+    const corners = this.bodies.corners();
+    if (corners.length > 0) return corners;
     // Without a machine, the part alone is the picture.
-    if (box.isEmpty()) box.expandByObject(this.layers.group);
-    if (box.isEmpty()) box.setFromCenterAndSize(new Vector3(), new Vector3(500, 500, 500));
-    return box;
+    const box = new Box3().expandByObject(this.layers.group);
+    return cornersOf(box.isEmpty() ? box.setFromCenterAndSize(new Vector3(), new Vector3(500, 500, 500)) : box);
+  }
+
+  private bounds(): Box3 {
+    return new Box3().setFromPoints(this.corners());
   }
 
   // ---- how it looks ----
@@ -281,14 +286,14 @@ export class MachineView {
     this.scene.updateMatrixWorld(true);
     const box = path.extent().applyMatrix4(path.group.matrixWorld);
     const up = new Vector3(0, 0, 1).transformDirection(path.group.matrixWorld);
-    this.camera.show(box.expandByScalar(0.15 * box.getSize(new Vector3()).length() + 1), up);
+    this.camera.show(cornersOf(box.expandByScalar(0.15 * box.getSize(new Vector3()).length() + 1)), up);
   }
 
   /** Looks at the workpiece from where the camera stands: `radius` mm around a point of its frame. */
   lookAtWorkpiece(point: readonly [number, number, number], radius: number): void {
     this.scene.updateMatrixWorld(true);
     const centre = new Vector3(...point).applyMatrix4(this.layers.group.matrixWorld);
-    this.camera.show(new Box3(centre.clone().addScalar(-radius), centre.clone().addScalar(radius)));
+    this.camera.show(cornersOf(new Box3(centre.clone().addScalar(-radius), centre.clone().addScalar(radius))));
   }
 
   // ---- drawing ----

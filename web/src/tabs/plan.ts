@@ -4,7 +4,7 @@ import { diagnosticList, split, type App, type Tab, type TabHandle } from "../ap
 import { latestOnly, type PoseHeader } from "../api.ts";
 import { fill, h } from "../dom.ts";
 import type { Figure } from "../figure/index.ts";
-import { deg, number, NARROW_SPACE } from "../format.ts";
+import { deg, mm, number, NARROW_SPACE } from "../format.ts";
 import type { Frame } from "../frame.ts";
 import { MachineView } from "../scene/view.ts";
 import { confoundedPanel } from "./identify/panels.ts";
@@ -230,7 +230,7 @@ class PlanTab implements TabHandle {
     if (!this.machine || !this.frame || this.span()[1] === 0) return;
     this.slider.value = String(station);
     const at = this.commands(station);
-    const text = this.frame.header.axes.map(({ name, unit }) => `${name}${NARROW_SPACE}${unit === "mm" ? number(at[name], 1) : deg(at[name], 1)}`).join(" ");
+    const text = this.frame.header.axes.map(({ name, unit }) => `${name}${NARROW_SPACE}${unit === "mm" ? mm(at[name], 1) : deg(at[name], 1)}`).join(", ");
     this.where.textContent = `${station + 1} of ${this.span()[1]}: ${text}`;
     this.slider.setAttribute("aria-valuetext", this.where.textContent);
     for (const row of this.stations.querySelectorAll<HTMLElement>("[data-station]")) {
