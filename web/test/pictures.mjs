@@ -39,6 +39,7 @@ const PICTURES = {
     at: 'describe?machine=machines/xkas2525/machine.toml',
     async act(page) {
       await page.locator('.scene-note.actual').waitFor();
+      for (const [axis, mm] of [['X', 3100], ['Y', 1250], ['Z', -500]]) await page.fill(`[data-position="${axis}"]`, String(mm));
       await page.click('[data-page="errors"]');
     },
   },

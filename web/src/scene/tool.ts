@@ -6,6 +6,9 @@ import type { Bodies } from "./bodies.ts";
 import { unitOf } from "./schematic.ts";
 import { standingCone, type Part } from "./shapes.ts";
 
+/** Radius of a tool of unknown diameter, in lengths: so slim that what is beside it is seen. */
+const SLIM = 0.03;
+
 /** What the set-up states of the tool; else a holder and a cutter of its length. */
 export function toolParts(bodies: Bodies, tool: ToolShape): Part[] {
   const body = bodies.indexOf("tool");
@@ -25,7 +28,7 @@ function stated(body: number, { length_mm, tip_mm }: ToolShape, segments: readon
 
 function inProportion(body: number, { length_mm, diameter_mm }: ToolShape, u: number): Part[] {
   if (!(length_mm > 0)) return [];
-  const radius = diameter_mm !== null && diameter_mm > 0 ? diameter_mm / 2 : Math.min(0.1 * u, 0.1 * length_mm);
+  const radius = diameter_mm !== null && diameter_mm > 0 ? diameter_mm / 2 : SLIM * length_mm;
   const holder = Math.min(0.45 * length_mm, 0.5 * u);
   const cutter = new CylinderGeometry(radius, radius, length_mm - holder, 32).rotateX(Math.PI / 2).translate(0, 0, -(length_mm + holder) / 2);
   return [

@@ -5,9 +5,6 @@ import type { MachineDescription, ToolShape } from "../../api.ts";
 import { matrixOf } from "../../scene/shapes.ts";
 import type { Moment, SetUpTool } from "./answers.ts";
 
-/** Diameter of a tool of unknown diameter, in lengths: so slim that the path beside it is seen. */
-const SLIM = 0.06;
-
 /**
  * The cylinders that the set-up states, where the tool sits in its holder: it is there before the
  * program counts with its length. Else the tool of the machine file, its tip where the program has it.
@@ -21,9 +18,7 @@ export function toolOf(machine: MachineDescription, tools: readonly SetUpTool[],
   const tip = tipInHolder(machine, moment, nominal);
   const length = tip.length();
   const own = machine.tool;
-  const diameter_mm = own.diameter_mm ?? SLIM * length;
-  if (Math.abs(length - own.length_mm) < 1e-3) return { ...own, diameter_mm };
-  return { length_mm: length, diameter_mm, tip_mm: tip.toArray() };
+  return Math.abs(length - own.length_mm) < 1e-3 ? own : { length_mm: length, diameter_mm: own.diameter_mm, tip_mm: tip.toArray() };
 }
 
 /** What must be said about the picture of the tool. */
