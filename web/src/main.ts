@@ -8,6 +8,8 @@ import "./style/describe.css";
 import "./style/measure.css";
 import "./style/predict.css";
 import "./style/simulate.css";
+import "./style/simulate-source.css";
+import "./style/simulate-time.css";
 import { App } from "./app.ts";
 import { startTheme } from "./theme.ts";
 

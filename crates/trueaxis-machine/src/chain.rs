@@ -388,7 +388,7 @@ impl Machine {
     }
 
     /// The nominal tip in the workpiece frame, mm.
-    fn nominal_tip_mm(&self, command: &Command) -> Vec3 {
+    pub(crate) fn nominal_tip_mm(&self, command: &Command) -> Vec3 {
         let mut tip = self.tip_mm;
         let joint = |body: &ChainBody| body.axis.map(|a| (&self.axes[a], command[a]));
         for body in self.bodies[self.workpiece_side..].iter().rev() {

@@ -2,6 +2,7 @@
 
 mod curve;
 mod name;
+mod slope;
 mod spline;
 mod stated;
 mod uncertain;

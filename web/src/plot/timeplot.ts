@@ -181,7 +181,7 @@ class TimePlotView implements TimePlot {
       scales: { x: { time: false }, y: { range: (_, low, high) => this.tall(low, high) } },
       axes: [
         { ...axis, size: 28, values: (_, values) => values.map((v) => withUnit(v, Math.max(0, v % 1 === 0 ? 0 : 2), "s")) },
-        { ...axis, size: 58, values: (_, values, __, ___, step) => values.map((v) => number(v, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)))) },
+        { ...axis, size: 58, space: 18, values: (_, values, __, ___, step) => values.map((v) => number(v, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)))) },
       ],
       series,
       bands,

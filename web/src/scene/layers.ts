@@ -148,12 +148,6 @@ export class PathLayer {
     this.dim.visible = done < this.kept.length;
   }
 
-  setValues(values: Float32Array, map: ColourMap = sequential, range: [number, number] = rangeOf(values)): void {
-    this.range.splice(0, 2, ...range);
-    const rapid = this.data.rapid;
-    this.geometry.setAttribute("color", new BufferAttribute(paint(values, map, range, (i) => (rapid?.[i] ? 70 : 255)), 4, true));
-  }
-
   setExaggeration(k: number): void {
     if (!this.ghost) return;
     const position = this.ghost.geometry.getAttribute("position") as BufferAttribute;

@@ -45,8 +45,4 @@ export class Pace {
       this.draw();
     }, REST_MS);
   }
-
-  stop(): void {
-    clearTimeout(this.rest);
-  }
 }

@@ -4,7 +4,7 @@ import { diagnosticList, split, type App, type Tab, type TabHandle } from "../ap
 import { latestOnly, type PoseHeader } from "../api.ts";
 import { fill, h } from "../dom.ts";
 import type { Figure } from "../figure/index.ts";
-import { deg, number, NARROW_SPACE } from "../format.ts";
+import { deg, mm, number, NARROW_SPACE } from "../format.ts";
 import type { Frame } from "../frame.ts";
 import { MachineView } from "../scene/view.ts";
 import { confoundedPanel } from "./identify/panels.ts";
@@ -230,7 +230,9 @@ class PlanTab implements TabHandle {
     if (!this.machine || !this.frame || this.span()[1] === 0) return;
     this.slider.value = String(station);
     const at = this.commands(station);
-    const text = this.frame.header.axes.map(({ name, unit }) => `${name}${NARROW_SPACE}${unit === "mm" ? number(at[name], 1) : deg(at[name], 1)}`).join(" ");
+    // Lengths in a row have their unit once, after the last.
+    const value = (name: string, unit: string, next: string | undefined): string => (unit !== "mm" ? deg(at[name], 1) : next === "mm" ? number(at[name], 1) : mm(at[name], 1));
+    const text = this.frame.header.axes.map(({ name, unit }, i, axes) => `${name}${NARROW_SPACE}${value(name, unit, axes[i + 1]?.unit)}`).join(" ");
     this.where.textContent = `${station + 1} of ${this.span()[1]}: ${text}`;
     this.slider.setAttribute("aria-valuetext", this.where.textContent);
     for (const row of this.stations.querySelectorAll<HTMLElement>("[data-station]")) {

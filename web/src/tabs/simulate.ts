@@ -15,7 +15,7 @@ import { Readout } from "./simulate/readout.ts";
 import { SourceList, type LineNote } from "./simulate/source.ts";
 import { Summary } from "./simulate/summary.ts";
 import { Timeline } from "./simulate/timeline.ts";
-import { toolOf } from "./simulate/tool.ts";
+import { toolNote, toolOf } from "./simulate/tool.ts";
 import { Transport } from "./simulate/transport.ts";
 import { takeDropped } from "./start.ts";
 
@@ -47,7 +47,8 @@ class SimulateTab implements TabHandle {
   /** Index of the program whose source is shown. */
   private shown_program = 0;
   private readonly texts = new Map<number, { name: string; text: string }>();
-  private tool_tip = "";
+  /** Which tool is drawn, and where its tip is in the holder. */
+  private drawn_tool = "";
   private in_sight = false;
 
   constructor(host: HTMLElement, app: App) {
@@ -153,7 +154,8 @@ class SimulateTab implements TabHandle {
     this.simulation = null;
     this.moment = null;
     this.texts.clear();
-    this.tool_tip = "";
+    this.drawn_tool = "";
+    this.view.overlay.note("tool", null);
     this.summary.clear();
     this.readout.clear();
     this.curves.clear();
@@ -204,6 +206,7 @@ class SimulateTab implements TabHandle {
     this.readout.setAxes(header.axes);
     this.player.reset(header.duration_s);
     this.timeline.setProgram(header.duration_s, header.marks);
+    this.view.setOnWorkpiece(simulation.on_workpiece);
     this.path.setSimulation(simulation);
     this.curves.setSimulation(simulation);
     await this.showProgram(0);
@@ -294,13 +297,15 @@ class SimulateTab implements TabHandle {
 
   /** The tool of the set-up in place of that of the machine file. */
   private showTool(moment: Moment, nominal: Float64Array): void {
-    const { drawn } = this;
-    if (!drawn) return;
-    const tool = toolOf(drawn, moment.tip_mm, nominal);
-    const tip = (tool.tip_mm ?? []).map((v) => v.toFixed(3)).join(" ");
-    if (tip === this.tool_tip) return;
-    this.tool_tip = tip;
-    this.view.setMachine({ ...drawn, tool }, true);
+    const { drawn, simulation } = this;
+    if (!drawn || !simulation) return;
+    const { tools } = simulation.header;
+    const tool = toolOf(drawn, tools, moment, nominal);
+    const key = [moment.tool, ...(tool.tip_mm ?? []).map((v) => v.toFixed(3))].join(" ");
+    if (key === this.drawn_tool) return;
+    this.drawn_tool = key;
+    this.view.setTool(tool);
+    this.view.overlay.note("tool", toolNote(drawn, tools, moment));
   }
 
   private zoomed(window_s: [number, number] | null): void {

@@ -218,7 +218,7 @@ class StandardsTab implements TabHandle {
       "dl",
       { class: "tiles" },
       tilesOf(document).map((tile) =>
-        h("div", { class: "tile", title: tile.title, dataTile: tile.symbol }, h("dt", {}, tile.symbol, h("span", { class: "muted tile-word" }, tile.word)), h("dd", {}, h("strong", {}, number(tile.value, 2)), h("span", { class: "unit" }, `${NARROW_SPACE}${tile.unit}`), tile.U != null ? h("span", { class: "muted tile-u", title: "expanded uncertainty, k = 2" }, `U ${number(tile.U, 2)}`) : null)),
+        h("div", { class: "tile", title: tile.title, dataTile: tile.symbol }, h("dt", {}, tile.symbol, h("span", { class: "muted tile-word" }, tile.word)), h("dd", {}, h("strong", {}, number(tile.value, 2)), h("span", { class: "unit" }, `${NARROW_SPACE}${tile.unit}`), tile.U != null ? h("span", { class: "muted tile-u", title: "expanded uncertainty, k = 2" }, `U ${number(tile.U, 2)}${NARROW_SPACE}${tile.unit}`) : null)),
       ),
     );
   }

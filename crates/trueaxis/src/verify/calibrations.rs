@@ -128,6 +128,15 @@ impl Calibrations {
 /// # Source
 /// E_n: ISO/IEC 17043:2010, B.3.1.3; for many errors at a time the bound of Bonferroni.
 pub fn calibrations(old: &Machine, new: &Machine) -> Result<Calibrations, String> {
+    let (errors, limit) = error_changes(old, new)?;
+    Ok(Calibrations { errors, limit, tip: tip::tip_change(old, new) })
+}
+
+/// The errors alone, and the limit of |Δ| / u(Δ).
+///
+/// # Errors
+/// As [`calibrations`].
+pub fn error_changes(old: &Machine, new: &Machine) -> Result<(Vec<ErrorChange>, f64), String> {
     same_machine(old, new)?;
     let mut errors = Vec::new();
     for (body, in_old) in old.bodies().iter().enumerate() {
@@ -146,8 +155,7 @@ pub fn calibrations(old: &Machine, new: &Machine) -> Result<Calibrations, String
     for error in &mut errors {
         error.moved = judged(error, limit);
     }
-    let tip = tip::tip_change(old, new);
-    Ok(Calibrations { errors, limit, tip })
+    Ok((errors, limit))
 }
 
 fn same_machine(old: &Machine, new: &Machine) -> Result<(), String> {
@@ -225,6 +233,9 @@ fn places(error: &StatedError, travel: Option<Travel>) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rand_chacha::ChaCha8Rng;
+    use rand_chacha::rand_core::SeedableRng;
+    use rand_distr::{Distribution, StandardNormal};
     use trueaxis_machine::file::NoTables;
 
     fn mill(rest: &str) -> Machine {
@@ -258,6 +269,32 @@ mod tests {
         assert!((0.003..0.006).contains(&found.tip.largest_mm), "{}", found.tip.largest_mm);
         assert_eq!(found.tip.shares[0].error.to_string(), "EC0Y");
         assert!((found.tip.shares[0].largest_mm - 0.004).abs() < 4e-5);
+    }
+
+    fn normal(random: &mut ChaCha8Rng) -> f64 {
+        StandardNormal.sample(random)
+    }
+
+    /// The rate of false alarms is that which is promised, among many errors.
+    #[test]
+    fn law_chance_moves_no_more_than_five_in_a_hundred_machines() {
+        let names = ["EA0Y", "EC0Y", "EA0Z", "EB0Z", "EB0X", "EC0X", "EX0t", "EY0t", "EZ0t"];
+        let mut random = ChaCha8Rng::seed_from_u64(20_261_122);
+        let mut machine = || {
+            let line = |name: &&str| {
+                let unit = if "ABC".contains(&name[1..2]) { "urad" } else { "um" };
+                format!("{name} = \"{:.4} ± 1.5 {unit}\"\n", 1.5 * normal(&mut random))
+            };
+            mill(&format!("[location]\n{}", names.iter().map(line).collect::<String>()))
+        };
+        let alarms = (0..2000)
+            .filter(|_| {
+                let (errors, _) = error_changes(&machine(), &machine()).expect("one machine");
+                errors.iter().any(|e| e.moved == Moved::Yes)
+            })
+            .count();
+        // 1 − (1 − 0.05/9)⁹ = 4.89 %: 97.8 of 2000, standard deviation 9.6; three of them.
+        assert!((69..=127).contains(&alarms), "{alarms}");
     }
 
     #[test]

@@ -1,8 +1,9 @@
 /** What the server says about one simulation, typed. */
 
 import type { App } from "../../app.ts";
-import type { Diagnostic, Vector } from "../../api.ts";
+import type { Diagnostic, Model, SurfaceModel, Vector } from "../../api.ts";
 import type { Frame } from "../../frame.ts";
+import { modelsOf } from "../../scene/models.ts";
 
 /** A place in the program where a number is largest. */
 interface Worst {
@@ -52,6 +53,15 @@ export interface Mark {
   line: number;
 }
 
+export interface SetUpTool {
+  tool: number;
+  name: string;
+  /** The tip in the body of the tool holder. */
+  tip_mm: Vector;
+  /** Diameter and length of its cylinders, from the tip upwards; empty where nothing is stated. */
+  segments_mm: [number, number][];
+}
+
 export interface SimulationHeader {
   simulation: number;
   document: SimulationDocument;
@@ -64,6 +74,9 @@ export interface SimulationHeader {
   programs: { name: string; path: string | null; lines: number }[];
   marks: Mark[];
   bodies: string[];
+  tools: SetUpTool[];
+  /** Stock, part and fixtures of the set-up. */
+  on_workpiece: SurfaceModel[];
   diagnostics: Diagnostic[];
 }
 
@@ -125,18 +138,20 @@ export interface Watch {
 /** The questions about one machine and program. */
 export class Simulation {
   readonly header: SimulationHeader;
+  readonly on_workpiece: Model[];
   private readonly app: App;
 
-  constructor(app: App, header: SimulationHeader) {
+  constructor(app: App, frame: Frame<SimulationHeader>) {
     this.app = app;
-    this.header = header;
+    this.header = frame.header;
+    this.on_workpiece = modelsOf(frame.header.on_workpiece, frame.f32("corners_mm"));
   }
 
   static async run(app: App, job: Job, watch: Watch): Promise<Simulation> {
     const { program, ...rest } = job;
     const body = typeof program === "string" ? { ...rest, program } : { ...rest, ...program };
     const frame = await app.api.ask<Frame<SimulationHeader>>("simulate", body, { onProgress: watch.progress, signal: watch.signal });
-    return new Simulation(app, frame.header);
+    return new Simulation(app, frame);
   }
 
   at(time_s: number): Promise<Frame<{ moment: Moment }>> {

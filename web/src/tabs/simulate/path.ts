@@ -26,6 +26,8 @@ export class ToolPath {
   private readonly view: MachineView;
   private simulation: Simulation | null = null;
   private colour: Colour = "deviation";
+  /** The user has said what the colour shows. */
+  private picked = false;
   private window_s: [number, number] | null = null;
   private time_s: Float64Array = new Float64Array();
   private now_s = 0;
@@ -45,6 +47,8 @@ export class ToolPath {
 
   setSimulation(simulation: Simulation | null): void {
     this.simulation = simulation;
+    // A machine without errors has no deviation to look at.
+    if (simulation && !this.picked) this.show(simulation.header.document.deviation.tip_um.value > 0 ? "deviation" : "feed");
     this.window_s = null;
     this.time_s = new Float64Array();
     this.view.setPath(null);
@@ -70,9 +74,14 @@ export class ToolPath {
   }
 
   private pick(colour: Colour): void {
-    this.colour = colour;
-    for (const button of this.control.querySelectorAll("button")) button.setAttribute("aria-pressed", String(button.dataset["colour"] === colour));
+    this.picked = true;
+    this.show(colour);
     this.request();
+  }
+
+  private show(colour: Colour): void {
+    this.colour = colour;
+    for (const button of this.control.querySelectorAll<HTMLElement>("[data-colour]")) button.setAttribute("aria-pressed", String(button.dataset["colour"] === colour));
   }
 
   private request(): void {
@@ -85,7 +94,7 @@ export class ToolPath {
     this.time_s = frame.f64("time_s");
     const rapid = frame.u8("rapid");
     const deviations = frame.f32("off_um").map((um) => um / 1000);
-    this.view.setPath({ positions: frame.f32("tip_mm"), origin: header.origin_mm, values: frame.f32("value"), rapid, deviations, range: [header.low, header.high] }, { title: COLOURS.find(([key]) => key === colour)?.[1] ?? header.title, unit: header.unit });
+    this.view.setPath({ positions: frame.f32("tip_mm"), origin: header.origin_mm, values: frame.f32("value"), rapid, deviations, range: [header.low, header.high] }, header.low === header.high ? undefined : { title: COLOURS.find(([key]) => key === colour)?.[1] ?? header.title, unit: header.unit });
     const part = window_s ? `path from ${clock(window_s[0])} to ${clock(window_s[1])} min:s` : null;
     const coarse = header.complete ? null : `path drawn within ${mm(header.chord_mm, 3)}`;
     this.view.overlay.note("path", [part, coarse].filter(Boolean).join(", ") || null);

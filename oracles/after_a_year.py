@@ -4,14 +4,14 @@ Invented for this project: what a second calibration finds a year later. Everyth
 so every error moves by its uncertainty (seeded noise); four really moved: the foundation settled
 (EC0Y, EYX), the head was hit (EA0A), the spindle was taken out (EX0t).
 
-Python 3.11, no packages:    python3 oracles/verify/after_a_year.py
+Python 3.11, no packages:    python3 oracles/after_a_year.py
 """
 
 import random
 import re
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[1]
 OLD = ROOT / "machines/xkas2525"
 NEW = ROOT / "examples/07_verify"
 MOVED = {"EC0Y": 12.0, "EA0A": 22.0, "EX0t": -9.0}
@@ -30,7 +30,7 @@ text = (OLD / "machine.toml").read_text()
 text = re.sub(r'(E[XYZABC]0\w) = "(-?[\d.]+) ± ([\d.]+) (um|urad)"', location, text)
 text = re.sub(r'table = "X.csv"', 'table = "xkas2525-after-a-year-X.csv"', text)
 text = re.sub(r'table = "([YZCA]).csv"', r'table = "../../machines/xkas2525/\1.csv"', text)
-head = "# XKAS2525x60 a year later: invented by oracles/verify/after_a_year.py for `verify --diff`.\n#\n"
+head = "# XKAS2525x60 a year later: invented by oracles/after_a_year.py for `verify --diff`.\n#\n"
 (NEW / "xkas2525-after-a-year.toml").write_text(head + text)
 
 lines = (OLD / "X.csv").read_text().splitlines()
