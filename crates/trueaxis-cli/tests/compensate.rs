@@ -117,7 +117,7 @@ fn tables_of_a_control() {
         (&["--limit", "2 um"][..], "too-large"),
         (&["--bound", "0.01 um", "--target", "sinumerik"], "bound-below-increment"),
         (&["--bound", "-1 um"], "not-positive"),
-        (&["--bound", "nan um"], "bad-"),
+        (&["--bound", "nan um"], "not-finite"),
         (&["--at", "Q=1"], "unknown-axis"),
     ] {
         let out = folder.path("refused");

@@ -54,8 +54,8 @@ impl Control for LinuxCnc {
             letters.join(" ")
         );
         let mut files = Vec::new();
-        for table in tables {
-            let Some(joint) = order.iter().position(|axis| *axis == table.output) else { continue };
+        for (joint, axis) in order.iter().enumerate() {
+            let Some(table) = tables.iter().find(|t| t.output == *axis) else { continue };
             let name = format!("joint_{joint}_{}.comp", letters[joint]);
             // Writing to a String cannot fail.
             let _ = write!(

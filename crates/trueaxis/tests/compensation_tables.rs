@@ -1,5 +1,11 @@
-use super::*;
-use trueaxis_machine::file::NoTables;
+//! Compensation tables: what is written is what is read, and what is added is what it should be.
+
+use trueaxis::compensate::tables::control::{Control, File};
+use trueaxis::compensate::tables::table::{Node, Table};
+use trueaxis::compensate::tables::{Compiled, Order, TablesError, Target, added, compile};
+use trueaxis::machine::Machine;
+use trueaxis::machine::axis::Command;
+use trueaxis::machine::file::NoTables;
 
 fn machine(axes: &str, errors: &str) -> Machine {
     let text = format!("[machine]\nname = \"m\"\n{axes}\n[tool]\nlength = \"100 mm\"\n{errors}");
@@ -109,6 +115,15 @@ EYX = { polynomial = [\"0 um\", \"5 um\", \"9 um\"], scale = \"1000 mm\" }
     assert!(compiled.after.max_mm > 5e-3);
 }
 
+fn read(control: &dyn Control, machine: &Machine, files: &[File]) -> Vec<Table> {
+    control.read(machine, files).unwrap()
+}
+
+fn sorted(mut tables: Vec<Table>) -> Vec<Table> {
+    tables.sort_by_key(|t| (t.input, t.output));
+    tables
+}
+
 /// Every format: what is read is what was meant, to the last count; endless axes too.
 #[test]
 fn round_trips() {
@@ -117,13 +132,12 @@ fn round_trips() {
 [axis.Z]\ntravel = [\"0 mm\", \"600 mm\"]";
     let machine = machine(axes, "");
     let node = |at, up, down| Node { at, up, down };
-    let table = |input, output, nodes: &[table::Node]| Table {
+    let table = |input, output, nodes: &[Node]| Table {
         input,
         output,
         modulo: false,
         nodes: nodes.to_vec(),
     };
-    use table::Node;
     let (x, y) = (1, 2);
     let own = [
         table(0, 0, &[node(-90_000_000, 5, 5), node(0, -1, -1), node(90_000_000, 7, 7)]),
@@ -145,11 +159,7 @@ fn round_trips() {
             tables.extend(cross.iter().cloned().chain([around.clone()]));
         }
         let files = control.write(&machine, &tables);
-        assert_eq!(recovered(&machine, control.as_ref(), &tables, &files).unwrap(), {
-            let mut sorted = tables.clone();
-            sorted.sort_by_key(|t| (t.input, t.output));
-            sorted
-        });
+        assert_eq!(sorted(read(control.as_ref(), &machine, &files)), sorted(tables));
         // A spoiled file is refused by its name, not read as something else.
         for file in 0..files.len() {
             let mut spoiled = files.clone();
