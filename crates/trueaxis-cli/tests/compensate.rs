@@ -118,6 +118,7 @@ fn tables_of_a_control() {
         (&["--bound", "0.01 um", "--target", "sinumerik"], "bound-below-increment"),
         (&["--bound", "-1 um"], "not-positive"),
         (&["--bound", "nan um"], "not-finite"),
+        (&["--comp-file-type", "1"], "unused-argument"),
         (&["--at", "Q=1"], "unknown-axis"),
     ] {
         let out = folder.path("refused");

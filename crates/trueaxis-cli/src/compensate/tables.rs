@@ -52,9 +52,9 @@ pub struct TablesArguments {
         allow_hyphen_values = true
     )]
     limit_angle: String,
-    /// LinuxCNC: 0 for actual positions, 1 for trims
-    #[arg(long, value_enum, default_value = "0")]
-    comp_file_type: CompFileType,
+    /// Of linuxcnc: 0 for actual positions (unless told), 1 for trims
+    #[arg(long, value_enum)]
+    comp_file_type: Option<CompFileType>,
     /// A study of `predict`: its test piece is cut with the tables
     #[arg(long, value_name = "STUDY.toml")]
     piece: Option<PathBuf>,
@@ -125,10 +125,15 @@ fn may_fill(folder: &Path, problems: &mut Diagnostics) {
 
 impl TablesArguments {
     fn order(&self, machine: &Machine, problems: &mut Diagnostics) -> Option<Order> {
+        if self.comp_file_type.is_some() && self.target != Control::Linuxcnc {
+            let message = "only LinuxCNC has a COMP_FILE_TYPE".to_owned();
+            let hint = "use it with --target linuxcnc, or leave it out";
+            problems.error("unused-argument", argument("--comp-file-type"), message, hint);
+        }
         let target = match self.target {
             Control::Csv => Target::Csv,
             Control::Linuxcnc => {
-                Target::LinuxCnc { trims: self.comp_file_type == CompFileType::Trims }
+                Target::LinuxCnc { trims: self.comp_file_type == Some(CompFileType::Trims) }
             }
             Control::Sinumerik => Target::Sinumerik,
         };

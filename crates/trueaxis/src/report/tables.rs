@@ -68,11 +68,15 @@ pub fn tables_text(report: &TablesReport<'_>) -> String {
             let _ = writeln!(text, "  {:<34} {a:>9.3} {b:>9.3}", index.key);
         }
     }
-    for line in compiled.advice {
-        let _ = writeln!(text, "\nNote: {line}");
+    if !compiled.advice.is_empty() {
+        text += "\nNotes\n";
     }
+    for line in compiled.advice {
+        let _ = writeln!(text, "  {line}");
+    }
+    text += "\nFiles\n";
     for file in report.files {
-        let _ = writeln!(text, "{file}");
+        let _ = writeln!(text, "  {file}");
     }
     text
 }
