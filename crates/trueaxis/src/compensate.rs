@@ -2,8 +2,10 @@
 //!
 //! - [`values`]: per axis and position, in least increments;
 //! - [`adapt`](mod@adapt): a path moved onto the blank that was probed, and what wall it leaves;
+//! - [`program`]: an NC program, so that the actual tool goes where it says;
 //! - [`post`](mod@post): cutter locations into an NC program of one control, with its proof.
 
 pub mod adapt;
 pub mod post;
+pub mod program;
 pub mod values;

@@ -1,0 +1,420 @@
+//! One block with corrected numbers: the same words in the same order, and what has to be added.
+
+use super::number::{Grid, Of};
+use super::stand::{Stand, of_kind};
+use super::text::Edits;
+use super::walk::refusal;
+use super::words::{Word, Words};
+use crate::simulate::axis_path::{AxisPath, Fault, Straight};
+use std::ops::Range;
+use trueaxis_machine::axis::{AxisKind, Command};
+use trueaxis_nc::Control;
+use trueaxis_nc::moves::{Axis, AxisSet, Coordinates, FeedMode, Move, MoveKind, Position, Way};
+
+/// A block that is being written.
+pub(super) struct Block<'b> {
+    pub m: &'b Move,
+    pub source: &'b [u8],
+    pub words: &'b Words,
+    /// Its numbers are increments unless they say otherwise.
+    pub incremental: bool,
+    pub control: Control,
+    pub grid: Grid,
+    /// The tool axis is programmed by vectors.
+    pub vectors: bool,
+    /// A feed that a block before has replaced.
+    pub feed_again: Option<f64>,
+    pub edits: Edits,
+    /// The lines that follow it.
+    pub further: Vec<String>,
+    pub added: u64,
+    pub pieces: usize,
+}
+
+/// The piece of it that is to be written.
+pub(super) struct Written {
+    /// Which, from 0.
+    pub piece: usize,
+    /// Its part of the way.
+    pub share: f64,
+    /// Where the axes shall stand at its end.
+    pub command: Command,
+}
+
+/// What the control makes of a piece.
+pub(super) struct Next {
+    pub m: Move,
+    /// The feed that is to be stated again in the next block.
+    pub feed_again: Option<f64>,
+}
+
+/// A word on its way into the text.
+struct Put {
+    letters: &'static str,
+    text: String,
+}
+
+/// The letters of the axes in the order of [`Axis::ALL`].
+const LETTERS: [&str; 9] = ["X", "Y", "Z", "A", "B", "C", "U", "V", "W"];
+
+impl Block<'_> {
+    /// Writes a piece that begins where `path` stands; `turns_deg`: only rotary axes move, and the
+    /// feed counts along so many degrees.
+    pub fn write(
+        &mut self,
+        path: &AxisPath<'_>,
+        step: &Written,
+        turns_deg: Option<f64>,
+    ) -> Result<Next, Fault> {
+        let now = path.words_of(path.command(), self.m.coordinates);
+        let wanted = self.wanted(path, &step.command);
+        let mut m = Move {
+            kind: self.kind(),
+            target: now,
+            named: AxisSet::default(),
+            ways: [Way::AsWritten; 3],
+            direction: None,
+            ..*self.m
+        };
+        let mut puts = Vec::new();
+        for axis in Axis::ALL {
+            let by_vector = axis.is_rotary() && self.vectors;
+            if path.axis_of(axis).is_some() && !by_vector {
+                self.axis(axis, (now[axis], wanted[axis]), step.piece, &mut m, &mut puts)?;
+            }
+        }
+        if self.vectors {
+            self.direction(path, step, &mut m, &mut puts)?;
+        }
+        let feed_again = self.feed(&now, step, turns_deg, &m, &mut puts)?;
+        if step.piece == 0 {
+            self.first(puts);
+        } else if !puts.is_empty() {
+            self.follow(&puts);
+        }
+        if self.pieces > 1 && step.piece + 1 == self.pieces {
+            self.functions_at_end();
+        }
+        Ok(Next { m, feed_again })
+    }
+
+    fn kind(&self) -> MoveKind {
+        match self.m.kind {
+            MoveKind::Arc(_) | MoveKind::SpatialArc(_) => MoveKind::Linear,
+            kind => kind,
+        }
+    }
+
+    fn is_circle(&self) -> bool {
+        matches!(self.m.kind, MoveKind::Arc(_) | MoveKind::SpatialArc(_))
+    }
+
+    /// Words for axis positions; where rotary axes are rounded, linear ones go with them.
+    fn wanted(&self, path: &AxisPath<'_>, command: &Command) -> Position {
+        let exact = path.words_of(command, self.m.coordinates);
+        let (Some(control), Some(_), Straight::Axes) =
+            (path.control(), self.grid.0, path.straight())
+        else {
+            return exact;
+        };
+        let mut rounded = *command;
+        for i in of_kind(control, AxisKind::Rotary) {
+            let letter = control.machine().axes()[i].name.letter();
+            let Some(axis) = Axis::ALL.into_iter().find(|a| char::from(a.letter()) == letter)
+            else {
+                continue;
+            };
+            let by = self.grid.round(exact[axis], Of::Rotary) - exact[axis];
+            rounded[i] += by.to_radians();
+        }
+        match control.place(Stand::of(control, command).tip, &mut rounded) {
+            true => path.words_of(&rounded, self.m.coordinates),
+            false => exact,
+        }
+    }
+
+    fn axis(
+        &mut self,
+        axis: Axis,
+        (now, wanted): (f64, f64),
+        piece: usize,
+        m: &mut Move,
+        puts: &mut Vec<Put>,
+    ) -> Result<(), Fault> {
+        let of = if axis.is_rotary() { Of::Rotary } else { Of::Linear };
+        let word = self.words.axes[axis as usize].clone().filter(|_| piece == 0);
+        let Some(word) = word else {
+            if piece == 0 && self.m.named.contains(axis) && !self.is_circle() {
+                return Err(self.no_word(axis));
+            }
+            let value = self.grid.round(wanted, of);
+            if !self.grid.same(value, now, of) {
+                (m.target[axis], m.named) = (value, m.named.with(axis));
+                let shown = if self.incremental { value - now } else { value };
+                self.added += u64::from(piece == 0);
+                puts.push(Put { letters: LETTERS[axis as usize], text: self.text(shown, of) });
+            }
+            return Ok(());
+        };
+        m.named = m.named.with(axis);
+        let old = self.m.target[axis];
+        let is_increment = word.increment.unwrap_or(self.incremental);
+        let (value, shown) = if is_increment {
+            let old = word.value.ok_or_else(|| self.computed(axis))?;
+            let by = self.grid.round(wanted - now, of);
+            let by = if self.grid.same(by, old, of) { old } else { by };
+            (now + by, Some(by).filter(|by| *by != old))
+        } else {
+            let turn = self.way(axis) != Way::AsWritten;
+            if axis.is_rotary() {
+                m.ways[axis as usize - Axis::A as usize] = self.way(axis);
+            }
+            let wanted = if turn { wanted.rem_euclid(360.0) } else { wanted };
+            let value = self.grid.round(wanted, of);
+            let value = if turn && value >= 360.0 { 0.0 } else { value };
+            if self.grid.same(wanted, old, of) {
+                (old, None)
+            } else {
+                let offset = self.offset(axis, &word, old)?;
+                (value, Some(value - offset))
+            }
+        };
+        m.target[axis] = value;
+        if let Some(shown) = shown {
+            let text = self.text(shown, of);
+            self.edits.put(word.number.clone(), text);
+        }
+        Ok(())
+    }
+
+    /// What the control adds to the written number.
+    fn offset(&self, axis: Axis, word: &Word, target: f64) -> Result<f64, Fault> {
+        let value = word.value.ok_or_else(|| self.computed(axis))?;
+        let near = |a: f64| (a - target).abs() <= 1e-9 * (1.0 + target.abs());
+        if near(value) {
+            return Ok(0.0);
+        }
+        if near(value * 25.4) && !axis.is_rotary() {
+            let message = "the program is in inches, the increments are metric".to_owned();
+            let hint = "let the postprocessor write millimetres";
+            return Err(refusal(self.m.origin, "inch-program", message, hint));
+        }
+        if self.m.coordinates == Coordinates::Machine {
+            return Ok(target - value);
+        }
+        let message = format!("{axis}{value} leads to {target}: polar, scaled or other coordinates");
+        let hint = "write X, Y and Z in the program frame";
+        Err(refusal(self.m.origin, "other-coordinates", message, hint))
+    }
+
+    fn computed(&self, axis: Axis) -> Fault {
+        let message = format!("the value of {axis} is computed, and would have to be corrected");
+        let hint = "write numbers instead of variables (unroll the program); the postprocessor can";
+        refusal(self.m.origin, "computed-coordinate", message, hint)
+    }
+
+    fn no_word(&self, axis: Axis) -> Fault {
+        let message = format!("the block moves {axis} without a word {axis} that could be corrected");
+        let hint = "write plain coordinates instead of poles, angles and contours";
+        refusal(self.m.origin, "no-axis-word", message, hint)
+    }
+
+    fn way(&self, axis: Axis) -> Way {
+        match axis.is_rotary() {
+            true => self.m.ways[axis as usize - Axis::A as usize],
+            false => Way::AsWritten,
+        }
+    }
+
+    fn text(&self, value: f64, of: Of) -> String {
+        self.grid.text(value, of, self.control)
+    }
+
+    /// The tool axis as a vector.
+    fn direction(
+        &mut self,
+        path: &AxisPath<'_>,
+        step: &Written,
+        m: &mut Move,
+        puts: &mut Vec<Put>,
+    ) -> Result<(), Fault> {
+        let here = self.m.direction.filter(|_| step.piece == 0);
+        let (Some(wanted), Some(now)) =
+            (path.direction_of(&step.command), path.direction_of(path.command()))
+        else {
+            return Ok(());
+        };
+        let length = here.map_or(1.0, |d| d.iter().map(|v| v * v).sum::<f64>().sqrt());
+        let old = here.unwrap_or(now);
+        let wanted = wanted.map(|part| part * length);
+        if (0..3).all(|i| self.grid.same(wanted[i], old[i], Of::Direction)) {
+            m.direction = here;
+            return Ok(());
+        }
+        let words: Vec<Option<Word>> = self.words.vector.to_vec();
+        if here.is_some() {
+            let fits = words.iter().zip(old).all(|(word, part)| match word {
+                Some(word) => word.value.is_some_and(|v| (v - part).abs() < 1e-12),
+                None => part == 0.0,
+            });
+            if !fits || words.iter().all(Option::is_none) {
+                let message = "the direction of the tool is not given by three plain numbers".into();
+                let hint = "write it as A3= B3= C3=, I J K or TX TY TZ, or write the rotary axes";
+                return Err(refusal(self.m.origin, "computed-coordinate", message, hint));
+            }
+        }
+        let mut written = [0.0; 3];
+        for i in 0..3 {
+            written[i] = self.grid.round(wanted[i], Of::Direction);
+            let text = self.text(written[i], Of::Direction);
+            match words[i].as_ref().filter(|_| here.is_some()) {
+                Some(word) => self.edits.put(word.number.clone(), text),
+                None => {
+                    let letters = match self.control {
+                        Control::Sinumerik840d => ["A3=", "B3=", "C3="][i],
+                        Control::Heidenhain => ["TX", "TY", "TZ"][i],
+                        Control::Fanuc | Control::LinuxCnc => ["I", "J", "K"][i],
+                    };
+                    puts.push(Put { letters, text });
+                }
+            }
+        }
+        m.direction = Some(written);
+        Ok(())
+    }
+
+    /// The feed, where the same number would mean another time.
+    fn feed(
+        &mut self,
+        now: &Position,
+        step: &Written,
+        turns_deg: Option<f64>,
+        m: &Move,
+        puts: &mut Vec<Put>,
+    ) -> Result<Option<f64>, Fault> {
+        let word = self.words.feed.as_ref().filter(|_| step.piece == 0);
+        if m.kind == MoveKind::Rapid {
+            return Ok(self.feed_again.filter(|_| word.is_none()));
+        }
+        let feed = self.m.feed.value;
+        let way: f64 = (0..3).map(|i| (m.target.0[i] - now.0[i]).powi(2)).sum::<f64>().sqrt();
+        let (value, again) = match (self.m.feed.mode, turns_deg) {
+            (FeedMode::InverseTime, _) if self.pieces > 1 => (feed / step.share, None),
+            // The tip moves a little now, and the feed counts along that.
+            (FeedMode::PerMinute, Some(turned)) if way > 1e-9 => {
+                (feed * way / (turned * step.share), Some(feed))
+            }
+            (FeedMode::PerMinute, _) if word.is_none() && step.piece == 0 => {
+                match self.feed_again.take() {
+                    Some(feed) => (feed, None),
+                    None => return Ok(None),
+                }
+            }
+            _ => return Ok(None),
+        };
+        let text = feed_text(value, self.control);
+        match word {
+            Some(Word { value: None, .. }) => {
+                let message = "the feed is computed, and would have to be changed".to_owned();
+                let hint = "write a number behind F";
+                return Err(refusal(self.m.origin, "computed-feed", message, hint));
+            }
+            Some(word) => self.edits.put(word.number.clone(), text),
+            None => puts.push(Put { letters: "F", text }),
+        }
+        Ok(again)
+    }
+
+    /// The block itself: what is added goes behind the words that are there.
+    fn first(&mut self, puts: Vec<Put>) {
+        let (room, end) = (self.words.room(self.control), self.words.end);
+        if self.is_circle() {
+            self.line_for_circle();
+        }
+        let vectors = puts.iter().any(|p| p.letters == "TX");
+        if let (true, Some(motion)) = (vectors, &self.words.motion)
+            && motion.len() == 1
+        {
+            self.edits.put(motion.clone(), "LN".to_owned());
+        }
+        for put in puts {
+            let at = if put.letters == "F" { end } else { room };
+            self.edits.put(at..at, format!(" {}{}", put.letters, put.text));
+        }
+    }
+
+    fn line_for_circle(&mut self) {
+        let line = if self.control == Control::Heidenhain { "L" } else { "G1" };
+        match &self.words.motion {
+            Some(motion) => self.edits.put(motion.clone(), line.to_owned()),
+            None => {
+                let at = self.words.front;
+                let beginning = at == 0 || matches!(self.source[at - 1], b'\n' | b'\r');
+                let text = if beginning { format!("{line} ") } else { format!(" {line}") };
+                self.edits.put(at..at, text);
+            }
+        }
+        for range in &self.words.circle_words {
+            self.edits.put(range.clone(), String::new());
+        }
+    }
+
+    /// A line of its own for a further piece.
+    fn follow(&mut self, puts: &[Put]) {
+        let klartext = self.control == Control::Heidenhain;
+        let mut line = String::new();
+        if let Some(skip) = &self.words.skip {
+            line.push_str(&self.text_of(skip));
+            line.push(' ');
+        }
+        if klartext {
+            line.push_str(if puts.iter().any(|p| p.letters == "TX") { "LN" } else { "L" });
+        } else if self.words.machine.is_some() {
+            let supa = self.control == Control::Sinumerik840d;
+            line.push_str(if supa { "SUPA" } else { "G53" });
+        }
+        for put in puts {
+            if !line.is_empty() && !line.ends_with(' ') {
+                line.push(' ');
+            }
+            line.push_str(put.letters);
+            line.push_str(&put.text);
+        }
+        if klartext && self.words.machine.is_some() {
+            line.push_str(" M91");
+        }
+        self.further.push(line);
+    }
+
+    /// M functions that act behind the travel go to the last piece.
+    fn functions_at_end(&mut self) {
+        if self.further.is_empty() {
+            return;
+        }
+        for range in &self.words.at_end {
+            self.edits.put(range.clone(), String::new());
+            let text = self.text_of(range);
+            if let Some(last) = self.further.last_mut() {
+                last.push(' ');
+                last.push_str(&text);
+            }
+        }
+    }
+
+    fn text_of(&self, range: &Range<usize>) -> String {
+        String::from_utf8_lossy(&self.source[range.clone()]).into_owned()
+    }
+}
+
+/// A feed to six digits.
+fn feed_text(value: f64, control: Control) -> String {
+    let digits = (5 - value.abs().log10().floor() as i32).clamp(0, 12) as usize;
+    let mut text = format!("{value:.digits$}");
+    if text.contains('.') {
+        text.truncate(text.trim_end_matches('0').trim_end_matches('.').len());
+    }
+    if control == Control::Fanuc && !text.contains('.') {
+        text.push('.');
+    }
+    text
+}
