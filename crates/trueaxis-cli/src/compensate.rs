@@ -1,4 +1,5 @@
 mod adapt;
+mod program;
 
 use crate::arguments::{self, MachineArguments, argument};
 use crate::output::{Answer, Outcome, report, show, tell};
@@ -27,6 +28,8 @@ pub struct Arguments {
 enum What {
     /// Move a path onto the blank that was probed, and show what wall it leaves
     Adapt(adapt::AdaptArguments),
+    /// Rewrite an NC program so that the actual tool goes where it says
+    Program(Box<program::ProgramArguments>),
     /// Values per axis and position, in least increments, to be added to the command
     Values(ValuesArguments),
 }
@@ -94,6 +97,7 @@ enum Format {
 pub fn run(arguments: &Arguments) -> Outcome {
     let arguments = match &arguments.what {
         What::Adapt(arguments) => return adapt::run(arguments),
+        What::Program(arguments) => return program::run(arguments),
         What::Values(arguments) => arguments,
     };
     let mut problems = Diagnostics::new();

@@ -21,7 +21,7 @@ mod words;
 
 pub use correct::CorrectionLimit;
 pub use found::{Found, LargestCorrection};
-pub use guard::{Convention, MARK, conventions, is_compensated};
+pub use guard::{Confidence, Convention, MARK, is_compensated};
 pub use number::Increments;
 pub use verify::{BlockResidual, Largest, Proof, Residual};
 
@@ -86,6 +86,10 @@ pub struct Rewritten {
     pub found: Found,
     /// What it does on the machine as it is.
     pub proof: Proof,
+    /// How sure the corrections are.
+    pub confidence: Confidence,
+    /// What wrong signs would leave.
+    pub conventions: Vec<Convention>,
 }
 
 /// Places are looked at so finely; each further try halves it.
@@ -168,13 +172,19 @@ fn once(
     if problems.has_errors() {
         return (None, problems);
     }
+    let tooled = walk.machine();
+    let confidence = guard::confidence(tooled, &walk.found.places);
+    let worst = walk.found.worst;
+    let conventions =
+        worst.map_or(Vec::new(), |(_, nominal, command)| guard::conventions(tooled, &nominal, &command));
     let control = program.dialect().control;
     let (text, numbers) = walk.text.finish(&guard::comment(&options.mark, control));
     let found = walk.found;
     let written = Program::new(program.file(), text, control);
     let finer = self::densify(options, attempt + 1);
     let proof = verify::prove(machine, [program, &written], setup, &found, &numbers, finer);
-    (Some(Rewritten { text: written.source().to_vec(), found, proof }), problems)
+    let text = written.source().to_vec();
+    (Some(Rewritten { text, found, proof, confidence, conventions }), problems)
 }
 
 impl Rewritten {

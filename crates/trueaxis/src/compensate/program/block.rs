@@ -199,7 +199,7 @@ impl Block<'_> {
             let hint = "let the postprocessor write millimetres";
             return Err(refusal(self.m.origin, "inch-program", message, hint));
         }
-        if self.m.coordinates == Coordinates::Machine {
+        if self.m.coordinates == Coordinates::Machine || self.words.machine.is_some() {
             return Ok(target - value);
         }
         let message = format!("{axis}{value} leads to {target}: polar, scaled or other coordinates");

@@ -1,27 +1,28 @@
 //! What is to be commanded instead, with what the machine is known to do in its direction of travel.
 
 use crate::simulate::axis_path::Fault;
-use trueaxis_machine::Machine;
-use trueaxis_machine::axis::{Approach, AxisKind, Command, MAX_AXES};
+use trueaxis_machine::axis::{Approach, Command, MAX_AXES};
 use trueaxis_machine::compensate::{AxisLeft, Compensator, Scope};
+use trueaxis_machine::{Deviation, Machine};
 use trueaxis_nc::moves::Origin;
 
 /// A motion smaller than this has no direction: mm and rad.
 const STILL: f64 = 1e-13;
 
-/// The largest corrections that are taken for sound.
+/// The largest corrections of the tool that are taken for sound. A rotary axis near a pole may turn
+/// by more than the tool axis does.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CorrectionLimit {
-    /// Of linear axes, mm.
-    pub linear_mm: f64,
-    /// Of rotary axes, rad.
-    pub rotary_rad: f64,
+    /// Of the tip, mm.
+    pub tip_mm: f64,
+    /// Of the tool axis, rad.
+    pub axis_rad: f64,
 }
 
 impl Default for CorrectionLimit {
     /// 1 mm and 1 mrad.
     fn default() -> Self {
-        Self { linear_mm: 1.0, rotary_rad: 1e-3 }
+        Self { tip_mm: 1.0, axis_rad: 1e-3 }
     }
 }
 
@@ -90,7 +91,7 @@ impl Corrector {
         let mut rounds = 3;
         loop {
             let done = compensator.at(nominal, &side).map_err(|e| refused(origin, &e))?;
-            self.within_limit(nominal, &done.command, origin)?;
+            self.within_limit(&done.before, origin)?;
             let real = reached(approach, from, &done.command);
             rounds -= 1;
             let undecided = self.reverses && real != side;
@@ -100,11 +101,6 @@ impl Corrector {
             }
             side = real;
         }
-    }
-
-    /// The side after a motion of the written program.
-    pub fn reached(&self, approach: &Approach, from: &Command, to: &Command) -> Approach {
-        reached(approach, from, to)
     }
 
     /// The side from which the axes of the written program came.
@@ -117,23 +113,16 @@ impl Corrector {
         self.approach = reached(&self.approach, from, to);
     }
 
-    fn within_limit(
-        &self,
-        nominal: &Command,
-        command: &Command,
-        origin: Origin,
-    ) -> Result<(), Fault> {
-        for (i, axis) in self.machine().axes().iter().enumerate() {
-            let by = command[i] - nominal[i];
-            let (limit, scale, unit) = match axis.kind {
-                AxisKind::Linear => (self.limit.linear_mm, 1.0, "mm"),
-                AxisKind::Rotary => (self.limit.rotary_rad, 1e3, "mrad"),
-            };
-            if by.is_nan() || by.abs() > limit {
+    fn within_limit(&self, before: &Deviation, origin: Origin) -> Result<(), Fault> {
+        let limit = self.limit;
+        let tip = (before.tip_mm.norm(), limit.tip_mm, "tip", "mm", 1.0);
+        let axis = (before.axis.norm(), limit.axis_rad, "tool axis", "mrad", 1e3);
+        for (by, limit, what, unit, scale) in [tip, axis] {
+            // NaN is within no limit.
+            if by.is_nan() || by > limit {
                 let (by, limit) = (by * scale, limit * scale);
                 let message = format!(
-                    "{} would be corrected by {by:.4} {unit}; the limit is {limit} {unit}",
-                    axis.name
+                    "the {what} would be corrected by {by:.4} {unit}; the limit is {limit} {unit}"
                 );
                 let hint = "are the errors of the machine file right? else allow more by --limit";
                 let code = "correction-too-large";
@@ -144,7 +133,8 @@ impl Corrector {
     }
 }
 
-fn reached(approach: &Approach, from: &Command, to: &Command) -> Approach {
+/// The side after a motion.
+pub(super) fn reached(approach: &Approach, from: &Command, to: &Command) -> Approach {
     let mut side = *approach;
     for i in 0..MAX_AXES {
         let by = to[i] - from[i];

@@ -7,6 +7,9 @@ use std::collections::BTreeMap;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command, MAX_AXES, Travel};
 
+/// Places at which uncertainties are looked at.
+const PLACES: usize = 100;
+
 /// The largest correction of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LargestCorrection {
@@ -49,6 +52,10 @@ pub struct Found {
     pub worst: Option<(u32, Command, Command)>,
     worst_mm: f64,
     kinds: Vec<(AxisKind, Travel)>,
+    /// Some places of the program, evenly over it.
+    pub(super) places: Vec<Command>,
+    stride: u64,
+    seen: u64,
     pub(super) wants: Vec<Want>,
     pub(super) stands: Vec<Stand>,
 }
@@ -85,6 +92,7 @@ impl Found {
     }
 
     pub(super) fn correct(&mut self, node: &Node, done: &Corrected) {
+        self.sample(&node.command);
         let line = node.origin.line;
         let mut linear = 0.0_f64;
         for i in 0..self.kinds.len().min(MAX_AXES) {
@@ -111,6 +119,22 @@ impl Found {
         self.undecided += u64::from(done.undecided);
         if let Some(why) = done.left {
             *self.axis_left.entry(why.to_string()).or_default() += 1;
+        }
+    }
+
+    /// Every so manieth place, so that there are never many.
+    fn sample(&mut self, command: &Command) {
+        if self.seen.is_multiple_of(self.stride.max(1)) {
+            self.places.push(*command);
+        }
+        self.seen += 1;
+        if self.places.len() >= 2 * PLACES {
+            self.stride = 2 * self.stride.max(1);
+            let mut keep = false;
+            self.places.retain(|_| {
+                keep = !keep;
+                keep
+            });
         }
     }
 

@@ -71,3 +71,34 @@ pub fn conventions(machine: &Machine, nominal: &Command, command: &Command) -> V
     }
     rows
 }
+
+/// How sure the corrections are.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Confidence {
+    /// Places that were looked at.
+    pub looked_at: usize,
+    /// Where the correction of the tip is smaller than its standard uncertainty.
+    pub weaker: usize,
+    /// The largest standard uncertainty of the tip (root of the sum over the three directions), mm.
+    pub largest_u_mm: f64,
+}
+
+/// The standard uncertainty of the deviation of the tip, by linear propagation of every stated one.
+pub(super) fn confidence(machine: &Machine, places: &[Command]) -> Confidence {
+    let quantities = machine.uncertain_quantities();
+    let mut found = Confidence::default();
+    for command in places {
+        let Ok(errors) = machine.errors_at(command, &Approach::default()) else { continue };
+        let u = machine.uncertainties_at(command, &quantities);
+        let tip = machine.deviation(command, &errors).tip_mm;
+        let shift = |k: usize| {
+            let displaced = u.displaced_by(&errors, k, 1.0);
+            (machine.deviation(command, &displaced).tip_mm - tip).norm_squared()
+        };
+        let u_mm = (0..quantities.len()).map(shift).sum::<f64>().sqrt();
+        found.looked_at += 1;
+        found.weaker += usize::from(tip.norm() < u_mm);
+        found.largest_u_mm = found.largest_u_mm.max(u_mm);
+    }
+    found
+}

@@ -1,7 +1,7 @@
 //! Step by step through the program: what is commanded, what should be, what is written.
 
 use super::block::{Block, Written};
-use super::correct::Corrector;
+use super::correct::{Corrector, reached};
 use super::found::{Found, Want};
 use super::stand::{Cut, Sample, Stand};
 use super::text::{Edits, Text};
@@ -13,6 +13,8 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_nc::Program;
 use trueaxis_nc::moves::{Coordinates, Event, FeedMode, Move, MoveKind, Origin, Step};
+
+const TO_MACHINE_ZERO: &str = "rapid to machine coordinates";
 
 /// A program on its way into another.
 pub(super) struct Walk<'w> {
@@ -36,6 +38,8 @@ pub(super) struct Walk<'w> {
     feed_again: Option<f64>,
     /// A circle became lines, and the next one may rely on its G2 or G3.
     circle_gone: bool,
+    /// The written program stands where nothing was corrected: the next block leads from there.
+    approaching: bool,
 }
 
 impl<'w> Walk<'w> {
@@ -63,7 +67,13 @@ impl<'w> Walk<'w> {
             vectors: false,
             feed_again: None,
             circle_gone: false,
+            approaching: true,
         })
+    }
+
+    /// The machine with the tool that is in it at the end.
+    pub fn machine(&self) -> &Machine {
+        self.corrector.machine()
     }
 
     pub fn take(&mut self, step: &Step) {
@@ -99,6 +109,7 @@ impl<'w> Walk<'w> {
         let begin = *self.nominal.command();
         let mut nodes = std::mem::take(&mut self.nodes);
         nodes.clear();
+        let on_cone = self.nominal.turns_on_cone();
         self.nominal.take(&Step::Move(*m), &mut |step| {
             if let PathStep::Node(node) = step {
                 nodes.push(node);
@@ -109,6 +120,7 @@ impl<'w> Walk<'w> {
         }
         let done = match self.why_left(m, &nodes) {
             Some(why) => self.leave(m, why),
+            None if on_cone => Err(cone(m.origin)),
             None => self.rewrite(m, &begin, &nodes),
         };
         self.nodes = nodes;
@@ -116,22 +128,30 @@ impl<'w> Walk<'w> {
     }
 
     /// Why a block stays as it is, whatever the machine does.
-    fn why_left(&self, m: &Move, nodes: &[Node]) -> Option<&'static str> {
+    fn why_left(&mut self, m: &Move, nodes: &[Node]) -> Option<&'static str> {
         match (m.kind, m.coordinates) {
             (MoveKind::Dwell { .. }, _) => Some(""),
             (MoveKind::Align { .. }, _) => Some("the tool turns onto a swivelled plane"),
             (MoveKind::Probe, _) => Some("probing"),
             (MoveKind::RigidTap { .. }, _) => Some("rigid tapping"),
-            (MoveKind::Rapid, Coordinates::Machine) => Some("rapid to machine coordinates"),
             // Nothing moves.
             _ if nodes.is_empty() => Some(""),
+            (MoveKind::Rapid, Coordinates::Machine) => Some(TO_MACHINE_ZERO),
+            (MoveKind::Rapid, _) if self.counts_from_machine_zero(m) => Some(TO_MACHINE_ZERO),
             _ => None,
         }
+    }
+
+    /// FANUC's G53 comes as a place of the program frame.
+    fn counts_from_machine_zero(&mut self, m: &Move) -> bool {
+        let words = (m.origin.program == 0).then(|| self.text.words(m.origin.line).0);
+        words.is_some_and(|w| w.machine.is_some())
     }
 
     fn leave(&mut self, m: &Move, why: &'static str) -> Result<(), Fault> {
         if !why.is_empty() {
             self.found.leave(why);
+            self.approaching = true;
         }
         self.go_as_written(m);
         if m.origin.program == 0 && m.origin.line > 0 && !self.text.keep(m.origin.line) {
@@ -184,6 +204,7 @@ impl<'w> Walk<'w> {
             Some(control) if !whole => self.cut(control).ends(&samples),
             _ => vec![samples.len() - 1],
         };
+        let approaching = std::mem::take(&mut self.approaching);
         let first_time = !self.text.was_executed(m.origin.line);
         let (words, incremental) = self.text.words(m.origin.line);
         let kept = self.kept_circle(m, &samples, words.motion.is_some());
@@ -219,7 +240,9 @@ impl<'w> Walk<'w> {
             let stands = samples[from..=*to].iter().map(|s| s.wanted);
             // A piece that needs no words of its own belongs to the line before.
             let piece = if kept { 0 } else { block.further.len() as u32 };
-            let want = Want::of(m.origin.line, piece, whole || !first_time);
+            let from_elsewhere = approaching && from == 0;
+            let end_only = whole || !first_time || from_elsewhere;
+            let want = Want::of(m.origin.line, piece, end_only);
             self.found.want(want, stands);
             from = *to;
         }
@@ -290,11 +313,20 @@ impl<'w> Walk<'w> {
         };
         let from = *self.written.command();
         let stand = |c: &Command| Stand::of(control, c);
+        let only_position = self.nominal.is_only_tilted();
+        // Cuts are made as if the way began where it should.
+        let begins = match self.approaching {
+            true => {
+                let place = (&from, self.corrector.approach());
+                let there = self.corrector.at(begin, place, only_position, m.origin);
+                there.map_or(from, |c| c.command)
+            }
+            false => from,
+        };
         let mut samples = Vec::with_capacity(nodes.len() + 1);
-        let first = Sample { u: 0.0, wanted: stand(begin), command: from, believed: stand(&from) };
+        let first = Sample { u: 0.0, wanted: stand(begin), command: begins, believed: stand(&begins) };
         samples.push(first);
         let total: f64 = nodes.iter().map(|n| n.length).sum();
-        let only_position = self.nominal.is_only_tilted();
         let (mut length, mut last, mut side) = (0.0, from, *self.corrector.approach());
         for (k, node) in nodes.iter().enumerate() {
             length += node.length;
@@ -304,7 +336,7 @@ impl<'w> Walk<'w> {
             }
             let place = (&last, &side);
             let done = self.corrector.at(&node.command, place, only_position, node.origin)?;
-            side = self.corrector.reached(&side, &last, &done.command);
+            side = reached(&side, &last, &done.command);
             last = done.command;
             let u = if is_last || total <= 0.0 { 1.0 } else { length / total };
             self.found.correct(node, &done);
@@ -369,6 +401,12 @@ fn corrector(machine: &Machine, options: &ProgramOptions, origin: Origin) -> Res
         let hint = "a machine with three linear axes is needed";
         refusal(origin, "not-correctable", fault.to_string(), hint)
     })
+}
+
+fn cone(origin: Origin) -> Fault {
+    let message = "the tool axis turns on a cone, which corrected ends do not lie on".to_owned();
+    let hint = "let the postprocessor write directions close to each other (ORIVECT) instead";
+    refusal(origin, "on-cone", message, hint)
 }
 
 fn again(origin: Origin) -> Fault {
