@@ -1,5 +1,6 @@
 //! The test piece on the machine: commands once, deviations for any set of errors.
 
+use super::program::{CutProgram, Passing};
 use super::temperatures::{CuttingClock, RunningTemperatures};
 use super::{Error, Setting};
 use trueaxis_geometry::Vec3;
@@ -37,6 +38,9 @@ struct Stop {
     command: Command,
     errors: ErrorValues,
     u: Uncertainties,
+    /// How far the nominal tip and tool axis are from where they ideally are: a program may say
+    /// something else than the test piece.
+    off: [Vec3; 2],
 }
 
 /// The nominal errors at a stop, and how well they are known, become the errors to cut with.
@@ -78,21 +82,38 @@ impl<'a> Cutting<'a> {
         reference: &Reference,
         temperatures: Option<&RunningTemperatures>,
     ) -> Result<Self, Error> {
+        Self::along(machine, piece, reference, temperatures, None)
+    }
+
+    /// The same along a program, if there is one, instead of the ideal path.
+    ///
+    /// # Errors
+    /// As [`Cutting::over`]; a program that does not come near a tool position.
+    pub fn along(
+        machine: &'a Machine,
+        piece: &dyn TestPiece,
+        reference: &Reference,
+        temperatures: Option<&RunningTemperatures>,
+        program: Option<&CutProgram>,
+    ) -> Result<Self, Error> {
         let positions = piece.tool_positions();
         let setting_command = setting_command(machine, &reference.setting)?;
-        let path: Vec<Target> =
-            positions.iter().map(|p| Target { tip: p.tip, axis: p.axis }).collect();
-        let commands = machine.follow(&path, &setting_command).map_err(Error::Path)?;
+        let passings = match program {
+            Some(program) => program.passings(machine, &positions)?,
+            None => ideal_passings(machine, &positions, &setting_command)?,
+        };
         let mut clock = CuttingClock::of(machine, temperatures, &positions);
         let quantities = machine.uncertain_quantities();
-        let mut approach = Approach::default();
-        let mut last = setting_command;
-        let mut stops = Vec::with_capacity(commands.len());
-        for (i, command) in commands.into_iter().enumerate() {
-            update_approach(&mut approach, &last, &command);
+        let mut stops = Vec::with_capacity(passings.len());
+        for (i, (passing, ideal)) in passings.iter().zip(&positions).enumerate() {
             let at = clock.machine_at(i)?;
-            stops.push(stop(at.unwrap_or(machine), command, &approach, (&quantities, Some(i)))?);
-            last = command;
+            let place = (&quantities[..], Some(i));
+            let mut stop =
+                stop(at.unwrap_or(machine), passing.command, &passing.approach, place)?;
+            if program.is_some() {
+                stop.off = off(machine, &stop, ideal);
+            }
+            stops.push(stop);
         }
         let setting = match reference.setting {
             Setting::Perfect => None,
@@ -148,8 +169,8 @@ impl<'a> Cutting<'a> {
         for (position, stop) in self.positions.iter().zip(&self.stops) {
             let deviation = at(stop);
             for contact in &position.contacts {
-                let along = deviation.axis * contact.along_axis_mm;
-                deviations_mm.push(deviation.tip_mm + along - zero);
+                let along = (deviation.axis + stop.off[1]) * contact.along_axis_mm;
+                deviations_mm.push(deviation.tip_mm + stop.off[0] + along - zero);
             }
         }
         let Some((ends, depth_mm)) = &self.hole else { return Datum::IDEAL };
@@ -175,7 +196,32 @@ fn stop(
     let errors = machine
         .errors_at(&command, approach)
         .map_err(|source| Error::Table { position, source })?;
-    Ok(Stop { command, errors, u: machine.uncertainties_at(&command, quantities) })
+    let u = machine.uncertainties_at(&command, quantities);
+    Ok(Stop { command, errors, u, off: [Vec3::zeros(); 2] })
+}
+
+/// How far the nominal tool at a stop is from a tool position.
+fn off(machine: &Machine, stop: &Stop, ideal: &ToolPosition) -> [Vec3; 2] {
+    let there = machine.deviation(&stop.command, &stop.errors);
+    [there.nominal_tip - ideal.tip, there.nominal_axis.vector() - ideal.axis.vector()]
+}
+
+/// The commands of the ideal path.
+fn ideal_passings(
+    machine: &Machine,
+    positions: &[ToolPosition],
+    from: &Command,
+) -> Result<Vec<Passing>, Error> {
+    let path: Vec<Target> =
+        positions.iter().map(|p| Target { tip: p.tip, axis: p.axis }).collect();
+    let commands = machine.follow(&path, from).map_err(Error::Path)?;
+    let (mut last, mut approach) = (*from, Approach::default());
+    let passing = |command: Command| {
+        update_approach(&mut approach, &last, &command);
+        last = command;
+        Passing { command, approach }
+    };
+    Ok(commands.into_iter().map(passing).collect())
 }
 
 /// An axis keeps its side until it turns round.
