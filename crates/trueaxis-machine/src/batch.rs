@@ -16,6 +16,7 @@
 //! number of threads.
 
 mod columns;
+mod compensated;
 mod kernel;
 mod lanes;
 mod motion;
@@ -26,6 +27,9 @@ mod steps;
 mod x86;
 
 pub use columns::{Commands, DeviationColumns, DeviationTable};
+pub use compensated::{
+    CommandColumns, CommandTable, CompensationError, CompiledCompensator, Effort,
+};
 pub use motion::LARGEST_TURN_RAD;
 
 use crate::axis::{Approach, AxisKind, Command, MAX_AXES};
@@ -207,7 +211,7 @@ impl CompiledMachine {
         if !set.is_available() {
             return Err(BatchError::Unavailable(set));
         }
-        commands.fit(self.machine.axes().len(), out)?;
+        commands.fit(self.machine.axes().len(), out.lengths())?;
         self.run(set, &commands.inputs(), out, 0)
     }
 
@@ -220,7 +224,7 @@ impl CompiledMachine {
         commands: &Commands<'_>,
         out: &mut DeviationColumns<'_>,
     ) -> Result<(), BatchError> {
-        commands.fit(self.machine.axes().len(), out)?;
+        commands.fit(self.machine.axes().len(), out.lengths())?;
         self.halves(InstructionSet::best(), &commands.inputs(), out.reborrow(), 0)
     }
 

@@ -14,11 +14,13 @@
 
 mod columns;
 mod rotary;
+#[cfg(test)]
+mod tests;
 
 use crate::axis::{Approach, AxisKind, Command, Travel};
 use crate::chain::{CommandFault, Machine};
 use crate::deviation::Deviation;
-use crate::errors::BodyName;
+use crate::errors::{BodyName, ErrorValues};
 use columns::Columns;
 use rotary::{Freedom, Turns};
 use std::fmt;
@@ -26,17 +28,17 @@ use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Direction, Point, Workpiece};
 
 /// The tip is met within this, mm: some ten times the rounding of a chain of 10 m.
-const MET_MM: f64 = 1e-10;
+pub(crate) const MET_MM: f64 = 1e-10;
 
 /// The tool axis is met within this, rad: some hundred times the rounding of a chain.
-const MET_RAD: f64 = 1e-13;
+pub(crate) const MET_RAD: f64 = 1e-13;
 
 /// Evaluations of the chain after which a pose is given up; three are usual.
 const MOST_EVALUATIONS: u32 = 12;
 
 /// Below this volume the three linear axes do not span the space: 1 mm of the tip would cost more
 /// than 1 m of an axis.
-const FLAT: f64 = 1e-3;
+pub(crate) const FLAT: f64 = 1e-3;
 
 /// No rotary axis moves by more than so many times the deviation of the tool axis, unless told
 /// otherwise: the tool axis is then at least 0.57° away from the rotary axis that would swing.
@@ -186,7 +188,7 @@ pub struct Compensator {
 /// A command on its way, and what the machine misses the programmed pose by there.
 struct Trial {
     command: Command,
-    columns: Columns,
+    errors: ErrorValues,
     left: Deviation,
 }
 
@@ -231,6 +233,18 @@ impl Compensator {
         self.scope
     }
 
+    pub(crate) fn most_swing(&self) -> f64 {
+        self.most_swing
+    }
+
+    pub(crate) fn placing(&self) -> [usize; 3] {
+        self.placing
+    }
+
+    pub(crate) fn rotary(&self) -> &[usize] {
+        &self.rotary
+    }
+
     /// The command at which the actual tool stands where the nominal one stands at `command`.
     ///
     /// `approach` says from which side each axis reaches its position (a correction of micrometres
@@ -242,12 +256,9 @@ impl Compensator {
     pub fn at(&self, command: &Command, approach: &Approach) -> Result<Compensated, Fault> {
         let errors = self.machine.errors_at(command, approach)?;
         let before = self.machine.deviation(command, &errors);
-        let mut now = Trial {
-            command: *command,
-            columns: Columns::of(&self.machine, command, approach, &errors),
-            left: before,
-        };
-        let (freedom, axis_left) = self.freedom(&now);
+        let mut now = Trial { command: *command, errors, left: before };
+        let mut columns = Columns::of(&self.machine, command, approach, &now.errors);
+        let (freedom, axis_left) = self.freedom(&now, &columns);
         for evaluations in 1..=MOST_EVALUATIONS {
             if self.is_met(&now, &freedom) {
                 let (command, left) = (now.command, now.left);
@@ -255,7 +266,10 @@ impl Compensator {
                 let axis_left = axis_left.filter(|_| left.axis.norm() > MET_RAD);
                 return Ok(Compensated { command, before, left, axis_left, evaluations });
             }
-            let next = self.step(&now, &freedom, evaluations == 1)?;
+            if evaluations > 1 {
+                columns = Columns::of(&self.machine, &now.command, approach, &now.errors);
+            }
+            let next = self.step(&now, &columns, &freedom, evaluations == 1)?;
             now = self.trial(next, approach, &before)?;
         }
         let tip_mm = now.left.tip_mm.norm();
@@ -263,14 +277,14 @@ impl Compensator {
     }
 
     /// How the rotary axes serve, and why not fully.
-    fn freedom(&self, at: &Trial) -> (Freedom, Option<AxisLeft>) {
+    fn freedom(&self, at: &Trial, columns: &Columns) -> (Freedom, Option<AxisLeft>) {
         if self.scope == Scope::Position {
             return (Freedom::None, Some(AxisLeft::PositionOnly));
         }
         if self.rotary.len() < 2 {
             return (Freedom::None, Some(AxisLeft::FewRotaryAxes));
         }
-        let turns = Turns::of(&at.columns, &self.rotary, at.left.nominal_axis.vector());
+        let turns = Turns::of(columns, &self.rotary, at.left.nominal_axis.vector());
         let (freedom, swinging) = turns.freedom(at.left.axis, self.most_swing);
         (freedom, swinging.map(|i| AxisLeft::Pole(self.machine.axes[i].name)))
     }
@@ -287,17 +301,23 @@ impl Compensator {
     }
 
     /// One step of Newton's method; the first one carries what is done once.
-    fn step(&self, at: &Trial, freedom: &Freedom, is_first: bool) -> Result<Command, Fault> {
+    fn step(
+        &self,
+        at: &Trial,
+        columns: &Columns,
+        freedom: &Freedom,
+        is_first: bool,
+    ) -> Result<Command, Fault> {
         let left = &at.left;
         let turned = match freedom {
             Freedom::None => Command::default(),
             Freedom::Both => {
                 let axis = left.nominal_axis.vector();
-                Turns::of(&at.columns, &self.rotary, axis).least_motion(left.axis)
+                Turns::of(columns, &self.rotary, axis).least_motion(left.axis)
             }
             Freedom::One { along, motion, damped } => {
                 let per_unit: f64 =
-                    self.rotary.iter().map(|&i| along.dot(&at.columns.axis[i]) * motion[i]).sum();
+                    self.rotary.iter().map(|&i| along.dot(&columns.axis[i]) * motion[i]).sum();
                 let by = -along.dot(&left.axis) / per_unit;
                 let once = if is_first { 1.0 } else { 0.0 };
                 std::array::from_fn(|i| motion[i] * by + once * damped[i])
@@ -306,10 +326,10 @@ impl Compensator {
         let mut missing = left.tip_mm;
         let mut next = at.command;
         for &i in &self.rotary {
-            missing += at.columns.tip[i] * turned[i];
+            missing += columns.tip[i] * turned[i];
             next[i] += turned[i];
         }
-        let [d1, d2, d3] = self.placing.map(|i| at.columns.tip[i]);
+        let [d1, d2, d3] = self.placing.map(|i| columns.tip[i]);
         let across = [d2.cross(&d3), d3.cross(&d1), d1.cross(&d2)];
         let volume = d1.dot(&across[0]);
         if volume.is_nan() || volume.abs() <= FLAT {
@@ -335,8 +355,7 @@ impl Compensator {
         let here = self.machine.deviation(&command, &errors);
         let (tip, axis) = (wanted.nominal_tip, wanted.nominal_axis);
         let left = missed(&here, tip, axis);
-        let columns = Columns::of(&self.machine, &command, approach, &errors);
-        Ok(Trial { command, columns, left })
+        Ok(Trial { command, errors, left })
     }
 
     fn within_travel(&self, command: &Command) -> Result<(), Fault> {

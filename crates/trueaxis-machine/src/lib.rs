@@ -2,13 +2,15 @@
 //!
 //! ```text
 //!     machine.toml ──MachineFile──> Machine ──errors_at──> ErrorValues ──pose──> workpiece_from_tool
-//!                                      └──────solve <── tip and tool axis wanted
+//!                                      ├──────solve <── tip and tool axis wanted
+//!                                      └──Compensator::at──> command that reaches the nominal pose
 //! ```
 //!
 //! A [`Machine`] is a chain of bodies from the workpiece over the bed to the tool, each with its
 //! place, its axis and its errors by ISO 230-1 name. It gives the nominal and the actual pose of
 //! the tool in the workpiece ([`Machine::pose`], [`Machine::deviation`]) and the axis positions for
-//! a wanted tool pose ([`Machine::solve`]).
+//! a wanted tool pose ([`Machine::solve`]), and the command at which the actual tool stands where the
+//! programmed one should ([`compensate`]).
 //!
 //! It does not read NC programs, does not know parts, and opens no file: texts come in as strings.
 

@@ -45,8 +45,12 @@ impl<'a> Commands<'a> {
         Inputs { positions: self.positions, approaches: self.approaches }
     }
 
-    /// Whether the columns fit a machine and an output.
-    pub(super) fn fit(&self, axes: usize, out: &DeviationColumns<'_>) -> Result<(), BatchError> {
+    /// Whether the columns fit a machine and the lengths of an output.
+    pub(super) fn fit(
+        &self,
+        axes: usize,
+        out: impl Iterator<Item = usize>,
+    ) -> Result<(), BatchError> {
         if self.columns != axes {
             return Err(BatchError::Columns { expected: axes, found: self.columns });
         }
@@ -56,7 +60,7 @@ impl<'a> Commands<'a> {
         let expected = self.len();
         let known = self.approaches.iter().map(|a| a.len()).filter(|&length| length != 0);
         let lengths = self.positions[..axes].iter().map(|p| p.len());
-        match lengths.chain(known).chain(out.lengths()).find(|&length| length != expected) {
+        match lengths.chain(known).chain(out).find(|&length| length != expected) {
             Some(found) => Err(BatchError::Lengths { expected, found }),
             None => Ok(()),
         }
@@ -91,7 +95,7 @@ impl DeviationColumns<'_> {
         self.len() == 0
     }
 
-    fn lengths(&self) -> impl Iterator<Item = usize> {
+    pub(super) fn lengths(&self) -> impl Iterator<Item = usize> {
         let triples = [&self.nominal_tip_mm, &self.nominal_axis, &self.tip_mm, &self.axis];
         triples.into_iter().flatten().map(|column| column.len())
     }

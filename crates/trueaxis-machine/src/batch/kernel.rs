@@ -40,11 +40,11 @@ const COSINE: [f64; 6] = [
 
 /// The tool on its way through the chain.
 #[derive(Clone, Copy)]
-struct State<L> {
-    tip: [L; 3],
-    axis: [L; 3],
-    tip_deviation: [L; 3],
-    axis_deviation: [L; 3],
+pub(super) struct State<L> {
+    pub(super) tip: [L; 3],
+    pub(super) axis: [L; 3],
+    pub(super) tip_deviation: [L; 3],
+    pub(super) axis_deviation: [L; 3],
 }
 
 /// Six errors as a shift and a rotation less the identity.
@@ -136,7 +136,7 @@ fn by_scalar(
 
 /// Poses `at .. at + W` and the lanes that the plan does not cover.
 #[inline(always)]
-fn poses<const W: usize, L: Lanes<W>>(
+pub(super) fn poses<const W: usize, L: Lanes<W>>(
     plan: &Plan,
     inputs: &Inputs<'_>,
     at: usize,
@@ -194,7 +194,7 @@ fn poses<const W: usize, L: Lanes<W>>(
 }
 
 #[inline(always)]
-fn lanes_at<const W: usize, L: Lanes<W>>(column: &[f64], at: usize) -> L {
+pub(super) fn lanes_at<const W: usize, L: Lanes<W>>(column: &[f64], at: usize) -> L {
     match column[at..].first_chunk() {
         Some(lanes) => L::load(lanes),
         // Not reached: the lengths are checked before.
@@ -203,22 +203,22 @@ fn lanes_at<const W: usize, L: Lanes<W>>(column: &[f64], at: usize) -> L {
 }
 
 #[inline(always)]
-fn splat3<const W: usize, L: Lanes<W>>(v: &[f64; 3]) -> [L; 3] {
+pub(super) fn splat3<const W: usize, L: Lanes<W>>(v: &[f64; 3]) -> [L; 3] {
     [L::splat(v[0]), L::splat(v[1]), L::splat(v[2])]
 }
 
 #[inline(always)]
-fn splat33<const W: usize, L: Lanes<W>>(m: &[[f64; 3]; 3]) -> [[L; 3]; 3] {
+pub(super) fn splat33<const W: usize, L: Lanes<W>>(m: &[[f64; 3]; 3]) -> [[L; 3]; 3] {
     [splat3(&m[0]), splat3(&m[1]), splat3(&m[2])]
 }
 
 #[inline(always)]
-fn sum<const W: usize, L: Lanes<W>>(a: [L; 3], b: [L; 3]) -> [L; 3] {
+pub(super) fn sum<const W: usize, L: Lanes<W>>(a: [L; 3], b: [L; 3]) -> [L; 3] {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
 #[inline(always)]
-fn difference<const W: usize, L: Lanes<W>>(a: [L; 3], b: [L; 3]) -> [L; 3] {
+pub(super) fn difference<const W: usize, L: Lanes<W>>(a: [L; 3], b: [L; 3]) -> [L; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
@@ -316,18 +316,18 @@ fn rotate<const W: usize, L: Lanes<W>>(state: &mut State<L>, m: &[[L; 3]; 3]) {
 }
 
 #[inline(always)]
-fn product<const W: usize, L: Lanes<W>>(m: &[[L; 3]; 3], u: &[L; 3]) -> [L; 3] {
+pub(super) fn product<const W: usize, L: Lanes<W>>(m: &[[L; 3]; 3], u: &[L; 3]) -> [L; 3] {
     [dot(&m[0], u), dot(&m[1], u), dot(&m[2], u)]
 }
 
 #[inline(always)]
-fn dot<const W: usize, L: Lanes<W>>(a: &[L; 3], b: &[L; 3]) -> L {
+pub(super) fn dot<const W: usize, L: Lanes<W>>(a: &[L; 3], b: &[L; 3]) -> L {
     a[2].times_plus(b[2], a[1].times_plus(b[1], a[0] * b[0]))
 }
 
 /// `I cos φ + [n]× sin φ + n nᵀ (1 − cos φ)` (Rodrigues)
 #[inline(always)]
-fn rotation<const W: usize, L: Lanes<W>>(n: [L; 3], sin: L, cos: L) -> [[L; 3]; 3] {
+pub(super) fn rotation<const W: usize, L: Lanes<W>>(n: [L; 3], sin: L, cos: L) -> [[L; 3]; 3] {
     let versine = L::splat(1.0) - cos;
     let [x, y, z] = [n[0] * versine, n[1] * versine, n[2] * versine];
     let [sx, sy, sz] = [n[0] * sin, n[1] * sin, n[2] * sin];
@@ -348,7 +348,12 @@ fn turn_about<const W: usize, L: Lanes<W>>(state: &mut State<L>, about: usize, s
 }
 
 #[inline(always)]
-fn turn_pair_about<const W: usize, L: Lanes<W>>(v: &mut [L; 3], about: usize, sin: L, cos: L) {
+pub(super) fn turn_pair_about<const W: usize, L: Lanes<W>>(
+    v: &mut [L; 3],
+    about: usize,
+    sin: L,
+    cos: L,
+) {
     // Written out: an index known only at run time would put the vector into memory.
     match about {
         0 => (v[1], v[2]) = turned(v[1], v[2], sin, cos),
@@ -363,14 +368,19 @@ fn turned<const W: usize, L: Lanes<W>>(u: L, v: L, sin: L, cos: L) -> (L, L) {
 }
 
 #[inline(always)]
-fn slide<const W: usize, L: Lanes<W>>(tip: &mut [L; 3], per_unit: &[L; 3], q: L) {
+pub(super) fn slide<const W: usize, L: Lanes<W>>(tip: &mut [L; 3], per_unit: &[L; 3], q: L) {
     tip[0] = q.times_plus(per_unit[0], tip[0]);
     tip[1] = q.times_plus(per_unit[1], tip[1]);
     tip[2] = q.times_plus(per_unit[2], tip[2]);
 }
 
 #[inline(always)]
-fn slide_along<const W: usize, L: Lanes<W>>(tip: &mut [L; 3], along: usize, q: L, per_unit: L) {
+pub(super) fn slide_along<const W: usize, L: Lanes<W>>(
+    tip: &mut [L; 3],
+    along: usize,
+    q: L,
+    per_unit: L,
+) {
     match along {
         0 => tip[0] = q.times_plus(per_unit, tip[0]),
         1 => tip[1] = q.times_plus(per_unit, tip[1]),
@@ -380,7 +390,7 @@ fn slide_along<const W: usize, L: Lanes<W>>(tip: &mut [L; 3], along: usize, q: L
 
 /// Sine and cosine to about one unit in the last place of 1, for |x| up to 1e6.
 #[inline(always)]
-fn sine_cosine<const W: usize, L: Lanes<W>>(x: L) -> (L, L) {
+pub(super) fn sine_cosine<const W: usize, L: Lanes<W>>(x: L) -> (L, L) {
     let turns = x.times_plus(L::splat(FRAC_2_PI), L::splat(ROUNDING));
     let k = turns - L::splat(ROUNDING);
     let [high, middle, low] = splat3(&HALF_PI);

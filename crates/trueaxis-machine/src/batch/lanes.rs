@@ -1,14 +1,15 @@
 use super::columns::DeviationColumns;
+use super::compensated::{CommandColumns, CompensationError, CompensationJob, Effort, newton};
 use super::pieces::Row;
 use super::{BatchError, Job, kernel};
-use std::ops::{Add, Mul, Sub};
+use std::ops::{Add, Div, Mul, Sub};
 
 /// Added to a number below 2⁵¹ it leaves the nearest whole number in the low bits.
 pub(super) const ROUNDING: f64 = 6_755_399_441_055_744.0;
 
 /// W numbers of as many poses, side by side.
 pub(super) trait Lanes<const W: usize>:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
     /// The same number in every lane.
     fn splat(value: f64) -> Self;
@@ -62,6 +63,14 @@ impl<const W: usize> Mul for Plain<W> {
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         self.each(other, |a, b| a * b)
+    }
+}
+
+impl<const W: usize> Div for Plain<W> {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        self.each(other, |a, b| a / b)
     }
 }
 
@@ -145,4 +154,11 @@ pub(super) fn run_portable(
     out: &mut DeviationColumns<'_>,
 ) -> Result<(), BatchError> {
     kernel::run::<8, Plain<8>>(job, out)
+}
+
+pub(super) fn compensate_portable(
+    job: &CompensationJob<'_>,
+    out: &mut CommandColumns<'_>,
+) -> Result<Effort, CompensationError> {
+    newton::run::<8, Plain<8>>(job, out)
 }

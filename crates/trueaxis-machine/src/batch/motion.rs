@@ -25,7 +25,7 @@ pub(super) struct Range {
 impl Range {
     pub(super) const EMPTY: Self = Self { from: f64::INFINITY, to: f64::NEG_INFINITY };
 
-    fn within(self, from: f64, to: f64) -> Self {
+    pub(super) fn within(self, from: f64, to: f64) -> Self {
         Self { from: self.from.max(from), to: self.to.min(to) }
     }
 
@@ -199,7 +199,7 @@ impl Motion {
     }
 
     /// A bound of the angles of the error motions on a range.
-    fn largest_turn(&self, range: Range) -> f64 {
+    pub(super) fn largest_turn(&self, range: Range) -> f64 {
         let (ends, about) = (self.knots.ends(), self.knots.about());
         let turns = Component::ALL.into_iter().filter(|c| c.is_rotation()).map(|c| c as usize);
         let bound = |component: usize| {

@@ -197,8 +197,14 @@ fn is_fixed_rotary(machine: &Machine, i: usize) -> bool {
     is_rotary && body.error_frame == ErrorFrame::Fixed
 }
 
-/// Shift and `R − I` of location errors, which are constants here.
+/// Shift and `R − I` of location errors.
 fn location(body: &ChainBody) -> (Vec3, Mat3) {
+    let six = location_errors(body);
+    (six.shift_mm(), six.rotation_minus_identity(Rotation::Exact))
+}
+
+/// The location errors of a body, which are constants here.
+pub(super) fn location_errors(body: &ChainBody) -> Six {
     let constant = |curve: &Curve| match curve {
         Curve::Constant(value) => *value,
         _ => 0.0,
@@ -209,7 +215,7 @@ fn location(body: &ChainBody) -> (Vec3, Mat3) {
     for term in body.thermal.iter().filter(|t| t.kind == ErrorKind::Location) {
         six.0[term.component as usize] += constant(&term.curve);
     }
-    (six.shift_mm(), six.rotation_minus_identity(Rotation::Exact))
+    six
 }
 
 fn rows(m: &Mat3) -> [[f64; 3]; 3] {

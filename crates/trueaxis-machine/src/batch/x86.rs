@@ -1,14 +1,15 @@
 //! Four and eight poses at a time with the vector instructions of x86-64.
 //!
-//! The lane types are private to this file, and its two entries ask the processor first: no
+//! The lane types are private to this file, and its entries ask the processor first: no
 //! instruction below is ever reached on a processor without it.
 
 use super::columns::DeviationColumns;
+use super::compensated::{CommandColumns, CompensationError, CompensationJob, Effort, newton};
 use super::lanes::Lanes;
 use super::pieces::Row;
 use super::{BatchError, InstructionSet, Job, kernel};
 use std::arch::x86_64::*;
-use std::ops::{Add, Mul, Sub};
+use std::ops::{Add, Div, Mul, Sub};
 
 pub(super) fn has_avx2() -> bool {
     is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")
@@ -44,11 +45,49 @@ fn with_avx512(job: &Job<'_>, out: &mut DeviationColumns<'_>) -> Result<(), Batc
     kernel::run::<8, Eight>(job, out)
 }
 
-/// Four poses; lives only inside [`with_avx2`].
+pub(super) fn compensate_avx2(
+    job: &CompensationJob<'_>,
+    out: &mut CommandColumns<'_>,
+) -> Result<Effort, CompensationError> {
+    if !has_avx2() {
+        return Err(BatchError::Unavailable(InstructionSet::Avx2).into());
+    }
+    // SAFETY: the processor has AVX2 and FMA; asked one line above.
+    unsafe { compensate_with_avx2(job, out) }
+}
+
+pub(super) fn compensate_avx512(
+    job: &CompensationJob<'_>,
+    out: &mut CommandColumns<'_>,
+) -> Result<Effort, CompensationError> {
+    if !has_avx512() {
+        return Err(BatchError::Unavailable(InstructionSet::Avx512).into());
+    }
+    // SAFETY: the processor has AVX2, FMA and AVX-512F; asked one line above.
+    unsafe { compensate_with_avx512(job, out) }
+}
+
+#[target_feature(enable = "avx2,fma")]
+fn compensate_with_avx2(
+    job: &CompensationJob<'_>,
+    out: &mut CommandColumns<'_>,
+) -> Result<Effort, CompensationError> {
+    newton::run::<4, Four>(job, out)
+}
+
+#[target_feature(enable = "avx2,fma,avx512f")]
+fn compensate_with_avx512(
+    job: &CompensationJob<'_>,
+    out: &mut CommandColumns<'_>,
+) -> Result<Effort, CompensationError> {
+    newton::run::<8, Eight>(job, out)
+}
+
+/// Four poses; lives only inside [`with_avx2`] and [`compensate_with_avx2`].
 #[derive(Clone, Copy)]
 struct Four(__m256d);
 
-/// Eight poses; lives only inside [`with_avx512`].
+/// Eight poses; lives only inside [`with_avx512`] and [`compensate_with_avx512`].
 #[derive(Clone, Copy)]
 struct Eight(__m512d);
 
@@ -69,51 +108,53 @@ macro_rules! operator {
 operator!(Four, Add, add, _mm256_add_pd);
 operator!(Four, Sub, sub, _mm256_sub_pd);
 operator!(Four, Mul, mul, _mm256_mul_pd);
+operator!(Four, Div, div, _mm256_div_pd);
 operator!(Eight, Add, add, _mm512_add_pd);
 operator!(Eight, Sub, sub, _mm512_sub_pd);
 operator!(Eight, Mul, mul, _mm512_mul_pd);
+operator!(Eight, Div, div, _mm512_div_pd);
 
 impl Lanes<4> for Four {
     #[inline(always)]
     fn splat(value: f64) -> Self {
-        // SAFETY: called inside `with_avx2` only.
+        // SAFETY: called inside `…with_avx2` only.
         Self(unsafe { _mm256_set1_pd(value) })
     }
 
     #[inline(always)]
     fn load(from: &[f64; 4]) -> Self {
-        // SAFETY: called inside `with_avx2` only; four numbers lie behind the reference.
+        // SAFETY: called inside `…with_avx2` only; four numbers lie behind the reference.
         Self(unsafe { _mm256_loadu_pd(from.as_ptr()) })
     }
 
     #[inline(always)]
     fn store(self, to: &mut [f64; 4]) {
-        // SAFETY: called inside `with_avx2` only; room for four numbers behind the reference.
+        // SAFETY: called inside `…with_avx2` only; room for four numbers behind the reference.
         unsafe { _mm256_storeu_pd(to.as_mut_ptr(), self.0) }
     }
 
     #[inline(always)]
     fn times_plus(self, factor: Self, term: Self) -> Self {
-        // SAFETY: called inside `with_avx2` only.
+        // SAFETY: called inside `…with_avx2` only.
         Self(unsafe { _mm256_fmadd_pd(self.0, factor.0, term.0) })
     }
 
     #[inline(always)]
     fn times_minus(self, factor: Self, term: Self) -> Self {
-        // SAFETY: called inside `with_avx2` only.
+        // SAFETY: called inside `…with_avx2` only.
         Self(unsafe { _mm256_fmsub_pd(self.0, factor.0, term.0) })
     }
 
     #[inline(always)]
     fn times_from(self, factor: Self, term: Self) -> Self {
-        // SAFETY: called inside `with_avx2` only.
+        // SAFETY: called inside `…with_avx2` only.
         Self(unsafe { _mm256_fnmadd_pd(self.0, factor.0, term.0) })
     }
 
     #[inline(always)]
     fn whole(self, largest: f64) -> (Self, [u32; 4]) {
         let mut rows = [0_u32; 4];
-        // SAFETY: called inside `with_avx2` only; the store has room for four 32-bit numbers.
+        // SAFETY: called inside `…with_avx2` only; the store has room for four 32-bit numbers.
         let whole = unsafe {
             // The maximum of NaN and a number is here the second: the number.
             let cut = _mm256_max_pd(self.0, _mm256_setzero_pd());
@@ -126,7 +167,7 @@ impl Lanes<4> for Four {
 
     #[inline(always)]
     fn outside(self, from: f64, to: f64) -> u32 {
-        // SAFETY: called inside `with_avx2` only.
+        // SAFETY: called inside `…with_avx2` only.
         unsafe {
             let above = _mm256_cmp_pd::<_CMP_NGE_UQ>(self.0, _mm256_set1_pd(from));
             let below = _mm256_cmp_pd::<_CMP_NLE_UQ>(self.0, _mm256_set1_pd(to));
@@ -136,7 +177,7 @@ impl Lanes<4> for Four {
 
     #[inline(always)]
     fn quarter_turns(turns: Self, sine: Self, cosine: Self) -> (Self, Self) {
-        // SAFETY: called inside `with_avx2` only.
+        // SAFETY: called inside `…with_avx2` only.
         unsafe {
             let k = _mm256_castpd_si256(turns.0);
             // The blend looks at the sign bit.
@@ -159,7 +200,7 @@ impl Lanes<4> for Four {
     fn errors(rows: &[Row], row: &[u32; 4], h: Self) -> [Self; 6] {
         let mut steps = [0.0; 4];
         h.store(&mut steps);
-        // SAFETY: called inside `with_avx2` only; each load stays within the 32 numbers of a row,
+        // SAFETY: called inside `…with_avx2` only; each load stays within the 32 numbers of a row,
         // which is aligned to 64 bytes, and starts at a multiple of 16 or 32 bytes.
         unsafe {
             let (mut low, mut high) = ([_mm256_setzero_pd(); 4], [_mm_setzero_pd(); 4]);
@@ -197,44 +238,44 @@ impl Lanes<4> for Four {
 impl Lanes<8> for Eight {
     #[inline(always)]
     fn splat(value: f64) -> Self {
-        // SAFETY: called inside `with_avx512` only.
+        // SAFETY: called inside `…with_avx512` only.
         Self(unsafe { _mm512_set1_pd(value) })
     }
 
     #[inline(always)]
     fn load(from: &[f64; 8]) -> Self {
-        // SAFETY: called inside `with_avx512` only; eight numbers lie behind the reference.
+        // SAFETY: called inside `…with_avx512` only; eight numbers lie behind the reference.
         Self(unsafe { _mm512_loadu_pd(from.as_ptr()) })
     }
 
     #[inline(always)]
     fn store(self, to: &mut [f64; 8]) {
-        // SAFETY: called inside `with_avx512` only; room for eight numbers behind the reference.
+        // SAFETY: called inside `…with_avx512` only; room for eight numbers behind the reference.
         unsafe { _mm512_storeu_pd(to.as_mut_ptr(), self.0) }
     }
 
     #[inline(always)]
     fn times_plus(self, factor: Self, term: Self) -> Self {
-        // SAFETY: called inside `with_avx512` only.
+        // SAFETY: called inside `…with_avx512` only.
         Self(unsafe { _mm512_fmadd_pd(self.0, factor.0, term.0) })
     }
 
     #[inline(always)]
     fn times_minus(self, factor: Self, term: Self) -> Self {
-        // SAFETY: called inside `with_avx512` only.
+        // SAFETY: called inside `…with_avx512` only.
         Self(unsafe { _mm512_fmsub_pd(self.0, factor.0, term.0) })
     }
 
     #[inline(always)]
     fn times_from(self, factor: Self, term: Self) -> Self {
-        // SAFETY: called inside `with_avx512` only.
+        // SAFETY: called inside `…with_avx512` only.
         Self(unsafe { _mm512_fnmadd_pd(self.0, factor.0, term.0) })
     }
 
     #[inline(always)]
     fn whole(self, largest: f64) -> (Self, [u32; 8]) {
         let mut rows = [0_u32; 8];
-        // SAFETY: called inside `with_avx512` only; the store has room for eight 32-bit numbers.
+        // SAFETY: called inside `…with_avx512` only; the store has room for eight 32-bit numbers.
         let whole = unsafe {
             // The maximum of NaN and a number is here the second: the number.
             let cut = _mm512_max_pd(self.0, _mm512_setzero_pd());
@@ -247,7 +288,7 @@ impl Lanes<8> for Eight {
 
     #[inline(always)]
     fn outside(self, from: f64, to: f64) -> u32 {
-        // SAFETY: called inside `with_avx512` only.
+        // SAFETY: called inside `…with_avx512` only.
         unsafe {
             let above = _mm512_cmp_pd_mask::<_CMP_NGE_UQ>(self.0, _mm512_set1_pd(from));
             let below = _mm512_cmp_pd_mask::<_CMP_NLE_UQ>(self.0, _mm512_set1_pd(to));
@@ -257,7 +298,7 @@ impl Lanes<8> for Eight {
 
     #[inline(always)]
     fn quarter_turns(turns: Self, sine: Self, cosine: Self) -> (Self, Self) {
-        // SAFETY: called inside `with_avx512` only.
+        // SAFETY: called inside `…with_avx512` only.
         unsafe {
             let k = _mm512_castpd_si512(turns.0);
             let (one, two) = (_mm512_set1_epi64(1), _mm512_set1_epi64(2));
@@ -279,7 +320,7 @@ impl Lanes<8> for Eight {
     fn errors(rows: &[Row], row: &[u32; 8], h: Self) -> [Self; 6] {
         let mut steps = [0.0; 8];
         h.store(&mut steps);
-        // SAFETY: called inside `with_avx512` only; a row is four vectors, aligned to 64 bytes.
+        // SAFETY: called inside `…with_avx512` only; a row is four vectors, aligned to 64 bytes.
         unsafe {
             let mut pose = [_mm512_setzero_pd(); 8];
             for i in 0..8 {

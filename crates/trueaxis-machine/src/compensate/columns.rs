@@ -37,11 +37,10 @@ impl Columns {
         let links: [Link; MAX_BODIES] = std::array::from_fn(link);
         let side = machine.workpiece_side;
         let bed_from_workpiece = links[..side].iter().fold(Link::identity(), |acc, l| *l * acc);
-        let back = *bed_from_workpiece.inverse().linear();
+        let workpiece_from_bed = bed_from_workpiece.inverse();
+        let back = *workpiece_from_bed.linear();
         let slope = |i: usize, pair: Pair| {
-            pair.map(|(v, place)| {
-                link_slope(machine, i, command, (&errors.bodies[i], &slopes[i]), v, place)
-            })
+            link_slope(machine, i, command, &errors.bodies[i], &slopes[i], pair)
         };
 
         // What each body carries, from the tip to the workpiece; then back again with what turns it.
@@ -51,7 +50,7 @@ impl Columns {
             carried[i] = pair;
             pair = through(&links[i], pair);
         }
-        pair = through(&bed_from_workpiece.inverse(), pair);
+        pair = through(&workpiece_from_bed, pair);
         let (axis, mut columns) =
             (pair[1].0, Self { tip: [Vec3::zeros(); MAX_AXES], axis: [Vec3::zeros(); MAX_AXES] });
         for i in 0..side {
@@ -65,14 +64,14 @@ impl Columns {
             }
         };
         let mut turn = back;
-        for i in side..count {
+        for (i, link) in links.iter().enumerate().take(count).skip(side) {
             put(i, turn);
-            turn *= links[i].linear();
+            turn *= link.linear();
         }
         turn = -back;
-        for i in (0..side).rev() {
+        for (i, link) in links.iter().enumerate().take(side).rev() {
             put(i, turn);
-            turn *= links[i].linear();
+            turn *= link.linear();
         }
         columns.finish(machine, command, axis);
         columns
@@ -110,40 +109,46 @@ fn error_slopes(machine: &Machine, command: &Command, approach: &Approach) -> [S
     slopes
 }
 
-/// d(link · v)/dq; the cases are those of [`Machine::link`].
+/// d(link · v)/dq of a point and a direction; the cases are those of [`Machine::link`].
 fn link_slope(
     machine: &Machine,
     i: usize,
     command: &Command,
-    (errors, slopes): (&BodyErrors, &Six),
-    v: Vec3,
-    place: f64,
-) -> Vec3 {
+    errors: &BodyErrors,
+    slopes: &Six,
+    pair: Pair,
+) -> [Vec3; 2] {
     let (body, model) = (&machine.bodies[i], machine.model);
-    let Some(index) = body.axis else { return Vec3::zeros() };
+    let Some(index) = body.axis else { return [Vec3::zeros(); 2] };
     let (axis, q) = (&machine.axes[index], command[index]);
     let turn = |six: &Six| Mat3::identity() + six.rotation_minus_identity(model.rotation);
-    let error_slope = |v: Vec3| {
-        slopes.shift_mm() * place + errors.motion.rotation_slope(slopes, model.rotation) * v
-    };
-    let v = body.mounting.linear() * v + body.mounting.shift_mm() * place;
+    let turn_slope = errors.motion.rotation_slope(slopes, model.rotation);
+    let error_slope = |v: Vec3, place: f64| slopes.shift_mm() * place + turn_slope * v;
     let per_unit = axis.direction * axis.sense;
-    let placed = body.placement.linear() * turn(&errors.location);
+    let location = turn(&errors.location);
+    let placed = body.placement.linear() * location;
+    let pair = through(&body.mounting, pair);
     match (axis.kind, body.error_frame) {
         (AxisKind::Linear, _) if model.squareness == Squareness::Direction => {
-            let along = turn(&errors.location) * per_unit * place;
-            body.placement.linear() * (along + error_slope(v))
+            let along = location * per_unit;
+            pair.map(|(v, place)| body.placement.linear() * (along * place + error_slope(v, place)))
         }
-        (AxisKind::Linear, _) => placed * (per_unit * place + error_slope(v)),
+        (AxisKind::Linear, _) => {
+            pair.map(|(v, place)| placed * (per_unit * place + error_slope(v, place)))
+        }
         (AxisKind::Rotary, ErrorFrame::Fixed) => {
-            let turned = nominal_motion(axis, q).linear() * v;
-            placed * (error_slope(turned) + turn(&errors.motion) * per_unit.cross(&turned))
+            let (motion, error) = (*nominal_motion(axis, q).linear(), turn(&errors.motion));
+            pair.map(|(v, place)| {
+                let turned = motion * v;
+                placed * (error_slope(turned, place) + error * per_unit.cross(&turned))
+            })
         }
         (AxisKind::Rotary, ErrorFrame::Moving) => {
-            let motion = nominal_motion(axis, q);
-            let displaced = turn(&errors.motion) * v + errors.motion.shift_mm() * place;
-            let turned = motion.linear() * displaced;
-            placed * (per_unit.cross(&turned) + motion.linear() * error_slope(v))
+            let (motion, error) = (*nominal_motion(axis, q).linear(), turn(&errors.motion));
+            pair.map(|(v, place)| {
+                let turned = motion * (error * v + errors.motion.shift_mm() * place);
+                placed * (per_unit.cross(&turned) + motion * error_slope(v, place))
+            })
         }
     }
 }

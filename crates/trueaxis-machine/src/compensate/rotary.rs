@@ -67,7 +67,7 @@ impl<'a> Turns<'a> {
     /// ```text
     ///     K = Σ σ_k u_k v_kᵀ      σ_k ≥ s: −(u·e)/σ_k · v_k      σ_k < s: −(u·e)·σ_k/s² · v_k, once
     /// ```
-    /// with s = 1/`most_swing` (docs/model.md eq. 161): continuous at s, nothing at the pole.
+    /// with s = 1/`most_swing` (docs/model.md eq. 162): continuous at s, nothing at the pole.
     pub fn freedom(&self, deviation: Vec3, most_swing: f64) -> (Freedom, Option<usize>) {
         let [a, b, c] = self.gram();
         let (half, spread) = (0.5 * (a - c), (0.5 * (a - c)).hypot(b));

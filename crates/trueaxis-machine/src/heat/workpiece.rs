@@ -68,6 +68,13 @@ impl WorkpieceGrowth {
         self.per_expansion(p_mm) * self.expansion_per_k.value
     }
 
+    /// How much it grows per mm from its fixed point, in every direction; `None` if its temperature
+    /// changes along it.
+    pub(crate) fn per_mm(&self) -> Option<f64> {
+        let celsius = self.profile.uniform()?;
+        Some((celsius - REFERENCE_CELSIUS) * self.expansion_per_k.value)
+    }
+
     /// What one standard uncertainty of α_w adds to it, mm.
     ///
     /// ```text

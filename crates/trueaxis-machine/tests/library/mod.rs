@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::input::Diagnostics;
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::{AxisKind, Command, Travel};
+use trueaxis_machine::axis::{Approach, AxisKind, Command, Travel};
+use trueaxis_machine::errors::{Component, Curve, ErrorIndex, ErrorKind, Harmonic, StatedError};
 use trueaxis_machine::file::Tables;
 use trueaxis_machine::heat::Conditions;
 
@@ -136,4 +137,67 @@ pub fn checked(text: &str, csv: &str) -> Machine {
     let (machine, problems) = check(text, csv);
     let list: Vec<String> = problems.iter().map(ToString::to_string).collect();
     machine.unwrap_or_else(|| panic!("{}\n{text}", list.join("\n")))
+}
+
+/// Every folder of `machines/`.
+pub const MACHINES: [&str; 8] = [
+    "xkas2525",
+    "i5-engraver",
+    "lei-hsu-mill",
+    "head-table",
+    "nutating-head",
+    "wyxzcat-gantry",
+    "three-axis-mill",
+    "gantry-001",
+];
+
+/// Location errors of all bodies and smooth motions of all axes with reversal, each up to `reach`
+/// (1: 1 mm and 1 mrad).
+pub fn with_random_errors(machine: &Machine, random: &mut Random, reach: f64) -> Machine {
+    let mut changed = machine.clone();
+    for (body, b) in machine.bodies().iter().enumerate() {
+        let axis = b.axis.map(|i| machine.axes()[i].kind);
+        for component in Component::ALL {
+            let reach = reach * if component.is_rotation() { 1e-3 } else { 1.0 };
+            let location = StatedError::constant(random.within(reach), None);
+            let index = ErrorIndex { body, kind: ErrorKind::Location, component };
+            changed = changed.with_error(index, Some(location));
+            if let Some(kind) = axis {
+                let index = ErrorIndex { kind: ErrorKind::Motion, ..index };
+                changed = changed.with_error(index, Some(motion(kind, random, reach)));
+            }
+        }
+    }
+    changed
+}
+
+/// A curve within ±`reach` over some metres or turns.
+fn motion(kind: AxisKind, random: &mut Random, reach: f64) -> StatedError {
+    let mut value = |part: f64| random.within(part * reach);
+    let mean = match kind {
+        AxisKind::Linear => Curve::Polynomial {
+            coefficients: vec![value(0.3), value(0.3), value(0.2)],
+            origin: 0.0,
+            scale: 1000.0,
+        },
+        AxisKind::Rotary => Curve::Fourier {
+            mean: value(0.2),
+            terms: vec![
+                Harmonic { order: 1.0, cosine: value(0.2), sine: value(0.2) },
+                Harmonic { order: 3.0, cosine: value(0.1), sine: value(0.1) },
+            ],
+        },
+    };
+    let reversal = Some(Curve::Constant(value(0.1)));
+    StatedError { mean, reversal, ..StatedError::constant(0.0, None) }
+}
+
+/// A command in the middle 76 % of the travel.
+pub fn away_from_ends(machine: &Machine, random: &mut Random) -> Command {
+    command_within_travel(machine, std::array::from_fn(|_| 0.12 + 0.76 * random.unit()))
+}
+
+/// From which side each axis comes: −1, 0 or 1.
+pub fn sides(random: &mut Random) -> Approach {
+    std::array::from_fn(|_| (3.0 * random.unit()).floor() - 1.0)
 }
