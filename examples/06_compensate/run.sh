@@ -17,3 +17,8 @@ $trueaxis post machines/i5-engraver/machine.toml examples/06_compensate/bangle.c
 $trueaxis post machines/xkas2525/machine.toml examples/06_compensate/blade.cls --dialect sinumerik --tcp off -o "$out/blade.mpf" --verify
 # A blank as it was probed: the path moved onto it, and the wall that is left (oracles/bangle.py made the example).
 $trueaxis compensate adapt examples/06_compensate/bangle-adapt.toml --report "$out/bangle-adapt.html" --dialect fanuc -o "$out/bangle-adapt.nc" --cl "$out/bangle-adapted.cls"
+# A program for the actual machine: the frustum of 03_predict before and after (oracles/frustum.py made it).
+$trueaxis compensate program machines/xkas2525/machine.toml examples/06_compensate/frustum.mpf -o "$out/frustum-comp.mpf" --report "$out/frustum-comp.html"
+root=$(pwd)
+sed "s|../../frustum-comp.mpf|frustum-comp.mpf|; s|\.\./\.\.|$root|" examples/06_compensate/frustum-compensated.toml > "$out/frustum-compensated.toml"
+$trueaxis predict "$out/frustum-compensated.toml" --report "$out/frustum-predicted.html"

@@ -94,7 +94,7 @@ pub struct Rewritten {
 
 /// Places are looked at so finely; each further try halves it.
 const SPACING_MM: f64 = 5.0;
-const ANGLE_DEG: f64 = 1.0;
+const ANGLE_DEG: f64 = 0.25;
 const TRIES: u32 = 4;
 
 /// Rewrites a program so that the actual tool goes where it says, and proves it by simulating the
@@ -115,10 +115,15 @@ pub fn compensate_program(
         problems.error("already-compensated", Place::whole(program.file()), message, hint);
         return (None, problems);
     }
+    let machine = &not_twice(machine, program, &mut problems);
+    let mut told = std::mem::take(&mut problems);
     let mut best = None;
     for attempt in 0..TRIES {
         let (rewritten, found) = once(machine, program, setup, options, attempt);
-        let Some(rewritten) = rewritten else { return (None, found) };
+        let Some(rewritten) = rewritten else {
+            told.append(found);
+            return (None, told);
+        };
         let done = rewritten.is_within(options);
         best = Some(rewritten);
         problems = found;
@@ -129,7 +134,20 @@ pub fn compensate_program(
     if let Some(rewritten) = &best {
         rewritten.refuse_unproved(program, options, &mut problems);
     }
-    (best.filter(|_| !problems.has_errors()), problems)
+    told.append(problems);
+    (best.filter(|_| !told.has_errors()), told)
+}
+
+/// The machine as the program meets it: what the control compensates is not compensated again.
+fn not_twice(machine: &Machine, program: &Program, problems: &mut Diagnostics) -> Machine {
+    let active = machine.active_compensation();
+    if !active.is_empty() {
+        let names: Vec<String> = active.iter().map(ToString::to_string).collect();
+        let message = format!("not compensated again: {}", names.join(" "));
+        let hint = "the machine file says that their tables are active in the control";
+        problems.note("already-active", Place::whole(program.file()), message, hint);
+    }
+    machine.with_active_compensation()
 }
 
 fn densify(options: &ProgramOptions, attempt: u32) -> Densify {
@@ -190,13 +208,16 @@ fn once(
 impl Rewritten {
     /// What rounding and what cannot be corrected leave at the end of a block, mm.
     fn allowed_mm(options: &ProgramOptions) -> f64 {
-        options.increments.map_or(1e-9, |i| 2.0 * i.linear_mm)
+        options.increments.map_or(1e-9, |i| i.linear_mm)
     }
 
     /// Whether the written program does what was asked for, on the way between the ends.
     fn is_within(&self, options: &ProgramOptions) -> bool {
-        let rounding = options.increments.map_or(0.0, |i| 2.0 * i.linear_mm);
-        self.proof.after.tip.value <= options.residual_mm + rounding
+        let rounding = options.increments.map_or([0.0; 2], |i| [i.linear_mm, i.rotary_deg]);
+        let after = &self.proof.after;
+        let turned = options.residual_rad + 2.0 * rounding[1].to_radians();
+        let axis = !self.found.axis_left.is_empty() || after.axis.value <= turned;
+        axis && after.tip.value <= options.residual_mm + rounding[0]
     }
 
     /// A program that does not do on the machine what was meant is not written.
@@ -225,9 +246,9 @@ impl Rewritten {
             off(end.line, format!("read back, the tip ends {left:.6} µm from its place"));
         }
         if !self.is_within(options) && self.found.undecided == 0 {
-            let tip = proof.after.tip;
-            let left = tip.value * 1e3;
-            off(tip.line, format!("read back, the tip leaves its path by {left:.4} µm"));
+            let (tip, axis) = (proof.after.tip, proof.after.axis);
+            let left = format!("{:.4} µm, the tool axis by {:.4}", tip.value * 1e3, axis.value * 1e6);
+            off(tip.line, format!("read back, the tip leaves its path by {left} µrad"));
         }
         if proof.troubles.is_grave() {
             let message = "in the compensated program an axis leaves its travel".to_owned();

@@ -1,6 +1,7 @@
 //! A compensated program, as text and JSON.
 
 use crate::compensate::program::{Convention, ProgramOptions, Residual, Rewritten};
+use super::numbers;
 use serde_json::{Value, json};
 use std::fmt::Write;
 use trueaxis_machine::Machine;
@@ -65,7 +66,8 @@ impl ProgramReport<'_> {
     pub(super) fn rounding(&self) -> String {
         match self.options.increments {
             Some(i) => {
-                format!("rounded to {} µm and {} deg", i.linear_mm * 1e3, i.rotary_deg)
+                let [um, deg] = [i.linear_mm * 1e3, i.rotary_deg].map(numbers::rounded);
+                format!("rounded to {um} µm and {deg} deg")
             }
             None => "not rounded".to_owned(),
         }

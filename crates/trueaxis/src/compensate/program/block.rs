@@ -1,13 +1,13 @@
 //! One block with corrected numbers: the same words in the same order, and what has to be added.
 
 use super::number::{Grid, Of};
-use super::stand::{Stand, of_kind};
+use super::stand::Stand;
 use super::text::Edits;
 use super::walk::refusal;
 use super::words::{Word, Words};
 use crate::simulate::axis_path::{AxisPath, Fault, Straight};
 use std::ops::Range;
-use trueaxis_machine::axis::{AxisKind, Command};
+use trueaxis_machine::axis::Command;
 use trueaxis_nc::Control;
 use trueaxis_nc::moves::{Axis, AxisSet, Coordinates, FeedMode, Move, MoveKind, Position, Way};
 
@@ -67,7 +67,7 @@ impl Block<'_> {
         turns_deg: Option<f64>,
     ) -> Result<Next, Fault> {
         let now = path.words_of(path.command(), self.m.coordinates);
-        let wanted = self.wanted(path, &step.command);
+        let wanted = self.wanted(path, &now, step);
         let mut m = Move {
             kind: self.kind(),
             target: now,
@@ -110,26 +110,41 @@ impl Block<'_> {
     }
 
     /// Words for axis positions; where rotary axes are rounded, linear ones go with them.
-    fn wanted(&self, path: &AxisPath<'_>, command: &Command) -> Position {
-        let exact = path.words_of(command, self.m.coordinates);
+    fn wanted(&self, path: &AxisPath<'_>, now: &Position, step: &Written) -> Position {
+        let exact = path.words_of(&step.command, self.m.coordinates);
         let (Some(control), Some(_), Straight::Axes) =
             (path.control(), self.grid.0, path.straight())
         else {
             return exact;
         };
-        let mut rounded = *command;
-        for i in of_kind(control, AxisKind::Rotary) {
-            let letter = control.machine().axes()[i].name.letter();
-            let Some(axis) = Axis::ALL.into_iter().find(|a| char::from(a.letter()) == letter)
-            else {
-                continue;
-            };
-            let by = self.grid.round(exact[axis], Of::Rotary) - exact[axis];
-            rounded[i] += by.to_radians();
+        let mut rounded = step.command;
+        for axis in Axis::ALL.into_iter().filter(|a| a.is_rotary()) {
+            if let Some(i) = path.axis_of(axis) {
+                let at = (now[axis], exact[axis]);
+                rounded[i] += self.rotary_rounding(axis, at, step.piece).to_radians();
+            }
         }
-        match control.place(Stand::of(control, command).tip, &mut rounded) {
+        match control.place(Stand::of(control, &step.command).tip, &mut rounded) {
             true => path.words_of(&rounded, self.m.coordinates),
             false => exact,
+        }
+    }
+
+    /// What rounding, or a number that is near enough to stay, does to a rotary axis, degrees.
+    fn rotary_rounding(&self, axis: Axis, (now, exact): (f64, f64), piece: usize) -> f64 {
+        let rounded = self.grid.round(exact, Of::Rotary);
+        let stays = match self.words.axes[axis as usize].as_ref().filter(|_| piece == 0) {
+            None => now,
+            Some(word) if word.increment.unwrap_or(self.incremental) => return rounded - exact,
+            Some(_) => {
+                let old = self.m.target[axis];
+                let turns = self.way(axis) != Way::AsWritten;
+                old + if turns { 360.0 * ((exact - old) / 360.0).round() } else { 0.0 }
+            }
+        };
+        match self.grid.same(exact, stays, Of::Rotary) {
+            true => stays - exact,
+            false => rounded - exact,
         }
     }
 
@@ -148,7 +163,7 @@ impl Block<'_> {
                 return Err(self.no_word(axis));
             }
             let value = self.grid.round(wanted, of);
-            if !self.grid.same(value, now, of) {
+            if !self.grid.same(wanted, now, of) {
                 (m.target[axis], m.named) = (value, m.named.with(axis));
                 let shown = if self.incremental { value - now } else { value };
                 self.added += u64::from(piece == 0);

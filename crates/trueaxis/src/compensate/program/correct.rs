@@ -1,8 +1,8 @@
 //! What is to be commanded instead, with what the machine is known to do in its direction of travel.
 
 use crate::simulate::axis_path::Fault;
-use trueaxis_machine::axis::{Approach, Command, MAX_AXES};
-use trueaxis_machine::compensate::{AxisLeft, Compensator, Scope};
+use trueaxis_machine::axis::{Approach, AxisKind, Command, MAX_AXES};
+use trueaxis_machine::compensate::{AxisLeft, Compensator, Fault as NoCorrection, Scope};
 use trueaxis_machine::{Deviation, Machine};
 use trueaxis_nc::moves::Origin;
 
@@ -52,7 +52,7 @@ impl Corrector {
         machine: &Machine,
         position_only: bool,
         limit: CorrectionLimit,
-    ) -> Result<Self, trueaxis_machine::compensate::Fault> {
+    ) -> Result<Self, NoCorrection> {
         let scope = if position_only { Scope::Position } else { Scope::Pose };
         let reverses = machine.stated_errors().iter().any(|(index, name)| {
             let stated = machine.bodies()[index.body].stated(name.kind, name.component);
@@ -90,7 +90,8 @@ impl Corrector {
         let mut side = reached(approach, from, nominal);
         let mut rounds = 3;
         loop {
-            let done = compensator.at(nominal, &side).map_err(|e| refused(origin, &e))?;
+            let done = compensator.at(nominal, &side);
+            let done = done.map_err(|e| self.refused(nominal, origin, &e))?;
             self.within_limit(&done.before, origin)?;
             let real = reached(approach, from, &done.command);
             rounds -= 1;
@@ -131,6 +132,38 @@ impl Corrector {
         }
         Ok(())
     }
+
+    fn refused(&self, nominal: &Command, origin: Origin, fault: &NoCorrection) -> Fault {
+        use NoCorrection as F;
+        let axes = self.machine().axes().iter().zip(nominal);
+        let outside = axes.into_iter().find(|(axis, q)| !axis.travel.contains(**q));
+        if let Some((axis, q)) = outside {
+            let shown = match axis.kind {
+                AxisKind::Linear => format!("{q:.4} mm"),
+                AxisKind::Rotary => format!("{:.5} deg", q.to_degrees()),
+            };
+            let message = format!("without any correction {} would go to {shown}", axis.name);
+            let hint = "that is beyond its travel: a work offset (--setup), or another machine?";
+            return Fault { origin, word: None, code: "leaves-travel", message, hint };
+        }
+        let (code, hint) = match fault {
+            F::Travel { .. } => (
+                "correction-leaves-travel",
+                "the corrected place lies beyond the end of the travel: move the part or the path",
+            ),
+            F::Command(_) | F::Corrected(_) => (
+                "unknown-errors",
+                "cover the travel by the error table, or say outside = \"clamp\" for it",
+            ),
+            F::FewLinearAxes { .. } | F::Flat => {
+                ("not-correctable", "a machine with three linear axes across each other is needed")
+            }
+            F::NotConverged { .. } => {
+                ("not-converged", "check the error tables of the machine file")
+            }
+        };
+        Fault { origin, word: None, code, message: fault.to_string(), hint }
+    }
 }
 
 /// The side after a motion.
@@ -143,23 +176,4 @@ pub(super) fn reached(approach: &Approach, from: &Command, to: &Command) -> Appr
         }
     }
     side
-}
-
-fn refused(origin: Origin, fault: &trueaxis_machine::compensate::Fault) -> Fault {
-    use trueaxis_machine::compensate::Fault as F;
-    let (code, hint) = match fault {
-        F::Travel { .. } => (
-            "correction-leaves-travel",
-            "the corrected place lies beyond the end of the travel: move the part or the path",
-        ),
-        F::Command(_) | F::Corrected(_) => (
-            "unknown-errors",
-            "cover the travel by the error table, or say outside = \"clamp\" for it",
-        ),
-        F::FewLinearAxes { .. } | F::Flat => {
-            ("not-correctable", "a machine with three linear axes across each other is needed")
-        }
-        F::NotConverged { .. } => ("not-converged", "check the error tables of the machine file"),
-    };
-    Fault { origin, word: None, code, message: fault.to_string(), hint }
 }

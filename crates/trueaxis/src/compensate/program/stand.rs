@@ -3,7 +3,7 @@
 use crate::compensate::post::angle;
 use crate::simulate::axis_path::Straight;
 use trueaxis_geometry::Vec3;
-use trueaxis_machine::axis::{AxisKind, Command};
+use trueaxis_machine::axis::Command;
 use trueaxis_machine::tcp::TipControl;
 
 /// Tip, mm, and tool axis in the workpiece frame.
@@ -125,10 +125,4 @@ fn swung(from: &Vec3, to: &Vec3, u: f64) -> Vec3 {
         return (from + (to - from) * u).normalize();
     }
     (from * ((1.0 - u) * whole).sin() + to * (u * whole).sin()) / whole.sin()
-}
-
-/// The axes of a kind.
-pub(super) fn of_kind(control: &TipControl, kind: AxisKind) -> impl Iterator<Item = usize> + '_ {
-    let axes = control.machine().axes().iter().enumerate();
-    axes.filter(move |(_, a)| a.kind == kind).map(|(i, _)| i)
 }
