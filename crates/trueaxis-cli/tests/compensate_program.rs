@@ -17,8 +17,7 @@ fn compensate(more: &[&str]) -> command::Ran {
 fn the_document_has_the_agreed_keys() {
     let folder = Folder::new("program-json");
     let (out, report) = (folder.path("c.mpf"), folder.path("r.html"));
-    let ran =
-        compensate(&[MACHINE, FRUSTUM, "-o", &out, "--report", &report, "--format", "json"]);
+    let ran = compensate(&[MACHINE, FRUSTUM, "-o", &out, "--report", &report, "--format", "json"]);
     assert_eq!(ran.status, 0, "{}", ran.err);
     let found = ran.json();
     assert_eq!(found["schema"], "trueaxis/compensate-program/1");
@@ -54,7 +53,8 @@ fn the_document_has_the_agreed_keys() {
 #[test]
 fn the_compensated_frustum_is_better_by_more_than_fifty() {
     let folder = Folder::new("program-frustum");
-    let ran = compensate(&[MACHINE, FRUSTUM, "-o", &folder.path("frustum-comp.mpf"), "--no-rounding"]);
+    let ran =
+        compensate(&[MACHINE, FRUSTUM, "-o", &folder.path("frustum-comp.mpf"), "--no-rounding"]);
     assert_eq!(ran.status, 0, "{}", ran.err);
     let root = command::root().canonicalize().unwrap().display().to_string();
     let study = std::fs::read_to_string(
@@ -110,9 +110,27 @@ fn what_cannot_be_corrected_is_named_and_nothing_is_written() {
     on_mill("G20 G1 X5", "inch-program");
     on_mill("G1 X300 Y150 Z0", "correction-leaves-travel");
     on_mill("G1 Xnan", "missing-value");
-    refused("b.ngc", MILL, &format!("{begin}G1 X150\nM2\n"), &["--limit", "0.1 um"], "correction-too-large");
-    refused("c.ngc", MILL, &format!("{begin}G1 X150\nM2\n"), &["--increment", "5 deg"], "bad-number");
-    refused("d.ngc", MILL, &format!("{begin}G1 X150\nM2\n"), &["--residual", "-1 um"], "bad-number");
+    refused(
+        "b.ngc",
+        MILL,
+        &format!("{begin}G1 X150\nM2\n"),
+        &["--limit", "0.1 um"],
+        "correction-too-large",
+    );
+    refused(
+        "c.ngc",
+        MILL,
+        &format!("{begin}G1 X150\nM2\n"),
+        &["--increment", "5 deg"],
+        "bad-number",
+    );
+    refused(
+        "d.ngc",
+        MILL,
+        &format!("{begin}G1 X150\nM2\n"),
+        &["--residual", "-1 um"],
+        "bad-number",
+    );
     refused("e.ngc", MILL, "", &[], "empty-program");
 }
 

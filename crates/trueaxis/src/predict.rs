@@ -92,7 +92,9 @@ pub enum Error {
         lasts_s: f64,
     },
     /// The program cuts something else.
-    #[error("the program comes no nearer than {by_mm:.3} mm to tool position {position} of the test piece")]
+    #[error(
+        "the program comes no nearer than {by_mm:.3} mm to tool position {position} of the test piece"
+    )]
     Program {
         /// The tool position, counted from 0.
         position: usize,
@@ -291,7 +293,8 @@ fn variants(study: &Study) -> Result<Vec<VariantResult>, Error> {
         Ok(VariantResult { name: name.to_owned(), indices_mm })
     };
     let temperatures = study.temperatures.as_ref();
-    let others = study.variants.iter().map(|v| result(&v.name, &v.reference, temperatures, program));
+    let others =
+        study.variants.iter().map(|v| result(&v.name, &v.reference, temperatures, program));
     let held = temperatures.map(|_| result(HELD, &study.reference, None, program));
     let ideal = program.map(|_| result(IDEAL, &study.reference, temperatures, None));
     ideal.into_iter().chain(others).chain(held).collect()

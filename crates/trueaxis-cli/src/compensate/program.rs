@@ -47,13 +47,23 @@ pub struct ProgramArguments {
     #[arg(long, value_name = "\"1 um\"", default_value = "1 um", allow_negative_numbers = true)]
     residual: String,
     /// How far the tool axis may be missed there
-    #[arg(long, value_name = "\"10 urad\"", default_value = "10 urad", allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "\"10 urad\"",
+        default_value = "10 urad",
+        allow_negative_numbers = true
+    )]
     residual_axis: String,
     /// The least increment of linear axes
     #[arg(long, value_name = "\"1 um\"", default_value = "1 um", allow_negative_numbers = true)]
     increment: String,
     /// The least increment of rotary axes
-    #[arg(long, value_name = "\"0.0001 deg\"", default_value = "0.0001 deg", allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "\"0.0001 deg\"",
+        default_value = "0.0001 deg",
+        allow_negative_numbers = true
+    )]
     increment_deg: String,
     /// Numbers in full double precision instead
     #[arg(long, conflicts_with_all = ["increment", "increment_deg"])]
@@ -62,7 +72,12 @@ pub struct ProgramArguments {
     #[arg(long, value_name = "\"1 mm\"", default_value = "1 mm", allow_negative_numbers = true)]
     limit: String,
     /// A larger correction of the tool axis is refused
-    #[arg(long, value_name = "\"1 mrad\"", default_value = "1 mrad", allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "\"1 mrad\"",
+        default_value = "1 mrad",
+        allow_negative_numbers = true
+    )]
     limit_axis: String,
     /// Where the HTML report goes; without it none is written
     #[arg(long, value_name = "FILE")]

@@ -10,9 +10,12 @@
 
 mod block;
 mod correct;
+mod feed;
 mod found;
 mod guard;
+mod lines;
 mod number;
+mod refuse;
 mod stand;
 mod text;
 mod verify;
@@ -193,8 +196,8 @@ fn once(
     let tooled = walk.machine();
     let confidence = guard::confidence(tooled, &walk.found.places);
     let worst = walk.found.worst;
-    let conventions =
-        worst.map_or(Vec::new(), |(_, nominal, command)| guard::conventions(tooled, &nominal, &command));
+    let conventions = worst
+        .map_or(Vec::new(), |(_, nominal, command)| guard::conventions(tooled, &nominal, &command));
     let control = program.dialect().control;
     let (text, numbers) = walk.text.finish(&guard::comment(&options.mark, control));
     let found = walk.found;
@@ -228,9 +231,11 @@ impl Rewritten {
         problems: &mut Diagnostics,
     ) {
         let (proof, file) = (&self.proof, program.file());
-        for problem in proof.problems.iter().filter(|p| {
-            p.severity == trueaxis_geometry::input::Severity::Error
-        }) {
+        for problem in proof
+            .problems
+            .iter()
+            .filter(|p| p.severity == trueaxis_geometry::input::Severity::Error)
+        {
             let message = format!("the compensated program cannot be read: {}", problem.message);
             problems.error("not-proved", problem.place.clone(), message, &problem.hint);
         }
@@ -247,7 +252,8 @@ impl Rewritten {
         }
         if !self.is_within(options) && self.found.undecided == 0 {
             let (tip, axis) = (proof.after.tip, proof.after.axis);
-            let left = format!("{:.4} µm, the tool axis by {:.4}", tip.value * 1e3, axis.value * 1e6);
+            let left =
+                format!("{:.4} µm, the tool axis by {:.4}", tip.value * 1e3, axis.value * 1e6);
             off(tip.line, format!("read back, the tip leaves its path by {left} µrad"));
         }
         if proof.troubles.is_grave() {

@@ -108,8 +108,7 @@ impl<'a> Cutting<'a> {
         for (i, (passing, ideal)) in passings.iter().zip(&positions).enumerate() {
             let at = clock.machine_at(i)?;
             let place = (&quantities[..], Some(i));
-            let mut stop =
-                stop(at.unwrap_or(machine), passing.command, &passing.approach, place)?;
+            let mut stop = stop(at.unwrap_or(machine), passing.command, &passing.approach, place)?;
             if program.is_some() {
                 stop.off = off(machine, &stop, ideal);
             }
@@ -212,8 +211,7 @@ fn ideal_passings(
     positions: &[ToolPosition],
     from: &Command,
 ) -> Result<Vec<Passing>, Error> {
-    let path: Vec<Target> =
-        positions.iter().map(|p| Target { tip: p.tip, axis: p.axis }).collect();
+    let path: Vec<Target> = positions.iter().map(|p| Target { tip: p.tip, axis: p.axis }).collect();
     let commands = machine.follow(&path, from).map_err(Error::Path)?;
     let (mut last, mut approach) = (*from, Approach::default());
     let passing = |command: Command| {

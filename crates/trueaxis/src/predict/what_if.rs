@@ -52,7 +52,8 @@ impl WhatIf {
         }
         for (letter, angle_rad) in &self.setting_rad {
             let Some(axis) = rotary(&machine, letter).filter(|_| angle_rad.is_finite()) else {
-                let why = format!("the machine has no rotary axis `{letter}` to set to {angle_rad}");
+                let why =
+                    format!("the machine has no rotary axis `{letter}` to set to {angle_rad}");
                 refuse(problems, "setting", why);
                 return None;
             };

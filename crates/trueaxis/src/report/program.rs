@@ -1,7 +1,7 @@
 //! A compensated program, as text and JSON.
 
-use crate::compensate::program::{Convention, ProgramOptions, Residual, Rewritten};
 use super::numbers;
+use crate::compensate::program::{Convention, ProgramOptions, Residual, Rewritten};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use trueaxis_machine::Machine;
@@ -34,16 +34,17 @@ pub(super) struct Row {
 impl ProgramReport<'_> {
     pub(super) fn rows(&self) -> [Row; 4] {
         let proof = &self.rewritten.proof;
-        let row = |name, unit, scale: f64, of: fn(&Residual) -> crate::compensate::program::Largest| {
-            let (before, after) = (of(&proof.before), of(&proof.after));
-            Row {
-                name,
-                unit,
-                before: before.value * scale,
-                after: after.value * scale,
-                lines: [before.line, after.line],
-            }
-        };
+        let row =
+            |name, unit, scale: f64, of: fn(&Residual) -> crate::compensate::program::Largest| {
+                let (before, after) = (of(&proof.before), of(&proof.after));
+                Row {
+                    name,
+                    unit,
+                    before: before.value * scale,
+                    after: after.value * scale,
+                    lines: [before.line, after.line],
+                }
+            };
         [
             row("tip at the ends of blocks", "µm", 1e3, |r| r.tip_end),
             row("tool axis at the ends of blocks", "µrad", 1e6, |r| r.axis_end),
@@ -82,12 +83,28 @@ impl ProgramReport<'_> {
                 remarks.push(text);
             }
         };
-        say(found.circles, format!("{} circles became straight pieces within the residual", found.circles));
-        say(found.words_added, format!("{} words were added where a block did not name an axis", found.words_added));
+        say(
+            found.circles,
+            format!("{} circles became straight pieces within the residual", found.circles),
+        );
+        say(
+            found.words_added,
+            format!("{} words were added where a block did not name an axis", found.words_added),
+        );
         let n = found.feeds_changed;
-        say(n, format!("{n} blocks that only turn rotary axes have another F, so that they take the same time"));
+        say(
+            n,
+            format!(
+                "{n} blocks that only turn rotary axes have another F, so that they take the same time"
+            ),
+        );
         let n = found.undecided;
-        say(n, format!("at {n} places an axis turns round by less than its reversal error: it is left"));
+        say(
+            n,
+            format!(
+                "at {n} places an axis turns round by less than its reversal error: it is left"
+            ),
+        );
         for (why, count) in &found.left {
             remarks.push(format!("{count} blocks are left as they were: {why}"));
         }
@@ -137,7 +154,13 @@ pub fn program_text(r: &ProgramReport<'_>) -> String {
     let _ = writeln!(
         text,
         "{} on {}: {} blocks -> {} ({} split), {}, written to {}\n",
-        r.program, r.machine.name(), found.blocks, found.pieces, found.split, r.rounding(), r.output
+        r.program,
+        r.machine.name(),
+        found.blocks,
+        found.pieces,
+        found.split,
+        r.rounding(),
+        r.output
     );
     let _ = writeln!(text, "read back and simulated on the machine as it is, largest deviation:");
     let _ = writeln!(text, "{:36} {:>12} {:>14}   at line", "", "before", "after");
@@ -152,16 +175,24 @@ pub fn program_text(r: &ProgramReport<'_>) -> String {
     let c = &r.rewritten.confidence;
     if c.largest_u_mm > 0.0 {
         let u = number(c.largest_u_mm * 1e3);
-        let _ = writeln!(text, "  {:34} {u:>12}                µm   (k = 1)", "standard uncertainty of the tip");
+        let _ = writeln!(
+            text,
+            "  {:34} {u:>12}                µm   (k = 1)",
+            "standard uncertainty of the tip"
+        );
     }
     let _ = writeln!(text, "\nlargest correction of each axis:");
     for (i, largest) in found.largest.iter().enumerate() {
         let (scale, unit) = r.unit(i);
         let value = format!("{:+.3}", largest.value * scale);
-        let _ = writeln!(text, "  {:2} {value:>12} {unit:4} at line {}", r.axis_name(i), largest.line);
+        let _ =
+            writeln!(text, "  {:2} {value:>12} {unit:4} at line {}", r.axis_name(i), largest.line);
     }
     let change = found.length_change * 1e6;
-    let _ = writeln!(text, "\nfeed kept; the way of the tip in a block changes by up to {change:+.1} µm/m");
+    let _ = writeln!(
+        text,
+        "\nfeed kept; the way of the tip in a block changes by up to {change:+.1} µm/m"
+    );
     let rows = r.conventions();
     if !rows.is_empty() {
         let _ = writeln!(text, "\nconvention check at the block with the largest correction:");
@@ -187,9 +218,7 @@ pub(super) fn number(value: f64) -> String {
 pub fn program_json(r: &ProgramReport<'_>) -> Value {
     let (found, proof) = (&r.rewritten.found, &r.rewritten.proof);
     let residual = |of: &Residual| {
-        let value = |l: crate::compensate::program::Largest, scale: f64| {
-            json!({ "value": l.value * scale, "line": l.line })
-        };
+        let value = |l: crate::compensate::program::Largest, scale: f64| json!({ "value": l.value * scale, "line": l.line });
         json!({
             "tip_at_ends_um": value(of.tip_end, 1e3),
             "axis_at_ends_urad": value(of.axis_end, 1e6),
@@ -210,9 +239,10 @@ pub fn program_json(r: &ProgramReport<'_>) -> Value {
         let (scale, unit) = r.unit(i);
         json!({ "axis": r.axis_name(i), "value": l.value * scale, "unit": unit, "line": l.line })
     });
-    let conventions = r.conventions().into_iter().map(|(name, tip, axis)| {
-        json!({ "what": name, "tip_um": tip, "axis_urad": axis })
-    });
+    let conventions = r
+        .conventions()
+        .into_iter()
+        .map(|(name, tip, axis)| json!({ "what": name, "tip_um": tip, "axis_urad": axis }));
     json!({
         "schema": "trueaxis/compensate-program/1",
         "machine": r.machine.name(),

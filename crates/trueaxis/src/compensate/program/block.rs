@@ -1,15 +1,14 @@
 //! One block with corrected numbers: the same words in the same order, and what has to be added.
 
 use super::number::{Grid, Of};
+use super::refuse::refusal;
 use super::stand::Stand;
 use super::text::Edits;
-use super::walk::refusal;
 use super::words::{Word, Words};
 use crate::simulate::axis_path::{AxisPath, Fault, Straight};
-use std::ops::Range;
 use trueaxis_machine::axis::Command;
 use trueaxis_nc::Control;
-use trueaxis_nc::moves::{Axis, AxisSet, Coordinates, FeedMode, Move, MoveKind, Position, Way};
+use trueaxis_nc::moves::{Axis, AxisSet, Coordinates, Move, MoveKind, Position, Way};
 
 /// A block that is being written.
 pub(super) struct Block<'b> {
@@ -49,9 +48,9 @@ pub(super) struct Next {
 }
 
 /// A word on its way into the text.
-struct Put {
-    letters: &'static str,
-    text: String,
+pub(super) struct Put {
+    pub letters: &'static str,
+    pub text: String,
 }
 
 /// The letters of the axes in the order of [`Axis::ALL`].
@@ -105,7 +104,7 @@ impl Block<'_> {
         }
     }
 
-    fn is_circle(&self) -> bool {
+    pub(super) fn is_circle(&self) -> bool {
         matches!(self.m.kind, MoveKind::Arc(_) | MoveKind::SpatialArc(_))
     }
 
@@ -217,7 +216,8 @@ impl Block<'_> {
         if self.m.coordinates == Coordinates::Machine || self.words.machine.is_some() {
             return Ok(target - value);
         }
-        let message = format!("{axis}{value} leads to {target}: polar, scaled or other coordinates");
+        let message =
+            format!("{axis}{value} leads to {target}: polar, scaled or other coordinates");
         let hint = "write X, Y and Z in the program frame";
         Err(refusal(self.m.origin, "other-coordinates", message, hint))
     }
@@ -229,7 +229,8 @@ impl Block<'_> {
     }
 
     fn no_word(&self, axis: Axis) -> Fault {
-        let message = format!("the block moves {axis} without a word {axis} that could be corrected");
+        let message =
+            format!("the block moves {axis} without a word {axis} that could be corrected");
         let hint = "write plain coordinates instead of poles, angles and contours";
         refusal(self.m.origin, "no-axis-word", message, hint)
     }
@@ -273,7 +274,8 @@ impl Block<'_> {
                 None => part == 0.0,
             });
             if !fits || words.iter().all(Option::is_none) {
-                let message = "the direction of the tool is not given by three plain numbers".into();
+                let message =
+                    "the direction of the tool is not given by three plain numbers".into();
                 let hint = "write it as A3= B3= C3=, I J K or TX TY TZ, or write the rotary axes";
                 return Err(refusal(self.m.origin, "computed-coordinate", message, hint));
             }
@@ -297,139 +299,4 @@ impl Block<'_> {
         m.direction = Some(written);
         Ok(())
     }
-
-    /// The feed, where the same number would mean another time.
-    fn feed(
-        &mut self,
-        now: &Position,
-        step: &Written,
-        turns_deg: Option<f64>,
-        m: &Move,
-        puts: &mut Vec<Put>,
-    ) -> Result<Option<f64>, Fault> {
-        let word = self.words.feed.as_ref().filter(|_| step.piece == 0);
-        if m.kind == MoveKind::Rapid {
-            return Ok(self.feed_again.filter(|_| word.is_none()));
-        }
-        let feed = self.m.feed.value;
-        let way: f64 = (0..3).map(|i| (m.target.0[i] - now.0[i]).powi(2)).sum::<f64>().sqrt();
-        let (value, again) = match (self.m.feed.mode, turns_deg) {
-            (FeedMode::InverseTime, _) if self.pieces > 1 => (feed / step.share, None),
-            // The tip moves a little now, and the feed counts along that.
-            (FeedMode::PerMinute, Some(turned)) if way > 1e-9 => {
-                (feed * way / (turned * step.share), Some(feed))
-            }
-            (FeedMode::PerMinute, _) if word.is_none() && step.piece == 0 => {
-                match self.feed_again.take() {
-                    Some(feed) => (feed, None),
-                    None => return Ok(None),
-                }
-            }
-            _ => return Ok(None),
-        };
-        let text = feed_text(value, self.control);
-        match word {
-            Some(Word { value: None, .. }) => {
-                let message = "the feed is computed, and would have to be changed".to_owned();
-                let hint = "write a number behind F";
-                return Err(refusal(self.m.origin, "computed-feed", message, hint));
-            }
-            Some(word) => self.edits.put(word.number.clone(), text),
-            None => puts.push(Put { letters: "F", text }),
-        }
-        Ok(again)
-    }
-
-    /// The block itself: what is added goes behind the words that are there.
-    fn first(&mut self, puts: Vec<Put>) {
-        let (room, end) = (self.words.room(self.control), self.words.end);
-        if self.is_circle() {
-            self.line_for_circle();
-        }
-        let vectors = puts.iter().any(|p| p.letters == "TX");
-        if let (true, Some(motion)) = (vectors, &self.words.motion)
-            && motion.len() == 1
-        {
-            self.edits.put(motion.clone(), "LN".to_owned());
-        }
-        for put in puts {
-            let at = if put.letters == "F" { end } else { room };
-            self.edits.put(at..at, format!(" {}{}", put.letters, put.text));
-        }
-    }
-
-    fn line_for_circle(&mut self) {
-        let line = if self.control == Control::Heidenhain { "L" } else { "G1" };
-        match &self.words.motion {
-            Some(motion) => self.edits.put(motion.clone(), line.to_owned()),
-            None => {
-                let at = self.words.front;
-                let beginning = at == 0 || matches!(self.source[at - 1], b'\n' | b'\r');
-                let text = if beginning { format!("{line} ") } else { format!(" {line}") };
-                self.edits.put(at..at, text);
-            }
-        }
-        for range in &self.words.circle_words {
-            self.edits.put(range.clone(), String::new());
-        }
-    }
-
-    /// A line of its own for a further piece.
-    fn follow(&mut self, puts: &[Put]) {
-        let klartext = self.control == Control::Heidenhain;
-        let mut line = String::new();
-        if let Some(skip) = &self.words.skip {
-            line.push_str(&self.text_of(skip));
-            line.push(' ');
-        }
-        if klartext {
-            line.push_str(if puts.iter().any(|p| p.letters == "TX") { "LN" } else { "L" });
-        } else if self.words.machine.is_some() {
-            let supa = self.control == Control::Sinumerik840d;
-            line.push_str(if supa { "SUPA" } else { "G53" });
-        }
-        for put in puts {
-            if !line.is_empty() && !line.ends_with(' ') {
-                line.push(' ');
-            }
-            line.push_str(put.letters);
-            line.push_str(&put.text);
-        }
-        if klartext && self.words.machine.is_some() {
-            line.push_str(" M91");
-        }
-        self.further.push(line);
-    }
-
-    /// M functions that act behind the travel go to the last piece.
-    fn functions_at_end(&mut self) {
-        if self.further.is_empty() {
-            return;
-        }
-        for range in &self.words.at_end {
-            self.edits.put(range.clone(), String::new());
-            let text = self.text_of(range);
-            if let Some(last) = self.further.last_mut() {
-                last.push(' ');
-                last.push_str(&text);
-            }
-        }
-    }
-
-    fn text_of(&self, range: &Range<usize>) -> String {
-        String::from_utf8_lossy(&self.source[range.clone()]).into_owned()
-    }
-}
-
-/// A feed to six digits.
-fn feed_text(value: f64, control: Control) -> String {
-    let digits = (5 - value.abs().log10().floor() as i32).clamp(0, 12) as usize;
-    let mut text = format!("{value:.digits$}");
-    if text.contains('.') {
-        text.truncate(text.trim_end_matches('0').trim_end_matches('.').len());
-    }
-    if control == Control::Fanuc && !text.contains('.') {
-        text.push('.');
-    }
-    text
 }

@@ -1,5 +1,6 @@
 //! What is to be commanded instead, with what the machine is known to do in its direction of travel.
 
+use super::number::Increments;
 use crate::simulate::axis_path::Fault;
 use trueaxis_machine::axis::{Approach, AxisKind, Command, MAX_AXES};
 use trueaxis_machine::compensate::{AxisLeft, Compensator, Fault as NoCorrection, Scope};
@@ -32,6 +33,8 @@ pub(super) struct Corrector {
     position: Compensator,
     limit: CorrectionLimit,
     reverses: bool,
+    /// Of each axis: less than this is no motion once it is written.
+    least: Command,
     /// The side from which each axis came in the program that is written.
     approach: Approach,
 }
@@ -52,6 +55,7 @@ impl Corrector {
         machine: &Machine,
         position_only: bool,
         limit: CorrectionLimit,
+        increments: Option<Increments>,
     ) -> Result<Self, NoCorrection> {
         let scope = if position_only { Scope::Position } else { Scope::Pose };
         let reverses = machine.stated_errors().iter().any(|(index, name)| {
@@ -63,6 +67,7 @@ impl Corrector {
             position: Compensator::of(machine, Scope::Position)?,
             limit,
             reverses,
+            least: least_motions(machine, increments),
             approach: Approach::default(),
         })
     }
@@ -93,7 +98,7 @@ impl Corrector {
             let done = compensator.at(nominal, &side);
             let done = done.map_err(|e| self.refused(nominal, origin, &e))?;
             self.within_limit(&done.before, origin)?;
-            let real = reached(approach, from, &done.command);
+            let real = turned(approach, from, &done.command, &self.least);
             rounds -= 1;
             let undecided = self.reverses && real != side;
             let corrected = Corrected { command: done.command, left: done.axis_left, undecided };
@@ -168,12 +173,29 @@ impl Corrector {
 
 /// The side after a motion.
 pub(super) fn reached(approach: &Approach, from: &Command, to: &Command) -> Approach {
+    turned(approach, from, to, &[STILL; MAX_AXES])
+}
+
+fn turned(approach: &Approach, from: &Command, to: &Command, least: &Command) -> Approach {
     let mut side = *approach;
     for i in 0..MAX_AXES {
         let by = to[i] - from[i];
-        if by.abs() > STILL {
+        if by.abs() > least[i] {
             side[i] = by.signum();
         }
     }
     side
+}
+
+fn least_motions(machine: &Machine, increments: Option<Increments>) -> Command {
+    let mut least = [STILL; MAX_AXES];
+    for (axis, least) in machine.axes().iter().zip(&mut least) {
+        if let Some(increments) = increments {
+            *least = match axis.kind {
+                AxisKind::Linear => 0.5 * increments.linear_mm,
+                AxisKind::Rotary => 0.5 * increments.rotary_deg.to_radians(),
+            };
+        }
+    }
+    least
 }

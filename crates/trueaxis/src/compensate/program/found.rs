@@ -1,9 +1,11 @@
 //! What was found and done on the way through the program.
 
+use super::block::Block;
 use super::correct::Corrected;
-use super::stand::Stand;
+use super::stand::{Sample, Stand};
 use crate::simulate::Node;
 use std::collections::BTreeMap;
+use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command, MAX_AXES, Travel};
 
@@ -119,6 +121,30 @@ impl Found {
         self.undecided += u64::from(done.undecided);
         if let Some(why) = done.left {
             *self.axis_left.entry(why.to_string()).or_default() += 1;
+        }
+    }
+
+    /// A block was written.
+    pub(super) fn note(
+        &mut self,
+        block: &Block<'_>,
+        circle_gone: bool,
+        feed_changed: bool,
+        samples: &[Sample],
+    ) {
+        self.blocks += 1;
+        self.split += u64::from(block.pieces > 1);
+        self.pieces += block.pieces as u64;
+        self.words_added += block.added;
+        self.feeds_changed += u64::from(feed_changed);
+        self.circles += u64::from(circle_gone);
+        // How much longer the way of the tip has become.
+        let length = |of: &dyn Fn(&Sample) -> Vec3| -> f64 {
+            samples.windows(2).map(|w| (of(&w[1]) - of(&w[0])).norm()).sum()
+        };
+        let (before, after) = (length(&|s| s.wanted.tip), length(&|s| s.believed.tip));
+        if before > 1.0 && (after / before - 1.0).abs() > self.length_change.abs() {
+            self.length_change = after / before - 1.0;
         }
     }
 

@@ -106,7 +106,10 @@ mod tests {
     #[test]
     fn numbers_are_whole_increments() {
         let grid = Grid(Some(Increments::default()));
-        assert_eq!(grid.text(grid.round(12.3456, Of::Linear), Of::Linear, Control::Fanuc), "12.346");
+        assert_eq!(
+            grid.text(grid.round(12.3456, Of::Linear), Of::Linear, Control::Fanuc),
+            "12.346"
+        );
         assert_eq!(grid.text(-0.00001, Of::Linear, Control::Sinumerik840d), "0");
         assert_eq!(grid.text(5.0, Of::Rotary, Control::Heidenhain), "+5");
         assert_eq!(Grid(None).text(0.1 + 0.2, Of::Linear, Control::Fanuc), "0.30000000000000004");

@@ -183,7 +183,8 @@ impl<'p> Text<'p> {
         let is_heading = |line: usize| {
             let range = self.line(line as u32 + 1);
             let text = String::from_utf8_lossy(&self.source()[range]).trim().to_ascii_uppercase();
-            let number = |t: &str| t.starts_with('O') && t[1..].starts_with(|c: char| c.is_ascii_digit());
+            let number =
+                |t: &str| t.starts_with('O') && t[1..].starts_with(|c: char| c.is_ascii_digit());
             text.is_empty()
                 || text.starts_with('%')
                 || text.starts_with(";$PATH")

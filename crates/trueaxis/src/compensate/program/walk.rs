@@ -3,12 +3,12 @@
 use super::block::{Block, Written};
 use super::correct::{Corrector, reached};
 use super::found::{Found, Want};
+use super::refuse::{again, cone, refusal};
 use super::stand::{Cut, Sample, Stand};
 use super::text::{Edits, Text};
 use super::{ProgramOptions, residual_share};
 use crate::simulate::axis_path::{AxisPath, Fault};
 use crate::simulate::{Densify, Node, PathStep, SetUp};
-use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_nc::Program;
@@ -246,7 +246,8 @@ impl<'w> Walk<'w> {
             self.found.want(want, stands);
             from = *to;
         }
-        self.note(m, &block, kept, &samples);
+        let is_circle = matches!(m.kind, MoveKind::Arc(_) | MoveKind::SpatialArc(_));
+        self.found.note(&block, is_circle && !kept, self.feed_again.is_some(), &samples);
         let (edits, further) = (block.edits, block.further);
         let unchanged = edits.is_empty() && further.is_empty();
         let line = m.origin.line;
@@ -275,29 +276,6 @@ impl<'w> Walk<'w> {
         kept
     }
 
-    fn note(&mut self, m: &Move, block: &Block<'_>, kept: bool, samples: &[Sample]) {
-        let found = &mut self.found;
-        found.blocks += 1;
-        found.split += u64::from(block.pieces > 1);
-        found.pieces += block.pieces as u64;
-        found.words_added += block.added;
-        found.feeds_changed += u64::from(self.feed_again.is_some());
-        if !kept && matches!(m.kind, MoveKind::Arc(_) | MoveKind::SpatialArc(_)) {
-            found.circles += 1;
-        }
-        // How much longer the way of the tip has become.
-        let length = |of: &dyn Fn(&Sample) -> Vec3| -> f64 {
-            samples.windows(2).map(|w| (of(&w[1]) - of(&w[0])).norm()).sum()
-        };
-        let (before, after) = (length(&|s| s.wanted.tip), length(&|s| s.believed.tip));
-        if before > 1.0 {
-            let change = after / before - 1.0;
-            if change.abs() > found.length_change.abs() {
-                found.length_change = change;
-            }
-        }
-    }
-
     /// What the program says along the move, and what has to be commanded for it.
     fn samples(
         &mut self,
@@ -324,7 +302,8 @@ impl<'w> Walk<'w> {
             false => from,
         };
         let mut samples = Vec::with_capacity(nodes.len() + 1);
-        let first = Sample { u: 0.0, wanted: stand(begin), command: begins, believed: stand(&begins) };
+        let first =
+            Sample { u: 0.0, wanted: stand(begin), command: begins, believed: stand(&begins) };
         samples.push(first);
         let total: f64 = nodes.iter().map(|n| n.length).sum();
         let (mut length, mut last, mut side) = (0.0, from, *self.corrector.approach());
@@ -368,7 +347,8 @@ impl<'w> Walk<'w> {
             self.go_as_written(m);
             return Ok(());
         }
-        let message = "the move stands in a subprogram, which may be called elsewhere too".to_owned();
+        let message =
+            "the move stands in a subprogram, which may be called elsewhere too".to_owned();
         let hint = "put its blocks into the main program (unroll it); the postprocessor can";
         Err(refusal(m.origin, "in-subprogram", message, hint))
     }
@@ -388,7 +368,8 @@ impl<'w> Walk<'w> {
                     axis.name,
                     by * scale
                 );
-                let hint = "near a pole or with ACP/ACN: write the rotary axes as plain angles";
+                let hint =
+                    "near a pole, where a rotary axis rewinds, or with ACP/ACN: write its angles";
                 return Err(refusal(m.origin, "other-place", message, hint));
             }
         }
@@ -396,32 +377,15 @@ impl<'w> Walk<'w> {
     }
 }
 
-fn corrector(machine: &Machine, options: &ProgramOptions, origin: Origin) -> Result<Corrector, Fault> {
-    Corrector::of(machine, options.position_only, options.limit).map_err(|fault| {
-        let hint = "a machine with three linear axes is needed";
-        refusal(origin, "not-correctable", fault.to_string(), hint)
-    })
-}
-
-fn cone(origin: Origin) -> Fault {
-    let message = "the tool axis turns on a cone, which corrected ends do not lie on".to_owned();
-    let hint = "let the postprocessor write directions close to each other (ORIVECT) instead";
-    refusal(origin, "on-cone", message, hint)
-}
-
-fn again(origin: Origin) -> Fault {
-    let message = "the block is executed again at other places, as in a loop: its words cannot be \
-                   right for all of them"
-        .to_owned();
-    let hint = "write the rounds one after the other (unroll the loop); the postprocessor can";
-    refusal(origin, "executed-again", message, hint)
-}
-
-pub(super) fn refusal(
+fn corrector(
+    machine: &Machine,
+    options: &ProgramOptions,
     origin: Origin,
-    code: &'static str,
-    message: String,
-    hint: &'static str,
-) -> Fault {
-    Fault { origin, word: None, code, message, hint }
+) -> Result<Corrector, Fault> {
+    Corrector::of(machine, options.position_only, options.limit, options.increments).map_err(
+        |fault| {
+            let hint = "a machine with three linear axes is needed";
+            refusal(origin, "not-correctable", fault.to_string(), hint)
+        },
+    )
 }

@@ -155,7 +155,8 @@ impl Scan<'_> {
             if depth == 0 && !operator && !after {
                 return;
             }
-            depth += i32::from(matches!(byte, b'(' | b'[')) - i32::from(matches!(byte, b')' | b']'));
+            depth +=
+                i32::from(matches!(byte, b'(' | b'[')) - i32::from(matches!(byte, b')' | b']'));
             self.at += 1;
         }
     }
@@ -200,7 +201,8 @@ impl Scan<'_> {
 
     fn letter(&mut self, token: Token) {
         let letter = self.source[token.start].to_ascii_uppercase();
-        let numbered = self.token(1).filter(|t| t.kind == TokenKind::Number && t.start == token.end);
+        let numbered =
+            self.token(1).filter(|t| t.kind == TokenKind::Number && t.start == token.end);
         if let Some(number) = numbered.filter(|_| self.is(2, b'=')) {
             return self.numbered(letter, token, number);
         }
@@ -228,9 +230,9 @@ impl Scan<'_> {
 
     fn has_value(&self, ahead: usize) -> bool {
         let sign = self.is(ahead, b'-') || self.is(ahead, b'+') || self.is(ahead, b'=');
-        sign || self.token(ahead).is_some_and(|t| {
-            t.kind == TokenKind::Number || self.upper(t).starts_with('Q')
-        })
+        sign || self
+            .token(ahead)
+            .is_some_and(|t| t.kind == TokenKind::Number || self.upper(t).starts_with('Q'))
     }
 
     fn put_axis(&mut self, index: usize, word: Word) {

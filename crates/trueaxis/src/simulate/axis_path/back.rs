@@ -1,9 +1,9 @@
 //! From axis positions back to the words that lead to them, as things stand in the program.
 
 use super::AxisPath;
+use trueaxis_geometry::Mat3;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::inverse3;
-use trueaxis_geometry::Mat3;
 use trueaxis_machine::axis::Command;
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::moves::{Axis, Coordinates, OrientationPath, Position};
