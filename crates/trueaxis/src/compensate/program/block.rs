@@ -217,8 +217,8 @@ impl Block<'_> {
             return Ok(target - value);
         }
         let message =
-            format!("{axis}{value} leads to {target}: polar, scaled or other coordinates");
-        let hint = "write X, Y and Z in the program frame";
+            format!("{axis}{value} leads to {target}: polar or scaled coordinates, or a cycle");
+        let hint = "write plain moves with X, Y and Z; a cycle as its single moves";
         Err(refusal(self.m.origin, "other-coordinates", message, hint))
     }
 

@@ -38,6 +38,8 @@ pub(super) struct Walk<'w> {
     feed_again: Option<f64>,
     /// A circle became lines, and the next one may rely on its G2 or G3.
     circle_gone: bool,
+    /// Where the axes would stand at the end of the last block without rounding.
+    exact: Command,
     /// The written program stands where nothing was corrected: the next block leads from there.
     approaching: bool,
 }
@@ -67,6 +69,7 @@ impl<'w> Walk<'w> {
             vectors: false,
             feed_again: None,
             circle_gone: false,
+            exact: Command::default(),
             approaching: true,
         })
     }
@@ -186,6 +189,7 @@ impl<'w> Walk<'w> {
     fn rewrite(&mut self, m: &Move, begin: &Command, nodes: &[Node]) -> Result<(), Fault> {
         let whole = matches!(m.kind, MoveKind::Rapid | MoveKind::Thread { .. });
         let samples = self.samples(m, begin, nodes, whole)?;
+        self.exact = samples[samples.len() - 1].command;
         if m.direction.is_some() {
             self.vectors = true;
         }
@@ -299,7 +303,7 @@ impl<'w> Walk<'w> {
                 let there = self.corrector.at(begin, place, only_position, m.origin);
                 there.map_or(from, |c| c.command)
             }
-            false => from,
+            false => self.exact,
         };
         let mut samples = Vec::with_capacity(nodes.len() + 1);
         let first =
