@@ -97,8 +97,8 @@ pub struct Rewritten {
 
 /// Places are looked at so finely; each further try halves it.
 const SPACING_MM: f64 = 5.0;
-const ANGLE_DEG: f64 = 0.25;
-const TRIES: u32 = 4;
+const ANGLE_DEG: f64 = 1.0;
+const TRIES: u32 = 5;
 
 /// Rewrites a program so that the actual tool goes where it says, and proves it by simulating the
 /// written text on the machine as it is.
@@ -246,7 +246,9 @@ impl Rewritten {
         };
         let end = proof.after.tip_end;
         // Where an axis cannot be decided its reversal error is left.
-        if self.found.undecided == 0 && !(end.value <= Self::allowed_mm(options)) {
+        if self.found.undecided == 0
+            && (end.value.is_nan() || end.value > Self::allowed_mm(options))
+        {
             let left = end.value * 1e3;
             off(end.line, format!("read back, the tip ends {left:.6} µm from its place"));
         }

@@ -27,7 +27,7 @@ impl Stand {
 
     /// The distance of the tip from the segment between two stands, and the angle of the axis to
     /// that at the nearest place.
-    pub fn from_segment(&self, a: &Self, b: &Self) -> [f64; 2] {
+    pub fn off_segment(&self, a: &Self, b: &Self) -> [f64; 2] {
         let way = b.tip - a.tip;
         let length = way.norm_squared();
         let whole = angle(&a.axis, &b.axis);

@@ -86,9 +86,11 @@ pub(super) fn prove(
     let options = Options { densify, ..Options::default() };
     let mut before = Compare::of(found, numbers, false);
     let mut after = Compare::of(found, numbers, true);
-    simulate(machine, was, setup, &options, &mut [&mut before]);
     let mut watch = AxisWatch::on(machine);
-    let run = simulate(machine, is, setup, &options, &mut [&mut after, &mut watch]);
+    let (_, run) = rayon::join(
+        || simulate(machine, was, setup, &options, &mut [&mut before]),
+        || simulate(machine, is, setup, &options, &mut [&mut after, &mut watch]),
+    );
     let mut worst = before.rows;
     for (row, other) in worst.iter_mut().zip(&after.rows) {
         (row.tip_after_mm, row.axis_after_rad) = (other.tip_before_mm, other.axis_before_rad);
@@ -160,7 +162,7 @@ impl<'f> Compare<'f> {
     /// How far a place is from the way of a piece.
     fn missed(&self, want: &Want, is: &Stand) -> [f64; 2] {
         let stands = &self.found.stands[want.from as usize..want.to as usize];
-        let each = stands.windows(2).map(|w| is.from_segment(&w[0], &w[1]));
+        let each = stands.windows(2).map(|w| is.off_segment(&w[0], &w[1]));
         each.min_by(|a, b| a[0].total_cmp(&b[0])).unwrap_or([0.0, 0.0])
     }
 
