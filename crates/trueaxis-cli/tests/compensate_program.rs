@@ -134,13 +134,7 @@ fn what_cannot_be_corrected_is_named_and_nothing_is_written() {
         &["--increment", "5 deg"],
         "bad-number",
     );
-    refused(
-        "d.ngc",
-        MILL,
-        &format!("{begin}G1 X150\nM2\n"),
-        &["--residual", "-1 um"],
-        "bad-number",
-    );
+    refused("d.ngc", MILL, &format!("{begin}G1 X150\nM2\n"), &["--residual=-1 um"], "bad-number");
     refused("e.ngc", MILL, "", &[], "empty-program");
 }
 
