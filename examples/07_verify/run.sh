@@ -15,6 +15,9 @@ $trueaxis evaluate iso230-7 $verify/spindle-motion.csv --report "$out/spindle.ht
 # Does the machine file predict what a probe-ball reads? The same readings again from their seed.
 $trueaxis verify $verify/probe-ball.toml --report "$out/probe-ball.html"
 $trueaxis measure $verify/probe-ball-campaign.toml -o "$out/readings" --truth "$out/truth.toml"
+# What moved since the machine was calibrated? Four errors did: exit status 1.
+$trueaxis verify --diff machines/xkas2525/machine.toml $verify/xkas2525-after-a-year.toml \
+    --report "$out/after-a-year.html" || [ $? -eq 1 ]
 # The measured error motion as a table for the machine file.
 mkdir -p "$out/mill"
 cp machines/three-axis-mill/machine.toml "$out/mill/machine.toml"

@@ -87,6 +87,17 @@ export interface ToolShape {
   diameter_mm: number | null;
   /** The tip in the body t; without it straight below, at the length. */
   tip_mm?: Vector | null;
+  /** Diameter and length of its cylinders, from the tip upwards, if they are known. */
+  segments_mm?: readonly [number, number][];
+}
+
+/** A surface as its triangles: the answer has their corners one after the other, model after model. */
+export interface SurfaceModel {
+  name: string;
+  /** Index in `links`; null is the bed. */
+  body: number | null;
+  placement: number[];
+  triangles: number;
 }
 
 /** What the 3-D scene needs of a machine. */
@@ -199,7 +210,7 @@ export interface PoseHeader {
 
 /** With `corners_mm`: nine numbers per triangle, model after model. */
 export interface ModelsHeader {
-  models: { name: string; body: number | null; placement: number[]; triangles: number }[];
+  models: SurfaceModel[];
   diagnostics: Diagnostic[];
 }
 
@@ -296,7 +307,9 @@ export class Api {
     return new Promise((resolve, reject) => {
       this.pending.set(id, { resolve, reject, onProgress: options.onProgress });
       options.signal?.addEventListener("abort", () => {
-        if (this.pending.delete(id)) reject(new DOMException("aborted", "AbortError"));
+        if (!this.pending.delete(id)) return;
+        if (socket.readyState === WebSocket.OPEN) socket.send(JSON.stringify({ id, stop: true }));
+        reject(new DOMException("aborted", "AbortError"));
       });
       socket.send(JSON.stringify({ id, ask: name, body }));
     });

@@ -5,6 +5,11 @@ import "./style/figure.css";
 import "./style/scene.css";
 import "./style/tabs.css";
 import "./style/describe.css";
+import "./style/measure.css";
+import "./style/predict.css";
+import "./style/simulate.css";
+import "./style/simulate-source.css";
+import "./style/simulate-time.css";
 import { App } from "./app.ts";
 import { startTheme } from "./theme.ts";
 

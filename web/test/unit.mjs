@@ -33,6 +33,15 @@ const circle = new Float32Array(3 * n).map((_, i) => (i % 3 === 0 ? Math.cos(i /
 const kept = thinned(circle, new Float32Array(n), undefined, [0, 0], 5000);
 assert.ok(kept.length > 500 && kept.length <= 5000 && kept[0] === 0 && kept.at(-1) === n - 1, `${kept.length} kept`);
 
+const { Lines } = await vite.ssrLoadModule("/src/tabs/simulate/lines.ts");
+for (const [text, lines] of [["", []], ["a", ["a"]], ["a\r\n\nb\n", ["a", "", "b"]], ["\n", [""]]]) {
+  const read = new Lines(text);
+  assert.deepEqual(Array.from({ length: read.count }, (_, i) => read.line(i + 1)), lines, JSON.stringify(text));
+}
+const many = new Lines(Array.from({ length: 100_000 }, (_, i) => `N${i}`).join("\n"));
+assert.equal(many.count, 100_000);
+assert.equal(many.line(99_999), "N99998");
+assert.equal(many.line(100_001), "");
 const { Draft } = await vite.ssrLoadModule("/src/tabs/describe/draft.ts");
 const draft = new Draft("m.toml", "a", "1");
 assert.ok(draft.edit("b") && draft.edit("c") && !draft.edit("c") && draft.dirty);
@@ -48,6 +57,9 @@ for (const [name, body, kind, words] of [["EXX", 1, "motion", "positioning of X"
 
 const { nameBeside } = await vite.ssrLoadModule("/src/tabs/describe/head.ts");
 assert.equal(nameBeside("a/m.toml", new Set(["a/m.toml", "a/m-2.toml"])), "a/m-3.toml");
+const words = await vite.ssrLoadModule("/src/tabs/measure/words.ts");
+for (const [value, text] of [[0.9196, "0.920"], [1.268, "1.27"], [10.00004, "10.0"], [313.4, "313"], [0, "0.00"], [-24.26, "\u221224.3"], [null, "–"]]) assert.equal(words.significant(value), text, `${value}`);
+for (const [time_s, text] of [[31, "31.0\u202fs"], [59.96, "1\u202fmin 0.0\u202fs"], [313.63, "5\u202fmin 13.6\u202fs"]]) assert.equal(words.duration(time_s), text);
 
 await vite.close();
 console.log("unit checks passed");

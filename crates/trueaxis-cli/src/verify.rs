@@ -1,22 +1,31 @@
 use crate::output::{Answer, Format, Outcome, diagnostic_json, report, show};
 use crate::report_file::{REPORT, may_write, unusable, write_report};
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use trueaxis::files;
 use trueaxis::part::tolerance;
-use trueaxis::report::{comparison_html, comparison_json, comparison_text};
+use trueaxis::report::{
+    CalibrationsReport, calibrations_html, calibrations_json, calibrations_text, comparison_html,
+    comparison_json, comparison_text,
+};
+use trueaxis::verify::calibrations::calibrations;
 use trueaxis::verify::compare::{compare, read_comparison};
 
 /// What to verify.
 #[derive(Args)]
 #[command(after_help = "\
-Example:
+Examples:
   trueaxis verify examples/07_verify/probe-ball.toml --report v.html
+  trueaxis verify --diff machines/xkas2525/machine.toml examples/07_verify/xkas2525-after-a-year.toml
 
-Exit status: 0 pass, 1 fail or undecided, 2 unusable input.")]
+Exit status: 0 pass, or nothing moved; 1 fail or undecided, or something moved; 2 unusable input.")]
 pub struct Arguments {
     /// What is compared with what, and how it is decided
-    #[arg(value_name = "FILE.toml")]
-    file: PathBuf,
+    #[arg(value_name = "FILE.toml", required_unless_present = "diff")]
+    file: Option<PathBuf>,
+    /// Compare two calibrations of one machine: what moved, and is it significant?
+    #[arg(long, num_args = 2, value_names = ["OLD.toml", "NEW.toml"], conflicts_with = "file")]
+    diff: Option<Vec<PathBuf>>,
     /// Where an HTML report goes
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
@@ -26,7 +35,54 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
-    let (task, mut problems) = read_comparison(&arguments.file);
+    match (&arguments.diff.as_deref(), &arguments.file) {
+        (Some([old, new]), _) => diff(arguments, old, new),
+        (_, Some(file)) => run_comparison(arguments, file),
+        _ => Outcome::Unusable,
+    }
+}
+
+fn diff(arguments: &Arguments, old_path: &Path, new_path: &Path) -> Outcome {
+    let (old, mut problems) = files::machine(old_path);
+    let (new, found) = files::machine(new_path);
+    problems.append(found);
+    if let Some(path) = &arguments.report {
+        may_write(path, &REPORT, &mut problems);
+    }
+    let list = problems.clone();
+    let failed = report(problems);
+    let (Some(old), Some(new), false) = (old, new, failed) else { return Outcome::Unusable };
+    let names = [old_path, new_path].map(|path| path.display().to_string());
+    let found = match calibrations(&old, &new) {
+        Ok(found) => found,
+        Err(why) => {
+            let hint = "name two machine files of one machine, the older first";
+            return unusable("other-machine", &names[1], &why, hint);
+        }
+    };
+    let told =
+        CalibrationsReport { old: &old, new: &new, files: [&names[0], &names[1]], found: &found };
+    if let Some(path) = &arguments.report
+        && let Err(outcome) = write_report(path, calibrations_html(&told))
+    {
+        return outcome;
+    }
+    let shown = show(&match arguments.format {
+        Format::Text => Answer::Text(calibrations_text(&told)),
+        Format::Json => {
+            let mut document = calibrations_json(&told);
+            document["diagnostics"] = list.iter().map(diagnostic_json).collect();
+            Answer::Json(document)
+        }
+    });
+    match found.moved().next() {
+        Some(_) if shown == Outcome::Done => Outcome::No,
+        _ => shown,
+    }
+}
+
+fn run_comparison(arguments: &Arguments, file: &Path) -> Outcome {
+    let (task, mut problems) = read_comparison(file);
     if let Some(path) = &arguments.report {
         may_write(path, &REPORT, &mut problems);
     }
@@ -36,7 +92,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let verified = match compare(&task) {
         Ok(verified) => verified,
         Err(error) => {
-            let place = arguments.file.display().to_string();
+            let place = file.display().to_string();
             let hint =
                 "do the readings belong to this campaign: columns, units, order of channels?";
             return unusable("cannot-compare", &place, &error.to_string(), hint);

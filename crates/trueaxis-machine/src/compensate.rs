@@ -13,15 +13,20 @@
 //! bring the tip to its place. It knows nothing of NC programs.
 
 mod columns;
+mod fault;
+mod linear;
 mod rotary;
 #[cfg(test)]
 mod tests;
 
-use crate::axis::{Approach, AxisKind, Command, Travel};
+pub use fault::Fault;
+
+use crate::axis::{Approach, AxisKind, Command, MAX_AXES, Travel};
 use crate::chain::{CommandFault, Machine};
 use crate::deviation::Deviation;
 use crate::errors::{BodyName, ErrorValues};
 use columns::Columns;
+use linear::Placing;
 use rotary::{Freedom, Turns};
 use std::fmt;
 use trueaxis_geometry::Vec3;
@@ -43,6 +48,9 @@ pub(crate) const FLAT: f64 = 1e-3;
 /// No rotary axis moves by more than so many times the deviation of the tool axis, unless told
 /// otherwise: the tool axis is then at least 0.57° away from the rotary axis that would swing.
 pub const MOST_SWING: f64 = 100.0;
+
+/// Nobody can ask for more: nearer to the pole an angle has too few digits.
+const LARGEST_SWING: f64 = 1e6;
 
 /// What of the pose is compensated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -96,65 +104,6 @@ pub struct Compensated {
     pub evaluations: u32,
 }
 
-/// Why a machine cannot be compensated, or a pose.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum Fault {
-    /// The machine cannot move its tip in all three directions.
-    #[error(
-        "{linear} linear axes cannot bring the tip to its place in space; three are needed: name \
-         them in the chain of the machine file"
-    )]
-    FewLinearAxes {
-        /// How many it has.
-        linear: usize,
-    },
-    /// There are no errors at the command.
-    #[error("{0}")]
-    Command(#[from] CommandFault),
-    /// The compensated command lies where an error table says nothing.
-    #[error(
-        "at the compensated command {0}: measure the errors up to the ends of the travel, or let the \
-         table be extended (outside = \"extend\")"
-    )]
-    Corrected(CommandFault),
-    /// An axis would pass the end of its travel.
-    #[error("{}", travel_passed(.axis, .at, .by))]
-    Travel {
-        /// The axis.
-        axis: BodyName,
-        /// Where it would have to go, mm or rad.
-        at: f64,
-        /// By how much that passes the end of the travel, mm or rad.
-        by: f64,
-    },
-    /// The linear axes do not span the space at this pose.
-    #[error("at this pose the linear axes do not move the tip in all three directions")]
-    Flat,
-    /// The errors are no small change of the machine.
-    #[error(
-        "after {evaluations} evaluations the tip is still {tip_mm:.6} mm off: the errors change too \
-         steeply with the position; check the error tables"
-    )]
-    NotConverged {
-        /// How often the chain was evaluated.
-        evaluations: u32,
-        /// What is left, mm.
-        tip_mm: f64,
-    },
-}
-
-fn travel_passed(axis: &BodyName, at: &f64, by: &f64) -> String {
-    let (scale, unit) = match axis.is_rotary() {
-        true => (180.0 / std::f64::consts::PI, "deg"),
-        false => (1.0, "mm"),
-    };
-    let (at, by) = (at * scale, by * scale);
-    format!(
-        "{axis} would have to go to {at:.6} {unit}, {by:.6} {unit} beyond the end of its travel: move \
-         the part or shorten the path"
-    )
-}
-
 /// A machine made ready to be compensated, pose by pose.
 ///
 /// # Example
@@ -192,6 +141,19 @@ struct Trial {
     left: Deviation,
 }
 
+/// How the tool moves from there.
+struct View {
+    /// The tip, mm per mm or rad of each axis.
+    tip: [Vec3; MAX_AXES],
+    /// The tool axis per rad of each rotary axis, while the linear axes hold the tip.
+    turning: [Vec3; MAX_AXES],
+    placing: Placing,
+    /// The tool axis that is wanted.
+    axis: Vec3,
+    /// What it is missed by once the linear axes have brought the tip to its place.
+    missed: Vec3,
+}
+
 impl Compensator {
     /// Of a machine with its present tip, workpiece and temperatures.
     ///
@@ -219,7 +181,7 @@ impl Compensator {
     /// The same where the rotary axes may move by so many times the deviation of the tool axis.
     #[must_use]
     pub fn swinging_at_most(mut self, times: f64) -> Self {
-        self.most_swing = times.max(1.0);
+        self.most_swing = if times >= 1.0 { times.min(LARGEST_SWING) } else { 1.0 };
         self
     }
 
@@ -257,8 +219,7 @@ impl Compensator {
         let errors = self.machine.errors_at(command, approach)?;
         let before = self.machine.deviation(command, &errors);
         let mut now = Trial { command: *command, errors, left: before };
-        let mut columns = Columns::of(&self.machine, command, approach, &now.errors);
-        let (freedom, axis_left) = self.freedom(&now, &columns);
+        let (mut freedom, mut axis_left) = self.intent();
         for evaluations in 1..=MOST_EVALUATIONS {
             if self.is_met(&now, &freedom) {
                 let (command, left) = (now.command, now.left);
@@ -266,27 +227,49 @@ impl Compensator {
                 let axis_left = axis_left.filter(|_| left.axis.norm() > MET_RAD);
                 return Ok(Compensated { command, before, left, axis_left, evaluations });
             }
-            if evaluations > 1 {
-                columns = Columns::of(&self.machine, &now.command, approach, &now.errors);
+            let view = self.view(&now, approach)?;
+            if let (1, Freedom::Both) = (evaluations, &freedom) {
+                (freedom, axis_left) = self.freedom(&view);
             }
-            let next = self.step(&now, &columns, &freedom, evaluations == 1)?;
-            now = self.trial(next, approach, &before)?;
+            let next = self.step(&now, &view, &freedom, evaluations == 1);
+            now = self.trial(next, approach, &before).map_err(|fault| match fault {
+                // Steps that lead to no number lead away.
+                Fault::Corrected(CommandFault::NotFinite { .. }) => {
+                    not_converged(&now, evaluations)
+                }
+                other => other,
+            })?;
         }
-        let tip_mm = now.left.tip_mm.norm();
-        Err(Fault::NotConverged { evaluations: MOST_EVALUATIONS, tip_mm })
+        Err(not_converged(&now, MOST_EVALUATIONS))
     }
 
-    /// How the rotary axes serve, and why not fully.
-    fn freedom(&self, at: &Trial, columns: &Columns) -> (Freedom, Option<AxisLeft>) {
-        if self.scope == Scope::Position {
-            return (Freedom::None, Some(AxisLeft::PositionOnly));
+    /// How the rotary axes shall serve wherever they can, and why not.
+    fn intent(&self) -> (Freedom, Option<AxisLeft>) {
+        match (self.scope, self.rotary.len()) {
+            (Scope::Position, _) => (Freedom::None, Some(AxisLeft::PositionOnly)),
+            (Scope::Pose, 0 | 1) => (Freedom::None, Some(AxisLeft::FewRotaryAxes)),
+            (Scope::Pose, _) => (Freedom::Both, None),
         }
-        if self.rotary.len() < 2 {
-            return (Freedom::None, Some(AxisLeft::FewRotaryAxes));
-        }
-        let turns = Turns::of(columns, &self.rotary, at.left.nominal_axis.vector());
-        let (freedom, swinging) = turns.freedom(at.left.axis, self.most_swing);
+    }
+
+    /// How they can here, and why not fully.
+    fn freedom(&self, view: &View) -> (Freedom, Option<AxisLeft>) {
+        let turns = Turns::of(&view.turning, &self.rotary, view.axis);
+        let (freedom, swinging) = turns.freedom(view.missed, self.most_swing);
         (freedom, swinging.map(|i| AxisLeft::Pole(self.machine.axes[i].name)))
+    }
+
+    /// The Jacobian at a command; the linear axes follow the tip, and turn the tool a little.
+    fn view(&self, at: &Trial, approach: &Approach) -> Result<View, Fault> {
+        let columns = Columns::of(&self.machine, &at.command, approach, &at.errors);
+        let placing = Placing::of(&columns, self.placing)?;
+        let mut turning = columns.axis;
+        for &i in &self.rotary {
+            turning[i] -= placing.turned(&columns, columns.tip[i]);
+        }
+        let missed = at.left.axis - placing.turned(&columns, at.left.tip_mm);
+        let axis = at.left.nominal_axis.vector();
+        Ok(View { tip: columns.tip, turning, placing, axis, missed })
     }
 
     fn is_met(&self, at: &Trial, freedom: &Freedom) -> bool {
@@ -301,44 +284,29 @@ impl Compensator {
     }
 
     /// One step of Newton's method; the first one carries what is done once.
-    fn step(
-        &self,
-        at: &Trial,
-        columns: &Columns,
-        freedom: &Freedom,
-        is_first: bool,
-    ) -> Result<Command, Fault> {
-        let left = &at.left;
+    fn step(&self, at: &Trial, view: &View, freedom: &Freedom, is_first: bool) -> Command {
         let turned = match freedom {
             Freedom::None => Command::default(),
             Freedom::Both => {
-                let axis = left.nominal_axis.vector();
-                Turns::of(columns, &self.rotary, axis).least_motion(left.axis)
+                Turns::of(&view.turning, &self.rotary, view.axis).least_motion(view.missed)
             }
             Freedom::One { along, motion, damped } => {
                 let per_unit: f64 =
-                    self.rotary.iter().map(|&i| along.dot(&columns.axis[i]) * motion[i]).sum();
-                let by = -along.dot(&left.axis) / per_unit;
+                    self.rotary.iter().map(|&i| along.dot(&view.turning[i]) * motion[i]).sum();
+                let by = -along.dot(&view.missed) / per_unit;
                 let once = if is_first { 1.0 } else { 0.0 };
                 std::array::from_fn(|i| motion[i] * by + once * damped[i])
             }
         };
-        let mut missing = left.tip_mm;
-        let mut next = at.command;
+        let (mut missing, mut next) = (at.left.tip_mm, at.command);
         for &i in &self.rotary {
-            missing += columns.tip[i] * turned[i];
+            missing += view.tip[i] * turned[i];
             next[i] += turned[i];
         }
-        let [d1, d2, d3] = self.placing.map(|i| columns.tip[i]);
-        let across = [d2.cross(&d3), d3.cross(&d1), d1.cross(&d2)];
-        let volume = d1.dot(&across[0]);
-        if volume.is_nan() || volume.abs() <= FLAT {
-            return Err(Fault::Flat);
+        for (i, by) in view.placing.motion(missing) {
+            next[i] -= by;
         }
-        for (i, normal) in self.placing.into_iter().zip(across) {
-            next[i] -= missing.dot(&normal) / volume;
-        }
-        Ok(next)
+        next
     }
 
     /// The chain at a corrected command.
@@ -367,6 +335,10 @@ impl Compensator {
         }
         Ok(())
     }
+}
+
+fn not_converged(at: &Trial, evaluations: u32) -> Fault {
+    Fault::NotConverged { evaluations, tip_mm: at.left.tip_mm.norm() }
 }
 
 /// Reached minus wanted pose.

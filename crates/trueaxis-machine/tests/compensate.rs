@@ -317,3 +317,16 @@ fn errors_as_steep_as_the_axis_are_refused() {
     let fault = compensator.at(&[5.0, 0.0, 0.0, 0.0, 0.0, 0.0], &[0.0; 6]);
     assert_eq!(fault.err(), Some(Fault::Flat));
 }
+
+#[test]
+fn steps_that_lead_nowhere_are_refused() {
+    let plain = checked("[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"", "");
+    let exx = plain.error_index(ErrorName::parse("EXX").expect("a name")).expect("a body");
+    // The tool stands at q + 1 − q + q² = 1 + q², never at the 0.3 that is programmed.
+    let curve = Curve::Polynomial { coefficients: vec![1.0, -1.0, 1.0], origin: 0.0, scale: 1.0 };
+    let stated = StatedError { mean: curve, ..StatedError::constant(0.0, None) };
+    let compensator = pose(&plain.with_error(exx, Some(stated)));
+    let fault = compensator.at(&[0.3, 0.0, 0.0, 0.0, 0.0, 0.0], &[0.0; 6]);
+    let Err(fault @ Fault::NotConverged { .. }) = fault else { panic!("{fault:?}") };
+    assert!(fault.to_string().contains("check the error tables"), "{fault}");
+}

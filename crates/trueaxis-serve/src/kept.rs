@@ -6,34 +6,40 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 /// Results by number; the oldest goes when there are too many.
 pub(crate) struct Kept<T> {
     most: usize,
-    inner: Mutex<(u64, VecDeque<(u64, Arc<T>)>)>,
+    numbered: Mutex<Numbered<T>>,
+}
+
+struct Numbered<T> {
+    last: u64,
+    results: VecDeque<(u64, Arc<T>)>,
 }
 
 impl<T> Kept<T> {
     pub(crate) fn of(most: usize) -> Self {
-        Self { most, inner: Mutex::new((0, VecDeque::new())) }
+        Self { most, numbered: Mutex::new(Numbered { last: 0, results: VecDeque::new() }) }
     }
 
-    fn lock(&self) -> MutexGuard<'_, (u64, VecDeque<(u64, Arc<T>)>)> {
+    fn lock(&self) -> MutexGuard<'_, Numbered<T>> {
         // A list of finished results is sound whatever happened beside it.
-        self.inner.lock().unwrap_or_else(PoisonError::into_inner)
+        self.numbered.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Keeps a result; its number.
     pub(crate) fn put(&self, value: T) -> u64 {
-        let mut inner = self.lock();
-        inner.0 += 1;
-        let number = inner.0;
-        inner.1.push_back((number, Arc::new(value)));
-        if inner.1.len() > self.most {
-            inner.1.pop_front();
+        let mut kept = self.lock();
+        kept.last += 1;
+        let number = kept.last;
+        kept.results.push_back((number, Arc::new(value)));
+        if kept.results.len() > self.most {
+            kept.results.pop_front();
         }
         number
     }
 
     /// The result of a number, if it is still there.
     pub(crate) fn of_number(&self, number: u64) -> Option<Arc<T>> {
-        self.lock().1.iter().find(|(n, _)| *n == number).map(|(_, value)| value.clone())
+        let kept = self.lock();
+        kept.results.iter().find(|(n, _)| *n == number).map(|(_, value)| value.clone())
     }
 }
 

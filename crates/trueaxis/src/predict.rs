@@ -206,25 +206,44 @@ pub fn predict(study: &Study, progress: &(dyn Fn(usize) + Sync)) -> Result<Predi
     let (temperatures, program) = (study.temperatures.as_ref(), study.program.as_ref());
     let cutting = Cutting::along(machine, piece, &study.reference, temperatures, program)?;
     let judge = Judge { cutting: &cutting, piece };
-    let (deviations_mm, sections) = sections(machine, &judge)?;
-    let indices = indices(study, &judge, progress)?;
+    let mut prediction = predicted(study, &judge, progress)?;
+    if prediction.verdict.outcome != Outcome::Pass {
+        prediction.corrections = remedies(study, &judge, &prediction.indices)?;
+    }
+    Ok(prediction)
+}
+
+/// The same without the search for corrections: as fast as somebody drags a slider.
+///
+/// # Errors
+/// As [`predict`].
+pub fn preview(study: &Study) -> Result<Prediction, Error> {
+    let (machine, piece) = (&study.machine, study.piece());
+    let cutting = Cutting::over(machine, piece, &study.reference, study.temperatures.as_ref())?;
+    predicted(study, &Judge { cutting: &cutting, piece }, &|_| ())
+}
+
+fn predicted(
+    study: &Study,
+    judge: &Judge<'_>,
+    progress: &(dyn Fn(usize) + Sync),
+) -> Result<Prediction, Error> {
+    let machine = &study.machine;
+    let (deviations_mm, sections) = sections(machine, judge)?;
+    let indices = indices(study, judge, progress)?;
     let verdict = verdict(study, &indices)?;
-    let corrections = match verdict.outcome {
-        Outcome::Pass => Vec::new(),
-        Outcome::Fail | Outcome::Undecided => remedies(study, &judge, &indices)?,
-    };
     Ok(Prediction {
         warnings: warnings(study, &indices, &sections),
-        setting_command: *cutting.setting_command(),
-        commands: cutting.commands().copied().collect(),
-        blame: blame(machine, &judge)?,
-        sensitivities: sensitivities(machine, &judge)?,
+        setting_command: *judge.cutting.setting_command(),
+        commands: judge.cutting.commands().copied().collect(),
+        blame: blame(machine, judge)?,
+        sensitivities: sensitivities(machine, judge)?,
         variants: variants(study)?,
         indices,
         verdict,
         deviations_mm,
         sections,
-        corrections,
+        corrections: Vec::new(),
     })
 }
 
@@ -234,13 +253,33 @@ fn verdict(study: &Study, indices: &[Index]) -> Result<Verdict, Error> {
     study.judge(&values, expanded.as_deref()).map_err(Error::Evaluation)
 }
 
-/// Single corrections after which the part would pass by the study's own rule; a correction shifts
-/// an error and leaves the uncertainties as they are.
+/// Single corrections after which the part would pass by the study's own rule. They are sought with
+/// the uncertainties as they are; those after the correction then decide how much more it takes.
 fn remedies(study: &Study, judge: &Judge<'_>, indices: &[Index]) -> Result<Vec<Correction>, Error> {
+    let passes = |values: &[f64], expanded: Option<&[f64]>| {
+        study.judge(values, expanded).is_ok_and(|v| v.outcome == Outcome::Pass)
+    };
     let expanded = study.expanded_mm(indices);
-    corrections(&study.machine, judge, &|values| {
-        study.judge(values, expanded.as_deref()).is_ok_and(|v| v.outcome == Outcome::Pass)
-    })
+    let found = corrections(&study.machine, judge, &|v| passes(v, expanded.as_deref()))?;
+    if expanded.is_none() {
+        return Ok(found);
+    }
+    let really = |values: &[f64], u_mm: &[f64]| {
+        let corrected = indices.iter().zip(values).zip(u_mm);
+        let corrected = corrected.map(|((i, value), u)| Index {
+            value_mm: *value,
+            u_mm: *u,
+            spread: None,
+            ..i.clone()
+        });
+        passes(values, study.expanded_mm(&corrected.collect::<Vec<_>>()).as_deref())
+    };
+    let mut all = Vec::new();
+    for correction in found {
+        all.extend(correction.enough(&study.machine, judge, &really)?);
+    }
+    all.sort_by(|a, b| a.effort().total_cmp(&b.effort()));
+    Ok(all)
 }
 
 fn sections(

@@ -7,6 +7,7 @@
 mod adapt;
 mod adapt_maps;
 mod adapt_page;
+mod calibrations;
 mod check;
 mod comparison;
 mod compensation;
@@ -50,6 +51,9 @@ mod thermal_page;
 
 pub use adapt::{AdaptReport, AdaptedProgram, adapt_json, adapt_text};
 pub use adapt_page::adapt_html;
+pub use calibrations::{
+    CalibrationsReport, calibrations_html, calibrations_json, calibrations_text,
+};
 pub use check::{check_json, check_text};
 pub use comparison::{comparison_html, comparison_json, comparison_text};
 pub use compensation::{

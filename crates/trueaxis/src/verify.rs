@@ -6,11 +6,13 @@
 //! - [`iso230_3`]: drift; [`iso230_4`]: circular tests; [`iso230_6`]: diagonals; [`iso230_7`]: error
 //!   motion of rotary axes.
 //!
-//! [`compare`] holds readings against a prediction, or against other readings.
+//! [`compare`](mod@compare) holds readings against a prediction, or against other readings;
+//! [`calibrations`](mod@calibrations) one machine file against a later one.
 //!
 //! Every standard reads a table of named columns ([`sheet`]) and what is known beside it
 //! ([`conditions`]); the forms of others become such tables in [`import`]. What a test lacks is a diagnostic with the clause; what can be evaluated is.
 
+pub mod calibrations;
 pub mod compare;
 pub mod conditions;
 pub mod import;

@@ -1,12 +1,14 @@
 /** Horizontal bars, signed, with uncertainty: who is to blame, and how sure we are. */
 
 import { s } from "../dom.ts";
-import { number, withUncertainty } from "../format.ts";
+import { NO_NUMBER, number, withUncertainty } from "../format.ts";
 import { figure, ticks, type Drawing, type Figure } from "./figure.ts";
 
 export interface Bar {
   name: string;
-  value: number;
+  /** null: nothing can be said; `missing` stands in place of the bar. */
+  value: number | null;
+  missing?: string;
   /** Standard uncertainty; the whisker is ± 2u (k = 2). */
   u?: number | null;
   colour?: string;
@@ -30,12 +32,16 @@ export interface BarSpec {
 
 const ROW = 19;
 
+/** Value and uncertainty to the digits of the figure. */
+function valueText(bar: Bar, spec: BarSpec): string {
+  return bar.value === null ? NO_NUMBER : withUncertainty(bar.value, bar.u, spec.digits ?? 1, spec.unit);
+}
+
 function drawBars(d: Drawing, spec: BarSpec): void {
-  const digits = spec.digits ?? 1;
   const names = Math.min(0.4 * d.width, 14 + 6.6 * Math.max(4, ...spec.bars.map((b) => b.name.length)));
-  const values = 26 + 6.4 * Math.max(0, ...spec.bars.map((b) => withUncertainty(b.value, b.u, digits, spec.unit).length - 2));
-  const signed = spec.signed ?? spec.bars.some((b) => b.value < 0);
-  const most = spec.max ?? Math.max(1e-9, spec.limit?.value ?? 0, ...spec.bars.map((b) => Math.abs(b.value) + 2 * (b.u ?? 0)));
+  const values = 26 + 6.4 * Math.max(0, ...spec.bars.map((b) => valueText(b, spec).length - 2));
+  const signed = spec.signed ?? spec.bars.some((b) => (b.value ?? 0) < 0);
+  const most = spec.max ?? Math.max(1e-9, spec.limit?.value ?? 0, ...spec.bars.map((b) => Math.abs(b.value ?? 0) + 2 * (b.u ?? 0)));
   const [left, right] = [names, Math.max(names + 40, d.width - values)];
   const x = (v: number): number => (signed ? (left + right) / 2 + (v / most) * ((right - left) / 2) : left + (v / most) * (right - left));
   const bottom = spec.bars.length * ROW + 4;
@@ -45,21 +51,22 @@ function drawBars(d: Drawing, spec: BarSpec): void {
     d.svg.append(s("text", { x: x(v), y: bottom + 14, "text-anchor": "middle", fill: "var(--muted)" }, number(v, t.digits)));
   }
   d.svg.append(s("text", { x: d.width, y: bottom + 14, "text-anchor": "end", fill: "var(--muted)" }, spec.unit));
-  spec.bars.forEach((bar, i) => drawBar(d, spec, bar, i, { x, names, digits }));
+  spec.bars.forEach((bar, i) => drawBar(d, spec, bar, i, { x, names }));
   if (spec.limit) {
     const at = x(spec.limit.value);
     d.svg.append(s("line", { x1: at, x2: at, y1: 0, y2: bottom, stroke: "var(--bad)", "stroke-dasharray": "6 3" }), s("text", { x: at - 4, y: bottom - 4, "text-anchor": "end", fill: "var(--bad)" }, spec.limit.label));
   }
 }
 
-function drawBar(d: Drawing, spec: BarSpec, bar: Bar, i: number, g: { x: (v: number) => number; names: number; digits: number }): void {
+function drawBar(d: Drawing, spec: BarSpec, bar: Bar, i: number, g: { x: (v: number) => number; names: number }): void {
   const y = i * ROW + 3;
-  const [a, b] = [g.x(0), g.x(bar.value)].sort((p, q) => p - q) as [number, number];
+  const [a, b] = [g.x(0), g.x(bar.value ?? 0)].sort((p, q) => p - q) as [number, number];
   const colour = bar.colour ?? "var(--series-1)";
-  const text = withUncertainty(bar.value, bar.u, g.digits, spec.unit);
+  const text = valueText(bar, spec);
   const row = s("g", { class: spec.onpick ? "pick" : "" }, s("title", {}, `${bar.name}: ${text}${bar.note ? `, ${bar.note}` : ""}`), s("rect", { x: 0, y: y - 3, width: d.width, height: ROW, fill: "transparent" }));
-  row.append(s("text", { x: g.names - 8, y: y + 11, "text-anchor": "end", fill: "var(--ink)" }, bar.name), s("rect", { x: a, y: y + 1, width: Math.max(0.75, b - a), height: ROW - 8, fill: colour }), s("text", { x: d.width, y: y + 11, "text-anchor": "end", fill: "var(--ink)" }, text));
-  if (bar.u) {
+  row.append(s("text", { x: g.names - 8, y: y + 11, "text-anchor": "end", fill: "var(--ink)" }, bar.name), s("rect", { x: a, y: y + 1, width: bar.value === null ? 0 : Math.max(0.75, b - a), height: ROW - 8, fill: colour }), s("text", { x: d.width, y: y + 11, "text-anchor": "end", fill: "var(--ink)" }, text));
+  if (bar.value === null && bar.missing) row.append(s("text", { x: g.x(0) + 6, y: y + 11, fill: "var(--warn)" }, bar.missing));
+  if (bar.u && bar.value !== null) {
     const [from, to] = [g.x(bar.value - 2 * bar.u), g.x(bar.value + 2 * bar.u)];
     const mid = y + ROW / 2 - 2.5;
     for (const line of [[from, to, mid, mid], [from, from, mid - 4, mid + 4], [to, to, mid - 4, mid + 4]] as const) row.append(s("line", { x1: line[0], x2: line[1], y1: line[2], y2: line[3], stroke: "var(--ink)", "stroke-width": 1.2 }));

@@ -76,7 +76,9 @@ export function chainPicture(host: HTMLElement, spec: ChainSpec): Figure<ChainSp
           group.addEventListener("pointerenter", () => now.onhover?.(cell.body));
           group.addEventListener("pointerleave", () => now.onhover?.(null));
           svg.append(group);
-          if (step > 56) svg.append(s("text", { x, y: 60, "text-anchor": "middle", fill: "var(--muted)", "font-size": Math.min(10.5, step / 7) }, cell.below));
+          // Words that would run into their neighbours are left to the tooltip.
+          const size = Math.min(10.5, (step - 4) / (0.56 * cell.below.length));
+          if (size > 8) svg.append(s("text", { x, y: 60, "text-anchor": "middle", fill: "var(--muted)", "font-size": size }, cell.below));
         });
       },
     };

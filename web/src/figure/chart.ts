@@ -20,8 +20,12 @@ export interface Series {
   y: ArrayLike<number>;
   /** Standard uncertainty of y: drawn as ± 2u (k = 2) whiskers on points, as a band on lines. */
   u?: ArrayLike<number>;
+  /** Half the width of a band around the line, such as 2s of repeated readings. */
+  half?: ArrayLike<number>;
   colour?: string;
   dash?: string;
+  /** Without a name in the legend and under the pointer (single readings of a line that has one). */
+  quiet?: boolean;
   /** Default: a line; scatter() turns it into points. */
   line?: boolean;
   points?: boolean;
@@ -54,6 +58,11 @@ interface Frame {
   y: (v: number) => number;
 }
 
+/** Half the height of whisker or band at a point. */
+function halfWidth(series: Series, i: number): number {
+  return series.half?.[i] ?? 2 * (series.u?.[i] ?? 0);
+}
+
 function ranges(spec: ChartSpec): { x: [number, number]; y: [number, number] } {
   const all = (pick: (series: Series) => ArrayLike<number>[]): [number, number] => {
     const each = spec.series.flatMap(pick).filter((a) => a.length > 0).map(rangeOf);
@@ -61,9 +70,8 @@ function ranges(spec: ChartSpec): { x: [number, number]; y: [number, number] } {
   };
   const x = all((series) => [series.x]);
   const y = all((series) => {
-    const { u } = series;
-    if (!u) return [series.y];
-    return [Array.from(series.y, (v, i) => v - 2 * (u[i] ?? 0)), Array.from(series.y, (v, i) => v + 2 * (u[i] ?? 0))];
+    if (!series.u && !series.half) return [series.y];
+    return [Array.from(series.y, (v, i) => v - halfWidth(series, i)), Array.from(series.y, (v, i) => v + halfWidth(series, i))];
   });
   for (const limit of spec.limits ?? []) {
     const range = limit.axis === "x" ? x : y;
@@ -75,9 +83,14 @@ function ranges(spec: ChartSpec): { x: [number, number]; y: [number, number] } {
   return { x: [spec.x.min ?? wide[0], spec.x.max ?? wide[1]], y: [spec.y.min ?? tall[0], spec.y.max ?? tall[1]] };
 }
 
+/** The series that the legend names, each with its place among all. */
+function told(spec: ChartSpec): [Series, number][] {
+  return spec.series.map((one, i): [Series, number] => [one, i]).filter(([one]) => !one.quiet);
+}
+
 function frameOf(spec: ChartSpec, width: number, height: number): { frame: Frame; x: [number, number]; y: [number, number] } {
   const r = ranges(spec);
-  const legend = spec.series.length > 1 ? 20 : 6;
+  const legend = told(spec).length > 1 ? 20 : 6;
   const frame = { left: 54, right: width - 12, top: legend, bottom: height - 36 };
   if (spec.equal) {
     const per_mm = Math.min((frame.right - frame.left) / (r.x[1] - r.x[0]), (frame.bottom - frame.top) / (r.y[1] - r.y[0]));
@@ -140,9 +153,8 @@ function pathOf(series: Series, f: Frame): string {
 
 function drawSeries(svg: SVGSVGElement, series: Series, colour: string, f: Frame): void {
   const n = Math.min(series.x.length, series.y.length);
-  if (series.u && !series.points) {
-    const u = series.u;
-    const side = (sign: number): string[] => Array.from({ length: n }, (_, i) => `${f.x(series.x[i] as number).toFixed(2)} ${f.y((series.y[i] as number) + sign * 2 * (u[i] ?? 0)).toFixed(2)}`);
+  if ((series.u || series.half) && !series.points) {
+    const side = (sign: number): string[] => Array.from({ length: n }, (_, i) => `${f.x(series.x[i] as number).toFixed(2)} ${f.y((series.y[i] as number) + sign * halfWidth(series, i)).toFixed(2)}`);
     svg.append(s("path", { d: `M${side(1).join("L")}L${side(-1).reverse().join("L")}Z`, fill: colour, opacity: 0.15 }));
   }
   if (series.line !== false) svg.append(s("path", { d: pathOf(series, f), fill: "none", stroke: colour, "stroke-width": 1.6, "stroke-linejoin": "round", "stroke-dasharray": series.dash ?? null }));
@@ -172,7 +184,7 @@ function addReadout(d: Drawing, spec: ChartSpec, f: Frame): void {
   const dots = spec.series.map((one, i) => s("circle", { r: 3.4, fill: one.colour ?? seriesColour(i), stroke: "var(--surface)", "data-hover": "" }));
   const group = s("g", { visibility: "hidden", "data-hover": "" }, line, ...dots, box);
   d.svg.append(group);
-  const longest = spec.series.reduce<Series | null>((a, b) => (a && a.x.length >= b.x.length ? a : b), null);
+  const longest = told(spec).reduce<Series | null>((a, [b]) => (a && a.x.length >= b.x.length ? a : b), null);
   if (!longest || longest.x.length === 0) return;
   let at = 0;
   const nearest = (series: Series, px: number, py?: number): number => {
@@ -191,7 +203,7 @@ function addReadout(d: Drawing, spec: ChartSpec, f: Frame): void {
     spec.series.forEach((one, k) => {
       const i = far[k] as number;
       const dot = dots[k];
-      if (i < 0 || !dot) return;
+      if (i < 0 || !dot || one.quiet) return;
       const [x, y] = [one.x[i] as number, one.y[i] as number];
       if (one === longest) {
         at = i;
@@ -199,7 +211,7 @@ function addReadout(d: Drawing, spec: ChartSpec, f: Frame): void {
       }
       dot.setAttribute("cx", String(f.x(x)));
       dot.setAttribute("cy", String(f.y(y)));
-      lines.push(`${spec.series.length > 1 ? `${one.name} ` : ""}${withUnit(y, spec.y.digits ?? 2, spec.y.unit ?? "")}`);
+      lines.push(`${told(spec).length > 1 ? `${one.name} ` : ""}${withUnit(y, spec.y.digits ?? 2, spec.y.unit ?? "")}`);
     });
     const x = f.x(x_here);
     line.setAttribute("x1", String(x));
@@ -236,7 +248,7 @@ function drawChart(d: Drawing, spec: ChartSpec): void {
     );
   }
   spec.series.forEach((one, i) => drawSeries(d.svg, one, one.colour ?? seriesColour(i), frame));
-  if (spec.series.length > 1) drawLegend(d.svg, spec.series.map((one, i) => ({ name: one.name, colour: one.colour ?? seriesColour(i), dash: one.dash })), frame.left, 8);
+  if (told(spec).length > 1) drawLegend(d.svg, told(spec).map(([one, i]) => ({ name: one.name, colour: one.colour ?? seriesColour(i), dash: one.dash })), frame.left, 8);
   addReadout(d, spec, frame);
 }
 
@@ -247,6 +259,7 @@ function columnsOf(spec: ChartSpec): Column[] {
       { heading: `${name}${axisTitle(spec.x.label, spec.x.unit)}`, values: one.x },
       { heading: `${name}${axisTitle(spec.y.label, spec.y.unit)}`, values: one.y },
     ];
+    if (one.half) columns.push({ heading: `${name}half width of the band (${spec.y.unit ?? "1"})`, values: one.half });
     if (one.u) columns.push({ heading: `${name}u (${spec.y.unit ?? "1"})`, values: one.u });
     return columns;
   });

@@ -5,4 +5,5 @@ export { colourTable, css, diverging, divergingDark, rangeOf, sequential, series
 export { csvOf, exportMenu, figure, fileName, ticks, type Column, type Drawing, type Figure, type FigureSource } from "./figure.ts";
 export { heatmap, type HeatmapSpec } from "./heatmap.ts";
 export { polar, type PolarCircle, type PolarSeries, type PolarSpec } from "./polar.ts";
+export { fairMagnification, vectors, type VectorSet, type VectorSpec } from "./vectors.ts";
 export { sparkline, type SparkSpec } from "./sparkline.ts";

@@ -14,6 +14,8 @@ export interface PolarSeries {
   colour?: string;
   dash?: string;
   points?: boolean;
+  /** The last point is joined to the first. */
+  closed?: boolean;
 }
 
 export interface PolarCircle {
@@ -70,8 +72,10 @@ function drawPolarGrid(svg: SVGSVGElement, spec: PolarSpec, c: Scale, half: numb
   for (let i = -3; i <= 4; i++) {
     const r = c.base + i * c.step * c.k;
     if (r <= 4 || r > half + 1) continue;
-    svg.append(s("circle", { cx: c.cx, cy: c.cy, r, fill: "none", stroke: i === 0 ? "var(--line-strong)" : "var(--line)", "stroke-width": i === 0 ? 1.4 : 0.7, "stroke-dasharray": i === 0 ? null : "2 3" }));
-    svg.append(s("text", { x: c.cx + r * Math.cos(1.2) + 2, y: c.cy - r * Math.sin(1.2), fill: "var(--muted)", "font-size": 10 }, i === 0 ? `0 ${spec.unit}` : number(i * c.step, Math.max(0, -Math.floor(Math.log10(c.step) + 1e-9)))));
+    // Where rings lie close together, every other one has its number.
+    const numbered = i % 2 === 0 || c.step * c.k >= 13;
+    svg.append(s("circle", { cx: c.cx, cy: c.cy, r, fill: "none", stroke: i === 0 ? "var(--ink)" : "var(--line)", "stroke-width": i === 0 ? 1.2 : 0.7, "stroke-dasharray": i === 0 ? null : "2 3" }));
+    if (numbered) svg.append(s("text", { x: c.cx + r * Math.cos(1.2) + 2, y: c.cy - r * Math.sin(1.2), fill: "var(--muted)", "font-size": 10 }, i === 0 ? `0 ${spec.unit}` : number(i * c.step, Math.max(0, -Math.floor(Math.log10(c.step) + 1e-9)))));
   }
   for (let a = 0; a < 360; a += 30) {
     const [x, y] = [Math.cos((a * Math.PI) / 180), -Math.sin((a * Math.PI) / 180)];
@@ -93,14 +97,16 @@ function drawPolar(d: Drawing, spec: PolarSpec): void {
   };
   for (const [i, circle] of (spec.circles ?? []).entries()) {
     const colour = circle.colour ?? seriesColour(i + spec.series.length);
-    d.svg.append(s("circle", { cx: c.cx + c.k * circle.x, cy: c.cy - c.k * circle.y, r: Math.max(0, c.base + c.k * circle.radius), fill: "none", stroke: colour, "stroke-width": 1.4, "stroke-dasharray": circle.dash ?? "6 3" }));
+    // Only deviations are magnified: a circle beside the centre is drawn as its deviations are, as a limaçon.
+    const round = Array.from({ length: 180 }, (_, j) => (j * Math.PI) / 90).map((a) => at(a, circle.radius + circle.x * Math.cos(a) + circle.y * Math.sin(a)));
+    d.svg.append(s("path", { d: `M${round.map(([x, y]) => `${x.toFixed(2)} ${y.toFixed(2)}`).join("L")}Z`, fill: "none", stroke: colour, "stroke-width": 1.4, "stroke-dasharray": circle.dash ?? "6 3" }));
     d.svg.append(s("circle", { cx: c.cx + c.k * circle.x, cy: c.cy - c.k * circle.y, r: 2.5, fill: colour }));
   }
   for (const [i, one] of spec.series.entries()) {
     const colour = one.colour ?? seriesColour(i);
     const points = Array.from({ length: Math.min(one.angle_rad.length, one.deviation.length) }, (_, j) => at(one.angle_rad[j] as number, one.deviation[j] as number)).filter(([x, y]) => Number.isFinite(x + y));
     if (one.points) for (const [x, y] of points) d.svg.append(s("circle", { cx: x, cy: y, r: 2.2, fill: colour }));
-    else d.svg.append(s("path", { d: `M${points.map(([x, y]) => `${x.toFixed(2)} ${y.toFixed(2)}`).join("L")}`, fill: "none", stroke: colour, "stroke-width": 1.7, "stroke-dasharray": one.dash ?? null }));
+    else d.svg.append(s("path", { d: `M${points.map(([x, y]) => `${x.toFixed(2)} ${y.toFixed(2)}`).join("L")}${one.closed ? "Z" : ""}`, fill: "none", stroke: colour, "stroke-width": 1.7, "stroke-dasharray": one.dash ?? null }));
   }
   const items = [...spec.series, ...(spec.circles ?? [])].map((one, i) => ({ name: one.name, colour: one.colour ?? seriesColour(i), dash: one.dash ?? ("radius" in one ? "6 3" : undefined) }));
   drawLegend(d.svg, items, 4, 8);
@@ -156,6 +162,6 @@ export function polar(host: HTMLElement, spec: PolarSpec): Figure<PolarSpec> {
         { heading: `${one.name} angle (rad)`, values: one.angle_rad },
         { heading: `${one.name} deviation (${now.unit})`, values: one.deviation },
       ]),
-    height: (width) => now.height ?? Math.min(380, width + 34),
+    height: (width) => Math.min(now.height ?? 380, width + 34),
   }));
 }

@@ -15,6 +15,8 @@ export interface TimeSeries {
   high?: ArrayLike<number>;
   /** Index into the series colours; default its place. */
   colour?: number;
+  /** Filled down to the series before: least and greatest as two series. */
+  filled?: boolean;
 }
 
 export interface TimeLimit {
@@ -36,6 +38,8 @@ export interface TimePlotSpec {
   series: TimeSeries[];
   limits?: TimeLimit[];
   marks?: TimeMark[];
+  /** What is said about the values under the cursor; default every series by its name. */
+  readout?: (index: number) => string;
   /** px without the title; default 130. */
   height?: number;
 }
@@ -78,6 +82,7 @@ class TimePlotView implements TimePlot {
   private readonly place = h("div", { class: "timeplot-place" });
   private readonly title = h("figcaption", { class: "figure-title" });
   private readonly readout = h("span", { class: "muted timeplot-readout", ariaLive: "off" });
+  private readonly now = h("div", { class: "timeplot-now", hidden: true });
   private plot: uPlot | null = null;
   private spec: TimePlotSpec;
   private readonly options: TimePlotOptions;
@@ -113,7 +118,17 @@ class TimePlotView implements TimePlot {
 
   setTime(time_s: number | null): void {
     this.now_s = time_s;
-    this.plot?.redraw(false);
+    this.placeNow();
+  }
+
+  /** The present moment is an element of its own: the curves are not drawn again while playing. */
+  private placeNow(): void {
+    const plot = this.plot;
+    if (!plot) return;
+    if (this.now.parentElement !== plot.over) plot.over.append(this.now);
+    const x = this.now_s === null ? -1 : plot.valToPos(this.now_s, "x");
+    this.now.hidden = !(x >= 0 && x <= plot.bbox.width / devicePixelRatio);
+    this.now.style.transform = `translateX(${x.toFixed(1)}px)`;
   }
 
   zoom(range_s: [number, number] | null): void {
@@ -153,6 +168,7 @@ class TimePlotView implements TimePlot {
     this.spec.series.forEach((one, i) => {
       const colour = cssColour(`--series-${((one.colour ?? i) % 7) + 1}`);
       series.push({ label: one.name, stroke: colour, width: 1.4, points: { show: false } });
+      if (one.filled && series.length > 2) bands.push({ series: [series.length - 1, series.length - 2], fill: `${colour}38` });
       if (!one.low || !one.high) return;
       series.push({ stroke: "transparent", points: { show: false } }, { stroke: "transparent", points: { show: false } });
       bands.push({ series: [series.length - 1, series.length - 2], fill: `${colour}38` });
@@ -165,7 +181,7 @@ class TimePlotView implements TimePlot {
       scales: { x: { time: false }, y: { range: (_, low, high) => this.tall(low, high) } },
       axes: [
         { ...axis, size: 28, values: (_, values) => values.map((v) => withUnit(v, Math.max(0, v % 1 === 0 ? 0 : 2), "s")) },
-        { ...axis, size: 58, values: (_, values, __, ___, step) => values.map((v) => number(v, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)))) },
+        { ...axis, size: 58, space: 18, values: (_, values, __, ___, step) => values.map((v) => number(v, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)))) },
       ],
       series,
       bands,
@@ -236,11 +252,16 @@ class TimePlotView implements TimePlot {
       this.readout.textContent = this.spec.unit;
       return;
     }
+    const time = withUnit(this.spec.time_s[i], 2, "s");
+    if (this.spec.readout) {
+      this.readout.textContent = `${this.spec.readout(i)}   ${time}`;
+      return;
+    }
     const parts = this.spec.series.map((one) => `${one.name} ${withUnit(one.values[i], this.spec.digits ?? 2, this.spec.unit)}`);
-    this.readout.textContent = [withUnit(this.spec.time_s[i], 2, "s"), ...parts].join("   ");
+    this.readout.textContent = [time, ...parts].join("   ");
   }
 
-  /** Limits, marks and the present moment, over the curves. */
+  /** Limits and marks, over the curves. */
   private drawOver(plot: uPlot): void {
     const { ctx } = plot;
     const { left, top, width, height } = plot.bbox;
@@ -261,7 +282,7 @@ class TimePlotView implements TimePlot {
       ctx.moveTo(left, y);
       ctx.lineTo(left + width, y);
       ctx.stroke();
-      ctx.fillText(label, left + 4 * pixel, y - 3 * pixel);
+      ctx.fillText(label, left + 4 * pixel, y - 14 * pixel < top ? y + 12 * pixel : y - 3 * pixel);
     }
     ctx.setLineDash([]);
     for (const mark of this.spec.marks ?? []) {
@@ -269,11 +290,8 @@ class TimePlotView implements TimePlot {
       ctx.fillStyle = cssColour(mark.kind === "error" ? "--bad" : mark.kind === "warning" ? "--warn" : "--muted");
       ctx.fillRect(x - pixel, top, 2 * pixel, height);
     }
-    if (this.now_s !== null) {
-      ctx.fillStyle = cssColour("--accent");
-      ctx.fillRect(plot.valToPos(this.now_s, "x", true) - pixel, top, 2 * pixel, height);
-    }
     ctx.restore();
+    this.placeNow();
   }
 
   private resize(): void {

@@ -1,6 +1,6 @@
 /** What is drawn in the frame of the workpiece: tool paths and surfaces, coloured by value. */
 
-import { BufferAttribute, BufferGeometry, Group, Line, LineBasicMaterial, Mesh, MeshBasicMaterial, DoubleSide, Points, PointsMaterial } from "three";
+import { Box3, BufferAttribute, BufferGeometry, Group, Line, LineBasicMaterial, Mesh, MeshBasicMaterial, DoubleSide, Points, PointsMaterial, Vector2, Vector3 } from "three";
 import { colourTable, rangeOf, sequential, type ColourMap } from "../figure/colours.ts";
 
 export interface PathData {
@@ -82,6 +82,17 @@ export function thinned(positions: Float32Array, values: Float32Array, rapid: Ui
   }
 }
 
+/** A line of vertex colours that can be shifted by a part of a point: WebGL lines are one point thin. */
+function shiftable(shift: { value: Vector2 }): LineBasicMaterial {
+  // Seen through the machine: most of a path lies behind or inside something.
+  const material = new LineBasicMaterial({ vertexColors: true, transparent: true, depthTest: false });
+  material.onBeforeCompile = (shader) => {
+    shader.uniforms["shift"] = shift;
+    shader.vertexShader = shader.vertexShader.replace("void main() {", "uniform vec2 shift;\nvoid main() {").replace("#include <project_vertex>", "#include <project_vertex>\n\tgl_Position.xy += shift * gl_Position.w;");
+  };
+  return material;
+}
+
 /** One polyline of any length: one geometry, whatever is done shown bright, the rest dim. */
 export class PathLayer {
   readonly group = new Group();
@@ -90,6 +101,9 @@ export class PathLayer {
   private readonly geometry = new BufferGeometry();
   private readonly rest: BufferGeometry;
   private readonly done: Line;
+  /** The same line one point to the right and one up, so that it is seen on fine screens. */
+  private readonly beside: Line[];
+  private readonly shifts = [{ value: new Vector2() }, { value: new Vector2() }];
   private readonly dim: Line;
   private ghost: Line | null = null;
   private readonly data: PathData;
@@ -107,10 +121,12 @@ export class PathLayer {
     const rapid = data.rapid;
     this.geometry.setAttribute("color", new BufferAttribute(paint(data.values, data.map ?? sequential, this.range, (i) => (rapid?.[i] ? 70 : 255)), 4, true));
     this.rest = new BufferGeometry().setAttribute("position", position).setIndex(index);
-    this.done = new Line(this.geometry, new LineBasicMaterial({ vertexColors: true, transparent: true }));
+    this.done = new Line(this.geometry, shiftable({ value: new Vector2() }));
+    this.beside = this.shifts.map((shift) => new Line(this.geometry, shiftable(shift)));
     this.dim = new Line(this.rest, new LineBasicMaterial({ color: colours.dim, transparent: true, opacity: 0.35 }));
     if (data.deviations) this.ghost = new Line(new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(data.positions.length), 3)).setIndex(index), new LineBasicMaterial({ color: colours.ghost, transparent: true, opacity: 0.8 }));
-    this.group.add(this.dim, this.done);
+    for (const line of [this.done, ...this.beside]) line.renderOrder = 8;
+    this.group.add(this.dim, this.done, ...this.beside);
     if (this.ghost) this.group.add(this.ghost);
     for (const line of this.group.children) line.frustumCulled = false;
     this.group.position.set(...data.origin);
@@ -132,12 +148,6 @@ export class PathLayer {
     this.dim.visible = done < this.kept.length;
   }
 
-  setValues(values: Float32Array, map: ColourMap = sequential, range: [number, number] = rangeOf(values)): void {
-    this.range.splice(0, 2, ...range);
-    const rapid = this.data.rapid;
-    this.geometry.setAttribute("color", new BufferAttribute(paint(values, map, range, (i) => (rapid?.[i] ? 70 : 255)), 4, true));
-  }
-
   setExaggeration(k: number): void {
     if (!this.ghost) return;
     const position = this.ghost.geometry.getAttribute("position") as BufferAttribute;
@@ -145,8 +155,30 @@ export class PathLayer {
     position.needsUpdate = true;
   }
 
+  /** Where the path cuts; all of it if it is rapid throughout. */
+  extent(): Box3 {
+    const box = new Box3();
+    const { positions, rapid } = this.data;
+    const add = (i: number): unknown => box.expandByPoint(new Vector3(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]));
+    for (const i of this.kept) if (!rapid?.[i]) add(i);
+    if (box.isEmpty()) for (const i of this.kept) add(i);
+    return box;
+  }
+
+  /** The size of the picture in points; a picture in a hurry has thin lines. */
+  setPicture(width: number, height: number, thick: boolean): void {
+    this.shifts[0]?.value.set(2 / width, 0);
+    this.shifts[1]?.value.set(0, 2 / height);
+    for (const line of this.beside) line.visible = thick;
+  }
+
+  /** The displaced line. */
+  setGhostVisible(visible: boolean): void {
+    if (this.ghost) this.ghost.visible = visible;
+  }
+
   dispose(): void {
-    for (const line of [this.done, this.dim, this.ghost]) {
+    for (const line of [this.done, ...this.beside, this.dim, this.ghost]) {
       line?.geometry.dispose();
       (line?.material as LineBasicMaterial | undefined)?.dispose();
     }
@@ -168,8 +200,7 @@ export class SurfaceLayer {
     if (data.rings > 1 && data.points_per_ring > 1) {
       this.geometry.setIndex(grid(data.rings, data.points_per_ring, data.closed));
       this.group.add(new Mesh(this.geometry, new MeshBasicMaterial({ vertexColors: true, side: DoubleSide })));
-    }
-    this.group.add(new Points(this.geometry, new PointsMaterial({ vertexColors: true, size: 3, sizeAttenuation: false })));
+    } else this.group.add(new Points(this.geometry, new PointsMaterial({ vertexColors: true, size: 3, sizeAttenuation: false })));
     for (const child of this.group.children) child.frustumCulled = false;
     this.setExaggeration(1);
   }

@@ -1,6 +1,6 @@
 /** A machine with the surfaces of its STL files, for the picture. */
 
-import type { Api, Diagnostic, MachineDescription, Model } from "../api.ts";
+import type { Api, Diagnostic, MachineDescription, Model, SurfaceModel } from "../api.ts";
 
 export interface WithModels {
   machine: MachineDescription;
@@ -12,11 +12,12 @@ export interface WithModels {
 export async function withModels(api: Api, body: { machine: string; text?: string }, machine: MachineDescription): Promise<WithModels> {
   if (!machine.models.some((model) => "stl" in model.shape)) return { machine, diagnostics: [] };
   const frame = await api.ask("models", body);
-  const corners = frame.f32("corners_mm");
-  let at = 0;
-  const models = frame.header.models.map(({ name, body: index, placement, triangles }): Model => {
-    const mesh = corners.subarray(at, (at += 9 * triangles));
-    return { name, body: index, placement, shape: { mesh } };
-  });
+  const models = modelsOf(frame.header.models, frame.f32("corners_mm"));
   return { machine: { ...machine, models }, diagnostics: frame.header.diagnostics };
+}
+
+/** `corners`: 9 numbers per triangle, model after model. */
+export function modelsOf(models: readonly SurfaceModel[], corners: Float32Array): Model[] {
+  let at = 0;
+  return models.map(({ triangles, ...model }) => ({ ...model, shape: { mesh: corners.subarray(at, (at += 9 * triangles)) } }));
 }

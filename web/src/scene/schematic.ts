@@ -9,16 +9,7 @@
 
 import { Box3, BoxGeometry, type BufferGeometry, Matrix4, Vector3 } from "three";
 import type { Link, MachineDescription } from "../api.ts";
-import { alongMatrix, matrixOf, standingCone } from "./shapes.ts";
-
-export interface Part {
-  /** Index in `links`; null is the bed. */
-  body: number | null;
-  name: string;
-  geometry: BufferGeometry;
-  /** body_from_part */
-  matrix: Matrix4;
-}
+import { alongMatrix, matrixOf, standingCone, type Part } from "./shapes.ts";
 
 const UP = new Vector3(0, 0, 1);
 

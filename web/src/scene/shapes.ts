@@ -1,7 +1,24 @@
 /** Shapes of the machine file as geometry; placements as matrices (doubles kept). */
 
-import { BoxGeometry, BufferAttribute, BufferGeometry, CylinderGeometry, ExtrudeGeometry, Matrix4, Shape as Outline, Vector3 } from "three";
+import { type Box3, BoxGeometry, BufferAttribute, BufferGeometry, CylinderGeometry, ExtrudeGeometry, Matrix4, Shape as Outline, Vector3 } from "three";
 import type { Shape } from "../api.ts";
+import type { Role } from "./materials.ts";
+
+/** A piece of geometry that moves with one body. */
+export interface Part {
+  /** Index in `links`; null is the bed. */
+  body: number | null;
+  name: string;
+  geometry: BufferGeometry;
+  /** body_from_part */
+  matrix: Matrix4;
+  /** Default: that of its body. */
+  role?: Role;
+}
+
+export function cornersOf({ min, max }: Box3): Vector3[] {
+  return Array.from({ length: 8 }, (_, i) => new Vector3(i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z));
+}
 
 /** 12 numbers (rotation row by row, origin) -> matrix. */
 export function matrixOf(p: ArrayLike<number>, offset = 0, into = new Matrix4()): Matrix4 {

@@ -5,4 +5,10 @@ import type { TabEntry } from "../app.ts";
 export const TABS: readonly TabEntry[] = [
   { name: "start", title: "Start", load: async () => (await import("./start.ts")).start },
   { name: "describe", title: "Describe", load: async () => (await import("./describe.ts")).describe },
+  { name: "simulate", title: "Simulate", load: async () => (await import("./simulate.ts")).simulate },
+  { name: "predict", title: "Predict", load: async () => (await import("./predict.ts")).predict },
+  { name: "plan", title: "Plan", load: async () => (await import("./plan.ts")).plan },
+  { name: "identify", title: "Identify", load: async () => (await import("./identify.ts")).identify },
+  { name: "standards", title: "Standards", load: async () => (await import("./standards.ts")).standards },
+  { name: "report", title: "Report", load: async () => (await import("./report.ts")).report },
 ];

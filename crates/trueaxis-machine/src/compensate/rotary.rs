@@ -1,7 +1,6 @@
 //! The rotary axes: the smallest motion that turns the tool axis back, and where that is too much.
 
-use super::columns::Columns;
-use crate::axis::Command;
+use crate::axis::{Command, MAX_AXES};
 use trueaxis_geometry::Vec3;
 
 /// The columns of the tool axis in the plane across it: 2 × n.
@@ -31,7 +30,7 @@ pub(super) enum Freedom {
 }
 
 impl<'a> Turns<'a> {
-    pub fn of(columns: &Columns, rotary: &'a [usize], axis: Vec3) -> Self {
+    pub fn of(turning: &[Vec3; MAX_AXES], rotary: &'a [usize], axis: Vec3) -> Self {
         // The machine axis that the tool axis is least along.
         let least = axis.abs().imin();
         let first =
@@ -40,7 +39,7 @@ impl<'a> Turns<'a> {
         let mut rows = [Command::default(); 2];
         for (row, across) in rows.iter_mut().zip(basis) {
             for &i in rotary {
-                row[i] = across.dot(&columns.axis[i]);
+                row[i] = across.dot(&turning[i]);
             }
         }
         Self { rotary, basis, rows }

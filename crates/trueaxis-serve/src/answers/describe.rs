@@ -16,7 +16,7 @@ use trueaxis::machine::Machine;
 use trueaxis::machine::axis::Approach;
 use trueaxis::machine::heat::Conditions;
 use trueaxis::report::{PoseReport, check_json, description_json, pose_json};
-use trueaxis::simulate::collide::load_models;
+use trueaxis::simulate::collide::{BodyModel, load_models};
 
 /// All of the machine; of one that cannot be used, what is wrong with it.
 pub(super) fn describe(desk: &Desk, body: &Value, _: &Job) -> Result<Reply, Refusal> {
@@ -39,6 +39,16 @@ pub(super) fn models(desk: &Desk, body: &Value, _: &Job) -> Result<Reply, Refusa
     let Draft { machine, path, mut problems, .. } = draft(desk, &body)?;
     let Some(machine) = machine else { return Err(Refusal::unusable(&problems)) };
     let models = load_models(&machine, &path, &mut problems);
+    let (list, corners) = surfaces(&models);
+    let frame = Frame::new()
+        .say("models", list)
+        .say("diagnostics", diagnostics_json(&problems).into())
+        .with("corners_mm", corners);
+    Ok(Reply::Frame(frame))
+}
+
+/// What the page draws of models: their names and places, and the corners of their triangles.
+pub(super) fn surfaces(models: &[BodyModel]) -> (Value, Array) {
     let list = models.iter().map(|model| {
         json!({
             "name": model.name,
@@ -49,11 +59,7 @@ pub(super) fn models(desk: &Desk, body: &Value, _: &Job) -> Result<Reply, Refusa
     });
     let corners = models.iter().flat_map(|model| model.mesh.triangles()).flatten();
     let corners = corners.flat_map(|c| [c.x as f32, c.y as f32, c.z as f32]);
-    let frame = Frame::new()
-        .say("models", list.collect())
-        .say("diagnostics", diagnostics_json(&problems).into())
-        .with("corners_mm", Array::F32(corners.collect()));
-    Ok(Reply::Frame(frame))
+    (list.collect(), Array::F32(corners.collect()))
 }
 
 /// Nominal and actual place of the tool and of every body at one position.

@@ -12,7 +12,9 @@ use trueaxis::machine::axis::AxisKind;
 use trueaxis::machine::heat::Conditions;
 use trueaxis::part::fit::circle::Zone;
 use trueaxis::predict::holes::{is_hole_study, predict_holes, read_hole_study};
-use trueaxis::predict::{Error, Prediction, SectionResult, Study, WhatIf, predict, read_study};
+use trueaxis::predict::{
+    Error, Prediction, SectionResult, Study, WhatIf, predict, preview, read_study,
+};
 use trueaxis::report;
 
 /// The whole prediction, as `trueaxis predict --no-report` computes it.
@@ -27,7 +29,7 @@ pub(super) fn whole(desk: &Desk, body: &Value, job: &Job) -> Result<Reply, Refus
     Ok(Reply::Frame(frame(desk, &study, &prediction, &problems)))
 }
 
-/// The same without drawing machines, and with changes: as fast as somebody drags a slider.
+/// The same without drawing machines and seeking corrections, and with changes: as fast as somebody drags a slider.
 pub(super) fn what_if(desk: &Desk, body: &Value, _: &Job) -> Result<Reply, Refusal> {
     let known = ["study", "errors", "setting_deg", "tool_length_mm", "temperature"];
     let body = Body::of(body, &known)?;
@@ -45,7 +47,7 @@ pub(super) fn what_if(desk: &Desk, body: &Value, _: &Job) -> Result<Reply, Refus
     };
     let study = changes.put(study, &mut problems).filter(|_| !problems.has_errors());
     let Some(study) = study else { return Err(Refusal::unusable(&problems)) };
-    let prediction = predict(&study, &|_| ()).map_err(|e| refused(&e))?;
+    let prediction = preview(&study).map_err(|e| refused(&e))?;
     Ok(Reply::Frame(frame(desk, &study, &prediction, &problems)))
 }
 

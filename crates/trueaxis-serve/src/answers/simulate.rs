@@ -1,6 +1,6 @@
 //! A program on the machine, kept so that the page can go back and forth in it.
 
-use super::describe::twelve;
+use super::describe::{surfaces, twelve};
 use super::report::undrawn;
 use crate::body::{Body, short};
 use crate::desk::{Desk, Job, Reply};
@@ -17,7 +17,7 @@ use trueaxis::report::{
 };
 use trueaxis::simulate::{
     self, CONTROLS, Colour, Findings, Moment, Observer, Options, ProgramFiles, Progress, Recorder,
-    Recording, Series, Stop, TroubleList, control_named, shown,
+    Recording, Series, SetUp, Stop, TroubleList, control_named, shown,
 };
 
 /// Columns of a picture of curves.
@@ -75,8 +75,12 @@ pub(super) fn simulate(desk: &Desk, body: &Value, job: &Job) -> Result<Reply, Re
         Simulated { machine: simulation.machine.clone(), recording: recorder.finish(), programs };
     job.tell(1.0);
     let document = simulation_json(&Simulation::of(&simulation, &found));
+    let (bodies, corners) = surfaces(&simulation.setup.bodies);
     let frame = header(&simulated, &found.troubles)
         .say("document", document)
+        .say("tools", tools(&simulation.setup))
+        .say("on_workpiece", bodies)
+        .with("corners_mm", corners)
         .say("diagnostics", diagnostics_json(&problems).into());
     let number = desk.simulations.put(simulated);
     Ok(Reply::Frame(frame.say("simulation", json!(number))))
@@ -154,6 +158,22 @@ fn sources(
         Source { name: name.clone(), path, text: String::from_utf8_lossy(&content).into_owned() }
     };
     found.run.programs.iter().enumerate().map(source).collect()
+}
+
+/// What the tools of the set-up look like: tip in the frame of the holder, then diameter and length of
+/// each cylinder from the tip upwards.
+fn tools(setup: &SetUp) -> Value {
+    let tools = setup.tools.iter().map(|(number, tool)| {
+        let shape = tool.tool_shape().into_iter().flat_map(|shape| shape.segments);
+        let segments: Vec<_> = shape.map(|s| [s.diameter_mm, s.length_mm]).collect();
+        json!({
+            "tool": number,
+            "name": tool.name,
+            "tip_mm": array(tool.tip_mm),
+            "segments_mm": segments,
+        })
+    });
+    tools.collect()
 }
 
 fn header(simulated: &Simulated, troubles: &TroubleList) -> Frame {

@@ -2,7 +2,7 @@
 
 use super::Error;
 use super::judge::Judge;
-use super::sensitivity::shifted;
+use super::sensitivity::{propagate, shifted};
 use trueaxis_machine::Machine;
 use trueaxis_machine::errors::{Component, ErrorIndex, ErrorKind, ErrorName};
 
@@ -12,6 +12,8 @@ const LIMIT: f64 = 1.0;
 const FIRST: f64 = 1e-4;
 /// Each trial is this much larger than the last.
 const GROWTH: f64 = 1.2;
+/// The same where only the uncertainty has changed.
+const STEP: f64 = 1.02;
 
 /// "Shim EA0A by 85 µrad": a change of one location error that brings every index in tolerance.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,6 +31,40 @@ impl Correction {
     pub fn effort(&self) -> f64 {
         let per_unit = if self.error.component.is_rotation() { 1e6 } else { 1e3 };
         self.change.abs() * per_unit
+    }
+
+    /// The same correction, larger by steps of 2 % until the part passes with the uncertainties that
+    /// it has then; none if that takes more than anybody corrects.
+    ///
+    /// # Errors
+    /// As [`Judge::indices`].
+    pub(super) fn enough(
+        mut self,
+        machine: &Machine,
+        judge: &Judge<'_>,
+        passes: &dyn Fn(&[f64], &[f64]) -> bool,
+    ) -> Result<Option<Self>, Error> {
+        let ErrorName { kind, component, .. } = self.error;
+        let Some(body) = machine.bodies().iter().position(|b| b.name == self.error.body) else {
+            return Ok(None);
+        };
+        let index = ErrorIndex { body, kind, component };
+        while self.effort() <= 1e3 * LIMIT {
+            let by = self.change;
+            let u_mm = propagate(machine, &|change| {
+                judge.once(&|values, u| {
+                    let mut changed = change(values, u);
+                    changed.set(index, changed.get(index) + by);
+                    changed
+                })
+            })?;
+            if passes(&self.indices_mm, &u_mm) {
+                return Ok(Some(self));
+            }
+            self.change *= STEP;
+            self.indices_mm = shifted(judge, index, self.change)?;
+        }
+        Ok(None)
     }
 }
 

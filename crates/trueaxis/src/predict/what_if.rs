@@ -8,6 +8,11 @@ use trueaxis_machine::axis::AxisKind;
 use trueaxis_machine::errors::{ErrorName, StatedError};
 use trueaxis_machine::heat::Conditions;
 
+/// What is larger than this is a slip of the pen.
+const MOST_TIMES: f64 = 1000.0;
+/// mm or rad.
+const MOST_ADDED: f64 = 10.0;
+
 /// One error, changed: `factor · E(q) + add`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ErrorChange {
@@ -79,8 +84,12 @@ fn rotary(machine: &Machine, letter: &str) -> Option<usize> {
 /// An error that is not stated is zero, so that only what is added counts.
 fn changed(machine: Machine, change: &ErrorChange) -> Result<Machine, String> {
     let ErrorChange { name, factor, add } = *change;
-    if !(factor.is_finite() && add.is_finite()) {
-        return Err(format!("{factor} times {name} plus {add} is no error"));
+    // Also what is no number.
+    if !(factor.abs() <= MOST_TIMES && add.abs() <= MOST_ADDED) {
+        return Err(format!(
+            "{factor} times {name} plus {add} is no error of a machine: at most {MOST_TIMES} times, plus \
+             {MOST_ADDED} mm or rad"
+        ));
     }
     let Some(index) = machine.error_index(name) else {
         return Err(format!("the chain {} has no body for {name}", machine.chain_text()));

@@ -90,7 +90,7 @@ fn picture(c: &Circular) -> Picture {
     Picture::Polar(Polar {
         title: "The paths, deviations magnified".to_owned(),
         note: format!(
-            "Black: nominal circle, radius {radius:.3} mm. {} to the right, {} upwards.",
+            "Solid circle: nominal, radius {radius:.3} mm. {} to the right, {} upwards.",
             c.axes[0], c.axes[1]
         ),
         lines,

@@ -22,7 +22,7 @@ fn colour(i: usize) -> RGBColor {
 pub struct Band {
     /// For the legend.
     pub label: String,
-    /// Place in [`COLOURS`].
+    /// Which of the seven colours of series, from 0.
     pub colour: usize,
     /// x, y and half the width of the band around it.
     pub line: Vec<(f64, f64, f64)>,
@@ -52,7 +52,7 @@ pub struct Scatter {
 pub struct PolarLine {
     /// For the legend.
     pub label: String,
-    /// Place in [`COLOURS`].
+    /// Which of the seven colours of series, from 0.
     pub colour: usize,
     /// Angle in rad and radial deviation in µm.
     pub points: Vec<(f64, f64)>,

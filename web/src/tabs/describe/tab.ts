@@ -6,13 +6,13 @@ import { fill, h, perFrame } from "../../dom.ts";
 import { chainPicture, type ChainSpec } from "../../figure/chain.ts";
 import type { Figure } from "../../figure/figure.ts";
 import type { Frame } from "../../frame.ts";
+import { exaggerationControl } from "../../scene/exaggeration.ts";
 import { withModels } from "../../scene/models.ts";
 import { MachineView } from "../../scene/view.ts";
 import { Axes, keptPositions, positionsOf } from "./axes.ts";
 import { ConditionFields, temperatureText } from "./conditions.ts";
 import { Draft } from "./draft.ts";
 import { ErrorTable } from "./errors.ts";
-import { exaggerationBar } from "./exaggeration.ts";
 import { FileText } from "./file.ts";
 import { Head } from "./head.ts";
 import { editKey } from "./keys.ts";
@@ -78,7 +78,7 @@ export class DescribeTab implements TabHandle {
     this.app = app;
     const { left, right } = split(host, "describe", 0.55);
     this.view = new MachineView(left);
-    left.append(exaggerationBar(this.view));
+    left.append(h("div", { class: "scene-bottom" }, exaggerationControl(this.view)));
     fill(right, h("div", { class: "describe-panel" }, this.head.element, this.pages.element));
     addEventListener("keydown", (event) => this.key(event));
     addEventListener("beforeunload", (event) => {

@@ -2,6 +2,8 @@
 
 use super::super::series::Quantity;
 use super::Recording;
+use super::pyramid::BUCKET;
+use std::ops::Range;
 
 /// What a curve shows, with its name and what is allowed.
 #[derive(Debug, Clone, PartialEq)]
@@ -95,12 +97,22 @@ impl Recording {
             // The way to a node has its speed.
             let begin = times.partition_point(|t| *t <= from_s).min(times.len() - 1);
             let end = times.partition_point(|t| *t < to_s).max(begin);
-            return self.pyramid.extent(column, begin..end + 1, value);
+            return self.pyramid.extent(column, self.whole(begin..end + 1), value);
         }
         let end = times.partition_point(|t| *t <= to_s).max(begin);
-        let [low, high] = self.pyramid.extent(column, begin..end, value);
+        let [low, high] = self.pyramid.extent(column, self.whole(begin..end), value);
         let edges = [from_s, to_s].map(|t| self.straight(of, t));
         [low.min(edges[0]).min(edges[1]), high.max(edges[0]).max(edges[1])]
+    }
+
+    /// Where nodes were left out, whole buckets, which know them, too: a stretch of time then has the
+    /// extremes of a little more than itself, and none is lost.
+    fn whole(&self, nodes: Range<usize>) -> Range<usize> {
+        if !self.is_thinned() {
+            return nodes;
+        }
+        let (from, to) = (nodes.start.saturating_sub(1), (nodes.end + 1).min(self.kept()));
+        from / BUCKET * BUCKET..to.next_multiple_of(BUCKET)
     }
 
     /// A quantity on the straight line between two nodes.

@@ -3,6 +3,7 @@
 use super::Recording;
 use super::columns::RAPID;
 use super::detail::from_piece;
+use std::collections::BinaryHeap;
 use std::ops::RangeInclusive;
 use trueaxis_geometry::Vec3;
 
@@ -56,6 +57,16 @@ pub struct PathPoints {
     pub is_complete: bool,
 }
 
+/// What is left out between two nodes that are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Gap {
+    /// The distance of the farthest node from the line, mm, by its bits: they order as it does.
+    beside_bits: u64,
+    farthest: usize,
+    from: usize,
+    to: usize,
+}
+
 /// First and last point, greatest deviation, lowest and highest value.
 const ALWAYS: usize = 5;
 
@@ -72,9 +83,10 @@ impl Recording {
         let high = |a: f32, b: &f32| a.max(*b);
         let range =
             [values.iter().fold(f32::INFINITY, low), values.iter().fold(f32::NEG_INFINITY, high)];
-        let drawn = self.drawn(from..=to, most_points.max(8), &values);
+        let (drawn, chord_mm) = self.drawn(from..=to, most_points.max(8), &values);
         let is_complete = drawn.len() == to - from + 1;
-        self.points(&drawn, &values, PathPoints { range, is_complete, ..PathPoints::default() })
+        let points = PathPoints { range, chord_mm, is_complete, ..PathPoints::default() };
+        self.points(&drawn, &values, points)
     }
 
     fn colour(&self, colour: Colour, i: usize) -> f32 {
@@ -89,12 +101,18 @@ impl Recording {
         }
     }
 
-    /// The nodes that are drawn: those with the most detail, and the extremes.
-    fn drawn(&self, nodes: RangeInclusive<usize>, most: usize, values: &[f32]) -> Vec<usize> {
+    /// The nodes that are drawn, and how far no other is from the line: the extremes, those with the
+    /// most detail, and the farthest ones of what these leave out.
+    fn drawn(
+        &self,
+        nodes: RangeInclusive<usize>,
+        most: usize,
+        values: &[f32],
+    ) -> (Vec<usize>, f64) {
         let (from, to) = (*nodes.start(), *nodes.end());
         let count = to - from + 1;
         if count <= most {
-            return nodes.collect();
+            return (nodes.collect(), 0.0);
         }
         let by = |value: &dyn Fn(usize) -> f32| {
             nodes.clone().max_by(|a, b| value(*a).total_cmp(&value(*b))).unwrap_or(from)
@@ -103,10 +121,39 @@ impl Recording {
         let [lowest, highest] = [by(&|i| -values[i - from]), by(&|i| values[i - from])];
         let always = [from, to, greatest, lowest, highest];
         let mut sorted = self.detail[from..=to].to_vec();
-        let place = most - ALWAYS;
+        let place = (most - ALWAYS) * 3 / 4;
         let (_, threshold, _) = sorted.select_nth_unstable_by(place, |a, b| b.total_cmp(a));
         let threshold = *threshold;
-        nodes.filter(|i| self.detail[*i] > threshold || always.contains(i)).collect()
+        let drawn = nodes.filter(|i| self.detail[*i] > threshold || always.contains(i));
+        self.filled(drawn.collect(), most)
+    }
+
+    /// With the farthest nodes that are left out, as long as there is room.
+    fn filled(&self, mut drawn: Vec<usize>, most: usize) -> (Vec<usize>, f64) {
+        let mut gaps: BinaryHeap<Gap> =
+            drawn.windows(2).map(|pair| self.gap(pair[0], pair[1])).collect();
+        // However uneven the gaps are, this takes no longer than a few passes over the path.
+        let mut work = 4 * drawn.last().map_or(0, |last| last - drawn[0]);
+        while let Some(gap) = gaps.peek().copied().filter(|gap| gap.beside_bits > 0) {
+            let length = gap.to - gap.from;
+            if drawn.len() >= most || work < length {
+                break;
+            }
+            work -= length;
+            gaps.pop();
+            drawn.push(gap.farthest);
+            gaps.extend([self.gap(gap.from, gap.farthest), self.gap(gap.farthest, gap.to)]);
+        }
+        drawn.sort_unstable();
+        (drawn, gaps.peek().map_or(0.0, |gap| f64::from_bits(gap.beside_bits)))
+    }
+
+    fn gap(&self, from: usize, to: usize) -> Gap {
+        let tip = |i: usize| Vec3::from(self.columns.tip_mm[i]);
+        let (a, b) = (tip(from), tip(to));
+        let beside = |i: usize| (from_piece(tip(i), a, b).0.to_bits(), i);
+        let (beside_bits, farthest) = (from + 1..to).map(beside).max().unwrap_or((0, from));
+        Gap { beside_bits, farthest, from, to }
     }
 
     fn points(&self, drawn: &[usize], values: &[f32], mut points: PathPoints) -> PathPoints {
@@ -115,10 +162,6 @@ impl Recording {
         let (first, origin) = (drawn[0], tip(drawn[0]));
         let mut before = first;
         for i in drawn.iter().copied() {
-            for left_out in before + 1..i {
-                let (beside_mm, _) = from_piece(tip(left_out), tip(before), tip(i));
-                points.chord_mm = points.chord_mm.max(beside_mm);
-            }
             let since = if i == first { first } else { before + 1 };
             let values = &values[since - first..=i - first];
             points.value.push(values.iter().copied().fold(f32::NEG_INFINITY, f32::max));

@@ -1,0 +1,324 @@
+//! Two calibrations of one machine: what moved between them, and is it significant?
+//!
+//! ```text
+//!     Δ(q) = E_new(q) − E_old(q)      u²(Δ) = u²_new + u²_old      E_n = |Δ| / (2 u(Δ))
+//! ```
+//!
+//! docs/model.md eq. 161. The two calibrations count as independent: what both have in common (one
+//! instrument, one reference) makes u(Δ) too large, so that a change may be missed, not invented.
+
+mod tip;
+
+pub use tip::{Share, TipChange};
+
+use crate::identify::statistics::normal_quantile_above;
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::Travel;
+use trueaxis_machine::errors::{Component, ErrorKind, ErrorName, StatedError};
+
+/// Places along an axis that curves are compared at.
+const PLACES: usize = 101;
+/// The chance that anything is said to have moved though nothing has.
+const FALSE_ALARM: f64 = 0.05;
+/// The expanded uncertainty of E_n.
+const COVERAGE: f64 = 2.0;
+
+/// What is known of the change of one error.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Moved {
+    /// Beyond what chance does anywhere among all errors.
+    Yes,
+    /// E_n > 1, but one of so many errors may well be.
+    Perhaps,
+    /// Within the uncertainty of the two calibrations.
+    No,
+    /// No uncertainty is stated.
+    Unknown,
+    /// Only the new file states it.
+    New,
+    /// Only the old file states it.
+    Gone,
+}
+
+impl Moved {
+    /// A word for programs.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Yes => "yes",
+            Self::Perhaps => "perhaps",
+            Self::No => "no",
+            Self::Unknown => "unknown",
+            Self::New => "new",
+            Self::Gone => "gone",
+        }
+    }
+}
+
+/// One error in both files, at the place where its change is clearest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ErrorChange {
+    /// Which.
+    pub error: ErrorName,
+    /// The position of its axis there, mm or rad; none for location errors.
+    pub at: Option<f64>,
+    /// The side from which the axis comes there, if the curve knows sides: +1 or −1.
+    pub approach: f64,
+    /// Its value in the old file, mm or rad.
+    pub old: Option<f64>,
+    /// Its value in the new file.
+    pub new: Option<f64>,
+    /// Root mean square of the change over the travel.
+    pub rms: f64,
+    /// Standard uncertainty of the change there; none if a file does not state it.
+    pub u: Option<f64>,
+    /// What that means.
+    pub moved: Moved,
+}
+
+impl ErrorChange {
+    /// New less old, mm or rad.
+    pub fn change(&self) -> Option<f64> {
+        Some(self.new? - self.old?)
+    }
+
+    /// The change over its expanded uncertainty (k = 2); above 1 the two do not agree.
+    pub fn e_n(&self) -> Option<f64> {
+        Some(self.change()?.abs() / (COVERAGE * self.u.filter(|u| *u > 0.0)?))
+    }
+}
+
+/// What is different between two calibrations.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Calibrations {
+    /// Every error that a file states, in the order of the chain.
+    pub errors: Vec<ErrorChange>,
+    /// |Δ| / u(Δ) from which an error has moved: 5 % of false alarms for all errors together.
+    pub limit: f64,
+    /// What it does to the tool tip.
+    pub tip: TipChange,
+}
+
+impl Calibrations {
+    /// The errors that moved.
+    pub fn moved(&self) -> impl Iterator<Item = &ErrorChange> {
+        self.errors.iter().filter(|e| e.moved == Moved::Yes)
+    }
+}
+
+/// Compares two machine files of one machine.
+///
+/// # Errors
+/// In words, why they are not of one machine.
+///
+/// # Example
+/// ```
+/// use trueaxis::machine::{Machine, file::NoTables};
+/// use trueaxis::verify::calibrations::{Moved, calibrations};
+/// let mill = |squareness: &str| {
+///     let text = format!("[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n\
+///                         [location]\nEC0Y = \"{squareness}\"");
+///     Machine::check("m.toml", &text, &NoTables).0.unwrap()
+/// };
+/// // 10 µrad more, each known to 3 µrad: u(Δ) = 4.24 µrad, E_n = 10 / 8.49 = 1.18.
+/// let found = calibrations(&mill("20 ± 3 urad"), &mill("30 ± 3 urad")).unwrap();
+/// assert!((found.errors[0].e_n().unwrap() - 1.1785).abs() < 1e-4);
+/// assert_eq!(found.errors[0].moved, Moved::Yes); // one error only: the limit is 1.96 u
+/// ```
+///
+/// # Source
+/// E_n: ISO/IEC 17043:2010, B.3.1.3; for many errors at a time the bound of Bonferroni.
+pub fn calibrations(old: &Machine, new: &Machine) -> Result<Calibrations, String> {
+    let (errors, limit) = error_changes(old, new)?;
+    Ok(Calibrations { errors, limit, tip: tip::tip_change(old, new) })
+}
+
+/// The errors alone, and the limit of |Δ| / u(Δ).
+///
+/// # Errors
+/// As [`calibrations`].
+pub fn error_changes(old: &Machine, new: &Machine) -> Result<(Vec<ErrorChange>, f64), String> {
+    same_machine(old, new)?;
+    let mut errors = Vec::new();
+    for (body, in_old) in old.bodies().iter().enumerate() {
+        let travel = in_old.axis.map(|axis| old.axes()[axis].travel);
+        for kind in [ErrorKind::Location, ErrorKind::Motion] {
+            for component in Component::ALL {
+                let [a, b] = [old, new].map(|m| m.bodies()[body].stated(kind, component));
+                let error = ErrorName { body: in_old.name, kind, component };
+                let travel = travel.filter(|_| kind == ErrorKind::Motion);
+                errors.extend(compared(error, a, b, travel));
+            }
+        }
+    }
+    let decided = errors.iter().filter(|e| e.u.is_some() && e.change().is_some()).count();
+    let limit = normal_quantile_above(0.5 * FALSE_ALARM / decided.max(1) as f64);
+    for error in &mut errors {
+        error.moved = judged(error, limit);
+    }
+    Ok((errors, limit))
+}
+
+fn same_machine(old: &Machine, new: &Machine) -> Result<(), String> {
+    let (a, b) = (old.chain_text(), new.chain_text());
+    match a == b {
+        true => Ok(()),
+        false => {
+            Err(format!("they are of two machines: the chain is `{a}` in one, `{b}` in the other"))
+        }
+    }
+}
+
+fn judged(error: &ErrorChange, limit: f64) -> Moved {
+    match (error.change(), error.u) {
+        (None, _) if error.old.is_none() => Moved::New,
+        (None, _) => Moved::Gone,
+        (Some(0.0), _) => Moved::No,
+        (Some(_), None) => Moved::Unknown,
+        (Some(change), Some(u)) if change.abs() > limit * u => Moved::Yes,
+        (Some(change), Some(u)) if change.abs() > COVERAGE * u => Moved::Perhaps,
+        _ => Moved::No,
+    }
+}
+
+/// The change of one error where it is clearest; none if no file states it.
+fn compared(
+    error: ErrorName,
+    old: Option<&StatedError>,
+    new: Option<&StatedError>,
+    travel: Option<Travel>,
+) -> Option<ErrorChange> {
+    let stated = old.or(new)?;
+    let sides: &[f64] = match [old, new].iter().flatten().any(|e| e.reversal.is_some()) {
+        true => &[1.0, -1.0],
+        false => &[0.0],
+    };
+    let mut best: Option<(f64, ErrorChange)> = None;
+    let (mut sum, mut count) = (0.0, 0_usize);
+    for q in places(stated, travel) {
+        for side in sides {
+            let value = |e: Option<&StatedError>| e.map(|e| e.at(q, *side)).transpose();
+            // Where a table of one file ends there is nothing to compare.
+            let (Ok(a), Ok(b)) = (value(old), value(new)) else { continue };
+            let u_of = |e: &StatedError| e.u.is_some().then(|| e.u_at(q));
+            let u = old.and_then(u_of).zip(new.and_then(u_of)).map(|(a, b)| a.hypot(b));
+            let change = b.unwrap_or(0.0) - a.unwrap_or(0.0);
+            sum += change * change;
+            count += 1;
+            let weight = change.abs() / u.filter(|u| *u > 0.0).unwrap_or(1.0);
+            if best.as_ref().is_none_or(|(most, _)| weight > *most) {
+                let at = travel.map(|_| q);
+                let (rms, moved) = (0.0, Moved::Unknown);
+                let here =
+                    ErrorChange { error, at, approach: *side, old: a, new: b, rms, u, moved };
+                best = Some((weight, here));
+            }
+        }
+    }
+    let (_, change) = best?;
+    Some(ErrorChange { rms: (sum / count as f64).sqrt(), ..change })
+}
+
+/// Where an error is looked at.
+fn places(error: &StatedError, travel: Option<Travel>) -> Vec<f64> {
+    use trueaxis_machine::errors::Curve;
+    let (from, to) = match (travel, &error.mean) {
+        (None, _) => return vec![0.0],
+        (Some(Travel::Between(from, to)), _) => (from, to),
+        (_, Curve::Table { spline, .. }) => spline.range(),
+        _ => (-std::f64::consts::PI, std::f64::consts::PI),
+    };
+    (0..PLACES).map(|i| from + (to - from) * i as f64 / (PLACES - 1) as f64).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand_chacha::ChaCha8Rng;
+    use rand_chacha::rand_core::SeedableRng;
+    use rand_distr::{Distribution, StandardNormal};
+    use trueaxis_machine::file::NoTables;
+
+    fn mill(rest: &str) -> Machine {
+        let text = format!(
+            "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n\
+             [axis.X]\ntravel = [\"0 mm\", \"500 mm\"]\n[axis.Y]\ntravel = [\"0 mm\", \"400 mm\"]\n\
+             [axis.Z]\ntravel = [\"0 mm\", \"300 mm\"]\n{rest}"
+        );
+        Machine::check("m.toml", &text, &NoTables).0.expect("a machine")
+    }
+
+    #[test]
+    fn nothing_moved_between_a_machine_and_itself() {
+        let same = mill("[location]\nEC0Y = \"20 ± 3 urad\"\nEB0Z = \"5 urad\"");
+        let found = calibrations(&same, &same).expect("one machine");
+        assert_eq!(found.moved().count(), 0);
+        assert_eq!((found.tip.largest_mm, found.errors.len()), (0.0, 2));
+        assert!(found.errors.iter().all(|e| e.moved == Moved::No));
+    }
+
+    #[test]
+    fn a_squareness_moves_the_tip_by_its_length() {
+        let old = mill("[location]\nEC0Y = \"20 ± 1 urad\"\nEB0Z = \"5 urad\"");
+        let new = mill("[location]\nEC0Y = \"30 ± 1 urad\"\nEA0Z = \"1 ± 1 urad\"");
+        let found = calibrations(&old, &new).expect("one machine");
+        let moved: Vec<_> = found.errors.iter().map(|e| (e.error.to_string(), e.moved)).collect();
+        let is = |name: &str, moved| (name.to_owned(), moved);
+        let known = [is("EC0Y", Moved::Yes), is("EA0Z", Moved::New), is("EB0Z", Moved::Gone)];
+        assert_eq!(moved, known);
+        // 10 µrad over Y = 400 mm, and what EB0Z and EA0Z do over Z: below 2 µm.
+        assert!((0.003..0.006).contains(&found.tip.largest_mm), "{}", found.tip.largest_mm);
+        assert_eq!(found.tip.shares[0].error.to_string(), "EC0Y");
+        assert!((found.tip.shares[0].largest_mm - 0.004).abs() < 4e-5);
+    }
+
+    fn normal(random: &mut ChaCha8Rng) -> f64 {
+        StandardNormal.sample(random)
+    }
+
+    /// The rate of false alarms is that which is promised, among many errors.
+    #[test]
+    fn law_chance_moves_no_more_than_five_in_a_hundred_machines() {
+        let names = ["EA0Y", "EC0Y", "EA0Z", "EB0Z", "EB0X", "EC0X", "EX0t", "EY0t", "EZ0t"];
+        let mut random = ChaCha8Rng::seed_from_u64(20_261_122);
+        let mut machine = || {
+            let line = |name: &&str| {
+                let unit = if "ABC".contains(&name[1..2]) { "urad" } else { "um" };
+                format!("{name} = \"{:.4} ± 1.5 {unit}\"\n", 1.5 * normal(&mut random))
+            };
+            mill(&format!("[location]\n{}", names.iter().map(line).collect::<String>()))
+        };
+        let alarms = (0..2000)
+            .filter(|_| {
+                let (errors, _) = error_changes(&machine(), &machine()).expect("one machine");
+                errors.iter().any(|e| e.moved == Moved::Yes)
+            })
+            .count();
+        // 1 − (1 − 0.05/9)⁹ = 4.89 %: 97.8 of 2000, standard deviation 9.6; three of them.
+        assert!((69..=127).contains(&alarms), "{alarms}");
+    }
+
+    #[test]
+    fn other_chains_are_other_machines() {
+        let text = "[machine]\nname = \"m\"\nchain = \"w X b Y Z t\"";
+        let other = Machine::check("m.toml", text, &NoTables).0.expect("a machine");
+        assert!(calibrations(&mill(""), &other).is_err());
+    }
+
+    #[test]
+    fn of_many_errors_one_that_chance_may_do_has_not_moved() {
+        let all = |values: [f64; 6]| {
+            let names = ["EA0Y", "EC0Y", "EA0Z", "EB0Z", "EB0X", "EC0X"];
+            let lines = names.iter().zip(values).map(|(n, v)| format!("{n} = \"{v} ± 1 urad\"\n"));
+            mill(&format!("[location]\n{}", lines.collect::<String>()))
+        };
+        let old = all([0.0; 6]);
+        // u(Δ) = 1.41 µrad: 3 µrad are 2.1 u, and the limit for six errors is 2.64 u.
+        let found = calibrations(&old, &all([3.0, 0.0, 0.0, 0.0, 0.0, 4.0])).expect("one machine");
+        let of = |name: &str| {
+            let mut all = found.errors.iter();
+            all.find(|e| e.error.to_string() == name).map(|e| e.moved)
+        };
+        assert!((found.limit - 2.638).abs() < 1e-3, "{}", found.limit);
+        assert_eq!((of("EA0Y"), of("EC0X")), (Some(Moved::Perhaps), Some(Moved::Yes)));
+    }
+}

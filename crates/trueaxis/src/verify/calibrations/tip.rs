@@ -1,0 +1,146 @@
+//! What a change of errors does to the tool over the travel of all axes.
+
+use trueaxis_geometry::Vec3;
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::{Axis, AxisKind, Command, Travel};
+use trueaxis_machine::errors::{ErrorIndex, ErrorName};
+
+/// Poses over the travel of all axes.
+const POSES: u32 = 4096;
+/// An axis without stated ends is looked at this far on both sides: mm.
+const FREE_MM: f64 = 250.0;
+
+/// What one error adds to the change.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Share {
+    /// Which.
+    pub error: ErrorName,
+    /// How far its change alone moves the tip at most, mm.
+    pub largest_mm: f64,
+}
+
+/// How the actual tool of the new calibration lies off that of the old.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TipChange {
+    /// Poses that were looked at; those that a table does not cover are left out.
+    pub poses: usize,
+    /// The largest distance of the two tips, mm.
+    pub largest_mm: f64,
+    /// Its standard uncertainty along the change, mm.
+    pub u_mm: f64,
+    /// Where it is.
+    pub at: Command,
+    /// Root mean square over all poses, mm.
+    pub rms_mm: f64,
+    /// The largest angle between the two tool axes, rad.
+    pub axis_rad: f64,
+    /// How far the nominal tips of the two files lie apart at most: other placements, another tool, mm.
+    pub nominal_mm: f64,
+    /// The errors by what their change alone does, the largest first; those without a change left out.
+    pub shares: Vec<Share>,
+}
+
+pub(super) fn tip_change(old: &Machine, new: &Machine) -> TipChange {
+    let mut change = TipChange {
+        poses: 0,
+        largest_mm: 0.0,
+        u_mm: 0.0,
+        at: Command::default(),
+        rms_mm: 0.0,
+        axis_rad: 0.0,
+        nominal_mm: 0.0,
+        shares: Vec::new(),
+    };
+    let still = [0.0; 6];
+    let indices = indices(old, new);
+    let mut alone = vec![0.0_f64; indices.len()];
+    for command in commands(old.axes()) {
+        let [a, b] = [old, new].map(|machine| machine.errors_at(&command, &still));
+        let (Ok(a), Ok(b)) = (a, b) else { continue };
+        let (before, after) = (old.deviation(&command, &a), new.deviation(&command, &b));
+        let off = after.tip_mm - before.tip_mm;
+        change.poses += 1;
+        change.rms_mm += off.norm_squared();
+        change.axis_rad = change.axis_rad.max((after.axis - before.axis).norm());
+        let nominal = after.nominal_tip.vector() - before.nominal_tip.vector();
+        change.nominal_mm = change.nominal_mm.max(nominal.norm());
+        if off.norm() > change.largest_mm {
+            (change.largest_mm, change.at) = (off.norm(), command);
+        }
+        for ((index, _), most) in indices.iter().zip(&mut alone) {
+            let mut one = a;
+            one.set(*index, b.get(*index));
+            if one.get(*index) != a.get(*index) {
+                let off = old.deviation(&command, &one).tip_mm - before.tip_mm;
+                *most = most.max(off.norm());
+            }
+        }
+    }
+    change.rms_mm = (change.rms_mm / change.poses.max(1) as f64).sqrt();
+    change.u_mm = uncertainty(old, new, &change.at);
+    let moved = indices.iter().zip(alone).filter(|(_, largest_mm)| *largest_mm > 0.0);
+    change.shares =
+        moved.map(|((_, error), largest_mm)| Share { error: *error, largest_mm }).collect();
+    change.shares.sort_by(|a, b| b.largest_mm.total_cmp(&a.largest_mm));
+    change
+}
+
+/// The errors that one of them states.
+fn indices(old: &Machine, new: &Machine) -> Vec<(ErrorIndex, ErrorName)> {
+    let mut all = old.stated_errors();
+    all.extend(new.stated_errors().into_iter().filter(|(_, name)| {
+        old.error_index(*name).is_none_or(|index| {
+            let body = &old.bodies()[index.body];
+            body.stated(index.kind, index.component).is_none()
+        })
+    }));
+    all
+}
+
+/// The standard uncertainty of the change along itself, by linear propagation of both calibrations.
+fn uncertainty(old: &Machine, new: &Machine, at: &Command) -> f64 {
+    let tip = |machine: &Machine, quantity: Option<(usize, f64)>| {
+        let errors = machine.errors_at(at, &[0.0; 6]).unwrap_or_default();
+        let known = machine.uncertainties_at(at, &machine.uncertain_quantities());
+        let errors = quantity.map_or(errors, |(i, z)| known.displaced_by(&errors, i, z));
+        machine.deviation(at, &errors).tip_mm
+    };
+    let along = (tip(new, None) - tip(old, None)).try_normalize(0.0).unwrap_or_else(Vec3::x);
+    let mut variance = 0.0;
+    for machine in [old, new] {
+        for quantity in 0..machine.uncertain_quantities().len() {
+            let slope = tip(machine, Some((quantity, 1.0))) - tip(machine, Some((quantity, -1.0)));
+            variance += (0.5 * slope.dot(&along)).powi(2);
+        }
+    }
+    variance.sqrt()
+}
+
+/// Poses that fill the travel of all axes evenly: multiples of irrational numbers, and all corners.
+///
+/// The numbers are 1/g, 1/g², … of the root g of gⁿ⁺¹ = g + 1, which leave no direction sparse
+/// (Roberts 2018, after Kronecker).
+fn commands(axes: &[Axis]) -> Vec<Command> {
+    let n = axes.len() as i32;
+    let g = (0..60).fold(2.0_f64, |g, _| (1.0 + g).powf(1.0 / f64::from(n + 1)));
+    let ends: Vec<(f64, f64)> = axes.iter().map(ends).collect();
+    let at = |share: &dyn Fn(usize) -> f64| {
+        let mut command = Command::default();
+        for (i, (from, to)) in ends.iter().enumerate() {
+            command[i] = from + (to - from) * share(i);
+        }
+        command
+    };
+    let corners = (0..1_u32 << n).map(|bits| at(&|i| f64::from(bits >> i & 1)));
+    let inside =
+        (1..=POSES).map(|k| at(&|i| (0.5 + f64::from(k) * g.powi(-(i as i32) - 1)).fract()));
+    corners.chain(inside).collect()
+}
+
+fn ends(axis: &Axis) -> (f64, f64) {
+    match (axis.travel, axis.kind) {
+        (Travel::Between(from, to), _) => (from, to),
+        (_, AxisKind::Rotary) => (-std::f64::consts::PI, std::f64::consts::PI),
+        (_, AxisKind::Linear) => (-FREE_MM, FREE_MM),
+    }
+}

@@ -1,0 +1,51 @@
+/** A table of results with its data as CSV. */
+
+import { download, h } from "../../dom.ts";
+import { csvOf, fileName } from "../../figure/figure.ts";
+import { number } from "../../format.ts";
+
+export type Cell = string | number | null;
+
+export interface Sheet {
+  title: string;
+  note?: string;
+  /** Headings with their units. */
+  head: string[];
+  rows: Cell[][];
+  /** Digits after the point, for each column; default 2. */
+  digits?: (number | undefined)[];
+  /** Key for tests, and for styles. */
+  key?: string;
+  /** Longer words on the first cell of each row. */
+  hints?: (string | undefined)[];
+}
+
+function cell(value: Cell, digits: number, hint?: string): HTMLElement {
+  if (typeof value === "string") return h("td", { title: hint }, value);
+  return h("td", { class: "number" }, number(value, digits));
+}
+
+function columnIsText(sheet: Sheet, j: number): boolean {
+  return sheet.rows.some((row) => typeof row[j] === "string");
+}
+
+export function sheetTable(sheet: Sheet): HTMLElement {
+  const csv = (): string => csvOf(sheet.head.map((heading, j) => ({ heading, values: sheet.rows.map((row) => row[j] ?? null) })));
+  const save = h("button", { class: "figure-save", ariaLabel: `Save the table ${sheet.title} as CSV`, onclick: () => download(`${fileName(sheet.title)}.csv`, csv(), "text/csv") }, "CSV");
+  return h(
+    "section",
+    { class: "panel sheet figure", dataSheet: sheet.key ?? fileName(sheet.title) },
+    h("div", { class: "figure-head" }, h("h2", {}, sheet.title), h("span", { class: "figure-menu" }, save)),
+    h(
+      "div",
+      { class: "sheet-scroll" },
+      h(
+        "table",
+        {},
+        h("thead", {}, h("tr", {}, sheet.head.map((text, j) => h("th", { class: columnIsText(sheet, j) ? "" : "number" }, text)))),
+        h("tbody", {}, sheet.rows.map((row, i) => h("tr", {}, row.map((value, j) => cell(value, sheet.digits?.[j] ?? 2, j === 0 ? sheet.hints?.[i] : undefined))))),
+      ),
+    ),
+    sheet.note ? h("p", { class: "muted note" }, sheet.note) : null,
+  );
+}

@@ -1,0 +1,268 @@
+/** What to measure: paths on the machine, what they see, how well every error will be known. */
+
+import { diagnosticList, split, type App, type Tab, type TabHandle } from "../app.ts";
+import { latestOnly, type PoseHeader } from "../api.ts";
+import { fill, h } from "../dom.ts";
+import type { Figure } from "../figure/index.ts";
+import { deg, mm, number, NARROW_SPACE } from "../format.ts";
+import type { Frame } from "../frame.ts";
+import { MachineView } from "../scene/view.ts";
+import { confoundedPanel } from "./identify/panels.ts";
+import { fileSelect, isAbort, Question, reportButton, showRefusal } from "./measure/ask.ts";
+import { dropOn, handOver } from "./measure/drop.ts";
+import type { PlanHeader } from "./plan/documents.ts";
+import { chosenPanel, expectedPanel, pathsPanel, programsPanel, seenPanel, summaryPanel } from "./plan/panels.ts";
+import { StationLayer } from "./plan/stations.ts";
+
+const DIALECTS: readonly [string, string][] = [
+  ["sinumerik", "SINUMERIK 840D"],
+  ["fanuc", "FANUC"],
+  ["linuxcnc", "LinuxCNC"],
+  ["heidenhain", "HEIDENHAIN"],
+];
+
+/** More rows than this make a list slow; the slider reaches every station. */
+const MOST_ROWS = 600;
+
+interface Pose {
+  machine: string;
+  at: Record<string, number>;
+}
+
+class PlanTab implements TabHandle {
+  private readonly app: App;
+  private readonly view: MachineView;
+  private readonly layer: StationLayer;
+  private readonly head = h("section", { class: "panel form" });
+  private readonly summary = h("div");
+  private readonly paths = h("div");
+  private readonly stations = h("section", { class: "panel", hidden: true });
+  private readonly result = h("div", { class: "result" });
+  private readonly programs = h("div");
+  private readonly open_file: HTMLElement;
+  private readonly slider: HTMLInputElement;
+  private readonly where = h("output", { class: "station-now" });
+  private readonly question: Question<PlanHeader>;
+  private figures: Figure<never>[] = [];
+  private frame: Frame<PlanHeader> | null = null;
+  private campaign: string | null = null;
+  /** The campaign that the answer on the page is of. */
+  private shown: string | null = null;
+  private dialect = "sinumerik";
+  private asked = "";
+  private machine: string | null = null;
+  private tool_mm = 100;
+  /** The camera comes close once per machine; then it stays where the user put it. */
+  private come_close = false;
+  private path = 0;
+  private readonly pose = latestOnly<Pose, Frame<PoseHeader>>(
+    (pose) => this.app.api.ask("pose", pose),
+    (frame) => this.showPose(frame),
+    (error) => this.app.fail(error),
+  );
+
+  constructor(host: HTMLElement, app: App) {
+    this.app = app;
+    this.question = new Question(app, "plan");
+    const { left, right } = split(host, "plan", 0.54);
+    this.view = new MachineView(left);
+    this.layer = new StationLayer(this.view);
+    this.slider = h("input", { type: "range", min: "0", max: "0", step: "1", value: "0", class: "station-slider", ariaLabel: "Station of the path", oninput: () => this.go(Number(this.slider.value)) });
+    left.append(h("div", { class: "scene-bottom" }, h("div", { class: "scene-control" }, h("button", { title: "Look at the stations from near", onclick: () => this.layer.closeUp() }, "Close up"), h("span", {}, "Station"), this.slider, this.where)));
+    this.open_file = dropOn(host, app, "Readings …", (file) => {
+      handOver(file);
+      app.go("identify", { campaign: this.campaign });
+    });
+    this.open_file.title = "Measured already? Readings opened here, or dropped anywhere on this page, go to Identify";
+    fill(right, this.head, this.summary, this.paths, this.result, this.stations, this.programs);
+  }
+
+  open(params: Readonly<Record<string, string>>): void {
+    this.campaign = params["campaign"] ?? this.campaign ?? this.app.state.project?.examples.find((example) => example.tab === "plan")?.path ?? null;
+    this.dialect = params["dialect"] ?? this.dialect;
+    void this.run();
+  }
+
+  hide(): void {
+    this.question.stop();
+  }
+
+  changed(path: string): void {
+    if (path !== this.campaign && path !== this.machine) return;
+    this.asked = "";
+    void this.run();
+  }
+
+  private async run(): Promise<void> {
+    this.showForm();
+    if (!this.campaign) {
+      this.clear();
+      fill(this.result, h("section", { class: "panel" }, h("p", {}, "Choose a campaign: it names the machine, the errors sought, the instrument and its paths.")));
+      return;
+    }
+    const body = { campaign: this.campaign, dialect: this.dialect };
+    const asked = JSON.stringify(body);
+    if (asked === this.asked) return;
+    this.asked = asked;
+    if (this.campaign !== this.shown) this.clear();
+    if (!this.frame) fill(this.result, h("section", { class: "panel muted" }, "Working out the paths, what they see, and their programs …"));
+    try {
+      await this.show(await this.question.ask(body, `planning ${this.campaign}`));
+    } catch (error) {
+      if (this.asked === asked) this.asked = "";
+      if (isAbort(error)) return;
+      this.clear();
+      showRefusal(this.result, error);
+    }
+  }
+
+  private clear(): void {
+    for (const one of this.figures) one.dispose();
+    this.figures = [];
+    this.frame = null;
+    this.stations.hidden = true;
+    for (const panel of [this.summary, this.paths, this.stations, this.result, this.programs]) panel.replaceChildren();
+  }
+
+  private showForm(): void {
+    const campaigns = fileSelect(this.app, "Campaign", "plan", (file) => file.kind === "campaign", this.campaign, (campaign) => this.app.go("plan", { campaign, dialect: this.dialect }));
+    fill(this.head, h("div", { class: "row" }, h("label", { class: "field grow" }, h("span", {}, "Campaign"), campaigns), this.open_file, reportButton(this.app, { verb: "plan", file: this.campaign })));
+  }
+
+  private dialectSelect(): HTMLElement {
+    const select = h("select", { ariaLabel: "Control of the programs", dataTest: "dialect", onchange: () => this.app.go("plan", { campaign: this.campaign, dialect: select.value }) }, DIALECTS.map(([key, title]) => h("option", { value: key }, title)));
+    select.value = this.dialect;
+    return select;
+  }
+
+  // ---- the answer ----
+
+  private async show(frame: Frame<PlanHeader>): Promise<void> {
+    const { header } = frame;
+    const { document } = header;
+    if (header.machine !== this.machine) {
+      const described = await this.app.api.ask("describe", { machine: header.machine });
+      this.view.setMachine(described);
+      this.view.setArrowsVisible(false);
+      this.tool_mm = described.tool.length_mm;
+      this.machine = header.machine;
+      this.come_close = true;
+    }
+    this.clear();
+    this.frame = frame;
+    this.shown = this.campaign;
+    fill(this.summary, summaryPanel(document));
+    this.draw(expectedPanel(document));
+    this.result.append(confoundedPanel(document.unobservable, "Everything that is sought can be told."));
+    if (document.chosen) this.result.append(chosenPanel(document.chosen));
+    this.draw(seenPanel(document));
+    fill(this.programs, programsPanel(header, this.dialectSelect()));
+    if (header.diagnostics.length > 0) this.programs.append(h("section", { class: "panel" }, h("h2", {}, "Remarks"), diagnosticList(header.diagnostics)));
+    // The chosen poses come last, and are what the plan is about.
+    const wanted = document.chosen ? header.paths.length - 1 : Math.min(this.path, header.paths.length - 1);
+    this.choosePath(Math.max(0, wanted));
+    this.app.say(this.campaign ?? "");
+  }
+
+  private draw({ panel, figures }: { panel: HTMLElement; figures: Figure<never>[] }): void {
+    this.result.append(panel);
+    this.figures.push(...figures);
+  }
+
+  // ---- stations ----
+
+  private choosePath(path: number): void {
+    const header = this.frame?.header;
+    if (!header) return;
+    this.path = path;
+    fill(this.paths, pathsPanel(header, path, (chosen) => this.choosePath(chosen)));
+    this.slider.max = String(Math.max(0, (header.paths[path]?.stations ?? 1) - 1));
+    this.layer.show(this.tools(), 0, this.tool_mm);
+    this.view.overlay.note("stations", `Strokes: tool axis at every station; the tool is that of the machine file`);
+    this.listStations();
+    this.go(0);
+  }
+
+  /** Number of the first station of the shown path among all, and how many it has. */
+  private span(): [number, number] {
+    const paths = this.frame?.header.paths ?? [];
+    return [paths.slice(0, this.path).reduce((sum, path) => sum + path.stations, 0), paths[this.path]?.stations ?? 0];
+  }
+
+  private tools(): Float64Array {
+    const [first, count] = this.span();
+    return this.frame?.f64("tools").slice(6 * first, 6 * (first + count)) ?? new Float64Array();
+  }
+
+  /** Axis positions at a station of the shown path, by name. */
+  private commands(station: number): Record<string, number> {
+    const { frame } = this;
+    if (!frame) return {};
+    const { axes } = frame.header;
+    const commands = frame.f64("commands");
+    const row = this.span()[0] + station;
+    return Object.fromEntries(axes.map(({ name }, j) => [name, commands[axes.length * row + j] as number]));
+  }
+
+  private listStations(): void {
+    const header = this.frame?.header;
+    if (!header) return;
+    const [, count] = this.span();
+    const shown = Math.min(count, MOST_ROWS);
+    const cells = (i: number): HTMLElement[] => {
+      const at = this.commands(i);
+      return header.axes.map(({ name, unit }) => h("td", { class: "number" }, number(at[name], unit === "mm" ? 3 : 4)));
+    };
+    const rows = Array.from({ length: shown }, (_, i) => h("tr", { dataStation: i, tabindex: "0", onclick: () => this.go(i), onkeydown: (event: KeyboardEvent) => event.key === "Enter" && this.go(i) }, h("td", { class: "number" }, String(i + 1)), cells(i)));
+    const heading = header.axes.map(({ name, unit }) => h("th", { class: "number" }, `${name}, ${unit === "mm" ? "mm" : "°"}`));
+    const name = header.paths[this.path]?.name ?? "";
+    this.stations.hidden = count === 0;
+    fill(
+      this.stations,
+      h("h2", {}, name === "chosen" ? "Stations of the chosen poses" : `Stations of path ${name}`),
+      h("div", { class: "stations" }, h("table", {}, h("thead", {}, h("tr", {}, h("th", { class: "number" }, "No."), heading)), h("tbody", {}, rows))),
+      shown < count ? h("p", { class: "muted note" }, `The first ${shown} of ${count}; the slider below the machine reaches all.`) : null,
+    );
+  }
+
+  /** Puts the machine at a station. */
+  private go(station: number): void {
+    if (!this.machine || !this.frame || this.span()[1] === 0) return;
+    this.slider.value = String(station);
+    const at = this.commands(station);
+    // Lengths in a row have their unit once, after the last.
+    const value = (name: string, unit: string, next: string | undefined): string => (unit !== "mm" ? deg(at[name], 1) : next === "mm" ? number(at[name], 1) : mm(at[name], 1));
+    const text = this.frame.header.axes.map(({ name, unit }, i, axes) => `${name}${NARROW_SPACE}${value(name, unit, axes[i + 1]?.unit)}`).join(" ");
+    this.where.textContent = `${station + 1} of ${this.span()[1]}: ${text}`;
+    this.slider.setAttribute("aria-valuetext", this.where.textContent);
+    for (const row of this.stations.querySelectorAll<HTMLElement>("[data-station]")) {
+      const here = row.dataset["station"] === String(station);
+      if (here !== (row.getAttribute("aria-selected") === "true")) row.setAttribute("aria-selected", String(here));
+      if (here) scrollInto(row);
+    }
+    this.layer.mark(station);
+    this.pose({ machine: this.machine, at });
+  }
+
+  private showPose(frame: Frame<PoseHeader>): void {
+    this.view.setPoses(frame.f64("nominal"), frame.f64("actual"));
+    // Where to measure is a matter of the nominal machine.
+    this.view.setGhostVisible(false);
+    if (this.come_close) this.layer.closeUp();
+    this.come_close = false;
+  }
+}
+
+/** Scrolls the list only, not the page around it. */
+function scrollInto(row: HTMLElement): void {
+  const box = row.closest<HTMLElement>(".stations");
+  if (!box) return;
+  const [top, bottom] = [row.offsetTop - 28, row.offsetTop + row.offsetHeight];
+  if (top < box.scrollTop) box.scrollTop = top;
+  else if (bottom > box.scrollTop + box.clientHeight) box.scrollTop = bottom - box.clientHeight;
+}
+
+export const plan: Tab = {
+  title: "Plan",
+  mount: (host, app) => new PlanTab(host, app),
+};

@@ -1,0 +1,197 @@
+/** The test piece before it is cut: is it good, who is to blame, and what if? */
+
+import { diagnosticList, split, type App, type Tab, type TabHandle } from "../app.ts";
+import { latestOnly, Refusal } from "../api.ts";
+import { fill, h } from "../dom.ts";
+import { number } from "../format.ts";
+import type { Frame } from "../frame.ts";
+import { Blame } from "./predict/blame.ts";
+import { Details } from "./predict/details.ts";
+import { Holes } from "./predict/holes.ts";
+import { PieceView } from "./predict/piece.ts";
+import { Sections } from "./predict/sections.ts";
+import { studyChoice, Summary } from "./predict/summary.ts";
+import type { HolesHeader, PieceFrame } from "./predict/types.ts";
+import { WhatIf, type Changes } from "./predict/whatif.ts";
+
+type Answer = PieceFrame | Frame<HolesHeader>;
+type Page = "blame" | "what-if" | "numbers";
+const PAGES: readonly [Page, string][] = [["blame", "Who is to blame"], ["what-if", "What if"], ["numbers", "All numbers"]];
+
+interface Wanted {
+  study: string;
+  changes: Changes;
+  asked_at: number;
+}
+
+class PredictTab implements TabHandle {
+  private readonly app: App;
+  private readonly empty = h("div", { class: "panel predict-empty" });
+  private readonly piece_page = h("div", { class: "predict-page", hidden: true });
+  private readonly holes_page = h("div", { class: "predict-page", hidden: true });
+  private readonly pages = new Map<Page, HTMLElement>();
+  private readonly page_buttons = h("div", { class: "group", role: "group", ariaLabel: "Shown below" });
+  private piece: { summary: Summary; view: PieceView; sections: Sections; blame: Blame; what_if: WhatIf; details: Details } | null = null;
+  private holes: Holes | null = null;
+  private study: string | null = null;
+  private stop = new AbortController();
+  /** The prediction of the file; what is shown may be changed. */
+  private base: PieceFrame | null = null;
+  private readonly ask = latestOnly<Wanted, PieceFrame>(
+    ({ study, changes }) => this.app.api.ask("what-if", { study, ...changes }),
+    (frame, wanted) => this.showChanged(frame, wanted),
+    (error) => this.piece?.what_if.refuse(Refusal.from(error)),
+  );
+
+  constructor(host: HTMLElement, app: App) {
+    this.app = app;
+    fill(host, this.empty, this.piece_page, this.holes_page);
+  }
+
+  open(params: Readonly<Record<string, string>>): void {
+    const wanted = params["study"] ?? this.study ?? this.firstStudy();
+    if (wanted === null) {
+      fill(this.empty, h("p", {}, "There is no study in this folder. Open an example on the first page, or put a study that names a machine and a test piece into the folder."));
+      return;
+    }
+    if (wanted !== this.study) void this.load(wanted);
+  }
+
+  /** That of the first example, where there are examples. */
+  private firstStudy(): string | null {
+    const project = this.app.state.project;
+    return project?.examples.find((e) => e.tab === "predict")?.path ?? project?.files.find((f) => f.kind === "study")?.path ?? null;
+  }
+
+  changed(path: string): void {
+    if (this.study && (path === this.study || path === this.base?.header.machine)) void this.load(this.study);
+  }
+
+  private async load(study: string): Promise<void> {
+    this.stop.abort();
+    const stop = (this.stop = new AbortController());
+    this.study = study;
+    const progress = this.app.progress(`predicting ${study}`);
+    try {
+      const frame = await this.app.api.ask<Answer>("predict", { study }, { onProgress: progress.report, signal: stop.signal });
+      progress.done();
+      this.empty.hidden = true;
+      this.holes_page.hidden = frame.header.kind !== "holes";
+      this.piece_page.hidden = frame.header.kind === "holes";
+      if (isHoles(frame)) this.showHoles(study, frame);
+      else this.showPiece(study, frame);
+      this.app.say(study);
+    } catch (error) {
+      progress.done();
+      if (stop.signal.aborted) return;
+      this.study = null;
+      this.showFailure(study, Refusal.from(error));
+    }
+  }
+
+  /** Nothing of another study stays beside the message. */
+  private showFailure(study: string, refusal: Refusal): void {
+    this.piece_page.hidden = this.holes_page.hidden = true;
+    this.empty.hidden = false;
+    fill(
+      this.empty,
+      h("div", { class: "panel-head" }, h("h1", {}, `${study} cannot be predicted`), studyChoice(this.app, study)),
+      h("p", {}, refusal.message),
+      refusal.hint ? h("p", { class: "hint" }, refusal.hint) : null,
+      diagnosticList(refusal.diagnostics),
+      h("button", { onclick: () => void this.load(study) }, "Try again"),
+    );
+  }
+
+  // ---- holes ----
+
+  private showHoles(study: string, frame: Frame<HolesHeader>): void {
+    this.base = null;
+    this.holes ??= new Holes(this.holes_page, this.app);
+    this.holes.show(study, frame.header);
+  }
+
+  // ---- a test piece ----
+
+  private showPiece(study: string, frame: PieceFrame): void {
+    this.base = frame;
+    this.piece ??= this.build();
+    const { summary, view, sections, blame, what_if, details } = this.piece;
+    summary.show(study, frame.header.document, null);
+    sections.show(frame, null, true);
+    blame.show(frame.header.document, frame.header.document, true);
+    details.show(frame, null);
+    what_if.open(frame.header);
+    // Last: the picture is fitted to the room that the others leave.
+    view.show(frame, true);
+  }
+
+  private build(): NonNullable<PredictTab["piece"]> {
+    const { left, right } = split(this.piece_page, "predict", 0.44);
+    const scene = h("div", { class: "predict-scene" });
+    const polar = h("div", { class: "panel predict-sections" });
+    const summary = new Summary(this.app);
+    left.append(scene, polar);
+    right.append(summary.element, h("div", { class: "predict-switch" }, this.page_buttons));
+    for (const [page, title] of PAGES) {
+      const host = h("div", { class: "predict-lower", dataPage: page });
+      this.pages.set(page, host);
+      right.append(host);
+      this.page_buttons.append(h("button", { dataShow: page, onclick: () => this.showPage(page) }, title));
+    }
+    const place = (page: Page): HTMLElement => this.pages.get(page) as HTMLElement;
+    const what_if = new WhatIf(place("what-if"), (changes) => this.change(changes));
+    const blame = new Blame(place("blame"), {
+      without: (error) => this.tryIt(() => what_if.without(error)),
+      correct: (error, text) => this.tryIt(() => what_if.correct(error, text)),
+    });
+    const view = new PieceView(scene);
+    const built = { summary, view, sections: new Sections(polar, (index) => view.mark(index)), blame, what_if, details: new Details(place("numbers")) };
+    this.showPage("blame");
+    return built;
+  }
+
+  private showPage(page: Page): void {
+    for (const [name, host] of this.pages) host.hidden = name !== page;
+    for (const button of this.page_buttons.querySelectorAll("button")) button.setAttribute("aria-pressed", String(button.dataset["show"] === page));
+  }
+
+  private tryIt(change: () => void): void {
+    this.showPage("what-if");
+    change();
+  }
+
+  private change(changes: Changes | null): void {
+    if (!this.study || !this.base) return;
+    if (changes) this.ask({ study: this.study, changes, asked_at: performance.now() });
+    else this.draw(this.base, null);
+  }
+
+  private showChanged(frame: PieceFrame, wanted: Wanted): void {
+    // Somebody may have reset or opened another study meanwhile.
+    if (wanted.study !== this.study || !this.base || !this.piece?.what_if.changes()) return;
+    const answered = performance.now() - wanted.asked_at;
+    this.draw(frame, this.base);
+    const drawn = performance.now() - wanted.asked_at;
+    this.piece.what_if.answered(answered, drawn);
+    this.app.say(`what if: answered in ${number(answered, 0)} ms`);
+  }
+
+  private draw(frame: PieceFrame, before: PieceFrame | null): void {
+    if (!this.piece || !this.study) return;
+    const { document } = frame.header;
+    const earlier = before?.header.document ?? null;
+    this.piece.summary.show(this.study, document, earlier);
+    this.piece.view.show(frame, false);
+    this.piece.sections.show(frame, before, false);
+    this.piece.blame.show(document, earlier ?? document, false);
+    this.piece.details.show(frame, earlier);
+  }
+}
+
+const isHoles = (frame: Answer): frame is Frame<HolesHeader> => frame.header.kind === "holes";
+
+export const predict: Tab = {
+  title: "Predict",
+  mount: (host, app) => new PredictTab(host, app),
+};

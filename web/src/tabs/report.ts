@@ -1,0 +1,153 @@
+/** The pages of the other tabs as one file: made by the server, shown, saved, printed. */
+
+import type { App, Tab, TabHandle } from "../app.ts";
+import type { FileKind } from "../api.ts";
+import { download, fill, h } from "../dom.ts";
+import { bytes } from "../format.ts";
+
+interface Verb {
+  name: string;
+  title: string;
+  /** What the verb reads. */
+  file: readonly FileKind[];
+  needs_machine: boolean;
+}
+
+const VERBS: readonly Verb[] = [
+  { name: "predict", title: "Predict: the part before it is cut", file: ["study"], needs_machine: false },
+  { name: "simulate", title: "Simulate: what the machine does with a program", file: ["program"], needs_machine: true },
+  { name: "plan", title: "Plan: what a campaign will tell", file: ["campaign"], needs_machine: false },
+  { name: "identify", title: "Identify: the machine from readings", file: ["campaign"], needs_machine: false },
+  { name: "evaluate", title: "Evaluate: readings judged by ISO 230", file: ["readings"], needs_machine: false },
+  { name: "verify", title: "Verify: readings against the machine file", file: ["other"], needs_machine: false },
+];
+
+interface Standard {
+  key: string;
+  title: string;
+}
+
+interface Made {
+  url: string;
+  bytes: number;
+  name: string;
+}
+
+class ReportTab implements TabHandle {
+  private readonly app: App;
+  private readonly verb = h("select", { ariaLabel: "Kind of report", onchange: () => this.showFiles() }, VERBS.map(({ name, title }) => h("option", { value: name }, title)));
+  private readonly file = h("select", { ariaLabel: "File", dataTest: "report-file" });
+  private readonly machine = h("select", { ariaLabel: "Machine file" });
+  private readonly standard = h("select", { ariaLabel: "Standard" });
+  private readonly make = h("button", { class: "primary", onclick: () => void this.run() }, "Make the report");
+  private readonly save = h("button", { disabled: true, onclick: () => void this.saveFile() }, "Save HTML");
+  private readonly print = h("button", { disabled: true, title: "The browser's print dialog also saves as PDF", onclick: () => this.frame?.contentWindow?.print() }, "Print or PDF");
+  private readonly note = h("span", { class: "muted", dataTest: "report-note" });
+  private readonly page = h("div", { class: "report-page" });
+  private frame: HTMLIFrameElement | null = null;
+  private made: Made | null = null;
+  private stop = new AbortController();
+  private last = "";
+
+  constructor(host: HTMLElement, app: App) {
+    this.app = app;
+    fill(host, h("div", { class: "report" }, h("div", { class: "report-head" }, this.verb, this.file, this.machine, this.standard, this.make, h("span", { class: "report-after" }, this.note, this.save, this.print)), this.page));
+    this.showEmpty();
+  }
+
+  /** The standards that the server knows, once. */
+  private async loadStandards(): Promise<void> {
+    if (this.standard.options.length > 0) return;
+    const list = await this.app.api.ask<Standard[]>("standards", {});
+    fill(this.standard, list.map(({ key, title }) => h("option", { value: key }, title)));
+  }
+
+  open(params: Readonly<Record<string, string>>): void {
+    this.show(params).catch((error: unknown) => this.app.fail(error));
+  }
+
+  private async show(params: Readonly<Record<string, string>>): Promise<void> {
+    await this.loadStandards();
+    const verb = params["verb"] ?? this.verb.value;
+    this.verb.value = VERBS.some((v) => v.name === verb) ? verb : "predict";
+    this.showFiles(params["file"], params["machine"] ?? this.app.state.machine ?? undefined);
+    if (params["standard"]) this.standard.value = params["standard"];
+    // A link that names its file asks for the report; coming back to the tab does not ask again.
+    const asked = JSON.stringify(params);
+    if (params["file"] && asked !== this.last) void this.run();
+    this.last = asked;
+  }
+
+  hide(): void {
+    this.stop.abort();
+  }
+
+  private showEmpty(): void {
+    fill(this.page, h("p", { class: "report-empty muted" }, "Choose what to report on. The report is one HTML file with all figures in it: it opens offline, and the browser prints it or saves it as PDF."));
+  }
+
+  private showFiles(file?: string, machine?: string): void {
+    const verb = VERBS.find((v) => v.name === this.verb.value);
+    if (!verb) return;
+    // What the first page offers comes first.
+    const offered = new Set(this.app.state.project?.examples.map((e) => e.path));
+    const files = [...(this.app.state.project?.files ?? [])].sort((a, b) => Number(offered.has(b.path)) - Number(offered.has(a.path)));
+    const of = (kinds: readonly FileKind[], also: string | undefined): HTMLElement[] => [...new Set([...(also ? [also] : []), ...files.filter((f) => kinds.includes(f.kind)).map((f) => f.path)])].map((path) => h("option", { value: path }, path));
+    fill(this.file, of(verb.file, file));
+    if (file) this.file.value = file;
+    fill(this.machine, of(["machine"], machine));
+    if (machine) this.machine.value = machine;
+    this.machine.hidden = !verb.needs_machine;
+    this.standard.hidden = verb.name !== "evaluate";
+    this.make.disabled = this.file.options.length === 0;
+  }
+
+  private async run(): Promise<void> {
+    const verb = VERBS.find((v) => v.name === this.verb.value);
+    if (!verb || !this.file.value) return;
+    const body = { verb: verb.name, file: this.file.value, ...(verb.needs_machine ? { machine: this.machine.value } : {}), ...(verb.name === "evaluate" ? { standard: this.standard.value } : {}) };
+    this.stop.abort();
+    const stop = (this.stop = new AbortController());
+    const progress = this.app.progress(`reporting on ${body.file}`);
+    this.make.disabled = true;
+    this.take(null);
+    try {
+      this.take(await this.app.api.ask<Made>("report", body, { onProgress: progress.report, signal: stop.signal }));
+    } catch (error) {
+      if (!stop.signal.aborted) this.app.fail(error);
+    } finally {
+      progress.done();
+      this.make.disabled = false;
+    }
+  }
+
+  private take(made: Made | null): void {
+    this.made = made;
+    this.frame = null;
+    this.save.disabled = this.print.disabled = true;
+    this.note.textContent = "";
+    this.showEmpty();
+    if (!made) return;
+    // The same origin, so that the browser can print what is in it; no scripts.
+    this.frame = h("iframe", { class: "report-frame", title: made.name, sandbox: "allow-same-origin allow-modals", src: made.url.replace(/^\//, ""), onload: () => (this.print.disabled = false) });
+    this.note.textContent = `${made.name}, ${bytes(made.bytes)}`;
+    this.save.disabled = false;
+    fill(this.page, this.frame);
+  }
+
+  private async saveFile(): Promise<void> {
+    if (!this.made) return;
+    try {
+      const response = await fetch(this.made.url.replace(/^\//, ""));
+      if (!response.ok) throw new Error(`the server no longer has ${this.made.name}: make the report again`);
+      download(this.made.name, new Blob([await response.text()], { type: "text/html" }));
+    } catch (error) {
+      this.app.fail(error);
+    }
+  }
+}
+
+export const report: Tab = {
+  title: "Report",
+  mount: (host, app) => new ReportTab(host, app),
+};

@@ -1,0 +1,330 @@
+/** What the machine does with a program: play it, see where it is slow, off, or runs into something. */
+
+import { split, type App, type Tab, type TabHandle } from "../app.ts";
+import { Refusal, type Diagnostic, type MachineDescription } from "../api.ts";
+import { fill, h } from "../dom.ts";
+import { exaggerationControl } from "../scene/exaggeration.ts";
+import { withModels } from "../scene/models.ts";
+import { MachineView } from "../scene/view.ts";
+import { Simulation, type Job, type Moment } from "./simulate/answers.ts";
+import { Choices, dropTarget, type Choice, type Dropped } from "./simulate/choices.ts";
+import { Curves } from "./simulate/curves.ts";
+import { ToolPath } from "./simulate/path.ts";
+import { Player } from "./simulate/player.ts";
+import { Readout } from "./simulate/readout.ts";
+import { SourceList, type LineNote } from "./simulate/source.ts";
+import { Summary } from "./simulate/summary.ts";
+import { Timeline } from "./simulate/timeline.ts";
+import { toolNote, toolOf } from "./simulate/tool.ts";
+import { Transport } from "./simulate/transport.ts";
+import { takeDropped } from "./start.ts";
+
+class SimulateTab implements TabHandle {
+  private readonly app: App;
+  private readonly host: HTMLElement;
+  private readonly view: MachineView;
+  private readonly choices: Choices;
+  private readonly summary = new Summary((time_s) => this.player.seek(time_s));
+  private readonly busy = h("section", { class: "panel simulate-busy", hidden: true });
+  private readonly source_head = h("div", { class: "panel-head source-head" });
+  private readonly source = new SourceList((line) => this.toLine(line));
+  private readonly readout = new Readout();
+  private readonly player: Player;
+  private readonly transport: Transport;
+  private readonly timeline: Timeline;
+  private readonly path: ToolPath;
+  private readonly curves: Curves;
+  private choice: Choice = { machine: null, program: null, setup: null, control: null };
+  private dropped: Dropped | null = null;
+  /** Programs that were dropped in this window, by name: going back in the browser finds them. */
+  private readonly kept = new Map<string, Dropped>();
+  private drawn: MachineDescription | null = null;
+  /** How many errors the machine file states. */
+  private stated_errors = 0;
+  private simulation: Simulation | null = null;
+  private stop: AbortController | null = null;
+  private moment: Moment | null = null;
+  /** Index of the program whose source is shown. */
+  private shown_program = 0;
+  private readonly texts = new Map<number, { name: string; text: string }>();
+  /** Which tool is drawn, and where its tip is in the holder. */
+  private drawn_tool = "";
+  private in_sight = false;
+
+  constructor(host: HTMLElement, app: App) {
+    this.app = app;
+    this.host = host;
+    const top = h("div", { class: "simulate-top" });
+    const { left, right } = split(top, "simulate", 0.56);
+    this.view = new MachineView(left);
+    this.player = new Player({ show: (t) => this.showTime(t), step: (t, step) => this.step(t, step), failed: (e) => this.failed(e), changed: (on) => this.transport.setPlaying(on) });
+    this.transport = new Transport(this.player);
+    this.timeline = new Timeline((t) => this.player.seek(t));
+    this.path = new ToolPath(this.view, (e) => this.failed(e));
+    this.curves = new Curves({ seek: (t) => this.player.seek(t), zoomed: (window_s) => this.zoomed(window_s), failed: (e) => this.failed(e) });
+    this.choices = new Choices(app, (choice, dropped) => this.go(choice, dropped));
+    left.append(h("div", { class: "scene-bottom" }, this.path.control, exaggerationControl(this.view)));
+    right.classList.add("simulate-side");
+    fill(right, this.choices.element, this.busy, this.summary.element, h("section", { class: "panel simulate-source", ariaLabel: "Source" }, this.source_head, this.source.element), this.readout.element);
+    fill(host, h("div", { class: "simulate" }, top, h("div", { class: "simulate-time" }, this.transport.element, this.timeline.element), this.curves.element));
+    dropTarget(host, (file) => void this.choices.take(file));
+    document.addEventListener("keydown", (event) => {
+      if (this.in_sight && this.simulation) this.transport.key(event);
+    });
+    document.addEventListener("visibilitychange", () => {
+      if (document.hidden) this.player.pause();
+    });
+  }
+
+  // ---- what to simulate ----
+
+  open(params: Readonly<Record<string, string>>): void {
+    this.in_sight = true;
+    if (window.trueaxisScene) window.trueaxisScene.moment = () => this.moment;
+    const first = this.app.state.project?.files.find((f) => f.kind === "machine")?.path ?? null;
+    const machine = params["machine"] ?? this.app.state.machine ?? first;
+    // The tab's own link names the machine only: what was open goes on, on that machine.
+    const goes_on = !params["program"] && !params["dropped"];
+    const fresh = takeDropped();
+    if (fresh) this.keep(fresh);
+    const dropped = goes_on ? this.dropped : (this.kept.get(params["dropped"] ?? "") ?? null);
+    const choice: Choice = goes_on ? { ...this.choice, machine } : { machine, program: params["program"] ?? null, setup: params["setup"] ?? null, control: params["control"] ?? null };
+    if (dropped === this.dropped && JSON.stringify(choice) === JSON.stringify(this.choice)) return;
+    this.choice = choice;
+    this.dropped = dropped;
+    this.choices.show(choice, dropped);
+    if (params["dropped"] && !dropped) this.app.fail(new Refusal("dropped-file", `${params["dropped"]} was open only in the window before`, "Drop it here again."));
+    void this.run();
+  }
+
+  hide(): void {
+    this.in_sight = false;
+    this.player.pause();
+  }
+
+  changed(path: string): void {
+    if (path === this.choice.machine || path === this.choice.program || path === this.choice.setup) void this.run();
+  }
+
+  private go(choice: Choice, dropped: Dropped | null): void {
+    if (dropped) this.keep(dropped);
+    this.app.go("simulate", { machine: choice.machine, program: choice.program, dropped: dropped?.name, setup: choice.setup, control: choice.control });
+  }
+
+  /** The last few only: they may be large. */
+  private keep(dropped: Dropped): void {
+    this.kept.delete(dropped.name);
+    this.kept.set(dropped.name, dropped);
+    const [oldest] = this.kept.keys();
+    if (this.kept.size > 4 && oldest) this.kept.delete(oldest);
+  }
+
+  private job(keep_going: boolean): Job | null {
+    const { machine, program, setup, control } = this.choice;
+    const what = this.dropped ?? program;
+    if (!machine || !what) return null;
+    return { machine, program: what, keep_going, ...(setup ? { setup } : {}), ...(control ? { control } : {}) };
+  }
+
+  // ---- the simulation ----
+
+  private async run(keep_going = false): Promise<void> {
+    this.stop?.abort();
+    const stop = (this.stop = new AbortController());
+    const job = this.job(keep_going);
+    this.clear();
+    try {
+      await this.showMachine(stop.signal);
+      if (!job) {
+        fill(this.busy, h("p", {}, this.choice.machine ? "Choose a program of the folder, or drop one here." : "There is no machine file in this folder: put a machine.toml into it, or open an example on the first page."));
+        this.busy.hidden = false;
+        return;
+      }
+      const simulation = await this.simulate(job, stop);
+      if (stop.signal.aborted) return;
+      await this.take(simulation);
+    } catch (error) {
+      if (stop.signal.aborted) return;
+      await this.refused(Refusal.from(error), keep_going);
+    }
+  }
+
+  private clear(): void {
+    this.player.reset(0);
+    this.simulation = null;
+    this.moment = null;
+    this.texts.clear();
+    this.drawn_tool = "";
+    this.view.overlay.note("tool", null);
+    this.summary.clear();
+    this.readout.clear();
+    this.curves.clear();
+    this.path.setSimulation(null);
+    this.timeline.setProgram(0, []);
+    this.transport.setTime(0);
+    this.source.show("", []);
+    fill(this.source_head);
+    this.host.classList.remove("simulated");
+  }
+
+  private async showMachine(signal: AbortSignal): Promise<void> {
+    const machine = this.choice.machine;
+    if (!machine) return;
+    this.app.set({ machine });
+    const description = await this.app.api.ask("describe", { machine }, { signal });
+    const { links, models, tool } = description;
+    const { machine: drawn } = await withModels(this.app.api, { machine }, { links, models, tool });
+    if (signal.aborted) return;
+    this.drawn = drawn;
+    this.stated_errors = description.check.errors?.length ?? 0;
+    this.view.setMachine(drawn);
+  }
+
+  private async simulate(job: Job, stop: AbortController): Promise<Simulation> {
+    const name = typeof job.program === "string" ? job.program : job.program.name;
+    const meter = h("progress", { max: "1", value: 0, ariaLabel: "Simulation" });
+    const share = h("span", { class: "muted number" }, "0 %");
+    const cancel = (): void => {
+      stop.abort();
+      fill(this.busy, h("p", { class: "row" }, h("span", {}, "Stopped."), h("button", { onclick: () => void this.run() }, "Simulate")));
+    };
+    fill(this.busy, h("p", {}, "Simulating ", h("code", {}, name)), h("p", { class: "row" }, meter, share, h("button", { dataTest: "cancel", onclick: cancel }, "Cancel")));
+    this.busy.hidden = false;
+    const progress = (done: number): void => {
+      meter.value = done;
+      share.textContent = `${Math.floor(100 * done)} %`;
+    };
+    return Simulation.run(this.app, job, { progress, signal: stop.signal });
+  }
+
+  private async take(simulation: Simulation): Promise<void> {
+    const { header } = simulation;
+    this.simulation = simulation;
+    this.busy.hidden = true;
+    this.host.classList.add("simulated");
+    this.summary.show(header, this.stated_errors);
+    this.readout.setAxes(header.axes);
+    this.player.reset(header.duration_s);
+    this.timeline.setProgram(header.duration_s, header.marks);
+    this.view.setOnWorkpiece(simulation.on_workpiece);
+    this.path.setSimulation(simulation);
+    this.curves.setSimulation(simulation);
+    await this.showProgram(0);
+    this.player.seek(0);
+    this.app.say("");
+  }
+
+  /** Shows the source with the errors underlined, and what is wrong. */
+  private async refused(refusal: Refusal, kept_going: boolean): Promise<void> {
+    this.busy.hidden = true;
+    const name = this.dropped?.name ?? this.choice.program ?? "";
+    const wrong = refusal.diagnostics.some((d) => d.severity === "error" && ofFile(d, name) && d.line);
+    this.summary.refuse(refusal, wrong && !kept_going ? () => void this.run(true) : null);
+    try {
+      const text = this.dropped?.text ?? (this.choice.program ? (await this.app.api.ask("open", { path: this.choice.program })).text : "");
+      if (!text || this.simulation) return;
+      const notes = notesOf(refusal.diagnostics, name);
+      this.showSource(name, text, notes);
+      const first = notes.find((n) => n.severity === "error");
+      if (first) this.source.reveal(first.line);
+    } catch (error) {
+      this.app.fail(error);
+    }
+  }
+
+  /** A simulation that the server has let go is made again. */
+  private failed(error: unknown): void {
+    if (error instanceof Refusal && error.code === "gone") void this.run();
+    else this.app.fail(error);
+  }
+
+  // ---- the source ----
+
+  private async showProgram(index: number): Promise<void> {
+    const { simulation } = this;
+    if (!simulation) return;
+    this.shown_program = index;
+    const known = this.texts.get(index) ?? (await simulation.source(index));
+    if (simulation !== this.simulation) return;
+    this.texts.set(index, known);
+    if (this.shown_program !== index) return;
+    const { header } = simulation;
+    const path = header.programs[index]?.path ?? known.name;
+    const marks = header.marks.filter((m) => m.grave && m.program === index).map((m) => ({ line: m.line, severity: "error", message: m.text }));
+    this.showSource(known.name, known.text, [...notesOf(header.diagnostics, path), ...marks]);
+    if (this.moment?.program === index) this.source.setCurrent(this.moment.line);
+  }
+
+  private showSource(name: string, text: string, notes: LineNote[]): void {
+    const programs = this.simulation?.header.programs ?? [];
+    const choose = h("select", { ariaLabel: "Program", onchange: () => void this.showProgram(Number(choose.value)) }, programs.map((p, i) => h("option", { value: i }, p.name)));
+    choose.value = String(this.shown_program);
+    const errors = notes.filter((n) => n.severity === "error").length;
+    fill(this.source_head, h("h2", {}, "Source"), programs.length > 1 ? choose : h("code", { class: "muted", title: name }, name.replace(/^.*[\\/]/, "")), errors > 0 ? h("span", { class: "source-errors" }, errors === 1 ? "1 place underlined" : `${errors} places underlined`) : null);
+    this.source.show(text, notes);
+  }
+
+  private toLine(line: number): void {
+    const { simulation } = this;
+    const program = this.shown_program;
+    if (simulation) this.player.goWhere(() => simulation.timeOf(program, line));
+  }
+
+  // ---- the moment ----
+
+  private step(from_s: number, step: "next" | "previous"): Promise<number> {
+    return this.simulation?.step(from_s, step) ?? Promise.resolve(from_s);
+  }
+
+  private async showTime(time_s: number): Promise<void> {
+    const { simulation } = this;
+    if (!simulation) return;
+    const frame = await simulation.at(time_s);
+    if (simulation !== this.simulation) return;
+    const { moment } = frame.header;
+    const [nominal, actual] = [frame.f64("nominal"), frame.f64("actual")];
+    this.moment = moment;
+    this.showTool(moment, nominal);
+    this.view.setPoses(nominal, actual);
+    this.path.setTime(time_s);
+    this.timeline.setTime(time_s);
+    this.transport.setTime(time_s);
+    this.curves.setTime(time_s);
+    if (moment.program !== this.shown_program) void this.showProgram(moment.program).catch((error) => this.failed(error));
+    else this.source.setCurrent(moment.line);
+    this.readout.show(moment, this.texts.get(moment.program) && moment.program === this.shown_program ? this.source.textOf(moment.line).trim() : "");
+  }
+
+  /** The tool of the set-up in place of that of the machine file. */
+  private showTool(moment: Moment, nominal: Float64Array): void {
+    const { drawn, simulation } = this;
+    if (!drawn || !simulation) return;
+    const { tools } = simulation.header;
+    const tool = toolOf(drawn, tools, moment, nominal);
+    const key = [moment.tool, ...(tool.tip_mm ?? []).map((v) => v.toFixed(3))].join(" ");
+    if (key === this.drawn_tool) return;
+    this.drawn_tool = key;
+    this.view.setTool(tool);
+    this.view.overlay.note("tool", toolNote(drawn, tools, moment));
+  }
+
+  private zoomed(window_s: [number, number] | null): void {
+    this.timeline.setWindow(window_s);
+    this.path.setWindow(window_s);
+  }
+}
+
+/** Programs are named with or without their folder. */
+function ofFile(d: Diagnostic, name: string): boolean {
+  const base = (path: string): string => path.replace(/^.*[\\/]/, "");
+  return !d.file || d.file === name || base(d.file) === base(name);
+}
+
+function notesOf(diagnostics: readonly Diagnostic[], name: string): LineNote[] {
+  return diagnostics.filter((d) => d.line && ofFile(d, name)).map((d) => ({ line: d.line as number, column: d.column, severity: d.severity, message: d.message, hint: d.hint }));
+}
+
+export const simulate: Tab = {
+  title: "Simulate",
+  mount: (host, app) => new SimulateTab(host, app),
+};

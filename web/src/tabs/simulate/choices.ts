@@ -1,0 +1,127 @@
+/** Which machine, program, set-up and control; a program may also be dropped anywhere on the tab. */
+
+import type { App } from "../../app.ts";
+import { Refusal, type FileKind } from "../../api.ts";
+import { fill, h } from "../../dom.ts";
+
+export interface Dropped {
+  name: string;
+  text: string;
+}
+
+/** What stands in the address. */
+export interface Choice {
+  machine: string | null;
+  /** A file of the project; null with `dropped`, or where none is chosen. */
+  program: string | null;
+  setup: string | null;
+  control: string | null;
+}
+
+const CONTROLS: readonly [string, string][] = [
+  ["sinumerik", "SINUMERIK"],
+  ["fanuc", "FANUC"],
+  ["linuxcnc", "LinuxCNC"],
+  ["heidenhain", "HEIDENHAIN"],
+];
+/** The server takes 64 MiB at once; line ends become longer on the way. */
+const MOST_BYTES = 60e6;
+
+export class Choices {
+  readonly element = h("section", { class: "panel simulate-choices", ariaLabel: "What is simulated" });
+  private readonly app: App;
+  private choice: Choice = { machine: null, program: null, setup: null, control: null };
+  private dropped: Dropped | null = null;
+  private readonly pick: (choice: Choice, dropped: Dropped | null) => void;
+
+  constructor(app: App, pick: (choice: Choice, dropped: Dropped | null) => void) {
+    this.app = app;
+    this.pick = pick;
+  }
+
+  show(choice: Choice, dropped: Dropped | null): void {
+    this.choice = choice;
+    this.dropped = dropped;
+    const input = h("input", { type: "file", class: "drop-input", ariaLabel: "Open a program of this computer", onchange: () => void this.take(input.files?.[0]) });
+    fill(
+      this.element,
+      this.labelled("Machine", this.select("machine", this.files("machine", choice.machine), "choose a machine", choice.machine)),
+      this.labelled("Program", this.program(), h("label", { class: "button", title: "Or drop it anywhere on this page" }, "Open …", input)),
+      this.labelled("Set-up", this.select("setup", this.files("setup", choice.setup), dropped ? "none" : "beside the program", choice.setup)),
+      this.labelled("Control", this.select("control", CONTROLS, "automatic", choice.control)),
+    );
+  }
+
+  /** Reads a file of this computer. */
+  async take(file: File | undefined): Promise<void> {
+    if (!file) return;
+    if (file.size > MOST_BYTES) {
+      this.app.fail(new Refusal("dropped-file", `${file.name} is larger than 60 MB`, "Put it into the project folder and choose it there, or simulate it with `trueaxis simulate`."));
+      return;
+    }
+    const text = await file.text();
+    if (text.includes("\0")) {
+      this.app.fail(new Refusal("dropped-file", `${file.name} is not a text`, "Drop an NC program as the control reads it (SINUMERIK, FANUC, LinuxCNC or HEIDENHAIN Klartext)."));
+      return;
+    }
+    this.pick({ ...this.choice, program: null }, { name: file.name, text });
+  }
+
+  private labelled(title: string, ...parts: HTMLElement[]): HTMLElement {
+    return h("div", { class: "choice" }, h("span", { class: "muted" }, title), parts);
+  }
+
+  private files(kind: FileKind, chosen: string | null): [string, string][] {
+    const paths = this.app.state.project?.files.filter((f) => f.kind === kind).map((f) => f.path) ?? [];
+    return [...new Set([...(chosen ? [chosen] : []), ...paths])].map((path) => [path, shortName(path)]);
+  }
+
+  private program(): HTMLElement {
+    const files = this.files("program", this.choice.program);
+    if (!this.dropped) return this.select("program", files, "choose a program", this.choice.program);
+    return this.select("program", files, `${this.dropped.name} (of this computer)`, null);
+  }
+
+  private select(key: keyof Choice, options: readonly (readonly [string, string])[], none: string, value: string | null): HTMLElement {
+    const titles: Record<keyof Choice, string> = { machine: "Machine file", program: "NC program", setup: "Set-up: work offsets, tools, stock", control: "Whose program it is" };
+    const select = h("select", { ariaLabel: titles[key], dataChoice: key, onchange: () => this.changed(key, select.value || null) }, h("option", { value: "", disabled: key === "machine" || key === "program" }, none), options.map(([path, word]) => h("option", { value: path }, word)));
+    select.value = value ?? "";
+    return select;
+  }
+
+  private changed(key: keyof Choice, value: string | null): void {
+    // The set-up and control of one program are not those of another.
+    const fresh = key === "program" ? { setup: null, control: null } : {};
+    this.pick({ ...this.choice, ...fresh, [key]: value }, key === "program" ? null : this.dropped);
+  }
+}
+
+/** What tells files apart comes first: machine files are all named alike, programs are not. */
+function shortName(path: string): string {
+  const [file = path, folder = "", ...rest] = path.split("/").reverse();
+  if (file === "machine.toml" && folder) return `${folder}/${file}`;
+  const where = [...rest.reverse(), folder].filter(Boolean).join("/");
+  return where ? `${file}  –  ${where}` : file;
+}
+
+/** The whole tab takes a dropped program. */
+export function dropTarget(host: HTMLElement, take: (file: File | undefined) => void): void {
+  let depth = 0;
+  const over = (on: boolean): void => void host.classList.toggle("drop-here", on);
+  host.addEventListener("dragenter", (event) => {
+    event.preventDefault();
+    depth += 1;
+    over(true);
+  });
+  host.addEventListener("dragover", (event) => event.preventDefault());
+  host.addEventListener("dragleave", () => {
+    depth -= 1;
+    if (depth <= 0) over(false);
+  });
+  host.addEventListener("drop", (event) => {
+    event.preventDefault();
+    depth = 0;
+    over(false);
+    take(event.dataTransfer?.files[0]);
+  });
+}

@@ -1,0 +1,100 @@
+/** What the simulation says in one glance: does it run, how long, how far off; and where the troubles are. */
+
+import { diagnosticList } from "../../app.ts";
+import type { Diagnostic, Refusal } from "../../api.ts";
+import { fill, h, type Child } from "../../dom.ts";
+import { clock, mm, um, urad } from "../../format.ts";
+import type { Mark, SimulationDocument, SimulationHeader } from "./answers.ts";
+
+/** Rows of troubles in the page; the report has all. */
+const MOST_ROWS = 200;
+
+function fact(title: string, value: Child, key: string, more: Child = null): HTMLElement {
+  return h("div", { class: "fact" }, h("span", { class: "muted" }, title), h("strong", { dataTest: key }, value), more);
+}
+
+/** Normal or binormal, whichever is larger: what is seen on the part. */
+function across({ deviation }: SimulationDocument): number {
+  return Math.max(Math.abs(deviation.normal_um.value), Math.abs(deviation.binormal_um.value));
+}
+
+function verdict(header: SimulationHeader): HTMLElement {
+  const grave = header.marks.filter((m) => m.grave);
+  const kinds = new Map<string, number>();
+  for (const mark of grave) kinds.set(mark.kind, (kinds.get(mark.kind) ?? 0) + 1);
+  const errors = header.diagnostics.filter((d) => d.severity === "error").length;
+  const words = [...kinds].map(([kind, n]) => `${n} × ${kind.replaceAll("-", " ")}`);
+  if (errors > 0) words.unshift(errors === 1 ? "one error in the program" : `${errors} errors in the program`);
+  if (words.length === 0) return h("strong", { class: "runs good", dataTest: "verdict" }, "Runs: no collision, no over-travel");
+  return h("strong", { class: "runs bad", dataTest: "verdict" }, `Does not run: ${words.join(", ")}`);
+}
+
+export class Summary {
+  readonly element = h("section", { class: "panel simulate-summary", ariaLabel: "Result" });
+  private readonly seek: (time_s: number) => void;
+
+  constructor(seek: (time_s: number) => void) {
+    this.seek = seek;
+  }
+
+  clear(): void {
+    fill(this.element);
+  }
+
+  /** `errors`: how many errors the machine file states. */
+  show(header: SimulationHeader, errors: number): void {
+    const { document: doc } = header;
+    const worst = doc.deviation.tip_um;
+    const to = worst.value > 0 ? h("button", { class: "link", dataTest: "to-largest", onclick: () => this.seek(worst.time_s) }, `line ${worst.line}`) : errors === 0 ? h("span", { class: "muted" }, "the machine file states no errors") : null;
+    fill(
+      this.element,
+      h("div", { class: "panel-head" }, verdict(header), h("span", { class: "muted" }, doc.control)),
+      this.grave(header.marks),
+      h(
+        "div",
+        { class: "facts" },
+        fact("machining time", [clock(doc.time_s), h("small", {}, " min:s")], "time", h("span", { class: "muted" }, `rapid ${clock(doc.rapid_s)}${doc.dwell_s > 0 ? `, dwell ${clock(doc.dwell_s)}` : ""}`)),
+        fact("largest deviation", um(worst.value), "largest", to),
+        fact("across the path", um(across(doc)), "across", h("span", { class: "muted" }, `rms ${um(doc.deviation.tip_rms_um)}`)),
+        fact("tilt of the tool", urad(doc.deviation.axis_urad.value), "tilt", h("span", { class: "muted" }, `${mm(doc.feed_mm, 0)} in feed`)),
+      ),
+      this.remarks(header),
+      header.diagnostics.length > 0 ? h("details", { class: "simulate-said", open: header.diagnostics.some((d) => d.severity === "error") }, h("summary", {}, `The program reader says ${header.diagnostics.length === 1 ? "one thing" : `${header.diagnostics.length} things`}`), diagnosticList(header.diagnostics.slice(0, MOST_ROWS))) : null,
+    );
+  }
+
+  /** The program (or machine) cannot be simulated: what is wrong with it. */
+  refuse(refusal: Refusal, again: (() => void) | null): void {
+    const errors = refusal.diagnostics.filter((d: Diagnostic) => d.severity === "error");
+    fill(
+      this.element,
+      h("div", { class: "panel-head" }, h("strong", { class: "runs bad", dataTest: "verdict" }, errors.length > 0 ? `Cannot be simulated: ${errors.length === 1 ? "one error" : `${errors.length} errors`}` : refusal.message)),
+      refusal.diagnostics.length > 0 ? diagnosticList(refusal.diagnostics.slice(0, MOST_ROWS)) : refusal.hint ? h("p", { class: "hint" }, refusal.hint) : null,
+      again ? h("p", { class: "row" }, h("button", { dataTest: "keep-going", onclick: again }, "Simulate all the same"), h("span", { class: "muted" }, "goes on behind each error")) : null,
+    );
+  }
+
+  private grave(marks: readonly Mark[]): Child {
+    const grave = marks.filter((m) => m.grave);
+    if (grave.length === 0) return null;
+    return h("ul", { class: "troubles grave" }, grave.slice(0, MOST_ROWS).map((m) => this.trouble(m)));
+  }
+
+  private remarks({ marks, document: doc }: SimulationHeader): Child {
+    const rest = marks.filter((m) => !m.grave);
+    const left_out = Math.max(0, rest.length - MOST_ROWS) + doc.troubles_left_out;
+    if (rest.length === 0) return null;
+    return h(
+      "details",
+      { class: "simulate-said" },
+      h("summary", {}, rest.length === 1 ? "One remark" : `${rest.length} remarks`),
+      h("ul", { class: "troubles" }, rest.slice(0, MOST_ROWS).map((m) => this.trouble(m))),
+      left_out > 0 ? h("p", { class: "muted" }, `and ${left_out} more`) : null,
+    );
+  }
+
+  private trouble(mark: Mark): HTMLElement {
+    const until = mark.until_s !== null && mark.until_s > mark.time_s ? ` to ${clock(mark.until_s)}` : "";
+    return h("li", {}, h("button", { class: "trouble", dataKind: mark.kind, onclick: () => this.seek(mark.time_s) }, h("span", { class: "muted number" }, `${clock(mark.time_s)}${until}`), h("span", { class: "muted number" }, `line ${mark.line}`), h("span", {}, mark.text)));
+  }
+}
