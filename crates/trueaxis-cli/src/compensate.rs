@@ -1,4 +1,5 @@
 mod adapt;
+mod program;
 mod tables;
 
 use crate::arguments::{self, MachineArguments, argument};
@@ -28,6 +29,8 @@ pub struct Arguments {
 enum What {
     /// Move a path onto the blank that was probed, and show what wall it leaves
     Adapt(adapt::AdaptArguments),
+    /// Rewrite an NC program so that the actual tool goes where it says
+    Program(Box<program::ProgramArguments>),
     /// Tables of a control, read back, and what they leave
     Tables(tables::TablesArguments),
     /// Values per axis and position, in least increments, to be added to the command
@@ -97,6 +100,7 @@ enum Format {
 pub fn run(arguments: &Arguments) -> Outcome {
     let arguments = match &arguments.what {
         What::Adapt(arguments) => return adapt::run(arguments),
+        What::Program(arguments) => return program::run(arguments),
         What::Tables(arguments) => return tables::run(arguments),
         What::Values(arguments) => arguments,
     };

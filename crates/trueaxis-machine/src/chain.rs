@@ -114,6 +114,8 @@ pub struct Machine {
     pub(crate) heat: HeatModel,
     /// How the workpiece has grown, if it is not at 20 °C.
     pub(crate) growth: Option<WorkpieceGrowth>,
+    /// Errors that the control compensates.
+    pub(crate) active: Vec<ErrorName>,
 }
 
 /// α_w among the uncertain quantities.

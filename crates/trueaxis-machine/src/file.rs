@@ -12,6 +12,7 @@ pub use chain_text::ChainText;
 pub use model_text::{read_shape, read_tool_shape};
 pub use place_text::{read_direction, read_pose, read_vector_mm};
 
+use crate::active::read_active;
 use crate::axis::{Axis, AxisKind, Limits, Travel, iso_841_direction, iso_841_sense};
 use crate::chain::{ChainBody, ErrorFrame, ErrorModel, Machine, Squareness};
 use crate::errors::{BodyName, Rotation};
@@ -101,6 +102,7 @@ fn read_machine(root: &Section<'_>, tables: &dyn Tables) -> Option<Machine> {
     let mut heat = heat_text::read_heat(root, &axes, &bodies);
     heat.workpiece = workpiece.flatten();
     let models = model_text::read_models(root, &bodies);
+    let active = root.section("compensation", read_active).unwrap_or_default();
     let machine = Machine {
         name: head.name,
         source: head.source,
@@ -113,6 +115,7 @@ fn read_machine(root: &Section<'_>, tables: &dyn Tables) -> Option<Machine> {
         models,
         heat,
         growth: None,
+        active,
     };
     if let Some(item) = head.chain_item {
         geometry_check::warn_about_directions(&machine, &item);

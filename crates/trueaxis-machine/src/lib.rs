@@ -14,6 +14,7 @@
 //!
 //! It does not read NC programs, does not know parts, and opens no file: texts come in as strings.
 
+mod active;
 /// Axes: what they carry, which way they move, how far and how fast.
 pub mod axis;
 pub mod batch;

@@ -12,6 +12,7 @@ mod cutting;
 pub mod holes;
 mod judge;
 mod monte_carlo;
+mod program;
 mod sensitivity;
 mod study;
 mod temperatures;
@@ -22,6 +23,7 @@ pub use correction::{Correction, corrections};
 pub use cutting::{Cutting, DatumAxis, Reference};
 pub use judge::{Bench, Judge};
 pub use monte_carlo::{Sampling, Spread, monte_carlo};
+pub use program::CutProgram;
 pub use sensitivity::{Sensitivity, propagate, sensitivities};
 pub use study::{Decision, Published, PublishedRow, Study, Variant, parse_study, read_study};
 pub use temperatures::{Pace, RunningTemperatures};
@@ -89,6 +91,16 @@ pub enum Error {
         /// How long the log goes on behind the start, s.
         lasts_s: f64,
     },
+    /// The program cuts something else.
+    #[error(
+        "the program comes no nearer than {by_mm:.3} mm to tool position {position} of the test piece"
+    )]
+    Program {
+        /// The tool position, counted from 0.
+        position: usize,
+        /// How far it stays away, mm.
+        by_mm: f64,
+    },
     /// The points cannot be evaluated.
     #[error("{0}")]
     Evaluation(#[source] trueaxis_part::Error),
@@ -115,6 +127,7 @@ impl Error {
             Self::SettingOutOfTravel => "path-leaves-travel",
             Self::Table { .. } => "outside-table",
             Self::LogEnds { .. } => "log-ends",
+            Self::Program { .. } => "other-part",
             Self::Evaluation(_) => "not-evaluable",
             Self::TooFewSamples(_) => "too-few-samples",
         }
@@ -190,7 +203,8 @@ pub struct Prediction {
 /// Document 000 (Wu et al. 2022) with its errata; docs/model.md eq. 18 to 33.
 pub fn predict(study: &Study, progress: &(dyn Fn(usize) + Sync)) -> Result<Prediction, Error> {
     let (machine, piece) = (&study.machine, study.piece());
-    let cutting = Cutting::over(machine, piece, &study.reference, study.temperatures.as_ref())?;
+    let (temperatures, program) = (study.temperatures.as_ref(), study.program.as_ref());
+    let cutting = Cutting::along(machine, piece, &study.reference, temperatures, program)?;
     let judge = Judge { cutting: &cutting, piece };
     let mut prediction = predicted(study, &judge, progress)?;
     if prediction.verdict.outcome != Outcome::Pass {
@@ -311,19 +325,25 @@ fn indices(
 
 fn variants(study: &Study) -> Result<Vec<VariantResult>, Error> {
     let (machine, piece) = (&study.machine, study.piece());
-    let result = |name: &str, reference, temperatures| {
-        let cutting = Cutting::over(machine, piece, reference, temperatures)?;
+    let program = study.program.as_ref();
+    let result = |name: &str, reference, temperatures, program| {
+        let cutting = Cutting::along(machine, piece, reference, temperatures, program)?;
         let indices_mm = Judge { cutting: &cutting, piece }.once(&|errors, _| *errors)?;
         Ok(VariantResult { name: name.to_owned(), indices_mm })
     };
     let temperatures = study.temperatures.as_ref();
-    let others = study.variants.iter().map(|v| result(&v.name, &v.reference, temperatures));
-    let held = temperatures.map(|_| result(HELD, &study.reference, None));
-    others.chain(held).collect()
+    let others =
+        study.variants.iter().map(|v| result(&v.name, &v.reference, temperatures, program));
+    let held = temperatures.map(|_| result(HELD, &study.reference, None, program));
+    let ideal = program.map(|_| result(IDEAL, &study.reference, temperatures, None));
+    ideal.into_iter().chain(others).chain(held).collect()
 }
 
 /// The variant beside a study over a log.
 const HELD: &str = "the temperatures of the start, held";
+
+/// The variant beside a study of a program.
+const IDEAL: &str = "before: the path of the test piece itself, not compensated";
 
 /// What a reader of the verdict alone would miss.
 fn warnings(study: &Study, indices: &[Index], sections: &[SectionResult]) -> Vec<String> {

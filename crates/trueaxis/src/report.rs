@@ -37,6 +37,8 @@ mod plots;
 mod pose;
 mod probe;
 mod probe_page;
+mod program;
+mod program_page;
 mod rtcp;
 mod simulation;
 mod simulation_page;
@@ -84,6 +86,8 @@ pub use pose::{
 };
 pub use probe::{corrected_csv, probe_json, probe_table_csv, probe_text};
 pub use probe_page::probe_html;
+pub use program::{ProgramReport, program_json, program_text};
+pub use program_page::program_html;
 pub use rtcp::{RtcpReport, rtcp_json, rtcp_text};
 pub use simulation::{Simulation, simulation_json, simulation_text, trouble_code, trouble_text};
 pub use simulation_page::simulation_html;

@@ -6,7 +6,7 @@
 //!                                                 └──> summary, troubles, tables, plots
 //! ```
 
-mod axis_path;
+pub(crate) mod axis_path;
 mod basic;
 mod body_table;
 mod clock;
@@ -65,7 +65,7 @@ use trueaxis_machine::axis::Command;
 use trueaxis_machine::heat::TemperatureRun;
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::moves::Step;
-use trueaxis_nc::{Program, Settings, interpret};
+use trueaxis_nc::{Outcome, Program, Settings, interpret};
 
 /// Takes what the simulation finds, stretch by stretch, in constant memory.
 pub trait Observer {
@@ -134,9 +134,6 @@ pub fn simulate(
     observers: &mut [&mut dyn Observer],
 ) -> Run {
     let machine = setup.mounted(machine);
-    let control = TipControl::of(&machine);
-    let turn = basic::turn_to_workpiece(&machine, setup);
-    let folder = Folder::beside(Path::new(program.file()), control.as_ref(), turn);
     let settings = Settings {
         most_jumps: options.most_jumps,
         stop: options.stop.clone(),
@@ -147,7 +144,7 @@ pub fn simulate(
         return Run { problems: told, programs: Vec::new(), stopped: false };
     };
     let mut walk = Walk::new(&machine, present, setup, options, observers);
-    let outcome = interpret(program, &folder, &settings, &mut |step| walk.take(&step));
+    let outcome = execute(&machine, program, setup, &settings, &mut |step| walk.take(&step));
     let faults = walk.finish();
     let mut problems = outcome.problems;
     problems.append(told);
@@ -158,6 +155,20 @@ pub fn simulate(
         problems.error(fault.code, place, fault.message, fault.hint);
     }
     Run { problems, programs: outcome.programs, stopped: options.stop.is_asked() }
+}
+
+/// Executes a program as its control would; subprograms lie beside it.
+pub(crate) fn execute(
+    mounted: &Machine,
+    program: &Program,
+    setup: &SetUp,
+    settings: &Settings,
+    take: &mut dyn FnMut(Step),
+) -> Outcome {
+    let control = TipControl::of(mounted);
+    let turn = basic::turn_to_workpiece(mounted, setup);
+    let folder = Folder::beside(Path::new(program.file()), control.as_ref(), turn);
+    interpret(program, &folder, settings, take)
 }
 
 /// Time is as true as the limits of the axes.
@@ -179,7 +190,7 @@ fn note_assumed_limits(machine: &Machine, program: &Program, problems: &mut Diag
 }
 
 /// Where a fault stands: the line, and the column of its word if the text is at hand.
-fn place(program: &Program, programs: &[String], fault: &Fault) -> Place {
+pub(crate) fn place(program: &Program, programs: &[String], fault: &Fault) -> Place {
     let index = fault.origin.program as usize;
     let mut place = Place::whole(programs.get(index).map_or(program.file(), String::as_str));
     place.line = fault.origin.line as usize;

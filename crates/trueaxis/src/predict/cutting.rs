@@ -1,5 +1,6 @@
 //! The test piece on the machine: commands once, deviations for any set of errors.
 
+use super::program::{CutProgram, Passing};
 use super::temperatures::{CuttingClock, RunningTemperatures};
 use super::{Error, Setting};
 use trueaxis_geometry::Vec3;
@@ -36,10 +37,11 @@ pub struct Reference {
 struct Stop {
     command: Command,
     approach: Approach,
-    /// How far a compensation has moved the nominal tool from where it was programmed: tip (mm), axis.
-    moved: [Vec3; 2],
     errors: ErrorValues,
     u: Uncertainties,
+    /// How far the nominal tip (mm) and tool axis are from where they ideally are: a program may say
+    /// something else than the test piece, and a compensation moves them.
+    off: [Vec3; 2],
 }
 
 /// The nominal errors at a stop, and how well they are known, become the errors to cut with.
@@ -81,21 +83,37 @@ impl<'a> Cutting<'a> {
         reference: &Reference,
         temperatures: Option<&RunningTemperatures>,
     ) -> Result<Self, Error> {
+        Self::along(machine, piece, reference, temperatures, None)
+    }
+
+    /// The same along a program, if there is one, instead of the ideal path.
+    ///
+    /// # Errors
+    /// As [`Cutting::over`]; a program that does not come near a tool position.
+    pub fn along(
+        machine: &'a Machine,
+        piece: &dyn TestPiece,
+        reference: &Reference,
+        temperatures: Option<&RunningTemperatures>,
+        program: Option<&CutProgram>,
+    ) -> Result<Self, Error> {
         let positions = piece.tool_positions();
         let setting_command = setting_command(machine, &reference.setting)?;
-        let path: Vec<Target> =
-            positions.iter().map(|p| Target { tip: p.tip, axis: p.axis }).collect();
-        let commands = machine.follow(&path, &setting_command).map_err(Error::Path)?;
+        let passings = match program {
+            Some(program) => program.passings(machine, &positions)?,
+            None => ideal_passings(machine, &positions, &setting_command)?,
+        };
         let mut clock = CuttingClock::of(machine, temperatures, &positions);
         let quantities = machine.uncertain_quantities();
-        let mut approach = Approach::default();
-        let mut last = setting_command;
-        let mut stops = Vec::with_capacity(commands.len());
-        for (i, command) in commands.into_iter().enumerate() {
-            update_approach(&mut approach, &last, &command);
+        let mut stops = Vec::with_capacity(passings.len());
+        for (i, (passing, ideal)) in passings.iter().zip(&positions).enumerate() {
             let at = clock.machine_at(i)?;
-            stops.push(stop(at.unwrap_or(machine), command, &approach, (&quantities, Some(i)))?);
-            last = command;
+            let place = (&quantities[..], Some(i));
+            let mut stop = stop(at.unwrap_or(machine), passing.command, &passing.approach, place)?;
+            if program.is_some() {
+                stop.off = off(machine, &stop, ideal);
+            }
+            stops.push(stop);
         }
         let setting = match reference.setting {
             Setting::Perfect => None,
@@ -126,14 +144,15 @@ impl<'a> Cutting<'a> {
                 *q += c;
             }
             let (from, to) = (nominal(&old.command), nominal(&command));
+            let [tip, axis] = old.off;
             // Only the sum may lie outside a table, at the end of the travel: then the errors stay.
             if let Ok(there) = stop(machine, command, &old.approach, (&quantities, None)) {
                 *old = there;
             }
             old.command = command;
-            old.moved = [
-                to.nominal_tip.vector() - from.nominal_tip.vector(),
-                to.nominal_axis.vector() - from.nominal_axis.vector(),
+            old.off = [
+                tip + (to.nominal_tip.vector() - from.nominal_tip.vector()),
+                axis + (to.nominal_axis.vector() - from.nominal_axis.vector()),
             ];
         };
         let hole = self.hole.iter_mut().flat_map(|(ends, _)| ends);
@@ -173,8 +192,8 @@ impl<'a> Cutting<'a> {
     pub fn cut(&self, change: &Change<'_>, deviations_mm: &mut Vec<Vec3>) -> Datum {
         let at = |stop: &Stop| {
             let mut off = self.machine.deviation(&stop.command, &change(&stop.errors, &stop.u));
-            off.tip_mm += stop.moved[0];
-            off.axis += stop.moved[1];
+            off.tip_mm += stop.off[0];
+            off.axis += stop.off[1];
             off
         };
         let zero = self.setting.as_ref().map_or(Vec3::zeros(), |s| at(s).tip_mm);
@@ -209,14 +228,31 @@ fn stop(
     let errors = machine
         .errors_at(&command, approach)
         .map_err(|source| Error::Table { position, source })?;
-    let moved = [Vec3::zeros(); 2];
-    Ok(Stop {
-        command,
-        approach: *approach,
-        moved,
-        errors,
-        u: machine.uncertainties_at(&command, quantities),
-    })
+    let u = machine.uncertainties_at(&command, quantities);
+    Ok(Stop { command, approach: *approach, errors, u, off: [Vec3::zeros(); 2] })
+}
+
+/// How far the nominal tool at a stop is from a tool position.
+fn off(machine: &Machine, stop: &Stop, ideal: &ToolPosition) -> [Vec3; 2] {
+    let there = machine.deviation(&stop.command, &stop.errors);
+    [there.nominal_tip - ideal.tip, there.nominal_axis.vector() - ideal.axis.vector()]
+}
+
+/// The commands of the ideal path.
+fn ideal_passings(
+    machine: &Machine,
+    positions: &[ToolPosition],
+    from: &Command,
+) -> Result<Vec<Passing>, Error> {
+    let path: Vec<Target> = positions.iter().map(|p| Target { tip: p.tip, axis: p.axis }).collect();
+    let commands = machine.follow(&path, from).map_err(Error::Path)?;
+    let (mut last, mut approach) = (*from, Approach::default());
+    let passing = |command: Command| {
+        update_approach(&mut approach, &last, &command);
+        last = command;
+        Passing { command, approach }
+    };
+    Ok(commands.into_iter().map(passing).collect())
 }
 
 /// An axis keeps its side until it turns round.

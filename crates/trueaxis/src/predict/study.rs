@@ -2,6 +2,7 @@
 
 use super::cutting::{DatumAxis, Reference};
 use super::monte_carlo::Sampling;
+use super::program::CutProgram;
 use super::temperatures::{RunningTemperatures, StudyTemperatures};
 use super::{Index, Setting};
 use crate::files;
@@ -84,6 +85,8 @@ pub struct Study {
     pub variants: Vec<Variant>,
     /// The rule of the verdict.
     pub decision: Decision,
+    /// The part is cut along this program instead of the ideal path.
+    pub program: Option<CutProgram>,
     /// The Monte Carlo run, if one is wanted.
     pub sampling: Option<Sampling>,
     /// Figures to compare with.
@@ -169,7 +172,9 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Study> {
     let decision = decision.unwrap_or(Some(Decision::Simple));
     check_uncertainties(root, decision, &machine);
     let machine = read_mounting(root, machine, &test_piece)?;
+    let program = read_program(root, folder, &machine);
     Some(Study {
+        program,
         tolerances: tolerances?,
         what_if,
         name: name?.to_owned(),
@@ -184,6 +189,15 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Study> {
         sampling: sampling.unwrap_or(Some(Sampling::default())).filter(|s| s.samples > 0),
         published,
     })
+}
+
+/// `program = "part.mpf"`: what is really cut, compensated or not.
+fn read_program(root: &Section<'_>, folder: &Path, machine: &Machine) -> Option<CutProgram> {
+    let name = root.get("program")?.text()?;
+    let mut problems = Diagnostics::new();
+    let program = CutProgram::read(&folder.join(name), machine, &mut problems);
+    root.take_over(problems);
+    program
 }
 
 /// A guard band of nothing would pass what nobody knows.

@@ -8,9 +8,11 @@
 //! ```
 
 mod axes;
+mod back;
 mod fault;
 mod tip;
 
+pub(crate) use back::Straight;
 pub use fault::Fault;
 
 use super::basic::{axes_of_programs, start, workpiece_from_basic};
@@ -69,7 +71,7 @@ pub enum PathStep {
 }
 
 /// What the control knows while it runs.
-pub(super) struct AxisPath<'m> {
+pub(crate) struct AxisPath<'m> {
     machine: &'m Machine,
     densify: Densify,
     /// The axis of the machine for each axis of programs.

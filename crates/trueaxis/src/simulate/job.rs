@@ -36,7 +36,7 @@ impl ProgramFiles<'_> {
     }
 
     /// Reads the program; its name and its text are all that is known of one that is on no disk.
-    fn program(&self, setup: &SetUp, problems: &mut Diagnostics) -> Option<Program> {
+    pub(crate) fn program(&self, setup: &SetUp, problems: &mut Diagnostics) -> Option<Program> {
         match self.text {
             None => read_program(self.program, self.control, setup, problems),
             Some(text) => {

@@ -3,6 +3,8 @@
 
 #![allow(dead_code, reason = "each test takes what it needs")]
 
+pub mod paths;
+
 use std::path::{Path, PathBuf};
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{AxisKind, Command, Travel};

@@ -1,0 +1,146 @@
+//! `trueaxis compensate program` as a user sees it, with what must be refused.
+
+mod command;
+
+use command::{Folder, trueaxis};
+use serde_json::Value;
+
+const MACHINE: &str = "machines/xkas2525/machine.toml";
+const FRUSTUM: &str = "examples/06_compensate/frustum.mpf";
+
+fn compensate(more: &[&str]) -> command::Ran {
+    let mut all = vec!["compensate", "program"];
+    all.extend(more);
+    trueaxis(&all)
+}
+
+#[test]
+fn the_document_has_the_agreed_keys() {
+    let folder = Folder::new("program-json");
+    let (out, report) = (folder.path("c.mpf"), folder.path("r.html"));
+    let ran = compensate(&[MACHINE, FRUSTUM, "-o", &out, "--report", &report, "--format", "json"]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let found = ran.json();
+    assert_eq!(found["schema"], "trueaxis/compensate-program/1");
+    assert_eq!(found["blocks"], 725);
+    for key in ["tip_at_ends_um", "axis_at_ends_urad", "tip_between_um", "axis_between_urad"] {
+        let [before, after] =
+            ["before", "after"].map(|when| found[when][key]["value"].as_f64().unwrap());
+        assert!(before > 50.0 && after < 2.0, "{key}: {before} {after}");
+    }
+    assert!(found["convention_check"][0]["tip_um"].as_f64() > Some(50.0));
+    let page = std::fs::read_to_string(&report).unwrap();
+    assert!(page.starts_with("<!doctype html>") || page.starts_with("<!DOCTYPE html>"));
+    // Words that say nothing of places, and comments, are as they were.
+    let [was, is] = [command::root().join(FRUSTUM), out.clone().into()]
+        .map(|path| std::fs::read_to_string(path).unwrap());
+    assert!(is.starts_with("; TRUEAXIS COMPENSATED FOR XKAS2525x60"));
+    for (a, b) in was.lines().zip(is.lines().skip(1)) {
+        let fixed = |line: &str| {
+            let words: Vec<String> = line
+                .split(' ')
+                .filter(|w| !w.starts_with(['X', 'Y', 'Z']) && !w.contains("3="))
+                .map(str::to_owned)
+                .collect();
+            words.join(" ")
+        };
+        assert_eq!(fixed(a), fixed(b));
+    }
+    let again = compensate(&[MACHINE, &out, "-o", &folder.path("d.mpf")]);
+    assert_eq!(again.status, 2);
+    assert!(again.err.contains("already-compensated"), "{}", again.err);
+}
+
+#[test]
+fn the_compensated_frustum_is_better_by_more_than_fifty() {
+    let folder = Folder::new("program-frustum");
+    let ran =
+        compensate(&[MACHINE, FRUSTUM, "-o", &folder.path("frustum-comp.mpf"), "--no-rounding"]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let root = command::root().canonicalize().unwrap().display().to_string();
+    let study = std::fs::read_to_string(
+        command::root().join("examples/06_compensate/frustum-compensated.toml"),
+    );
+    let study = study
+        .unwrap()
+        .replace("\"../../frustum-comp.mpf\"", "\"frustum-comp.mpf\"")
+        .replace("../..", &root)
+        .replace("samples = 10000", "samples = 0");
+    let path = folder.path("study.toml");
+    std::fs::write(&path, study).unwrap();
+    let ran = trueaxis(&["predict", &path, "--no-report", "--format", "json"]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let found = ran.json();
+    let (mut before, mut after) = (Vec::new(), Vec::new());
+    leaves(&found["variants"][0]["indices_mm"], &mut before);
+    leaves(&found["indices"], &mut after);
+    assert_eq!(before.len(), after.len());
+    for (before, after) in before.iter().zip(&after) {
+        assert!(after.abs() <= 0.02 * before.abs(), "{before} -> {after} mm");
+    }
+    assert!(before.len() >= 10);
+}
+
+/// The values of all indices, in the order of the document.
+fn leaves(found: &Value, values: &mut Vec<f64>) {
+    match (found, found.get("value")) {
+        (Value::Number(number), _) => values.extend(number.as_f64()),
+        (_, Some(value)) => values.extend(value.as_f64()),
+        (Value::Object(entries), _) => entries.values().for_each(|v| leaves(v, values)),
+        _ => {}
+    }
+}
+
+/// A program text on a machine: refused with this code, and nothing is written.
+fn refused(name: &str, machine: &str, text: &str, more: &[&str], code: &str) {
+    let folder = Folder::new(&format!("program-{code}"));
+    let (program, out) = (folder.path(name), folder.path("out.nc"));
+    std::fs::write(&program, text).unwrap();
+    let mut all = vec![machine, &program, "-o", &out];
+    all.extend(more);
+    let ran = compensate(&all);
+    assert_eq!(ran.status, 2, "{code}: {}{}", ran.out, ran.err);
+    assert!(ran.err.contains(&format!("[{code}]")), "{code}: {}", ran.err);
+    assert!(!std::path::Path::new(&out).exists(), "{code}: something was written");
+}
+
+const MILL: &str = "machines/three-axis-mill/machine.toml";
+
+#[test]
+fn what_cannot_be_corrected_is_named_and_nothing_is_written() {
+    let begin = "G21 G90 G94 F500\nG0 X100 Y100 Z-50\n";
+    let on_mill = |text: &str, code| {
+        refused("a.ngc", MILL, &format!("{begin}{text}\nM2\n"), &["--control", "linuxcnc"], code);
+    };
+    on_mill("#1=150\nG1 X#1", "computed-coordinate");
+    on_mill("o1 repeat [2]\nG91 G1 X60\nG1 Y30\no1 endrepeat", "executed-again");
+    on_mill("o1 repeat [2]\nG1 X150\nG1 X120\nG1 Y[150]\no1 endrepeat\n", "computed-coordinate");
+    on_mill("G81 X150 Y150 Z-60 R-45", "other-coordinates");
+    on_mill("G81 X100 Y100 Z-60 R-45", "several-moves");
+    on_mill("G20 G1 X5", "inch-program");
+    on_mill("G1 X300 Y150 Z0", "correction-leaves-travel");
+    on_mill("G1 Xnan", "missing-value");
+    refused(
+        "b.ngc",
+        MILL,
+        &format!("{begin}G1 X150\nM2\n"),
+        &["--limit", "0.1 um"],
+        "correction-too-large",
+    );
+    refused(
+        "c.ngc",
+        MILL,
+        &format!("{begin}G1 X150\nM2\n"),
+        &["--increment", "5 deg"],
+        "bad-number",
+    );
+    refused("d.ngc", MILL, &format!("{begin}G1 X150\nM2\n"), &["--residual=-1 um"], "bad-number");
+    refused("e.ngc", MILL, "", &[], "empty-program");
+}
+
+#[test]
+fn the_program_itself_is_not_overwritten() {
+    let ran = compensate(&[MACHINE, FRUSTUM, "-o", FRUSTUM]);
+    assert_eq!(ran.status, 2);
+    assert!(ran.err.contains("is the program itself"), "{}", ran.err);
+}

@@ -1,0 +1,53 @@
+//! Errors that the control compensates already.
+
+use crate::Machine;
+use crate::errors::ErrorName;
+use trueaxis_geometry::input::Section;
+
+/// `[compensation] active = ["EXX", "EYY"]`: tables that are switched on in the control.
+pub(crate) fn read_active(section: &Section<'_>) -> Vec<ErrorName> {
+    let mut names = Vec::new();
+    let hint = "the errors that the control compensates: active = [\"EXX\", \"EYY\"]";
+    let items = section.require("active", hint).and_then(|item| item.list());
+    for item in items.unwrap_or_default() {
+        let Some(text) = item.text() else { continue };
+        match ErrorName::parse(text) {
+            Some(name) if !names.contains(&name) => names.push(name),
+            Some(name) => {
+                let message = format!("{name} is named twice");
+                item.error("duplicate-error", message, "keep one of them");
+            }
+            None => {
+                let message = format!("`{text}` is no error of ISO 230-1");
+                item.error("unknown-error-name", message, "such as EXX, EAA, EC0Y");
+            }
+        }
+    }
+    names
+}
+
+impl Machine {
+    /// The errors that the control compensates already, by the machine file.
+    pub fn active_compensation(&self) -> &[ErrorName] {
+        &self.active
+    }
+
+    /// The machine as the programs meet it while these compensations are on: without their errors.
+    ///
+    /// ```
+    /// use trueaxis_machine::{Machine, file::NoTables};
+    /// let text = "[machine]\nname = \"mill\"\nchain = \"w b X Y Z t\"\n\
+    ///             [location]\nEC0Y = \"10 urad\"\nEB0Z = \"5 urad\"\n\
+    ///             [compensation]\nactive = [\"EC0Y\"]";
+    /// let machine = Machine::check("mill.toml", text, &NoTables).0.expect("a machine");
+    /// assert_eq!(machine.stated_errors().len(), 2);
+    /// assert_eq!(machine.with_active_compensation().stated_errors().len(), 1);
+    /// ```
+    #[must_use]
+    pub fn with_active_compensation(&self) -> Self {
+        let active = |name: &ErrorName| self.active.contains(name);
+        let stated = self.stated_errors();
+        let compensated = stated.into_iter().filter(|(_, name)| active(name));
+        compensated.fold(self.clone(), |machine, (index, _)| machine.with_error(index, None))
+    }
+}

@@ -1,0 +1,182 @@
+//! What was found and done on the way through the program.
+
+use super::block::Block;
+use super::correct::Corrected;
+use super::stand::{Sample, Stand};
+use crate::simulate::Node;
+use std::collections::BTreeMap;
+use trueaxis_geometry::Vec3;
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::{AxisKind, Command, MAX_AXES, Travel};
+
+/// Places at which uncertainties are looked at.
+const PLACES: usize = 100;
+
+/// The largest correction of an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct LargestCorrection {
+    /// With its sign, mm or rad.
+    pub value: f64,
+    /// The line of the block.
+    pub line: u32,
+    /// How near the end of the travel the axis comes, mm or rad; infinite without one.
+    pub to_travel_end: f64,
+    /// The line where it does.
+    pub nearest_line: u32,
+}
+
+/// What was done, in numbers.
+#[derive(Debug, Clone, Default)]
+pub struct Found {
+    /// Blocks that move the tool and were looked at.
+    pub blocks: u64,
+    /// Blocks that became several.
+    pub split: u64,
+    /// What all blocks became.
+    pub pieces: u64,
+    /// Circles that became straight pieces.
+    pub circles: u64,
+    /// Words that blocks did not have.
+    pub words_added: u64,
+    /// Blocks in which only the rotary axes moved, with a new F so that they take the same time.
+    pub feeds_changed: u64,
+    /// Places where an axis turns round by less than its reversal error.
+    pub undecided: u64,
+    /// Blocks that stay as they are, by reason.
+    pub left: BTreeMap<&'static str, u64>,
+    /// Places where the tool axis keeps its deviation, by reason.
+    pub axis_left: BTreeMap<String, u64>,
+    /// Of each axis of the machine.
+    pub largest: Vec<LargestCorrection>,
+    /// The largest relative change of the way of the tip in a block.
+    pub length_change: f64,
+    /// The block with the largest correction of the tip: nominal and corrected axis positions.
+    pub worst: Option<(u32, Command, Command)>,
+    worst_mm: f64,
+    kinds: Vec<(AxisKind, Travel)>,
+    /// Some places of the program, evenly over it.
+    pub(super) places: Vec<Command>,
+    stride: u64,
+    seen: u64,
+    pub(super) wants: Vec<Want>,
+    pub(super) stands: Vec<Stand>,
+}
+
+/// Where the tool shall go in a piece of the written program.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Want {
+    /// The line of the program as it was.
+    pub line: u32,
+    /// Which of the lines that it became.
+    pub piece: u32,
+    /// Only its end counts.
+    pub end_only: bool,
+    /// Its stands, the beginning first.
+    pub from: u32,
+    pub to: u32,
+}
+
+impl Want {
+    pub fn of(line: u32, piece: u32, end_only: bool) -> Self {
+        Self { line, piece, end_only, from: 0, to: 0 }
+    }
+}
+
+impl Found {
+    pub(super) fn of(machine: &Machine) -> Self {
+        let kinds: Vec<_> = machine.axes().iter().map(|a| (a.kind, a.travel)).collect();
+        let none = LargestCorrection { to_travel_end: f64::INFINITY, ..Default::default() };
+        Self { largest: vec![none; kinds.len()], kinds, ..Self::default() }
+    }
+
+    pub(super) fn leave(&mut self, why: &'static str) {
+        *self.left.entry(why).or_default() += 1;
+    }
+
+    pub(super) fn correct(&mut self, node: &Node, done: &Corrected) {
+        self.sample(&node.command);
+        let line = node.origin.line;
+        let mut linear = 0.0_f64;
+        for i in 0..self.kinds.len().min(MAX_AXES) {
+            let (kind, travel) = self.kinds[i];
+            let by = done.command[i] - node.command[i];
+            let largest = &mut self.largest[i];
+            if by.abs() > largest.value.abs() {
+                (largest.value, largest.line) = (by, line);
+            }
+            if kind == AxisKind::Linear {
+                linear = linear.hypot(by);
+            }
+            if let Travel::Between(low, high) = travel {
+                let near = (done.command[i] - low).min(high - done.command[i]);
+                if near < largest.to_travel_end {
+                    (largest.to_travel_end, largest.nearest_line) = (near, line);
+                }
+            }
+        }
+        if linear > self.worst_mm || self.worst.is_none() {
+            self.worst_mm = linear;
+            self.worst = Some((line, node.command, done.command));
+        }
+        self.undecided += u64::from(done.undecided);
+        if let Some(why) = done.left {
+            *self.axis_left.entry(why.to_string()).or_default() += 1;
+        }
+    }
+
+    /// A block was written.
+    pub(super) fn note(
+        &mut self,
+        block: &Block<'_>,
+        circle_gone: bool,
+        feed_changed: bool,
+        samples: &[Sample],
+    ) {
+        self.blocks += 1;
+        self.split += u64::from(block.pieces > 1);
+        self.pieces += block.pieces as u64;
+        self.words_added += block.added;
+        self.feeds_changed += u64::from(feed_changed);
+        self.circles += u64::from(circle_gone);
+        // How much longer the way of the tip has become.
+        let length = |of: &dyn Fn(&Sample) -> Vec3| -> f64 {
+            samples.windows(2).map(|w| (of(&w[1]) - of(&w[0])).norm()).sum()
+        };
+        let (before, after) = (length(&|s| s.wanted.tip), length(&|s| s.believed.tip));
+        if before > 1.0 && (after / before - 1.0).abs() > self.length_change.abs() {
+            self.length_change = after / before - 1.0;
+        }
+    }
+
+    /// Every so manieth place, so that there are never many.
+    fn sample(&mut self, command: &Command) {
+        if self.seen.is_multiple_of(self.stride.max(1)) {
+            self.places.push(*command);
+        }
+        self.seen += 1;
+        if self.places.len() >= 2 * PLACES {
+            self.stride = 2 * self.stride.max(1);
+            let mut keep = false;
+            self.places.retain(|_| {
+                keep = !keep;
+                keep
+            });
+        }
+    }
+
+    /// Stands of a piece; those of one line follow each other.
+    pub(super) fn want(&mut self, want: Want, stands: impl Iterator<Item = Stand>) {
+        let same = |w: &&mut Want| w.line == want.line && w.piece == want.piece;
+        if let Some(last) = self.wants.last_mut().filter(same) {
+            self.stands.extend(stands.skip(1));
+            last.to = self.stands.len() as u32;
+            return;
+        }
+        let from = self.stands.len() as u32;
+        // Of a rapid move only the end counts.
+        let keep = stands.collect::<Vec<_>>();
+        let skip = if want.end_only { keep.len() - 1 } else { 0 };
+        self.stands.extend_from_slice(&keep[skip..]);
+        self.wants.push(Want { from, to: self.stands.len() as u32, ..want });
+    }
+}

@@ -1,0 +1,196 @@
+//! The text that is rewritten line by line; all other bytes stay.
+
+use super::words::Words;
+use std::ops::Range;
+use trueaxis_nc::{Control, Program};
+
+/// What became of a line.
+#[derive(Debug, Clone, PartialEq)]
+enum Line {
+    /// Not executed, or without a move.
+    AsItWas,
+    /// Executed, and nothing had to be changed.
+    Seen,
+    /// Other text, with its line ends; how many lines.
+    Changed(Box<[u8]>, u32),
+}
+
+/// A program that is being rewritten.
+pub(super) struct Text<'p> {
+    program: &'p Program,
+    starts: Vec<usize>,
+    lines: Vec<Line>,
+    /// G91 is in force behind this line.
+    incremental: (usize, bool),
+    uses_increments: bool,
+}
+
+/// Changes of one line: what stands in a range becomes other text.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Edits(Vec<(Range<usize>, String)>);
+
+impl Edits {
+    pub fn put(&mut self, range: Range<usize>, text: String) {
+        self.0.push((range, text));
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    fn apply(mut self, source: &[u8], line: Range<usize>) -> Vec<u8> {
+        // Stable: what is put at one place keeps its order.
+        self.0.sort_by_key(|(range, _)| range.start);
+        let mut out = Vec::with_capacity(line.len() + 32);
+        let mut at = line.start;
+        for (range, text) in self.0 {
+            out.extend_from_slice(&source[at..range.start.max(at)]);
+            out.extend_from_slice(text.as_bytes());
+            at = range.end.max(at);
+        }
+        out.extend_from_slice(&source[at..line.end]);
+        out
+    }
+}
+
+impl<'p> Text<'p> {
+    pub fn of(program: &'p Program) -> Self {
+        let source = program.source();
+        let mut starts = vec![0];
+        for (i, byte) in source.iter().enumerate() {
+            let ends = match byte {
+                b'\n' => true,
+                b'\r' => source.get(i + 1) != Some(&b'\n'),
+                _ => false,
+            };
+            if ends {
+                starts.push(i + 1);
+            }
+        }
+        let lines = vec![Line::AsItWas; starts.len()];
+        let uses_increments = source.windows(3).any(|w| w.eq_ignore_ascii_case(b"G91"));
+        Self { program, starts, lines, incremental: (0, false), uses_increments }
+    }
+
+    pub fn control(&self) -> Control {
+        self.program.dialect().control
+    }
+
+    pub fn source(&self) -> &'p [u8] {
+        self.program.source()
+    }
+
+    /// The bytes of a line from 1, without its end.
+    fn line(&self, line: u32) -> Range<usize> {
+        let index = line as usize - 1;
+        let source = self.source();
+        let start = self.starts.get(index).copied().unwrap_or(source.len());
+        let mut end = self.starts.get(index + 1).copied().unwrap_or(source.len());
+        while end > start && matches!(source[end - 1], b'\n' | b'\r') {
+            end -= 1;
+        }
+        start..end
+    }
+
+    fn ending(&self, line: u32) -> &'p [u8] {
+        let next = self.starts.get(line as usize).copied().unwrap_or(self.source().len());
+        &self.source()[self.line(line).end..next]
+    }
+
+    /// The words of a line from 1, and whether its numbers are increments.
+    pub fn words(&mut self, line: u32) -> (Words, bool) {
+        let (source, dialect) = (self.program.source(), self.program.dialect());
+        let index = line as usize;
+        if self.uses_increments && index > self.incremental.0 {
+            for number in self.incremental.0 + 1..=index {
+                let words = Words::read(source, dialect, self.line(number as u32));
+                self.incremental.1 = words.incremental.unwrap_or(self.incremental.1);
+            }
+            self.incremental.0 = index;
+        }
+        (Words::read(source, dialect, self.line(line)), self.incremental.1)
+    }
+
+    /// The line was executed and stays as it is; `false` if it was changed before.
+    pub fn keep(&mut self, line: u32) -> bool {
+        let at = &mut self.lines[line as usize - 1];
+        match at {
+            Line::AsItWas => *at = Line::Seen,
+            Line::Seen => {}
+            Line::Changed(..) => return false,
+        }
+        true
+    }
+
+    /// The line is changed and others follow it; `false` if it was executed before with another
+    /// outcome.
+    pub fn change(&mut self, line: u32, edits: Edits, further: &[String]) -> bool {
+        let mut text = edits.apply(self.source(), self.line(line));
+        let ending = self.ending(line);
+        for more in further {
+            text.extend_from_slice(if ending.is_empty() { b"\n" } else { ending });
+            text.extend_from_slice(more.as_bytes());
+        }
+        text.extend_from_slice(ending);
+        let changed = Line::Changed(text.into(), 1 + further.len() as u32);
+        let at = &mut self.lines[line as usize - 1];
+        match at {
+            Line::AsItWas => *at = changed,
+            same => return *same == changed,
+        }
+        true
+    }
+
+    /// Whether the line was executed already.
+    pub fn was_executed(&self, line: u32) -> bool {
+        self.lines[line as usize - 1] != Line::AsItWas
+    }
+
+    /// The new text with a comment behind its heading, and the new number of each line.
+    pub fn finish(self, comment: &str) -> (Vec<u8>, Vec<u32>) {
+        let heading = self.heading();
+        let ending: &[u8] = match self.starts.len() {
+            1 => b"\n",
+            _ => self.ending(1),
+        };
+        let mut out = Vec::with_capacity(self.source().len() + 256);
+        let mut numbers = Vec::with_capacity(self.lines.len());
+        let mut number = 1;
+        for (i, line) in self.lines.iter().enumerate() {
+            if i == heading {
+                out.extend_from_slice(comment.as_bytes());
+                out.extend_from_slice(ending);
+                number += 1;
+            }
+            numbers.push(number);
+            match line {
+                Line::Changed(text, count) => {
+                    out.extend_from_slice(text);
+                    number += count;
+                }
+                Line::AsItWas | Line::Seen => {
+                    let end = self.starts.get(i + 1).copied().unwrap_or(self.source().len());
+                    out.extend_from_slice(&self.source()[self.starts[i]..end]);
+                    number += 1;
+                }
+            }
+        }
+        (out, numbers)
+    }
+
+    /// Lines that have to stand first: tape marks, program numbers and names.
+    fn heading(&self) -> usize {
+        let is_heading = |line: usize| {
+            let range = self.line(line as u32 + 1);
+            let text = String::from_utf8_lossy(&self.source()[range]).trim().to_ascii_uppercase();
+            let number =
+                |t: &str| t.starts_with('O') && t[1..].starts_with(|c: char| c.is_ascii_digit());
+            text.is_empty()
+                || text.starts_with('%')
+                || text.starts_with(";$PATH")
+                || number(&text)
+                || text.contains("BEGIN PGM")
+        };
+        (0..self.starts.len().min(20)).find(|i| !is_heading(*i)).unwrap_or(0)
+    }
+}

@@ -1,0 +1,211 @@
+//! Compensated programs on every machine, for every control: the actual tool goes where the
+//! programmed one should.
+
+#![allow(clippy::print_stdout, reason = "the whole set says what it found")]
+
+mod library;
+
+use library::paths::{cl, free_form, ways};
+use library::{MACHINES, bare, machine};
+use trueaxis::compensate::post::post;
+use trueaxis::compensate::program::{
+    Increments, MARK, ProgramOptions, Rewritten, compensate_program,
+};
+use trueaxis::geometry::input::Diagnostics;
+use trueaxis::machine::Machine;
+use trueaxis::nc::writer::TipWords;
+use trueaxis::nc::{Control, Program};
+use trueaxis::simulate::SetUp;
+
+fn name(control: Control) -> &'static str {
+    match control {
+        Control::Fanuc => "a.nc",
+        Control::Sinumerik840d => "a.mpf",
+        Control::Heidenhain => "a.h",
+        Control::LinuxCnc => "a.ngc",
+    }
+}
+
+fn compensated(
+    machine: &Machine,
+    text: &[u8],
+    control: Control,
+    options: &ProgramOptions,
+) -> (Option<Rewritten>, Diagnostics) {
+    let program = Program::new(name(control), text.to_vec(), control);
+    compensate_program(machine, &program, &SetUp::default(), options)
+}
+
+fn codes(problems: &Diagnostics) -> Vec<String> {
+    let errors = problems.iter().filter(|d| d.code != "no-set-up" && d.code != "assumed-limits");
+    errors.map(ToString::to_string).collect()
+}
+
+/// All machines and all ways to write a program; what is left in the worst case, mm and rad.
+fn prove_all(increments: Option<Increments>, points: usize) -> [f64; 4] {
+    let options = ProgramOptions { increments, ..ProgramOptions::default() };
+    let mut worst = [0.0_f64; 4];
+    let (mut faults, mut poles) = (Vec::new(), 0);
+    for name in MACHINES {
+        let machine = machine(name);
+        for (i, way) in ways().iter().enumerate() {
+            let path = free_form(&machine, 7 * i as u64 + name.len() as u64, points);
+            let (posted, problems) = post(&machine, &cl(&path), way);
+            let posted = posted.unwrap_or_else(|| panic!("{problems:?}"));
+            let (done, problems) = compensated(&machine, &posted.text, way.control, &options);
+            // Vectors cannot say which way the rotary axes pass a pole: refused by name.
+            let near_pole =
+                problems.iter().any(|d| ["other-place", "not-proved"].contains(&d.code));
+            if done.is_none() && near_pole && way.tip_words == Some(TipWords::Vectors) {
+                poles += 1;
+                continue;
+            }
+            let Some(done) = done else {
+                faults.push(format!(
+                    "{name} {:?} {:?}: {:?}",
+                    way.control,
+                    way.tip_words,
+                    codes(&problems)
+                ));
+                continue;
+            };
+            let after = done.proof.after;
+            let five = machine.axes().len() == 5 && done.found.axis_left.is_empty();
+            let decided = done.found.undecided == 0;
+            let found = [
+                if decided { after.tip_end.value } else { 0.0 },
+                if five && decided { after.axis_end.value } else { 0.0 },
+                if decided { after.tip.value } else { 0.0 },
+                if five && decided { after.axis.value } else { 0.0 },
+            ];
+            println!(
+                "{name:15} {:?} {:?}: {} blocks {} pieces, {} undecided, {:?}: {found:?} before {:?}",
+                way.control,
+                way.tip_words,
+                done.found.blocks,
+                done.found.pieces,
+                done.found.undecided,
+                done.found.axis_left,
+                done.proof.before.tip_end
+            );
+            worst = std::array::from_fn(|k| worst[k].max(found[k]));
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+    println!("{poles} vector programs refused at a pole");
+    assert!(poles <= 4, "{poles} refused");
+    worst
+}
+
+#[test]
+fn law_without_rounding_every_block_end_is_met() {
+    let worst = prove_all(None, 40);
+    println!("without rounding: {worst:?}");
+    assert!(worst[0] <= 1e-9 && worst[1] <= 1e-12, "{worst:?}");
+    assert!(worst[2] <= 1e-3 && worst[3] <= 1e-5, "{worst:?}");
+}
+
+#[test]
+fn law_with_rounding_every_block_end_is_met_within_an_increment() {
+    let worst = prove_all(Some(Increments::default()), 40);
+    println!("with increments: {worst:?}");
+    assert!(worst[0] <= 1e-3, "{worst:?}");
+    assert!(worst[2] <= 2e-3, "{worst:?}");
+}
+
+/// The new text without its mark, or why there is none.
+fn rewritten(machine: &Machine, text: &str, control: Control, options: &ProgramOptions) -> String {
+    let (done, problems) = compensated(machine, text.as_bytes(), control, options);
+    let Some(done) = done else { panic!("{:?}", codes(&problems)) };
+    let text = String::from_utf8(done.text).unwrap();
+    let marked = text.split_inclusive('\n').filter(|l| !l.contains(MARK));
+    marked.collect()
+}
+
+#[test]
+fn law_a_machine_without_errors_leaves_every_byte() {
+    let texts = [
+        (
+            Control::Fanuc,
+            "%\r\nO0001(X)\r\nG21G90G94F500\r\nG0X10.Y20.\r\n  G1 X15.  (a)\r\nG2X20.Y25.R5.\r\n\r\nM30\r\n%\r\n",
+        ),
+        (
+            Control::Sinumerik840d,
+            "N1 G90 G94 F500\nG0 X=10 Y=AC(20) ; c\nG2 X20 Y30 CR=10\nG1 X=IC(5)\nM30",
+        ),
+        (
+            Control::Heidenhain,
+            "0 BEGIN PGM A MM\n1 L X+10 Y+20 FMAX\n2 L IX+5 R0 F500\n3 CC X+20 Y+20\n4 C X+25 Y+20 DR+\n5 M30\n6 END PGM A MM\n",
+        ),
+        (Control::LinuxCnc, "G21 G90 G94 F500\nG0 X10 Y20\ng1 x[10+5]\nG91\nG1 X5\nM2\n"),
+    ];
+    let machine = bare("three-axis-mill");
+    for increments in [None, Some(Increments::default())] {
+        let options = ProgramOptions { increments, ..ProgramOptions::default() };
+        for (control, text) in texts {
+            assert_eq!(rewritten(&machine, text, control, &options), text, "{control:?}");
+        }
+    }
+}
+
+#[test]
+fn circles_become_lines_within_the_residual_in_every_dialect() {
+    let texts = [
+        (
+            Control::Fanuc,
+            "G21 G90 G94 F500\nG0 X100. Y100. Z-50.\nG1 X110.\nG2 X150. Y140. I40. J0. M5\nG1 X110.\nM30\n",
+        ),
+        (
+            Control::Sinumerik840d,
+            "G90 G94 F500\nG0 X100 Y100 Z-50\nG1 X110\nG2 X150 Y140 CR=40 M5\nG1 X110\nM30\n",
+        ),
+        (
+            Control::Heidenhain,
+            "0 BEGIN PGM A MM\n1 L X+100 Y+100 Z-50 R0 FMAX\n2 L X+110 F500\n3 CC X+150 Y+100\n4 C X+150 Y+140 DR- M5\n5 L X+110\n6 M30\n7 END PGM A MM\n",
+        ),
+        (
+            Control::LinuxCnc,
+            "G21 G90 G94 F500\nG0 X100 Y100 Z-50\nG1 X110\nG2 X150 Y140 I40 J0 M5\nG1 X110\nM2\n",
+        ),
+    ];
+    let machine = machine("three-axis-mill");
+    for (control, text) in texts {
+        let (done, problems) =
+            compensated(&machine, text.as_bytes(), control, &ProgramOptions::default());
+        let Some(done) = done else { panic!("{control:?} {:?}", codes(&problems)) };
+        assert_eq!((done.found.circles, done.found.blocks), (1, 4), "{control:?}");
+        let new = String::from_utf8(done.text).unwrap();
+        assert!(!new.contains("G2 ") && !new.contains("CR=") && !new.contains("DR-"), "{new}");
+        // M5 acts when the whole circle is cut.
+        let at = new.lines().position(|l| l.contains("M5")).unwrap();
+        let last = new.lines().nth(at).unwrap();
+        let x: f64 = last.split(['X', ' ']).find_map(|w| w.parse().ok()).unwrap();
+        assert!((x - 150.0).abs() < 0.1, "{last}");
+        assert!(done.proof.after.tip.value <= 3e-3, "{control:?} {:?}", done.proof.after);
+    }
+}
+
+#[test]
+fn a_block_that_only_turns_takes_the_same_time() {
+    let machine = machine("i5-engraver");
+    let text = "G21 G90 G94\nG0 X10 Y10 Z-30 A10 C0\nG1 X12 F500\nG1 C40 F1000\nG1 X14\nM2\n";
+    let options = ProgramOptions::default();
+    let new = rewritten(&machine, text, Control::LinuxCnc, &options);
+    let feed = |line: &str| -> Option<f64> { line.split('F').nth(1)?.trim().parse().ok() };
+    let turning = new.lines().find(|l| l.contains("C40.") || l.contains("C39.")).unwrap();
+    assert!(feed(turning).unwrap() < 100.0, "{new}");
+    let behind = new.lines().find(|l| l.starts_with("G1 X14") || l.starts_with("G1 X13")).unwrap();
+    assert_eq!(feed(behind), Some(1000.0), "{new}");
+}
+
+#[test]
+fn inverse_time_is_divided_among_the_pieces() {
+    let machine = machine("three-axis-mill");
+    let text = "G21 G90 G93\nG0 X10 Y100 Z-50\nG1 X20 F2\nG1 X280 Y190 F0.5\nM2\n";
+    let options = ProgramOptions { residual_mm: 1e-4, ..ProgramOptions::default() };
+    let new = rewritten(&machine, text, Control::LinuxCnc, &options);
+    let feeds = new.lines().skip(2).filter_map(|l| l.split('F').nth(1));
+    let minutes: f64 = feeds.map(|f| 1.0 / f.trim().parse::<f64>().unwrap()).sum();
+    assert!(new.lines().count() > 6, "{new}");
+    assert!((minutes - 2.5).abs() < 1e-4, "{minutes}: {new}");
+}
