@@ -4,7 +4,7 @@
 
 mod library;
 
-use library::paths::{CONTROLS, cl, free_form, ways};
+use library::paths::{cl, free_form, ways};
 use library::{MACHINES, machine};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
@@ -12,10 +12,9 @@ use std::fmt::Write;
 use trueaxis::compensate::post::{FeedRule, PostOptions, Posted, post, verify};
 use trueaxis::geometry::Vec3;
 use trueaxis::machine::Machine;
-use trueaxis::machine::axis::{AxisKind, Command, Travel};
+use trueaxis::machine::axis::Command;
 use trueaxis::machine::file::NoTables;
 use trueaxis::machine::tcp::TipControl;
-use trueaxis::nc::cl::{ClFile, Reading};
 use trueaxis::nc::moves::{Axis, Feed, FeedMode, Move, MoveKind};
 use trueaxis::nc::writer::TipWords;
 use trueaxis::nc::{Control, NoLibrary, Program, Settings, Step, interpret};
