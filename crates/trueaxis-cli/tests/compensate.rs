@@ -146,3 +146,59 @@ fn tables_and_a_test_piece() {
     assert!(indices.len() >= 11);
     assert!(indices.iter().all(|i| i["left_um"] != i["before_um"]));
 }
+
+/// What the control compensates already is left to it: by tables and by programs.
+#[test]
+fn nothing_is_compensated_twice() {
+    let folder = Folder::new("compensate-twice");
+    let text = "[machine]\nname = \"mill\"\nchain = \"w b X Y Z t\"\n\
+                [axis.X]\ntravel = [\"0 mm\", \"500 mm\"]\n[axis.Y]\ntravel = [\"0 mm\", \"400 mm\"]\n\
+                [axis.Z]\ntravel = [\"0 mm\", \"300 mm\"]\n\
+                [location]\nEC0Y = \"50 ± 1 urad\"\nEB0Z = \"40 ± 1 urad\"\n";
+    let bare = folder.file("bare.toml", text);
+    let active = format!("{text}[compensation]\nactive = [\"EC0Y\"]\n");
+    let active = folder.file("active.toml", active);
+    let unknown = format!("{text}[compensation]\nactive = [\"EQ0Y\"]\n");
+    let unknown = folder.file("unknown.toml", unknown);
+    let tables = |machine: &str, out: &str| {
+        let out = folder.path(out);
+        trueaxis(&[
+            "compensate",
+            "tables",
+            machine,
+            "--target",
+            "csv",
+            "-o",
+            &out,
+            "--format",
+            "json",
+        ])
+    };
+    let represented = |ran: &command::Ran| ran.json()["represents"].to_string();
+    let ran = tables(&bare, "a");
+    assert_eq!((ran.status, represented(&ran)), (0, "[\"EC0Y\",\"EB0Z\"]".to_owned()));
+    let ran = tables(&active, "b");
+    assert_eq!((ran.status, represented(&ran)), (0, "[\"EB0Z\"]".to_owned()));
+    assert!(ran.err.contains("not compensated again: EC0Y"), "{}", ran.err);
+    let ran = tables(&unknown, "c");
+    assert_eq!(ran.status, 2);
+    assert!(ran.err.contains("EQ0Y"), "{}", ran.err);
+    // X = 0 + 300 · 40 µrad only: the squareness of Y is the control's own affair.
+    let program =
+        folder.file("p.nc", "O1\nG90 G21 G0 X100 Y100 Z100\nG1 X200. Y400. Z300. F500\nM30\n");
+    let out = folder.path("p-comp.nc");
+    let ran = trueaxis(&[
+        "compensate",
+        "program",
+        &active,
+        &program,
+        "-o",
+        &out,
+        "--report",
+        &folder.path("r.html"),
+    ]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    assert!(ran.err.contains("not compensated again: EC0Y"), "{}", ran.err);
+    let written = std::fs::read_to_string(out).expect("the program");
+    assert!(written.contains("X199.988") || written.contains("X200.012"), "{written}");
+}

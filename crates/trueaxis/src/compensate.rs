@@ -3,7 +3,7 @@
 //! - [`values`]: per axis and position, in least increments;
 //! - [`adapt`](mod@adapt): a path moved onto the blank that was probed, and what wall it leaves;
 //! - [`program`]: an NC program, so that the actual tool goes where it says;
-//! - [`post`](mod@post): cutter locations into an NC program of one control, with its proof.
+//! - [`post`](mod@post): cutter locations into an NC program of one control, with its proof;
 //! - [`tables`](mod@tables): tables of controls, read back and proved.
 
 pub mod adapt;
@@ -11,3 +11,20 @@ pub mod post;
 pub mod program;
 pub mod tables;
 pub mod values;
+
+use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_machine::Machine;
+
+/// The machine as commands meet it: what the control compensates already (`[compensation] active` of the
+/// machine file) is not compensated again, and that is told.
+pub fn not_twice(machine: &Machine, place: Place, problems: &mut Diagnostics) -> Machine {
+    let active = machine.active_compensation();
+    if !active.is_empty() {
+        let names: Vec<String> = active.iter().map(ToString::to_string).collect();
+        let message = format!("not compensated again: {}", names.join(" "));
+        let hint = "the machine file says that their tables are active in the control: leave them on, and \
+                    load nothing over them";
+        problems.note("already-active", place, message, hint);
+    }
+    machine.with_active_compensation()
+}

@@ -3,6 +3,7 @@ use crate::output::{Answer, Format, Outcome, report, show};
 use crate::report_file::unusable;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
+use trueaxis::compensate::not_twice;
 use trueaxis::compensate::tables::proof::{IndexLeft, piece_left};
 use trueaxis::compensate::tables::{Compiled, Order, TablesError, Target, compile};
 use trueaxis::files;
@@ -89,6 +90,8 @@ pub fn run(arguments: &TablesArguments) -> Outcome {
     let mut problems = Diagnostics::new();
     may_fill(&arguments.output, &mut problems);
     let machine = arguments.machine.read(&mut problems);
+    let place = Place::whole(&arguments.machine.path().display().to_string());
+    let machine = machine.map(|machine| not_twice(&machine, place, &mut problems));
     let order = machine.as_ref().and_then(|m| arguments.order(m, &mut problems));
     let found = match (machine, order) {
         (Some(machine), Some(order)) if !problems.has_errors() => {
@@ -252,7 +255,8 @@ fn cut(
 ) -> Option<Vec<IndexLeft>> {
     let (study, found) = read_study(path);
     problems.append(found);
-    let study = study?;
+    let mut study = study?;
+    study.machine = study.machine.with_active_compensation();
     let place = Place::whole(&path.display().to_string());
     if study.machine.axes() != machine.axes() {
         let message = "its machine has other axes than that of the tables".to_owned();

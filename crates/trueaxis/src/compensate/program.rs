@@ -118,7 +118,7 @@ pub fn compensate_program(
         problems.error("already-compensated", Place::whole(program.file()), message, hint);
         return (None, problems);
     }
-    let machine = &not_twice(machine, program, &mut problems);
+    let machine = &super::not_twice(machine, Place::whole(program.file()), &mut problems);
     let mut told = std::mem::take(&mut problems);
     let mut best = None;
     for attempt in 0..TRIES {
@@ -139,18 +139,6 @@ pub fn compensate_program(
     }
     told.append(problems);
     (best.filter(|_| !told.has_errors()), told)
-}
-
-/// The machine as the program meets it: what the control compensates is not compensated again.
-fn not_twice(machine: &Machine, program: &Program, problems: &mut Diagnostics) -> Machine {
-    let active = machine.active_compensation();
-    if !active.is_empty() {
-        let names: Vec<String> = active.iter().map(ToString::to_string).collect();
-        let message = format!("not compensated again: {}", names.join(" "));
-        let hint = "the machine file says that their tables are active in the control";
-        problems.note("already-active", Place::whole(program.file()), message, hint);
-    }
-    machine.with_active_compensation()
 }
 
 fn densify(options: &ProgramOptions, attempt: u32) -> Densify {
