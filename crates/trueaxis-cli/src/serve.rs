@@ -15,10 +15,10 @@ Examples:
   trueaxis serve ~/my-machine --open
   trueaxis serve --listen 0.0.0.0 --port 8080
 
-Prints the address and serves until Ctrl-C. Nothing outside the folder is read or written, and nobody
-but this computer can ask, unless --listen says otherwise: then the printed address has a token, and
-without it nobody is answered. There is no encryption: beyond a trusted network put a TLS proxy before
-it. Exit status: 2 if the folder or the port cannot be used.")]
+Prints the address and serves until Ctrl-C. Nothing outside the folder is read or written, and
+only this computer can ask, unless --listen says otherwise: then the printed address has a
+token, and without it nobody is answered. There is no encryption: beyond a trusted network put
+a TLS proxy before it. Exit status: 2 if the folder or the port cannot be used.")]
 pub struct Arguments {
     /// The project folder: machine files, programs, studies, readings
     #[arg(value_name = "FOLDER", default_value = ".")]
