@@ -93,7 +93,7 @@ function shiftable(shift: { value: Vector2 }): LineBasicMaterial {
   return material;
 }
 
-/** One polyline of any length: one geometry, whatever is done shown bright, the rest dim. */
+/** One polyline of any length, coloured by its values: what is done thick and bright, the rest thin and paler. */
 export class PathLayer {
   readonly group = new Group();
   readonly range: [number, number];
@@ -110,7 +110,7 @@ export class PathLayer {
   /** Indices of the points that are drawn, ascending. */
   private readonly kept: Uint32Array;
 
-  constructor(data: PathData, colours: { dim: string; ghost: string }, budget = 2_000_000) {
+  constructor(data: PathData, ghost: string, budget = 2_000_000) {
     this.data = data;
     this.count = Math.floor(data.positions.length / 3);
     this.range = data.range ?? rangeOf(data.values);
@@ -119,13 +119,14 @@ export class PathLayer {
     const position = new BufferAttribute(data.positions, 3);
     this.geometry.setAttribute("position", position).setIndex(index);
     const rapid = data.rapid;
-    this.geometry.setAttribute("color", new BufferAttribute(paint(data.values, data.map ?? sequential, this.range, (i) => (rapid?.[i] ? 70 : 255)), 4, true));
-    this.rest = new BufferGeometry().setAttribute("position", position).setIndex(index);
+    const colour = new BufferAttribute(paint(data.values, data.map ?? sequential, this.range, (i) => (rapid?.[i] ? 70 : 255)), 4, true);
+    this.geometry.setAttribute("color", colour);
+    this.rest = new BufferGeometry().setAttribute("position", position).setAttribute("color", colour).setIndex(index);
     this.done = new Line(this.geometry, shiftable({ value: new Vector2() }));
     this.beside = this.shifts.map((shift) => new Line(this.geometry, shiftable(shift)));
-    this.dim = new Line(this.rest, new LineBasicMaterial({ color: colours.dim, transparent: true, opacity: 0.35 }));
-    if (data.deviations) this.ghost = new Line(new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(data.positions.length), 3)).setIndex(index), new LineBasicMaterial({ color: colours.ghost, transparent: true, opacity: 0.8 }));
-    for (const line of [this.done, ...this.beside]) line.renderOrder = 8;
+    this.dim = new Line(this.rest, new LineBasicMaterial({ vertexColors: true, transparent: true, opacity: 0.9, depthTest: false }));
+    if (data.deviations) this.ghost = new Line(new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(data.positions.length), 3)).setIndex(index), new LineBasicMaterial({ color: ghost, transparent: true, opacity: 0.8 }));
+    for (const line of [this.dim, this.done, ...this.beside]) line.renderOrder = 8;
     this.group.add(this.dim, this.done, ...this.beside);
     if (this.ghost) this.group.add(this.ghost);
     for (const line of this.group.children) line.frustumCulled = false;

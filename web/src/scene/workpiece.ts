@@ -27,7 +27,7 @@ export class WorkpieceLayers {
   setPath(data: PathData | null, most_points: number, bar?: BarWords): void {
     this.path?.group.removeFromParent();
     this.path?.dispose();
-    this.path = data && new PathLayer(data, { dim: cssColour("--muted"), ghost: cssColour("--scene-ghost") }, most_points);
+    this.path = data && new PathLayer(data, cssColour("--scene-ghost"), most_points);
     if (this.path) {
       this.path.setExaggeration(this.k);
       this.path.setGhostVisible(this.show_ghost);

@@ -61,7 +61,7 @@ export class ToolPath {
     this.request();
   }
 
-  /** What is done by now is bright. */
+  /** What is done by now is bright; before the first move all of it is, as a preview. */
   setTime(time_s: number): void {
     this.now_s = time_s;
     let [done, above] = [0, this.time_s.length];
@@ -70,7 +70,7 @@ export class ToolPath {
       if ((this.time_s[middle] as number) <= time_s) done = middle + 1;
       else above = middle;
     }
-    this.view.setPathProgress(done);
+    this.view.setPathProgress(time_s > 0 ? done : this.time_s.length);
   }
 
   private pick(colour: Colour): void {
