@@ -4,8 +4,9 @@ import assert from 'node:assert/strict';
 import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
-import { after, before, test } from 'node:test';
-import { browse, cli, open, picture, root, serve } from './served.mjs';
+import { test } from 'node:test';
+import { cli, open, picture, root, serve } from './served.mjs';
+import { browser, server } from './shared.mjs';
 
 /** A window on an address within the page. */
 async function opened(address, hash, options) {
@@ -18,17 +19,6 @@ async function opened(address, hash, options) {
 const shown = (text) => Number(text.replace('\u2212', '-').replace(/[^\d.eE+-]/g, ''));
 const near = (text, value, digits, what) =>
   assert.ok(Math.abs(shown(text) - value) <= 0.5 * 10 ** -digits + 1e-9, `${what}: shown ${text}, is ${value}`);
-
-let browser;
-let server;
-before(async () => {
-  browser = await browse();
-  server = await serve();
-});
-after(async () => {
-  await browser?.close();
-  await server?.stop();
-});
 
 /** Does something to the page and waits until the pose that belongs to it is shown. */
 async function settled(page, words) {

@@ -2,22 +2,13 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import path from 'node:path';
-import { after, before, test } from 'node:test';
-import { browse, cli, open, picture, root, serve } from './served.mjs';
+import { test } from 'node:test';
+import { cli, open, picture, root } from './served.mjs';
+import { browser, server } from './shared.mjs';
 import { downloaded, drop, exports, shown, table } from './measured.mjs';
 
 const single = 'examples/05_identify/probe-ball.toml';
 const mixed = 'examples/05_identify/mixed-instruments.toml';
-let served;
-let browser;
-before(async () => {
-  served = await serve();
-  browser = await browse();
-});
-after(async () => {
-  await browser?.close();
-  served?.stop();
-});
 
 async function openCampaign(page, campaign) {
   await page.click(`[data-example="${campaign}"]`);
@@ -53,7 +44,7 @@ async function arrowsAreToScale(page) {
 }
 
 test('verdict, scores, errors with uncertainty, residuals, correlation', async () => {
-  const { page, context, complaints } = await open(browser, served.address);
+  const { page, context, complaints } = await open(browser, server.address);
   await openCampaign(page, mixed);
   const document = await cli('identify', mixed);
   const verdict = await page.textContent('#tab-identify [data-test="verdict"]');
@@ -86,7 +77,7 @@ test('verdict, scores, errors with uncertainty, residuals, correlation', async (
 });
 
 test('what cannot be told is said in words, and the machine can be saved', async () => {
-  const { page, context, complaints } = await open(browser, served.address);
+  const { page, context, complaints } = await open(browser, server.address);
   await openCampaign(page, single);
   const document = await cli('identify', single);
   const text = await page.textContent('#tab-identify [data-test="confounded"]');
@@ -105,7 +96,7 @@ test('what cannot be told is said in words, and the machine can be saved', async
 });
 
 test('dropped readings give the same as the file; of several instruments one is asked for', async () => {
-  const { page, context, complaints } = await open(browser, served.address);
+  const { page, context, complaints } = await open(browser, server.address);
   await openCampaign(page, single);
   const from_file = await table(page, 'values');
   await drop(page, '#tab-identify', 'again.csv', readFileSync(path.join(root, 'examples/05_identify/probe-ball.csv'), 'utf8'));
@@ -123,7 +114,7 @@ test('dropped readings give the same as the file; of several instruments one is 
 });
 
 test('a bad cell of dropped readings is named with its line', async () => {
-  const { page, context, complaints } = await open(browser, served.address);
+  const { page, context, complaints } = await open(browser, server.address);
   await openCampaign(page, single);
   const lines = readFileSync(path.join(root, 'examples/05_identify/probe-ball.csv'), 'utf8').split('\n');
   const row = lines.findIndex((line) => /^[-\d]/.test(line));

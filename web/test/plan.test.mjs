@@ -4,22 +4,13 @@ import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
-import { after, before, test } from 'node:test';
-import { browse, cli, open, picture, root, serve } from './served.mjs';
+import { test } from 'node:test';
+import { cli, open, picture, root } from './served.mjs';
+import { browser, server } from './shared.mjs';
 import { downloaded, drop, exports, shown, table } from './measured.mjs';
 
 const probe = 'examples/04_plan/probe-ball.toml';
 const touch = 'examples/04_plan/touch-probe-5-minutes.toml';
-let served;
-let browser;
-before(async () => {
-  served = await serve();
-  browser = await browse();
-});
-after(async () => {
-  await browser?.close();
-  served?.stop();
-});
 
 async function openCampaign(page, campaign) {
   await page.click(`[data-example="${campaign}"]`);
@@ -37,7 +28,7 @@ async function expected(page, document) {
 }
 
 test('paths, expected uncertainty, confounded combinations, what each path sees', async () => {
-  const { page, context, complaints } = await open(browser, served.address);
+  const { page, context, complaints } = await open(browser, server.address);
   await openCampaign(page, probe);
   const document = await cli('plan', probe);
   const rows = await page.$$eval('#tab-plan .paths tbody tr', (all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
@@ -66,7 +57,7 @@ test('paths, expected uncertainty, confounded combinations, what each path sees'
 });
 
 test('a click on a station puts the machine there', async () => {
-  const { page, context, complaints } = await open(browser, served.address);
+  const { page, context, complaints } = await open(browser, server.address);
   await openCampaign(page, probe);
   await page.click('#tab-plan [data-path="C"]');
   await page.click('#tab-plan [data-station="5"]');
@@ -84,7 +75,7 @@ test('a click on a station puts the machine there', async () => {
 });
 
 test('programs of every control can be saved', async () => {
-  const { page, context, complaints } = await open(browser, served.address);
+  const { page, context, complaints } = await open(browser, server.address);
   await openCampaign(page, probe);
   await page.selectOption('#tab-plan [data-test="dialect"]', 'heidenhain');
   const save = page.getByRole('button', { name: 'Save 01-a.h' });
@@ -97,7 +88,7 @@ test('programs of every control can be saved', async () => {
 });
 
 test('the chosen poses of the five minutes stand against a grid', async () => {
-  const { page, context, complaints } = await open(browser, served.address);
+  const { page, context, complaints } = await open(browser, server.address);
   await openCampaign(page, touch);
   const document = await cli('plan', touch);
   const { chosen } = document;
@@ -115,7 +106,7 @@ test('readings dropped on a plan are identified with its campaign', async () => 
   const folder = mkdtempSync(path.join(tmpdir(), 'trueaxis-plan-'));
   const binary = process.env.TRUEAXIS ?? path.join(root, 'target/release/trueaxis');
   execFileSync(binary, ['measure', probe, '-o', folder], { cwd: root });
-  const { page, context, complaints } = await open(browser, served.address);
+  const { page, context, complaints } = await open(browser, server.address);
   await openCampaign(page, probe);
   await drop(page, '#tab-plan', 'probe.csv', readFileSync(path.join(folder, 'probe.csv'), 'utf8'));
   await page.waitForSelector('#tab-identify [data-test="verdict"]');

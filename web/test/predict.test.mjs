@@ -4,23 +4,13 @@ import assert from 'node:assert/strict';
 import { appendFileSync, cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
-import { after, before, test } from 'node:test';
-import { browse, cli, open, picture, root, serve } from './served.mjs';
+import { test } from 'node:test';
+import { cli, open, picture, root, serve } from './served.mjs';
+import { browser, server } from './shared.mjs';
 
 const NAS = 'examples/03_predict/nas979-on-xkas2525.toml';
 const FAILING = 'examples/03_predict/nas979-head-out-of-square.toml';
 const HOLES = 'examples/03_predict/torque-arm.toml';
-
-let server;
-let browser;
-before(async () => {
-  server = await serve();
-  browser = await browse();
-});
-after(async () => {
-  await browser?.close();
-  server?.stop();
-});
 
 /** µm with one digit, as the page writes it. */
 const micro = (mm) => (1e3 * mm).toFixed(1).replace('-', '\u2212').replace(/^\u22120\.0$/, '0.0');

@@ -2,22 +2,12 @@
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
-import { after, before, test } from 'node:test';
-import { browse, cli, open, picture, serve } from './served.mjs';
+import { test } from 'node:test';
+import { cli, open, picture } from './served.mjs';
+import { browser, server } from './shared.mjs';
 
 const FAILING = 'examples/03_predict/nas979-head-out-of-square.toml';
 const LASER = 'examples/07_verify/x-axis-laser.csv';
-
-let server;
-let browser;
-before(async () => {
-  server = await serve();
-  browser = await browse();
-});
-after(async () => {
-  await browser?.close();
-  server?.stop();
-});
 
 const made = (page) => page.waitForFunction(() => document.querySelector('[data-test=report-note]')?.textContent?.includes('.html'));
 

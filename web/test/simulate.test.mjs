@@ -4,26 +4,15 @@ import assert from 'node:assert/strict';
 import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
-import { after, before, test } from 'node:test';
-import { browse, cli, open, picture, root, serve } from './served.mjs';
+import { test } from 'node:test';
+import { cli, open, picture, root, serve } from './served.mjs';
+import { browser, server } from './shared.mjs';
 
 const engraver = 'machines/i5-engraver/machine.toml';
 const gantry = 'machines/wyxzcat-gantry/machine.toml';
 const impeller = 'examples/02_simulate/impeller-840d.mpf';
 const ring = 'examples/02_simulate/ring-fanuc.nc';
 const collision = 'examples/02_simulate/collision-fanuc.nc';
-let server;
-let browser;
-
-before(async () => {
-  server = await serve();
-  browser = await browse();
-});
-
-after(async () => {
-  await browser?.close();
-  server?.stop();
-});
 
 const clock = (s) => `${Math.floor(s / 60)}:${(s - 60 * Math.floor(s / 60)).toFixed(1).padStart(4, '0')}`;
 const um = (v) => `${v.toFixed(1)}\u202fµm`.replace('-', '\u2212');

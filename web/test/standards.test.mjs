@@ -2,21 +2,12 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import path from 'node:path';
-import { after, before, test } from 'node:test';
-import { browse, cli, open, picture, root, serve } from './served.mjs';
+import { test } from 'node:test';
+import { cli, open, picture, root } from './served.mjs';
+import { browser, server } from './shared.mjs';
 import { drop, exports, shown, table } from './measured.mjs';
 
 const laser = 'examples/07_verify/x-axis-laser.csv';
-let served;
-let browser;
-before(async () => {
-  served = await serve();
-  browser = await browse();
-});
-after(async () => {
-  await browser?.close();
-  served?.stop();
-});
 
 /** Rows of the table of figures, as text. */
 const figures = (page) => table(page, 'figures');
@@ -27,7 +18,7 @@ async function openStandard(page, file) {
 }
 
 test('ISO 230-2: figures with uncertainty, charts, every target', async () => {
-  const { page, context, complaints } = await open(browser, served.address);
+  const { page, context, complaints } = await open(browser, server.address);
   await openStandard(page, laser);
   const document = await cli('evaluate', 'iso230-2', laser);
   const keys = ['A', 'A_up', 'A_down', 'R', 'R_up', 'R_down', 'E', 'E_up', 'E_down', 'M', 'B', 'B_mean'];
@@ -59,7 +50,7 @@ test('ISO 230-2: figures with uncertainty, charts, every target', async () => {
 });
 
 test('the other standards show their figures', async () => {
-  const { page, context, complaints } = await open(browser, served.address);
+  const { page, context, complaints } = await open(browser, server.address);
   const cases = [
     ['iso230-4', 'examples/07_verify/circle-xy.csv', (d) => [[2, d.G_ccw_um], [2, d.F_ccw_max_um], [2, d.F_ccw_min_um], [2, d.G_cw_um]]],
     ['iso230-6', 'examples/07_verify/body-diagonals.csv', (d) => ['E_d', 'E_d_up', 'E_d_down', 'R_d', 'B_d', 'A_d'].map((key) => [2, d[`${key}_um`]])],
@@ -81,7 +72,7 @@ test('the other standards show their figures', async () => {
 });
 
 test('a dropped CSV gives the same figures, and says that no conditions are known', async () => {
-  const { page, context, complaints } = await open(browser, served.address);
+  const { page, context, complaints } = await open(browser, server.address);
   await openStandard(page, laser);
   const from_file = await figures(page);
   await drop(page, '#tab-standards', 'mine.csv', readFileSync(path.join(root, laser), 'utf8'));
@@ -98,7 +89,7 @@ test('a dropped CSV gives the same figures, and says that no conditions are know
 });
 
 test('a dropped CSV on the first page opens here; a bad cell is named with its line', async () => {
-  const { page, context, complaints } = await open(browser, served.address);
+  const { page, context, complaints } = await open(browser, server.address);
   await page.waitForSelector('.drop-input');
   await page.setInputFiles('.drop-input', { name: 'bad.csv', mimeType: 'text/csv', buffer: Buffer.from('target_mm,run,direction,deviation_um\n0,1,up,0.5\n100,1,up,abc\n') });
   const refused = await page.waitForSelector('#tab-standards .refused');

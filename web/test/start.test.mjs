@@ -1,19 +1,9 @@
 // The first page: every example opens its tab, every machine file is there, a dropped file is not sent anywhere.
 
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
-import { browse, open, picture, serve } from './served.mjs';
-
-let browser;
-let server;
-before(async () => {
-  browser = await browse();
-  server = await serve();
-});
-after(async () => {
-  await browser?.close();
-  await server?.stop();
-});
+import { test } from 'node:test';
+import { open, picture } from './served.mjs';
+import { browser, server } from './shared.mjs';
 
 /** What the server says of its folder. */
 async function project(page) {
