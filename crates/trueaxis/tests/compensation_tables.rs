@@ -33,7 +33,7 @@ fn at(machine: &Machine, compiled: &Compiled, command: [f64; 6], side: f64) -> C
 
 /// 10 µm/m: at X = 500 the machine is 5 µm too far, so −5 µm is added, by every control.
 #[test]
-fn ten_micrometres_per_metre() {
+fn law_ten_micrometres_per_metre_are_taken_back() {
     let errors = "[motion.X]\nEXX = { polynomial = [\"0 um\", \"10 um\"], scale = \"1000 mm\" }";
     let machine = machine(THREE, errors);
     for target in TARGETS {
@@ -93,7 +93,7 @@ fn the_files_as_the_controls_want_them() {
 /// Straightness, squareness and positioning of linear axes are functions of one axis each: cross tables
 /// leave no more than the bound of each, and all that is left is what was rounded and interpolated.
 #[test]
-fn what_is_represented_is_gone() {
+fn law_what_is_represented_is_gone() {
     let errors = "[location]\nEC0Y = \"30 urad\"\nEX0X = \"12 um\"\n
 [motion.X]\nEXX = { polynomial = [\"1 um\", \"-20 um\", \"30 um\"], scale = \"1000 mm\" }
 EYX = { polynomial = [\"0 um\", \"5 um\", \"9 um\"], scale = \"1000 mm\" }
@@ -126,7 +126,7 @@ fn sorted(mut tables: Vec<Table>) -> Vec<Table> {
 
 /// Every format: what is read is what was meant, to the last count; endless axes too.
 #[test]
-fn round_trips() {
+fn law_round_trips() {
     let axes = "chain = \"w C' b X Y Z t\"\n[axis.C]\ntravel = \"unlimited\"
 [axis.X]\ntravel = [\"-500 mm\", \"500 mm\"]\n[axis.Y]\ntravel = [\"-300 mm\", \"300 mm\"]
 [axis.Z]\ntravel = [\"0 mm\", \"600 mm\"]";
