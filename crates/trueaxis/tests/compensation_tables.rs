@@ -1,8 +1,10 @@
 //! Compensation tables: what is written is what is read, and what is added is what it should be.
 
+use trueaxis::compensate::tables::content::Content;
 use trueaxis::compensate::tables::control::{Control, File};
+use trueaxis::compensate::tables::emulation::Emulation;
 use trueaxis::compensate::tables::table::{Node, Table};
-use trueaxis::compensate::tables::{Compiled, Order, TablesError, Target, added, compile};
+use trueaxis::compensate::tables::{Compiled, Order, TablesError, Target, compile};
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::Command;
 use trueaxis::machine::file::NoTables;
@@ -27,8 +29,8 @@ const TARGETS: [Target; 4] = [
 
 fn at(machine: &Machine, compiled: &Compiled, command: [f64; 6], side: f64) -> Command {
     let control = compiled.order.target.control();
-    let tables = control.read(machine, &compiled.files).unwrap();
-    added(machine, control.as_ref(), &tables, &command, &[side; 6])
+    let content = control.read(machine, &compiled.files).unwrap();
+    Emulation::new(machine, control.as_ref(), content).added(&command, &[side; 6])
 }
 
 /// 10 µm/m: at X = 500 the machine is 5 µm too far, so −5 µm is added, by every control.
@@ -115,13 +117,8 @@ EYX = { polynomial = [\"0 um\", \"5 um\", \"9 um\"], scale = \"1000 mm\" }
     assert!(compiled.after.max_mm > 5e-3);
 }
 
-fn read(control: &dyn Control, machine: &Machine, files: &[File]) -> Vec<Table> {
-    control.read(machine, files).unwrap()
-}
-
-fn sorted(mut tables: Vec<Table>) -> Vec<Table> {
-    tables.sort_by_key(|t| (t.input, t.output));
-    tables
+fn read(control: &dyn Control, machine: &Machine, files: &[File]) -> Content {
+    control.read(machine, files).unwrap().sorted()
 }
 
 /// Every format: what is read is what was meant, to the last count; endless axes too.
@@ -158,8 +155,9 @@ fn law_round_trips() {
         if control.has_cross_tables() {
             tables.extend(cross.iter().cloned().chain([around.clone()]));
         }
-        let files = control.write(&machine, &tables);
-        assert_eq!(sorted(read(control.as_ref(), &machine, &files)), sorted(tables));
+        let content = Content { tables, ..Content::default() }.sorted();
+        let files = control.write(&machine, &content);
+        assert_eq!(read(control.as_ref(), &machine, &files), content);
         // A spoiled file is refused by its name, not read as something else.
         for file in 0..files.len() {
             let mut spoiled = files.clone();

@@ -73,6 +73,12 @@ enum Control {
     Linuxcnc,
     /// $AA_ENC_COMP and $AN_CEC
     Sinumerik,
+    /// Pitch error compensation and the grid of 3-D error compensation
+    Fanuc,
+    /// Axis-error tables .COM and KinematicsComp
+    Heidenhain,
+    /// Volumetric compensation ISG_CSV (ISG, Beckhoff) and leadscrew lists
+    Isg,
 }
 
 /// Columns of COMP_FILE.
@@ -139,6 +145,9 @@ impl TablesArguments {
                 Target::LinuxCnc { trims: self.comp_file_type == Some(CompFileType::Trims) }
             }
             Control::Sinumerik => Target::Sinumerik,
+            Control::Fanuc => Target::Fanuc,
+            Control::Heidenhain => Target::Heidenhain,
+            Control::Isg => Target::Isg,
         };
         let length =
             |name, text, problems: &mut _| above_zero(name, text, Dimension::Length, problems);
@@ -225,15 +234,20 @@ fn refuse(error: &TablesError, problems: &mut Diagnostics) {
             "MACHINE.toml",
             "the errors must be known over the whole travel: measure more, or say outside = \"clamp\" or \"extend\"",
         ),
-        TablesError::TooLarge { .. } => (
+        TablesError::TooLarge { .. } | TablesError::ErrorTooLarge { .. } => (
             "too-large",
             "--limit",
             "is it an error of the machine? then raise --limit or --limit-angle",
         ),
-        TablesError::TooManyNodes { .. } => {
+        TablesError::TooManyNodes { .. }
+        | TablesError::ErrorNodes { .. }
+        | TablesError::GridPoints { .. } => {
             ("too-many-nodes", "--bound", "allow a larger loss: --bound or --bound-angle")
         }
-        TablesError::Increment { .. } => {
+        TablesError::GridValue { .. } => {
+            ("too-large", "--target", "choose another form; is it an error of the machine?")
+        }
+        TablesError::Increment { .. } | TablesError::ErrorIncrement { .. } => {
             ("bound-below-increment", "--bound", "allow a larger loss: --bound or --bound-angle")
         }
         TablesError::TooManyTables { .. } => {
@@ -268,10 +282,10 @@ fn cut(
         problems.error("running-log", place, message, "name a study without log_start");
         return None;
     }
-    let tables: Vec<_> = compiled.tables.iter().map(|t| t.table.clone()).collect();
     let control = compiled.order.target.control();
+    let content = compiled.content();
     let refuse = |e: trueaxis::predict::Error| {
         problems.error(e.code(), place, e.to_string(), "can the study be predicted?");
     };
-    piece_left(&study, control.as_ref(), &tables).map_err(refuse).ok()
+    piece_left(&study, (control.as_ref(), &content)).map_err(refuse).ok()
 }

@@ -11,10 +11,18 @@
 //! - [`proof`](mod@proof): what the written files leave over the volume, of each error, of a test piece.
 
 mod choose;
+pub mod content;
 pub mod control;
 mod csv;
+pub mod emulation;
+mod fanuc;
 mod fault;
+pub mod grid;
+mod heidenhain;
+mod isg;
+pub mod known;
 mod lever;
+mod link;
 mod linuxcnc;
 pub mod place;
 pub mod proof;
@@ -24,14 +32,19 @@ pub mod table;
 pub use fault::TablesError;
 
 use choose::{Candidate, choose};
+use content::Content;
 use control::{Control, File};
+use emulation::Emulation;
+use grid::{GridFault, Gridded};
+use known::MadeKnown;
 use lever::Lever;
 use place::{PlaceFault, Placed};
-use proof::{ErrorLoss, Leaves, Left, error_losses, left_over};
+use proof::{ErrorLoss, Left, error_losses, left_over};
 use table::{PER_UNIT, Table, count_of, counts};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Axis, AxisKind, Command, Travel};
 use trueaxis_machine::chain::CommandFault;
+use trueaxis_machine::errors::ErrorName;
 
 /// Which control the tables are for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,6 +58,12 @@ pub enum Target {
     },
     /// `$AA_ENC_COMP` and `$AN_CEC`.
     Sinumerik,
+    /// Pitch error compensation and the grid of 3-D error compensation.
+    Fanuc,
+    /// `.COM` and KinematicsComp.
+    Heidenhain,
+    /// `ISG_CSV` and leadscrew lists of rotary axes.
+    Isg,
 }
 
 impl Target {
@@ -54,6 +73,9 @@ impl Target {
             Self::Csv => Box::new(csv::Csv),
             Self::LinuxCnc { trims } => Box::new(linuxcnc::LinuxCnc { trims }),
             Self::Sinumerik => Box::new(sinumerik::Sinumerik { increment: 100.0 }),
+            Self::Fanuc => Box::new(fanuc::Fanuc),
+            Self::Heidenhain => Box::new(heidenhain::Heidenhain),
+            Self::Isg => Box::new(isg::Isg),
         }
     }
 }
@@ -108,13 +130,25 @@ pub struct Made {
     pub largest: f64,
 }
 
-/// A table that is not written.
+/// What is not written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum What {
+    /// A table.
+    Table {
+        /// The axis that would be looked up.
+        input: usize,
+        /// The axis that would be moved.
+        output: usize,
+    },
+    /// An error that the control's chain could know.
+    Error(ErrorName),
+}
+
+/// Something that is not written, and why.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LeftOut {
-    /// The axis that would be looked up.
-    pub input: usize,
-    /// The axis that would be moved.
-    pub output: usize,
+    /// What.
+    pub what: What,
     /// The largest correction, mm or rad.
     pub largest: f64,
     /// Why.
@@ -132,7 +166,11 @@ pub struct Compiled {
     pub files: Vec<File>,
     /// The tables in them.
     pub tables: Vec<Made>,
-    /// Tables that were not written.
+    /// The errors in them that the control's chain knows.
+    pub known: Vec<MadeKnown>,
+    /// The grid in them.
+    pub grid: Option<Gridded>,
+    /// What was not written.
     pub left_out: Vec<LeftOut>,
     /// Over the volume, as the machine is.
     pub before: Left,
@@ -144,6 +182,17 @@ pub struct Compiled {
     pub errors: Vec<ErrorLoss>,
     /// What the control needs besides the files.
     pub advice: &'static [&'static str],
+}
+
+impl Compiled {
+    /// What the control holds with these files.
+    pub fn content(&self) -> Content {
+        Content {
+            tables: self.tables.iter().map(|t| t.table.clone()).collect(),
+            known: self.known.iter().map(|k| k.known.clone()).collect(),
+            grid: self.grid.as_ref().map(|g| g.grid.clone()),
+        }
+    }
 }
 
 /// Compiles the tables of a control, reads them back and says what they leave.
@@ -158,75 +207,123 @@ pub fn compile(machine: &Machine, order: &Order) -> Result<Compiled, TablesError
         }
     }
     let reference = order.reference.unwrap_or_else(|| middle(machine));
-    let lever = Lever::new(machine, reference)?;
-    let mut candidates = Vec::new();
-    let mut left_out = Vec::new();
-    for (input, output) in pairs(machine, control.as_ref()) {
-        match candidate(machine, order, control.as_ref(), &lever, (input, output))? {
+    let (chain, rest) = known::split(machine, control.as_ref());
+    let knowledge = known::compile(&chain, order, control.as_ref())?;
+    let written: Vec<_> = knowledge.made.iter().map(|k| k.known.clone()).collect();
+    let mut content = Content { known: written, ..Content::default() };
+    let (tables, mut left_out) = tables(machine, &rest, order, (control.as_ref(), &content))?;
+    let uncertain = knowledge.left_out.into_iter();
+    left_out.extend(uncertain.map(|(error, largest)| LeftOut {
+        what: What::Error(error),
+        largest,
+        reason: UNCERTAIN,
+    }));
+    content.tables = tables.iter().map(|t| t.table.clone()).collect();
+    let gridded = gridded(&rest, order, &reference, (control.as_ref(), &content))?;
+    content.grid = gridded.as_ref().map(|g| g.grid.clone());
+    let files = control.write(machine, &content);
+    let read = recovered(machine, control.as_ref(), &content, &files)?;
+    let left = |content| left_over(&Emulation::new(machine, control.as_ref(), content));
+    Ok(Compiled {
+        order: *order,
+        reference,
+        before: left(Content::default())?,
+        wrong_sign: left(read.negated())?,
+        errors: error_losses(machine, &reference, (control.as_ref(), &read), order.bound_mm),
+        after: left(read)?,
+        files,
+        tables,
+        known: knowledge.made,
+        grid: gridded,
+        left_out,
+        advice: control.advice(),
+    })
+}
+
+/// Why something stays out that is not known well enough.
+const UNCERTAIN: &str = "nowhere larger than its own standard uncertainty";
+
+/// The tables of what the control's chain does not know.
+fn tables(
+    machine: &Machine,
+    rest: &Machine,
+    order: &Order,
+    (control, content): (&dyn Control, &Content),
+) -> Result<(Vec<Made>, Vec<LeftOut>), TablesError> {
+    let lever = Lever::new(rest, order.reference.unwrap_or_else(|| middle(machine)))?;
+    let (mut candidates, mut left_out) = (Vec::new(), Vec::new());
+    for (input, output) in control.pairs(machine) {
+        match candidate(rest, order, control, &lever, (input, output))? {
             Ok(made) => candidates.push(made),
             Err(Some(out)) => left_out.push(out),
             Err(None) => {}
         }
     }
-    let (tables, worse) = choose(machine, control.as_ref(), candidates);
+    let already = Emulation::new(machine, control, content.clone());
+    let (tables, worse) = choose(machine, control, &already, candidates);
     left_out.extend(worse);
-    if tables.len() > control.most_tables() {
-        let (needed, most) = (tables.len(), control.most_tables());
-        return Err(TablesError::TooManyTables { target: control.key(), needed, most });
+    let (needed, most) = (tables.len(), control.most_tables());
+    match needed > most {
+        true => Err(TablesError::TooManyTables { target: control.key(), needed, most }),
+        false => Ok((tables, left_out)),
     }
-    let written: Vec<Table> = tables.iter().map(|t| t.table.clone()).collect();
-    let files = control.write(machine, &written);
-    let read = recovered(machine, control.as_ref(), &written, &files)?;
-    let emulation = Leaves { machine, control: control.as_ref(), tables: &read };
-    let before = left_over(&Leaves { tables: &[], ..emulation })?;
-    let after = left_over(&emulation)?;
-    let wrong: Vec<Table> = read.iter().map(Table::negated).collect();
-    let wrong_sign = left_over(&Leaves { tables: &wrong, ..emulation })?;
-    let cross = control.has_cross_tables();
-    let errors = error_losses(machine, &reference, &read, order.bound_mm, cross);
-    let advice = control.advice();
-    Ok(Compiled {
-        order: *order,
-        reference,
-        files,
-        tables,
-        left_out,
-        before,
-        after,
-        wrong_sign,
-        errors,
-        advice,
+}
+
+/// The grid of what tables leave where the rotary axes stand at the reference.
+fn gridded(
+    rest: &Machine,
+    order: &Order,
+    reference: &Command,
+    (control, content): (&dyn Control, &Content),
+) -> Result<Option<Gridded>, TablesError> {
+    let Some(rule) = control.grid() else { return Ok(None) };
+    let linear = rest.axes().iter().enumerate().filter(|(_, a)| a.kind == AxisKind::Linear);
+    let axes: Vec<usize> = linear.map(|(i, _)| i).collect();
+    let Some(axes) = axes.first_chunk::<3>() else { return Ok(None) };
+    let tables = Content { tables: content.tables.clone(), ..Content::default() };
+    let tables = Emulation::new(rest, control, tables);
+    let mut ends = [(0, 0, 0); 3];
+    for (end, axis) in ends.iter_mut().zip(axes) {
+        let ((from, to), _) = range(&rest.axes()[*axis], control)?;
+        *end = (*axis, from, to);
+    }
+    let wanted = |place: [i64; 3]| {
+        let mut command = *reference;
+        for ((axis, from, to), at) in ends.iter().zip(place) {
+            // The last point may lie beyond the travel, where nothing is known.
+            command[*axis] = at.clamp(*from, *to) as f64 * count_of(rest, *axis);
+        }
+        let still = Approach::default();
+        let whole = lever::correction(rest, &command, &still)?;
+        let by_tables = tables.added(&command, &still);
+        Ok(axes.map(|axis| counts(rest, axis, whole[axis] - by_tables[axis])))
+    };
+    let bound = order.bound_mm * PER_UNIT;
+    grid::place(&wanted, ends, rule, bound).map(Some).map_err(|fault| match fault {
+        GridFault::Machine(fault) => TablesError::Position(fault),
+        GridFault::TooMany(loss) => TablesError::GridPoints {
+            target: control.key(),
+            loss: loss / PER_UNIT * 1e3,
+            bound: order.bound_mm * 1e3,
+        },
+        GridFault::TooLarge(value) => TablesError::GridValue {
+            target: control.key(),
+            value: value as f64 / PER_UNIT * 1e3,
+            most: rule.largest as f64 / PER_UNIT * 1e3,
+        },
     })
 }
 
 fn recovered(
     machine: &Machine,
     control: &dyn Control,
-    written: &[Table],
+    written: &Content,
     files: &[File],
-) -> Result<Vec<Table>, TablesError> {
-    let mut read = control.read(machine, files)?;
-    let mut meant = written.to_vec();
-    let place = |t: &Table| (t.input, t.output);
-    read.sort_by_key(place);
-    meant.sort_by_key(place);
-    match read == meant {
+) -> Result<Content, TablesError> {
+    let read = control.read(machine, files)?.sorted();
+    match read == written.clone().sorted() {
         true => Ok(read),
         false => Err(TablesError::NotRecovered("another meaning".to_owned())),
-    }
-}
-
-/// Which axis may move which: each itself; linear axes also by the position of every other.
-fn pairs(machine: &Machine, control: &dyn Control) -> Vec<(usize, usize)> {
-    let axes = 0..machine.axes().len();
-    let own = axes.clone().map(|i| (i, i));
-    let cross = axes.clone().flat_map(|input| axes.clone().map(move |output| (input, output)));
-    let cross = cross.filter(|(input, output)| {
-        input != output && machine.axes()[*output].kind == AxisKind::Linear
-    });
-    match control.has_cross_tables() {
-        true => own.chain(cross).collect(),
-        false => own.collect(),
     }
 }
 
@@ -301,8 +398,8 @@ fn candidate(
         return Ok(Err(None));
     }
     if !certain {
-        let reason = "nowhere larger than its own standard uncertainty";
-        return Ok(Err(Some(LeftOut { input, output, largest, reason })));
+        let what = What::Table { input, output };
+        return Ok(Err(Some(LeftOut { what, largest, reason: UNCERTAIN })));
     }
     let bound = order.bound(moved.kind);
     let placed = place::place(&function, (from, to), (control.rule(), modulo), bound / count_out);
@@ -338,21 +435,4 @@ fn shown_place(axis: &Axis, q: f64) -> String {
         AxisKind::Linear => format!("{q:.3} mm"),
         AxisKind::Rotary => format!("{:.4} deg", q.to_degrees()),
     }
-}
-
-/// What tables add to a command, as a control interpolates them, mm and rad.
-pub fn added(
-    machine: &Machine,
-    control: &dyn Control,
-    tables: &[Table],
-    command: &Command,
-    approach: &Approach,
-) -> Command {
-    let mut added = Command::default();
-    for table in tables {
-        let position = counts(machine, table.input, command[table.input]);
-        let value = control.value(table, position, approach[table.input]);
-        added[table.output] += value * count_of(machine, table.output);
-    }
-    added
 }

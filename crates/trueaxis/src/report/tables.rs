@@ -1,13 +1,16 @@
 //! Compensation tables and what they leave, as text and JSON.
 
+use crate::compensate::tables::grid::{Gridded, Side};
+use crate::compensate::tables::known::MadeKnown;
 use crate::compensate::tables::proof::{ErrorLoss, IndexLeft, Left};
 use crate::compensate::tables::table::{PER_UNIT, Table, count_of};
-use crate::compensate::tables::{Compiled, LeftOut, Made, shown};
+use crate::compensate::tables::{Compiled, LeftOut, Made, What, known, shown};
 use crate::describe::to_shown;
 use serde_json::{Map, Value as Json, json};
 use std::fmt::Write;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
+use trueaxis_machine::errors::ErrorName;
 
 /// What there is to tell.
 pub struct TablesReport<'a> {
@@ -50,14 +53,16 @@ pub fn tables_text(report: &TablesReport<'_>) -> String {
             shown(moved, *loss)
         );
     }
-    for LeftOut { input, output, largest, reason } in &compiled.left_out {
-        let size = shown(&machine.axes()[*output], *largest);
-        let _ = writeln!(
-            text,
-            "  left out: {} moves {}, at most {size}: {reason}",
-            name(*input),
-            name(*output)
-        );
+    text += &known_text(machine, compiled);
+    for LeftOut { what, largest, reason } in &compiled.left_out {
+        let (what, size) = match what {
+            What::Table { input, output } => {
+                let size = shown(&machine.axes()[*output], *largest);
+                (format!("{} moves {}", name(*input), name(*output)), size)
+            }
+            What::Error(error) => (error.to_string(), known::shown(*error, *largest)),
+        };
+        let _ = writeln!(text, "  left out: {what}, at most {size}: {reason}");
     }
     text += &left_text(report);
     text += &errors_text(&compiled.errors);
@@ -77,6 +82,34 @@ pub fn tables_text(report: &TablesReport<'_>) -> String {
     text += "\nFiles\n";
     for file in report.files {
         let _ = writeln!(text, "  {file}");
+    }
+    text
+}
+
+/// The errors that the control's chain knows, and its grid.
+fn known_text(machine: &Machine, compiled: &Compiled) -> String {
+    let mut text = String::new();
+    for MadeKnown { known, loss, largest } in &compiled.known {
+        let nodes = match known.nodes.len() {
+            1 => "constant".to_owned(),
+            n => format!("{n} nodes, loses {} between them", known::shown(known.error, *loss)),
+        };
+        let size = known::shown(known.error, *largest);
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "  {} up to {size}: {nodes}", known.error);
+    }
+    if let Some(Gridded { grid, loss, largest }) = &compiled.grid {
+        let side = |s: &Side| {
+            let (from, step) = (s.from as f64 / PER_UNIT, s.step as f64 / PER_UNIT);
+            format!("{} {} from {from} mm every {step} mm", s.count, machine.axes()[s.axis].name)
+        };
+        let _ = writeln!(
+            text,
+            "  grid {}: up to {:.2} µm, loses {:.2} µm between the points",
+            grid.sides.each_ref().map(side).join(" x "),
+            *largest as f64 / PER_UNIT * 1e3,
+            loss / PER_UNIT * 1e3
+        );
     }
     text
 }
@@ -169,6 +202,8 @@ pub fn tables_json(report: &TablesReport<'_>) -> Json {
         "added_to": "command",
         "reference": place_json(machine, &compiled.reference),
         "tables": compiled.tables.iter().map(|t| made_json(machine, t)).collect::<Vec<_>>(),
+        "known": compiled.known.iter().map(known_json).collect::<Vec<_>>(),
+        "grid": compiled.grid.as_ref().map(|g| grid_json(machine, g)),
         "left_out": compiled.left_out.iter().map(|t| out_json(machine, t)).collect::<Vec<_>>(),
         "represents": represented.iter().map(|e| e.error.to_string()).collect::<Vec<_>>(),
         "cannot": cannot.collect::<Vec<_>>(),
@@ -230,10 +265,48 @@ fn made_json(machine: &Machine, made: &Made) -> Json {
 }
 
 fn out_json(machine: &Machine, out: &LeftOut) -> Json {
-    let (unit, factor) = unit(machine, out.output);
     let name = |axis: usize| machine.axes()[axis].name.to_string();
-    let mut json =
-        json!({ "input": name(out.input), "output": name(out.output), "reason": out.reason });
+    let (mut json, (unit, factor)) = match out.what {
+        What::Table { input, output } => {
+            (json!({ "input": name(input), "output": name(output) }), unit(machine, output))
+        }
+        What::Error(error) => (json!({ "error": error.to_string() }), unit_of_error(error)),
+    };
+    json["reason"] = json!(out.reason);
     json[format!("largest_{unit}")] = json!(out.largest * factor);
     json
+}
+
+fn unit_of_error(error: ErrorName) -> (&'static str, f64) {
+    match error.component.is_rotation() {
+        true => ("urad", 1e6),
+        false => ("um", 1e3),
+    }
+}
+
+fn known_json(made: &MadeKnown) -> Json {
+    let MadeKnown { known, loss, largest } = made;
+    let (unit, factor) = unit_of_error(known.error);
+    let mut json = json!({ "error": known.error.to_string(), "nodes": known.nodes.len() });
+    json[format!("loss_{unit}")] = json!(loss * factor);
+    json[format!("largest_{unit}")] = json!(largest * factor);
+    json
+}
+
+fn grid_json(machine: &Machine, gridded: &Gridded) -> Json {
+    let Gridded { grid, loss, largest } = gridded;
+    let side = |s: &Side| {
+        json!({
+            "axis": machine.axes()[s.axis].name.to_string(),
+            "from_mm": s.from as f64 / PER_UNIT,
+            "step_mm": s.step as f64 / PER_UNIT,
+            "points": s.count,
+        })
+    };
+    json!({
+        "sides": grid.sides.each_ref().map(side),
+        "points": grid.values.len(),
+        "loss_um": loss / PER_UNIT * 1e3,
+        "largest_um": *largest as f64 / PER_UNIT * 1e3,
+    })
 }

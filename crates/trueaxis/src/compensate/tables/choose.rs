@@ -1,10 +1,11 @@
 //! Which tables make the volume better: one that is right where the other axes stand at the reference may do harm
 //! elsewhere, such as that of a head's tilt axis after half a turn of the axis that carries it.
 
+use super::content::Content;
 use super::control::Control;
+use super::emulation::Emulation;
 use super::lever::{errors_near, sum};
-use super::table::Table;
-use super::{LeftOut, Made, added};
+use super::{LeftOut, Made, What};
 use crate::volume::commands;
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
@@ -21,9 +22,12 @@ const ARM_MM: f64 = 100.0;
 const GAIN: f64 = 1e-3;
 
 /// The tables that make the rms over the volume smaller, the largest corrections first; and those that do not.
+///
+/// `already`: what the control adds without any table.
 pub fn choose(
     machine: &Machine,
     control: &dyn Control,
+    already: &Emulation<'_>,
     mut candidates: Vec<Candidate>,
 ) -> (Vec<Made>, Vec<LeftOut>) {
     let poses = commands(machine.axes(), POSES);
@@ -32,19 +36,18 @@ pub fn choose(
         let own = |m: &Made| m.table.input != m.table.output;
         own(a).cmp(&own(b)).then(b.largest.total_cmp(&a.largest))
     });
-    let mut so_far = vec![Command::default(); poses.len()];
+    let still = Approach::default();
+    let mut so_far: Vec<Command> = poses.iter().map(|q| already.added(q, &still)).collect();
     let mut rms = size(machine, &poses, &so_far);
     let (mut kept, mut open) = (Vec::new(), candidates);
     // What does harm alone may help beside another table: as long as one has been taken, look again.
     loop {
         let (taken, mut again) = (kept.len(), Vec::new());
         for made in open {
-            let one = std::slice::from_ref(&made.table);
-            let with: Vec<Command> = poses
-                .iter()
-                .zip(&so_far)
-                .map(|(q, c)| sum(c, &added(machine, control, one, q, &Approach::default())))
-                .collect();
+            let tables = vec![made.table.clone()];
+            let one = Emulation::new(machine, control, Content { tables, ..Content::default() });
+            let with: Vec<Command> =
+                poses.iter().zip(&so_far).map(|(q, c)| sum(c, &one.added(q, &still))).collect();
             let new = size(machine, &poses, &with);
             if new < rms * (1.0 - GAIN) {
                 (rms, so_far) = (new, with);
@@ -59,13 +62,10 @@ pub fn choose(
         }
     }
     let reason = "it would not make the tool better over the volume";
-    let worse =
-        open.into_iter().map(|Made { table: Table { input, output, .. }, largest, .. }| LeftOut {
-            input,
-            output,
-            largest,
-            reason,
-        });
+    let worse = open.into_iter().map(|Made { table, largest, .. }| {
+        let what = What::Table { input: table.input, output: table.output };
+        LeftOut { what, largest, reason }
+    });
     let worse = worse.collect();
     kept.sort_by_key(|m| (m.table.input != m.table.output, m.table.input, m.table.output));
     (kept, worse)

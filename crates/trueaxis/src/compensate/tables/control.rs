@@ -1,8 +1,13 @@
 //! What controls have in common: what a table may be, written, read back, and applied.
 
+use super::content::Content;
+use super::grid::GridRule;
 use super::place::Rule;
 use super::table::Table;
 use trueaxis_machine::Machine;
+use trueaxis_machine::axis::AxisKind;
+use trueaxis_machine::chain::ErrorFrame;
+use trueaxis_machine::errors::ErrorName;
 
 /// A file of a control.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -42,6 +47,50 @@ pub trait Control {
     /// Whether one axis can move another.
     fn has_cross_tables(&self) -> bool;
 
+    /// Which axis may move which: each itself; linear axes also by the position of every other.
+    fn pairs(&self, machine: &Machine) -> Vec<(usize, usize)> {
+        let axes = 0..machine.axes().len();
+        let own = axes.clone().map(|i| (i, i));
+        let cross = axes.clone().flat_map(|input| axes.clone().map(move |output| (input, output)));
+        let cross = cross.filter(|(input, output)| {
+            input != output && machine.axes()[*output].kind == AxisKind::Linear
+        });
+        match self.has_cross_tables() {
+            true => own.chain(cross).collect(),
+            false => own.collect(),
+        }
+    }
+
+    /// Whether its own chain knows six errors of every axis as functions of its position.
+    fn knows_links(&self) -> bool {
+        false
+    }
+
+    /// On which side of the joint the errors of a link stand: moving with it or not.
+    fn link_frame(&self, _machine: &Machine, _body: usize) -> ErrorFrame {
+        ErrorFrame::Moving
+    }
+
+    /// Nodes of the errors that its chain knows.
+    fn known_rule(&self) -> Rule {
+        self.rule()
+    }
+
+    /// Whether its kinematic parameters know this location error.
+    fn knows_location(&self, _machine: &Machine, _error: ErrorName) -> bool {
+        false
+    }
+
+    /// The least increment of an error that its chain knows, counts.
+    fn known_increment(&self, _error: ErrorName) -> i64 {
+        1
+    }
+
+    /// Whether three linear axes together can move themselves.
+    fn grid(&self) -> Option<GridRule> {
+        None
+    }
+
     /// Whether a table of an endless axis repeats itself.
     fn has_modulo(&self) -> bool;
 
@@ -53,14 +102,14 @@ pub trait Control {
         usize::MAX
     }
 
-    /// The files of these tables.
-    fn write(&self, machine: &Machine, tables: &[Table]) -> Vec<File>;
+    /// The files of this content.
+    fn write(&self, machine: &Machine, content: &Content) -> Vec<File>;
 
-    /// The tables of files, as the control reads them.
+    /// The content of files, as the control reads them.
     ///
     /// # Errors
     /// What the control would not take.
-    fn read(&self, machine: &Machine, files: &[File]) -> Result<Vec<Table>, ReadFault>;
+    fn read(&self, machine: &Machine, files: &[File]) -> Result<Content, ReadFault>;
 
     /// What a table adds to the command of its output axis, in counts, as this control interpolates it.
     fn value(&self, table: &Table, position: f64, side: f64) -> f64 {

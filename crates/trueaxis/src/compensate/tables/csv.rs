@@ -1,8 +1,9 @@
 //! Plain CSV: every table of one axis acting on one axis, for controls and programs that have no format of
 //! their own here. Straight lines between the nodes, the end values held beyond.
 
+use super::content::Content;
 use super::control::{Control, File, ReadFault, checked};
-use super::place::Rule;
+use super::place::{Rule, Spacing};
 use super::table::{Node, Table, decimal, parse_decimal};
 use trueaxis_machine::Machine;
 
@@ -27,17 +28,17 @@ impl Control for Csv {
     }
 
     fn rule(&self) -> Rule {
-        Rule { equal: false, most_nodes: MOST_NODES, increment: 1.0 }
+        Rule { spacing: Spacing::Free, fewest_nodes: 2, most_nodes: MOST_NODES, increment: 1.0 }
     }
 
-    fn write(&self, machine: &Machine, tables: &[Table]) -> Vec<File> {
+    fn write(&self, machine: &Machine, content: &Content) -> Vec<File> {
         let letter = |axis: usize| machine.axes()[axis].name.letter();
         let mut text = "# TrueAxis compensation tables: mm and deg, added to the command of the output axis\n\
                         # while the input axis rises (up) or falls (down); straight lines, held at the ends\n"
             .to_owned();
         text += &HEADINGS.join(",");
         text.push('\n');
-        for table in tables {
+        for table in &content.tables {
             let (input, output) = (letter(table.input), letter(table.output));
             for n in &table.nodes {
                 let [at, up, down] = [n.at, n.up, n.down].map(decimal);
@@ -48,7 +49,7 @@ impl Control for Csv {
         vec![File { name: NAME.to_owned(), text }]
     }
 
-    fn read(&self, machine: &Machine, files: &[File]) -> Result<Vec<Table>, ReadFault> {
+    fn read(&self, machine: &Machine, files: &[File]) -> Result<Content, ReadFault> {
         let [file] = files else { return Err(ReadFault::new(NAME, "one file")) };
         let fault = |expected: String| ReadFault::new(&file.name, expected);
         let mut lines = file.text.lines().filter(|l| !l.starts_with('#'));
@@ -75,7 +76,8 @@ impl Control for Csv {
                 None => tables.push(Table { input, output, modulo, nodes: vec![node] }),
             }
         }
-        tables.into_iter().map(|t| checked(&file.name, t, MOST_NODES)).collect()
+        let tables = tables.into_iter().map(|t| checked(&file.name, t, MOST_NODES));
+        Ok(Content { tables: tables.collect::<Result<_, _>>()?, ..Content::default() })
     }
 
     fn advice(&self) -> &'static [&'static str] {

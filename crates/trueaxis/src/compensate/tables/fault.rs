@@ -1,6 +1,6 @@
 use super::control::ReadFault;
 use trueaxis_machine::chain::CommandFault;
-use trueaxis_machine::errors::BodyName;
+use trueaxis_machine::errors::{BodyName, ErrorName};
 
 /// Why there are no tables.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -56,6 +56,60 @@ pub enum TablesError {
         output: BodyName,
         /// What was asked.
         bound: String,
+    },
+    /// An error that nobody should load unseen.
+    #[error("{error} is {value} somewhere in the travel, above the limit of {limit}")]
+    ErrorTooLarge {
+        /// Which.
+        error: ErrorName,
+        /// How large.
+        value: String,
+        /// The limit.
+        limit: String,
+    },
+    /// Half an increment of an error is more than the bound.
+    #[error("{error}: half an increment of {target} is more than {bound}")]
+    ErrorIncrement {
+        /// The control.
+        target: &'static str,
+        /// Which.
+        error: ErrorName,
+        /// What is allowed.
+        bound: String,
+    },
+    /// More nodes than the control takes.
+    #[error("{error} with {most} nodes loses {loss}, more than {bound}")]
+    ErrorNodes {
+        /// Which.
+        error: ErrorName,
+        /// The most nodes.
+        most: usize,
+        /// What is lost then.
+        loss: String,
+        /// What is allowed.
+        bound: String,
+    },
+    /// More points than the control's grid has.
+    #[error(
+        "the grid of {target} loses {loss:.2} µm with the most points, more than {bound:.2} µm"
+    )]
+    GridPoints {
+        /// The control.
+        target: &'static str,
+        /// What is lost, µm.
+        loss: f64,
+        /// What is allowed, µm.
+        bound: f64,
+    },
+    /// A larger value than the control's grid takes.
+    #[error("the grid of {target} takes {most:.2} µm at most, not {value:.2} µm")]
+    GridValue {
+        /// The control.
+        target: &'static str,
+        /// The value, µm.
+        value: f64,
+        /// The most, µm.
+        most: f64,
     },
     /// More tables than the control has.
     #[error("{needed} tables, {target} has {most}")]

@@ -119,13 +119,28 @@ pub fn correction(
     command: &Command,
     approach: &Approach,
 ) -> Result<Command, CommandFault> {
-    let mut added = rotary(machine, command, &machine.errors_at(command, approach)?);
+    let added = rotary(machine, command, &machine.errors_at(command, approach)?);
+    let errors = |at: &Command| errors_near(machine, at, command, approach);
+    placed(machine, command, &errors, added)
+}
+
+/// What is added already, and what the linear axes have to add to bring the tip to its place, mm or rad; with the
+/// errors at a command.
+///
+/// # Errors
+/// Those of `errors`.
+pub fn placed<F>(
+    machine: &Machine,
+    command: &Command,
+    errors: &dyn Fn(&Command) -> Result<ErrorValues, F>,
+    mut added: Command,
+) -> Result<Command, F> {
     let wanted = nominal_tip(machine, command);
     let solve = linear_inverse(machine, command);
     for _ in 0..STEPS {
         let at = sum(command, &added);
-        let off = actual_tip(machine, &at, command, approach)? - wanted;
-        for (axis, step) in solve(&off) {
+        let there = machine.deviation(&at, &errors(&at)?);
+        for (axis, step) in solve(&(there.nominal_tip.vector() + there.tip_mm - wanted)) {
             added[axis] -= step;
         }
     }
@@ -153,17 +168,6 @@ pub fn sum(command: &Command, added: &Command) -> Command {
         *q += c;
     }
     sum
-}
-
-fn actual_tip(
-    machine: &Machine,
-    at: &Command,
-    programmed: &Command,
-    approach: &Approach,
-) -> Result<Vec3, CommandFault> {
-    let errors = errors_near(machine, at, programmed, approach)?;
-    let deviation = machine.deviation(at, &errors);
-    Ok(deviation.nominal_tip.vector() + deviation.tip_mm)
 }
 
 fn nominal_tip(machine: &Machine, command: &Command) -> Vec3 {

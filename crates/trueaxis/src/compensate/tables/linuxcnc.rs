@@ -11,8 +11,9 @@
 //! positions that do not rise, and keeps trims and slopes in single precision; `compute_screw_comp` (control.c)
 //! takes the forward trim while the joint rises and the reverse one while it falls.
 
+use super::content::Content;
 use super::control::{Control, File, ReadFault, checked};
-use super::place::Rule;
+use super::place::{Rule, Spacing};
 use super::table::{Node, PER_UNIT, Table, axis_order, decimal, parse_decimal};
 use std::fmt::Write;
 use trueaxis_machine::Machine;
@@ -41,10 +42,10 @@ impl Control for LinuxCnc {
     }
 
     fn rule(&self) -> Rule {
-        Rule { equal: false, most_nodes: MOST_NODES, increment: 1.0 }
+        Rule { spacing: Spacing::Free, fewest_nodes: 2, most_nodes: MOST_NODES, increment: 1.0 }
     }
 
-    fn write(&self, machine: &Machine, tables: &[Table]) -> Vec<File> {
+    fn write(&self, machine: &Machine, content: &Content) -> Vec<File> {
         let order = axis_order(machine);
         let letters: Vec<String> =
             order.iter().map(|i| machine.axes()[*i].name.to_string()).collect();
@@ -55,7 +56,7 @@ impl Control for LinuxCnc {
         );
         let mut files = Vec::new();
         for (joint, axis) in order.iter().enumerate() {
-            let Some(table) = tables.iter().find(|t| t.output == *axis) else { continue };
+            let Some(table) = content.tables.iter().find(|t| t.output == *axis) else { continue };
             let name = format!("joint_{joint}_{}.comp", letters[joint]);
             // Writing to a String cannot fail.
             let _ = write!(
@@ -73,7 +74,7 @@ impl Control for LinuxCnc {
         files
     }
 
-    fn read(&self, machine: &Machine, files: &[File]) -> Result<Vec<Table>, ReadFault> {
+    fn read(&self, machine: &Machine, files: &[File]) -> Result<Content, ReadFault> {
         let find = |name: &str| {
             let found = files.iter().find(|f| f.name == name);
             found.ok_or_else(|| ReadFault::new(name, "this file"))
@@ -87,7 +88,7 @@ impl Control for LinuxCnc {
             let table = Table { input: axis, output: axis, modulo: false, nodes };
             tables.push(checked(&joint.file, table, MOST_NODES)?);
         }
-        Ok(tables)
+        Ok(Content { tables, ..Content::default() })
     }
 
     /// Trims and slopes are single precision in the motion controller.

@@ -1,6 +1,6 @@
 //! Where the nodes of a table stand: the fewest that keep the loss of interpolation below a bound.
 
-use super::table::{Node, PER_UNIT, Table};
+use super::table::{Node, PER_UNIT, interpolated};
 use trueaxis_machine::chain::CommandFault;
 
 /// The function is looked at so many places between the ends.
@@ -8,11 +8,27 @@ const LOOKS: i64 = 1024;
 /// Above this many nodes the search goes on in steps of a 32nd, not one by one.
 const ONE_BY_ONE: usize = 64;
 
+/// Where nodes may stand, and what holds between them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Spacing {
+    /// Anywhere; straight lines.
+    Free,
+    /// At equal distances from the first end; straight lines.
+    Equal,
+    /// At equal distances from the position 0, where the value is 0; the value of the nearest node.
+    Stepped {
+        /// Distances are whole multiples of this, counts.
+        unit: i64,
+    },
+}
+
 /// What a control allows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rule {
-    /// Whether nodes stand at equal distances.
-    pub equal: bool,
+    /// Where nodes may stand.
+    pub spacing: Spacing,
+    /// The fewest nodes of one table with equal distances.
+    pub fewest_nodes: usize,
     /// The most nodes of one table.
     pub most_nodes: usize,
     /// The least increment of a value, counts.
@@ -52,7 +68,7 @@ pub type Function<'a> = dyn Fn(i64) -> Result<[f64; 2], CommandFault> + 'a;
 ///
 /// Free nodes: from each the farthest next one of the looks with which the straight line still holds.
 /// Equal distances: the first number that holds, one by one up
-/// to 64, beyond that within 3 % of the fewest.
+/// to 64, beyond that within 3 % of the fewest. Stepped: the same, of what is more than at the position 0.
 ///
 /// # Errors
 /// [`PlaceFault`]
@@ -69,9 +85,10 @@ pub fn place(
         (0..=LOOKS).map(|i| from + ((to - from) as i128 * i as i128 / LOOKS as i128) as i64);
     let looks =
         places.map(|at| Ok((at, function(at)?))).collect::<Result<Vec<_>, CommandFault>>()?;
-    match rule.equal {
-        true => equal(function, &looks, (rule, modulo), bound),
-        false => free(&looks, rule, bound),
+    match rule.spacing {
+        Spacing::Equal => equal(function, &looks, (rule, modulo), bound),
+        Spacing::Free => free(&looks, rule, bound),
+        Spacing::Stepped { unit } => stepped(function, &looks, (rule, unit), bound),
     }
 }
 
@@ -84,11 +101,14 @@ fn node((at, [up, down]): &Look, increment: f64) -> Node {
 
 /// The largest difference of a table from the looks.
 fn loss(nodes: &[Node], looks: &[Look], stop_at: f64) -> f64 {
-    let table = Table { input: 0, output: 0, modulo: false, nodes: nodes.to_vec() };
+    lost(&|at, side| interpolated(nodes, false, at, side), looks, stop_at)
+}
+
+fn lost(table: &dyn Fn(f64, f64) -> f64, looks: &[Look], stop_at: f64) -> f64 {
     let mut most = 0.0_f64;
     for (at, [up, down]) in looks {
         let place = *at as f64;
-        let off = (table.at(place, 1.0) - up).abs().max((table.at(place, -1.0) - down).abs());
+        let off = (table(place, 1.0) - up).abs().max((table(place, -1.0) - down).abs());
         most = most.max(off);
         if most > stop_at {
             break;
@@ -125,7 +145,7 @@ fn equal(
 ) -> Result<Placed, PlaceFault> {
     let (from, to) = (looks[0].0, looks[looks.len() - 1].0);
     let turn = (360.0 * PER_UNIT) as i64;
-    let mut count = 2;
+    let mut count = rule.fewest_nodes.max(2);
     let mut best = f64::INFINITY;
     while count <= rule.most_nodes {
         let steps = count as i64 - 1;
@@ -147,19 +167,63 @@ fn equal(
     Err(PlaceFault::TooMany(best))
 }
 
+fn stepped(
+    function: &Function<'_>,
+    looks: &[Look],
+    (rule, unit): (Rule, i64),
+    bound: f64,
+) -> Result<Placed, PlaceFault> {
+    let (from, to) = (looks[0].0, looks[looks.len() - 1].0);
+    let zero = function(0.clamp(from, to))?[0];
+    let looks: Vec<Look> = looks.iter().map(|(at, v)| (*at, v.map(|v| v - zero))).collect();
+    let (low, high) = (from.min(0), to.max(0));
+    let mut best = f64::INFINITY;
+    let mut count = rule.fewest_nodes.max(2);
+    while count <= rule.most_nodes {
+        // The ends may cost one more interval on either side of zero.
+        let step = (high - low).div_euclid((count as i64 - 2).max(1) * unit).max(1) * unit;
+        let first = low.div_euclid(step);
+        let last = -(-high).div_euclid(step);
+        let nodes = (first..=last)
+            .map(|i| Ok((i * step, function((i * step).clamp(from, to))?.map(|v| v - zero))))
+            .map(|look| Ok(node(&look?, rule.increment)))
+            .collect::<Result<Vec<_>, CommandFault>>()?;
+        let nearest = |at, side| stepwise(&nodes, at, side);
+        let lost_now = lost(&nearest, &looks, best.max(bound));
+        if nodes.len() <= rule.most_nodes {
+            if lost_now <= bound {
+                return Ok(Placed { loss: lost_now, nodes });
+            }
+            best = best.min(lost_now);
+        }
+        count += if count < ONE_BY_ONE { 1 } else { count / 32 };
+    }
+    Err(PlaceFault::TooMany(best))
+}
+
+/// The value of the nearest node.
+pub fn stepwise(nodes: &[Node], position: f64, side: f64) -> f64 {
+    let after = nodes.partition_point(|n| (n.at as f64) <= position);
+    let (before, next) = (after.saturating_sub(1), after.min(nodes.len().saturating_sub(1)));
+    let (Some(a), Some(b)) = (nodes.get(before), nodes.get(next)) else { return 0.0 };
+    let nearest = if position - (a.at as f64) < b.at as f64 - position { a } else { b };
+    interpolated(std::slice::from_ref(nearest), false, position, side)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const RULE: Rule = Rule { equal: false, most_nodes: 256, increment: 1.0 };
+    const RULE: Rule =
+        Rule { spacing: Spacing::Free, fewest_nodes: 2, most_nodes: 256, increment: 1.0 };
 
     /// 10 µm/m over 1 m is one straight line; the parabola 90 µm·(x/m)² sags 22.5 µm·h², so that 1 µm needs 4.7 pieces.
     #[test]
     fn as_few_as_the_curvature_asks() {
         let line = |at: i64| Ok([-1e-5 * at as f64; 2]);
         let bow = |at: i64| Ok([9e4 * (at as f64 / 1e9).powi(2); 2]);
-        for equal in [false, true] {
-            let rule = (Rule { equal, ..RULE }, false);
+        for spacing in [Spacing::Free, Spacing::Equal] {
+            let rule = (Rule { spacing, ..RULE }, false);
             let placed = place(&line, (0, 1_000_000_000), rule, 1000.0).unwrap();
             assert_eq!(placed.nodes.len(), 2);
             assert_eq!(placed.nodes[1].up, -10_000);

@@ -1,14 +1,18 @@
 //! What the tables of a control leave: over the volume, of each error alone, of a test piece.
 
+use super::TablesError;
 use super::choose::off;
+use super::content::Content;
 use super::control::Control;
-use super::lever::{Lever, sum};
+use super::emulation::Emulation;
+use super::known::split;
+use super::lever::{Lever, correction, errors_near, placed, sum};
 use super::table::Table;
-use super::{TablesError, added};
 use crate::predict::{Cutting, Error, Judge, Study};
 use crate::volume::commands;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, AxisKind, Command, MAX_AXES};
+use trueaxis_machine::chain::CommandFault;
 use trueaxis_machine::errors::{ErrorKind, ErrorName};
 
 /// Poses over the travel of all axes beside the corners, each reached rising and falling.
@@ -19,17 +23,6 @@ const FEW_POSES: u32 = 96;
 const NOTHING_MM: f64 = 1e-6;
 /// An error counts as represented if this share of what it did is left.
 const SMALL_SHARE: f64 = 0.02;
-
-/// A machine with tables in its control.
-#[derive(Clone, Copy)]
-pub struct Leaves<'a> {
-    /// The machine as it is.
-    pub machine: &'a Machine,
-    /// How its control interpolates.
-    pub control: &'a dyn Control,
-    /// The tables as they were read back.
-    pub tables: &'a [Table],
-}
 
 /// How far the tool is off over the volume.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -65,15 +58,15 @@ pub struct ErrorLoss {
 ///
 /// # Errors
 /// No pose at all at which the errors are known.
-pub fn left_over(leaves: &Leaves<'_>) -> Result<Left, TablesError> {
+pub fn left_over(leaves: &Emulation<'_>) -> Result<Left, TablesError> {
     let mut left = Left::default();
     let (mut squares, mut count) = (0.0, 0.0);
-    for command in commands(leaves.machine.axes(), POSES) {
+    for command in commands(leaves.machine().axes(), POSES) {
         let mut seen = false;
         for side in [1.0, -1.0] {
             let approach = [side; MAX_AXES];
             let added = leaves.added(&command, &approach);
-            let Some([tip, axis]) = off(leaves.machine, &command, &added, &approach) else {
+            let Some([tip, axis]) = off(leaves.machine(), &command, &added, &approach) else {
                 continue;
             };
             seen = true;
@@ -87,26 +80,19 @@ pub fn left_over(leaves: &Leaves<'_>) -> Result<Left, TablesError> {
         left.poses += usize::from(seen);
     }
     if left.poses == 0 {
-        leaves.machine.errors_at(&Command::default(), &Approach::default())?;
+        leaves.machine().errors_at(&Command::default(), &Approach::default())?;
     }
     left.rms_mm = (squares / f64::max(count, 1.0)).sqrt();
     Ok(left)
 }
 
-impl Leaves<'_> {
-    /// What the control adds to a command.
-    pub fn added(&self, command: &Command, approach: &Approach) -> Command {
-        added(self.machine, self.control, self.tables, command, approach)
-    }
-}
-
-/// Each error alone: what tables of these axes, without rounding and with any number of nodes, would leave.
+/// Each error alone: what such content of this control, without rounding and with any number of nodes, would
+/// leave.
 pub fn error_losses(
     machine: &Machine,
     reference: &Command,
-    tables: &[Table],
+    (control, content): (&dyn Control, &Content),
     bound_mm: f64,
-    cross: bool,
 ) -> Vec<ErrorLoss> {
     let cold = machine.without_heat();
     let all = machine.stated_errors();
@@ -116,7 +102,7 @@ pub fn error_losses(
     for (index, error) in all {
         let stated = cold.bodies()[index.body].stated(index.kind, index.component).cloned();
         let alone = bare.clone().with_error(index, stated);
-        let Ok(lever) = Lever::new(&alone, *reference) else { continue };
+        let Ok(best) = Best::of(&alone, *reference, (control, content)) else { continue };
         let (mut before_mm, mut left_mm) = (0.0_f64, 0.0_f64);
         for (i, command) in poses.iter().enumerate() {
             let approach = [if i % 2 == 0 { 1.0 } else { -1.0 }; MAX_AXES];
@@ -124,14 +110,14 @@ pub fn error_losses(
                 continue;
             };
             before_mm = before_mm.max(without[0].norm());
-            let Some(added) = ideal(&lever, tables, command, &approach) else { continue };
+            let Ok(added) = best.added(command, &approach) else { continue };
             let Some(with) = off(&alone, command, &added, &approach) else { continue };
             left_mm = left_mm.max(with[0].norm());
         }
         if before_mm > NOTHING_MM {
             let represented =
                 left_mm <= f64::max(bound_mm.min(0.5 * before_mm), SMALL_SHARE * before_mm);
-            let instead = instead(machine, error, cross);
+            let instead = instead(machine, error, control);
             losses.push(ErrorLoss { error, before_mm, left_mm, represented, instead });
         }
     }
@@ -139,32 +125,71 @@ pub fn error_losses(
     losses
 }
 
-fn ideal(
-    lever: &Lever<'_>,
-    tables: &[Table],
-    command: &Command,
-    approach: &Approach,
-) -> Option<Command> {
-    let mut total = Command::default();
-    for input in 0..MAX_AXES {
-        let outputs: Vec<usize> =
-            tables.iter().filter(|t| t.input == input).map(|t| t.output).collect();
-        if outputs.is_empty() {
-            continue;
-        }
-        let all = lever.functions(input, command[input], approach[input]).ok()?;
-        let mut some = Command::default();
-        for output in outputs {
-            some[output] = all[output];
-        }
-        total = sum(&total, &some);
+/// The best that a control could do with such tables, such a chain and such a grid.
+struct Best<'a> {
+    machine: &'a Machine,
+    content: &'a Content,
+    reference: Command,
+    /// Whether the control's chain knows the error.
+    knows: bool,
+    lever: Lever<'a>,
+}
+
+impl<'a> Best<'a> {
+    fn of(
+        machine: &'a Machine,
+        reference: Command,
+        (control, content): (&'a dyn Control, &'a Content),
+    ) -> Result<Self, CommandFault> {
+        let knows = split(machine, control).1.stated_errors().is_empty();
+        let lever = Lever::new(machine, reference)?;
+        Ok(Self { machine, content, reference, knows, lever })
     }
-    Some(total)
+
+    fn added(&self, command: &Command, approach: &Approach) -> Result<Command, CommandFault> {
+        if self.knows {
+            let errors = |at: &Command| errors_near(self.machine, at, command, approach);
+            return placed(self.machine, command, &errors, Command::default());
+        }
+        let mut total = self.by_tables(command, approach)?;
+        let Some(grid) = &self.content.grid else { return Ok(total) };
+        let mut at = self.reference;
+        for side in &grid.sides {
+            at[side.axis] = command[side.axis];
+        }
+        let still = Approach::default();
+        let mean = correction(self.machine, &at, &still)?;
+        let tables = self.by_tables(&at, &still)?;
+        for side in &grid.sides {
+            total[side.axis] += mean[side.axis] - tables[side.axis];
+        }
+        Ok(total)
+    }
+
+    fn by_tables(&self, command: &Command, approach: &Approach) -> Result<Command, CommandFault> {
+        let mut total = Command::default();
+        for input in 0..MAX_AXES {
+            let of = |t: &&Table| t.input == input;
+            let outputs: Vec<usize> =
+                self.content.tables.iter().filter(of).map(|t| t.output).collect();
+            if outputs.is_empty() {
+                continue;
+            }
+            let all = self.lever.functions(input, command[input], approach[input])?;
+            let mut some = Command::default();
+            for output in outputs {
+                some[output] = all[output];
+            }
+            total = sum(&total, &some);
+        }
+        Ok(total)
+    }
 }
 
 /// Where the rest of an error could be put.
-fn instead(machine: &Machine, error: ErrorName, cross: bool) -> &'static str {
+fn instead(machine: &Machine, error: ErrorName, control: &dyn Control) -> &'static str {
     let axis = machine.axes().iter().find(|a| a.name == error.body);
+    let cross = control.has_cross_tables() || control.knows_links() || control.grid().is_some();
     match (error.kind, axis.map(|a| a.kind), error.component.is_rotation()) {
         (ErrorKind::Location, None, _) => "the work offset, or the tool length and its direction",
         (ErrorKind::Location, Some(AxisKind::Rotary), _) => {
@@ -196,14 +221,13 @@ pub struct IndexLeft {
 /// As of [`crate::predict::predict`].
 pub fn piece_left(
     study: &Study,
-    control: &dyn Control,
-    tables: &[Table],
+    (control, content): (&dyn Control, &Content),
 ) -> Result<Vec<IndexLeft>, Error> {
     let machine = &study.machine;
     let plain = |errors: &_, _: &_| *errors;
     let cutting = Cutting::new(machine, study.piece(), &study.reference)?;
     let before = Judge { cutting: &cutting, piece: study.piece() }.once(&plain)?;
-    let leaves = Leaves { machine, control, tables };
+    let leaves = Emulation::new(machine, control, content.clone());
     let cutting = cutting.compensated(&|command, approach| leaves.added(command, approach));
     let after = Judge { cutting: &cutting, piece: study.piece() }.once(&plain)?;
     let names = study.piece().index_names().iter().map(|n| n.key.to_string());

@@ -8,8 +8,9 @@
 //! tables without reversal go into `$AA_ENC_COMP`; with reversal into two `$AN_CEC` tables of one direction
 //! each, as the manual does it. docs/compensation-tables.md has the pages.
 
+use super::content::Content;
 use super::control::{Control, File, ReadFault, checked};
-use super::place::Rule;
+use super::place::{Rule, Spacing};
 use super::table::{Node, Table, axis_order, decimal, parse_decimal};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -42,14 +43,19 @@ impl Control for Sinumerik {
     }
 
     fn rule(&self) -> Rule {
-        Rule { equal: true, most_nodes: MOST_NODES, increment: self.increment }
+        Rule {
+            spacing: Spacing::Equal,
+            fewest_nodes: 2,
+            most_nodes: MOST_NODES,
+            increment: self.increment,
+        }
     }
 
     fn most_tables(&self) -> usize {
         MOST_TABLES / 2
     }
 
-    fn write(&self, machine: &Machine, tables: &[Table]) -> Vec<File> {
+    fn write(&self, machine: &Machine, content: &Content) -> Vec<File> {
         let order = axis_order(machine);
         let names: Vec<String> = order
             .iter()
@@ -66,7 +72,7 @@ impl Control for Sinumerik {
         let number = |axis: usize| order.iter().position(|a| *a == axis).map_or(0, |n| n + 1);
         let (mut encoder, mut cross) = (head("AX_EEC"), head("NC_CEC"));
         let mut count = 0;
-        for table in tables {
+        for table in &content.tables {
             if table.input == table.output && !table.is_directional() {
                 encoder += &encoder_text(table, number(table.input));
                 continue;
@@ -83,7 +89,7 @@ impl Control for Sinumerik {
             .into()
     }
 
-    fn read(&self, machine: &Machine, files: &[File]) -> Result<Vec<Table>, ReadFault> {
+    fn read(&self, machine: &Machine, files: &[File]) -> Result<Content, ReadFault> {
         let order = axis_order(machine);
         let mut tables = Vec::new();
         for file in files {
@@ -98,7 +104,7 @@ impl Control for Sinumerik {
                 join(file, &mut tables, one.table(file, (input, output))?)?;
             }
         }
-        Ok(tables)
+        Ok(Content { tables, ..Content::default() })
     }
 
     fn advice(&self) -> &'static [&'static str] {

@@ -20,6 +20,13 @@ pub struct Node {
     pub down: i64,
 }
 
+impl Node {
+    /// The same with the other sign.
+    pub fn negated(&self) -> Self {
+        Self { at: self.at, up: -self.up, down: -self.down }
+    }
+}
+
 /// A function of one axis that is added to the command of one axis, by straight lines between nodes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Table {
@@ -46,8 +53,7 @@ impl Table {
 
     /// The same with the other sign.
     pub fn negated(&self) -> Self {
-        let nodes = self.nodes.iter().map(|n| Node { at: n.at, up: -n.up, down: -n.down });
-        Self { nodes: nodes.collect(), ..self.clone() }
+        Self { nodes: self.nodes.iter().map(Node::negated).collect(), ..self.clone() }
     }
 
     /// Whether it has as many counts from each node to the next.
@@ -60,25 +66,30 @@ impl Table {
     /// The value at a position, counts of the output axis: straight between the nodes, held beyond
     /// the first and the last. `side`: +1 rising, −1 falling, 0 the mean.
     pub fn at(&self, position: f64, side: f64) -> f64 {
-        let Some((first, last)) = self.nodes.first().zip(self.nodes.last()) else { return 0.0 };
-        let position = match self.modulo {
-            true => (position - first.at as f64).rem_euclid(360.0 * PER_UNIT) + first.at as f64,
-            false => position,
-        };
-        let after = self.nodes.partition_point(|n| n.at as f64 <= position);
-        let of = |n: &Node| match side {
-            s if s > 0.0 => n.up as f64,
-            s if s < 0.0 => n.down as f64,
-            _ => 0.5 * (n.up + n.down) as f64,
-        };
-        if after == 0 {
-            return of(first);
-        }
-        let Some(next) = self.nodes.get(after) else { return of(last) };
-        let before = &self.nodes[after - 1];
-        let share = (position - before.at as f64) / (next.at - before.at) as f64;
-        of(before) + share * (of(next) - of(before))
+        interpolated(&self.nodes, self.modulo, position, side)
     }
+}
+
+/// The value between nodes as [`Table::at`] has it.
+pub fn interpolated(nodes: &[Node], modulo: bool, position: f64, side: f64) -> f64 {
+    let Some((first, last)) = nodes.first().zip(nodes.last()) else { return 0.0 };
+    let position = match modulo {
+        true => (position - first.at as f64).rem_euclid(360.0 * PER_UNIT) + first.at as f64,
+        false => position,
+    };
+    let after = nodes.partition_point(|n| n.at as f64 <= position);
+    let of = |n: &Node| match side {
+        s if s > 0.0 => n.up as f64,
+        s if s < 0.0 => n.down as f64,
+        _ => 0.5 * (n.up + n.down) as f64,
+    };
+    if after == 0 {
+        return of(first);
+    }
+    let Some(next) = nodes.get(after) else { return of(last) };
+    let before = &nodes[after - 1];
+    let share = (position - before.at as f64) / (next.at - before.at) as f64;
+    of(before) + share * (of(next) - of(before))
 }
 
 /// What a count is of an axis, mm or rad.

@@ -1,0 +1,77 @@
+//! What a control holds after the files are loaded.
+//!
+//! ```text
+//!     tables    position of one axis            -> added to the command of one axis
+//!     known     errors of the links by name     -> the control's own chain moves the tip back
+//!     grid      position of three linear axes   -> added to the same three axes, after the others
+//! ```
+
+use super::grid::Grid;
+use super::table::{Node, Table};
+use trueaxis_machine::errors::ErrorName;
+
+/// Everything that a control looks up.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Content {
+    /// Functions of one axis that are added to the command of one axis.
+    pub tables: Vec<Table>,
+    /// Errors that the control's own chain knows; it moves the linear axes so that the tip is right.
+    pub known: Vec<Known>,
+    /// What three linear axes together add to themselves.
+    pub grid: Option<Grid>,
+}
+
+/// One error as the control knows it, actual minus nominal.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Known {
+    /// Which; an error motion by the position of its axis, a location error as one node.
+    pub error: ErrorName,
+    /// Whether the nodes repeat themselves after a turn.
+    pub modulo: bool,
+    /// Values in counts: 10⁻⁶ mm of shifts, [`Known::COUNT_RAD`] of rotations; `at` in counts of the axis.
+    pub nodes: Vec<Node>,
+}
+
+impl Known {
+    /// A count of a rotation, rad.
+    pub const COUNT_RAD: f64 = 1e-9;
+    /// A count of a shift, mm.
+    pub const COUNT_MM: f64 = 1e-6;
+
+    /// What a count of its values is, mm or rad.
+    pub fn count(&self) -> f64 {
+        count_of_error(self.error)
+    }
+
+    /// The node with the largest value.
+    pub fn largest(&self) -> Option<&Node> {
+        self.nodes.iter().max_by_key(|n| n.up.abs())
+    }
+}
+
+/// What a count of an error is, mm or rad.
+pub fn count_of_error(error: ErrorName) -> f64 {
+    match error.component.is_rotation() {
+        true => Known::COUNT_RAD,
+        false => Known::COUNT_MM,
+    }
+}
+
+impl Content {
+    /// The same with every sign turned.
+    pub fn negated(&self) -> Self {
+        let nodes = |k: &Known| k.nodes.iter().map(Node::negated).collect();
+        Self {
+            tables: self.tables.iter().map(Table::negated).collect(),
+            known: self.known.iter().map(|k| Known { nodes: nodes(k), ..k.clone() }).collect(),
+            grid: self.grid.as_ref().map(Grid::negated),
+        }
+    }
+
+    /// In one order, so that two can be compared.
+    pub fn sorted(mut self) -> Self {
+        self.tables.sort_by_key(|t| (t.input, t.output));
+        self.known.sort_by_key(|k| k.error.to_string());
+        self
+    }
+}

@@ -1,0 +1,59 @@
+//! A control that has read the files: what it adds to every command.
+
+use super::content::Content;
+use super::control::Control;
+use super::lever::placed;
+use super::link::errors_of;
+use super::table::{count_of, counts};
+use std::convert::Infallible;
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::{Approach, Command};
+
+/// A control with its content, on a machine.
+pub struct Emulation<'a> {
+    machine: &'a Machine,
+    control: &'a dyn Control,
+    content: Content,
+}
+
+impl<'a> Emulation<'a> {
+    /// The control after it has read this content.
+    pub fn new(machine: &'a Machine, control: &'a dyn Control, content: Content) -> Self {
+        Self { machine, control, content }
+    }
+
+    /// The machine as it is.
+    pub fn machine(&self) -> &Machine {
+        self.machine
+    }
+
+    /// What the control adds to a command, mm and rad: tables and chain by the programmed command, the grid
+    /// by the position of the linear axes.
+    pub fn added(&self, command: &Command, approach: &Approach) -> Command {
+        let mut added = self.by_chain(command, approach);
+        for table in &self.content.tables {
+            let position = counts(self.machine, table.input, command[table.input]);
+            let value = self.control.value(table, position, approach[table.input]);
+            added[table.output] += value * count_of(self.machine, table.output);
+        }
+        if let Some(grid) = &self.content.grid {
+            let place = grid.sides.map(|s| counts(self.machine, s.axis, command[s.axis]));
+            for (side, value) in grid.sides.iter().zip(grid.at(place)) {
+                added[side.axis] += value * count_of(self.machine, side.axis);
+            }
+        }
+        added
+    }
+
+    fn by_chain(&self, command: &Command, approach: &Approach) -> Command {
+        if self.content.known.is_empty() {
+            return Command::default();
+        }
+        let known = |at: &Command| {
+            let content = (self.control, &self.content);
+            Ok::<_, Infallible>(errors_of(self.machine, content, at, approach))
+        };
+        let Ok(added) = placed(self.machine, command, &known, Command::default());
+        added
+    }
+}

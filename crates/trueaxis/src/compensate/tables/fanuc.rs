@@ -1,0 +1,287 @@
+//! FANUC: stored pitch error compensation in both directions, and the grid of 3-D error compensation.
+//!
+//! ```text
+//!     pitch    number n: what the compensation grows by from point n − 1 to point n, in whole increments;
+//!              0 at the reference position; given out half way between two points
+//!     grid     trilinear between points of equal distances
+//! ```
+//!
+//! docs/compensation-tables.md has the pages, and what they do not say.
+
+use super::content::Content;
+use super::control::{Control, File, ReadFault, checked};
+use super::grid::{Grid, GridRule, Side};
+use super::place::{Rule, Spacing, stepwise};
+use super::table::{Node, PER_UNIT, Table, axis_order, decimal, parse_decimal};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::{AxisKind, Travel};
+
+/// A FANUC 30i.
+pub struct Fanuc;
+
+/// 0.1 µm and 0.0001 deg, the detection unit of an IS-C control, in counts.
+const UNIT: i64 = 100;
+/// Points of one axis; six axes stay below the numbers 0 to 1023.
+const MOST_NODES: usize = 128;
+/// The number of a falling value is so much higher than that of the rising one.
+const FALLING: i64 = 3000;
+/// In the file a number is so much higher than on the screen.
+const IN_FILE: i64 = 10_000;
+/// Points of the grid.
+const MOST_POINTS: usize = 15_625;
+
+const PITCH: &str = "PITCH.TXT";
+const PARAMETERS: &str = "PARAM.TXT";
+const GRID: &str = "GRID3D.CSV";
+
+impl Control for Fanuc {
+    fn key(&self) -> &'static str {
+        "fanuc"
+    }
+
+    fn has_cross_tables(&self) -> bool {
+        false
+    }
+
+    fn has_modulo(&self) -> bool {
+        true
+    }
+
+    fn rule(&self) -> Rule {
+        Rule {
+            spacing: Spacing::Stepped { unit: UNIT },
+            fewest_nodes: 2,
+            most_nodes: MOST_NODES,
+            increment: UNIT as f64,
+        }
+    }
+
+    fn value(&self, table: &Table, position: f64, side: f64) -> f64 {
+        let position = match table.modulo {
+            true => position.rem_euclid(360.0 * PER_UNIT),
+            false => position,
+        };
+        stepwise(&table.nodes, position, side)
+    }
+
+    fn grid(&self) -> Option<GridRule> {
+        Some(GridRule {
+            most_points: MOST_POINTS,
+            most_along: MOST_NODES,
+            increment: UNIT,
+            largest: i64::from(i16::MAX) * UNIT,
+            interval: UNIT,
+        })
+    }
+
+    fn write(&self, machine: &Machine, content: &Content) -> Vec<File> {
+        let (mut pitch, mut parameters) = ("%\n".to_owned(), "%\n".to_owned());
+        let mut first = 0;
+        for (number, axis) in axis_order(machine).into_iter().enumerate() {
+            let Some(table) = content.tables.iter().find(|t| t.input == axis) else { continue };
+            let rotary = machine.axes()[axis].kind == AxisKind::Rotary;
+            parameters += &parameters_of(table, number + 1, first, rotary);
+            pitch += &values_of(table, first);
+            first += table.nodes.len() as i64;
+        }
+        let file = |name: &str, text: String| File { name: name.to_owned(), text };
+        let mut files = vec![file(PITCH, pitch + "%\n"), file(PARAMETERS, parameters + "%\n")];
+        if let Some(grid) = &content.grid {
+            files.push(file(GRID, grid_text(machine, grid)));
+        }
+        files
+    }
+
+    fn read(&self, machine: &Machine, files: &[File]) -> Result<Content, ReadFault> {
+        let find = |name: &str| files.iter().find(|f| f.name == name);
+        let needed = |name| find(name).ok_or_else(|| ReadFault::new(name, "this file"));
+        let (pitch, parameters) = (numbers(needed(PITCH)?)?, numbers(needed(PARAMETERS)?)?);
+        let mut tables = Vec::new();
+        for (number, axis) in axis_order(machine).into_iter().enumerate() {
+            let of = |n: i64| parameters.get(&(n, number + 1)).copied();
+            if let Some(reference) = of(3620) {
+                let modulo = machine.axes()[axis].travel == Travel::Unlimited;
+                let nodes = nodes(&pitch, reference / COUNTS, &of)?;
+                tables.push(checked(
+                    PITCH,
+                    Table { input: axis, output: axis, modulo, nodes },
+                    MOST_NODES,
+                )?);
+            }
+        }
+        let grid = find(GRID).map(|file| read_grid(machine, file)).transpose()?;
+        Ok(Content { tables, grid, ..Content::default() })
+    }
+
+    fn advice(&self) -> &'static [&'static str] {
+        &[
+            "detection unit 0.1 um and 0.0001 deg (increment system IS-C), magnification 1; the reference position is machine position 0",
+            "check the sign with one table and a dial before all are loaded; power off and on, then reference return, before it acts",
+            "form of PITCH.TXT, parameter numbers and numbers of falling values are those of 15i and 16i manuals: compare them with the parameter manual of the control",
+            "GRID3D.CSV lists the points of 3-D error compensation (option); its file form is not public: enter the grid with the parameters of the function",
+            "straightness compensation is left off: the grid has it",
+        ]
+    }
+}
+
+/// Parameters 3620 to 3627 of an axis.
+fn parameters_of(table: &Table, axis: usize, first: i64, rotary: bool) -> String {
+    let last = first + table.nodes.len() as i64 - 1;
+    let step = table.step().unwrap_or(UNIT);
+    let reference = first - table.nodes[0].at / step;
+    let mut text = String::new();
+    let mut line = |number: i64, value: String| {
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "N{number:05}A{axis}P{value}");
+    };
+    let both = table.is_directional();
+    line(3605, format!("0000000{}", u8::from(both)));
+    line(3620, reference.to_string());
+    line(3621, first.to_string());
+    line(3622, last.to_string());
+    line(3623, "1".to_owned());
+    line(3624, decimal(step));
+    if rotary {
+        line(3625, "360.".to_owned());
+    }
+    if both {
+        let at_zero = table.nodes.iter().find(|n| n.at == 0).map_or(0, |n| n.down / UNIT);
+        line(3626, (first + FALLING).to_string());
+        line(3627, at_zero.to_string());
+    }
+    text
+}
+
+/// What the compensation grows by up to each number.
+fn values_of(table: &Table, first: i64) -> String {
+    let mut text = String::new();
+    let mut growth = |from: i64, value: &dyn Fn(&Node) -> i64| {
+        let mut before = value(&table.nodes[0]);
+        for (i, node) in table.nodes.iter().enumerate() {
+            let grown = (value(node) - before) / UNIT;
+            before = value(node);
+            let _ = writeln!(text, "N{:05}P{grown}", IN_FILE + from + i as i64);
+        }
+    };
+    growth(first, &|n| n.up);
+    if table.is_directional() {
+        growth(first + FALLING, &|n| n.down);
+    }
+    text
+}
+
+/// A number of a file, and of an axis (0: none), with its value in counts.
+type Numbers = BTreeMap<(i64, usize), i64>;
+/// Counts of 1.
+const COUNTS: i64 = PER_UNIT as i64;
+
+fn numbers(file: &File) -> Result<Numbers, ReadFault> {
+    let mut numbers = BTreeMap::new();
+    for (i, line) in file.text.lines().enumerate().filter(|(_, l)| *l != "%") {
+        let fault = || ReadFault::new(&file.name, format!("line {}: N…P… or N…A…P…", i + 1));
+        let (key, value) = line.split_once('P').ok_or_else(fault)?;
+        let key = key.strip_prefix('N').ok_or_else(fault)?;
+        let (number, axis) = key.split_once('A').unwrap_or((key, "0"));
+        let key = (number.parse().map_err(|_| fault())?, axis.parse().map_err(|_| fault())?);
+        let value = parse_decimal(value).ok_or_else(fault)?;
+        if numbers.insert(key, value).is_some() {
+            return Err(ReadFault::new(&file.name, format!("line {}: each number once", i + 1)));
+        }
+    }
+    Ok(numbers)
+}
+
+fn nodes(
+    pitch: &Numbers,
+    reference: i64,
+    of: &dyn Fn(i64) -> Option<i64>,
+) -> Result<Vec<Node>, ReadFault> {
+    let missing = |n: i64| ReadFault::new(PARAMETERS, format!("parameter {n} of each axis"));
+    let get = |n: i64| of(n).ok_or_else(|| missing(n));
+    let (first, last, step) = (get(3621)? / COUNTS, get(3622)? / COUNTS, get(3624)?);
+    let inside = (0..MOST_NODES as i64).contains(&(last - first));
+    if !inside || !(first..=last).contains(&reference) || step <= 0 {
+        return Err(ReadFault::new(PARAMETERS, "3621 below 3620 below 3622, and 3624 above 0"));
+    }
+    let absolute = |shift: i64, at_reference: i64| {
+        let grown = (first..=last).map(|n| {
+            let value = pitch.get(&(IN_FILE + shift + n, 0)).map(|v| v / COUNTS * UNIT);
+            value.ok_or_else(|| ReadFault::new(PITCH, format!("N{}", IN_FILE + shift + n)))
+        });
+        let grown = grown.collect::<Result<Vec<i64>, _>>()?;
+        let mut sum = 0;
+        let sums: Vec<i64> = grown
+            .iter()
+            .enumerate()
+            .map(|(i, g)| {
+                sum += if i == 0 { 0 } else { *g };
+                sum
+            })
+            .collect();
+        let there = sums[(reference - first) as usize];
+        Ok::<_, ReadFault>(sums.into_iter().map(|s| s - there + at_reference).collect::<Vec<_>>())
+    };
+    let up = absolute(0, 0)?;
+    let down = match of(3627) {
+        Some(at_reference) => absolute(FALLING, at_reference / COUNTS * UNIT)?,
+        None => up.clone(),
+    };
+    let pairs = up.into_iter().zip(down).zip(first..);
+    Ok(pairs.map(|((up, down), n)| Node { at: (n - reference) * step, up, down }).collect())
+}
+
+fn grid_text(machine: &Machine, grid: &Grid) -> String {
+    let names = grid.sides.map(|s| machine.axes()[s.axis].name.to_string());
+    let counts = grid.sides.map(|s| s.count.to_string()).join(" x ");
+    let mut text = format!(
+        "# TrueAxis: {counts} points; positions and what is added to the command, mm\n\
+         point,{},added_{}\n",
+        names.join(","),
+        names.join(",added_")
+    );
+    for (i, (place, value)) in grid.places().zip(&grid.values).enumerate() {
+        let numbers = place.iter().chain(value).map(|c| decimal(*c)).collect::<Vec<_>>();
+        let _ = writeln!(text, "{},{}", i + 1, numbers.join(","));
+    }
+    text
+}
+
+fn read_grid(machine: &Machine, file: &File) -> Result<Grid, ReadFault> {
+    let fault = |line: usize, expected: &str| {
+        ReadFault::new(&file.name, format!("line {}: {expected}", line + 1))
+    };
+    let mut lines = file.text.lines().enumerate().filter(|(_, l)| !l.starts_with('#'));
+    let head = lines.next().map_or("", |(_, l)| l);
+    let axes: Vec<usize> = head
+        .split(',')
+        .filter_map(|h| machine.axes().iter().position(|a| a.name.to_string() == h))
+        .collect();
+    let axes = axes.first_chunk::<3>().ok_or_else(|| fault(1, "three axes of the machine"))?;
+    let mut rows: Vec<[i64; 6]> = Vec::new();
+    for (i, line) in lines {
+        let numbers: Option<Vec<i64>> = line.split(',').skip(1).map(parse_decimal).collect();
+        let row = numbers.and_then(|n| <[i64; 6]>::try_from(n).ok());
+        rows.push(row.ok_or_else(|| fault(i, "a point, three positions, three values"))?);
+    }
+    let side = |i: usize| {
+        let mut at: Vec<i64> = rows.iter().map(|r| r[i]).collect();
+        at.sort_unstable();
+        at.dedup();
+        let step = at.get(1).map_or(1, |b| b - at[0]);
+        Side { axis: axes[i], from: at.first().copied().unwrap_or(0), step, count: at.len() }
+    };
+    let grid = Grid {
+        sides: [side(0), side(1), side(2)],
+        values: rows.iter().map(|r| [r[3], r[4], r[5]]).collect(),
+    };
+    let points = grid.sides.iter().map(|s| s.count).product::<usize>();
+    let right = points == rows.len()
+        && points > 0
+        && grid.places().zip(&rows).all(|(p, r)| p == [r[0], r[1], r[2]]);
+    match right {
+        true => Ok(grid),
+        false => Err(fault(1, "a full grid of equal distances, the first axis fastest")),
+    }
+}
