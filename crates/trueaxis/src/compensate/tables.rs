@@ -20,6 +20,7 @@ mod fault;
 pub mod grid;
 mod heidenhain;
 mod isg;
+pub mod joints;
 pub mod known;
 mod lever;
 mod link;
@@ -36,6 +37,7 @@ use content::Content;
 use control::{Control, File};
 use emulation::Emulation;
 use grid::{GridFault, Gridded};
+use joints::{Joints, moves_an_axis};
 use known::MadeKnown;
 use lever::Lever;
 use place::{PlaceFault, Placed};
@@ -91,6 +93,8 @@ pub struct Order {
     pub bound_mm: f64,
     /// The same of rotary axes, rad.
     pub bound_rad: f64,
+    /// Whether rotary centres and tilts go into the control's kinematic parameters, where it has them.
+    pub kinematics: bool,
     /// A larger correction is refused: mm.
     pub limit_mm: f64,
     /// The same, rad.
@@ -101,7 +105,8 @@ impl Order {
     /// 1 µm and 5 µrad lost at most; nothing above 1 mm and 1 mrad.
     pub fn of(target: Target) -> Self {
         let (bound_mm, bound_rad) = (1e-3, 5e-6);
-        Self { target, reference: None, bound_mm, bound_rad, limit_mm: 1.0, limit_rad: 1e-3 }
+        let (limit_mm, limit_rad) = (1.0, 1e-3);
+        Self { target, reference: None, bound_mm, bound_rad, kinematics: true, limit_mm, limit_rad }
     }
 
     fn bound(&self, kind: AxisKind) -> f64 {
@@ -168,6 +173,8 @@ pub struct Compiled {
     pub tables: Vec<Made>,
     /// The errors in them that the control's chain knows.
     pub known: Vec<MadeKnown>,
+    /// Where the control's chain has the rotary axes.
+    pub joints: Option<Joints>,
     /// The grid in them.
     pub grid: Option<Gridded>,
     /// What was not written.
@@ -190,6 +197,7 @@ impl Compiled {
         Content {
             tables: self.tables.iter().map(|t| t.table.clone()).collect(),
             known: self.known.iter().map(|k| k.known.clone()).collect(),
+            joints: self.joints.clone(),
             grid: self.grid.as_ref().map(|g| g.grid.clone()),
         }
     }
@@ -207,10 +215,11 @@ pub fn compile(machine: &Machine, order: &Order) -> Result<Compiled, TablesError
         }
     }
     let reference = order.reference.unwrap_or_else(|| middle(machine));
-    let (chain, rest) = known::split(machine, control.as_ref());
+    let (chain, rest) = known::split(machine, control.as_ref(), order.kinematics);
     let knowledge = known::compile(&chain, order, control.as_ref())?;
     let written: Vec<_> = knowledge.made.iter().map(|k| k.known.clone()).collect();
-    let mut content = Content { known: written, ..Content::default() };
+    let joints = joints_of(&chain, control.as_ref());
+    let mut content = Content { known: written, joints, ..Content::default() };
     let (tables, mut left_out) = tables(machine, &rest, order, (control.as_ref(), &content))?;
     let uncertain = knowledge.left_out.into_iter();
     left_out.extend(uncertain.map(|(error, largest)| LeftOut {
@@ -228,16 +237,24 @@ pub fn compile(machine: &Machine, order: &Order) -> Result<Compiled, TablesError
         order: *order,
         reference,
         before: left(Content::default())?,
-        wrong_sign: left(read.negated())?,
-        errors: error_losses(machine, &reference, (control.as_ref(), &read), order.bound_mm),
+        wrong_sign: left(read.negated(machine))?,
+        errors: error_losses(machine, &reference, (control.as_ref(), &read), order),
         after: left(read)?,
         files,
         tables,
         known: knowledge.made,
+        joints: content.joints,
         grid: gridded,
         left_out,
         advice: control.advice(),
     })
+}
+
+/// The rotary axes as the control's parameters have them, if it knows an error of them.
+fn joints_of(chain: &Machine, control: &dyn Control) -> Option<Joints> {
+    let some = chain.stated_errors().iter().any(|(_, name)| moves_an_axis(chain, *name));
+    let actual = Joints::actual(chain);
+    (some && !control.knows_links() && actual != Joints::nominal(chain)).then_some(actual)
 }
 
 /// Why something stays out that is not known well enough.

@@ -3,11 +3,14 @@
 //! ```text
 //!     tables    position of one axis            -> added to the command of one axis
 //!     known     errors of the links by name     -> the control's own chain moves the tip back
+//!     joints    where the rotary axes are       -> the same
 //!     grid      position of three linear axes   -> added to the same three axes, after the others
 //! ```
 
 use super::grid::Grid;
+use super::joints::Joints;
 use super::table::{Node, Table};
+use trueaxis_machine::Machine;
 use trueaxis_machine::errors::ErrorName;
 
 /// Everything that a control looks up.
@@ -17,6 +20,8 @@ pub struct Content {
     pub tables: Vec<Table>,
     /// Errors that the control's own chain knows; it moves the linear axes so that the tip is right.
     pub known: Vec<Known>,
+    /// Where its own chain has the rotary axes.
+    pub joints: Option<Joints>,
     /// What three linear axes together add to themselves.
     pub grid: Option<Grid>,
 }
@@ -24,7 +29,7 @@ pub struct Content {
 /// One error as the control knows it, actual minus nominal.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Known {
-    /// Which; an error motion by the position of its axis, a location error as one node.
+    /// Which: an error motion, by the position of its axis.
     pub error: ErrorName,
     /// Whether the nodes repeat themselves after a turn.
     pub modulo: bool,
@@ -59,11 +64,12 @@ pub fn count_of_error(error: ErrorName) -> f64 {
 
 impl Content {
     /// The same with every sign turned.
-    pub fn negated(&self) -> Self {
+    pub fn negated(&self, machine: &Machine) -> Self {
         let nodes = |k: &Known| k.nodes.iter().map(Node::negated).collect();
         Self {
             tables: self.tables.iter().map(Table::negated).collect(),
             known: self.known.iter().map(|k| Known { nodes: nodes(k), ..k.clone() }).collect(),
+            joints: self.joints.as_ref().map(|j| j.negated(&Joints::nominal(machine))),
             grid: self.grid.as_ref().map(Grid::negated),
         }
     }

@@ -46,7 +46,7 @@ impl<'a> Emulation<'a> {
     }
 
     fn by_chain(&self, command: &Command, approach: &Approach) -> Command {
-        if self.content.known.is_empty() {
+        if self.content.known.is_empty() && self.content.joints.is_none() {
             return Command::default();
         }
         let known = |at: &Command| {

@@ -5,7 +5,7 @@ use super::content::{Known, count_of_error};
 use super::control::Control;
 use super::link::link_errors;
 use super::place::{self, PlaceFault, Placed, Rule, Spacing};
-use super::table::{Node, count_of};
+use super::table::count_of;
 use super::{Order, TablesError, range};
 use crate::volume::commands;
 use trueaxis_machine::Machine;
@@ -39,24 +39,30 @@ pub struct Knowledge {
     pub left_out: Vec<(ErrorName, f64)>,
 }
 
-/// The machine with the errors that the control's chain can know, and that with all others, which are left to
-/// tables and grid.
-pub fn split(machine: &Machine, control: &dyn Control) -> (Machine, Machine) {
+/// The machine with the errors that the control's chain can know, and that with those which are left to tables and
+/// grid.
+///
+/// Where the chain knows whole links, the errors of workpiece and tool are neither: they belong into the work offset
+/// and the tool.
+pub fn split(machine: &Machine, control: &dyn Control, kinematics: bool) -> (Machine, Machine) {
     let pairs = control.pairs(machine);
+    let links = control.knows_links();
     let mut parts = (machine.clone(), machine.clone());
     for (index, name) in machine.stated_errors() {
         let axis = machine.bodies()[index.body].axis;
-        let by_table = axis.is_some_and(|i| is_own(machine, i, name) && pairs.contains(&(i, i)));
-        let known = match control.knows_links() {
-            true => axis.is_some() && !by_table,
-            false => name.kind == ErrorKind::Location && control.knows_location(machine, name),
+        let own = axis.is_some_and(|i| is_own(machine, i, name) && pairs.contains(&(i, i)));
+        let known = match links {
+            true => axis.is_some() && !own,
+            false => kinematics && control.knows_location(machine, name),
         };
-        match known {
-            true => parts.1 = parts.1.with_error(index, None),
-            false => parts.0 = parts.0.with_error(index, None),
+        if !known {
+            parts.0 = parts.0.with_error(index, None);
+        }
+        if known || links && !own {
+            parts.1 = parts.1.with_error(index, None);
         }
     }
-    match control.knows_links() {
+    match links {
         true => (parts.0, parts.1.without_heat()),
         false => (parts.0.without_heat(), parts.1),
     }
@@ -103,17 +109,14 @@ fn of_body(
     body: usize,
 ) -> Result<Vec<MadeKnown>, TablesError> {
     let chain = &machine.bodies()[body];
-    let error = |kind, component| ErrorName { body: chain.name, kind, component };
     let Some(axis) = chain.axis.filter(|_| control.knows_links()) else {
-        let all = Component::ALL.map(|c| error(ErrorKind::Location, c)).into_iter();
-        let known = all.filter(|e| control.knows_location(machine, *e));
-        return Ok(known.map(|e| constant(machine, body, e)).collect());
+        return Ok(Vec::new());
     };
     let mut fewest = 2;
     loop {
         let rule = Rule { spacing: Spacing::Equal, fewest_nodes: fewest, ..control.known_rule() };
         let one = |c| {
-            let name = error(ErrorKind::Motion, c);
+            let name = ErrorName { body: chain.name, kind: ErrorKind::Motion, component: c };
             function(machine, (order, rule), control, (body, axis, name))
         };
         let all = Component::ALL.into_iter().map(one).collect::<Result<Vec<_>, _>>()?;
@@ -130,20 +133,7 @@ fn of_body(
 fn largest_u(machine: &Machine, body: usize, error: ErrorName) -> f64 {
     let chain = &machine.bodies()[body];
     let of = |kind| chain.stated(kind, error.component).map_or(0.0, |s| s.u_at(0.0));
-    match error.kind {
-        ErrorKind::Location => of(ErrorKind::Location),
-        ErrorKind::Motion => of(ErrorKind::Location).hypot(of(ErrorKind::Motion)),
-    }
-}
-
-fn constant(machine: &Machine, body: usize, error: ErrorName) -> MadeKnown {
-    let stated = machine.bodies()[body].stated(error.kind, error.component);
-    let value = stated.and_then(|s| s.at(0.0, 0.0).ok()).unwrap_or(0.0);
-    let count = count_of_error(error);
-    let whole = (value / count).round() as i64;
-    let nodes = vec![Node { at: 0, up: whole, down: whole }];
-    let known = Known { error, modulo: false, nodes };
-    MadeKnown { known, loss: (whole as f64 * count - value).abs(), largest: value.abs() }
+    of(ErrorKind::Location).hypot(of(ErrorKind::Motion))
 }
 
 fn function(

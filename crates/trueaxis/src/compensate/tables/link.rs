@@ -11,38 +11,35 @@
 use super::content::Content;
 use super::control::Control;
 use super::table::{counts, interpolated};
-use nalgebra::{Rotation3, Unit};
-use trueaxis_geometry::Vec3;
+use trueaxis_geometry::frame::rotation;
+use trueaxis_geometry::{Mat3, Vec3};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, AxisKind, Command};
-use trueaxis_machine::chain::ErrorFrame;
+use trueaxis_machine::chain::{ErrorFrame, Squareness};
 use trueaxis_machine::errors::{BodyErrors, ErrorValues, Six};
 
 /// The joint of a body at a command: its turn and its shift.
 struct Joint {
-    turn: Rotation3<f64>,
+    turn: Mat3,
     shift: Vec3,
 }
 
 impl Joint {
     fn of(machine: &Machine, body: usize, command: &Command) -> Self {
-        let still = Self { turn: Rotation3::identity(), shift: Vec3::zeros() };
+        let still = Self { turn: Mat3::identity(), shift: Vec3::zeros() };
         let Some(i) = machine.bodies()[body].axis else { return still };
         let axis = &machine.axes()[i];
         let way = axis.sense * command[i];
         match axis.kind {
             AxisKind::Linear => Self { shift: axis.direction * way, ..still },
-            AxisKind::Rotary => {
-                let about = Unit::new_normalize(axis.direction);
-                Self { turn: Rotation3::from_axis_angle(&about, way), ..still }
-            }
+            AxisKind::Rotary => Self { turn: rotation(axis.direction, way), ..still },
         }
     }
 
     /// A small motion in front of the joint as one behind it.
     fn moving_from_fixed(&self, six: &Six) -> Six {
         let (shift, turn) = halves(six);
-        let back = self.turn.inverse();
+        let back = self.turn.transpose();
         joined(back * (shift + turn.cross(&self.shift)), back * turn)
     }
 
@@ -83,17 +80,27 @@ pub fn link_errors(
     (of, frame): (&BodyErrors, ErrorFrame),
 ) -> Six {
     let joint = Joint::of(machine, body, command);
-    match (frame, frame_of(machine, body)) {
-        (ErrorFrame::Moving, ErrorFrame::Moving) => {
-            sum(&joint.moving_from_fixed(&of.location), &of.motion)
+    let rotary =
+        machine.bodies()[body].axis.is_some_and(|i| machine.axes()[i].kind == AxisKind::Rotary);
+    let (with, six) = match frame_of(machine, body) {
+        ErrorFrame::Fixed => (ErrorFrame::Fixed, sum(&of.location, &of.motion)),
+        ErrorFrame::Moving => {
+            let mut placed = joint.moving_from_fixed(&of.location);
+            if !rotary && machine.model().squareness == Squareness::Direction {
+                // Only the direction of motion is tilted; what is carried keeps its attitude.
+                placed = joined(placed.shift_mm(), Vec3::zeros());
+            }
+            (ErrorFrame::Moving, sum(&placed, &of.motion))
         }
-        (ErrorFrame::Moving, ErrorFrame::Fixed) => {
-            joint.moving_from_fixed(&sum(&of.location, &of.motion))
-        }
-        (ErrorFrame::Fixed, ErrorFrame::Moving) => {
-            sum(&of.location, &joint.fixed_from_moving(&of.motion))
-        }
-        (ErrorFrame::Fixed, ErrorFrame::Fixed) => sum(&of.location, &of.motion),
+    };
+    in_frame(&joint, (with, frame), &six)
+}
+
+fn in_frame(joint: &Joint, frames: (ErrorFrame, ErrorFrame), six: &Six) -> Six {
+    match frames {
+        (ErrorFrame::Moving, ErrorFrame::Fixed) => joint.fixed_from_moving(six),
+        (ErrorFrame::Fixed, ErrorFrame::Moving) => joint.moving_from_fixed(six),
+        _ => *six,
     }
 }
 
@@ -115,12 +122,12 @@ pub fn errors_of(
     if control.knows_links() {
         for (body, of) in errors.bodies.iter_mut().enumerate().take(machine.bodies().len()) {
             let joint = Joint::of(machine, body, command);
-            of.motion = match (control.link_frame(machine, body), frame_of(machine, body)) {
-                (ErrorFrame::Moving, ErrorFrame::Fixed) => joint.fixed_from_moving(&of.motion),
-                (ErrorFrame::Fixed, ErrorFrame::Moving) => joint.moving_from_fixed(&of.motion),
-                _ => of.motion,
-            };
+            let frames = (control.link_frame(machine, body), frame_of(machine, body));
+            of.motion = in_frame(&joint, frames, &of.motion);
         }
+    }
+    if let Some(joints) = &content.joints {
+        joints.place(machine, &mut errors);
     }
     errors
 }
@@ -146,7 +153,7 @@ mod tests {
 
     #[test]
     fn both_sides_of_a_joint_are_the_same_motion() {
-        let turn = Rotation3::from_axis_angle(&Vec3::y_axis(), 0.7);
+        let turn = rotation(Vec3::y(), 0.7);
         let joint = Joint { turn, shift: Vec3::new(3.0, -200.0, 10.0) };
         let six = Six([1e-3, -2e-3, 3e-3, 1e-5, 2e-5, -3e-5]);
         let back = joint.moving_from_fixed(&joint.fixed_from_moving(&six));

@@ -1,19 +1,20 @@
 //! What the tables of a control leave: over the volume, of each error alone, of a test piece.
 
-use super::TablesError;
 use super::choose::off;
 use super::content::Content;
 use super::control::Control;
 use super::emulation::Emulation;
+use super::joints::Joints;
 use super::known::split;
 use super::lever::{Lever, correction, errors_near, placed, sum};
 use super::table::Table;
+use super::{Order, TablesError};
 use crate::predict::{Cutting, Error, Judge, Study};
 use crate::volume::commands;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, AxisKind, Command, MAX_AXES};
 use trueaxis_machine::chain::CommandFault;
-use trueaxis_machine::errors::{ErrorKind, ErrorName};
+use trueaxis_machine::errors::{ErrorKind, ErrorName, ErrorValues};
 
 /// Poses over the travel of all axes beside the corners, each reached rising and falling.
 const POSES: u32 = 4096;
@@ -92,8 +93,9 @@ pub fn error_losses(
     machine: &Machine,
     reference: &Command,
     (control, content): (&dyn Control, &Content),
-    bound_mm: f64,
+    order: &Order,
 ) -> Vec<ErrorLoss> {
+    let bound_mm = order.bound_mm;
     let cold = machine.without_heat();
     let all = machine.stated_errors();
     let bare = all.iter().fold(cold.clone(), |m, (index, _)| m.with_error(*index, None));
@@ -102,7 +104,9 @@ pub fn error_losses(
     for (index, error) in all {
         let stated = cold.bodies()[index.body].stated(index.kind, index.component).cloned();
         let alone = bare.clone().with_error(index, stated);
-        let Ok(best) = Best::of(&alone, *reference, (control, content)) else { continue };
+        let (chain, rest) = split(&alone, control, order.kinematics);
+        let parts = (&chain, &rest);
+        let Ok(best) = Best::of(parts, *reference, (control, content)) else { continue };
         let (mut before_mm, mut left_mm) = (0.0_f64, 0.0_f64);
         for (i, command) in poses.iter().enumerate() {
             let approach = [if i % 2 == 0 { 1.0 } else { -1.0 }; MAX_AXES];
@@ -127,43 +131,54 @@ pub fn error_losses(
 
 /// The best that a control could do with such tables, such a chain and such a grid.
 struct Best<'a> {
-    machine: &'a Machine,
+    /// With what the control's chain knows.
+    chain: &'a Machine,
+    /// With what is left to tables and grid.
+    rest: &'a Machine,
+    control: &'a dyn Control,
     content: &'a Content,
     reference: Command,
-    /// Whether the control's chain knows the error.
-    knows: bool,
     lever: Lever<'a>,
 }
 
 impl<'a> Best<'a> {
     fn of(
-        machine: &'a Machine,
+        (chain, rest): (&'a Machine, &'a Machine),
         reference: Command,
         (control, content): (&'a dyn Control, &'a Content),
     ) -> Result<Self, CommandFault> {
-        let knows = split(machine, control).1.stated_errors().is_empty();
-        let lever = Lever::new(machine, reference)?;
-        Ok(Self { machine, content, reference, knows, lever })
+        let lever = Lever::new(rest, reference)?;
+        Ok(Self { chain, rest, control, content, reference, lever })
     }
 
     fn added(&self, command: &Command, approach: &Approach) -> Result<Command, CommandFault> {
-        if self.knows {
-            let errors = |at: &Command| errors_near(self.machine, at, command, approach);
-            return placed(self.machine, command, &errors, Command::default());
-        }
         let mut total = self.by_tables(command, approach)?;
-        let Some(grid) = &self.content.grid else { return Ok(total) };
-        let mut at = self.reference;
-        for side in &grid.sides {
-            at[side.axis] = command[side.axis];
+        if let Some(grid) = &self.content.grid {
+            let mut at = self.reference;
+            for side in &grid.sides {
+                at[side.axis] = command[side.axis];
+            }
+            let still = Approach::default();
+            let whole = correction(self.rest, &at, &still)?;
+            let tables = self.by_tables(&at, &still)?;
+            for side in &grid.sides {
+                total[side.axis] += whole[side.axis] - tables[side.axis];
+            }
         }
-        let still = Approach::default();
-        let mean = correction(self.machine, &at, &still)?;
-        let tables = self.by_tables(&at, &still)?;
-        for side in &grid.sides {
-            total[side.axis] += mean[side.axis] - tables[side.axis];
-        }
-        Ok(total)
+        Ok(sum(&total, &self.by_chain(command, approach)?))
+    }
+
+    fn by_chain(&self, command: &Command, approach: &Approach) -> Result<Command, CommandFault> {
+        let joints = Joints::actual(self.chain);
+        let errors = |at: &Command| match self.control.knows_links() {
+            true => errors_near(self.chain, at, command, approach),
+            false => {
+                let mut errors = ErrorValues::default();
+                joints.place(self.chain, &mut errors);
+                Ok(errors)
+            }
+        };
+        placed(self.chain, command, &errors, Command::default())
     }
 
     fn by_tables(&self, command: &Command, approach: &Approach) -> Result<Command, CommandFault> {
