@@ -53,6 +53,9 @@ pub struct TablesArguments {
         allow_hyphen_values = true
     )]
     limit_angle: String,
+    /// Leave rotary centres and tilts to the tables, for a control without a transformation (TCP)
+    #[arg(long)]
+    no_kinematics: bool,
     /// Of linuxcnc: 0 for actual positions (unless told), 1 for trims
     #[arg(long, value_enum)]
     comp_file_type: Option<CompFileType>,
@@ -165,6 +168,7 @@ impl TablesArguments {
             reference,
             bound_mm: bound_mm?,
             bound_rad: bound_rad?,
+            kinematics: !self.no_kinematics,
             limit_mm: limit_mm?,
             limit_rad: limit_rad?,
             ..Order::of(target)

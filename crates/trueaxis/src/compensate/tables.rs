@@ -21,6 +21,7 @@ pub mod grid;
 mod heidenhain;
 mod isg;
 pub mod joints;
+mod joints_csv;
 pub mod known;
 mod lever;
 mod link;
@@ -29,6 +30,7 @@ pub mod place;
 pub mod proof;
 mod sinumerik;
 pub mod table;
+mod tool_carrier;
 
 pub use fault::TablesError;
 

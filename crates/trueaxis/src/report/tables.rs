@@ -1,6 +1,7 @@
 //! Compensation tables and what they leave, as text and JSON.
 
 use crate::compensate::tables::grid::{Gridded, Side};
+use crate::compensate::tables::joints::{Joint, Joints};
 use crate::compensate::tables::known::MadeKnown;
 use crate::compensate::tables::proof::{ErrorLoss, IndexLeft, Left};
 use crate::compensate::tables::table::{PER_UNIT, Table, count_of};
@@ -8,6 +9,7 @@ use crate::compensate::tables::{Compiled, LeftOut, Made, What, known, shown};
 use crate::describe::to_shown;
 use serde_json::{Map, Value as Json, json};
 use std::fmt::Write;
+use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::errors::ErrorName;
@@ -98,6 +100,15 @@ fn known_text(machine: &Machine, compiled: &Compiled) -> String {
         // Writing to a String cannot fail.
         let _ = writeln!(text, "  {} up to {size}: {nodes}", known.error);
     }
+    for (actual, nominal) in joints_of(machine, compiled) {
+        let [x, y, z] = (actual.point_mm() - nominal.point_mm()).map(|c| c * 1e3).into();
+        let tilt = (actual.along() - nominal.along()).norm() * 1e6;
+        let _ = writeln!(
+            text,
+            "  {} in the control's kinematics: moved by {x:.2} {y:.2} {z:.2} µm, tilted by {tilt:.2} µrad",
+            actual.axis
+        );
+    }
     if let Some(Gridded { grid, loss, largest }) = &compiled.grid {
         let side = |s: &Side| {
             let (from, step) = (s.from as f64 / PER_UNIT, s.step as f64 / PER_UNIT);
@@ -112,6 +123,12 @@ fn known_text(machine: &Machine, compiled: &Compiled) -> String {
         );
     }
     text
+}
+
+/// The rotary axes as the control has them, beside the nominal ones.
+fn joints_of(machine: &Machine, compiled: &Compiled) -> Vec<(Joint, Joint)> {
+    let Some(joints) = &compiled.joints else { return Vec::new() };
+    joints.0.iter().copied().zip(Joints::nominal(machine).0).collect()
 }
 
 /// What is added where, by the node that adds most.
@@ -203,6 +220,7 @@ pub fn tables_json(report: &TablesReport<'_>) -> Json {
         "reference": place_json(machine, &compiled.reference),
         "tables": compiled.tables.iter().map(|t| made_json(machine, t)).collect::<Vec<_>>(),
         "known": compiled.known.iter().map(known_json).collect::<Vec<_>>(),
+        "kinematics": joints_of(machine, compiled).iter().map(joint_json).collect::<Vec<_>>(),
         "grid": compiled.grid.as_ref().map(|g| grid_json(machine, g)),
         "left_out": compiled.left_out.iter().map(|t| out_json(machine, t)).collect::<Vec<_>>(),
         "represents": represented.iter().map(|e| e.error.to_string()).collect::<Vec<_>>(),
@@ -291,6 +309,17 @@ fn known_json(made: &MadeKnown) -> Json {
     json[format!("loss_{unit}")] = json!(loss * factor);
     json[format!("largest_{unit}")] = json!(largest * factor);
     json
+}
+
+fn joint_json((actual, nominal): &(Joint, Joint)) -> Json {
+    let vector = |v: Vec3| [v.x, v.y, v.z];
+    json!({
+        "axis": actual.axis.to_string(),
+        "point_mm": vector(actual.point_mm()),
+        "direction": vector(actual.along()),
+        "moved_um": vector((actual.point_mm() - nominal.point_mm()) * 1e3),
+        "tilted_urad": vector((actual.along() - nominal.along()) * 1e6),
+    })
 }
 
 fn grid_json(machine: &Machine, gridded: &Gridded) -> Json {

@@ -3,9 +3,12 @@
 
 use super::content::Content;
 use super::control::{Control, File, ReadFault, checked};
+use super::joints::moves_an_axis;
+use super::joints_csv;
 use super::place::{Rule, Spacing};
 use super::table::{Node, Table, decimal, parse_decimal};
 use trueaxis_machine::Machine;
+use trueaxis_machine::errors::ErrorName;
 
 /// The plain format of this project.
 pub struct Csv;
@@ -23,12 +26,22 @@ impl Control for Csv {
         true
     }
 
+    fn knows_location(&self, machine: &Machine, error: ErrorName) -> bool {
+        moves_an_axis(machine, error)
+    }
+
     fn has_modulo(&self) -> bool {
         true
     }
 
     fn rule(&self) -> Rule {
-        Rule { spacing: Spacing::Free, fewest_nodes: 2, most_nodes: MOST_NODES, increment: 1.0 }
+        Rule {
+            spacing: Spacing::Free,
+            fewest_nodes: 2,
+            most_nodes: MOST_NODES,
+            increment: 1.0,
+            position: 1,
+        }
     }
 
     fn write(&self, machine: &Machine, content: &Content) -> Vec<File> {
@@ -46,11 +59,15 @@ impl Control for Csv {
                 text += &format!("{input},{output},{modulo},{at},{up},{down}\n");
             }
         }
-        vec![File { name: NAME.to_owned(), text }]
+        let kinematics = content.joints.as_ref().map(joints_csv::write);
+        [File { name: NAME.to_owned(), text }].into_iter().chain(kinematics).collect()
     }
 
     fn read(&self, machine: &Machine, files: &[File]) -> Result<Content, ReadFault> {
-        let [file] = files else { return Err(ReadFault::new(NAME, "one file")) };
+        let find = |name: &str| files.iter().find(|f| f.name == name);
+        let file = find(NAME).ok_or_else(|| ReadFault::new(NAME, "this file"))?;
+        let kinematics = find(joints_csv::NAME).map(|file| joints_csv::read(machine, file));
+        let joints = kinematics.transpose()?;
         let fault = |expected: String| ReadFault::new(&file.name, expected);
         let mut lines = file.text.lines().filter(|l| !l.starts_with('#'));
         if lines.next() != Some(&HEADINGS.join(",")) {
@@ -77,7 +94,7 @@ impl Control for Csv {
             }
         }
         let tables = tables.into_iter().map(|t| checked(&file.name, t, MOST_NODES));
-        Ok(Content { tables: tables.collect::<Result<_, _>>()?, ..Content::default() })
+        Ok(Content { tables: tables.collect::<Result<_, _>>()?, joints, ..Content::default() })
     }
 
     fn advice(&self) -> &'static [&'static str] {

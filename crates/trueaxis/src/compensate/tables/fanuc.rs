@@ -11,12 +11,15 @@
 use super::content::Content;
 use super::control::{Control, File, ReadFault, checked};
 use super::grid::{Grid, GridRule, Side};
+use super::joints::moves_an_axis;
+use super::joints_csv;
 use super::place::{Rule, Spacing, stepwise};
 use super::table::{Node, PER_UNIT, Table, axis_order, decimal, parse_decimal};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Travel};
+use trueaxis_machine::errors::ErrorName;
 
 /// A FANUC 30i.
 pub struct Fanuc;
@@ -45,6 +48,11 @@ impl Control for Fanuc {
         false
     }
 
+    /// Centres; directions are nominal.
+    fn knows_location(&self, machine: &Machine, error: ErrorName) -> bool {
+        moves_an_axis(machine, error) && !error.component.is_rotation()
+    }
+
     fn has_modulo(&self) -> bool {
         true
     }
@@ -55,6 +63,7 @@ impl Control for Fanuc {
             fewest_nodes: 2,
             most_nodes: MOST_NODES,
             increment: UNIT as f64,
+            position: UNIT,
         }
     }
 
@@ -86,11 +95,15 @@ impl Control for Fanuc {
             pitch += &values_of(table, first);
             first += table.nodes.len() as i64;
         }
+        // Blocks of a file that a control punches end with LF CR CR.
+        let ended = |text: String| text.replace('\n', "\n\r\r");
         let file = |name: &str, text: String| File { name: name.to_owned(), text };
-        let mut files = vec![file(PITCH, pitch + "%\n"), file(PARAMETERS, parameters + "%\n")];
+        let mut files =
+            vec![file(PITCH, ended(pitch + "%\n")), file(PARAMETERS, ended(parameters + "%\n"))];
         if let Some(grid) = &content.grid {
             files.push(file(GRID, grid_text(machine, grid)));
         }
+        files.extend(content.joints.as_ref().map(joints_csv::write));
         files
     }
 
@@ -112,16 +125,19 @@ impl Control for Fanuc {
             }
         }
         let grid = find(GRID).map(|file| read_grid(machine, file)).transpose()?;
-        Ok(Content { tables, grid, ..Content::default() })
+        let joints =
+            find(joints_csv::NAME).map(|file| joints_csv::read(machine, file)).transpose()?;
+        Ok(Content { tables, grid, joints, ..Content::default() })
     }
 
     fn advice(&self) -> &'static [&'static str] {
         &[
             "detection unit 0.1 um and 0.0001 deg (increment system IS-C), magnification 1; the reference position is machine position 0",
             "check the sign with one table and a dial before all are loaded; power off and on, then reference return, before it acts",
-            "form of PITCH.TXT, parameter numbers and numbers of falling values are those of 15i and 16i manuals: compare them with the parameter manual of the control",
+            "compare PITCH.TXT and PARAM.TXT with files that the control has punched: lines and parameter numbers are those of 16i manuals and of backups of 31i controls, N10000Q0 is not proved",
             "GRID3D.CSV lists the points of 3-D error compensation (option); its file form is not public: enter the grid with the parameters of the function",
             "straightness compensation is left off: the grid has it",
+            "kinematics.csv: the centres belong into the parameters of the 5-axis machine (19700 ff.); their directions stay nominal",
         ]
     }
 }
@@ -134,7 +150,7 @@ fn parameters_of(table: &Table, axis: usize, first: i64, rotary: bool) -> String
     let mut text = String::new();
     let mut line = |number: i64, value: String| {
         // Writing to a String cannot fail.
-        let _ = writeln!(text, "N{number:05}A{axis}P{value}");
+        let _ = writeln!(text, "N{number:05}Q1A{axis}P{value}");
     };
     let both = table.is_directional();
     line(3605, format!("0000000{}", u8::from(both)));
@@ -162,7 +178,7 @@ fn values_of(table: &Table, first: i64) -> String {
         for (i, node) in table.nodes.iter().enumerate() {
             let grown = (value(node) - before) / UNIT;
             before = value(node);
-            let _ = writeln!(text, "N{:05}P{grown}", IN_FILE + from + i as i64);
+            let _ = writeln!(text, "N{:05}Q0P{grown}", IN_FILE + from + i as i64);
         }
     };
     growth(first, &|n| n.up);
@@ -179,11 +195,15 @@ const COUNTS: i64 = PER_UNIT as i64;
 
 fn numbers(file: &File) -> Result<Numbers, ReadFault> {
     let mut numbers = BTreeMap::new();
-    for (i, line) in file.text.lines().enumerate().filter(|(_, l)| *l != "%") {
-        let fault = || ReadFault::new(&file.name, format!("line {}: N…P… or N…A…P…", i + 1));
+    let lines = file.text.lines().map(|l| l.trim_matches('\r')).enumerate();
+    for (i, line) in lines.filter(|(_, l)| !matches!(*l, "%" | "")) {
+        let fault = || ReadFault::new(&file.name, format!("line {}: N…Q0P… or N…Q1A…P…", i + 1));
         let (key, value) = line.split_once('P').ok_or_else(fault)?;
         let key = key.strip_prefix('N').ok_or_else(fault)?;
-        let (number, axis) = key.split_once('A').unwrap_or((key, "0"));
+        let (number, axis) = match key.split_once('Q').ok_or_else(fault)? {
+            (number, "0") => (number, "0"),
+            (number, kind) => (number, kind.strip_prefix("1A").ok_or_else(fault)?),
+        };
         let key = (number.parse().map_err(|_| fault())?, axis.parse().map_err(|_| fault())?);
         let value = parse_decimal(value).ok_or_else(fault)?;
         if numbers.insert(key, value).is_some() {

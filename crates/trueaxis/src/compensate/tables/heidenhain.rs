@@ -1,10 +1,10 @@
 //! HEIDENHAIN: axis-error compensation (`.COM`, `.CMA`) and KinematicsComp.
 //!
 //! ```text
-//!     X.COM        AXISPOS BACKLASH X       positioning error of the axis, rising in X, falling in BACKLASH
-//!     XC.COM       AXISPOS C1 … C6          EXX EYX EZX EAX EBX ECX as the kinematics table refers to them
-//!     COMPTAB.TXT  Trans rows in front of each MachAxis of the kinematics table
-//!     CONFIG.CMA   which .COM belongs to which axis
+//!     AXIS_X.COM     AXISPOS BACKLASH X     positioning error of the axis, rising in X, falling in BACKLASH
+//!     AXIS_XC.COM    AXISPOS C1 … C6        EXX EYX EZX EAX EBX ECX as the kinematics table refers to them
+//!     COMPTAB.TXT    Trans rows in front of each MachAxis of the kinematics table
+//!     CONFIG.CMA     which .COM belongs to which axis
 //! ```
 //!
 //! docs/compensation-tables.md has the pages, and what they do not say.
@@ -58,6 +58,7 @@ impl Control for Heidenhain {
             fewest_nodes: 2,
             most_nodes: MOST_NODES,
             increment: INCREMENT,
+            position: 100,
         }
     }
 
@@ -65,14 +66,14 @@ impl Control for Heidenhain {
         let mut files = Vec::new();
         for table in &content.tables {
             let letter = machine.axes()[table.input].name;
-            files.push(File { name: format!("{letter}.COM"), text: own_text(table, letter) });
+            files.push(File { name: format!("AXIS_{letter}.COM"), text: own_text(table, letter) });
         }
         for body in machine.bodies() {
             let of: Vec<&Known> =
                 content.known.iter().filter(|k| k.error.body == body.name).collect();
             if !of.is_empty() {
-                let name = format!("{}C.COM", body.name);
-                files.push(File { name, text: link_text(&of) });
+                let name = format!("AXIS_{}C.COM", body.name);
+                files.push(File { name, text: link_text(body.name, &of) });
             }
         }
         files.push(File { name: "CONFIG.CMA".to_owned(), text: assignment(machine, content) });
@@ -83,7 +84,7 @@ impl Control for Heidenhain {
     fn read(&self, machine: &Machine, files: &[File]) -> Result<Content, ReadFault> {
         let mut content = Content::default();
         for file in files.iter().filter(|f| f.name.ends_with(".COM")) {
-            let stem = file.name.trim_end_matches(".COM");
+            let stem = file.name.trim_start_matches("AXIS_").trim_end_matches(".COM");
             let (letter, links) = match stem.strip_suffix('C') {
                 Some(letter) if !letter.is_empty() => (letter, true),
                 _ => (stem, false),
@@ -101,7 +102,8 @@ impl Control for Heidenhain {
 
     fn advice(&self) -> &'static [&'static str] {
         &[
-            "head and number format of .COM, .CMA and COMPTAB are not public: enter the columns with the table editor of the control",
+            "head and columns of .COM are those of a TNC 640 as a program of practice writes them; .CMA and COMPTAB have no public form: enter their rows with the table editor of the control",
+            "BACKLASH holds the values of the negative direction, as the manual of the MANUALplus 620 has it",
             "values are actual minus nominal, mm and deg; check the sign with one table and a dial before all are switched on",
             "COMPTAB.TXT has the rows that stand in front of each MachAxis of the kinematics table, which has to be in the form with KEY, AXIS, COORD; KinematicsComp is an option",
             "positions are machine positions; location errors stand in the functions of their axis",
@@ -110,22 +112,33 @@ impl Control for Heidenhain {
 }
 
 fn own_text(table: &Table, letter: BodyName) -> String {
-    let mut text = format!("NR AXISPOS BACKLASH {letter}\n");
+    let mut text = format!("BEGIN AXIS_{letter}.COM MM\n");
+    text += &row("NR", &["AXISPOS".to_owned(), "BACKLASH".to_owned(), letter.to_string()]);
     for (i, n) in table.nodes.iter().enumerate() {
-        let [at, up, down] = [n.at, -n.up, -n.down].map(decimal);
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "{i} {at} {down} {up}");
+        text += &row(&i.to_string(), &[n.at, -n.down, -n.up].map(|c| signed(&decimal(c))));
     }
     text + "[END]\n"
 }
 
-fn link_text(of: &[&Known]) -> String {
+/// A number of 5 columns and cells of 14.
+fn row(number: &str, cells: &[String]) -> String {
+    let cells: String = cells.iter().map(|c| format!("{c:<14}")).collect();
+    format!("{}\n", format!("{number:<5}{cells}").trim_end())
+}
+
+fn signed(number: &str) -> String {
+    if number.starts_with('-') { number.to_owned() } else { format!("+{number}") }
+}
+
+fn link_text(letter: BodyName, of: &[&Known]) -> String {
     let column = |k: &&Known| format!("C{}", k.error.component as usize + 1);
-    let columns: Vec<String> = of.iter().map(column).collect();
-    let mut text = format!("NR AXISPOS {}\n", columns.join(" "));
-    for (row, node) in of[0].nodes.iter().enumerate() {
-        let values: Vec<String> = of.iter().map(|k| value_text(k, k.nodes[row].up)).collect();
-        let _ = writeln!(text, "{row} {} {}", decimal(node.at), values.join(" "));
+    let mut head = vec!["AXISPOS".to_owned()];
+    head.extend(of.iter().map(column));
+    let mut text = format!("BEGIN AXIS_{letter}C.COM MM\n{}", row("NR", &head));
+    for (i, node) in of[0].nodes.iter().enumerate() {
+        let mut cells = vec![signed(&decimal(node.at))];
+        cells.extend(of.iter().map(|k| signed(&value_text(k, k.nodes[i].up))));
+        text += &row(&i.to_string(), &cells);
     }
     text + "[END]\n"
 }
@@ -167,8 +180,12 @@ fn cells<'a>(file: &'a File) -> Result<(Vec<&'a str>, Vec<Vec<f64>>), ReadFault>
         ReadFault::new(&file.name, format!("line {}: {expected}", line + 1))
     };
     let mut lines = file.text.lines().enumerate();
+    let begins = lines.next().is_some_and(|(_, l)| l == format!("BEGIN {} MM", file.name));
+    if !begins {
+        return Err(fault(0, "BEGIN, the name of the file, MM"));
+    }
     let head: Vec<&str> = lines.next().map_or(Vec::new(), |(_, l)| l.split_whitespace().collect());
-    let ["NR", "AXISPOS", ..] = head[..] else { return Err(fault(0, "NR AXISPOS …")) };
+    let ["NR", "AXISPOS", ..] = head[..] else { return Err(fault(1, "NR AXISPOS …")) };
     let mut rows = Vec::new();
     for (i, line) in lines {
         if line == "[END]" {
@@ -191,7 +208,7 @@ fn whole(value: f64) -> i64 {
 fn read_own(machine: &Machine, axis: usize, file: &File) -> Result<Table, ReadFault> {
     let (head, rows) = cells(file)?;
     let [_, _, "BACKLASH", _] = head[..] else {
-        return Err(ReadFault::new(&file.name, "line 1: NR AXISPOS BACKLASH and the axis"));
+        return Err(ReadFault::new(&file.name, "line 2: NR AXISPOS BACKLASH and the axis"));
     };
     let node = |r: &Vec<f64>| Node { at: whole(r[1]), up: -whole(r[3]), down: -whole(r[2]) };
     let modulo = endless(machine, axis);
@@ -207,7 +224,7 @@ fn read_links(machine: &Machine, axis: usize, file: &File) -> Result<Vec<Known>,
     for (column, name) in head.iter().enumerate().skip(2) {
         let component = name.strip_prefix('C').and_then(|n| n.parse::<usize>().ok());
         let component = component.and_then(|n| Component::ALL.get(n.wrapping_sub(1)).copied());
-        let fault = || ReadFault::new(&file.name, "line 1: columns C1 to C6");
+        let fault = || ReadFault::new(&file.name, "line 2: columns C1 to C6");
         let component = component.ok_or_else(fault)?;
         let error = ErrorName { body, kind: ErrorKind::Motion, component };
         let node = |r: &Vec<f64>| {

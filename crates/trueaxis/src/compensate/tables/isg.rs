@@ -72,6 +72,7 @@ impl Control for Isg {
             fewest_nodes: 2,
             most_nodes: MOST_NODES,
             increment: UNIT as f64,
+            position: UNIT,
         }
     }
 
@@ -109,7 +110,7 @@ impl Control for Isg {
     fn advice(&self) -> &'static [&'static str] {
         &[
             "the two lines of hochlauf.lis stand as comments at the head of vol_comp_0.lis; logical axis numbers there are 1, 2, … : put in those of the machine",
-            "leadscrew lists: kopf.achs_nr is to be the logical axis number; lr_param.ssfk 1; no other backlash compensation; fractions of 0.0001 deg need builds V3.1.3132.0 or V4.29.0",
+            "leadscrew lists: kopf.achs_nr is to be the logical axis number; lr_param.ssfk 1; no other backlash compensation",
             "check the sign with one axis and a dial before all is switched on: if the tip moves the other way, name the axis in `negate`",
             "location errors stand in the functions of their axis, so X0X … C0C are not to be entered a second time",
         ]
@@ -221,12 +222,8 @@ fn leadscrew(table: &Table, number: usize, letter: char) -> String {
 }
 
 /// Counts in 0.0001 deg.
-fn units(counts: i64) -> String {
-    let (sign, size) = (if counts < 0 { "-" } else { "" }, counts.unsigned_abs());
-    match size % UNIT as u64 {
-        0 => format!("{sign}{}", size / UNIT as u64),
-        rest => format!("{sign}{}.{rest:02}", size / UNIT as u64),
-    }
+fn units(counts: i64) -> i64 {
+    counts / UNIT
 }
 
 fn read_leadscrew(machine: &Machine, file: &File) -> Result<Table, ReadFault> {

@@ -3,13 +3,14 @@
 
 use super::content::{Known, count_of_error};
 use super::control::Control;
+use super::lever::own_component;
 use super::link::link_errors;
 use super::place::{self, PlaceFault, Placed, Rule, Spacing};
 use super::table::count_of;
 use super::{Order, TablesError, range};
 use crate::volume::commands;
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::{Approach, AxisKind, Command};
+use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_machine::chain::CommandFault;
 use trueaxis_machine::errors::{Component, ErrorIndex, ErrorKind, ErrorName, ErrorValues};
 
@@ -68,11 +69,9 @@ pub fn split(machine: &Machine, control: &dyn Control, kinematics: bool) -> (Mac
     }
 }
 
-/// Whether an error is the positioning error of an axis, which that axis takes back itself.
+/// Whether an error is the positioning error of an axis or its zero, which that axis takes back itself.
 fn is_own(machine: &Machine, axis: usize, error: ErrorName) -> bool {
-    let axis = &machine.axes()[axis];
-    let along = axis.direction.iamax() + if axis.kind == AxisKind::Rotary { 3 } else { 0 };
-    error.kind == ErrorKind::Motion && error.component as usize == along
+    error.component == own_component(&machine.axes()[axis])
 }
 
 /// The errors that a control can know, with the fewest nodes that keep the bound at the tip.

@@ -1,7 +1,7 @@
 //! What every axis should add to its command, and what of it is a function of one axis.
 //!
 //! ```text
-//!     c_r = −ω_r(q_r)                          own error motion of each rotary axis, about itself
+//!     c_r = −ω_r(q_r) − ω_0r                   own error motion and zero of each rotary axis, about itself
 //!     c_l: tip(q + c, E(q + c)) = nominal tip(q)            all linear axes together
 //!     f_io(q_i) = c_o(q_i; others at the reference) − its mean,      f_oo: + the mean of c_o
 //! ```
@@ -15,7 +15,7 @@ use crate::volume::commands;
 use nalgebra::{DMatrix, DVector};
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::{Approach, AxisKind, Command};
+use trueaxis_machine::axis::{Approach, Axis, AxisKind, Command};
 use trueaxis_machine::chain::CommandFault;
 use trueaxis_machine::errors::{Component, ErrorIndex, ErrorKind, ErrorValues};
 
@@ -174,21 +174,33 @@ fn nominal_tip(machine: &Machine, command: &Command) -> Vec3 {
     machine.deviation(command, &ErrorValues::default()).nominal_tip.vector()
 }
 
-/// The rotary part: each axis against its own error motion.
+/// The rotary part: each axis against its own error motion and its own zero.
 fn rotary(machine: &Machine, command: &Command, errors: &ErrorValues) -> Command {
     let mut added = Command::default();
     for (i, axis) in machine.axes().iter().enumerate() {
         if axis.kind == AxisKind::Rotary {
             let mut own = ErrorValues::default();
+            let body = body_of(machine, i);
             for component in Component::ALL {
-                let body = body_of(machine, i);
-                let index = ErrorIndex { body, kind: ErrorKind::Motion, component };
-                own.set(index, errors.get(index));
+                let motion = ErrorIndex { body, kind: ErrorKind::Motion, component };
+                own.set(motion, errors.get(motion));
             }
+            let zero = own_component(axis);
+            let zero = ErrorIndex { body, kind: ErrorKind::Location, component: zero };
+            own.set(zero, errors.get(zero));
             added[i] = -Sense::of(machine, i, command).felt(machine, command, &own) + 0.0;
         }
     }
     added
+}
+
+/// The direction in which an axis moves or about which it turns.
+pub fn own_component(axis: &Axis) -> Component {
+    let along = axis.direction.iamax();
+    match axis.kind {
+        AxisKind::Linear => [Component::X, Component::Y, Component::Z][along],
+        AxisKind::Rotary => [Component::A, Component::B, Component::C][along],
+    }
 }
 
 /// From an error of the tip to the steps of the linear axes that make it, the least ones if there is a choice.

@@ -42,7 +42,13 @@ impl Control for LinuxCnc {
     }
 
     fn rule(&self) -> Rule {
-        Rule { spacing: Spacing::Free, fewest_nodes: 2, most_nodes: MOST_NODES, increment: 1.0 }
+        Rule {
+            spacing: Spacing::Free,
+            fewest_nodes: 2,
+            most_nodes: MOST_NODES,
+            increment: 1.0,
+            position: 1,
+        }
     }
 
     fn write(&self, machine: &Machine, content: &Content) -> Vec<File> {

@@ -33,6 +33,8 @@ pub struct Rule {
     pub most_nodes: usize,
     /// The least increment of a value, counts.
     pub increment: f64,
+    /// The least increment of a position, counts.
+    pub position: i64,
 }
 
 /// Nodes and what is lost between them.
@@ -81,10 +83,15 @@ pub fn place(
     if 0.5 * rule.increment > bound {
         return Err(PlaceFault::Increment);
     }
-    let places =
-        (0..=LOOKS).map(|i| from + ((to - from) as i128 * i as i128 / LOOKS as i128) as i64);
-    let looks =
+    let place = |i: i64| from + ((to - from) as i128 * i as i128 / LOOKS as i128) as i64;
+    // What lies between the ends, where the control can have a node.
+    let places = (0..=LOOKS).map(|i| match i {
+        0 | LOOKS => place(i),
+        _ => place(i).div_euclid(rule.position) * rule.position,
+    });
+    let mut looks =
         places.map(|at| Ok((at, function(at)?))).collect::<Result<Vec<_>, CommandFault>>()?;
+    looks.dedup_by_key(|(at, _)| *at);
     match rule.spacing {
         Spacing::Equal => equal(function, &looks, (rule, modulo), bound),
         Spacing::Free => free(&looks, rule, bound),
@@ -151,7 +158,7 @@ fn equal(
         let steps = count as i64 - 1;
         // A turn closes only if the steps divide it.
         if !modulo || turn % steps == 0 {
-            let step = (to - from) / steps;
+            let step = ((to - from) / steps).div_euclid(rule.position).max(1) * rule.position;
             let at = (0..count as i64).map(|i| from + i * step);
             let nodes = at
                 .map(|at| Ok(node(&(at, function(at)?), rule.increment)))
@@ -214,8 +221,13 @@ pub fn stepwise(nodes: &[Node], position: f64, side: f64) -> f64 {
 mod tests {
     use super::*;
 
-    const RULE: Rule =
-        Rule { spacing: Spacing::Free, fewest_nodes: 2, most_nodes: 256, increment: 1.0 };
+    const RULE: Rule = Rule {
+        spacing: Spacing::Free,
+        fewest_nodes: 2,
+        most_nodes: 256,
+        increment: 1.0,
+        position: 1,
+    };
 
     /// 10 µm/m over 1 m is one straight line; the parabola 90 µm·(x/m)² sags 22.5 µm·h², so that 1 µm needs 4.7 pieces.
     #[test]

@@ -4,7 +4,7 @@ use super::choose::off;
 use super::content::Content;
 use super::control::Control;
 use super::emulation::Emulation;
-use super::joints::Joints;
+use super::joints::{Joints, moves_an_axis};
 use super::known::split;
 use super::lever::{Lever, correction, errors_near, placed, sum};
 use super::table::Table;
@@ -207,6 +207,9 @@ fn instead(machine: &Machine, error: ErrorName, control: &dyn Control) -> &'stat
     let cross = control.has_cross_tables() || control.knows_links() || control.grid().is_some();
     match (error.kind, axis.map(|a| a.kind), error.component.is_rotation()) {
         (ErrorKind::Location, None, _) => "the work offset, or the tool length and its direction",
+        (ErrorKind::Location, Some(AxisKind::Rotary), _) if !moves_an_axis(machine, error) => {
+            "the zero of the axis"
+        }
         (ErrorKind::Location, Some(AxisKind::Rotary), _) => {
             "the control's kinematic parameters (rotary centres and tilts), or the NC program"
         }

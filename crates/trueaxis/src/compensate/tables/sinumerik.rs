@@ -12,9 +12,11 @@ use super::content::Content;
 use super::control::{Control, File, ReadFault, checked};
 use super::place::{Rule, Spacing};
 use super::table::{Node, Table, axis_order, decimal, parse_decimal};
+use super::tool_carrier;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use trueaxis_machine::Machine;
+use trueaxis_machine::errors::ErrorName;
 
 /// Interpolatory compensation of a SINUMERIK 840D sl or 828D.
 pub struct Sinumerik {
@@ -38,6 +40,10 @@ impl Control for Sinumerik {
         true
     }
 
+    fn knows_location(&self, machine: &Machine, error: ErrorName) -> bool {
+        tool_carrier::knows(machine, error)
+    }
+
     fn has_modulo(&self) -> bool {
         true
     }
@@ -48,6 +54,7 @@ impl Control for Sinumerik {
             fewest_nodes: 2,
             most_nodes: MOST_NODES,
             increment: self.increment,
+            position: 1,
         }
     }
 
@@ -84,15 +91,20 @@ impl Control for Sinumerik {
                 count += 1;
             }
         }
-        [(ENCODER, encoder), (CROSS, cross)]
-            .map(|(name, text)| File { name: name.to_owned(), text: text + "M17\n" })
-            .into()
+        let tables = [(ENCODER, encoder), (CROSS, cross)]
+            .map(|(name, text)| File { name: name.to_owned(), text: text + "M17\n" });
+        let carrier = content.joints.as_ref().and_then(|j| tool_carrier::write(machine, j));
+        tables.into_iter().chain(carrier).collect()
     }
 
     fn read(&self, machine: &Machine, files: &[File]) -> Result<Content, ReadFault> {
         let order = axis_order(machine);
-        let mut tables = Vec::new();
+        let (mut tables, mut joints) = (Vec::new(), None);
         for file in files {
+            if file.name == tool_carrier::NAME {
+                joints = Some(tool_carrier::read(machine, file)?);
+                continue;
+            }
             let axis = |name: &str| {
                 let number = name.strip_prefix("AX").and_then(|n| n.parse::<usize>().ok());
                 let axis = number.and_then(|n| order.get(n.checked_sub(1)?));
@@ -104,7 +116,7 @@ impl Control for Sinumerik {
                 join(file, &mut tables, one.table(file, (input, output))?)?;
             }
         }
-        Ok(Content { tables, ..Content::default() })
+        Ok(Content { tables, joints, ..Content::default() })
     }
 
     fn advice(&self) -> &'static [&'static str] {
@@ -112,6 +124,7 @@ impl Control for Sinumerik {
             "MD38000 and MD18342 at least the number of points; they re-format the memory: save the data first",
             "before loading: MD32700 $MA_ENC_COMP_ENABLE and MD32710 $MA_CEC_ENABLE 0, after it 1; SD41300 $SN_CEC_TABLE_ENABLE[t] = 1",
             "MD10200 and MD10210 at least 10 000 increments per mm and degree; MD32720 $MA_CEC_MAX_SUM above the largest value",
+            "TOOLCARRIER.SPF: the vectors of the rotary axes, for CYCLE800 and for TRAORI of type 72; for types 24, 40 and 56 they are MD24500 ff. (Commissioning Manual SINUMERIK Operate)",
             "check the sign with one table and a dial: switched on at the place that is named, the axis must move by what the table adds; if it moves the other way, do not use the tables",
         ]
     }
