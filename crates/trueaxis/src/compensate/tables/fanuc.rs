@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!     pitch    number n: what the compensation grows by from point n − 1 to point n, in whole increments;
-//!              0 at the reference position; given out half way between two points
+//!              at the reference position it is the grid shift (1850); given out half way between two points
 //!     grid     trilinear between points of equal distances
 //! ```
 //!
@@ -133,6 +133,7 @@ impl Control for Fanuc {
     fn advice(&self) -> &'static [&'static str] {
         &[
             "detection unit 0.1 um and 0.0001 deg (increment system IS-C), magnification 1; the reference position is machine position 0",
+            "N01850 is what is added at the reference position; with an absolute encoder shift the reference position by it instead",
             "check the sign with one table and a dial before all are loaded; power off and on, then reference return, before it acts",
             "compare PITCH.TXT and PARAM.TXT with files that the control has punched: lines and parameter numbers are those of 16i manuals and of backups of 31i controls, N10000Q0 is not proved",
             "GRID3D.CSV lists the points of 3-D error compensation (option); its file form is not public: enter the grid with the parameters of the function",
@@ -142,7 +143,7 @@ impl Control for Fanuc {
     }
 }
 
-/// Parameters 3620 to 3627 of an axis.
+/// Parameters 1850, 3605 and 3620 to 3627 of an axis.
 fn parameters_of(table: &Table, axis: usize, first: i64, rotary: bool) -> String {
     let last = first + table.nodes.len() as i64 - 1;
     let step = table.step().unwrap_or(UNIT);
@@ -153,6 +154,8 @@ fn parameters_of(table: &Table, axis: usize, first: i64, rotary: bool) -> String
         let _ = writeln!(text, "N{number:05}Q1A{axis}P{value}");
     };
     let both = table.is_directional();
+    let (up, down) = at_zero(table);
+    line(1850, (up / UNIT).to_string());
     line(3605, format!("0000000{}", u8::from(both)));
     line(3620, reference.to_string());
     line(3621, first.to_string());
@@ -163,11 +166,15 @@ fn parameters_of(table: &Table, axis: usize, first: i64, rotary: bool) -> String
         line(3625, "360.".to_owned());
     }
     if both {
-        let at_zero = table.nodes.iter().find(|n| n.at == 0).map_or(0, |n| n.down / UNIT);
         line(3626, (first + FALLING).to_string());
-        line(3627, at_zero.to_string());
+        line(3627, ((down - up) / UNIT).to_string());
     }
     text
+}
+
+/// What is added at the reference position, rising and falling.
+fn at_zero(table: &Table) -> (i64, i64) {
+    table.nodes.iter().find(|n| n.at == 0).map_or((0, 0), |n| (n.up, n.down))
 }
 
 /// What the compensation grows by up to each number.
@@ -243,9 +250,10 @@ fn nodes(
         let there = sums[(reference - first) as usize];
         Ok::<_, ReadFault>(sums.into_iter().map(|s| s - there + at_reference).collect::<Vec<_>>())
     };
-    let up = absolute(0, 0)?;
+    let zero = get(1850)? / COUNTS * UNIT;
+    let up = absolute(0, zero)?;
     let down = match of(3627) {
-        Some(at_reference) => absolute(FALLING, at_reference / COUNTS * UNIT)?,
+        Some(at_reference) => absolute(FALLING, zero + at_reference / COUNTS * UNIT)?,
         None => up.clone(),
     };
     let pairs = up.into_iter().zip(down).zip(first..);

@@ -15,7 +15,7 @@ pub enum Spacing {
     Free,
     /// At equal distances from the first end; straight lines.
     Equal,
-    /// At equal distances from the position 0, where the value is 0; the value of the nearest node.
+    /// At equal distances from the position 0; the value of the nearest node.
     Stepped {
         /// Distances are whole multiples of this, counts.
         unit: i64,
@@ -70,7 +70,7 @@ pub type Function<'a> = dyn Fn(i64) -> Result<[f64; 2], CommandFault> + 'a;
 ///
 /// Free nodes: from each the farthest next one of the looks with which the straight line still holds.
 /// Equal distances: the first number that holds, one by one up
-/// to 64, beyond that within 3 % of the fewest. Stepped: the same, of what is more than at the position 0.
+/// to 64, beyond that within 3 % of the fewest. Stepped: the same, outwards from 0.
 ///
 /// # Errors
 /// [`PlaceFault`]
@@ -181,8 +181,6 @@ fn stepped(
     bound: f64,
 ) -> Result<Placed, PlaceFault> {
     let (from, to) = (looks[0].0, looks[looks.len() - 1].0);
-    let zero = function(0.clamp(from, to))?[0];
-    let looks: Vec<Look> = looks.iter().map(|(at, v)| (*at, v.map(|v| v - zero))).collect();
     let (low, high) = (from.min(0), to.max(0));
     let mut best = f64::INFINITY;
     let mut count = rule.fewest_nodes.max(2);
@@ -192,11 +190,11 @@ fn stepped(
         let first = low.div_euclid(step);
         let last = -(-high).div_euclid(step);
         let nodes = (first..=last)
-            .map(|i| Ok((i * step, function((i * step).clamp(from, to))?.map(|v| v - zero))))
+            .map(|i| Ok((i * step, function((i * step).clamp(from, to))?)))
             .map(|look| Ok(node(&look?, rule.increment)))
             .collect::<Result<Vec<_>, CommandFault>>()?;
         let nearest = |at, side| stepwise(&nodes, at, side);
-        let lost_now = lost(&nearest, &looks, best.max(bound));
+        let lost_now = lost(&nearest, looks, best.max(bound));
         if nodes.len() <= rule.most_nodes {
             if lost_now <= bound {
                 return Ok(Placed { loss: lost_now, nodes });
