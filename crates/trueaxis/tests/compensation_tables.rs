@@ -20,11 +20,12 @@ const THREE: &str = "chain = \"w b X Y Z t\"
 [axis.Y]\ntravel = [\"-200 mm\", \"300 mm\"]
 [axis.Z]\ntravel = [\"-400 mm\", \"0 mm\"]";
 
-const TARGETS: [Target; 4] = [
+const TARGETS: [Target; 5] = [
     Target::Csv,
     Target::LinuxCnc { trims: false },
     Target::LinuxCnc { trims: true },
     Target::Sinumerik,
+    Target::Heidenhain,
 ];
 
 fn at(machine: &Machine, compiled: &Compiled, command: [f64; 6], side: f64) -> Command {
@@ -149,7 +150,8 @@ fn law_round_trips() {
         modulo: true,
         ..table(0, x, &[node(0, 4, 4), node(180_000_000, -9, -9), node(360_000_000, 4, 4)])
     };
-    for target in TARGETS {
+    // A HEIDENHAIN table of an endless axis always repeats itself: tests/compensation_controls.rs.
+    for target in TARGETS.into_iter().filter(|t| *t != Target::Heidenhain) {
         let control = target.control();
         let mut tables = own.to_vec();
         if control.has_cross_tables() {

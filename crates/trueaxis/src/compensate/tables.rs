@@ -11,6 +11,7 @@
 //! - [`proof`](mod@proof): what the written files leave over the volume, of each error, of a test piece.
 
 mod choose;
+mod compile;
 pub mod content;
 pub mod control;
 mod csv;
@@ -30,24 +31,21 @@ pub mod place;
 pub mod proof;
 mod sinumerik;
 pub mod table;
+pub mod temperature;
 mod tool_carrier;
 
+pub use compile::compile;
 pub use fault::TablesError;
 
-use choose::{Candidate, choose};
 use content::Content;
 use control::{Control, File};
-use emulation::Emulation;
-use grid::{GridFault, Gridded};
-use joints::{Joints, moves_an_axis};
+use grid::Gridded;
+use joints::Joints;
 use known::MadeKnown;
-use lever::Lever;
-use place::{PlaceFault, Placed};
-use proof::{ErrorLoss, Left, error_losses, left_over};
-use table::{PER_UNIT, Table, count_of, counts};
-use trueaxis_machine::Machine;
-use trueaxis_machine::axis::{Approach, Axis, AxisKind, Command, Travel};
-use trueaxis_machine::chain::CommandFault;
+use proof::{ErrorLoss, Left};
+use table::Table;
+use temperature::Line;
+use trueaxis_machine::axis::{Axis, AxisKind, Command};
 use trueaxis_machine::errors::ErrorName;
 
 /// Which control the tables are for.
@@ -175,6 +173,8 @@ pub struct Compiled {
     pub tables: Vec<Made>,
     /// The errors in them that the control's chain knows.
     pub known: Vec<MadeKnown>,
+    /// Straight lines for the temperatures.
+    pub lines: Vec<Line>,
     /// Where the control's chain has the rotary axes.
     pub joints: Option<Joints>,
     /// The grid in them.
@@ -199,246 +199,11 @@ impl Compiled {
         Content {
             tables: self.tables.iter().map(|t| t.table.clone()).collect(),
             known: self.known.iter().map(|k| k.known.clone()).collect(),
+            lines: self.lines.clone(),
             joints: self.joints.clone(),
             grid: self.grid.as_ref().map(|g| g.grid.clone()),
         }
     }
-}
-
-/// Compiles the tables of a control, reads them back and says what they leave.
-///
-/// # Errors
-/// [`TablesError`]; then there is no file.
-pub fn compile(machine: &Machine, order: &Order) -> Result<Compiled, TablesError> {
-    let control = order.target.control();
-    for axis in machine.axes() {
-        if !control.letters().contains(axis.name.letter()) {
-            return Err(TablesError::UnknownAxis { axis: axis.name, target: control.key() });
-        }
-    }
-    let reference = order.reference.unwrap_or_else(|| middle(machine));
-    let (chain, rest) = known::split(machine, control.as_ref(), order.kinematics);
-    let knowledge = known::compile(&chain, order, control.as_ref())?;
-    let written: Vec<_> = knowledge.made.iter().map(|k| k.known.clone()).collect();
-    let joints = joints_of(&chain, control.as_ref());
-    let mut content = Content { known: written, joints, ..Content::default() };
-    let (tables, mut left_out) = tables(machine, &rest, order, (control.as_ref(), &content))?;
-    let uncertain = knowledge.left_out.into_iter();
-    left_out.extend(uncertain.map(|(error, largest)| LeftOut {
-        what: What::Error(error),
-        largest,
-        reason: UNCERTAIN,
-    }));
-    content.tables = tables.iter().map(|t| t.table.clone()).collect();
-    let gridded = gridded(&rest, order, &reference, (control.as_ref(), &content))?;
-    content.grid = gridded.as_ref().map(|g| g.grid.clone());
-    let files = control.write(machine, &content);
-    let read = recovered(machine, control.as_ref(), &content, &files)?;
-    let left = |content| left_over(&Emulation::new(machine, control.as_ref(), content));
-    Ok(Compiled {
-        order: *order,
-        reference,
-        before: left(Content::default())?,
-        wrong_sign: left(read.negated(machine))?,
-        errors: error_losses(machine, &reference, (control.as_ref(), &read), order),
-        after: left(read)?,
-        files,
-        tables,
-        known: knowledge.made,
-        joints: content.joints,
-        grid: gridded,
-        left_out,
-        advice: control.advice(),
-    })
-}
-
-/// The rotary axes as the control's parameters have them, if it knows an error of them.
-fn joints_of(chain: &Machine, control: &dyn Control) -> Option<Joints> {
-    let some = chain.stated_errors().iter().any(|(_, name)| moves_an_axis(chain, *name));
-    let actual = Joints::actual(chain);
-    (some && !control.knows_links() && actual != Joints::nominal(chain)).then_some(actual)
-}
-
-/// Why something stays out that is not known well enough.
-const UNCERTAIN: &str = "nowhere larger than its own standard uncertainty";
-
-/// The tables of what the control's chain does not know.
-fn tables(
-    machine: &Machine,
-    rest: &Machine,
-    order: &Order,
-    (control, content): (&dyn Control, &Content),
-) -> Result<(Vec<Made>, Vec<LeftOut>), TablesError> {
-    let lever = Lever::new(rest, order.reference.unwrap_or_else(|| middle(machine)))?;
-    let (mut candidates, mut left_out) = (Vec::new(), Vec::new());
-    for (input, output) in control.pairs(machine) {
-        match candidate(rest, order, control, &lever, (input, output))? {
-            Ok(made) => candidates.push(made),
-            Err(Some(out)) => left_out.push(out),
-            Err(None) => {}
-        }
-    }
-    let already = Emulation::new(machine, control, content.clone());
-    let (tables, worse) = choose(machine, control, &already, candidates);
-    left_out.extend(worse);
-    let (needed, most) = (tables.len(), control.most_tables());
-    match needed > most {
-        true => Err(TablesError::TooManyTables { target: control.key(), needed, most }),
-        false => Ok((tables, left_out)),
-    }
-}
-
-/// The grid of what tables leave where the rotary axes stand at the reference.
-fn gridded(
-    rest: &Machine,
-    order: &Order,
-    reference: &Command,
-    (control, content): (&dyn Control, &Content),
-) -> Result<Option<Gridded>, TablesError> {
-    let Some(rule) = control.grid() else { return Ok(None) };
-    let linear = rest.axes().iter().enumerate().filter(|(_, a)| a.kind == AxisKind::Linear);
-    let axes: Vec<usize> = linear.map(|(i, _)| i).collect();
-    let Some(axes) = axes.first_chunk::<3>() else { return Ok(None) };
-    let tables = Content { tables: content.tables.clone(), ..Content::default() };
-    let tables = Emulation::new(rest, control, tables);
-    let mut ends = [(0, 0, 0); 3];
-    for (end, axis) in ends.iter_mut().zip(axes) {
-        let ((from, to), _) = range(&rest.axes()[*axis], control)?;
-        *end = (*axis, from, to);
-    }
-    let wanted = |place: [i64; 3]| {
-        let mut command = *reference;
-        for ((axis, from, to), at) in ends.iter().zip(place) {
-            // The last point may lie beyond the travel, where nothing is known.
-            command[*axis] = at.clamp(*from, *to) as f64 * count_of(rest, *axis);
-        }
-        let still = Approach::default();
-        let whole = lever::correction(rest, &command, &still)?;
-        let by_tables = tables.added(&command, &still);
-        Ok(axes.map(|axis| counts(rest, axis, whole[axis] - by_tables[axis])))
-    };
-    let bound = order.bound_mm * PER_UNIT;
-    grid::place(&wanted, ends, rule, bound).map(Some).map_err(|fault| match fault {
-        GridFault::Machine(fault) => TablesError::Position(fault),
-        GridFault::TooMany(loss) => TablesError::GridPoints {
-            target: control.key(),
-            loss: loss / PER_UNIT * 1e3,
-            bound: order.bound_mm * 1e3,
-        },
-        GridFault::TooLarge(value) => TablesError::GridValue {
-            target: control.key(),
-            value: value as f64 / PER_UNIT * 1e3,
-            most: rule.largest as f64 / PER_UNIT * 1e3,
-        },
-    })
-}
-
-fn recovered(
-    machine: &Machine,
-    control: &dyn Control,
-    written: &Content,
-    files: &[File],
-) -> Result<Content, TablesError> {
-    let read = control.read(machine, files)?.sorted();
-    match read == written.clone().sorted() {
-        true => Ok(read),
-        false => Err(TablesError::NotRecovered("another meaning".to_owned())),
-    }
-}
-
-fn middle(machine: &Machine) -> Command {
-    let mut reference = Command::default();
-    for (q, axis) in reference.iter_mut().zip(machine.axes()) {
-        *q = match (axis.kind, axis.travel) {
-            (AxisKind::Linear, Travel::Between(from, to)) => 0.5 * (from + to),
-            (AxisKind::Rotary, Travel::Between(from, to)) => 0.0_f64.clamp(from, to),
-            _ => 0.0,
-        };
-    }
-    reference
-}
-
-/// The ends of a table in counts, inwards to whole counts; whether it repeats itself.
-fn range(axis: &Axis, control: &dyn Control) -> Result<((i64, i64), bool), TablesError> {
-    let turn = (360.0 * PER_UNIT) as i64;
-    let unit = |q: f64| PER_UNIT * if axis.kind == AxisKind::Linear { q } else { q.to_degrees() };
-    match (axis.travel, control.has_modulo()) {
-        (Travel::Between(from, to), _) => {
-            // A count that the rounding of a file's numbers has moved over the end still counts.
-            let (from, to) = ((unit(from) - 1e-3).ceil() as i64, (unit(to) + 1e-3).floor() as i64);
-            if from < to {
-                Ok(((from, to), false))
-            } else {
-                Err(TablesError::UnknownTravel(axis.name))
-            }
-        }
-        (Travel::Unlimited, true) => Ok(((0, turn), true)),
-        (Travel::Unlimited, false) => Ok(((-turn, turn), false)),
-        (Travel::Unknown, _) => Err(TablesError::UnknownTravel(axis.name)),
-    }
-}
-
-/// The function is first looked at here: size and uncertainty.
-const GLANCES: i64 = 32;
-
-/// A table for a pair of axes; or why there should be none, without a reason if there is nothing to do.
-fn candidate(
-    machine: &Machine,
-    order: &Order,
-    control: &dyn Control,
-    lever: &Lever<'_>,
-    (input, output): (usize, usize),
-) -> Result<Result<Candidate, Option<LeftOut>>, TablesError> {
-    let (axis, moved) = (&machine.axes()[input], &machine.axes()[output]);
-    let ((from, to), modulo) = range(axis, control)?;
-    let (count_in, count_out) = (count_of(machine, input), count_of(machine, output));
-    let function = |at: i64| {
-        let q = at as f64 * count_in;
-        let of = |side| Ok::<_, CommandFault>(lever.functions(input, q, side)?[output]);
-        Ok([counts(machine, output, of(1.0)?), counts(machine, output, of(-1.0)?)])
-    };
-    let (mut largest, mut certain) = (0.0_f64, false);
-    for i in 0..=GLANCES {
-        let at = from + ((to - from) as i128 * i as i128 / GLANCES as i128) as i64;
-        let size = function(at)?.map(f64::abs).into_iter().fold(0.0, f64::max) * count_out;
-        if size > order.limit(moved.kind) {
-            return Err(TablesError::TooLarge {
-                output: moved.name,
-                input: axis.name,
-                value: shown(moved, size),
-                at: shown_place(axis, at as f64 * count_in),
-                limit: shown(moved, order.limit(moved.kind)),
-            });
-        }
-        largest = largest.max(size);
-        certain |= size > lever.u(input, at as f64 * count_in)?[output];
-    }
-    if largest < 0.5 * control.rule().increment * count_out {
-        return Ok(Err(None));
-    }
-    if !certain {
-        let what = What::Table { input, output };
-        return Ok(Err(Some(LeftOut { what, largest, reason: UNCERTAIN })));
-    }
-    let bound = order.bound(moved.kind);
-    let placed = place::place(&function, (from, to), (control.rule(), modulo), bound / count_out);
-    let Placed { nodes, loss } = placed.map_err(|fault| match fault {
-        PlaceFault::Machine(fault) => TablesError::Position(fault),
-        PlaceFault::Increment => TablesError::Increment {
-            target: control.key(),
-            output: moved.name,
-            bound: shown(moved, bound),
-        },
-        PlaceFault::TooMany(loss) => TablesError::TooManyNodes {
-            input: axis.name,
-            output: moved.name,
-            most: control.rule().most_nodes,
-            loss: shown(moved, loss * count_out),
-            bound: shown(moved, bound),
-        },
-    })?;
-    let table = Table { input, output, modulo, nodes };
-    Ok(Ok(Made { table, loss: loss * count_out, largest }))
 }
 
 /// A correction as people write it.

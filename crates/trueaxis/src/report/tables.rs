@@ -5,6 +5,7 @@ use crate::compensate::tables::joints::{Joint, Joints};
 use crate::compensate::tables::known::MadeKnown;
 use crate::compensate::tables::proof::{ErrorLoss, IndexLeft, Left};
 use crate::compensate::tables::table::{PER_UNIT, Table, count_of};
+use crate::compensate::tables::temperature::Line;
 use crate::compensate::tables::{Compiled, LeftOut, Made, What, known, shown};
 use crate::describe::to_shown;
 use serde_json::{Map, Value as Json, json};
@@ -99,6 +100,18 @@ fn known_text(machine: &Machine, compiled: &Compiled) -> String {
         let size = known::shown(known.error, *largest);
         // Writing to a String cannot fail.
         let _ = writeln!(text, "  {} up to {size}: {nodes}", known.error);
+    }
+    for line in &compiled.lines {
+        let axis = &machine.axes()[line.axis];
+        let count = count_of(machine, line.axis);
+        let _ = writeln!(
+            text,
+            "  {} for the temperatures: {} at {}, {:.3} µm/m or µrad/rad",
+            axis.name,
+            shown(axis, line.offset as f64 * count),
+            round(line.reference as f64 / PER_UNIT),
+            line.slope as f64 * 1e-3
+        );
     }
     for (actual, nominal) in joints_of(machine, compiled) {
         let [x, y, z] = (actual.point_mm() - nominal.point_mm()).map(|c| c * 1e3).into();
@@ -220,6 +233,7 @@ pub fn tables_json(report: &TablesReport<'_>) -> Json {
         "reference": place_json(machine, &compiled.reference),
         "tables": compiled.tables.iter().map(|t| made_json(machine, t)).collect::<Vec<_>>(),
         "known": compiled.known.iter().map(known_json).collect::<Vec<_>>(),
+        "temperature": compiled.lines.iter().map(|l| line_json(machine, l)).collect::<Vec<_>>(),
         "kinematics": joints_of(machine, compiled).iter().map(joint_json).collect::<Vec<_>>(),
         "grid": compiled.grid.as_ref().map(|g| grid_json(machine, g)),
         "left_out": compiled.left_out.iter().map(|t| out_json(machine, t)).collect::<Vec<_>>(),
@@ -308,6 +322,18 @@ fn known_json(made: &MadeKnown) -> Json {
     let mut json = json!({ "error": known.error.to_string(), "nodes": known.nodes.len() });
     json[format!("loss_{unit}")] = json!(loss * factor);
     json[format!("largest_{unit}")] = json!(largest * factor);
+    json
+}
+
+fn line_json(machine: &Machine, line: &Line) -> Json {
+    let (unit, factor) = unit(machine, line.axis);
+    let mut json = json!({
+        "axis": machine.axes()[line.axis].name.to_string(),
+        "reference": line.reference as f64 / PER_UNIT,
+        "slope_um_per_m": line.slope as f64 * 1e-3,
+    });
+    json[format!("offset_{unit}")] =
+        json!(line.offset as f64 * count_of(machine, line.axis) * factor);
     json
 }
 

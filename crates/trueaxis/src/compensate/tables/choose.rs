@@ -9,7 +9,7 @@ use super::{LeftOut, Made, What};
 use crate::volume::commands;
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::{Approach, Command};
+use trueaxis_machine::axis::{Approach, AxisKind, Command};
 
 /// A table that could be written.
 pub type Candidate = Made;
@@ -18,57 +18,70 @@ pub type Candidate = Made;
 const POSES: u32 = 512;
 /// An error of the tool axis counts as much as it moves a point so far up the tool, mm.
 const ARM_MM: f64 = 100.0;
-/// A table must make the rms smaller by this share of it.
+/// Without a table the rms must be larger by this share of it.
 const GAIN: f64 = 1e-3;
 
-/// The tables that make the rms over the volume smaller, the largest corrections first; and those that do not.
+/// The tables without which the rms over the volume would be larger; and those that do harm.
+///
+/// From all of them the one that does most harm goes, again and again. A table of a rotary axis for itself stays, and
+/// where the control's chain knows the links every own table: it is right everywhere, and what it seems to spoil is the
+/// error of another axis that it hid.
 ///
 /// `already`: what the control adds without any table.
 pub fn choose(
     machine: &Machine,
     control: &dyn Control,
     already: &Emulation<'_>,
-    mut candidates: Vec<Candidate>,
+    candidates: Vec<Candidate>,
 ) -> (Vec<Made>, Vec<LeftOut>) {
     let poses = commands(machine.axes(), POSES);
-    // Own tables first: cross tables are what they leave.
-    candidates.sort_by(|a, b| {
-        let own = |m: &Made| m.table.input != m.table.output;
-        own(a).cmp(&own(b)).then(b.largest.total_cmp(&a.largest))
-    });
     let still = Approach::default();
-    let mut so_far: Vec<Command> = poses.iter().map(|q| already.added(q, &still)).collect();
-    let mut rms = size(machine, &poses, &so_far);
-    let (mut kept, mut open) = (Vec::new(), candidates);
-    // What does harm alone may help beside another table: as long as one has been taken, look again.
+    let alone = |made: &Made| -> Vec<Command> {
+        let tables = vec![made.table.clone()];
+        let one = Emulation::new(machine, control, Content { tables, ..Content::default() });
+        poses.iter().map(|q| one.added(q, &still)).collect()
+    };
+    let mut kept: Vec<(Made, Vec<Command>)> =
+        candidates.into_iter().map(|m| (alone(&m), m)).map(|(c, m)| (m, c)).collect();
+    let mut all: Vec<Command> = poses.iter().map(|q| already.added(q, &still)).collect();
+    for (_, added) in &kept {
+        all = all.iter().zip(added).map(|(a, b)| sum(a, b)).collect();
+    }
+    let mut rms = size(machine, &poses, &all);
+    let mut worse = Vec::new();
     loop {
-        let (taken, mut again) = (kept.len(), Vec::new());
-        for made in open {
-            let tables = vec![made.table.clone()];
-            let one = Emulation::new(machine, control, Content { tables, ..Content::default() });
-            let with: Vec<Command> =
-                poses.iter().zip(&so_far).map(|(q, c)| sum(c, &one.added(q, &still))).collect();
-            let new = size(machine, &poses, &with);
-            if new < rms * (1.0 - GAIN) {
-                (rms, so_far) = (new, with);
-                kept.push(made);
-            } else {
-                again.push(made);
-            }
-        }
-        open = again;
-        if kept.len() == taken {
+        let may_go = kept.iter().enumerate().filter(|(_, (m, _))| !stays(machine, control, m));
+        let without = may_go.map(|(i, (_, added))| {
+            let without: Vec<Command> = all.iter().zip(added).map(|(a, b)| less(a, b)).collect();
+            (i, size(machine, &poses, &without), without)
+        });
+        let Some((i, new, without)) = without.min_by(|a, b| a.1.total_cmp(&b.1)) else { break };
+        if new > rms * (1.0 + GAIN) {
             break;
         }
+        (rms, all) = (new, without);
+        worse.push(kept.remove(i).0);
     }
     let reason = "it would not make the tool better over the volume";
-    let worse = open.into_iter().map(|Made { table, largest, .. }| {
+    let worse = worse.into_iter().map(|Made { table, largest, .. }| {
         let what = What::Table { input: table.input, output: table.output };
         LeftOut { what, largest, reason }
     });
-    let worse = worse.collect();
+    let mut kept: Vec<Made> = kept.into_iter().map(|(made, _)| made).collect();
     kept.sort_by_key(|m| (m.table.input != m.table.output, m.table.input, m.table.output));
-    (kept, worse)
+    (kept, worse.collect())
+}
+
+fn stays(machine: &Machine, control: &dyn Control, made: &Made) -> bool {
+    let own = made.table.input == made.table.output;
+    let rotary = machine.axes()[made.table.output].kind == AxisKind::Rotary;
+    own && (rotary || control.knows_links())
+}
+
+fn less(command: &Command, added: &Command) -> Command {
+    let mut less = *command;
+    less.iter_mut().zip(added).for_each(|(q, c)| *q -= c);
+    less
 }
 
 fn size(machine: &Machine, poses: &[Command], so_far: &[Command]) -> f64 {

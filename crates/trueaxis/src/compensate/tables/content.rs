@@ -2,6 +2,7 @@
 //!
 //! ```text
 //!     tables    position of one axis            -> added to the command of one axis
+//!     lines     the same by a straight line     -> for the temperatures
 //!     known     errors of the links by name     -> the control's own chain moves the tip back
 //!     joints    where the rotary axes are       -> the same
 //!     grid      position of three linear axes   -> added to the same three axes, after the others
@@ -10,6 +11,7 @@
 use super::grid::Grid;
 use super::joints::Joints;
 use super::table::{Node, Table};
+use super::temperature::Line;
 use trueaxis_machine::Machine;
 use trueaxis_machine::errors::ErrorName;
 
@@ -20,6 +22,8 @@ pub struct Content {
     pub tables: Vec<Table>,
     /// Errors that the control's own chain knows; it moves the linear axes so that the tip is right.
     pub known: Vec<Known>,
+    /// Straight lines that are added for the temperatures.
+    pub lines: Vec<Line>,
     /// Where its own chain has the rotary axes.
     pub joints: Option<Joints>,
     /// What three linear axes together add to themselves.
@@ -69,6 +73,7 @@ impl Content {
         Self {
             tables: self.tables.iter().map(Table::negated).collect(),
             known: self.known.iter().map(|k| Known { nodes: nodes(k), ..k.clone() }).collect(),
+            lines: self.lines.iter().map(Line::negated).collect(),
             joints: self.joints.as_ref().map(|j| j.negated(&Joints::nominal(machine))),
             grid: self.grid.as_ref().map(Grid::negated),
         }

@@ -86,6 +86,11 @@ pub trait Control {
         1
     }
 
+    /// Whether a straight line for the temperatures stands beside the table of an axis.
+    fn has_temperature_lines(&self) -> bool {
+        false
+    }
+
     /// Whether three linear axes together can move themselves.
     fn grid(&self) -> Option<GridRule> {
         None
@@ -118,6 +123,14 @@ pub trait Control {
 
     /// What the control needs besides the files, for people.
     fn advice(&self) -> &'static [&'static str];
+}
+
+/// A file that has its last line has not been cut short.
+pub(super) fn ended(file: &File, last: &str) -> Result<(), ReadFault> {
+    match file.text.lines().last() == Some(last) {
+        true => Ok(()),
+        false => Err(ReadFault::new(&file.name, format!("{last} as its last line"))),
+    }
 }
 
 /// Rising positions, two at least, a turn for a table that repeats itself.

@@ -86,7 +86,12 @@ impl Control for Csv {
             let number = |text: &str| {
                 parse_decimal(text).ok_or_else(|| fault(format!("row {}: decimal numbers", i + 1)))
             };
-            let (input, output, modulo) = (axis(input)?, axis(output)?, modulo == "1");
+            let modulo = match modulo {
+                "0" => false,
+                "1" => true,
+                _ => return Err(fault(format!("row {}: modulo 0 or 1", i + 1))),
+            };
+            let (input, output) = (axis(input)?, axis(output)?);
             let node = Node { at: number(at)?, up: number(up)?, down: number(down)? };
             match tables.iter_mut().find(|t| (t.input, t.output) == (input, output)) {
                 Some(table) => table.nodes.push(node),

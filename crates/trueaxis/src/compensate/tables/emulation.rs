@@ -5,6 +5,7 @@ use super::control::Control;
 use super::lever::placed;
 use super::link::errors_of;
 use super::table::{count_of, counts};
+use super::temperature;
 use std::convert::Infallible;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Command};
@@ -36,6 +37,7 @@ impl<'a> Emulation<'a> {
             let value = self.control.value(table, position, approach[table.input]);
             added[table.output] += value * count_of(self.machine, table.output);
         }
+        temperature::add(self.machine, &self.content, command, &mut added);
         if let Some(grid) = &self.content.grid {
             let place = grid.sides.map(|s| counts(self.machine, s.axis, command[s.axis]));
             for (side, value) in grid.sides.iter().zip(grid.at(place)) {

@@ -202,6 +202,13 @@ const COUNTS: i64 = PER_UNIT as i64;
 
 fn numbers(file: &File) -> Result<Numbers, ReadFault> {
     let mut numbers = BTreeMap::new();
+    let text = file.text.trim_matches(['\n', '\r']);
+    if text.len() < 3
+        || !text.starts_with("%\n")
+        || !text.ends_with("\n%") && !text.ends_with("\r%")
+    {
+        return Err(ReadFault::new(&file.name, "% as its first and its last line"));
+    }
     let lines = file.text.lines().map(|l| l.trim_matches('\r')).enumerate();
     for (i, line) in lines.filter(|(_, l)| !matches!(*l, "%" | "")) {
         let fault = || ReadFault::new(&file.name, format!("line {}: N…Q0P… or N…Q1A…P…", i + 1));

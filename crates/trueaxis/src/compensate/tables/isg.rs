@@ -242,6 +242,11 @@ fn read_leadscrew(machine: &Machine, file: &File) -> Result<Table, ReadFault> {
         let value = value.filter(|v| v.abs() < 1e15);
         value.map(|v| v as i64).ok_or_else(|| fault(&format!("a number as {key}")))
     };
+    for (key, value) in [("kw.ssfk.interval", "0"), ("kw.ssfk.unit", "1")] {
+        if text(key)? != value {
+            return Err(fault(&format!("{key} {value}")));
+        }
+    }
     let rows = text("kw.ssfk.kw_nr_max")?.parse::<usize>().ok().filter(|n| *n <= MOST_NODES);
     let rows = rows.ok_or_else(|| fault(&format!("at most {MOST_NODES} rows")))?;
     let mut nodes = Vec::new();

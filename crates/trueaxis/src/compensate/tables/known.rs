@@ -1,13 +1,14 @@
 //! Errors that a control's own chain knows: of every link six functions of its axis, or location errors. The
 //! control moves the linear axes so that the tip of that chain is right.
 
+use super::compile::range;
 use super::content::{Known, count_of_error};
 use super::control::Control;
 use super::lever::own_component;
 use super::link::link_errors;
 use super::place::{self, PlaceFault, Placed, Rule, Spacing};
 use super::table::count_of;
-use super::{Order, TablesError, range};
+use super::{Order, TablesError};
 use crate::volume::commands;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Command};

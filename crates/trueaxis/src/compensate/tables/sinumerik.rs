@@ -9,9 +9,11 @@
 //! each, as the manual does it. docs/compensation-tables.md has the pages.
 
 use super::content::Content;
-use super::control::{Control, File, ReadFault, checked};
+use super::control::{Control, File, ReadFault, checked, ended};
+use super::joints_csv::{direction, parse_direction};
 use super::place::{Rule, Spacing};
 use super::table::{Node, Table, axis_order, decimal, parse_decimal};
+use super::temperature::Line;
 use super::tool_carrier;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -26,6 +28,7 @@ pub struct Sinumerik {
 
 const ENCODER: &str = "AX_EEC.INI";
 const CROSS: &str = "NC_CEC.INI";
+const TEMPERATURE: &str = "TEMP_COMP.SPF";
 /// What MD38000 and MD18342 can be set to at most.
 const MOST_NODES: usize = 2000;
 /// $AN_CEC tables: two for each of 31 axes.
@@ -42,6 +45,10 @@ impl Control for Sinumerik {
 
     fn knows_location(&self, machine: &Machine, error: ErrorName) -> bool {
         tool_carrier::knows(machine, error)
+    }
+
+    fn has_temperature_lines(&self) -> bool {
+        true
     }
 
     fn has_modulo(&self) -> bool {
@@ -94,16 +101,28 @@ impl Control for Sinumerik {
         let tables = [(ENCODER, encoder), (CROSS, cross)]
             .map(|(name, text)| File { name: name.to_owned(), text: text + "M17\n" });
         let carrier = content.joints.as_ref().and_then(|j| tool_carrier::write(machine, j));
-        tables.into_iter().chain(carrier).collect()
+        let warm = (!content.lines.is_empty()).then(|| File {
+            name: TEMPERATURE.to_owned(),
+            text: temperature_text(content, &number),
+        });
+        tables.into_iter().chain(carrier).chain(warm).collect()
     }
 
     fn read(&self, machine: &Machine, files: &[File]) -> Result<Content, ReadFault> {
         let order = axis_order(machine);
-        let (mut tables, mut joints) = (Vec::new(), None);
+        let (mut tables, mut lines, mut joints) = (Vec::new(), Vec::new(), None);
         for file in files {
-            if file.name == tool_carrier::NAME {
-                joints = Some(tool_carrier::read(machine, file)?);
-                continue;
+            ended(file, "M17")?;
+            match file.name.as_str() {
+                tool_carrier::NAME => {
+                    joints = Some(tool_carrier::read(machine, file)?);
+                    continue;
+                }
+                TEMPERATURE => {
+                    lines = read_temperature(file, &order)?;
+                    continue;
+                }
+                _ => {}
             }
             let axis = |name: &str| {
                 let number = name.strip_prefix("AX").and_then(|n| n.parse::<usize>().ok());
@@ -116,7 +135,7 @@ impl Control for Sinumerik {
                 join(file, &mut tables, one.table(file, (input, output))?)?;
             }
         }
-        Ok(Content { tables, joints, ..Content::default() })
+        Ok(Content { tables, lines, joints, ..Content::default() })
     }
 
     fn advice(&self) -> &'static [&'static str] {
@@ -124,10 +143,54 @@ impl Control for Sinumerik {
             "MD38000 and MD18342 at least the number of points; they re-format the memory: save the data first",
             "before loading: MD32700 $MA_ENC_COMP_ENABLE and MD32710 $MA_CEC_ENABLE 0, after it 1; SD41300 $SN_CEC_TABLE_ENABLE[t] = 1",
             "MD10200 and MD10210 at least 10 000 increments per mm and degree; MD32720 $MA_CEC_MAX_SUM above the largest value",
+            "TEMP_COMP.SPF (with --temperature): SD43900, SD43910, SD43920 for those temperatures; MD32750 $MA_TEMP_COMP_TYPE = 3; the PLC is to write them as the temperatures change",
             "TOOLCARRIER.SPF: the vectors of the rotary axes, for CYCLE800 and for TRAORI of type 72; for types 24, 40 and 56 they are MD24500 ff. (Commissioning Manual SINUMERIK Operate)",
             "check the sign with one table and a dial: switched on at the place that is named, the axis must move by what the table adds; if it moves the other way, do not use the tables",
         ]
     }
+}
+
+/// Setting data of the temperature compensation; as of a table, the value is minus what is added.
+fn temperature_text(content: &Content, number: &dyn Fn(usize) -> usize) -> String {
+    let mut text = ";TrueAxis: temperature compensation, mm and deg; MD32750 is 3\n".to_owned();
+    for line in &content.lines {
+        let n = number(line.axis);
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "$SA_TEMP_COMP_ABS_VALUE[AX{n}]={}", decimal(-line.offset));
+        let _ = writeln!(text, "$SA_TEMP_COMP_SLOPE[AX{n}]={}", direction(-line.slope));
+        let _ = writeln!(text, "$SA_TEMP_COMP_REF_POSITION[AX{n}]={}", decimal(line.reference));
+    }
+    text + "M17\n"
+}
+
+fn read_temperature(file: &File, order: &[usize]) -> Result<Vec<Line>, ReadFault> {
+    let mut lines: Vec<Line> = Vec::new();
+    for (i, text) in file.text.lines().enumerate() {
+        if text.starts_with(';') || text == "M17" {
+            continue;
+        }
+        let fault =
+            || ReadFault::new(&file.name, format!("line {}: $SA_TEMP_COMP_…[AXn]=…", i + 1));
+        let (name, value) = text.split_once('=').ok_or_else(fault)?;
+        let (name, n) = name.split_once("[AX").ok_or_else(fault)?;
+        let n = n.trim_end_matches(']').parse::<usize>().map_err(|_| fault())?;
+        let axis = *n.checked_sub(1).and_then(|n| order.get(n)).ok_or_else(fault)?;
+        if lines.last().is_none_or(|l| l.axis != axis) {
+            lines.push(Line { axis, reference: 0, offset: 0, slope: 0 });
+        }
+        let Some(line) = lines.last_mut() else { return Err(fault()) };
+        match name {
+            "$SA_TEMP_COMP_ABS_VALUE" => {
+                line.offset = -parse_decimal(value).ok_or_else(fault)?;
+            }
+            "$SA_TEMP_COMP_SLOPE" => line.slope = -parse_direction(value).ok_or_else(fault)?,
+            "$SA_TEMP_COMP_REF_POSITION" => {
+                line.reference = parse_decimal(value).ok_or_else(fault)?;
+            }
+            _ => return Err(fault()),
+        }
+    }
+    Ok(lines)
 }
 
 fn encoder_text(table: &Table, axis: usize) -> String {
@@ -205,7 +268,11 @@ impl Assigned {
             down: -value,
         });
         let (input, output) = axes;
-        let modulo = self.text(file, "IS_MODULO")? == "1";
+        let modulo = match self.text(file, "IS_MODULO")? {
+            "0" => false,
+            "1" => true,
+            _ => return Err(ReadFault::new(&file.name, "IS_MODULO 0 or 1")),
+        };
         let table = Table { input, output, modulo, nodes: nodes.collect() };
         let direction = self.keys.get("DIRECTION").map_or(Some(0), |d| d.parse().ok());
         let direction = direction.filter(|d| (-1..=1).contains(d));

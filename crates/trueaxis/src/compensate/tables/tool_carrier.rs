@@ -33,6 +33,16 @@ enum Kind {
     Both,
 }
 
+impl Kind {
+    fn letter(self) -> &'static str {
+        match self {
+            Self::Head => "T",
+            Self::Table => "P",
+            Self::Both => "M",
+        }
+    }
+}
+
 /// The two rotary axes in the order of the control, if there are two.
 fn axes(machine: &Machine) -> Option<(Kind, [BodyName; 2])> {
     let side = machine.workpiece_side();
@@ -88,25 +98,27 @@ pub fn write(machine: &Machine, joints: &Joints) -> Option<File> {
     let find = |name: BodyName| joints.0.iter().find(|j| j.axis == name);
     let (one, two) = (find(names[0])?, find(names[1])?);
     let (p1, p2) = (one.point, two.point);
-    let (letter, offsets) = match kind {
+    let offsets = match kind {
         Kind::Head => {
             let (i2, i3) = (minus(p2, p1), minus(tool(machine, Some(joints)), p2));
-            ("T", vec![(1, minus([0; 3], plus(i2, i3))), (4, i2), (15, i3)])
+            vec![(1, minus([0; 3], plus(i2, i3))), (4, i2), (15, i3)]
         }
         Kind::Table => {
             let (i2, i3) = (minus(p1, tool(machine, None)), minus(p2, p1));
-            ("P", vec![(4, i2), (15, i3), (18, minus([0; 3], plus(i2, i3)))])
+            vec![(4, i2), (15, i3), (18, minus([0; 3], plus(i2, i3)))]
         }
         Kind::Both => {
             let i2 = minus(tool(machine, Some(joints)), p1);
             let i3 = minus(p2, tool(machine, None));
-            ("M", vec![(1, minus([0; 3], i2)), (4, i2), (15, i3), (18, minus([0; 3], i3))])
+            vec![(1, minus([0; 3], i2)), (4, i2), (15, i3), (18, minus([0; 3], i3))]
         }
     };
     let mut text = format!(
         ";TrueAxis: orientable tool carrier {CARRIER}; axis 1 is {}, axis 2 is {}; mm\n\
-         $TC_CARR23[{CARRIER}]=\"{letter}\"\n",
-        names[0], names[1]
+         $TC_CARR23[{CARRIER}]=\"{}\"\n",
+        names[0],
+        names[1],
+        kind.letter()
     );
     let mut lines = |first: usize, values: [String; 3]| {
         for (i, value) in values.iter().enumerate() {
@@ -136,6 +148,12 @@ pub fn read(machine: &Machine, file: &File) -> Result<Joints, ReadFault> {
         let (name, value) = line.split_once('=').ok_or_else(|| fault("$TC_CARRn[…]=…"))?;
         values.insert(name.to_owned(), value.to_owned());
     }
+    let letter = kind.letter();
+    if values.get(&format!("$TC_CARR23[{CARRIER}]")).map(String::as_str)
+        != Some(&format!("\"{letter}\""))
+    {
+        return Err(fault(&format!("$TC_CARR23 \"{letter}\" of such a machine")));
+    }
     let one = |n: usize, parse: &dyn Fn(&str) -> Option<i64>| {
         let value = values.get(&format!("$TC_CARR{n}[{CARRIER}]"));
         value.and_then(|v| parse(v)).ok_or_else(|| fault(&format!("a number as $TC_CARR{n}")))
@@ -146,6 +164,18 @@ pub fn read(machine: &Machine, file: &File) -> Result<Joints, ReadFault> {
     let nominal = Joints::nominal(machine);
     let first = nominal.0.iter().find(|j| j.axis == names[0]).map_or([0; 3], |j| j.point);
     let (i2, i3) = (three(4, &parse_decimal)?, three(15, &parse_decimal)?);
+    let closing = match kind {
+        Kind::Head => vec![(1, plus(i2, i3))],
+        Kind::Table => vec![(18, plus(i2, i3))],
+        Kind::Both => vec![(1, i2), (18, i3)],
+    };
+    for (n, way) in closing {
+        if three(n, &parse_decimal)? != minus([0; 3], way) {
+            return Err(fault(&format!(
+                "$TC_CARR{n} ff. that lead back to where the vectors began"
+            )));
+        }
+    }
     let reference = tool(machine, None);
     let points = match kind {
         Kind::Head => [first, plus(first, i2)],
