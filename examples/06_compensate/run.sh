@@ -20,6 +20,7 @@ $trueaxis compensate adapt examples/06_compensate/bangle-adapt.toml --report "$o
 # Tables of controls: files, what they represent, what they leave of the tool and of a test piece.
 $trueaxis compensate tables machines/three-axis-mill/machine.toml --target linuxcnc -o "$out/mill-linuxcnc"
 $trueaxis compensate tables machines/xkas2525/machine.toml --target sinumerik -o "$out/xkas-sinumerik" --piece examples/03_predict/nas979-on-xkas2525.toml
+$trueaxis compensate tables machines/xkas2525/machine.toml --target isg -o "$out/xkas-isg" --piece examples/03_predict/nas979-on-xkas2525.toml
 # A program for the actual machine: the frustum of 03_predict before and after (oracles/frustum.py made it).
 $trueaxis compensate program machines/xkas2525/machine.toml examples/06_compensate/frustum.mpf -o "$out/frustum-comp.mpf" --report "$out/frustum-comp.html"
 root=$(pwd)

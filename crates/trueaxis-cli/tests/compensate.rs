@@ -113,8 +113,36 @@ fn tables_of_a_control() {
         assert_eq!(again.status, 2);
         assert!(again.err.contains("unwritable-folder"), "{}", again.err);
     }
+    // Of controls that know more than tables, on a machine with rotary axes.
+    for (target, name) in [
+        ("fanuc", "GRID3D.CSV"),
+        ("heidenhain", "AXIS_XC.COM"),
+        ("isg", "volcomp.csv"),
+        ("sinumerik", "TOOLCARRIER.SPF"),
+        ("csv", "kinematics.csv"),
+    ] {
+        let out = folder.path(&format!("xkas-{target}"));
+        let machine = "machines/xkas2525/machine.toml";
+        let arguments = ["compensate", "tables", machine, "--target", target, "-o", &out];
+        let ran = trueaxis(&[&arguments[..], &["--format", "json"]].concat());
+        assert_eq!(ran.status, 0, "{}", ran.err);
+        let found = ran.json();
+        let written = found["files"].as_array().expect("files");
+        assert!(
+            written.iter().any(|f| f.as_str().is_some_and(|f| f.ends_with(name))),
+            "{written:?}"
+        );
+        let number = |path: &str| found.pointer(path).and_then(|v| v.as_f64()).expect("a number");
+        assert!(number("/left_um/rms") < 0.8 * number("/before_um/rms"), "{target}");
+        assert!(number("/wrong_sign_um/rms") > number("/before_um/rms"), "{target}");
+        assert!(found["cannot"].as_array().is_some_and(|c| !c.is_empty()));
+        let text = trueaxis(&[&arguments[..6], &[&format!("{out}-text")]].concat());
+        assert!(text.out.contains("with tables") && text.out.contains(name), "{}", text.out);
+    }
     for (extra, code) in [
         (&["--limit", "2 um"][..], "too-large"),
+        (&["--limit", "2 um", "--target", "isg"], "too-large"),
+        (&["--bound", "0.001 um", "--target", "fanuc"], "bound-below-increment"),
         (&["--bound", "0.01 um", "--target", "sinumerik"], "bound-below-increment"),
         (&["--bound", "-1 um"], "not-positive"),
         (&["--bound", "nan um"], "not-finite"),

@@ -20,8 +20,9 @@ Examples:
   trueaxis compensate tables machines/xkas2525/machine.toml --target sinumerik -o xkas-comp \\
       --piece examples/03_predict/nas979-on-xkas2525.toml --format json
 
-Each table holds what the control has to add; it is made with the other axes at a reference (--at). The
-files are read back, applied as the control does, and what is left over the travel of all axes is told.
+Each table holds what the control has to add; it is made with the other axes at a reference (--at). Rotary
+centres and tilts, grids and errors of whole links go where the control has a place for them. The files
+are read back, applied as the control does, and what is left over the travel of all axes is told.
 The folder must be new or empty. Exit status: 0 done, 2 unusable input (then nothing is written).")]
 pub struct TablesArguments {
     #[command(flatten)]

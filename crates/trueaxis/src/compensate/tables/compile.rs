@@ -119,8 +119,16 @@ fn gridded(
     let linear = rest.axes().iter().enumerate().filter(|(_, a)| a.kind == AxisKind::Linear);
     let axes: Vec<usize> = linear.map(|(i, _)| i).collect();
     let Some(axes) = axes.first_chunk::<3>() else { return Ok(None) };
-    let tables = Content { tables: content.tables.clone(), ..Content::default() };
-    let tables = Emulation::new(rest, control, tables);
+    // The functions, not the tables: what a table loses between its nodes is not for the grid to make up.
+    let lever = Lever::new(rest, *reference)?;
+    let by_tables = |command: &Command| {
+        let mut added = Command::default();
+        for table in &content.tables {
+            let all = lever.functions(table.input, command[table.input], 0.0)?;
+            added[table.output] += all[table.output];
+        }
+        Ok::<_, CommandFault>(added)
+    };
     let mut ends = [(0, 0, 0); 3];
     for (end, axis) in ends.iter_mut().zip(axes) {
         let ((from, to), _) = range(&rest.axes()[*axis], control)?;
@@ -134,7 +142,7 @@ fn gridded(
         }
         let still = Approach::default();
         let whole = lever::correction(rest, &command, &still)?;
-        let by_tables = tables.added(&command, &still);
+        let by_tables = by_tables(&command)?;
         Ok(axes.map(|axis| counts(rest, axis, whole[axis] - by_tables[axis])))
     };
     let bound = order.bound_mm * PER_UNIT;

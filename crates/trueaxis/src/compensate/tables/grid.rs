@@ -170,8 +170,8 @@ pub fn place(
         if loss <= bound {
             return Ok(Gridded { grid, loss, largest });
         }
-        // The axis along which the points lie too far apart gets half as many again.
-        let more = |n: usize| (n + n.div_ceil(2)).min(rule.most_along);
+        // The axis along which the points lie too far apart gets a quarter more.
+        let more = |n: usize| (n + n.div_ceil(4)).min(rule.most_along);
         let mut grown = counts;
         grown[worst] = more(counts[worst]);
         let points: usize = grown.iter().product();
