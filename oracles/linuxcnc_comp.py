@@ -120,7 +120,7 @@ def stops(nodes):
     return sorted(set(nodes + even)), beyond
 
 
-def ini(letters, lines, limits):
+def ini(letters, lines, limits, kinematics, halfiles):
     text = f"""[EMC]
 VERSION = 1.1
 MACHINE = trueaxis
@@ -140,8 +140,7 @@ EMCIO = io
 CYCLE_TIME = 0.1
 TOOL_TABLE = tool.tbl
 [HAL]
-HALFILE = loop.hal
-[TRAJ]
+{"".join(f"HALFILE = {file}" + chr(10) for file in halfiles)}[TRAJ]
 COORDINATES = {" ".join(letters)}
 LINEAR_UNITS = mm
 ANGULAR_UNITS = degree
@@ -151,7 +150,7 @@ MAX_LINEAR_ACCELERATION = 1000
 DEFAULT_ANGULAR_VELOCITY = 500
 MAX_ANGULAR_VELOCITY = 2000
 [KINS]
-KINEMATICS = trivkins coordinates={"".join(letters)}
+KINEMATICS = {kinematics}
 JOINTS = {len(letters)}
 """
     for joint, letter in enumerate(letters):
@@ -202,9 +201,10 @@ def run(name, machine, options):
     ends = lambda sign: {j: p[0 if sign < 0 else -1] + 0.5 * sign * b for j, (p, b) in places.items()}
     moves = [("go", ends(-1))] + [("up", at(i)) for i in range(last)]
     moves += [("go", ends(1))] + [("down", at(i)) for i in reversed(range(last))]
+    trivial = f"trivkins coordinates={''.join(letters)}"
     with tempfile.TemporaryDirectory() as work:
         shutil.copytree(folder, work, dirs_exist_ok=True)
-        files = {"oracle.ini": ini(letters, lines, limits), "loop.hal": loop(len(letters)), "tool.tbl": "", "sim.var": "",
+        files = {"oracle.ini": ini(letters, lines, limits, trivial, ["loop.hal"]), "loop.hal": loop(len(letters)), "tool.tbl": "", "sim.var": "",
                  "moves.txt": "".join(f"{way},{block(p)}\n" for way, p in moves), "ui": "#!/usr/bin/python3\n" + UI}
         for file, text in files.items():
             open(os.path.join(work, file), "w").write(text)
@@ -233,4 +233,5 @@ def main():
     print(f"{len(rows)} places written")
 
 
-main()
+if __name__ == "__main__":
+    main()

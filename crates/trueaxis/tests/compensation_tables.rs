@@ -7,6 +7,7 @@ use trueaxis::compensate::tables::table::{Node, PER_UNIT, Table};
 use trueaxis::compensate::tables::{Compiled, Order, TablesError, Target, compile};
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::Command;
+use trueaxis::machine::errors::ErrorValues;
 use trueaxis::machine::file::NoTables;
 
 fn machine(axes: &str, errors: &str) -> Machine {
@@ -200,6 +201,20 @@ fn what_is_not_known_well_enough_stays_out() {
     assert!(compiled.left_out[0].reason.contains("uncertainty"), "{:?}", compiled.left_out);
 }
 
+fn by_name(mut files: Vec<File>) -> Vec<File> {
+    files.sort_by(|a, b| a.name.cmp(&b.name));
+    files
+}
+
+fn in_folder(folder: &str) -> Vec<File> {
+    let entries = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap());
+    let file = |e: std::fs::DirEntry| File {
+        name: e.file_name().into_string().unwrap(),
+        text: std::fs::read_to_string(e.path()).unwrap(),
+    };
+    by_name(entries.map(file).collect())
+}
+
 /// A whole LinuxCNC went through these very files (oracles/linuxcnc_comp.py): at every stop, reached from below or
 /// from above, within a table and beyond its ends, it added what the emulation adds. It keeps what it added at its
 /// last step, at most 0.1 µm before the stop; with slopes up to 50 µm/m that is 5 pm.
@@ -214,20 +229,14 @@ fn oracle_linuxcnc_adds_what_the_emulation_adds() {
         ("xkas2525-type-0", "XYZAC", "w X' b Y Z C A t"),
     ] {
         let machine = machine(&format!("chain = \"{chain}\""), "");
-        let mut files: Vec<File> = std::fs::read_dir(format!("{folder}/{name}"))
-            .unwrap()
-            .map(|e| e.unwrap())
-            .map(|e| File {
-                name: e.file_name().into_string().unwrap(),
-                text: std::fs::read_to_string(e.path()).unwrap(),
-            })
-            .collect();
-        files.sort_by(|a, b| a.name.cmp(&b.name));
+        let files = in_folder(&format!("{folder}/{name}"));
         let control = Target::LinuxCnc { trims: name.ends_with('1') }.control();
         let content = read(control.as_ref(), &machine, &files);
-        let mut written = control.write(&machine, &content);
-        written.sort_by(|a, b| a.name.cmp(&b.name));
-        assert_eq!(written, files, "what LinuxCNC was given is what is written");
+        assert_eq!(
+            by_name(control.write(&machine, &content)),
+            files,
+            "what LinuxCNC was given is what is written"
+        );
         for row in text.lines().filter_map(|l| l.strip_prefix(name)?.strip_prefix(',')) {
             let [joint, way, position, added] = row.split(',').collect::<Vec<_>>()[..] else {
                 panic!("{row}")
@@ -244,4 +253,80 @@ fn oracle_linuxcnc_adds_what_the_emulation_adds() {
         }
     }
     assert_eq!(places, 960);
+}
+
+/// A whole LinuxCNC ran with these very pins and with those of the machine without errors (oracles/linuxcnc_kinematics.py):
+/// its joints put the tip of the actual machine where the program has it, and differ from the nominal ones by what the
+/// emulation adds. Blocks and pins have six decimals; the part zero was set at zero angles.
+#[test]
+fn oracle_linuxcnc_kinematics_move_the_joints_as_the_emulation_does() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/linuxcnc-kinematics");
+    let text = std::fs::read_to_string(format!("{folder}/joints.csv")).unwrap();
+    let (mut places, mut worst) = (0, [0.0_f64; 3]);
+    for (name, tilt) in [("xyzac", 'A'), ("xyzbc", 'B')] {
+        let toml = std::fs::read_to_string(format!("{folder}/{name}.toml")).unwrap();
+        let machine = Machine::check(name, &toml, &NoTables).0.unwrap();
+        let target = Target::LinuxCnc { trims: false };
+        let files = in_folder(&format!("{folder}/{name}"));
+        let compiled = compile(&machine, &Order::of(target)).unwrap();
+        assert_eq!(by_name(compiled.files), files, "what LinuxCNC was given is what is written");
+        let control = target.control();
+        let content = read(control.as_ref(), &machine, &files);
+        let emulation = Emulation::new(&machine, control.as_ref(), content);
+        let axis = |l: char| machine.axes().iter().position(|a| a.name.letter() == l).unwrap();
+        let [x, y, z, t, c] = ['X', 'Y', 'Z', tilt, 'C'].map(axis);
+        for row in text.lines().filter_map(|l| l.strip_prefix(name)?.strip_prefix(',')) {
+            let v: Vec<f64> = row.split(',').map(|n| n.parse().unwrap()).collect();
+            let command = |joints: &[f64]| {
+                let mut command = Command::default();
+                (command[t], command[c]) = (v[3].to_radians(), v[4].to_radians());
+                [x, y, z].iter().zip(joints).for_each(|(axis, q)| command[*axis] = *q);
+                command
+            };
+            let (nominal, actual) = (command(&v[5..8]), command(&v[8..11]));
+            let exact = machine.deviation(&nominal, &ErrorValues::default());
+            let errors = machine.errors_at(&actual, &[0.0; 6]).unwrap();
+            let there = machine.deviation(&actual, &errors);
+            let tips = [exact.nominal_tip.vector(), there.nominal_tip.vector() + there.tip_mm];
+            for (i, wanted) in v[..3].iter().enumerate() {
+                worst[0] = worst[0].max((tips[0][i] - wanted).abs());
+                worst[1] = worst[1].max((tips[1][i] - wanted).abs());
+            }
+            let added = emulation.added(&nominal, &[0.0; 6]);
+            for axis in [x, y, z] {
+                let off = added[axis] - (actual[axis] - nominal[axis]);
+                worst[2] = worst[2].max(off.abs());
+            }
+            places += 1;
+        }
+    }
+    println!("nominal tip, actual tip, added: off by {worst:?} mm at most");
+    assert!(places == 120 && worst.iter().all(|w| *w < 1e-9), "{places} {worst:?}");
+}
+
+/// Six errors of each rotary axis: LinuxCNC's pins hold the centres, tables of C and A their zeros, that of X what shifts A
+/// along itself. What shifts C along itself belongs into the work offset; the tilts stay.
+#[test]
+fn law_pins_hold_centres_and_no_tilts() {
+    let axes = "chain = \"w C' A' b X Y Z t\"\n[axis.C]\ntravel = \"unlimited\"
+[axis.A]\ntravel = [\"-110 deg\", \"110 deg\"]\nplacement = \"0 20 -30 mm\"
+[axis.X]\ntravel = [\"-200 mm\", \"200 mm\"]\n[axis.Y]\ntravel = [\"-200 mm\", \"200 mm\"]
+[axis.Z]\ntravel = [\"-50 mm\", \"250 mm\"]";
+    let mut errors = "[location]\n".to_owned();
+    for (axis, component) in ["C", "A"].iter().flat_map(|a| "XYZABC".chars().map(move |c| (a, c))) {
+        let value = if "XYZ".contains(component) { "20 um" } else { "50 urad" };
+        errors += &format!("E{component}0{axis} = \"{value}\"\n");
+    }
+    let machine = machine(axes, &errors);
+    let compiled = compile(&machine, &Order::of(Target::LinuxCnc { trims: true })).unwrap();
+    let mut cannot: Vec<String> = Vec::new();
+    for loss in compiled.errors.iter().filter(|e| !e.represented) {
+        let place = if loss.error.to_string() == "EZ0C" { "work offset" } else { "NC program" };
+        assert!(loss.instead.contains(place), "{loss:?}");
+        cannot.push(loss.error.to_string());
+    }
+    cannot.sort();
+    assert_eq!(cannot, ["EA0C", "EB0A", "EB0C", "EC0A", "EZ0C"], "{:?}", compiled.errors);
+    let outputs: Vec<usize> = compiled.tables.iter().map(|t| t.table.output).collect();
+    assert!([0, 1, 2].iter().all(|axis| outputs.contains(axis)), "C, A and X: {outputs:?}");
 }

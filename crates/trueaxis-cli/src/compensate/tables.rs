@@ -73,7 +73,7 @@ pub struct TablesArguments {
 enum Control {
     /// Plain tables of every axis on every linear axis
     Csv,
-    /// COMP_FILE of each joint
+    /// COMP_FILE of each joint; rotary centres of tilting tables as HAL lines
     Linuxcnc,
     /// $AA_ENC_COMP and $AN_CEC
     Sinumerik,

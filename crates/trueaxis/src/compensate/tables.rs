@@ -27,6 +27,7 @@ pub mod known;
 mod lever;
 mod link;
 mod linuxcnc;
+mod linuxcnc_kinematics;
 pub mod place;
 pub mod proof;
 mod sinumerik;

@@ -1,4 +1,4 @@
-//! LinuxCNC: `COMP_FILE` of a joint, types 0 and 1.
+//! LinuxCNC: `COMP_FILE` of a joint, types 0 and 1; rotary centres in `linuxcnc_kinematics`.
 //!
 //! ```text
 //!     type 0:  nominal  actual(forward)  actual(reverse)      trim = nominal − actual
@@ -13,10 +13,12 @@
 
 use super::content::Content;
 use super::control::{Control, File, ReadFault, checked};
+use super::linuxcnc_kinematics as kinematics;
 use super::place::{Rule, Spacing};
 use super::table::{Node, PER_UNIT, Table, axis_order, decimal, parse_decimal};
 use std::fmt::Write;
 use trueaxis_machine::Machine;
+use trueaxis_machine::errors::ErrorName;
 
 /// The largest table: EMCMOT_COMP_SIZE of motion.h.
 const MOST_NODES: usize = 256;
@@ -35,6 +37,10 @@ impl Control for LinuxCnc {
 
     fn has_cross_tables(&self) -> bool {
         false
+    }
+
+    fn knows_location(&self, machine: &Machine, error: ErrorName) -> bool {
+        kinematics::knows(machine, error)
     }
 
     fn has_modulo(&self) -> bool {
@@ -77,6 +83,7 @@ impl Control for LinuxCnc {
             files.push(File { name, text: table.nodes.iter().map(row).collect() });
         }
         files.push(File { name: INI.to_owned(), text: ini });
+        files.extend(content.joints.as_ref().and_then(|j| kinematics::write(machine, j)));
         files
     }
 
@@ -94,7 +101,9 @@ impl Control for LinuxCnc {
             let table = Table { input: axis, output: axis, modulo: false, nodes };
             tables.push(checked(&joint.file, table, MOST_NODES)?);
         }
-        Ok(Content { tables, ..Content::default() })
+        let pins = files.iter().find(|f| f.name == kinematics::NAME);
+        let joints = pins.map(|f| kinematics::read(machine, f)).transpose()?;
+        Ok(Content { tables, joints, ..Content::default() })
     }
 
     /// Trims and slopes are single precision in the motion controller.
@@ -124,6 +133,7 @@ impl Control for LinuxCnc {
         &[
             "COMP_FILE takes the place of BACKLASH of the joint",
             "positions are machine coordinates after homing; a rotary joint that wraps is compensated within its table only",
+            "kinematics.hal, where there is one, after the module of KINEMATICS is loaded and instead of the setp lines of its centres; the part zero is set with it on",
         ]
     }
 }

@@ -13,7 +13,7 @@ use crate::predict::{Cutting, Error, Judge, Study};
 use crate::volume::commands;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, AxisKind, Command, MAX_AXES};
-use trueaxis_machine::chain::CommandFault;
+use trueaxis_machine::chain::{ChainBody, CommandFault};
 use trueaxis_machine::errors::{ErrorKind, ErrorName, ErrorValues};
 
 /// Poses over the travel of all axes beside the corners, each reached rising and falling.
@@ -201,14 +201,32 @@ impl<'a> Best<'a> {
     }
 }
 
+/// Where an error of the workpiece or the tool on the last axis could be put.
+const WITH_THE_END: &str = "the work offset, or the tool length and its direction";
+
+/// Whether an error shifts the last rotary axis before workpiece or tool along itself: they go with it whatever
+/// it turns.
+fn goes_with_the_end(machine: &Machine, error: ErrorName) -> bool {
+    let (bodies, side) = (machine.bodies(), machine.workpiece_side());
+    let last = [bodies[..side].get(1), bodies[side..].iter().nth_back(1)];
+    let along = |axis: usize| machine.axes()[axis].direction.iamax() == error.component as usize;
+    let is_it = |body: &ChainBody| body.name == error.body && body.axis.is_some_and(along);
+    last.into_iter().flatten().any(is_it)
+}
+
 /// Where the rest of an error could be put.
 fn instead(machine: &Machine, error: ErrorName, control: &dyn Control) -> &'static str {
     let axis = machine.axes().iter().find(|a| a.name == error.body);
     let cross = control.has_cross_tables() || control.knows_links() || control.grid().is_some();
     match (error.kind, axis.map(|a| a.kind), error.component.is_rotation()) {
-        (ErrorKind::Location, None, _) => "the work offset, or the tool length and its direction",
+        (ErrorKind::Location, None, _) => WITH_THE_END,
         (ErrorKind::Location, Some(AxisKind::Rotary), _) if !moves_an_axis(machine, error) => {
             "the zero of the axis"
+        }
+        (ErrorKind::Location, Some(AxisKind::Rotary), false)
+            if goes_with_the_end(machine, error) =>
+        {
+            WITH_THE_END
         }
         (ErrorKind::Location, Some(AxisKind::Rotary), _) => {
             "the control's kinematic parameters (rotary centres and tilts), or the NC program"

@@ -66,18 +66,21 @@ pub fn knows(machine: &Machine, error: ErrorName) -> bool {
     moves_an_axis(machine, error) && !shifts_all
 }
 
-type Counts = [i64; 3];
+/// A vector, counts of 10⁻⁶ mm.
+pub type Counts = [i64; 3];
 
-fn minus(a: Counts, b: Counts) -> Counts {
+/// The difference of two points.
+pub fn minus(a: Counts, b: Counts) -> Counts {
     std::array::from_fn(|i| a[i] - b[i])
 }
 
-fn plus(a: Counts, b: Counts) -> Counts {
+/// A point and a way.
+pub fn plus(a: Counts, b: Counts) -> Counts {
     std::array::from_fn(|i| a[i] + b[i])
 }
 
 /// Where the tool is taken, counts; with the axes placed so.
-fn tool(machine: &Machine, joints: Option<&Joints>) -> Counts {
+pub fn tool(machine: &Machine, joints: Option<&Joints>) -> Counts {
     let mut errors = ErrorValues::default();
     if let Some(joints) = joints {
         joints.place(machine, &mut errors);
