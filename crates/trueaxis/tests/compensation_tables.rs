@@ -300,7 +300,6 @@ fn oracle_linuxcnc_kinematics_move_the_joints_as_the_emulation_does() {
             places += 1;
         }
     }
-    println!("nominal tip, actual tip, added: off by {worst:?} mm at most");
     assert!(places == 120 && worst.iter().all(|w| *w < 1e-9), "{places} {worst:?}");
 }
 

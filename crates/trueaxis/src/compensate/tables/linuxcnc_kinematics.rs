@@ -250,6 +250,8 @@ mod tests {
         let (ac, bc) = ("xyzac-trt-kins", "xyzbc-trt-kins");
         assert_eq!(module("w C' A' b X Y Z t", ""), Some((ac, 1.0)));
         assert_eq!(module("w C' B' X' b Y Z t", ""), Some((bc, 1.0)));
+        // Along x, about x: in either order the same.
+        assert_eq!(module("w C' X' A' b Y Z t", ""), Some((ac, 1.0)));
         let usual = "[axis.A]\nsense = 1\n[axis.C]\nsense = 1";
         assert_eq!(module("w C' A' Y' X' b Z t", usual), Some((ac, -1.0)));
         let mixed = "[axis.A]\nsense = 1";
@@ -260,7 +262,7 @@ mod tests {
             ("w C' A' b X Y Z t", back),
             ("w C' A' b X Y Z t", aside),
             ("w A' C' b X Y Z t", ""),
-            ("w C' X' A' b Y Z t", ""),
+            ("w C' Y' A' b X Z t", ""),
             ("w C' b X Y Z A t", ""),
             ("w X' b Y Z C A t", ""),
             ("w b X Y Z t", ""),
