@@ -175,7 +175,7 @@ fn rows(machine: &Machine, content: &Content) -> String {
 }
 
 /// Rows of numbers behind a head that begins with NR AXISPOS.
-fn cells<'a>(file: &'a File) -> Result<(Vec<&'a str>, Vec<Vec<f64>>), ReadFault> {
+fn cells(file: &File) -> Result<(Vec<&str>, Vec<Vec<f64>>), ReadFault> {
     let fault = |line: usize, expected: &str| {
         ReadFault::new(&file.name, format!("line {}: {expected}", line + 1))
     };
