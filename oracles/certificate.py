@@ -1,4 +1,5 @@
-"""Makes the readings of examples/07_verify/certificate.toml and certificate-program.toml.
+"""Makes the readings of examples/07_verify/certificate.toml and certificate-program.toml, and what their
+predictions should be (crates/trueaxis-cli/tests/data/certificate.json).
 
 A machine that exists only here: the errors of machines/xkas2525 each moved by a draw from their stated
 uncertainty (one factor for a whole curve), seed below. It is "measured" before and after two compensations
@@ -12,6 +13,7 @@ Python 3.11, numpy, scipy:    python3 oracles/certificate.py
 """
 
 import csv
+import json
 import math
 import re
 import tomllib
@@ -25,7 +27,9 @@ MACHINE = ROOT / "machines/xkas2525"
 OUT = ROOT / "examples/07_verify"
 SEED, U_MM = 16907, 0.0015
 AXES = "XYZCA"
-ZERO = dict(X=3100.0, Y=1250.0, Z=-500.0, C=0.0, A=0.0)
+UPRIGHT = dict(X=3100.0, Y=1250.0, Z=-500.0, C=0.0, A=0.0)
+# Not upright: there C would have to swing for any correction of the tool axis.
+TILTED = dict(X=3100.0, Y=1250.0, Z=-500.0, C=0.0, A=30.0)
 
 
 def rotation(axis, angle):
@@ -191,17 +195,41 @@ def main():
         q = inner(q)
         return model.ends(go(q), true)[0] - model.ends(q, {}, nominal=True)[0]
 
-    def measured(list_of_poses, go):
-        zero = deviation(ZERO, go)
+    def measured(list_of_poses, go, at):
+        zero = deviation(at, go)
         noise = lambda: U_MM * random.standard_normal(3)
         return [deviation(q, go) - zero + noise() for q in list_of_poses]
 
+    def predicted(list_of_poses, go, zero):
+        """What is expected of the identified machine, and its standard uncertainty by central differences."""
+
+        def off(q, errors):
+            q = inner(q)
+            return model.ends(go(q), errors)[0] - model.ends(q, {}, nominal=True)[0]
+
+        def told(q, errors):
+            return off(q, errors) - off(zero, errors)
+
+        found = []
+        for q in list_of_poses:
+            slopes = [(told(q, {key: u}) - told(q, {key: -u})) / 2 for key, u in model.u.items()]
+            u = np.sqrt(sum(s * s for s in slopes))
+            found.append({"after_um": list(1e3 * told(q, {})), "u_um": list(1e3 * u)})
+        return found
+
     plain, by_tables = (lambda q: q), (lambda q: with_tables(tables, q))
     upright, tilted = poses(24, False), poses(32, True)
-    write("certificate-before.csv", "head upright, not compensated", upright, measured(upright, plain))
-    write("certificate-after.csv", "head upright, with the tables", upright, measured(upright, by_tables))
-    write("certificate-program-before.csv", "five axes, not compensated", tilted, measured(tilted, plain))
-    write("certificate-program-after.csv", "five axes, compensated program", tilted, measured(tilted, model.exact))
+    write("certificate-before.csv", "head upright, not compensated", upright, measured(upright, plain, UPRIGHT))
+    write("certificate-after.csv", "head upright, with the tables", upright, measured(upright, by_tables, UPRIGHT))
+    write("certificate-program-before.csv", "five axes, not compensated", tilted, measured(tilted, plain, TILTED))
+    write("certificate-program-after.csv", "five axes, compensated program", tilted, measured(tilted, model.exact, TILTED))
+    expected = {
+        "tables": predicted(upright[:6], by_tables, UPRIGHT),
+        "program": predicted(tilted[:6], model.exact, TILTED),
+    }
+    (ROOT / "crates/trueaxis-cli/tests/data").mkdir(exist_ok=True)
+    text = json.dumps(expected, indent=1) + "\n"
+    (ROOT / "crates/trueaxis-cli/tests/data/certificate.json").write_text(text)
 
 
 main()

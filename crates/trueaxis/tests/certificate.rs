@@ -334,7 +334,7 @@ fn cut_parts(machines: usize, draws: usize) -> Parts {
         let before = part(&study, &trial.real, None);
         let after = part(&study, &trial.real, Some(&trial.identified));
         for (i, (a, b)) in before.iter().zip(&after).enumerate() {
-            parts.better[i] += f64::from(u8::from(b < a)) / machines as f64;
+            parts.better[i] += f64::from(u8::from(b.abs() < a.abs())) / machines as f64;
             parts.rms[0][i] += a * a / machines as f64;
             parts.rms[1][i] += b * b / machines as f64;
         }
@@ -350,14 +350,12 @@ fn cut_parts(machines: usize, draws: usize) -> Parts {
     parts
 }
 
-/// 200 machines are injected, measured, identified, compensated and cut. The indices that the standard decides
-/// by become smaller on 95 % of them at least, and as small as the uncertainties say.
+/// 200 machines are injected, measured, identified, compensated and cut. Every index becomes smaller on 95 % of
+/// them at least, and as small as the uncertainties say.
 ///
 /// The root mean square of an index over 200 machines scatters by 3.5 % (a length in a plane) to 5 % (a normal
 /// number), its prediction from 800 draws by half of that: 15 % are three of them.
-///
-/// `angularity_eq19_mm` of document 000 is a difference of two radii, which on some machines is as good as
-/// nothing before: among all indices it is the one that need not become smaller.
+/// `angularity_eq19_mm` has a sign: its size counts.
 #[test]
 fn law_compensated_parts_improve_as_the_uncertainties_predict() {
     let parts = cut_parts(200, 4);
@@ -376,6 +374,4 @@ fn law_compensated_parts_improve_as_the_uncertainties_predict() {
         // Some 12 µm and 30 µrad are found to within some 0.5 µm and 1 µrad.
         assert!(after < 0.1 * before, "{name}: {before} {after}");
     }
-    let mean = parts.better.iter().sum::<f64>() / parts.better.len() as f64;
-    assert!(mean >= 0.95, "{mean}");
 }

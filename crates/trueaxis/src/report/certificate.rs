@@ -11,7 +11,7 @@ use crate::verify::certificate::{
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 use trueaxis_geometry::Vec3;
-use trueaxis_machine::axis::{Axis, Command};
+use trueaxis_machine::axis::{Axis, Command, Travel};
 use trueaxis_part::tolerance::Outcome;
 
 /// A word for programs and people.
@@ -127,6 +127,12 @@ pub fn certificate_json(study: &Study, certificate: &Certificate) -> Value {
     validation["poses"] =
         certificate.poses.iter().map(|p| pose(study, machine.axes(), p)).collect();
     let volume = &certificate.volume;
+    let ends = study.zone.iter().filter_map(|axis| match axis.travel {
+        Travel::Between(from, to) => {
+            Some((axis.name.to_string(), json!([shown(axis, from), shown(axis, to)])))
+        }
+        _ => None,
+    });
     json!({
         "schema": "trueaxis/certificate/1",
         "version": crate::VERSION,
@@ -144,7 +150,8 @@ pub fn certificate_json(study: &Study, certificate: &Certificate) -> Value {
             "loaded": study.application.loaded,
         },
         "validation": validation,
-        "volume": {
+        "zone": {
+            "ends": ends.collect::<Map<String, Value>>(),
             "poses": volume.poses,
             "rms_before_um": volume.rms_mm[0] * 1e3,
             "rms_after_um": volume.rms_mm[1] * 1e3,

@@ -8,8 +8,10 @@ use crate::compensate::tables::shown;
 use crate::verify::certificate::applied::Applied;
 use crate::verify::certificate::inputs::Input;
 use crate::verify::certificate::{Agreement, Certificate, Circumstances, Determined, Study};
+use std::f64::consts::PI;
+use trueaxis_machine::axis::{AxisKind, Travel};
 use trueaxis_machine::compensate::Scope;
-use trueaxis_machine::errors::{Curve, ErrorKind, Uncertainty};
+use trueaxis_machine::errors::{Component, Curve, ErrorKind, StatedError, Uncertainty};
 
 /// One topic.
 pub(super) struct Chapter {
@@ -53,44 +55,73 @@ fn kinematics(study: &Study) -> Chapter {
         let names: Vec<String> = active.iter().map(ToString::to_string).collect();
         lines.push(format!("compensated in the control before, and left so: {}", names.join(" ")));
     }
+    lines.push(format!("zone of the certificate: {}", zone(study)));
     chapter("Kinematic representation", lines, Vec::new(), false)
 }
 
+/// `X 0 … 6200 mm, …`
+fn zone(study: &Study) -> String {
+    let one = |axis: &trueaxis_machine::axis::Axis| match axis.travel {
+        Travel::Between(from, to) => {
+            let number = |q| super::numbers::rounded(super::shown(axis, q));
+            format!("{} {} … {} {}", axis.name, number(from), number(to), unit(axis))
+        }
+        _ if axis.kind == AxisKind::Rotary => format!("{} all around", axis.name),
+        _ => format!("{} without stated ends", axis.name),
+    };
+    study.zone.iter().map(one).collect::<Vec<_>>().join(", ")
+}
+
+/// One row for the six errors of a body: constant or moving.
 fn errors(study: &Study) -> Chapter {
     let machine = &study.machine;
-    let headings = ["error", "unit", "value", "from", "to", "u"];
-    let note = "location errors: their value; error motions: smallest and largest over the travel; u: standard \
-                uncertainty, the largest along the curve";
+    let headings = ["errors of", "EX µm", "EY µm", "EZ µm", "EA µrad", "EB µrad", "EC µrad"];
+    let note = "value ± standard uncertainty; of error motions the smallest and the largest over the zone, and the \
+                largest uncertainty";
     let mut block = Block::new("Identified errors", note, &headings);
-    let mut motions = 0;
-    for (index, name) in machine.stated_errors() {
-        let body = &machine.bodies()[index.body];
-        let Some(stated) = body.stated(index.kind, index.component) else { continue };
-        let (unit, scale) =
-            if name.component.is_rotation() { ("µrad", 1e6) } else { ("µm", 1e3) };
-        let number = |v: f64| super::numbers::fixed(v * scale, 2);
-        let dash = || "–".to_owned();
-        let [value, from, to] = match (&stated.mean, name.kind) {
-            (Curve::Constant(value), _) => [number(*value), dash(), dash()],
-            (_, ErrorKind::Location) => [dash(), dash(), dash()],
-            _ => {
-                motions += 1;
-                match reach(study, index.body, stated) {
-                    Some([low, high]) => [dash(), number(low), number(high)],
-                    None => [dash(), dash(), dash()],
-                }
+    let (mut all, mut motions) = (0, 0);
+    for (i, body) in machine.bodies().iter().enumerate() {
+        for kind in [ErrorKind::Location, ErrorKind::Motion] {
+            let stated = Component::ALL.map(|component| body.stated(kind, component));
+            let count = stated.iter().flatten().count();
+            if count == 0 {
+                continue;
             }
-        };
-        let u = stated.u.as_ref().map_or_else(dash, |u| number(largest(u)));
-        block.rows.push(vec![name.to_string(), unit.to_owned(), value, from, to, u]);
+            all += count;
+            let name = match kind {
+                ErrorKind::Location => format!("E·0{}", body.name),
+                ErrorKind::Motion => format!("E·{}", body.name),
+            };
+            motions += if kind == ErrorKind::Motion { count } else { 0 };
+            let cells = Component::ALL.iter().zip(stated);
+            let cells = cells.map(|(component, error)| {
+                let scale = if component.is_rotation() { 1e6 } else { 1e3 };
+                error.map_or("–".to_owned(), |error| cell(study, i, error, scale))
+            });
+            block.rows.push(std::iter::once(name).chain(cells).collect());
+        }
     }
-    let (all, unknown) = (block.rows.len(), machine.coefficients_without_u());
     let mut lines =
-        vec![format!("{all} errors with their uncertainties, {motions} of them curves")];
+        vec![format!("{all} errors with their uncertainties, {motions} of them error motions")];
+    let unknown = machine.coefficients_without_u();
     if !unknown.is_empty() {
         lines.push(format!("without an uncertainty: {}", unknown.join(", ")));
     }
-    chapter("Errors", lines, vec![block], false)
+    chapter("Errors", lines, vec![block], true)
+}
+
+/// `-5.9 … 22.0 ± 0.5`
+fn cell(study: &Study, body: usize, error: &StatedError, scale: f64) -> String {
+    let number = |v: f64| super::numbers::fixed(v * scale, 1);
+    let value = match (&error.mean, reach(study, body, error)) {
+        (Curve::Constant(value), _) => number(*value),
+        (_, Some([low, high])) => format!("{} … {}", number(low), number(high)),
+        _ => "–".to_owned(),
+    };
+    match &error.u {
+        Some(u) => format!("{value} ± {}", number(largest(u))),
+        None => value,
+    }
 }
 
 /// The largest u of an error, mm or rad.
@@ -105,15 +136,9 @@ pub(super) fn largest(u: &Uncertainty) -> f64 {
     }
 }
 
-fn reach(
-    study: &Study,
-    body: usize,
-    stated: &trueaxis_machine::errors::StatedError,
-) -> Option<[f64; 2]> {
-    use std::f64::consts::PI;
-    use trueaxis_machine::axis::Travel;
+fn reach(study: &Study, body: usize, stated: &StatedError) -> Option<[f64; 2]> {
     let axis = study.machine.bodies()[body].axis?;
-    let (from, to) = match (study.machine.axes()[axis].travel, &stated.mean) {
+    let (from, to) = match (study.zone[axis].travel, &stated.mean) {
         (Travel::Between(from, to), _) => (from, to),
         (_, Curve::Table { spline, .. }) => spline.range(),
         _ => (-PI, PI),
@@ -228,6 +253,8 @@ fn validation(study: &Study, certificate: &Certificate) -> Chapter {
     let v = &study.validation;
     let axes = study.machine.axes();
     let mut lines = circumstances(&v.circumstances);
+    let warmer = v.circumstances.temperature_c.value - study.determination.temperature_c.value;
+    lines.push(format!("{warmer:+.1} K against the determination"));
     if let Some(zero) = &v.zero {
         lines.push(format!("instrument set to zero at {}", command_words(axes, zero)));
     }
@@ -243,15 +270,17 @@ fn validation(study: &Study, certificate: &Certificate) -> Chapter {
         ),
         format!("tip before: {rms} µm rms, {most} µm at most; after: {rms_after} µm rms, {most_after} µm at most"),
         format!(
-            "predicted after: {:.1} µm rms; at most {:.1} µm at all poses together with 95 %",
+            "predicted after: {:.1} µm rms, with the scatter of the readings {:.1} µm; at most {:.1} µm at all \
+             poses together with 95 %",
             certificate.lengths.rms_mm * 1e3,
+            (certificate.lengths.rms_mm.powi(2) + 3.0 * v.u_mm * v.u_mm).sqrt() * 1e3,
             certificate.lengths.largest_within_mm * 1e3
         ),
         agreement("before", certificate.agreement[0]),
         agreement("after", certificate.agreement[1]),
         format!(
-            "over the travel of all axes ({} poses) predicted: {:.1} µm rms before, {:.1} µm after; nowhere more \
-             than {:.1} µm with U, at {}",
+            "over the zone ({} poses) predicted: {:.1} µm rms before, {:.1} µm after; nowhere more than {:.1} µm with \
+             U, at {}",
             certificate.volume.poses,
             certificate.volume.rms_mm[0] * 1e3,
             certificate.volume.rms_mm[1] * 1e3,

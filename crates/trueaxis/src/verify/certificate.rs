@@ -14,6 +14,7 @@
 //! compensation, application, validation, documentation. docs/model.md eq. 172 to 177.
 
 pub mod applied;
+mod compensation;
 mod decide;
 mod file;
 mod identified;
@@ -39,7 +40,7 @@ use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_machine::compensate::Fault;
 use trueaxis_part::tolerance::Outcome;
 
-/// Poses over the travel beside its corners.
+/// Poses over the zone beside its corners.
 const POSES: u32 = 512;
 
 /// Where the uncertainties of the errors are from.
@@ -83,7 +84,7 @@ impl PoseResult {
     }
 }
 
-/// What the identified machine predicts over its travel.
+/// What the identified machine predicts over the zone of the certificate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Volume {
     /// Poses that were looked at; those that cannot be compensated are left out.
@@ -111,7 +112,7 @@ pub struct Certificate {
     pub largest_mm: [f64; 2],
     /// Whether readings and prediction agree, without and with the compensation.
     pub agreement: [Option<Agreement>; 2],
-    /// The prediction over the travel of all axes.
+    /// The prediction over the zone.
     pub volume: Volume,
     /// How many poses are inside, outside, or can neither be said to be.
     pub counts: [usize; 3],
@@ -154,7 +155,7 @@ pub fn certify(study: &Study) -> Result<Certificate, PoseFault> {
     });
     let predicted = predicted.collect::<Result<Vec<Left>, PoseFault>>()?;
     let lengths = lengths(&predicted, study.sampling);
-    let volume = over_the_travel(study, zero.as_ref());
+    let volume = over_the_zone(study, zero.as_ref());
     let poses = judged(study, &predicted, &lengths);
     Ok(concluded(study, poses, lengths, volume))
 }
@@ -184,9 +185,9 @@ fn differences(measured: &Measured, predicted: &Left) -> [Vec3; 2] {
     [before, measured.after_mm - predicted.after.tip_mm]
 }
 
-fn over_the_travel(study: &Study, zero: Option<&Left>) -> Volume {
+fn over_the_zone(study: &Study, zero: Option<&Left>) -> Volume {
     let mut volume = Volume { poses: 0, rms_mm: [0.0; 2], largest_mm: 0.0, at: Command::default() };
-    for command in commands(study.machine.axes(), POSES) {
+    for command in commands(&study.zone, POSES) {
         let applied = (&study.known, &study.applied);
         let Ok(here) = Left::at(&study.machine, applied, &command, &Approach::default()) else {
             continue;

@@ -1,22 +1,22 @@
 //! The study file of a certificate.
 
 use super::applied::Applied;
+use super::compensation::read_compensation;
 use super::decide::{Decision, Rule};
 use super::inputs::{Input, Inputs};
 use super::known::Known;
-use super::loaded::check_loaded;
-use super::used::{Used, read_at, read_used};
-use super::validation::{Validation, read_validation};
+use super::used::{Used, read_used};
+use super::validation::{Allowed, Validation, read_validation};
 use super::{Determined, identified};
 use crate::compensate::not_twice;
-use crate::compensate::tables::{Order, Target, compile};
+use crate::describe::axis_index;
 use crate::files;
 use crate::predict::Sampling;
 use crate::verify::conditions::SOUND_TEMPERATURES_C;
 use std::path::Path;
 use trueaxis_geometry::input::{Diagnostics, Dimension, Item, Measured, Section, Source};
 use trueaxis_machine::Machine;
-use trueaxis_machine::compensate::{Compensator, Scope};
+use trueaxis_machine::axis::{Axis, AxisKind, Travel};
 
 /// What a certificate is made from.
 pub struct Study {
@@ -36,6 +36,8 @@ pub struct Study {
     pub applied: Applied,
     /// When, by whom and how it was put into the control.
     pub application: Application,
+    /// The axes with the ends between which the certificate holds: those of the travels, or `[zone]`.
+    pub zone: Vec<Axis>,
     /// The readings.
     pub validation: Validation,
     /// How it is decided.
@@ -113,7 +115,7 @@ fn read(root: &Section<'_>, folder: &Path, mut inputs: Inputs) -> Option<Study> 
         machine
     });
     let sections = SECTIONS.map(|(key, hint)| root.require(key, hint));
-    let monte_carlo = root.get("monte_carlo");
+    let (monte_carlo, zone) = (root.get("monte_carlo"), root.get("zone"));
     let (
         Some(machine),
         [Some(determination), Some(compensation), Some(validation), Some(decision)],
@@ -128,13 +130,18 @@ fn read(root: &Section<'_>, folder: &Path, mut inputs: Inputs) -> Option<Study> 
         None => Some(Sampling::default()),
     };
     let decision = decision.section("decision", read_decision).flatten();
+    let zone = match zone {
+        Some(item) => item.section("zone", |s| read_zone(s, &machine)).flatten(),
+        None => Some(machine.axes().to_vec()),
+    };
     let determined = determination
         .section("determination", |s| read_determination(s, &machine, folder, &mut inputs));
     let compensation =
         compensation.section("compensation", |s| read_compensation(s, &machine, &mut inputs));
     let used = determined.as_ref().and_then(|d| Some(d.as_ref()?.used.as_slice()));
-    let validation = validation
-        .section("validation", |s| read_validation(s, &machine, used.unwrap_or(&[]), &mut inputs));
+    let allowed = Allowed { used: used.unwrap_or(&[]), zone: zone.as_deref().unwrap_or(&[]) };
+    let validation =
+        validation.section("validation", |s| read_validation(s, &machine, &allowed, &mut inputs));
     let found = determined.flatten()?;
     let (applied, application) = compensation.flatten()?;
     Some(Study {
@@ -145,12 +152,44 @@ fn read(root: &Section<'_>, folder: &Path, mut inputs: Inputs) -> Option<Study> 
         used: found.used,
         applied,
         application,
+        zone: zone?,
         validation: validation.flatten()?,
         decision: decision?,
         sampling: sampling?,
         inputs: inputs.finish(),
         machine,
     })
+}
+
+/// Reads `[zone]`: `A = ["-30 deg", "30 deg"]`; axes that are not named have their whole travel.
+fn read_zone(section: &Section<'_>, machine: &Machine) -> Option<Vec<Axis>> {
+    let mut zone = machine.axes().to_vec();
+    let mut sound = true;
+    for (key, place, item) in section.entries() {
+        let Some(index) = axis_index(machine, key) else {
+            let hint = format!("the chain of the machine: {}", machine.chain_text());
+            let message = format!("the machine has no axis `{key}`");
+            section.error_at(place, "unknown-axis", message, &hint);
+            sound = false;
+            continue;
+        };
+        let dimension = match zone[index].kind {
+            AxisKind::Linear => Dimension::Length,
+            AxisKind::Rotary => Dimension::Angle,
+        };
+        let ends: Option<Vec<f64>> =
+            item.list().and_then(|ends| ends.iter().map(|e| e.quantity(dimension)).collect());
+        match ends.as_deref() {
+            Some([from, to]) if from <= to => zone[index].travel = Travel::Between(*from, *to),
+            Some(_) => {
+                let hint = "A = [\"-30 deg\", \"30 deg\"]";
+                item.error("bad-range", "two rising ends are due".to_owned(), hint);
+                sound = false;
+            }
+            None => sound = false,
+        }
+    }
+    sound.then_some(zone)
 }
 
 /// What `[determination]` says.
@@ -289,107 +328,4 @@ pub(super) fn above_zero(item: &Item<'_>, dimension: Dimension) -> Option<f64> {
         item.error("not-positive", "it is not above zero".to_owned(), "such as \"1 um\"");
     }
     Some(value).filter(|v| *v > 0.0)
-}
-
-fn read_compensation(
-    section: &Section<'_>,
-    machine: &Machine,
-    inputs: &mut Inputs,
-) -> Option<(Applied, Application)> {
-    let text = |key| section.text(key).map(str::to_owned);
-    let (method, by) = (text("method"), text("by"));
-    let date = section.get("date").and_then(|i| i.date_or_text());
-    let kind = section.require("kind", "kind = \"program\" or \"tables\"")?;
-    let (applied, files, loaded) = match kind.text()? {
-        "program" => {
-            let applied = read_program_scope(section, machine)?;
-            let files = read_programs(section, inputs)?;
-            (applied, files, None)
-        }
-        "tables" => {
-            let applied = read_tables(section, machine)?;
-            let (files, loaded) = check_loaded(section, &applied, inputs)?;
-            (applied, files, loaded)
-        }
-        other => {
-            let message = format!("no compensation is called `{other}`");
-            kind.error("unknown-kind", message, "\"program\" or \"tables\"");
-            return None;
-        }
-    };
-    Some((applied, Application { method, date, by, files, loaded }))
-}
-
-fn read_program_scope(section: &Section<'_>, machine: &Machine) -> Option<Applied> {
-    let scope = match section.get("scope") {
-        None => Scope::Pose,
-        Some(item) => match item.text()? {
-            "pose" => Scope::Pose,
-            "position" => Scope::Position,
-            other => {
-                let message = format!("no scope is called `{other}`");
-                item.error("unknown-scope", message, "\"pose\" (usual) or \"position\"");
-                return None;
-            }
-        },
-    };
-    let refuse = |e: trueaxis_machine::compensate::Fault| {
-        section.error("cannot-compensate", e.to_string(), "is it the right machine?");
-    };
-    let compensator = Compensator::of(machine, scope).map_err(refuse).ok()?;
-    Some(Applied::Program(Box::new(compensator)))
-}
-
-/// `programs`: the compensated programs that the certificate goes with, by their SHA-256.
-fn read_programs(section: &Section<'_>, inputs: &mut Inputs) -> Option<Vec<Input>> {
-    let Some(item) = section.get("programs") else { return Some(Vec::new()) };
-    let mut found = Vec::new();
-    for item in item.list()? {
-        let mut problems = Diagnostics::new();
-        let read = inputs.bytes("compensated program", item.text()?, &mut problems);
-        section.take_over(problems);
-        found.push(read?);
-    }
-    Some(found)
-}
-
-fn read_tables(section: &Section<'_>, machine: &Machine) -> Option<Applied> {
-    let hint = "target = \"sinumerik\", \"linuxcnc\" or \"csv\"";
-    let target = section.require("target", hint)?;
-    let target = match target.text()? {
-        "sinumerik" => Target::Sinumerik,
-        "linuxcnc" => Target::LinuxCnc { trims: false },
-        "linuxcnc-trims" => Target::LinuxCnc { trims: true },
-        "csv" => Target::Csv,
-        other => {
-            let message = format!("no control is called `{other}`");
-            let hint = "\"sinumerik\", \"linuxcnc\", \"linuxcnc-trims\" or \"csv\"";
-            target.error("unknown-target", message, hint);
-            return None;
-        }
-    };
-    let usual = Order::of(target);
-    let size = |key, dimension, usual| {
-        section.get(key).map_or(Some(usual), |item| above_zero(&item, dimension))
-    };
-    let reference = match section.get("at") {
-        Some(item) => Some(read_at(section, &item, machine)?),
-        None => None,
-    };
-    let order = Order {
-        reference,
-        bound_mm: size("bound", Dimension::Length, usual.bound_mm)?,
-        bound_rad: size("bound_angle", Dimension::Angle, usual.bound_rad)?,
-        limit_mm: size("limit", Dimension::Length, usual.limit_mm)?,
-        limit_rad: size("limit_angle", Dimension::Angle, usual.limit_rad)?,
-        ..usual
-    };
-    match compile(machine, &order) {
-        Ok(compiled) => Some(Applied::tables(compiled)),
-        Err(error) => {
-            let hint = "trueaxis compensate tables MACHINE.toml --target … says more";
-            section.error("no-tables", error.to_string(), hint);
-            None
-        }
-    }
 }

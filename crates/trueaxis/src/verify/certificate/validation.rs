@@ -8,7 +8,7 @@ use crate::measure::{Kind, Readings};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::input::{CsvTable, Diagnostics, Dimension, Place, Section};
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::{Approach, Command};
+use trueaxis_machine::axis::{Approach, Axis, Command};
 use trueaxis_machine::twist::Reference;
 
 /// Commands that differ by less are the same row of both tables, mm and rad.
@@ -42,11 +42,19 @@ pub struct Measured {
     pub place: Place,
 }
 
+/// Where a validation may stand.
+pub struct Allowed<'a> {
+    /// Not on these.
+    pub used: &'a [Used],
+    /// Between the ends of these axes.
+    pub zone: &'a [Axis],
+}
+
 /// Reads `[validation]`.
 pub fn read_validation(
     section: &Section<'_>,
     machine: &Machine,
-    used: &[Used],
+    allowed: &Allowed<'_>,
     inputs: &mut Inputs,
 ) -> Option<Validation> {
     let circumstances = read_circumstances(section);
@@ -72,7 +80,8 @@ pub fn read_validation(
     let mut problems = Diagnostics::new();
     let poses = pairs(before?, after?, &mut problems);
     for pose in &poses {
-        check_unused(machine, used, pose, &mut problems);
+        check_unused(machine, allowed.used, pose, &mut problems);
+        check_zone(allowed.zone, pose, &mut problems);
     }
     let failed = problems.has_errors();
     section.take_over(problems);
@@ -176,4 +185,14 @@ fn check_unused(machine: &Machine, used: &[Used], pose: &Measured, problems: &mu
     );
     let hint = "a validation stands on poses that the identification has not seen: leave it out";
     problems.error("used-pose", pose.place.clone(), message, hint);
+}
+
+fn check_zone(zone: &[Axis], pose: &Measured, problems: &mut Diagnostics) {
+    let outside = zone.iter().zip(&pose.command).filter(|(axis, q)| !axis.travel.contains(**q));
+    let names: Vec<String> = outside.map(|(axis, _)| axis.name.to_string()).collect();
+    if !names.is_empty() {
+        let message = format!("{} is outside the zone of the certificate", names.join(" "));
+        let hint = "the zone is the travel of the axes, or what [zone] says";
+        problems.error("outside-zone", pose.place.clone(), message, hint);
+    }
 }
