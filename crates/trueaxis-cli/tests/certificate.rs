@@ -205,7 +205,7 @@ fn what_is_unusable_of_the_readings_is_named() {
             "2435.2,780.9,-752.5,-134.9,-14,",
             &["unpaired-pose", "after.csv:3", "before.csv:3"],
         ),
-        (AFTER, "x_um,", "x_kg,", &["after.csv", "x_kg"]),
+        (AFTER, "x_um,", "x_kg,", &["unknown-unit", "after.csv:2:11", "`kg`"]),
         (AFTER, "x_um,", "q_um,", &["missing-column", "after.csv"]),
     ];
     is_named("certificate-program.toml", &cases);

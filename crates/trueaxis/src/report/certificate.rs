@@ -88,7 +88,7 @@ pub fn certificate_json(study: &Study, certificate: &Certificate) -> Value {
     let machine = &study.machine;
     let errors = machine.stated_errors().into_iter().filter_map(|(index, name)| {
         let stated = machine.bodies()[index.body].stated(index.kind, index.component)?;
-        let u = stated.u.as_ref().map(|u| super::certificate_blocks::largest(u));
+        let u = stated.u.as_ref().map(super::certificate_blocks::largest);
         let (unit, scale) = if name.component.is_rotation() { ("urad", 1e6) } else { ("um", 1e3) };
         let value = stated.at(0.0, 0.0).ok();
         Some(json!({

@@ -210,10 +210,7 @@ fn read_determination(
     let mut used = read_used(section, machine, inputs);
     let campaign = section.get("campaign");
     let (known, determined) = match &campaign {
-        None => {
-            check_stated(section, machine);
-            (Some(Known::stated(machine)), Determined::Stated)
-        }
+        None => (Some(Known::stated(machine)), Determined::Stated),
         Some(item) => {
             let found = identified::read(section, item, machine, (folder, inputs));
             match found {
@@ -227,6 +224,9 @@ fn read_determination(
             }
         }
     };
+    if let Some(known) = &known {
+        check_known(section, machine, known);
+    }
     if used.as_ref().is_some_and(Vec::is_empty) && campaign.is_none() {
         let message = "nobody says which poses the identification has used".to_owned();
         let hint = "used = [\"poses.csv\"], or campaign = \"campaign.toml\": the validation must stand on others";
@@ -236,14 +236,8 @@ fn read_determination(
 }
 
 /// Errors without uncertainty would be certified as exact.
-fn check_stated(section: &Section<'_>, machine: &Machine) {
-    let stated = machine.stated_errors();
-    let without = stated.iter().filter(|(index, _)| {
-        let body = &machine.bodies()[index.body];
-        body.stated(index.kind, index.component).is_some_and(|s| s.u.is_none())
-    });
-    let mut names: Vec<String> = without.map(|(_, name)| name.to_string()).collect();
-    names.extend(machine.coefficients_without_u());
+fn check_known(section: &Section<'_>, machine: &Machine, known: &Known) {
+    let names = known.unknown(machine);
     if !names.is_empty() {
         let message = format!("a certificate needs u of every error; none for {}", names.join(" "));
         let hint = "state them in the machine file (\"12 ± 1 urad\")";

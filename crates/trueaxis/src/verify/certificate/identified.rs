@@ -61,6 +61,17 @@ pub fn read(
         item.error("other-machine", message, "name the campaign that this machine file came from");
         return None;
     }
+    if let Some(first) = found.unobservable.first() {
+        let all: Vec<&str> = found.unobservable.iter().map(|u| u.combination.as_str()).collect();
+        let message =
+            format!("the campaign cannot tell {}: nobody knows what that leaves", all.join("; "));
+        let hint = first.resolve_with.as_ref().map_or_else(
+            || "measure what tells them apart; trueaxis plan shows it".to_owned(),
+            |remedy| format!("resolved by: {remedy}"),
+        );
+        item.error("not-identified", message, &hint);
+        return None;
+    }
     if let Some(differs) = difference(machine, &found) {
         let hint =
             "write the machine file anew: trueaxis identify errors CAMPAIGN.toml -o MACHINE.toml";

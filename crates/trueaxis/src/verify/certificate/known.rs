@@ -82,6 +82,19 @@ impl Known {
         known
     }
 
+    /// The errors and coefficients of which nobody says how well they are known.
+    pub fn unknown(&self, machine: &Machine) -> Vec<String> {
+        let stated = machine.stated_errors().into_iter().zip(&self.is_fitted);
+        let without = stated.filter(|((index, _), is_fitted)| {
+            let body = &machine.bodies()[index.body];
+            let stated = body.stated(index.kind, index.component);
+            !**is_fitted && stated.is_some_and(|s| s.u.is_none())
+        });
+        let mut names: Vec<String> = without.map(|((_, name), _)| name.to_string()).collect();
+        names.extend(machine.coefficients_without_u());
+        names
+    }
+
     /// How many factors there are.
     pub fn factors(&self) -> usize {
         self.quantities.len() + self.root.ncols()

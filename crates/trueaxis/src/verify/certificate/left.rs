@@ -57,8 +57,27 @@ pub struct Left {
 }
 
 impl Left {
+    /// At a programmed command.
+    ///
     /// # Errors
     /// A pose that cannot be compensated, or at which the errors are not known.
+    ///
+    /// # Example
+    /// ```
+    /// use trueaxis::machine::compensate::{Compensator, Scope};
+    /// use trueaxis::machine::{Machine, file::NoTables};
+    /// use trueaxis::verify::certificate::{applied::Applied, known::Known, left::Left};
+    /// let text = "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n[location]\nEC0Y = \"20 ± 3 urad\"";
+    /// let mill = Machine::check("m.toml", text, &NoTables).0.unwrap();
+    /// let program = Applied::Program(Box::new(Compensator::of(&mill, Scope::Pose)?));
+    /// let y500 = [0.0, 500.0, 0.0, 0.0, 0.0, 0.0];
+    /// let left = Left::at(&mill, (&Known::stated(&mill), &program), &y500, &[0.0; 6])?;
+    /// // 500 mm · 20 µrad before, nothing after; 500 mm · 3 µrad nobody knows.
+    /// assert!((left.before.tip_mm.x + 0.010).abs() < 1e-8);
+    /// assert!(left.after.tip_mm.norm() < 1e-9);
+    /// assert!((left.u_mm().x - 0.0015).abs() < 1e-9);
+    /// # Ok::<(), trueaxis::machine::compensate::Fault>(())
+    /// ```
     pub fn at(
         machine: &Machine,
         (known, applied): (&Known, &Applied),
