@@ -178,6 +178,7 @@ fn count(hits: &mut [usize; 2], inside: bool) {
 }
 
 impl Coverage {
+    /// Of the coordinates of tip and axis, and of the lengths.
     fn shares(&self) -> [f64; 3] {
         [self.tip, self.axis, self.length].map(|[inside, all]| inside as f64 / all as f64)
     }
@@ -226,13 +227,15 @@ fn covers(name: &str, machines: usize, known: fn(&Trial) -> (Machine, Known)) ->
         let (machine, known) = known(&trial);
         coverage.add(&trial.real, (&machine, &known), (&zero, &poses));
     }
-    let shares = coverage.shares();
-    println!("{name}: tip {:.4}, axis {:.4}, length {:.4}", shares[0], shares[1], shares[2]);
-    shares
+    coverage.shares()
 }
 
+/// The intervals of a certificate hold the truth in 93 to 97 % of all cases, on poses that were not used, of
+/// machines that were injected, measured and identified.
+///
 /// 12 poses of one machine share its errors: 250 machines say as much as some 2000 independent numbers, whose
-/// share scatters by 0.5 %; the bounds are three of them and more away from what is promised.
+/// share scatters by 0.5 %; the bounds are three of them away from what is promised. Of 2000 machines each
+/// (a minute): tip 95.4, 95.3 and 95.6 %, axis 95.4, 95.3 and 95.7 %, lengths 95.2, 95.3 and 95.2 %.
 #[test]
 fn law_the_interval_of_a_certificate_covers_the_truth() {
     let known = |trial: &Trial| {
@@ -245,8 +248,8 @@ fn law_the_interval_of_a_certificate_covers_the_truth() {
     }
 }
 
-/// What a machine file can say of an identification: one u for each error, and nothing of what they have in
-/// common. Errors that look alike are then wrong twice over, and the interval is too long.
+/// With one u for each error, which is all that a machine file can say of an identification, an interval of
+/// 95 % is too long: errors that look alike are then wrong twice over.
 #[test]
 fn law_without_correlations_the_interval_is_too_long() {
     let known = |trial: &Trial| {
@@ -350,11 +353,13 @@ fn cut_parts(machines: usize, draws: usize) -> Parts {
     parts
 }
 
-/// 200 machines are injected, measured, identified, compensated and cut. Every index becomes smaller on 95 % of
-/// them at least, and as small as the uncertainties say.
+/// Parts of 200 machines that were injected, measured, identified and compensated: every index becomes smaller
+/// on 95 % of them at least, and as small as the uncertainties say.
 ///
 /// The root mean square of an index over 200 machines scatters by 3.5 % (a length in a plane) to 5 % (a normal
 /// number), its prediction from 800 draws by half of that: 15 % are three of them.
+/// Of 1000 machines and 8000 draws (10 s) they agree within 3 %: roundness_mzc 30.45 → 1.151 µm, predicted
+/// 1.144 µm; coaxiality_lsc 63.84 → 2.578 µm (2.534 µm); angularity_zone 4.58 → 0.305 µm (0.306 µm).
 /// `angularity_eq19_mm` has a sign: its size counts.
 #[test]
 fn law_compensated_parts_improve_as_the_uncertainties_predict() {
@@ -362,14 +367,7 @@ fn law_compensated_parts_improve_as_the_uncertainties_predict() {
     for (i, name) in parts.names.iter().enumerate() {
         let [before, after, predicted] = [0, 1, 2].map(|k| parts.rms[k][i] * 1e3);
         let better = parts.better[i];
-        println!(
-            "{name:24} smaller on {:5.1} %, rms {before:6.2} -> {after:5.3} um, predicted {predicted:5.3} um",
-            better * 100.0
-        );
-        assert!(
-            better >= 0.95 || name == "angularity_eq19_mm" && better >= 0.9,
-            "{name}: {better}"
-        );
+        assert!(better >= 0.95, "{name}: {better}");
         assert!((after / predicted - 1.0).abs() < 0.15, "{name}: {after} {predicted}");
         // Some 12 µm and 30 µrad are found to within some 0.5 µm and 1 µrad.
         assert!(after < 0.1 * before, "{name}: {before} {after}");
