@@ -17,7 +17,7 @@ use plotters::prelude::*;
 /// What the drawing library says.
 pub fn certificate_html(study: &Study, certificate: &Certificate) -> Result<String, DrawingError> {
     let pictures = html! {
-        div.grid {
+        div {
             figure { (PreEscaped(picture(study, certificate, true)?))
                 figcaption { "Measured tip deviation at the poses of the validation: before and after" } }
             figure { (PreEscaped(picture(study, certificate, false)?))
@@ -90,7 +90,7 @@ fn picture(
     let shown = if with_before { &before } else { &bound };
     let highest = shown.iter().chain(&after).map(|p| p.1 + expanded).fold(limit, f64::max);
     let last = certificate.poses.len() as f64 + 0.5;
-    draw((620, 400), |area| {
+    draw((1000, 320), |area| {
         let labels = Labels { x: "pose", y: "tip, µm" };
         let mut chart = axes(area, &labels, (0.5..last, 0.0..highest * 1.08))?;
         let line = LineSeries::new([(0.5, limit), (last, limit)], pen(INK, 2));

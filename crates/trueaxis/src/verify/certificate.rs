@@ -227,7 +227,7 @@ fn concluded(
         (squares / poses.len().max(1) as f64).sqrt()
     };
     let largest = |state| over(state).fold(0.0, f64::max);
-    let (outcome, reason) = verdict(study, expanded_mm, counts, agreement[1]);
+    let (outcome, reason) = verdict(study, &volume, counts, agreement[1]);
     Certificate {
         rms_mm: [mean(0), mean(1)],
         largest_mm: [largest(0), largest(1)],
@@ -245,38 +245,38 @@ fn concluded(
 /// The poses decide; but where readings and prediction disagree, nothing is known of all other poses.
 fn verdict(
     study: &Study,
-    expanded_mm: f64,
+    volume: &Volume,
     [pass, fail, open]: [usize; 3],
     agreement: Option<Agreement>,
 ) -> (Outcome, String) {
-    let limit = study.decision.limit_mm * 1e3;
-    let expanded = expanded_mm * 1e3;
+    let decision = study.decision;
+    let expanded_mm = decision.coverage_factor * study.validation.u_mm;
+    let [limit, expanded] = [decision.limit_mm, expanded_mm].map(|v| format!("{:.1} µm", v * 1e3));
+    let all = pass + fail + open;
     if fail > 0 {
-        return (
-            Outcome::Fail,
-            format!("{fail} of {} poses are beyond {limit:.1} µm", pass + fail + open),
-        );
+        return (Outcome::Fail, format!("{fail} of {all} poses are beyond {limit}"));
     }
-    if study.decision.is_blind(expanded_mm) {
+    if decision.is_blind(expanded_mm) {
         let why = format!(
-            "U = {expanded:.1} µm is no smaller than the limit of {limit:.1} µm: these readings can prove nothing"
+            "U = {expanded} is no smaller than the limit of {limit}: these readings can prove nothing"
         );
         return (Outcome::Undecided, why);
     }
     if open > 0 {
-        let why = format!("{open} poses are nearer to {limit:.1} µm than U = {expanded:.1} µm");
+        let why = format!("{open} of {all} poses are nearer to {limit} than U = {expanded}");
         return (Outcome::Undecided, why);
     }
-    match agreement {
-        Some(agreement) if agreement.holds() => {
-            (Outcome::Pass, format!("all {pass} poses are within {limit:.1} µm, and as predicted"))
-        }
-        _ => (
-            Outcome::Undecided,
-            format!(
-                "all {pass} poses are within {limit:.1} µm, but not as predicted: the machine is not what \
-                 was identified, and of other poses nothing is known"
-            ),
-        ),
+    if !agreement.is_some_and(|a| a.holds()) {
+        let why = format!(
+            "all {all} poses are within {limit}, but not as predicted: the machine is not what was identified, \
+             and of other poses nothing is known"
+        );
+        return (Outcome::Undecided, why);
     }
+    let mut why = format!("all {all} poses are within {limit}, and as predicted");
+    if volume.largest_mm > decision.limit_mm {
+        let most = volume.largest_mm * 1e3;
+        why += &format!("; elsewhere in the zone up to {most:.1} µm are not excluded");
+    }
+    (Outcome::Pass, why)
 }
