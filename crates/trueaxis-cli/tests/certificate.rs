@@ -173,7 +173,7 @@ fn is_named(study: &str, cases: &[Spoiled<'_>]) {
 #[test]
 fn what_is_unusable_of_a_study_is_named() {
     const STUDY: &str = "certificate-program.toml";
-    let cases: [Spoiled<'_>; 10] = [
+    let cases: [Spoiled<'_>; 11] = [
         (STUDY, "certificate-program-after.csv", "no.csv", &["unreadable-file", "no.csv"]),
         (STUDY, "limit = ", "limmit = 3\nlimit = ", &["unknown-key", "limmit", "program.toml:"]),
         (STUDY, "u = \"1.5 um\"", "", &["missing-key", "`u`"]),
@@ -183,6 +183,12 @@ fn what_is_unusable_of_a_study_is_named() {
         (STUDY, "kind = \"program\"", "kind = \"hope\"", &["unknown-kind"]),
         (STUDY, "zero = \"X=3100", "zero = \"Q=3100", &["unknown-axis", "`Q`"]),
         (STUDY, "samples = 10000", "samples = 10", &["bad-count"]),
+        (
+            STUDY,
+            "[compensation]",
+            "[zone]\nX = [\"0 mm\", \"7 m\"]\n[compensation]",
+            &["bad-range", "within the travel"],
+        ),
         (
             STUDY,
             "[compensation]",

@@ -170,6 +170,7 @@ fn a_campaign_is_evaluated_again_with_all_its_correlations() {
         "study.toml",
         "machine.toml",
         "campaign.toml",
+        "mill/machine.toml",
         "readings/probe.csv",
         "before.csv",
         "after.csv",

@@ -109,7 +109,7 @@ fn read(root: &Section<'_>, folder: &Path, mut inputs: Inputs) -> Option<Study> 
     let hint = "the identified machine file, relative to this file";
     let machine = root.require("machine", hint).and_then(|item| {
         let mut problems = Diagnostics::new();
-        let machine = inputs.machine(item.text()?, &mut problems);
+        let machine = inputs.machine("machine file", item.text()?, &mut problems);
         let machine = machine.map(|m| not_twice(&m, item.place(), &mut problems));
         root.take_over(problems);
         machine
@@ -180,16 +180,22 @@ fn read_zone(section: &Section<'_>, machine: &Machine) -> Option<Vec<Axis>> {
         let ends: Option<Vec<f64>> =
             item.list().and_then(|ends| ends.iter().map(|e| e.quantity(dimension)).collect());
         match ends.as_deref() {
-            Some([from, to]) if from <= to => zone[index].travel = Travel::Between(*from, *to),
+            Some([from, to]) if from <= to && is_in(&zone[index], from, to) => {
+                zone[index].travel = Travel::Between(*from, *to);
+            }
             Some(_) => {
-                let hint = "A = [\"-30 deg\", \"30 deg\"]";
-                item.error("bad-range", "two rising ends are due".to_owned(), hint);
+                let message = "two rising ends within the travel are due".to_owned();
+                item.error("bad-range", message, "A = [\"-30 deg\", \"30 deg\"]");
                 sound = false;
             }
             None => sound = false,
         }
     }
     sound.then_some(zone)
+}
+
+fn is_in(axis: &Axis, from: &f64, to: &f64) -> bool {
+    axis.travel.contains(*from) && axis.travel.contains(*to)
 }
 
 /// What `[determination]` says.

@@ -41,11 +41,17 @@ pub fn read(
     let (read, found) = read_campaign(&path, |root, _| Some(read_options(root)));
     problems.append(found);
     let found = read.and_then(|(campaign, options)| {
+        // Names of the campaign, as from the folder of the study.
         let beside = path.parent().unwrap_or(Path::new(""));
+        let here = |file: &Path| {
+            let file = file.strip_prefix(beside).unwrap_or(file);
+            Path::new(name).with_file_name(file).display().to_string()
+        };
+        let machine = here(&campaign.machine_path);
+        // What is wrong with it was told when the campaign was read.
+        inputs.machine("machine file of the campaign", &machine, &mut Diagnostics::new());
         for table in campaign.tables.iter().flatten() {
-            let table = table.strip_prefix(beside).unwrap_or(table);
-            let name = Path::new(name).with_file_name(table).display().to_string();
-            inputs.bytes("readings of the identification", &name, &mut problems);
+            inputs.bytes("readings of the identification", &here(table), &mut problems);
         }
         let records = read_records(&campaign, &mut problems)?;
         let found = identify(&campaign, &options, &records, &mut problems)?;

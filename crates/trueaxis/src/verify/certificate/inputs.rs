@@ -67,8 +67,13 @@ impl Inputs {
     }
 
     /// Reads a machine file and the tables that it names.
-    pub fn machine(&mut self, name: &str, problems: &mut Diagnostics) -> Option<Machine> {
-        let (path, text) = self.text("machine file", name, problems)?;
+    pub fn machine(
+        &mut self,
+        role: &'static str,
+        name: &str,
+        problems: &mut Diagnostics,
+    ) -> Option<Machine> {
+        let (path, text) = self.text(role, name, problems)?;
         let seen = Seen { folder: Folder::of(&path), texts: RefCell::default() };
         let (machine, found) = Machine::check(&path.display().to_string(), &text, &seen);
         problems.append(found);
