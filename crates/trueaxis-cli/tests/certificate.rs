@@ -247,9 +247,9 @@ fn what_is_unusable_of_tables_is_named() {
 #[test]
 fn readings_without_a_pose_are_none() {
     let copy = Copy::new("certificate-empty");
-    std::fs::write(copy.path("certificate-after.csv"), "X,Y,Z,C,A,x_um,y_um,z_um\n")
-        .expect("written");
-    let ran = copy.certify("certificate.toml");
+    let headings = "X,Y,Z,C,A,x_um,y_um,z_um\n";
+    std::fs::write(copy.path("certificate-program-after.csv"), headings).expect("written");
+    let ran = copy.certify("certificate-program.toml");
     assert_eq!(ran.status, 2);
     assert!(ran.err.contains("empty-table"), "{}", ran.err);
     let ran = certify("examples/07_verify/no-such-study.toml");
@@ -270,27 +270,30 @@ fn a_certificate_without_uncertainties_is_refused() {
 
 #[test]
 fn what_the_readings_cannot_prove_is_undecided_and_what_they_disprove_fails() {
-    let told = |from: &str, to: &str| {
-        let copy = Copy::new(&format!("certificate-verdict-{}", to.len()));
-        copy.change("certificate.toml", from, to);
-        let ran = copy.certify("certificate.toml");
+    let told = |study: &str, changes: &[[&str; 2]]| {
+        let copy = Copy::new(&format!("certificate-verdict-{}", changes[0][1].len()));
+        changes.iter().for_each(|[from, to]| copy.change(study, from, to));
+        let ran = copy.certify(study);
         assert_eq!(ran.status, 1, "{}", ran.err);
         let found = ran.json();
         (found["verdict"].clone(), found["reason"].as_str().expect("words").to_owned())
     };
-    // U = 36 µm against 35 µm: nothing can be proved.
-    let (verdict, reason) = told("u = \"1.5 um\"", "u = \"18.00 um\"");
+    let program = "certificate-program.toml";
+    // U = 16 µm against 15 µm: nothing can be proved.
+    let (verdict, reason) = told(program, &[["u = \"1.5 um\"", "u = \"8.0 um\""]]);
     assert!(verdict == "undecided" && reason.contains("can prove nothing"), "{reason}");
-    // 15.4 µm against 16 µm with U = 3 µm.
-    let (verdict, reason) = told("limit = \"35 um\"", "limit = \"16 um\"");
+    // 9.5 µm against 10 µm with U = 3 µm.
+    let (verdict, reason) = told(program, &[["limit = \"15 um\"", "limit = \"10 um\""]]);
     assert!(verdict == "undecided" && reason.contains("nearer to"), "{reason}");
-    let (verdict, reason) = told("limit = \"35 um\"", "limit = \"5.0 um\"");
+    let (verdict, reason) = told(program, &[["limit = \"15 um\"", "limit = \"5.0 um\""]]);
     assert!(verdict == "fail" && reason.contains("beyond"), "{reason}");
-    // The compensation is called a perfect program, and tables were active: not as predicted.
-    let (verdict, reason) = told(
-        "kind = \"tables\"\ntarget = \"sinumerik\"\nloaded = \"xkas2525-tables\" # what was read out of the control",
-        "kind = \"program\"",
-    );
+    // Readings with tables that are called those of a program: within the limit, but not as predicted.
+    let changes = [
+        ["kind = \"tables\"", "kind = \"program\""],
+        ["target = \"sinumerik\"\n", ""],
+        ["loaded = \"xkas2525-tables\"", ""],
+    ];
+    let (verdict, reason) = told("certificate.toml", &changes);
     assert!(verdict == "undecided" && reason.contains("not as predicted"), "{reason}");
 }
 

@@ -36,13 +36,13 @@ pub(super) fn rule(study: &Study) -> String {
 /// For the terminal: what a reader decides by; the page has the rest.
 pub fn certificate_text(study: &Study, certificate: &Certificate) -> String {
     let mut out = format!("{}\n", study.name);
-    for Chapter { number, title, lines, blocks, short } in chapters(study, certificate) {
+    for Chapter { number, title, lines, blocks } in chapters(study, certificate) {
         // Writing into a text cannot fail.
         let _ = writeln!(out, "\n{number}. {title}");
         for line in &lines {
             let _ = writeln!(out, "  {line}");
         }
-        for block in blocks.iter().filter(|_| short) {
+        for block in &blocks {
             let _ = write_block(&mut out, block);
         }
     }
@@ -99,9 +99,13 @@ pub fn certificate_json(study: &Study, certificate: &Certificate) -> Value {
     });
     let determined = match &study.determined {
         Determined::Stated => json!("machine file"),
-        Determined::Campaign { name, readings, terms, verdict } => {
-            json!({ "campaign": name, "readings": readings, "terms": terms, "verdict": verdict })
-        }
+        Determined::Campaign { name, readings, terms, left_out, verdict } => json!({
+            "campaign": name,
+            "readings": readings,
+            "terms": terms,
+            "left_out": left_out,
+            "verdict": verdict,
+        }),
     };
     let mut determination = circumstances(&study.determination);
     determination["uncertainties_from"] = determined;

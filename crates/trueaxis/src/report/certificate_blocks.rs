@@ -19,8 +19,6 @@ pub(super) struct Chapter {
     pub title: &'static str,
     pub lines: Vec<String>,
     pub blocks: Vec<Block>,
-    /// Whether the terminal shows its tables, too.
-    pub short: bool,
 }
 
 /// All topics in order.
@@ -37,8 +35,8 @@ pub(super) fn chapters(study: &Study, certificate: &Certificate) -> Vec<Chapter>
     all.into_iter().enumerate().map(|(i, chapter)| Chapter { number: i + 1, ..chapter }).collect()
 }
 
-fn chapter(title: &'static str, lines: Vec<String>, blocks: Vec<Block>, short: bool) -> Chapter {
-    Chapter { number: 0, title, lines, blocks, short }
+fn chapter(title: &'static str, lines: Vec<String>, blocks: Vec<Block>) -> Chapter {
+    Chapter { number: 0, title, lines, blocks }
 }
 
 fn kinematics(study: &Study) -> Chapter {
@@ -56,7 +54,7 @@ fn kinematics(study: &Study) -> Chapter {
         lines.push(format!("compensated in the control before, and left so: {}", names.join(" ")));
     }
     lines.push(format!("zone of the certificate: {}", zone(study)));
-    chapter("Kinematic representation", lines, Vec::new(), false)
+    chapter("Kinematic representation", lines, Vec::new())
 }
 
 /// `X 0 … 6200 mm, …`
@@ -101,13 +99,8 @@ fn errors(study: &Study) -> Chapter {
             block.rows.push(std::iter::once(name).chain(cells).collect());
         }
     }
-    let mut lines =
-        vec![format!("{all} errors with their uncertainties, {motions} of them error motions")];
-    let unknown = machine.coefficients_without_u();
-    if !unknown.is_empty() {
-        lines.push(format!("without an uncertainty: {}", unknown.join(", ")));
-    }
-    chapter("Errors", lines, vec![block], true)
+    let line = format!("{all} errors with their uncertainties, {motions} of them error motions");
+    chapter("Errors", vec![line], vec![block])
 }
 
 /// `-5.9 … 22.0 ± 0.5`
@@ -167,13 +160,14 @@ fn determination(study: &Study) -> Chapter {
         Determined::Stated => "uncertainties as the machine file states them: errors independent of each \
                                other, each wrong by one factor along its whole curve"
             .to_owned(),
-        Determined::Campaign { name, readings, terms, verdict } => format!(
+        Determined::Campaign { name, readings, terms, left_out, verdict } => format!(
             "uncertainties with all that the results have in common, from the campaign \"{name}\": {terms} \
-             terms from {readings} readings; {verdict}"
+             terms from {readings} readings, {left_out} more were not supported by them and count as nothing; \
+             {verdict}"
         ),
     });
     lines.push(format!("{} poses were used", study.used.len()));
-    chapter("Determination", lines, Vec::new(), false)
+    chapter("Determination", lines, Vec::new())
 }
 
 /// What of the pose is compensated.
@@ -216,7 +210,7 @@ fn compensation(study: &Study) -> Chapter {
             (vec![line], vec![block])
         }
     };
-    chapter("Compensation", lines, blocks, true)
+    chapter("Compensation", lines, blocks)
 }
 
 fn application(study: &Study) -> Chapter {
@@ -239,7 +233,7 @@ fn application(study: &Study) -> Chapter {
         true => Vec::new(),
         false => vec![hashes("Files of the compensation", &a.files)],
     };
-    chapter("Application", lines, blocks, true)
+    chapter("Application", lines, blocks)
 }
 
 fn hashes(title: &str, files: &[Input]) -> Block {
@@ -289,7 +283,7 @@ fn validation(study: &Study, certificate: &Certificate) -> Chapter {
         ),
         format!("rule: {}", rule(study)),
     ]);
-    chapter("Validation", lines, vec![poses(study, certificate)], true)
+    chapter("Validation", lines, vec![poses(study, certificate)])
 }
 
 fn agreement(state: &str, found: Option<Agreement>) -> String {
@@ -355,5 +349,5 @@ fn documentation(study: &Study) -> Chapter {
         "the temperatures are told, not corrected for; the uncertainties hold at the temperature of the determination"
             .to_owned(),
     ];
-    chapter("Documentation", lines, vec![hashes("Inputs", &study.inputs)], true)
+    chapter("Documentation", lines, vec![hashes("Inputs", &study.inputs)])
 }

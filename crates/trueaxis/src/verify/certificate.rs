@@ -56,6 +56,8 @@ pub enum Determined {
         readings: usize,
         /// How many terms were found.
         terms: usize,
+        /// How many were left out, because the readings do not support them: they count as nothing.
+        left_out: usize,
         /// What the identification says of itself.
         verdict: String,
     },

@@ -79,8 +79,7 @@ pub fn read(
         return None;
     }
     if let Some(differs) = difference(machine, &found) {
-        let hint =
-            "write the machine file anew: trueaxis identify errors CAMPAIGN.toml -o MACHINE.toml";
+        let hint = "write the machine file anew: trueaxis identify CAMPAIGN.toml -o MACHINE.toml";
         item.error("other-identification", differs, hint);
         return None;
     }
@@ -88,6 +87,7 @@ pub fn read(
         name: campaign.name.clone(),
         readings: used.len(),
         terms: found.design.terms.len(),
+        left_out: found.left_out.len(),
         verdict: found.verdict.words(),
     };
     Some(Found { known: Known::identified(machine, &found), determined, used })

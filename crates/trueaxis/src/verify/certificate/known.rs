@@ -46,6 +46,7 @@ impl Known {
     }
 
     /// What an identification of this machine knows; of errors that it did not seek, what the file states.
+    /// Terms that its selection left out count as nothing, without an uncertainty.
     pub fn identified(machine: &Machine, found: &Identification) -> Self {
         let covariance = &found.fit.covariance * (found.birge * found.birge);
         Self::of_fit(machine, &found.design.terms, &covariance)
