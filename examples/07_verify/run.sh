@@ -18,6 +18,9 @@ $trueaxis measure $verify/probe-ball-campaign.toml -o "$out/readings" --truth "$
 # What moved since the machine was calibrated? Four errors did: exit status 1.
 $trueaxis verify --diff machines/xkas2525/machine.toml $verify/xkas2525-after-a-year.toml \
     --report "$out/after-a-year.html" || [ $? -eq 1 ]
+# What the compensation leaves, on poses that the identification has not used: tables, and programs.
+$trueaxis verify --certificate $verify/certificate.toml --report "$out/certificate.html"
+$trueaxis verify --certificate $verify/certificate-program.toml --report "$out/certificate-program.html"
 # The measured error motion as a table for the machine file.
 mkdir -p "$out/mill"
 cp machines/three-axis-mill/machine.toml "$out/mill/machine.toml"

@@ -3,12 +3,14 @@ use crate::report_file::{REPORT, may_write, unusable, write_report};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use trueaxis::files;
+use trueaxis::geometry::input::{Diagnostics, Place};
 use trueaxis::part::tolerance;
 use trueaxis::report::{
-    CalibrationsReport, calibrations_html, calibrations_json, calibrations_text, comparison_html,
-    comparison_json, comparison_text,
+    CalibrationsReport, calibrations_html, calibrations_json, calibrations_text, certificate_html,
+    certificate_json, certificate_text, comparison_html, comparison_json, comparison_text,
 };
 use trueaxis::verify::calibrations::calibrations;
+use trueaxis::verify::certificate::{PoseFault, certify, read_certificate};
 use trueaxis::verify::compare::{compare, read_comparison};
 
 /// What to verify.
@@ -17,15 +19,19 @@ use trueaxis::verify::compare::{compare, read_comparison};
 Examples:
   trueaxis verify examples/07_verify/probe-ball.toml --report v.html
   trueaxis verify --diff machines/xkas2525/machine.toml examples/07_verify/xkas2525-after-a-year.toml
+  trueaxis verify --certificate examples/07_verify/certificate.toml --report certificate.html
 
 Exit status: 0 pass, or nothing moved; 1 fail or undecided, or something moved; 2 unusable input.")]
 pub struct Arguments {
     /// What is compared with what, and how it is decided
-    #[arg(value_name = "FILE.toml", required_unless_present = "diff")]
+    #[arg(value_name = "FILE.toml", required_unless_present_any = ["diff", "certificate"])]
     file: Option<PathBuf>,
     /// Compare two calibrations of one machine: what moved, and is it significant?
     #[arg(long, num_args = 2, value_names = ["OLD.toml", "NEW.toml"], conflicts_with = "file")]
     diff: Option<Vec<PathBuf>>,
+    /// Certify a compensation: what it leaves on poses that the identification has not used
+    #[arg(long, value_name = "STUDY.toml", conflicts_with_all = ["file", "diff"])]
+    certificate: Option<PathBuf>,
     /// Where an HTML report goes
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
@@ -35,9 +41,10 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
-    match (&arguments.diff.as_deref(), &arguments.file) {
-        (Some([old, new]), _) => diff(arguments, old, new),
-        (_, Some(file)) => run_comparison(arguments, file),
+    match (&arguments.diff.as_deref(), &arguments.certificate, &arguments.file) {
+        (Some([old, new]), ..) => diff(arguments, old, new),
+        (_, Some(study), _) => run_certificate(arguments, study),
+        (.., Some(file)) => run_comparison(arguments, file),
         _ => Outcome::Unusable,
     }
 }
@@ -111,9 +118,49 @@ fn run_comparison(arguments: &Arguments, file: &Path) -> Outcome {
             Answer::Json(document)
         }
     });
-    match verified.outcome {
+    judged(verified.outcome, shown)
+}
+
+/// What the verdict makes of a run that was shown.
+fn judged(outcome: tolerance::Outcome, shown: Outcome) -> Outcome {
+    match outcome {
         tolerance::Outcome::Pass => shown,
         _ if shown == Outcome::Unusable => shown,
         _ => Outcome::No,
     }
+}
+
+fn run_certificate(arguments: &Arguments, path: &Path) -> Outcome {
+    let (study, mut problems) = read_certificate(path);
+    if let Some(path) = &arguments.report {
+        may_write(path, &REPORT, &mut problems);
+    }
+    let list = problems.clone();
+    let failed = report(problems);
+    let (Some(study), false) = (study, failed) else { return Outcome::Unusable };
+    let certificate = match certify(&study) {
+        Ok(certificate) => certificate,
+        Err(PoseFault { place, fault }) => {
+            let mut problems = Diagnostics::new();
+            let place = place.unwrap_or_else(|| Place::whole(&path.display().to_string()));
+            let hint = "leave the pose out, or extend the tables of the machine file";
+            problems.error("pose-not-certified", place, fault.to_string(), hint);
+            report(problems);
+            return Outcome::Unusable;
+        }
+    };
+    if let Some(path) = &arguments.report
+        && let Err(outcome) = write_report(path, certificate_html(&study, &certificate))
+    {
+        return outcome;
+    }
+    let shown = show(&match arguments.format {
+        Format::Text => Answer::Text(certificate_text(&study, &certificate)),
+        Format::Json => {
+            let mut document = certificate_json(&study, &certificate);
+            document["diagnostics"] = list.iter().map(diagnostic_json).collect();
+            Answer::Json(document)
+        }
+    });
+    judged(certificate.outcome, shown)
 }

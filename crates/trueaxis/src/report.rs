@@ -8,6 +8,9 @@ mod adapt;
 mod adapt_maps;
 mod adapt_page;
 mod calibrations;
+mod certificate;
+mod certificate_blocks;
+mod certificate_page;
 mod check;
 mod comparison;
 mod compensation;
@@ -55,6 +58,8 @@ pub use adapt_page::adapt_html;
 pub use calibrations::{
     CalibrationsReport, calibrations_html, calibrations_json, calibrations_text,
 };
+pub use certificate::{certificate_json, certificate_text};
+pub use certificate_page::certificate_html;
 pub use check::{check_json, check_text};
 pub use comparison::{comparison_html, comparison_json, comparison_text};
 pub use compensation::{

@@ -7,12 +7,14 @@
 //!   motion of rotary axes.
 //!
 //! [`compare`](mod@compare) holds readings against a prediction, or against other readings;
-//! [`calibrations`](mod@calibrations) one machine file against a later one.
+//! [`calibrations`](mod@calibrations) one machine file against a later one;
+//! [`certificate`](mod@certificate) what a compensation leaves, proved on poses that were not used.
 //!
 //! Every standard reads a table of named columns ([`sheet`]) and what is known beside it
 //! ([`conditions`]); the forms of others become such tables in [`import`]. What a test lacks is a diagnostic with the clause; what can be evaluated is.
 
 pub mod calibrations;
+pub mod certificate;
 pub mod compare;
 pub mod conditions;
 pub mod import;

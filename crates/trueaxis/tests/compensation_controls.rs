@@ -210,7 +210,7 @@ fn paper_incremental_pitch_data() {
     ];
     let control = Target::Fanuc.control();
     let content = control.read(&machine, &files).unwrap();
-    let emulation = Emulation::new(&machine, control.as_ref(), content);
+    let emulation = Emulation::new(&machine, control.as_ref(), &content);
     // In units of 0.1 µm; at the points themselves and, half way on, already the next.
     let at = |x: f64| emulation.added(&[x, 0.0, 0.0, 0.0, 0.0, 0.0], &[0.0; 6])[0] * 1e4;
     for (x, units) in
@@ -233,7 +233,7 @@ fn paper_leadscrew_lists_hold_the_error() {
     assert!(list.text.contains("kw.ssfk.table[0].neg 8\n"), "{}", list.text);
     let content = Target::Isg.control().read(&machine, &compiled.files).unwrap();
     let control = Target::Isg.control();
-    let emulation = Emulation::new(&machine, control.as_ref(), content);
+    let emulation = Emulation::new(&machine, control.as_ref(), &content);
     let added = emulation.added(&[0.0; 6], &[1.0; 6])[4].to_degrees();
     assert!((added - 0.0010).abs() < 1e-9, "{added}");
 }

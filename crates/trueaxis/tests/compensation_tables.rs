@@ -32,7 +32,7 @@ const TARGETS: [Target; 5] = [
 fn at(machine: &Machine, compiled: &Compiled, command: [f64; 6], side: f64) -> Command {
     let control = compiled.order.target.control();
     let content = control.read(machine, &compiled.files).unwrap();
-    Emulation::new(machine, control.as_ref(), content).added(&command, &[side; 6])
+    Emulation::new(machine, control.as_ref(), &content).added(&command, &[side; 6])
 }
 
 /// 10 µm/m: at X = 500 the machine is 5 µm too far, so −5 µm is added, by every control.
@@ -272,7 +272,7 @@ fn oracle_linuxcnc_kinematics_move_the_joints_as_the_emulation_does() {
         assert_eq!(by_name(compiled.files), files, "what LinuxCNC was given is what is written");
         let control = target.control();
         let content = read(control.as_ref(), &machine, &files);
-        let emulation = Emulation::new(&machine, control.as_ref(), content);
+        let emulation = Emulation::new(&machine, control.as_ref(), &content);
         let axis = |l: char| machine.axes().iter().position(|a| a.name.letter() == l).unwrap();
         let [x, y, z, t, c] = ['X', 'Y', 'Z', tilt, 'C'].map(axis);
         for row in text.lines().filter_map(|l| l.strip_prefix(name)?.strip_prefix(',')) {

@@ -38,7 +38,8 @@ pub fn choose(
     let still = Approach::default();
     let alone = |made: &Made| -> Vec<Command> {
         let tables = vec![made.table.clone()];
-        let one = Emulation::new(machine, control, Content { tables, ..Content::default() });
+        let content = Content { tables, ..Content::default() };
+        let one = Emulation::new(machine, control, &content);
         poses.iter().map(|q| one.added(q, &still)).collect()
     };
     let mut kept: Vec<(Made, Vec<Command>)> =

@@ -53,14 +53,14 @@ pub fn compile(machine: &Machine, order: &Order) -> Result<Compiled, TablesError
     content.grid = gridded.as_ref().map(|g| g.grid.clone());
     let files = control.write(machine, &content);
     let read = recovered(machine, control.as_ref(), &content, &files)?;
-    let left = |content| left_over(&Emulation::new(machine, control.as_ref(), content));
+    let left = |content: &Content| left_over(&Emulation::new(machine, control.as_ref(), content));
     Ok(Compiled {
         order: *order,
         reference,
-        before: left(Content::default())?,
-        wrong_sign: left(read.negated(machine))?,
+        before: left(&Content::default())?,
+        wrong_sign: left(&read.negated(machine))?,
         errors: error_losses(machine, &reference, (control.as_ref(), &read), order),
-        after: left(read)?,
+        after: left(&read)?,
         files,
         tables,
         known: knowledge.made,
@@ -98,7 +98,7 @@ fn tables(
             Err(None) => {}
         }
     }
-    let already = Emulation::new(machine, control, content.clone());
+    let already = Emulation::new(machine, control, content);
     let (tables, worse) = choose(machine, control, &already, candidates);
     left_out.extend(worse);
     let (needed, most) = (tables.len(), control.most_tables());

@@ -14,12 +14,12 @@ use trueaxis_machine::axis::{Approach, Command};
 pub struct Emulation<'a> {
     machine: &'a Machine,
     control: &'a dyn Control,
-    content: Content,
+    content: &'a Content,
 }
 
 impl<'a> Emulation<'a> {
     /// The control after it has read this content.
-    pub fn new(machine: &'a Machine, control: &'a dyn Control, content: Content) -> Self {
+    pub fn new(machine: &'a Machine, control: &'a dyn Control, content: &'a Content) -> Self {
         Self { machine, control, content }
     }
 
@@ -37,7 +37,7 @@ impl<'a> Emulation<'a> {
             let value = self.control.value(table, position, approach[table.input]);
             added[table.output] += value * count_of(self.machine, table.output);
         }
-        temperature::add(self.machine, &self.content, command, &mut added);
+        temperature::add(self.machine, self.content, command, &mut added);
         if let Some(grid) = &self.content.grid {
             let place = grid.sides.map(|s| counts(self.machine, s.axis, command[s.axis]));
             for (side, value) in grid.sides.iter().zip(grid.at(place)) {
@@ -52,7 +52,7 @@ impl<'a> Emulation<'a> {
             return Command::default();
         }
         let known = |at: &Command| {
-            let content = (self.control, &self.content);
+            let content = (self.control, self.content);
             Ok::<_, Infallible>(errors_of(self.machine, content, at, approach))
         };
         let Ok(added) = placed(self.machine, command, &known, Command::default());

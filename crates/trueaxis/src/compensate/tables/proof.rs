@@ -263,7 +263,7 @@ pub fn piece_left(
     let plain = |errors: &_, _: &_| *errors;
     let cutting = Cutting::new(machine, study.piece(), &study.reference)?;
     let before = Judge { cutting: &cutting, piece: study.piece() }.once(&plain)?;
-    let leaves = Emulation::new(machine, control, content.clone());
+    let leaves = Emulation::new(machine, control, content);
     let cutting = cutting.compensated(&|command, approach| leaves.added(command, approach));
     let after = Judge { cutting: &cutting, piece: study.piece() }.once(&plain)?;
     let names = study.piece().index_names().iter().map(|n| n.key.to_string());

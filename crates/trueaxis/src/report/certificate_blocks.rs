@@ -1,0 +1,353 @@
+//! The chapters of a certificate: the same for the terminal and the page, in the order of the topics of
+//! ISO/TR 16907.
+
+use super::certificate::{place, rule, word};
+use super::evaluation::Block;
+use super::{command_words, unit};
+use crate::compensate::tables::shown;
+use crate::verify::certificate::applied::Applied;
+use crate::verify::certificate::inputs::Input;
+use crate::verify::certificate::{Agreement, Certificate, Circumstances, Determined, Study};
+use std::f64::consts::PI;
+use trueaxis_machine::axis::{AxisKind, Travel};
+use trueaxis_machine::compensate::Scope;
+use trueaxis_machine::errors::{Component, Curve, ErrorKind, StatedError, Uncertainty};
+
+/// One topic.
+pub(super) struct Chapter {
+    pub number: usize,
+    pub title: &'static str,
+    pub lines: Vec<String>,
+    pub blocks: Vec<Block>,
+}
+
+/// All topics in order.
+pub(super) fn chapters(study: &Study, certificate: &Certificate) -> Vec<Chapter> {
+    let all = [
+        kinematics(study),
+        errors(study),
+        determination(study),
+        compensation(study),
+        application(study),
+        validation(study, certificate),
+        documentation(study),
+    ];
+    all.into_iter().enumerate().map(|(i, chapter)| Chapter { number: i + 1, ..chapter }).collect()
+}
+
+fn chapter(title: &'static str, lines: Vec<String>, blocks: Vec<Block>) -> Chapter {
+    Chapter { number: 0, title, lines, blocks }
+}
+
+fn kinematics(study: &Study) -> Chapter {
+    let machine = &study.machine;
+    let mut lines = vec![
+        machine.name().to_owned(),
+        format!("chain from the workpiece to the tool: {}", machine.chain_text()),
+    ];
+    if !machine.source().is_empty() {
+        lines.push(machine.source().to_owned());
+    }
+    let active = machine.active_compensation();
+    if !active.is_empty() {
+        let names: Vec<String> = active.iter().map(ToString::to_string).collect();
+        lines.push(format!("compensated in the control before, and left so: {}", names.join(" ")));
+    }
+    lines.push(format!("zone of the certificate: {}", zone(study)));
+    chapter("Kinematic representation", lines, Vec::new())
+}
+
+/// `X 0 … 6200 mm, …`
+fn zone(study: &Study) -> String {
+    let one = |axis: &trueaxis_machine::axis::Axis| match axis.travel {
+        Travel::Between(from, to) => {
+            let number = |q| super::numbers::rounded(super::shown(axis, q));
+            format!("{} {} … {} {}", axis.name, number(from), number(to), unit(axis))
+        }
+        _ if axis.kind == AxisKind::Rotary => format!("{} all around", axis.name),
+        _ => format!("{} without stated ends", axis.name),
+    };
+    study.zone.iter().map(one).collect::<Vec<_>>().join(", ")
+}
+
+/// One row for the six errors of a body: constant or moving.
+fn errors(study: &Study) -> Chapter {
+    let machine = &study.machine;
+    let headings = ["errors of", "EX µm", "EY µm", "EZ µm", "EA µrad", "EB µrad", "EC µrad"];
+    let note = "value ± standard uncertainty; of error motions the smallest and the largest over the zone, and the \
+                largest uncertainty";
+    let mut block = Block::new("Identified errors", note, &headings);
+    let (mut all, mut motions) = (0, 0);
+    for (i, body) in machine.bodies().iter().enumerate() {
+        for kind in [ErrorKind::Location, ErrorKind::Motion] {
+            let stated = Component::ALL.map(|component| body.stated(kind, component));
+            let count = stated.iter().flatten().count();
+            if count == 0 {
+                continue;
+            }
+            all += count;
+            let name = match kind {
+                ErrorKind::Location => format!("E·0{}", body.name),
+                ErrorKind::Motion => format!("E·{}", body.name),
+            };
+            motions += if kind == ErrorKind::Motion { count } else { 0 };
+            let cells = Component::ALL.iter().zip(stated);
+            let cells = cells.map(|(component, error)| {
+                let scale = if component.is_rotation() { 1e6 } else { 1e3 };
+                error.map_or("–".to_owned(), |error| cell(study, i, error, scale))
+            });
+            block.rows.push(std::iter::once(name).chain(cells).collect());
+        }
+    }
+    let line = format!("{all} errors with their uncertainties, {motions} of them error motions");
+    chapter("Errors", vec![line], vec![block])
+}
+
+/// `-5.9 … 22.0 ± 0.5`
+fn cell(study: &Study, body: usize, error: &StatedError, scale: f64) -> String {
+    let number = |v: f64| super::numbers::fixed(v * scale, 1);
+    let value = match (&error.mean, reach(study, body, error)) {
+        (Curve::Constant(value), _) => number(*value),
+        (_, Some([low, high])) => format!("{} … {}", number(low), number(high)),
+        _ => "–".to_owned(),
+    };
+    match &error.u {
+        Some(u) => format!("{value} ± {}", number(largest(u))),
+        None => value,
+    }
+}
+
+/// The largest u of an error, mm or rad.
+pub(super) fn largest(u: &Uncertainty) -> f64 {
+    match u {
+        Uncertainty::Constant(u) => *u,
+        Uncertainty::Table(spline) => {
+            let (from, to) = spline.range();
+            let at = |i: u32| spline.at(from + (to - from) * f64::from(i) / 100.0);
+            (0..=100).map(at).fold(0.0, f64::max)
+        }
+    }
+}
+
+fn reach(study: &Study, body: usize, stated: &StatedError) -> Option<[f64; 2]> {
+    let axis = study.machine.bodies()[body].axis?;
+    let (from, to) = match (study.zone[axis].travel, &stated.mean) {
+        (Travel::Between(from, to), _) => (from, to),
+        (_, Curve::Table { spline, .. }) => spline.range(),
+        _ => (-PI, PI),
+    };
+    let at = |i: u32| stated.at(from + (to - from) * f64::from(i) / 100.0, 0.0).ok();
+    let values = (0..=100).filter_map(at);
+    Some(values.fold([f64::MAX, f64::MIN], |[low, high], v| [low.min(v), high.max(v)]))
+        .filter(|[low, high]| low <= high)
+}
+
+fn circumstances(c: &Circumstances) -> Vec<String> {
+    let temperature = match c.temperature_c.u {
+        Some(u) => format!("{} ± {u} °C (u)", c.temperature_c.value),
+        None => format!("{} °C", c.temperature_c.value),
+    };
+    vec![
+        c.method.clone(),
+        format!("{}, {}, at {temperature}", c.date, c.by),
+        format!("instrument: {}; calibration: {}", c.instrument, c.calibration),
+    ]
+}
+
+fn determination(study: &Study) -> Chapter {
+    let mut lines = circumstances(&study.determination);
+    lines.push(match &study.determined {
+        Determined::Stated => "uncertainties as the machine file states them: errors independent of each \
+                               other, each wrong by one factor along its whole curve"
+            .to_owned(),
+        Determined::Campaign { name, readings, terms, left_out, verdict } => format!(
+            "uncertainties with all that the results have in common, from the campaign \"{name}\": {terms} \
+             terms from {readings} readings, {left_out} more were not supported by them and count as nothing; \
+             {verdict}"
+        ),
+    });
+    lines.push(format!("{} poses were used", study.used.len()));
+    chapter("Determination", lines, Vec::new())
+}
+
+/// What of the pose is compensated.
+pub(super) fn scope(scope: Scope) -> &'static str {
+    match scope {
+        Scope::Pose => "position and orientation",
+        Scope::Position => "position",
+    }
+}
+
+fn compensation(study: &Study) -> Chapter {
+    let (lines, blocks) = match &study.applied {
+        Applied::Program(compensator) => {
+            let what = scope(compensator.scope());
+            let line = format!(
+                "NC program: {what} of every pose solved with the identified errors, in all axes"
+            );
+            (vec![line], Vec::new())
+        }
+        Applied::Tables { compiled, control, .. } => {
+            let machine = &study.machine;
+            let headings = ["axis", "moves", "nodes", "largest", "lost between the nodes"];
+            let mut block = Block::new("Tables", "", &headings);
+            for made in &compiled.tables {
+                let [input, output] =
+                    [made.table.input, made.table.output].map(|i| &machine.axes()[i]);
+                block.rows.push(vec![
+                    input.name.to_string(),
+                    output.name.to_string(),
+                    made.table.nodes.len().to_string(),
+                    shown(output, made.largest),
+                    shown(output, made.loss),
+                ]);
+            }
+            let line = format!(
+                "{} tables of {}, compiled from the identified errors and read back",
+                compiled.tables.len(),
+                control.key()
+            );
+            (vec![line], vec![block])
+        }
+    };
+    chapter("Compensation", lines, blocks)
+}
+
+fn application(study: &Study) -> Chapter {
+    let a = &study.application;
+    let mut lines: Vec<String> = a.method.iter().cloned().collect();
+    let when: Vec<&str> = [&a.date, &a.by].into_iter().flatten().map(String::as_str).collect();
+    if !when.is_empty() {
+        lines.push(when.join(", "));
+    }
+    lines.push(match (&a.loaded, &study.applied) {
+        (Some(folder), _) => {
+            format!("loaded tables ({folder}): SHA-256 of every file is that of the compiled one")
+        }
+        (None, Applied::Tables { .. }) => "what the control has loaded was not compared".to_owned(),
+        (None, Applied::Program(_)) => {
+            "the control runs the compensated program as it is".to_owned()
+        }
+    });
+    let blocks = match a.files.is_empty() {
+        true => Vec::new(),
+        false => vec![hashes("Files of the compensation", &a.files)],
+    };
+    chapter("Application", lines, blocks)
+}
+
+fn hashes(title: &str, files: &[Input]) -> Block {
+    let mut block = Block::new(title, "", &["file", "what it is", "SHA-256"]);
+    let row = |f: &Input| vec![f.name.clone(), f.role.to_owned(), f.sha256.clone()];
+    block.rows = files.iter().map(row).collect();
+    block
+}
+
+fn validation(study: &Study, certificate: &Certificate) -> Chapter {
+    let v = &study.validation;
+    let axes = study.machine.axes();
+    let mut lines = circumstances(&v.circumstances);
+    let warmer = v.circumstances.temperature_c.value - study.determination.temperature_c.value;
+    lines.push(format!("{warmer:+.1} K against the determination"));
+    if let Some(zero) = &v.zero {
+        lines.push(format!("instrument set to zero at {}", command_words(axes, zero)));
+    }
+    let um = |v: [f64; 2]| v.map(|v| format!("{:.1}", v * 1e3));
+    let ([rms, rms_after], [most, most_after]) =
+        (um(certificate.rms_mm), um(certificate.largest_mm));
+    lines.extend([
+        format!(
+            "{} poses, none of them used before; a coordinate is read with U = {:.1} µm (k = {})",
+            v.poses.len(),
+            certificate.expanded_mm * 1e3,
+            study.decision.coverage_factor
+        ),
+        format!("tip before: {rms} µm rms, {most} µm at most; after: {rms_after} µm rms, {most_after} µm at most"),
+        format!(
+            "predicted after: {:.1} µm rms, with the scatter of the readings {:.1} µm; at most {:.1} µm at all \
+             poses together with 95 %",
+            certificate.lengths.rms_mm * 1e3,
+            (certificate.lengths.rms_mm.powi(2) + 3.0 * v.u_mm * v.u_mm).sqrt() * 1e3,
+            certificate.lengths.largest_within_mm * 1e3
+        ),
+        agreement("before", certificate.agreement[0]),
+        agreement("after", certificate.agreement[1]),
+        format!(
+            "over the zone ({} poses) predicted: {:.1} µm rms before, {:.1} µm after; nowhere more than {:.1} µm with \
+             U, at {}",
+            certificate.volume.poses,
+            certificate.volume.rms_mm[0] * 1e3,
+            certificate.volume.rms_mm[1] * 1e3,
+            certificate.volume.largest_mm * 1e3,
+            command_words(axes, &certificate.volume.at)
+        ),
+        format!("rule: {}", rule(study)),
+    ]);
+    chapter("Validation", lines, vec![poses(study, certificate)])
+}
+
+fn agreement(state: &str, found: Option<Agreement>) -> String {
+    let Some(a) = found else { return format!("{state}: agreement cannot be told") };
+    let words = if a.holds() {
+        "readings and prediction agree"
+    } else {
+        "readings and prediction DISAGREE"
+    };
+    format!(
+        "{state}: {words}, χ² = {:.1} of {} numbers (above {:.1} by chance once in a hundred times)",
+        a.chi_square, a.numbers, a.limit
+    )
+}
+
+fn poses(study: &Study, certificate: &Certificate) -> Block {
+    let axes = study.machine.axes();
+    let note = "µm; before, after: measured length of the tip deviation; x y z: measured after, predicted ± U; 95 %: \
+                below it the predicted length lies; E_n: |measured − predicted| over its U, the worst coordinate";
+    let mut block = Block::new("Poses of the validation", note, &[]);
+    block.headings = axes.iter().map(|a| format!("{} {}", a.name, unit(a))).collect();
+    let rest = [
+        "before",
+        "after",
+        "x y z",
+        "predicted x y z",
+        "±U",
+        "95 %",
+        "E_n before",
+        "E_n",
+        "verdict",
+    ];
+    block.headings.extend(rest.map(str::to_owned));
+    let three = |v: &trueaxis_geometry::Vec3| {
+        let one = |v: &f64| super::numbers::fixed(v * 1e3, 1);
+        v.iter().map(one).collect::<Vec<_>>().join(" ")
+    };
+    for p in &certificate.poses {
+        let mut row = place(axes, &p.measured.command);
+        let [before, after] = p.lengths_mm().map(|d| format!("{:.1}", d * 1e3));
+        row.extend([
+            before,
+            after,
+            three(&p.measured.after_mm),
+            three(&p.predicted.after.tip_mm),
+            three(&(p.predicted.u_mm() * study.decision.coverage_factor)),
+            format!("{:.1}", p.within_mm * 1e3),
+            format!("{:.2}", p.e_n[0]),
+            format!("{:.2}", p.e_n[1]),
+            word(p.outcome).to_owned(),
+        ]);
+        block.rows.push(row);
+    }
+    block
+}
+
+fn documentation(study: &Study) -> Chapter {
+    let lines = vec![
+        format!(
+            "made by trueaxis {}; {} draws with seed {} (JCGM 101); the same inputs and version give the same bytes",
+            crate::VERSION, study.sampling.samples, study.sampling.seed
+        ),
+        "the temperatures are told, not corrected for; the uncertainties hold at the temperature of the determination"
+            .to_owned(),
+    ];
+    chapter("Documentation", lines, vec![hashes("Inputs", &study.inputs)])
+}

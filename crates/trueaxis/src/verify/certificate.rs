@@ -1,0 +1,284 @@
+//! Certificate of a volumetric compensation: what was wrong, what was done, what is left, and how sure that is.
+//!
+//! ```text
+//!     study.toml ──read_certificate──> Study {machine, what is known of it, compensation, readings, rule}
+//!                ──certify──> Certificate {per pose: before, after, predicted ± U, measured ± U; verdict}
+//! ```
+//!
+//! - [`known`]: the errors and how well they are known, as independent factors;
+//! - [`applied`]: where the compensation sends the axes; [`left`]: what is left there, with its covariance;
+//! - [`spread`]: lengths, which are not normal; `decide`: the rule, and whether the prediction is right;
+//! - [`inputs`]: SHA-256 of every file, so that the certificate can be made again.
+//!
+//! It follows the topics of ISO/TR 16907 in their order: kinematic representation, errors, determination,
+//! compensation, application, validation, documentation. docs/model.md eq. 172 to 177.
+
+pub mod applied;
+mod compensation;
+mod decide;
+mod file;
+mod identified;
+pub mod inputs;
+pub mod known;
+pub mod left;
+mod loaded;
+pub mod spread;
+mod used;
+mod validation;
+
+pub use decide::{Agreement, Decision, Rule, e_n};
+pub use file::{Application, Circumstances, Study, read_certificate};
+pub use used::Used;
+pub use validation::{Measured, Validation};
+
+use crate::volume::commands;
+use left::Left;
+use spread::{Lengths, lengths};
+use trueaxis_geometry::Vec3;
+use trueaxis_geometry::input::Place;
+use trueaxis_machine::axis::{Approach, Command};
+use trueaxis_machine::compensate::Fault;
+use trueaxis_part::tolerance::Outcome;
+
+/// Poses over the zone beside its corners.
+const POSES: u32 = 512;
+
+/// Where the uncertainties of the errors are from.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Determined {
+    /// The machine file states one for each error, independent of each other.
+    Stated,
+    /// A campaign was evaluated again: with all that its results have in common.
+    Campaign {
+        /// Its name.
+        name: String,
+        /// How many readings.
+        readings: usize,
+        /// How many terms were found.
+        terms: usize,
+        /// How many were left out, because the readings do not support them: they count as nothing.
+        left_out: usize,
+        /// What the identification says of itself.
+        verdict: String,
+    },
+}
+
+/// One pose of the validation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PoseResult {
+    /// What was measured.
+    pub measured: Measured,
+    /// What was predicted.
+    pub predicted: Left,
+    /// The length of what is left is below this in 95 % of the machines that the errors' uncertainties
+    /// allow, mm.
+    pub within_mm: f64,
+    /// Measured against predicted, without and with the compensation.
+    pub e_n: [f64; 2],
+    /// The reading against the limit.
+    pub outcome: Outcome,
+}
+
+impl PoseResult {
+    /// How far the tip is off, measured without and with the compensation, mm.
+    pub fn lengths_mm(&self) -> [f64; 2] {
+        [self.measured.before_mm.norm(), self.measured.after_mm.norm()]
+    }
+}
+
+/// What the identified machine predicts over the zone of the certificate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Volume {
+    /// Poses that were looked at; those that cannot be compensated are left out.
+    pub poses: usize,
+    /// Root mean square of the tip without and with the compensation, mm.
+    pub rms_mm: [f64; 2],
+    /// Of |l̂| + k·u along the worst direction, mm.
+    pub largest_mm: f64,
+    /// Where that is.
+    pub at: Command,
+}
+
+/// What is certified.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Certificate {
+    /// Pose after pose.
+    pub poses: Vec<PoseResult>,
+    /// k·u_m of one coordinate of a reading, mm.
+    pub expanded_mm: f64,
+    /// What the lengths of all poses may be.
+    pub lengths: Lengths,
+    /// Measured root mean square of the tip without and with the compensation, mm.
+    pub rms_mm: [f64; 2],
+    /// Measured largest.
+    pub largest_mm: [f64; 2],
+    /// Whether readings and prediction agree, without and with the compensation.
+    pub agreement: [Option<Agreement>; 2],
+    /// The prediction over the zone.
+    pub volume: Volume,
+    /// How many poses are inside, outside, or can neither be said to be.
+    pub counts: [usize; 3],
+    /// The verdict.
+    pub outcome: Outcome,
+    /// Why, in a sentence.
+    pub reason: String,
+}
+
+/// A pose that cannot be compensated.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{fault}")]
+pub struct PoseFault {
+    /// The reading; none for the pose where the instrument was set to zero.
+    pub place: Option<Place>,
+    /// Why.
+    pub fault: Fault,
+}
+
+/// Certifies.
+///
+/// # Errors
+/// A pose that the compensation cannot reach, or at which the errors are not known.
+pub fn certify(study: &Study) -> Result<Certificate, PoseFault> {
+    let left = |command: &Command, approach: &Approach| {
+        Left::at(&study.machine, (&study.known, &study.applied), command, approach)
+    };
+    let zero = match &study.validation.zero {
+        None => None,
+        Some(command) => Some(
+            left(command, &Approach::default())
+                .map_err(|fault| PoseFault { place: None, fault })?,
+        ),
+    };
+    let predicted = study.validation.poses.iter().map(|pose| {
+        let place = Some(pose.place.clone());
+        let here = left(&pose.command, &pose.approach);
+        let here = here.map_err(|fault| PoseFault { place, fault })?;
+        Ok(zero.as_ref().map_or_else(|| here.clone(), |zero| here.against(zero)))
+    });
+    let predicted = predicted.collect::<Result<Vec<Left>, PoseFault>>()?;
+    let lengths = lengths(&predicted, study.sampling);
+    let volume = over_the_zone(study, zero.as_ref());
+    let poses = judged(study, &predicted, &lengths);
+    Ok(concluded(study, poses, lengths, volume))
+}
+
+fn judged(study: &Study, predicted: &[Left], lengths: &Lengths) -> Vec<PoseResult> {
+    let (u_mm, decision) = (study.validation.u_mm, study.decision);
+    let k = decision.coverage_factor;
+    let poses = study.validation.poses.iter().zip(predicted).zip(&lengths.within_mm);
+    poses
+        .map(|((measured, predicted), within_mm)| {
+            let [before, after] = differences(measured, predicted);
+            let e_n = [before, after].map(|r| e_n(&r, predicted, u_mm, k));
+            PoseResult {
+                outcome: decision.judge(measured.after_mm.norm(), k * u_mm),
+                measured: measured.clone(),
+                predicted: predicted.clone(),
+                within_mm: *within_mm,
+                e_n,
+            }
+        })
+        .collect()
+}
+
+/// Measured less predicted tip without and with the compensation, mm.
+fn differences(measured: &Measured, predicted: &Left) -> [Vec3; 2] {
+    let before = measured.before_mm - predicted.before.tip_mm;
+    [before, measured.after_mm - predicted.after.tip_mm]
+}
+
+fn over_the_zone(study: &Study, zero: Option<&Left>) -> Volume {
+    let mut volume = Volume { poses: 0, rms_mm: [0.0; 2], largest_mm: 0.0, at: Command::default() };
+    for command in commands(&study.zone, POSES) {
+        let applied = (&study.known, &study.applied);
+        let Ok(here) = Left::at(&study.machine, applied, &command, &Approach::default()) else {
+            continue;
+        };
+        let here = zero.map_or_else(|| here.clone(), |zero| here.against(zero));
+        let u_mm = here.covariance_mm2().symmetric_eigenvalues().max().max(0.0).sqrt();
+        let most = here.after.tip_mm.norm() + study.decision.coverage_factor * u_mm;
+        volume.poses += 1;
+        volume.rms_mm[0] += here.before.tip_mm.norm_squared();
+        volume.rms_mm[1] += here.after.tip_mm.norm_squared();
+        if most > volume.largest_mm {
+            (volume.largest_mm, volume.at) = (most, command);
+        }
+    }
+    volume.rms_mm = volume.rms_mm.map(|sum| (sum / volume.poses.max(1) as f64).sqrt());
+    volume
+}
+
+fn concluded(
+    study: &Study,
+    poses: Vec<PoseResult>,
+    lengths: Lengths,
+    volume: Volume,
+) -> Certificate {
+    let expanded_mm = study.decision.coverage_factor * study.validation.u_mm;
+    let count = |outcome| poses.iter().filter(|p| p.outcome == outcome).count();
+    let counts = [Outcome::Pass, Outcome::Fail, Outcome::Undecided].map(count);
+    let lists: Vec<&Left> = poses.iter().map(|p| &p.predicted).collect();
+    let agreement = [0, 1].map(|state| {
+        let r: Vec<Vec3> =
+            poses.iter().map(|p| differences(&p.measured, &p.predicted)[state]).collect();
+        Agreement::of(&r, &lists, study.validation.u_mm)
+    });
+    let over = |state: usize| poses.iter().map(move |p| p.lengths_mm()[state]);
+    let mean = |state| {
+        let squares: f64 = over(state).map(|d| d * d).sum();
+        (squares / poses.len().max(1) as f64).sqrt()
+    };
+    let largest = |state| over(state).fold(0.0, f64::max);
+    let (outcome, reason) = verdict(study, &volume, counts, agreement[1]);
+    Certificate {
+        rms_mm: [mean(0), mean(1)],
+        largest_mm: [largest(0), largest(1)],
+        poses,
+        expanded_mm,
+        lengths,
+        agreement,
+        volume,
+        counts,
+        outcome,
+        reason,
+    }
+}
+
+/// The poses decide; but where readings and prediction disagree, nothing is known of all other poses.
+fn verdict(
+    study: &Study,
+    volume: &Volume,
+    [pass, fail, open]: [usize; 3],
+    agreement: Option<Agreement>,
+) -> (Outcome, String) {
+    let decision = study.decision;
+    let expanded_mm = decision.coverage_factor * study.validation.u_mm;
+    let [limit, expanded] = [decision.limit_mm, expanded_mm].map(|v| format!("{:.1} µm", v * 1e3));
+    let all = pass + fail + open;
+    if fail > 0 {
+        return (Outcome::Fail, format!("{fail} of {all} poses are beyond {limit}"));
+    }
+    if decision.is_blind(expanded_mm) {
+        let why = format!(
+            "U = {expanded} is no smaller than the limit of {limit}: these readings can prove nothing"
+        );
+        return (Outcome::Undecided, why);
+    }
+    if open > 0 {
+        let why = format!("{open} of {all} poses are nearer to {limit} than U = {expanded}");
+        return (Outcome::Undecided, why);
+    }
+    if !agreement.is_some_and(|a| a.holds()) {
+        let why = format!(
+            "all {all} poses are within {limit}, but not as predicted: the machine is not what was identified, \
+             and of other poses nothing is known"
+        );
+        return (Outcome::Undecided, why);
+    }
+    let mut why = format!("all {all} poses are within {limit}, and as predicted");
+    if volume.largest_mm > decision.limit_mm {
+        let most = volume.largest_mm * 1e3;
+        why += &format!("; elsewhere in the zone up to {most:.1} µm are not excluded");
+    }
+    (Outcome::Pass, why)
+}

@@ -1,0 +1,331 @@
+//! The study file of a certificate.
+
+use super::applied::Applied;
+use super::compensation::read_compensation;
+use super::decide::{Decision, Rule};
+use super::inputs::{Input, Inputs};
+use super::known::Known;
+use super::used::{Used, read_used};
+use super::validation::{Allowed, Validation, read_validation};
+use super::{Determined, identified};
+use crate::compensate::not_twice;
+use crate::describe::axis_index;
+use crate::files;
+use crate::predict::Sampling;
+use crate::verify::conditions::SOUND_TEMPERATURES_C;
+use std::path::Path;
+use trueaxis_geometry::input::{Diagnostics, Dimension, Item, Measured, Section, Source};
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::{Axis, AxisKind, Travel};
+
+/// What a certificate is made from.
+pub struct Study {
+    /// Its name.
+    pub name: String,
+    /// The identified machine; what the control compensates already is taken out.
+    pub machine: Machine,
+    /// How its errors were found.
+    pub determination: Circumstances,
+    /// How well they are known.
+    pub known: Known,
+    /// Where that is from.
+    pub determined: Determined,
+    /// Poses that were used for it.
+    pub used: Vec<Used>,
+    /// What is done against the errors.
+    pub applied: Applied,
+    /// When, by whom and how it was put into the control.
+    pub application: Application,
+    /// The axes with the ends between which the certificate holds: those of the travels, or `[zone]`.
+    pub zone: Vec<Axis>,
+    /// The readings.
+    pub validation: Validation,
+    /// How it is decided.
+    pub decision: Decision,
+    /// The draws of the lengths.
+    pub sampling: Sampling,
+    /// Every file that was read.
+    pub inputs: Vec<Input>,
+}
+
+/// Who measured when with what.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Circumstances {
+    /// In words.
+    pub method: String,
+    /// As written.
+    pub date: String,
+    /// Who.
+    pub by: String,
+    /// With what.
+    pub instrument: String,
+    /// How that is traced to standards.
+    pub calibration: String,
+    /// °C, with its standard uncertainty if it is stated.
+    pub temperature_c: Measured,
+}
+
+/// How the compensation was put into the control.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Application {
+    /// In words, from the study.
+    pub method: Option<String>,
+    /// As written.
+    pub date: Option<String>,
+    /// Who.
+    pub by: Option<String>,
+    /// Files of the compensation with their SHA-256.
+    pub files: Vec<Input>,
+    /// The folder of what the control has loaded, if it was compared.
+    pub loaded: Option<String>,
+}
+
+/// Reads a study with all that it names; nothing with errors.
+pub fn read_certificate(path: &Path) -> (Option<Study>, Diagnostics) {
+    let mut problems = Diagnostics::new();
+    let Some(text) = files::text(path, "a study of a certificate (TOML)", &mut problems) else {
+        return (None, problems);
+    };
+    let file = path.display().to_string();
+    let source = Source::new(&file, &text);
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut inputs = Inputs::beside(folder);
+    let own = path.file_name().map_or(String::new(), |name| name.display().to_string());
+    inputs.add("study", &own, text.as_bytes());
+    let read = source.read(|root| read(root, folder, inputs));
+    problems.append(source.finish());
+    (read.filter(|_| !problems.has_errors()), problems)
+}
+
+const SECTIONS: [(&str, &str); 4] = [
+    ("determination", "[determination] method, date, by, instrument, calibration, temperature"),
+    ("compensation", "[compensation] kind = \"program\", or kind = \"tables\" with its target"),
+    ("validation", "[validation] before, after: tables of readings, and the uncertainty u"),
+    ("decision", "[decision] limit = \"10 um\", rule = \"ISO 14253-1\""),
+];
+
+fn read(root: &Section<'_>, folder: &Path, mut inputs: Inputs) -> Option<Study> {
+    let name = root.require("name", "what is certified").and_then(|i| i.text());
+    let hint = "the identified machine file, relative to this file";
+    let machine = root.require("machine", hint).and_then(|item| {
+        let mut problems = Diagnostics::new();
+        let machine = inputs.machine("machine file", item.text()?, &mut problems);
+        let machine = machine.map(|m| not_twice(&m, item.place(), &mut problems));
+        root.take_over(problems);
+        machine
+    });
+    let sections = SECTIONS.map(|(key, hint)| root.require(key, hint));
+    let (monte_carlo, zone) = (root.get("monte_carlo"), root.get("zone"));
+    let (
+        Some(machine),
+        [Some(determination), Some(compensation), Some(validation), Some(decision)],
+    ) = (machine, sections)
+    else {
+        // The rest needs all of them; do not call it unknown.
+        root.entries();
+        return None;
+    };
+    let sampling = match monte_carlo {
+        Some(item) => item.section("monte_carlo", read_sampling).flatten(),
+        None => Some(Sampling::default()),
+    };
+    let decision = decision.section("decision", read_decision).flatten();
+    let zone = match zone {
+        Some(item) => item.section("zone", |s| read_zone(s, &machine)).flatten(),
+        None => Some(machine.axes().to_vec()),
+    };
+    let determined = determination
+        .section("determination", |s| read_determination(s, &machine, folder, &mut inputs));
+    let compensation =
+        compensation.section("compensation", |s| read_compensation(s, &machine, &mut inputs));
+    let used = determined.as_ref().and_then(|d| Some(d.as_ref()?.used.as_slice()));
+    let allowed = Allowed { used: used.unwrap_or(&[]), zone: zone.as_deref().unwrap_or(&[]) };
+    let validation =
+        validation.section("validation", |s| read_validation(s, &machine, &allowed, &mut inputs));
+    let found = determined.flatten()?;
+    let (applied, application) = compensation.flatten()?;
+    Some(Study {
+        name: name?.to_owned(),
+        determination: found.circumstances,
+        known: found.known,
+        determined: found.determined,
+        used: found.used,
+        applied,
+        application,
+        zone: zone?,
+        validation: validation.flatten()?,
+        decision: decision?,
+        sampling: sampling?,
+        inputs: inputs.finish(),
+        machine,
+    })
+}
+
+/// Reads `[zone]`: `A = ["-30 deg", "30 deg"]`; axes that are not named have their whole travel.
+fn read_zone(section: &Section<'_>, machine: &Machine) -> Option<Vec<Axis>> {
+    let mut zone = machine.axes().to_vec();
+    let mut sound = true;
+    for (key, place, item) in section.entries() {
+        let Some(index) = axis_index(machine, key) else {
+            let hint = format!("the chain of the machine: {}", machine.chain_text());
+            let message = format!("the machine has no axis `{key}`");
+            section.error_at(place, "unknown-axis", message, &hint);
+            sound = false;
+            continue;
+        };
+        let dimension = match zone[index].kind {
+            AxisKind::Linear => Dimension::Length,
+            AxisKind::Rotary => Dimension::Angle,
+        };
+        let ends: Option<Vec<f64>> =
+            item.list().and_then(|ends| ends.iter().map(|e| e.quantity(dimension)).collect());
+        match ends.as_deref() {
+            Some([from, to]) if from <= to && is_in(&zone[index], from, to) => {
+                zone[index].travel = Travel::Between(*from, *to);
+            }
+            Some(_) => {
+                let message = "two rising ends within the travel are due".to_owned();
+                item.error("bad-range", message, "A = [\"-30 deg\", \"30 deg\"]");
+                sound = false;
+            }
+            None => sound = false,
+        }
+    }
+    sound.then_some(zone)
+}
+
+fn is_in(axis: &Axis, from: &f64, to: &f64) -> bool {
+    axis.travel.contains(*from) && axis.travel.contains(*to)
+}
+
+/// What `[determination]` says.
+struct Determination {
+    circumstances: Circumstances,
+    known: Known,
+    determined: Determined,
+    used: Vec<Used>,
+}
+
+fn read_determination(
+    section: &Section<'_>,
+    machine: &Machine,
+    folder: &Path,
+    inputs: &mut Inputs,
+) -> Option<Determination> {
+    let circumstances = read_circumstances(section);
+    let mut used = read_used(section, machine, inputs);
+    let campaign = section.get("campaign");
+    let (known, determined) = match &campaign {
+        None => (Some(Known::stated(machine)), Determined::Stated),
+        Some(item) => {
+            let found = identified::read(section, item, machine, (folder, inputs));
+            match found {
+                Some(found) => {
+                    if let Some(used) = &mut used {
+                        used.extend(found.used);
+                    }
+                    (Some(found.known), found.determined)
+                }
+                None => (None, Determined::Stated),
+            }
+        }
+    };
+    if let Some(known) = &known {
+        check_known(section, machine, known);
+    }
+    if used.as_ref().is_some_and(Vec::is_empty) && campaign.is_none() {
+        let message = "nobody says which poses the identification has used".to_owned();
+        let hint = "used = [\"poses.csv\"], or campaign = \"campaign.toml\": the validation must stand on others";
+        section.error("no-used-poses", message, hint);
+    }
+    Some(Determination { circumstances: circumstances?, known: known?, determined, used: used? })
+}
+
+/// Errors without uncertainty would be certified as exact.
+fn check_known(section: &Section<'_>, machine: &Machine, known: &Known) {
+    let names = known.unknown(machine);
+    if !names.is_empty() {
+        let message = format!("a certificate needs u of every error; none for {}", names.join(" "));
+        let hint = "state them in the machine file (\"12 ± 1 urad\")";
+        section.error("no-uncertainty", message, hint);
+    }
+}
+
+/// Reads who measured when with what; all of it is due.
+pub(super) fn read_circumstances(section: &Section<'_>) -> Option<Circumstances> {
+    let text = |key, hint: &str| Some(section.require(key, hint)?.text()?.to_owned());
+    let method = text("method", "method = \"laser interferometer along X, Y, Z; …\"");
+    let date = section.require("date", "date = 2026-03-14").and_then(|i| i.date_or_text());
+    let by = text("by", "by = \"who measured\"");
+    let instrument = text("instrument", "instrument = \"laser tracker, serial number\"");
+    let calibration = text("calibration", "calibration = \"certificate number, date, U\"");
+    let temperature = section.require("temperature", "temperature = \"20.4 ± 0.3 degC\"");
+    let temperature_c = temperature.and_then(|item| {
+        let found = item.measured(Dimension::Temperature)?;
+        let sound = SOUND_TEMPERATURES_C.contains(&found.value);
+        if !sound {
+            let message = format!("{} °C is no temperature of a machine", found.value);
+            item.error("temperature-range", message, "is the unit right? -10 to 60 degC");
+        }
+        sound.then_some(found)
+    });
+    Some(Circumstances {
+        method: method?,
+        date: date?,
+        by: by?,
+        instrument: instrument?,
+        calibration: calibration?,
+        temperature_c: temperature_c?,
+    })
+}
+
+fn read_sampling(section: &Section<'_>) -> Option<Sampling> {
+    let usual = Sampling::default();
+    let count = |key, usual| section.get(key).map_or(Some(usual), |i| i.count());
+    let (samples, seed) = (count("samples", usual.samples), count("seed", 1));
+    let samples = samples?;
+    if !(1000..=1_000_000).contains(&samples) {
+        let message = "1000 to 1 000 000 draws make sense".to_owned();
+        section.error("bad-count", message, "samples = 10000");
+        return None;
+    }
+    Some(Sampling { samples, seed: seed? as u64 })
+}
+
+fn read_decision(section: &Section<'_>) -> Option<Decision> {
+    let limit = section.require("limit", "limit = \"10 um\": how far the tip may be off");
+    let rule = match section.get("rule") {
+        None => Some(Rule::GuardBand),
+        Some(item) => match item.text() {
+            Some("simple") => Some(Rule::Simple),
+            Some("ISO 14253-1") => Some(Rule::GuardBand),
+            Some(other) => {
+                let message = format!("no decision rule is called `{other}`");
+                item.error("unknown-rule", message, "\"ISO 14253-1\" (usual) or \"simple\"");
+                None
+            }
+            None => None,
+        },
+    };
+    let coverage_factor = match section.get("coverage_factor") {
+        None => Some(2.0),
+        Some(item) => item.number().filter(|k| {
+            let sound = (1.0..=10.0).contains(k);
+            if !sound {
+                item.error("bad-factor", "k lies from 1 to 10".to_owned(), "2: about 95 %");
+            }
+            sound
+        }),
+    };
+    let limit_mm = limit.and_then(|item| above_zero(&item, Dimension::Length))?;
+    Some(Decision { rule: rule?, limit_mm, coverage_factor: coverage_factor? })
+}
+
+/// A quantity above zero.
+pub(super) fn above_zero(item: &Item<'_>, dimension: Dimension) -> Option<f64> {
+    let value = item.quantity(dimension)?;
+    if value <= 0.0 {
+        item.error("not-positive", "it is not above zero".to_owned(), "such as \"1 um\"");
+    }
+    Some(value).filter(|v| *v > 0.0)
+}
