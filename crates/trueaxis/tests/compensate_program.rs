@@ -113,6 +113,29 @@ fn law_with_rounding_every_block_end_is_met_within_an_increment() {
     assert!(worst[2] <= 2e-3, "{worst:?}");
 }
 
+#[test]
+fn law_the_batch_writes_what_pose_by_pose_writes() {
+    let mut same = 0;
+    for name in MACHINES {
+        let machine = machine(name);
+        for (i, way) in ways().iter().enumerate() {
+            let path = free_form(&machine, 5 * i as u64 + name.len() as u64, 30);
+            let (posted, _) = post(&machine, &cl(&path), way);
+            let text = posted.unwrap().text;
+            let by = |pose_by_pose| {
+                let options = ProgramOptions { pose_by_pose, ..ProgramOptions::default() };
+                let (done, problems) = compensated(&machine, &text, way.control, &options);
+                let found = done.map(|d| (String::from_utf8(d.text).unwrap(), d.found.axis_left));
+                (found, codes(&problems))
+            };
+            let [batch, scalar] = [false, true].map(by);
+            assert_eq!(batch, scalar, "{name} {:?} {:?}", way.control, way.tip_words);
+            same += usize::from(batch.0.is_some());
+        }
+    }
+    assert!(same > 80, "{same} compared");
+}
+
 /// The new text without its mark, or why there is none.
 fn rewritten(machine: &Machine, text: &str, control: Control, options: &ProgramOptions) -> String {
     let (done, problems) = compensated(machine, text.as_bytes(), control, options);

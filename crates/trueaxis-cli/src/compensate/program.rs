@@ -190,6 +190,7 @@ impl ProgramArguments {
             residual_rad: residual_rad?,
             increments: (!self.no_rounding).then_some(increments),
             limit: CorrectionLimit { tip_mm: tip_mm?, axis_rad: axis_rad? },
+            pose_by_pose: false,
             mark: String::new(),
         })
     }

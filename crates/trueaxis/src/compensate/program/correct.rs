@@ -1,6 +1,7 @@
 //! What is to be commanded instead, with what the machine is known to do in its direction of travel.
 
 use super::number::Increments;
+use super::ready::{Preparation, Prepared};
 use crate::simulate::axis_path::Fault;
 use trueaxis_machine::axis::{Approach, AxisKind, Command, MAX_AXES};
 use trueaxis_machine::compensate::{AxisLeft, Compensator, Fault as NoCorrection, Scope};
@@ -37,6 +38,22 @@ pub(super) struct Corrector {
     least: Command,
     /// The side from which each axis came in the program that is written.
     approach: Approach,
+    /// Corrections of the present stretch; `None` if every one is made by itself.
+    preparation: Option<Preparation>,
+}
+
+/// A place that is to be corrected.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place<'p> {
+    pub nominal: &'p Command,
+    /// The place before it as the program says it.
+    pub nominal_from: &'p Command,
+    /// The place before it as it is written.
+    pub from: &'p Command,
+    /// From where the axes came to that one.
+    pub approach: &'p Approach,
+    pub only_position: bool,
+    pub origin: Origin,
 }
 
 /// One corrected place.
@@ -69,7 +86,26 @@ impl Corrector {
             reverses,
             least: least_motions(machine, increments),
             approach: Approach::default(),
+            preparation: None,
         })
+    }
+
+    /// The same with the batch compensator ahead.
+    #[must_use]
+    pub fn by_batch(self) -> Self {
+        Self { preparation: Some(Preparation::of(&self.pose)), ..self }
+    }
+
+    /// Corrects the places of a stretch ahead; the axes stand at `from` before it.
+    pub fn prepare(&mut self, places: impl Iterator<Item = Command>, from: &Command) {
+        if let Some(preparation) = &mut self.preparation {
+            preparation.prepare(places, (*from, self.approach));
+        }
+    }
+
+    /// What was prepared for a place of the stretch.
+    pub fn prepared(&self, index: usize) -> Option<Prepared> {
+        self.preparation.as_ref()?.at(index)
     }
 
     /// The same history on the machine with another tool.
@@ -83,22 +119,27 @@ impl Corrector {
         self.pose.machine()
     }
 
-    /// The command for a nominal place that is reached from a written one.
-    pub fn at(
-        &self,
-        nominal: &Command,
-        (from, approach): (&Command, &Approach),
-        only_position: bool,
-        origin: Origin,
-    ) -> Result<Corrected, Fault> {
-        let compensator = if only_position { &self.position } else { &self.pose };
-        let mut side = reached(approach, from, nominal);
+    /// The command for a nominal place that is reached from a written one; what was prepared for
+    /// it is taken where its axes come from there.
+    pub fn at(&self, at: &Place<'_>, prepared: Option<Prepared>) -> Result<Corrected, Fault> {
+        let Place { nominal, approach, origin, .. } = *at;
+        let mut side = reached(approach, at.nominal_from, nominal);
+        let fits = |p: &Prepared| !at.only_position && (!self.reverses || p.side == side);
+        if let Some(prepared) = prepared.filter(fits) {
+            self.within_limit(&prepared.before, origin)?;
+            let Prepared { command, left, .. } = prepared;
+            let real = turned(approach, at.from, &command, &self.least);
+            if !self.reverses || real == side {
+                return Ok(Corrected { command, left, undecided: false });
+            }
+        }
+        let compensator = if at.only_position { &self.position } else { &self.pose };
         let mut rounds = 3;
         loop {
             let done = compensator.at(nominal, &side);
             let done = done.map_err(|e| self.refused(nominal, origin, &e))?;
             self.within_limit(&done.before, origin)?;
-            let real = turned(approach, from, &done.command, &self.least);
+            let real = turned(approach, at.from, &done.command, &self.least);
             rounds -= 1;
             let undecided = self.reverses && real != side;
             let corrected = Corrected { command: done.command, left: done.axis_left, undecided };
