@@ -41,7 +41,9 @@ fn what_the_control_compensates_already_is_no_value() {
     let folder = Folder::new("compensate-active");
     let text = std::fs::read_to_string(command::root().join(MILL)).expect("a machine");
     let active = folder.path("active.toml");
-    std::fs::write(&active, text + "\n[compensation]\nactive = [\"EXX\"]\n").expect("written");
+    let errors = r#"["EXX", "EYX", "EZX", "EAX", "EBX", "ECX"]"#;
+    let text = format!("{text}\n[compensation]\nactive = {errors}\n");
+    std::fs::write(&active, text).expect("written");
     let values = |machine: &str| {
         let arguments =
             ["compensate", "values", machine, "--axis", "X", "--step", "100", "--format", "json"];

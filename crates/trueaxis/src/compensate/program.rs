@@ -12,6 +12,7 @@ mod ahead;
 mod block;
 mod correct;
 mod feed;
+mod flat;
 mod found;
 mod guard;
 mod lines;
@@ -43,6 +44,8 @@ use walk::Walk;
 /// What is wanted of the compensated program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProgramOptions {
+    /// The program is unrolled first: loops, subprograms, repeated parts and computed numbers.
+    pub flat: bool,
     /// The tip alone, with the linear axes.
     pub position_only: bool,
     /// How far the tip may be missed between the ends of blocks, mm.
@@ -63,6 +66,7 @@ pub struct ProgramOptions {
 impl Default for ProgramOptions {
     fn default() -> Self {
         Self {
+            flat: false,
             position_only: false,
             residual_mm: 1e-3,
             residual_rad: 1e-5,
@@ -127,6 +131,17 @@ pub fn compensate_program(
         return (None, problems);
     }
     let machine = &super::not_twice(machine, Place::whole(program.file()), &mut problems);
+    let flat;
+    let program = match options.flat {
+        false => program,
+        true => match flat::unrolled(&setup.mounted(machine), program, setup, &mut problems) {
+            Some(unrolled) => {
+                flat = unrolled;
+                &flat
+            }
+            None => return (None, problems),
+        },
+    };
     let mut told = std::mem::take(&mut problems);
     let mut best = None;
     for attempt in 0..TRIES {

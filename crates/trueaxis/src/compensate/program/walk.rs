@@ -373,7 +373,7 @@ impl<'w> Walk<'w> {
         }
         let message =
             "the move stands in a subprogram, which may be called elsewhere too".to_owned();
-        let hint = "put its blocks into the main program (unroll it); the postprocessor can";
+        let hint = "unroll it: --flat puts its blocks into the main program";
         Err(refusal(m.origin, "in-subprogram", message, hint))
     }
 
