@@ -6,7 +6,7 @@
 mod library;
 
 use library::paths::{cl, free_form, ways};
-use library::{MACHINES, bare, machine};
+use library::{MACHINES, bare, machine, with_lost_motion};
 use trueaxis::compensate::post::post;
 use trueaxis::compensate::program::{
     Increments, MARK, ProgramOptions, Rewritten, compensate_program,
@@ -231,4 +231,41 @@ fn inverse_time_is_divided_among_the_pieces() {
     let minutes: f64 = feeds.map(|f| 1.0 / f.trim().parse::<f64>().unwrap()).sum();
     assert!(new.lines().count() > 6, "{new}");
     assert!((minutes - 2.5).abs() < 1e-4, "{minutes}: {new}");
+}
+
+/// Three axes: a circle in four quadrants, corners, and an axis that stands before it turns. Five:
+/// X, Y and Z swing while the tip goes straight on.
+const TURNS: [(&str, &str, &str); 2] = [
+    (
+        "three-axis-mill",
+        "mill.ngc",
+        "G21 G90 G94 F500\nG0 X100 Y100 Z-50\nG1 X110 Y110\nG3 X110 Y110 I20 J0\nG1 X120\nX115 Y112\n\
+         Y100\nX118\nG2 X118 Y140 I0 J20 Z-55\nM2\n",
+    ),
+    (
+        "xkas2525",
+        "gantry.nc",
+        "G21 G90 G94\nG43.4 H1\nG0 X100. Y10. Z20. A10. C-40.\nG1 X102. C-35. F600.\nX60. C40. A20.\n\
+         X50. Y30. C-30. A-15.\nG2 X90. Y30. I20. J0. C10.\nX50.0 Y30. I-20. J0. C-20. A5.\nM30\n",
+    ),
+];
+
+#[test]
+fn law_at_turning_points_both_sides_are_met() {
+    for (name, file, text) in TURNS {
+        let control = if file.ends_with("ngc") { Control::LinuxCnc } else { Control::Fanuc };
+        let machine = with_lost_motion(&machine(name), -4e-3);
+        for increments in [None, Some(Increments::default())] {
+            let options = ProgramOptions { increments, ..ProgramOptions::default() };
+            let (done, problems) = compensated(&machine, text.as_bytes(), control, &options);
+            let Some(done) = done else { panic!("{name} {:?}", codes(&problems)) };
+            let after = done.proof.after;
+            let (rounding, exact) = if increments.is_some() { (1e-3, 1e-3) } else { (0.0, 1e-9) };
+            println!("{name} {increments:?}: {} pieces {after:?}", done.found.pieces);
+            assert_eq!(done.found.undecided, 0, "{name}");
+            assert!(after.tip_end.value <= exact, "{name} {after:?}");
+            // The lost motion of 4 µm would show anywhere near a turn.
+            assert!(after.tip.value <= 1e-3 + rounding, "{name} {after:?}");
+        }
+    }
 }

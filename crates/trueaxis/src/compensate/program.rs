@@ -21,6 +21,7 @@ mod ready;
 mod refuse;
 mod stand;
 mod text;
+mod turns;
 mod verify;
 mod walk;
 mod words;
@@ -183,6 +184,8 @@ fn once(
 ) -> (Option<Rewritten>, Diagnostics) {
     let mut problems = Diagnostics::new();
     let mounted = setup.mounted(machine);
+    // Where a turn counts it has to be seen.
+    let least = if correct::reverses(machine) { 2 << attempt } else { 1 };
     let refuse = |problems: &mut Diagnostics, programs: &[String], fault: &Fault| {
         let place = place(program, programs, fault);
         problems.error(fault.code, place, fault.message.clone(), fault.hint);
@@ -194,7 +197,7 @@ fn once(
             return (None, problems);
         }
     };
-    let nominal = AxisPath::new(&mounted, setup, densify(options, attempt, 1), 0.01);
+    let nominal = AxisPath::new(&mounted, setup, densify(options, attempt, least), 0.01);
     let settings = setup.settings(false);
     let (outcome, walk) =
         both(nominal, walk, |take| execute(&mounted, program, setup, &settings, take));
@@ -216,7 +219,7 @@ fn once(
     let found = walk.found;
     let written = Program::new(program.file(), text, control);
     // The middle of every block at least is looked at.
-    let finer = densify(options, attempt + 1, 2);
+    let finer = densify(options, attempt + 1, 2 * least);
     let proof = verify::prove(machine, [program, &written], setup, &found, &numbers, finer);
     let text = written.source().to_vec();
     (Some(Rewritten { text, found, proof, confidence, conventions }), problems)

@@ -8,6 +8,7 @@ pub mod paths;
 use std::path::{Path, PathBuf};
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{AxisKind, Command, Travel};
+use trueaxis::machine::errors::{Curve, StatedError};
 
 /// All machines of the library.
 pub const MACHINES: [&str; 8] = [
@@ -40,6 +41,19 @@ pub fn bare(name: &str) -> Machine {
     let stated = machine(name);
     let errors = stated.stated_errors();
     errors.iter().fold(stated.clone(), |m, (index, _)| m.with_error(*index, None))
+}
+
+/// The machine with the same reversal, mm, of the own positions of X, Y and Z, and no other: below
+/// zero the axes lag, so that a turn takes up play in the new direction.
+pub fn with_lost_motion(machine: &Machine, reversal_mm: f64) -> Machine {
+    let all = machine.stated_errors();
+    all.iter().fold(machine.clone(), |m, (index, name)| {
+        let body = &m.bodies()[index.body];
+        let Some(stated) = body.stated(name.kind, name.component).cloned() else { return m };
+        let own = ["EXX", "EYY", "EZZ"].contains(&name.to_string().as_str());
+        let reversal = own.then_some(Curve::Constant(reversal_mm));
+        m.with_error(*index, Some(StatedError { reversal, ..stated }))
+    })
 }
 
 /// Numbers that are the same in every run (splitmix64).

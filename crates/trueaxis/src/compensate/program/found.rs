@@ -3,7 +3,6 @@
 use super::block::Block;
 use super::correct::Corrected;
 use super::stand::{Sample, Stand};
-use crate::simulate::Node;
 use std::collections::BTreeMap;
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
@@ -93,13 +92,13 @@ impl Found {
         *self.left.entry(why).or_default() += 1;
     }
 
-    pub(super) fn correct(&mut self, node: &Node, done: &Corrected) {
-        self.sample(&node.command);
-        let line = node.origin.line;
+    /// A place of a line was corrected.
+    pub(super) fn correct(&mut self, (nominal, line): (&Command, u32), done: &Corrected) {
+        self.sample(nominal);
         let mut linear = 0.0_f64;
         for i in 0..self.kinds.len().min(MAX_AXES) {
             let (kind, travel) = self.kinds[i];
-            let by = done.command[i] - node.command[i];
+            let by = done.command[i] - nominal[i];
             let largest = &mut self.largest[i];
             if by.abs() > largest.value.abs() {
                 (largest.value, largest.line) = (by, line);
@@ -116,7 +115,7 @@ impl Found {
         }
         if linear > self.worst_mm || self.worst.is_none() {
             self.worst_mm = linear;
-            self.worst = Some((line, node.command, done.command));
+            self.worst = Some((line, *nominal, done.command));
         }
         self.undecided += u64::from(done.undecided);
         if let Some(why) = done.left {

@@ -37,6 +37,10 @@ pub(super) struct Preparation {
     always_left: Option<AxisLeft>,
     places: [Vec<f64>; MAX_AXES],
     sides: [Vec<f64>; MAX_AXES],
+    /// Whether the side counts.
+    reverses: bool,
+    /// In the mean of both sides, if it does and all poses have one.
+    mean: Option<CommandTable>,
     commands: CommandTable,
     before: DeviationTable,
     after: DeviationTable,
@@ -45,7 +49,7 @@ pub(super) struct Preparation {
 }
 
 impl Preparation {
-    pub fn of(compensator: &Compensator) -> Self {
+    pub fn of(compensator: &Compensator, reverses: bool) -> Self {
         let machine = compensator.machine();
         let rotary = machine.axes().iter().filter(|a| a.kind == AxisKind::Rotary).count();
         let always_left = match (compensator.scope(), rotary) {
@@ -59,6 +63,8 @@ impl Preparation {
             always_left,
             places: Default::default(),
             sides: Default::default(),
+            reverses,
+            mean: None,
             commands: CommandTable::zeros(0, 0),
             before: DeviationTable::zeros(0),
             after: DeviationTable::zeros(0),
@@ -74,10 +80,18 @@ impl Preparation {
     ) {
         self.places.iter_mut().chain(&mut self.sides).for_each(Vec::clear);
         for place in places {
+            for i in 0..self.axes() {
+                self.places[i].push(place[i]);
+            }
+        }
+        self.mean = self.reverses.then(|| self.means()).flatten();
+        for k in 0..self.places[0].len() {
+            // Only where errors depend on it does the side have to be the true one.
+            let place = std::array::from_fn(|i| self.places[i].get(k).copied().unwrap_or(0.0));
+            let place = self.mean_at(k).unwrap_or(place);
             side = reached(&side, &from, &place);
             from = place;
             for i in 0..self.axes() {
-                self.places[i].push(place[i]);
                 self.sides[i].push(side[i]);
             }
         }
@@ -92,6 +106,18 @@ impl Preparation {
         if self.correct() > 0 && self.always_left.is_none() {
             self.look_at_what_is_left();
         }
+    }
+
+    fn means(&self) -> Option<CommandTable> {
+        let (axes, places) = (self.axes(), tail(&self.places, 0));
+        let mut mean = CommandTable::zeros(axes, self.places[0].len());
+        let done = self.compensator.commands(&Commands::new(&places[..axes]), &mut mean.columns());
+        done.ok().map(|_| mean)
+    }
+
+    /// The command of a place in the mean of both sides.
+    pub fn mean_at(&self, i: usize) -> Option<Command> {
+        self.mean.as_ref().map(|mean| mean.at(i))
     }
 
     fn axes(&self) -> usize {

@@ -1,11 +1,13 @@
 //! Step by step through the program: what is commanded, what should be, what is written.
 
+mod samples;
+
 use super::ahead::{Ahead, Stretch};
 use super::block::{Block, Written};
-use super::correct::{Corrector, Place, reached};
+use super::correct::Corrector;
 use super::found::{Found, Want};
 use super::refuse::{again, cone, refusal};
-use super::stand::{Cut, Sample, Stand};
+use super::stand::{Cut, Sample};
 use super::text::{Edits, Text};
 use super::{ProgramOptions, residual_share};
 use crate::simulate::axis_path::{AxisPath, Fault};
@@ -253,7 +255,9 @@ impl<'w> Walk<'w> {
             // A piece that needs no words of its own belongs to the line before.
             let piece = if kept { 0 } else { block.further.len() as u32 };
             let from_elsewhere = approaching && from == 0;
-            let end_only = whole || !first_time || from_elsewhere;
+            // While an axis takes up its play at one place, the tool is nowhere else.
+            let takes_up_play = samples[*to].turns && *to == from + 1;
+            let end_only = whole || !first_time || from_elsewhere || takes_up_play;
             let want = Want::of(m.origin.line, piece, end_only);
             self.found.want(want, stands);
             from = *to;
@@ -286,66 +290,6 @@ impl<'w> Walk<'w> {
         let kept = untouched && (says_circle || !self.circle_gone);
         self.circle_gone = !kept;
         kept
-    }
-
-    /// What the program says along the move, and what has to be commanded for it.
-    fn samples(&mut self, m: &Move, way: &Way<'_>, whole: bool) -> Result<Vec<Sample>, Fault> {
-        let Way { begin, nodes, .. } = *way;
-        let Some(control) = self.written.control() else {
-            let message = "the machine has fewer than three linear axes".to_owned();
-            let hint = "the tip cannot be corrected; describe another machine";
-            return Err(refusal(m.origin, "not-correctable", message, hint));
-        };
-        let from = *self.written.command();
-        let stand = |c: &Command| Stand::of(control, c);
-        let only_position = self.written.is_only_tilted();
-        // Cuts are made as if the way began where it should.
-        let begins = match self.approaching {
-            true => {
-                let place = Place {
-                    nominal: begin,
-                    nominal_from: &from,
-                    from: &from,
-                    approach: self.corrector.approach(),
-                    only_position,
-                    origin: m.origin,
-                };
-                let there = self.corrector.at(&place, None);
-                there.map_or(from, |c| c.command)
-            }
-            false => self.exact,
-        };
-        let mut samples = Vec::with_capacity(nodes.len() + 1);
-        let first =
-            Sample { u: 0.0, wanted: stand(begin), command: begins, believed: stand(&begins) };
-        samples.push(first);
-        let total: f64 = nodes.iter().map(|n| n.length).sum();
-        let (mut length, mut last, mut side) = (0.0, from, *self.corrector.approach());
-        let mut nominal_from = begin;
-        for (k, node) in nodes.iter().enumerate() {
-            length += node.length;
-            let is_last = k + 1 == nodes.len();
-            if whole && !is_last {
-                continue;
-            }
-            let place = Place {
-                nominal: &node.command,
-                nominal_from,
-                from: &last,
-                approach: &side,
-                only_position,
-                origin: node.origin,
-            };
-            let done = self.corrector.at(&place, self.corrector.prepared(way.first + k))?;
-            nominal_from = &node.command;
-            side = reached(&side, &last, &done.command);
-            last = done.command;
-            let u = if is_last || total <= 0.0 { 1.0 } else { length / total };
-            self.found.correct(node, &done);
-            let (wanted, believed) = (stand(&node.command), stand(&done.command));
-            samples.push(Sample { u, wanted, command: done.command, believed });
-        }
-        Ok(samples)
     }
 
     /// The degrees that a feed in deg/min counts along, where the tip stands still.
