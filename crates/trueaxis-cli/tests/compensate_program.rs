@@ -143,6 +143,23 @@ fn what_cannot_be_corrected_is_named_and_nothing_is_written() {
 }
 
 #[test]
+fn loops_are_unrolled_where_it_is_asked_for() {
+    let folder = Folder::new("program-flat");
+    let (program, out) = (folder.path("loop.ngc"), folder.path("flat.ngc"));
+    let text = "G21 G90 G94 F500\nG0 X100 Y100 Z-50\no1 repeat [2] (twice)\nG91 G1 X[60/2] (along)\n\
+                G1 Y30\no1 endrepeat\nM2\n";
+    std::fs::write(&program, text).unwrap();
+    let ran = compensate(&[MILL, &program, "-o", &out]);
+    assert_eq!(ran.status, 2);
+    assert!(ran.err.contains("--flat"), "{}", ran.err);
+    let ran = compensate(&[MILL, &program, "-o", &out, "--flat"]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let flat = std::fs::read_to_string(&out).unwrap();
+    assert_eq!(flat.matches("(along)").count(), 2, "{flat}");
+    assert!(!flat.contains("repeat [") && !flat.contains("X[60"), "{flat}");
+}
+
+#[test]
 fn the_program_itself_is_not_overwritten() {
     let ran = compensate(&[MACHINE, FRUSTUM, "-o", FRUSTUM]);
     assert_eq!(ran.status, 2);

@@ -181,7 +181,7 @@ fn law_an_unrolled_program_makes_the_same_moves() {
 
 #[test]
 fn law_an_unrolled_program_is_compensated_as_any_other() {
-    let machine = with_lost_motion(&machine("three-axis-mill"), -2e-3);
+    let machine = with_lost_motion(&machine("three-axis-mill"), 2e-3);
     for (control, name, text, _) in PROGRAMS {
         let program = program(control, &format!("c-{name}"), text);
         let refused = compensate_program(

@@ -11,11 +11,12 @@ use trueaxis::compensate::post::post;
 use trueaxis::compensate::program::{
     Increments, MARK, ProgramOptions, Rewritten, compensate_program,
 };
+use trueaxis::geometry::Vec3;
 use trueaxis::geometry::input::Diagnostics;
 use trueaxis::machine::Machine;
 use trueaxis::nc::writer::TipWords;
 use trueaxis::nc::{Control, Program};
-use trueaxis::simulate::SetUp;
+use trueaxis::simulate::{Batch, Densify, Observer, Options, SetUp, simulate};
 
 fn name(control: Control) -> &'static str {
     match control {
@@ -254,7 +255,7 @@ const TURNS: [(&str, &str, &str); 2] = [
 fn law_at_turning_points_both_sides_are_met() {
     for (name, file, text) in TURNS {
         let control = if file.ends_with("ngc") { Control::LinuxCnc } else { Control::Fanuc };
-        let machine = with_lost_motion(&machine(name), -4e-3);
+        let machine = with_lost_motion(&machine(name), 4e-3);
         for increments in [None, Some(Increments::default())] {
             let options = ProgramOptions { increments, ..ProgramOptions::default() };
             let (done, problems) = compensated(&machine, text.as_bytes(), control, &options);
@@ -266,6 +267,79 @@ fn law_at_turning_points_both_sides_are_met() {
             assert!(after.tip_end.value <= exact, "{name} {after:?}");
             // The lost motion of 4 µm would show anywhere near a turn.
             assert!(after.tip.value <= 1e-3 + rounding, "{name} {after:?}");
+        }
+    }
+}
+
+/// The actual tips of a program with feed, so densely that each of its blocks has 1000 places.
+struct Tips(Vec<Vec3>);
+
+impl Observer for Tips {
+    fn path(&mut self, batch: &Batch<'_>) {
+        for (i, node) in batch.nodes.iter().enumerate().filter(|(_, n)| !n.is_rapid()) {
+            let pose = batch.deviation(i);
+            if node.origin.line > 0 {
+                self.0.push(pose.nominal_tip.vector() + pose.tip_mm);
+            }
+        }
+    }
+}
+
+fn tips(machine: &Machine, file: &str, text: &[u8], control: Control, least: u32) -> Vec<Vec3> {
+    let program = Program::new(file, text.to_vec(), control);
+    let (chord_mm, angle_rad, spacing_mm) = (1e-6, 1.0, 1e9);
+    let densify = Densify::Places { chord_mm, angle_rad, spacing_mm, least };
+    let mut found = Tips(Vec::new());
+    let options = Options { densify, ..Options::default() };
+    simulate(machine, &program, &SetUp::default(), &options, &mut [&mut found]);
+    found.0
+}
+
+/// The programmed way is lines between the ends of blocks: with tool-centre point, or with three axes.
+const LINES: [(&str, &str, &str); 2] = [
+    (
+        "three-axis-mill",
+        "lines.ngc",
+        "G21 G90 G94 F500\nG0 X-280 Y-150 Z-50\nG1 X-270\nX280 Y150\nX0 Y-150 Z-200\nM2\n",
+    ),
+    (
+        "xkas2525",
+        "lines.nc",
+        "G21 G90 G94\nG43.4 H1\nG0 X100. Y10. Z20. A10. C-40.\nG1 X102. F600.\nX-60. C40. A20.\n\
+         X-50. Y130. Z80. C-30. A-15.\nX200. A5.\nM30\n",
+    ),
+];
+
+#[test]
+fn law_no_piece_leaves_the_residual_at_1000_places() {
+    for (name, file, text) in LINES {
+        let control = if file.ends_with("ngc") { Control::LinuxCnc } else { Control::Fanuc };
+        let stated = with_lost_motion(&machine(name), 0.0);
+        let ends = tips(&bare(name), file, text.as_bytes(), control, 1);
+        assert!(ends.len() >= 3, "{name} {}", ends.len());
+        for residual_mm in [1e-3, 2e-4] {
+            let options =
+                ProgramOptions { increments: None, residual_mm, ..ProgramOptions::default() };
+            let (done, problems) = compensated(&stated, text.as_bytes(), control, &options);
+            let Some(done) = done else { panic!("{name} {:?}", codes(&problems)) };
+            // Lines of the proof do not hide the first block: it begins behind a corrected rapid.
+            let places = tips(&stated, file, &done.text, control, 1000);
+            let off = |p: &Vec3| {
+                let each = ends.windows(2).map(|w| {
+                    let way = w[1] - w[0];
+                    let u = (p - w[0]).dot(&way) / way.norm_squared();
+                    (p - (w[0] + way * u.clamp(0.0, 1.0))).norm()
+                });
+                each.fold(f64::INFINITY, f64::min)
+            };
+            // The first block leads to the first of the ends.
+            let from = places.iter().position(|p| (p - ends[0]).norm() < 1e-8).unwrap();
+            let worst = places[from..].iter().map(off).fold(0.0, f64::max);
+            let pieces = done.found.pieces;
+            println!("{name} residual {residual_mm}: {pieces} pieces leave {worst:.2e} mm");
+            assert!(worst <= residual_mm, "{name} {residual_mm}: {worst}");
+            assert!(places.len() - from >= 1000 * (ends.len() - 1));
+            assert!(pieces as usize > ends.len(), "{name}: nothing was cut");
         }
     }
 }

@@ -8,9 +8,9 @@ use trueaxis_machine::batch::{BatchError, Commands, CompiledMachine, DeviationTa
 use trueaxis_machine::errors::ErrorValues;
 use trueaxis_machine::{Deviation, Machine};
 
-/// A motion smaller than this has no direction, mm and rad: the control's kinematics round so finely
-/// where an axis stands.
-pub(crate) const STILL: f64 = 1e-9;
+/// A motion smaller than this has no direction, mm and rad: where an axis stands the kinematics of the
+/// control round, and corrections of other axes reach it through squareness.
+pub(crate) const STILL: f64 = 1e-7;
 
 /// Nodes that are worked on together.
 pub(super) const BATCH: usize = 4096;

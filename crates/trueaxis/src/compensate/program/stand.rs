@@ -65,7 +65,7 @@ pub(super) struct Sample {
     pub turns: bool,
 }
 
-/// Where moves are to be cut.
+/// Where moves are to be cut: docs/model.md eq. 164.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cut<'c> {
     pub control: &'c TipControl,

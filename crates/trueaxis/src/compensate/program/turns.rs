@@ -1,4 +1,5 @@
-//! Where axes turn round within a move: errors depend on the side from which an axis comes.
+//! Where axes turn round within a move: errors depend on the side from which an axis comes
+//! (docs/model.md eq. 165).
 //!
 //! ```text
 //!     places   q0 ── q1 ── q2 ── q3        q rises, then falls: it turned near q2
@@ -21,6 +22,9 @@ pub(super) struct Stop {
     pub turns: bool,
 }
 
+/// Turns nearer to each other are at one place.
+const SAME: f64 = 1e-9;
+
 /// A place of the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct At {
@@ -34,12 +38,18 @@ pub(super) struct At {
 
 /// The places of a move from `begin` with the sides of their axes, and two stops where an axis turns
 /// round: one from each side. Motions up to `least` have no direction.
-pub(super) fn stops(begin: &At, side: &Approach, places: &[At], least: &Command) -> Vec<Stop> {
+/// `mean_of` tells the mean command of a place between.
+pub(super) fn stops(
+    begin: &At,
+    side: &Approach,
+    places: &[At],
+    (least, mean_of): (&Command, &dyn Fn(&Command) -> Command),
+) -> Vec<Stop> {
     let mut side = *side;
     let mut stops = Vec::with_capacity(places.len());
     let mut last_u = 0.0;
     let mut turns: Vec<Turn> = (0..MAX_AXES)
-        .flat_map(|axis| turning_points(begin, (axis, side[axis]), places, least[axis]))
+        .flat_map(|axis| turning_points(begin, (axis, side[axis]), places, (least[axis], mean_of)))
         .collect();
     turns.sort_by(|a, b| a.u.total_cmp(&b.u));
     let mut turns = turns.into_iter().peekable();
@@ -47,17 +57,21 @@ pub(super) fn stops(begin: &At, side: &Approach, places: &[At], least: &Command)
         let (u, nominal) = (place.u, place.nominal);
         let is_end = k + 1 == places.len();
         while let Some(turn) = turns.next_if(|t| t.u < u || (is_end && t.u <= u)) {
-            let at = Stop { u: turn.u, nominal: turn.at, side, prepared: None, turns: false };
             if turn.from_unknown {
                 side[turn.axis] = turn.to;
                 continue;
             }
+            let before = Stop { u: turn.u, nominal: turn.at, side, prepared: None, turns: false };
             if turn.u > last_u {
-                stops.push(at);
+                stops.push(before);
             }
             side[turn.axis] = turn.to;
+            // Axes that turn at one place take up their play together.
+            while let Some(other) = turns.next_if(|t| t.u <= turn.u + SAME) {
+                side[other.axis] = other.to;
+            }
             last_u = turn.u;
-            stops.push(Stop { side, turns: true, ..at });
+            stops.push(Stop { side, turns: true, ..before });
         }
         stops.push(Stop { u, nominal, side, prepared: place.prepared, turns: false });
         last_u = u;
@@ -80,7 +94,7 @@ fn turning_points(
     begin: &At,
     (axis, mut to): (usize, f64),
     places: &[At],
-    least: f64,
+    (least, mean_of): (f64, &dyn Fn(&Command) -> Command),
 ) -> Vec<Turn> {
     let place = |k: usize| if k == 0 { begin } else { &places[k - 1] };
     let mut turns = Vec::new();
@@ -92,9 +106,11 @@ fn turning_points(
         } else if by.abs() > least {
             let inside = farthest > 0 && to != 0.0;
             let three = inside.then(|| [farthest - 1, farthest, farthest + 1].map(place));
-            let (u, at) = three
-                .and_then(|p| vertex(p, axis))
-                .unwrap_or((place(farthest).u, place(farthest).nominal));
+            let known = place(farthest);
+            // No nearer than the farthest place that is known.
+            let is_farther = |at: &Command| (mean_of(at)[axis] - known.mean[axis]) * to > 0.0;
+            let found = three.and_then(|p| vertex(p, axis)).filter(|(_, at)| is_farther(at));
+            let (u, at) = found.unwrap_or((known.u, known.nominal));
             turns.push(Turn { u, axis, to: by.signum(), from_unknown: to == 0.0, at });
             (to, farthest) = (by.signum(), k);
         }
@@ -134,7 +150,8 @@ mod tests {
             At { u, nominal: q, mean: q, prepared: None }
         };
         let places = [at(0.25), at(0.5), at(1.0)];
-        let found = stops(&at(0.0), &[-1.0, 1.0, 0.0, 0.0, 0.0, 0.0], &places, &[1e-9; 6]);
+        let found =
+            stops(&at(0.0), &[-1.0, 1.0, 0.0, 0.0, 0.0, 0.0], &places, (&[1e-9; 6], &|q| *q));
         let shown: Vec<_> = found.iter().map(|s| (s.u, s.side[0], s.turns)).collect();
         let turn = shown[1].0;
         assert!((turn - 0.4).abs() < 1e-12 && found[1].nominal[0].abs() < 1e-12, "{found:?}");
@@ -155,7 +172,7 @@ mod tests {
             At { u, nominal: q, mean: q, prepared: Some(7) }
         };
         let sides = [1.0, 1.0, 0.0, 0.0, 0.0, 0.0];
-        let found = stops(&at(0.0), &sides, &[at(1.0)], &[1e-9; 6]);
+        let found = stops(&at(0.0), &sides, &[at(1.0)], (&[1e-9; 6], &|q| *q));
         assert_eq!(found.len(), 2);
         assert!(found[0].turns && found[0].u == 0.0 && found[0].side[0] == -1.0);
         assert_eq!((found[1].prepared, found[1].side[1]), (Some(7), 1.0));

@@ -82,7 +82,8 @@ impl Walk<'_> {
         let side = self.corrector.approach();
         if reverses && !whole {
             let begin = at(0.0, way.begin, None);
-            return stops(&begin, side, &places, self.corrector.least());
+            let mean = |nominal: &Command| self.corrector.mean(nominal, only_position);
+            return stops(&begin, side, &places, (self.corrector.least(), &mean));
         }
         let (mut side, mut last) = (*side, *way.begin);
         let each = places.iter().map(|p| {
