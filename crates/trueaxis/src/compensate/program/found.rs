@@ -39,7 +39,7 @@ pub struct Found {
     pub words_added: u64,
     /// Blocks in which only the rotary axes moved, with a new F so that they take the same time.
     pub feeds_changed: u64,
-    /// Places where an axis turns round by less than its reversal error.
+    /// Places where an axis turns round by less than its reversal error, or by rounding alone.
     pub undecided: u64,
     /// Blocks that stay as they are, by reason.
     pub left: BTreeMap<&'static str, u64>,

@@ -3,7 +3,7 @@
 use crate::compensate::post::angle;
 use crate::simulate::axis_path::Straight;
 use trueaxis_geometry::Vec3;
-use trueaxis_machine::axis::Command;
+use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_machine::tcp::TipControl;
 
 /// Tip, mm, and tool axis in the workpiece frame.
@@ -61,6 +61,8 @@ pub(super) struct Sample {
     pub command: Command,
     /// Where the nominal machine stands with them: what the control believes.
     pub believed: Stand,
+    /// From where the axes are taken to come.
+    pub side: Approach,
     /// The place before, from the other side: an axis turns round here.
     pub turns: bool,
 }

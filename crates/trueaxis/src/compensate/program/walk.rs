@@ -250,6 +250,7 @@ impl<'w> Walk<'w> {
                 self.feed_again = next.feed_again.or(self.feed_again);
                 self.go(&next.m);
                 self.check_arrival(m, &way.1)?;
+                self.found.undecided += u64::from(self.comes_otherwise(&samples[*to]));
             }
             let stands = samples[from..=*to].iter().map(|s| s.wanted);
             // A piece that needs no words of its own belongs to the line before.

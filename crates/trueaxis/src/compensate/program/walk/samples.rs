@@ -9,6 +9,9 @@ use crate::simulate::axis_path::Fault;
 use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_nc::moves::Move;
 
+/// A reversal error that is left counts from here on, mm.
+const LEFT_MM: f64 = 1e-6;
+
 impl Walk<'_> {
     /// What the program says along the move, and what has to be commanded for it.
     pub(super) fn samples(
@@ -34,7 +37,7 @@ impl Walk<'_> {
             self.found.correct((&stop.nominal, m.origin.line), &done);
             if !nowhere {
                 let sample = self.sample(stop.u, &stop.nominal, done.command);
-                samples.push(Sample { turns: stop.turns, ..sample });
+                samples.push(Sample { turns: stop.turns, side, ..sample });
             }
         }
         Ok(samples)
@@ -94,6 +97,22 @@ impl Walk<'_> {
         each.collect()
     }
 
+    /// The written numbers lead an axis to its place from another side than it was corrected for:
+    /// rounding turns an axis round that hardly moves, and its reversal error is left.
+    pub(super) fn comes_otherwise(&self, end: &Sample) -> bool {
+        let (side, command) = (self.corrector.approach(), self.written.command());
+        if !self.corrector.reverses() || *side == end.side {
+            return false;
+        }
+        let machine = self.corrector.machine();
+        let tip = |side: &Approach| {
+            let errors = machine.errors_at(command, side).ok()?;
+            Some(machine.deviation(command, &errors).tip_mm)
+        };
+        let by = tip(side).zip(tip(&end.side)).map_or(0.0, |(is, meant)| (is - meant).norm());
+        by > LEFT_MM
+    }
+
     fn correct(
         &self,
         m: &Move,
@@ -118,6 +137,8 @@ impl Walk<'_> {
             Some(control) => Stand::of(control, c),
             None => Stand::default(),
         };
-        Sample { u, wanted: stand(nominal), command, believed: stand(&command), turns: false }
+        let (wanted, believed) = (stand(nominal), stand(&command));
+        let side = *self.corrector.approach();
+        Sample { u, wanted, command, believed, side, turns: false }
     }
 }
