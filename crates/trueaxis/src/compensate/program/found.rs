@@ -6,7 +6,7 @@ use super::stand::{Sample, Stand};
 use std::collections::BTreeMap;
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::{AxisKind, Command, MAX_AXES, Travel};
+use trueaxis_machine::axis::{AxisKind, Command, Travel};
 
 /// Places at which uncertainties are looked at.
 const PLACES: usize = 100;
@@ -96,9 +96,9 @@ impl Found {
     pub(super) fn correct(&mut self, (nominal, line): (&Command, u32), done: &Corrected) {
         self.sample(nominal);
         let mut linear = 0.0_f64;
-        for i in 0..self.kinds.len().min(MAX_AXES) {
-            let (kind, travel) = self.kinds[i];
-            let by = done.command[i] - nominal[i];
+        let places = done.command.iter().zip(nominal);
+        for (i, ((to, was), &(kind, travel))) in places.zip(&self.kinds).enumerate() {
+            let by = to - was;
             let largest = &mut self.largest[i];
             if by.abs() > largest.value.abs() {
                 (largest.value, largest.line) = (by, line);
@@ -107,7 +107,7 @@ impl Found {
                 linear = linear.hypot(by);
             }
             if let Travel::Between(low, high) = travel {
-                let near = (done.command[i] - low).min(high - done.command[i]);
+                let near = (to - low).min(high - to);
                 if near < largest.to_travel_end {
                     (largest.to_travel_end, largest.nearest_line) = (near, line);
                 }

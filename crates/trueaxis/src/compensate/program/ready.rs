@@ -79,9 +79,10 @@ impl Preparation {
         (mut from, mut side): (Command, Approach),
     ) {
         self.places.iter_mut().chain(&mut self.sides).for_each(Vec::clear);
+        let axes = self.axes();
         for place in places {
-            for i in 0..self.axes() {
-                self.places[i].push(place[i]);
+            for (column, q) in self.places.iter_mut().zip(place).take(axes) {
+                column.push(q);
             }
         }
         self.mean = self.reverses.then(|| self.means()).flatten();
@@ -91,8 +92,8 @@ impl Preparation {
             let place = self.mean_at(k).unwrap_or(place);
             side = reached(&side, &from, &place);
             from = place;
-            for i in 0..self.axes() {
-                self.sides[i].push(side[i]);
+            for (column, side) in self.sides.iter_mut().zip(side).take(axes) {
+                column.push(side);
             }
         }
         let count = self.places[0].len();
