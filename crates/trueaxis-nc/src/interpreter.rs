@@ -12,6 +12,7 @@ mod quick;
 mod straight;
 mod system;
 mod tables;
+mod told;
 mod transforms;
 mod values;
 mod words;
