@@ -6,6 +6,7 @@ use crate::arguments::{self, MachineArguments, argument};
 use crate::output::{Answer, Outcome, report, show, tell};
 use clap::{Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
+use trueaxis::compensate::not_twice;
 use trueaxis::compensate::values::{
     MOST_POSITIONS, Order, ValueTable, ValuesError, compensation_values, travel_positions,
 };
@@ -160,6 +161,8 @@ fn tables(
     problems: &mut Diagnostics,
 ) -> Option<(Machine, Vec<ValueTable>)> {
     let machine = arguments.machine.read(problems)?;
+    let place = Place::whole(&arguments.machine.path().display().to_string());
+    let machine = not_twice(&machine, place, problems);
     let text = arguments.at.as_deref();
     let command = match text {
         Some(text) => arguments::command(&machine, "--at", text, problems)?,

@@ -35,6 +35,32 @@ fn the_ends_of_the_gantry() {
     }
 }
 
+/// A table that is on in the control is not asked for again; what heat adds still is.
+#[test]
+fn what_the_control_compensates_already_is_no_value() {
+    let folder = Folder::new("compensate-active");
+    let text = std::fs::read_to_string(command::root().join(MILL)).expect("a machine");
+    let active = folder.path("active.toml");
+    let errors = r#"["EXX", "EYX", "EZX", "EAX", "EBX", "ECX"]"#;
+    let text = format!("{text}\n[compensation]\nactive = {errors}\n");
+    std::fs::write(&active, text).expect("written");
+    let values = |machine: &str| {
+        let arguments =
+            ["compensate", "values", machine, "--axis", "X", "--step", "100", "--format", "json"];
+        let ran = trueaxis(&arguments);
+        assert_eq!(ran.status, 0, "{}", ran.err);
+        let positions = ran.json()["axes"][0]["positions"].clone();
+        let each = positions.as_array().expect("positions").clone();
+        let largest = each.iter().map(|p| p["value_increments"].as_i64().expect("whole").abs());
+        (largest.max(), ran.err)
+    };
+    let (largest, told) = values(MILL);
+    assert!(largest > Some(3) && !told.contains("already-active"), "{largest:?} {told}");
+    let (largest, told) = values(&active);
+    assert_eq!(largest, Some(0));
+    assert!(told.contains("already-active") && told.contains("EXX"), "{told}");
+}
+
 #[test]
 fn a_table_goes_into_a_file_and_over_nothing_else() {
     let folder = Folder::new("compensate-file");

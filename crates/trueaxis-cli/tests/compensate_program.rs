@@ -28,7 +28,11 @@ fn the_document_has_the_agreed_keys() {
             ["before", "after"].map(|when| found[when][key]["value"].as_f64().unwrap());
         assert!(before > 50.0 && after < 2.0, "{key}: {before} {after}");
     }
-    assert!(found["convention_check"][0]["tip_um"].as_f64() > Some(50.0));
+    let row = |i: usize| found["convention_check"][i].clone();
+    assert_eq!([0, 1].map(|i| row(i)["what"].clone()), ["no correction", "all signs wrong"]);
+    let [none, all] = [0, 1].map(|i| row(i)["tip_um"].as_f64().unwrap());
+    // Errors hardly change over a correction: the wrong signs leave twice what is there without.
+    assert!(none > 40.0 && (all / none - 2.0).abs() < 0.01, "{none} {all}");
     let page = std::fs::read_to_string(&report).unwrap();
     assert!(page.starts_with("<!doctype html>") || page.starts_with("<!DOCTYPE html>"));
     // Words that say nothing of places, and comments, are as they were.
@@ -136,6 +140,23 @@ fn what_cannot_be_corrected_is_named_and_nothing_is_written() {
     );
     refused("d.ngc", MILL, &format!("{begin}G1 X150\nM2\n"), &["--residual=-1 um"], "bad-number");
     refused("e.ngc", MILL, "", &[], "empty-program");
+}
+
+#[test]
+fn loops_are_unrolled_where_it_is_asked_for() {
+    let folder = Folder::new("program-flat");
+    let (program, out) = (folder.path("loop.ngc"), folder.path("flat.ngc"));
+    let text = "G21 G90 G94 F500\nG0 X100 Y100 Z-50\no1 repeat [2] (twice)\nG91 G1 X[60/2] (along)\n\
+                G1 Y30\no1 endrepeat\nM2\n";
+    std::fs::write(&program, text).unwrap();
+    let ran = compensate(&[MILL, &program, "-o", &out]);
+    assert_eq!(ran.status, 2);
+    assert!(ran.err.contains("--flat"), "{}", ran.err);
+    let ran = compensate(&[MILL, &program, "-o", &out, "--flat"]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let flat = std::fs::read_to_string(&out).unwrap();
+    assert_eq!(flat.matches("(along)").count(), 2, "{flat}");
+    assert!(!flat.contains("repeat [") && !flat.contains("X[60"), "{flat}");
 }
 
 #[test]

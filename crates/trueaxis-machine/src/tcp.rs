@@ -85,6 +85,57 @@ impl TipControl {
         axis: Direction<Workpiece>,
         from: &Command,
     ) -> Result<Vec<Aimed>, SolveError> {
+        let (one, other) = self.branches(axis, from)?;
+        let idle = one.idle;
+        let commands = [Some(one), other].into_iter().flatten().map(|b| b.command).collect();
+        let ordered = turns::in_order(&self.machine, commands, from);
+        let rotary = |c: &Command| self.serial.rotary().all(|i| self.inside(i, c[i]));
+        let entry = |s: crate::Solution| Aimed {
+            command: s.command,
+            within_travel: rotary(&s.command),
+            idle,
+        };
+        let mut entries: Vec<Aimed> = ordered.into_iter().map(entry).collect();
+        // The linear axes do not count here: they are not placed yet.
+        entries.sort_by_key(|e| !e.within_travel);
+        Ok(entries)
+    }
+
+    /// The first of [`TipControl::aim`], the one nearest to `from`, without memory from the heap.
+    ///
+    /// # Errors
+    /// As [`TipControl::aim`].
+    pub fn aim_nearest(
+        &self,
+        axis: Direction<Workpiece>,
+        from: &Command,
+    ) -> Result<Aimed, SolveError> {
+        let (one, other) = self.branches(axis, from)?;
+        Ok(match other {
+            None => one,
+            // Inside the travel of the rotary axes comes first, then the shorter way.
+            Some(other) if one.within_travel != other.within_travel => {
+                if one.within_travel {
+                    one
+                } else {
+                    other
+                }
+            }
+            Some(other) => {
+                match turns::is_nearer(&self.machine, &other.command, &one.command, from) {
+                    true => other,
+                    false => one,
+                }
+            }
+        })
+    }
+
+    /// The branches in the turns nearest to `from`; two, or one where both meet.
+    fn branches(
+        &self,
+        axis: Direction<Workpiece>,
+        from: &Command,
+    ) -> Result<(Aimed, Option<Aimed>), SolveError> {
         let u = axis.vector();
         if !u.iter().chain(from).all(|v| v.is_finite()) {
             return Err(SolveError::NotFinite);
@@ -102,7 +153,8 @@ impl TipControl {
             let closest = Direction::of(missed.closest).unwrap_or(Direction::Z);
             SolveError::Unreachable { closest, missed_by_rad: missed.by_rad, turning }
         })?;
-        let commands = aimed.branches().map(|angles| {
+        let idle = aimed.first_is_idle;
+        let entry = |angles: [Option<f64>; 2]| {
             let mut command = *from;
             for (turn, angle) in aim.turning.iter().zip(angles) {
                 if let Some(angle) = angle {
@@ -110,19 +162,10 @@ impl TipControl {
                     command[turn.axis] = self.nearest_inside(turn.axis, principal, from);
                 }
             }
-            command
-        });
-        let ordered = turns::in_order(&self.machine, commands.collect(), from);
-        let rotary = |c: &Command| self.serial.rotary().all(|i| self.inside(i, c[i]));
-        let entry = |s: crate::Solution| Aimed {
-            command: s.command,
-            within_travel: rotary(&s.command),
-            idle: aimed.first_is_idle,
+            let within_travel = self.serial.rotary().all(|i| self.inside(i, command[i]));
+            Aimed { command, within_travel, idle }
         };
-        let mut entries: Vec<Aimed> = ordered.into_iter().map(entry).collect();
-        // The linear axes do not count here: they are not placed yet.
-        entries.sort_by_key(|e| !e.within_travel);
-        Ok(entries)
+        Ok((entry(aimed.one), aimed.other.map(entry)))
     }
 
     fn inside(&self, axis: usize, q: f64) -> bool {

@@ -49,6 +49,7 @@ fn law_the_aim_is_the_best_solution_of_the_inverse() {
             let (tip, axis) = control.tip_and_axis(&goal);
             let axis = Direction::of(axis).expect("a direction");
             let aimed = control.aim(axis, &from).expect("reachable")[0];
+            assert_eq!(control.aim_nearest(axis, &from).expect("reachable"), aimed, "{name}");
             let found = machine.solve(&Target { tip: Point::from_vector(tip), axis }, &from);
             let found = found.expect("reachable").solutions;
             // The linear axes may rule a solution out; the aim does not look at them.

@@ -221,12 +221,23 @@ impl<'r> Run<'r> {
             let message = "more than 10000 words in one block".to_owned();
             return Err(fault("too-many-words", line.start, message, "is this an NC program?"));
         }
-        if line.tokens.is_empty() || line.skip && !self.settings.skipped_blocks_too {
+        if line.skip && !self.settings.skipped_blocks_too {
+            return Ok(Next::Following);
+        }
+        let told = self.settings.tell_blocks;
+        if told {
+            self.emit(Event::Block { text: line.start..line.end });
+        }
+        if line.tokens.is_empty() {
             return Ok(Next::Following);
         }
         let mut cursor = Cursor::new(program.source(), line);
+        let steers = told && (self.variable(&mut cursor.clone())?.is_some() || cursor.steers());
         let next = self.statement(&mut cursor)?;
         cursor.finish()?;
+        if steers {
+            self.emit(Event::Computed { text: line.start..line.end, value: None });
+        }
         Ok(next)
     }
 

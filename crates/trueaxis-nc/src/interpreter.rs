@@ -12,6 +12,7 @@ mod quick;
 mod straight;
 mod system;
 mod tables;
+mod told;
 mod transforms;
 mod values;
 mod words;
@@ -62,6 +63,8 @@ pub struct Settings {
     pub work_offsets: BTreeMap<u32, Frame>,
     /// Named read-only parameters of the machine, such as `_ini[axis_x]max_limit`, lower case.
     pub constants: BTreeMap<String, f64>,
+    /// Tell each block and what it computes: [`Event::Block`], [`Event::Computed`].
+    pub tell_blocks: bool,
     /// Asked from outside, the execution ends before the next block.
     pub stop: Stop,
 }
@@ -81,6 +84,7 @@ impl Default for Settings {
             tool_names: BTreeMap::new(),
             work_offsets: BTreeMap::new(),
             constants: BTreeMap::new(),
+            tell_blocks: false,
             stop: Stop::default(),
         }
     }
@@ -236,7 +240,9 @@ impl<'r> Run<'r> {
         while !self.settings.stop.is_asked() {
             let Some(frame) = self.stack.last() else { return true };
             let program = Rc::clone(&self.programs[frame.program]);
-            self.straight_lines(program.source());
+            if !self.settings.tell_blocks {
+                self.straight_lines(program.source());
+            }
             let Some(frame) = self.stack.last() else { return true };
             if frame.at >= program.source().len() {
                 match self.end_of_text() {
@@ -275,7 +281,11 @@ impl<'r> Run<'r> {
         line: u32,
         block: &mut Block,
     ) -> Result<Next, Fault> {
-        match self.quick(program.dialect(), program.source(), at) {
+        let quick = match self.settings.tell_blocks {
+            true => None,
+            false => self.quick(program.dialect(), program.source(), at),
+        };
+        match quick {
             Some(end) => {
                 (block.span, block.line) = (at..end, line);
                 self.perform(block)

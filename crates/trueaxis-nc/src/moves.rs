@@ -1,7 +1,7 @@
 //! What comes out: moves and what happens between them.
 
 use std::fmt;
-use std::ops::{Index, IndexMut};
+use std::ops::{Index, IndexMut, Range};
 
 /// The nine axes that a program can name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -509,6 +509,20 @@ pub enum Event {
     Stop {
         /// Only if the operator wished so.
         optional: bool,
+    },
+    /// A block is executed; told only where [`crate::Settings::tell_blocks`] asks for it, before what
+    /// the block does.
+    Block {
+        /// Its bytes in its program, line end included.
+        text: Range<usize>,
+    },
+    /// A part of the block just told that the program computes, or that only steers the execution;
+    /// told with the blocks.
+    Computed {
+        /// Its bytes; blanks behind it may be among them.
+        text: Range<usize>,
+        /// Its value; `None` for what steers: assignments, labels, jumps, calls.
+        value: Option<f64>,
     },
     /// The end of the program.
     End,

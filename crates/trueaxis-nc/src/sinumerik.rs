@@ -190,7 +190,8 @@ impl<'r> Run<'r> {
         tokens: &mut Vec<crate::lexer::Token>,
     ) -> Result<Next, Fault> {
         self.depth = 0;
-        if let Some(end) = self.quick(program.source(), at) {
+        let told = self.settings.tell_blocks;
+        if !told && let Some(end) = self.quick(program.source(), at) {
             self.block = at..end;
             return self.perform();
         }
@@ -203,7 +204,22 @@ impl<'r> Run<'r> {
             return Err(fault);
         }
         let mut reader = Reader::new(program.source(), tokens, line.stop);
-        self.statement(&mut reader)
+        if !told {
+            return self.statement(&mut reader);
+        }
+        self.emit(Event::Block { text: at..line.end });
+        let next = self.statement(&mut reader)?;
+        if next == Next::Jumped {
+            self.tell_steering(at..line.end);
+        }
+        Ok(next)
+    }
+
+    /// A part of the block that only steers the execution, if anybody asks.
+    fn tell_steering(&mut self, text: std::ops::Range<usize>) {
+        if self.settings.tell_blocks {
+            self.emit(Event::Computed { text, value: None });
+        }
     }
 
     fn follow(&mut self) {

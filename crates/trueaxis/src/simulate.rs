@@ -58,6 +58,7 @@ use clock::Clock;
 use program::Folder;
 use std::path::Path;
 use temperatures::Present;
+pub(crate) use tool_path::STILL;
 use tool_path::{BATCH, ToolPath};
 use trueaxis_geometry::input::{Diagnostics, Place};
 use trueaxis_machine::Machine;

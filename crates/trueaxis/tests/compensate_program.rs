@@ -6,16 +6,17 @@
 mod library;
 
 use library::paths::{cl, free_form, ways};
-use library::{MACHINES, bare, machine};
+use library::{MACHINES, bare, machine, with_lost_motion};
 use trueaxis::compensate::post::post;
 use trueaxis::compensate::program::{
     Increments, MARK, ProgramOptions, Rewritten, compensate_program,
 };
+use trueaxis::geometry::Vec3;
 use trueaxis::geometry::input::Diagnostics;
 use trueaxis::machine::Machine;
 use trueaxis::nc::writer::TipWords;
 use trueaxis::nc::{Control, Program};
-use trueaxis::simulate::SetUp;
+use trueaxis::simulate::{Batch, Densify, Observer, Options, SetUp, simulate};
 
 fn name(control: Control) -> &'static str {
     match control {
@@ -113,6 +114,29 @@ fn law_with_rounding_every_block_end_is_met_within_an_increment() {
     assert!(worst[2] <= 2e-3, "{worst:?}");
 }
 
+#[test]
+fn law_the_batch_writes_what_pose_by_pose_writes() {
+    let mut same = 0;
+    for name in MACHINES {
+        let machine = machine(name);
+        for (i, way) in ways().iter().enumerate() {
+            let path = free_form(&machine, 5 * i as u64 + name.len() as u64, 30);
+            let (posted, _) = post(&machine, &cl(&path), way);
+            let text = posted.unwrap().text;
+            let by = |pose_by_pose| {
+                let options = ProgramOptions { pose_by_pose, ..ProgramOptions::default() };
+                let (done, problems) = compensated(&machine, &text, way.control, &options);
+                let found = done.map(|d| (String::from_utf8(d.text).unwrap(), d.found.axis_left));
+                (found, codes(&problems))
+            };
+            let [batch, scalar] = [false, true].map(by);
+            assert_eq!(batch, scalar, "{name} {:?} {:?}", way.control, way.tip_words);
+            same += usize::from(batch.0.is_some());
+        }
+    }
+    assert!(same > 80, "{same} compared");
+}
+
 /// The new text without its mark, or why there is none.
 fn rewritten(machine: &Machine, text: &str, control: Control, options: &ProgramOptions) -> String {
     let (done, problems) = compensated(machine, text.as_bytes(), control, options);
@@ -208,4 +232,122 @@ fn inverse_time_is_divided_among_the_pieces() {
     let minutes: f64 = feeds.map(|f| 1.0 / f.trim().parse::<f64>().unwrap()).sum();
     assert!(new.lines().count() > 6, "{new}");
     assert!((minutes - 2.5).abs() < 1e-4, "{minutes}: {new}");
+}
+
+/// Three axes: a circle in four quadrants, corners, and an axis that stands before it turns. Five:
+/// X, Y and Z swing while the tip goes straight on.
+const TURNS: [(&str, &str, &str); 2] = [
+    (
+        "three-axis-mill",
+        "mill.ngc",
+        "G21 G90 G94 F500\nG0 X100 Y100 Z-50\nG1 X110 Y110\nG3 X110 Y110 I20 J0\nG1 X120\nX115 Y112\n\
+         Y100\nX118\nG2 X118 Y140 I0 J20 Z-55\nM2\n",
+    ),
+    (
+        "xkas2525",
+        "gantry.nc",
+        "G21 G90 G94\nG43.4 H1\nG0 X100. Y10. Z20. A10. C-40.\nG1 X102. C-35. F600.\nX60. C40. A20.\n\
+         X50. Y30. C-30. A-15.\nG2 X90. Y30. I20. J0. C10.\nX50.0 Y30. I-20. J0. C-20. A5.\nM30\n",
+    ),
+];
+
+#[test]
+fn law_at_turning_points_both_sides_are_met() {
+    for (name, file, text) in TURNS {
+        let control = if file.ends_with("ngc") { Control::LinuxCnc } else { Control::Fanuc };
+        let machine = with_lost_motion(&machine(name), 4e-3);
+        let five = machine.axes().len() == 5;
+        for increments in [None, Some(Increments::default())] {
+            let options = ProgramOptions { increments, ..ProgramOptions::default() };
+            let (done, problems) = compensated(&machine, text.as_bytes(), control, &options);
+            let Some(done) = done else { panic!("{name} {:?}", codes(&problems)) };
+            let after = done.proof.after;
+            let (rounding, exact) = if increments.is_some() { (1e-3, 1e-3) } else { (0.0, 1e-9) };
+            println!("{name} {increments:?}: {} pieces {after:?}", done.found.pieces);
+            if five && increments.is_some() {
+                // Rounded angles move X, Y and Z under the tip: an axis that hardly moves may come from
+                // the other side, which is counted, and no more than the lost motion is left.
+                let left = 4.5e-3 + 1e-3;
+                assert!(done.found.undecided > 0 && after.tip_end.value <= left, "{after:?}");
+                continue;
+            }
+            assert_eq!(done.found.undecided, 0, "{name}");
+            assert!(after.tip_end.value <= exact, "{name} {after:?}");
+            // The lost motion of 4 µm would show anywhere near a turn.
+            assert!(after.tip.value <= 1e-3 + rounding, "{name} {after:?}");
+        }
+    }
+}
+
+/// The actual tips of a program with feed, so densely that each of its blocks has 1000 places.
+struct Tips(Vec<Vec3>);
+
+impl Observer for Tips {
+    fn path(&mut self, batch: &Batch<'_>) {
+        for (i, node) in batch.nodes.iter().enumerate().filter(|(_, n)| !n.is_rapid()) {
+            let pose = batch.deviation(i);
+            if node.origin.line > 0 {
+                self.0.push(pose.nominal_tip.vector() + pose.tip_mm);
+            }
+        }
+    }
+}
+
+fn tips(machine: &Machine, file: &str, text: &[u8], control: Control, least: u32) -> Vec<Vec3> {
+    let program = Program::new(file, text.to_vec(), control);
+    let (chord_mm, angle_rad, spacing_mm) = (1e-6, 1.0, 1e9);
+    let densify = Densify::Places { chord_mm, angle_rad, spacing_mm, least };
+    let mut found = Tips(Vec::new());
+    let options = Options { densify, ..Options::default() };
+    simulate(machine, &program, &SetUp::default(), &options, &mut [&mut found]);
+    found.0
+}
+
+/// The programmed way is lines between the ends of blocks: with tool-centre point, or with three axes.
+const LINES: [(&str, &str, &str); 2] = [
+    (
+        "three-axis-mill",
+        "lines.ngc",
+        "G21 G90 G94 F500\nG0 X-280 Y-150 Z-50\nG1 X-270\nX280 Y150\nX0 Y-150 Z-200\nM2\n",
+    ),
+    (
+        "xkas2525",
+        "lines.nc",
+        "G21 G90 G94\nG43.4 H1\nG0 X100. Y10. Z20. A10. C-40.\nG1 X102. F600.\nX-60. C40. A20.\n\
+         X-50. Y130. Z80. C-30. A-15.\nX200. A5.\nM30\n",
+    ),
+];
+
+#[test]
+fn law_no_piece_leaves_the_residual_at_1000_places() {
+    for (name, file, text) in LINES {
+        let control = if file.ends_with("ngc") { Control::LinuxCnc } else { Control::Fanuc };
+        let stated = with_lost_motion(&machine(name), 0.0);
+        let ends = tips(&bare(name), file, text.as_bytes(), control, 1);
+        assert!(ends.len() >= 3, "{name} {}", ends.len());
+        for residual_mm in [1e-3, 2e-4] {
+            let options =
+                ProgramOptions { increments: None, residual_mm, ..ProgramOptions::default() };
+            let (done, problems) = compensated(&stated, text.as_bytes(), control, &options);
+            let Some(done) = done else { panic!("{name} {:?}", codes(&problems)) };
+            // Lines of the proof do not hide the first block: it begins behind a corrected rapid.
+            let places = tips(&stated, file, &done.text, control, 1000);
+            let off = |p: &Vec3| {
+                let each = ends.windows(2).map(|w| {
+                    let way = w[1] - w[0];
+                    let u = (p - w[0]).dot(&way) / way.norm_squared();
+                    (p - (w[0] + way * u.clamp(0.0, 1.0))).norm()
+                });
+                each.fold(f64::INFINITY, f64::min)
+            };
+            // The first block leads to the first of the ends.
+            let from = places.iter().position(|p| (p - ends[0]).norm() < 1e-8).unwrap();
+            let worst = places[from..].iter().map(off).fold(0.0, f64::max);
+            let pieces = done.found.pieces;
+            println!("{name} residual {residual_mm}: {pieces} pieces leave {worst:.2e} mm");
+            assert!(worst <= residual_mm, "{name} {residual_mm}: {worst}");
+            assert!(places.len() - from >= 1000 * (ends.len() - 1));
+            assert!(pieces as usize > ends.len(), "{name}: nothing was cut");
+        }
+    }
 }

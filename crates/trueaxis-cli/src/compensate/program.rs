@@ -20,10 +20,12 @@ Examples:
       -o frustum-comp.mpf --report r.html
   trueaxis compensate program MACHINE.toml PART.nc --setup PART.setup.toml -o PART-comp.nc \\
       --position-only --residual \"2 um\" --no-rounding --format json
+  trueaxis compensate program MACHINE.toml LOOPS.ngc --flat -o LOOPS-comp.ngc
 
 Words, comments and blocks that need no change stay as they are, byte by byte. The written program is
-read back and simulated on the machine as it is before it is written. Loops, subprograms, cycles and
-computed coordinates are refused with their line. Exit status: 0 done, 2 unusable input or a block
+read back and simulated on the machine as it is before it is written. Loops, subprograms and computed
+coordinates are refused with their line; --flat unrolls them (the lines of the report are then those of
+the unrolled program). Cycles are refused. Exit status: 0 done, 2 unusable input or a block
 that cannot be corrected; then nothing is written.")]
 pub struct ProgramArguments {
     #[command(flatten)]
@@ -40,6 +42,10 @@ pub struct ProgramArguments {
     /// Whose program it is: sinumerik, fanuc, linuxcnc or heidenhain
     #[arg(long, value_name = "NAME")]
     control: Option<String>,
+    /// Unroll the program first: loops, subprograms, repeated parts and computed numbers become one
+    /// flat program, which is compensated
+    #[arg(long)]
+    flat: bool,
     /// Only the tip, with the linear axes
     #[arg(long)]
     position_only: bool,
@@ -190,6 +196,8 @@ impl ProgramArguments {
             residual_rad: residual_rad?,
             increments: (!self.no_rounding).then_some(increments),
             limit: CorrectionLimit { tip_mm: tip_mm?, axis_rad: axis_rad? },
+            flat: self.flat,
+            pose_by_pose: false,
             mark: String::new(),
         })
     }

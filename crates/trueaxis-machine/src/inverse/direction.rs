@@ -47,6 +47,21 @@ pub(crate) struct Aim {
     pub turning: Vec<Turn>,
     /// The tool axis with all aiming axes at zero.
     tool_at_zero: Vec3,
+    /// Of the first two.
+    pair: Option<Pair>,
+}
+
+/// Two rotary axes and the tool with both at zero: what of the triangle is the same for every
+/// direction.
+#[derive(Debug, Clone, Copy)]
+struct Pair {
+    a: Vec3,
+    b: Vec3,
+    v: Vec3,
+    beta: f64,
+    gamma: f64,
+    n: Vec3,
+    towards_b: Vec3,
 }
 
 /// The angles of one branch, right-handed about each axis; `None` keeps the axis where it is.
@@ -54,8 +69,8 @@ type Angles = [Option<f64>; 2];
 
 /// The branches: two, or one where both meet.
 pub(crate) struct Aimed {
-    one: Angles,
-    other: Option<Angles>,
+    pub one: Angles,
+    pub other: Option<Angles>,
     pub first_is_idle: bool,
 }
 
@@ -102,7 +117,13 @@ impl Aim {
             about: serial.axis_in(&frames, axis).normalize(),
             sense: serial.joints[axis].sense,
         };
-        Self { turning: axes.iter().map(turn).collect(), tool_at_zero: frames.tool_axis() }
+        let turning: Vec<Turn> = axes.iter().map(turn).collect();
+        let tool_at_zero = frames.tool_axis();
+        let pair = match turning[..] {
+            [first, second, ..] => Some(Pair::of(first.about, second.about, tool_at_zero)),
+            _ => None,
+        };
+        Self { turning, tool_at_zero, pair }
     }
 
     fn is_independent(&self) -> bool {
@@ -113,9 +134,11 @@ impl Aim {
     /// The angles that point the tool to the unit vector `u`.
     pub fn at(&self, u: Vec3) -> Result<Aimed, Missed> {
         let v = self.tool_at_zero;
+        if let Some(pair) = &self.pair {
+            return pair.aim(u);
+        }
         match self.turning[..] {
-            [first, second, ..] => aim_two(first.about, second.about, v, u),
-            [only] => {
+            [only, ..] => {
                 let (alpha, beta) = (angle(only.about, u), angle(only.about, v));
                 if (alpha - beta).abs() > RESOLUTION_RAD {
                     return Err(missed(only.about, u, v, alpha, beta));
@@ -130,39 +153,45 @@ impl Aim {
     }
 }
 
-fn aim_two(a: Vec3, b: Vec3, v: Vec3, u: Vec3) -> Result<Aimed, Missed> {
-    let (alpha, beta, gamma) = (angle(a, u), angle(b, v), angle(a, b));
-    // Twice s−α, s−β, s−γ and π−s; a triangle exists if none is negative.
-    let excess = [
-        (beta + gamma - alpha, beta + gamma),
-        (gamma - beta + alpha, beta - gamma),
-        (beta - gamma + alpha, gamma - beta),
-        (2.0 * PI - (beta + gamma) - alpha, 2.0 * PI - (beta + gamma)),
-    ];
-    if let Some((_, limit)) = excess.iter().find(|(e, _)| *e < -RESOLUTION_RAD) {
-        return Err(missed(a, u, b, alpha, *limit));
+impl Pair {
+    fn of(a: Vec3, b: Vec3, v: Vec3) -> Self {
+        let across = a.cross(&b);
+        // Again perpendicular to a: the cross product of nearly parallel axes is not, to the last digit.
+        let n = (across - a * a.dot(&across)).normalize();
+        Self { a, b, v, beta: angle(b, v), gamma: angle(a, b), n, towards_b: n.cross(&a) }
     }
-    if alpha.min(PI - alpha) <= RESOLUTION_RAD {
-        let pole = if alpha < 1.0 { a } else { -a };
-        let one = [None, Some(turned(b, v, pole))];
-        return Ok(Aimed { one, other: None, first_is_idle: true });
+
+    fn aim(&self, u: Vec3) -> Result<Aimed, Missed> {
+        let Self { a, b, v, beta, gamma, n, towards_b } = *self;
+        let alpha = angle(a, u);
+        // Twice s−α, s−β, s−γ and π−s; a triangle exists if none is negative.
+        let excess = [
+            (beta + gamma - alpha, beta + gamma),
+            (gamma - beta + alpha, beta - gamma),
+            (beta - gamma + alpha, gamma - beta),
+            (2.0 * PI - (beta + gamma) - alpha, 2.0 * PI - (beta + gamma)),
+        ];
+        if let Some((_, limit)) = excess.iter().find(|(e, _)| *e < -RESOLUTION_RAD) {
+            return Err(missed(a, u, b, alpha, *limit));
+        }
+        if alpha.min(PI - alpha) <= RESOLUTION_RAD {
+            let pole = if alpha < 1.0 { a } else { -a };
+            let one = [None, Some(turned(b, v, pole))];
+            return Ok(Aimed { one, other: None, first_is_idle: true });
+        }
+        let half_sine = |i: usize| match excess[i].0 {
+            e if e <= FLAT_RAD => 0.0,
+            e => (0.5 * e).sin(),
+        };
+        let (up, down) = (half_sine(0) * half_sine(2), half_sine(3) * half_sine(1));
+        let phi = 2.0 * up.sqrt().atan2(down.sqrt());
+        let branch = |phi: f64| {
+            let w = a * alpha.cos() + (towards_b * phi.cos() + n * phi.sin()) * alpha.sin();
+            [Some(turned(a, w, u)), Some(turned(b, v, w))]
+        };
+        let other = (up > 0.0 && down > 0.0).then(|| branch(-phi));
+        Ok(Aimed { one: branch(phi), other, first_is_idle: false })
     }
-    let half_sine = |i: usize| match excess[i].0 {
-        e if e <= FLAT_RAD => 0.0,
-        e => (0.5 * e).sin(),
-    };
-    let (up, down) = (half_sine(0) * half_sine(2), half_sine(3) * half_sine(1));
-    let phi = 2.0 * up.sqrt().atan2(down.sqrt());
-    let across = a.cross(&b);
-    // Again perpendicular to a: the cross product of nearly parallel axes is not, to the last digit.
-    let n = (across - a * a.dot(&across)).normalize();
-    let towards_b = n.cross(&a);
-    let branch = |phi: f64| {
-        let w = a * alpha.cos() + (towards_b * phi.cos() + n * phi.sin()) * alpha.sin();
-        [Some(turned(a, w, u)), Some(turned(b, v, w))]
-    };
-    let other = (up > 0.0 && down > 0.0).then(|| branch(-phi));
-    Ok(Aimed { one: branch(phi), other, first_is_idle: false })
 }
 
 /// The angle between two unit vectors, to rounding everywhere.
@@ -192,7 +221,8 @@ mod tests {
     fn right_angles_give_the_textbook_angles() {
         // w b X Y Z C A t: u = (sin C sin A, −cos C sin A, cos A); C = 90°, A = 30°.
         let u = Vec3::new(0.5, 0.0, 0.75_f64.sqrt());
-        let Ok(aimed) = aim_two(Vec3::z(), Vec3::x(), Vec3::z(), u) else { panic!("reachable") };
+        let pair = Pair::of(Vec3::z(), Vec3::x(), Vec3::z());
+        let Ok(aimed) = pair.aim(u) else { panic!("reachable") };
         let degrees = aimed.branches().map(|q| q.map(|q| q.unwrap_or(f64::NAN).to_degrees()));
         let mut degrees: Vec<[f64; 2]> = degrees.collect();
         degrees.sort_by(|x, y| x[1].total_cmp(&y[1]));
@@ -205,7 +235,8 @@ mod tests {
     fn closest_direction_of_a_short_cone() {
         // Axes 30° apart, tool 30° from the second: never more than 60° from the first.
         let at = |deg: f64| Vec3::new(deg.to_radians().sin(), 0.0, deg.to_radians().cos());
-        let Err(missed) = aim_two(at(0.0), at(30.0), at(0.0), at(75.0)) else { panic!("too far") };
+        let pair = Pair::of(at(0.0), at(30.0), at(0.0));
+        let Err(missed) = pair.aim(at(75.0)) else { panic!("too far") };
         assert!((missed.by_rad.to_degrees() - 15.0).abs() < 1e-12);
         assert!((missed.closest - at(60.0)).norm() < 1e-15);
     }

@@ -62,6 +62,23 @@ pub(crate) fn in_order(machine: &Machine, commands: Vec<Command>, from: &Command
     ordered
 }
 
+/// Whether `a` comes before `b` in the order of [`in_order`], where neither is better by its travel.
+pub(crate) fn is_nearer(machine: &Machine, a: &Command, b: &Command, from: &Command) -> bool {
+    let mut rotary = machine.rotary_axes();
+    let (first, second) = (rotary.next(), rotary.next());
+    let at = |c: &Command, axis: Option<usize>| axis.map_or(0.0, |i| c[i]);
+    let way = |c: &Command| -> f64 {
+        machine.rotary_axes().map(|i| (c[i] - from[i]).powi(2)).sum::<f64>().sqrt()
+    };
+    let below = |c: &Command| f64::from(u8::from(at(c, second) < -TIE_RAD));
+    let keys: [&dyn Fn(&Command) -> f64; 5] =
+        [&way, &|c| (at(c, first) - at(from, first)).abs(), &below, &|c| at(c, first), &|c| {
+            at(c, second)
+        }];
+    let differs = |key: &&dyn Fn(&Command) -> f64| (key(a) - key(b)).abs() > TIE_RAD;
+    keys.into_iter().find(|key| differs(key)).is_some_and(|key| key(a) < key(b))
+}
+
 fn best(solutions: &[Solution], rotary: &[usize], from: &Command) -> Option<usize> {
     let first = |s: &Solution| rotary.first().map_or(0.0, |&i| s.command[i]);
     let second = |s: &Solution| rotary.get(1).map_or(0.0, |&i| s.command[i]);

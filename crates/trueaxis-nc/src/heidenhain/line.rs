@@ -195,6 +195,11 @@ impl<'s> Cursor<'s> {
         self.letters().eq_ignore_ascii_case(word.as_bytes())
     }
 
+    /// A statement of labels, calls and calculations: nothing that a flat program needs.
+    pub fn steers(&self) -> bool {
+        ["LBL", "CALL", "SEL", "FN", "DECLARE"].iter().any(|word| self.is(word))
+    }
+
     /// Takes a whole key word.
     pub fn accept(&mut self, word: &str) -> bool {
         let found = self.is(word);

@@ -3,6 +3,7 @@
 use super::line::Cursor;
 use super::variables::{Stored, Variable};
 use super::{Run, fault};
+use crate::moves::Event;
 use crate::program::Fault;
 
 /// Brackets and functions within each other: enough for people, little for the stack.
@@ -27,7 +28,14 @@ impl Run<'_> {
         let value = match c.number()? {
             Some(number) => Some(number),
             None => match self.variable(c)? {
-                Some(variable) => Some(self.read(variable, at)?),
+                Some(variable) => {
+                    let read = self.read(variable, at)?;
+                    if self.settings.tell_blocks {
+                        let value = Some(if negative { -read } else { read });
+                        self.emit(Event::Computed { text: at..c.offset(), value });
+                    }
+                    Some(read)
+                }
                 None => None,
             },
         };

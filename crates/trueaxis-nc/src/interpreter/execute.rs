@@ -17,6 +17,13 @@ impl Run<'_> {
             }
             return Err(first.clone());
         }
+        if self.settings.tell_blocks {
+            return self.told_block(program, block);
+        }
+        self.sound_block(program, block)
+    }
+
+    pub(super) fn sound_block(&mut self, program: &Program, block: &Block) -> Result<Next, Fault> {
         self.comments(program, block)?;
         let mut rest = &block.items[..];
         self.called = None;
@@ -520,7 +527,7 @@ fn called_name<'b>(program: &Program, items: &'b [Item]) -> Option<(&'b Label, u
     name.filter(|_| program.dialect().macro_words)
 }
 
-fn is_control(item: &Item) -> bool {
+pub(super) fn is_control(item: &Item) -> bool {
     matches!(item, Item::Control { .. })
 }
 

@@ -19,6 +19,13 @@ enum Direction {
     Quiet,
 }
 
+/// Statements that a flat program does without; calls say so themselves by their jump.
+const STEERING: [&str; 23] = [
+    "IF", "ELSE", "ENDIF", "LOOP", "ENDLABEL", "FOR", "WHILE", "ENDFOR", "ENDWHILE", "ENDLOOP",
+    "UNTIL", "REPEAT", "REPEATB", "CASE", "GOTO", "GOTOF", "GOTOB", "GOTOC", "GOTOS", "DEF",
+    "PROC", "EXTERN", "RET",
+];
+
 impl Run<'_> {
     /// Executes a block behind its mark for skipping.
     pub(super) fn statement(&mut self, reader: &mut Reader<'_>) -> Result<Next, Fault> {
@@ -26,14 +33,21 @@ impl Run<'_> {
         if numbered && reader.number_ahead(1).is_some() {
             reader.at += 2;
         }
+        let labels = reader.here();
         while reader.word().is_some() && reader.symbol_ahead(1) == Some(b':') {
             reader.at += 2;
         }
         let at = reader.here();
+        if at > labels {
+            self.tell_steering(labels..at);
+        }
         if let Some(word) = reader.word()
             && !self.has_variable(&word)
             && let Some(next) = self.control(&word, reader, at)?
         {
+            if STEERING.contains(&word.as_str()) {
+                self.tell_steering(self.block.clone());
+            }
             return Ok(next);
         }
         if reader.is_empty() {

@@ -145,6 +145,7 @@ impl Run<'_> {
                 return Err(fault("missing-equals", reader.here(), message, "write R1=2"));
             }
             self.assignment(&slot, reader)?;
+            self.tell_steering(at..reader.here());
             return Ok(None);
         }
         if letter == b'L'
@@ -219,17 +220,32 @@ impl Run<'_> {
             Some("ACP") => Mode::Positive,
             Some("ACN") => Mode::Negative,
             Some("QU") => Mode::Modal,
-            _ => return Ok((self.number(reader)?, Mode::Modal)),
+            _ => return Ok((self.told_number(reader)?, Mode::Modal)),
         };
         let open = reader.here();
         reader.advance();
         reader.require(b'(', "write X=AC(10)")?;
-        let value = self.number(reader)?;
+        let value = self.told_number(reader)?;
         if !reader.accept(b')') {
             let message = "this bracket is not closed";
             return Err(fault("unbalanced-brackets", open, message, "one ) for each ("));
         }
         Ok((value, mode))
+    }
+
+    /// The value of an expression; one that is more than a number is told to who asks.
+    fn told_number(&mut self, reader: &mut Reader<'_>) -> Result<f64, Fault> {
+        let (from, signed) = (reader.here(), matches!(reader.symbol(), Some(b'+' | b'-')));
+        let first = reader.at;
+        let value = self.number(reader)?;
+        let plain = reader.at == first + 1 + usize::from(signed);
+        let begins = reader.source.get(from + usize::from(signed));
+        let is_digit = begins.is_some_and(|b| b.is_ascii_digit() || *b == b'.');
+        if self.settings.tell_blocks && !(plain && is_digit) {
+            let text = from..reader.here();
+            self.emit(crate::moves::Event::Computed { text, value: Some(value) });
+        }
+        Ok(value)
     }
 
     /// `A3=`, `I1=`, `S2=`, `M1=`, `X1=`: a letter with a number and `=`.
@@ -345,7 +361,9 @@ impl Run<'_> {
                 let message = format!("the variable {word} is set by =");
                 return Err(fault("missing-equals", reader.here(), message, "write NAME=2"));
             }
-            return self.assignment(&slot, reader);
+            self.assignment(&slot, reader)?;
+            self.tell_steering(at..reader.here());
+            return Ok(());
         }
         reader.advance();
         if let Some(name) = tables::parameter(&word) {

@@ -8,37 +8,45 @@
 //!     text ──simulate on the machine as it is──> what is left              verify
 //! ```
 
+mod ahead;
 mod block;
 mod correct;
 mod feed;
+mod flat;
 mod found;
 mod guard;
 mod lines;
 mod number;
+mod ready;
 mod refuse;
 mod stand;
 mod text;
+mod turns;
 mod verify;
 mod walk;
 mod words;
 
 pub use correct::CorrectionLimit;
 pub use found::{Found, LargestCorrection};
-pub use guard::{Confidence, Convention, MARK, is_compensated};
+pub use guard::{Confidence, Convention, MARK, Wrong, is_compensated};
 pub use number::Increments;
 pub use verify::{BlockResidual, Largest, Proof, Residual};
 
-use crate::simulate::axis_path::Fault;
+use crate::simulate::axis_path::{AxisPath, Fault};
 use crate::simulate::{Densify, SetUp, execute, place};
+use ahead::Gather;
 use number::Grid;
 use trueaxis_geometry::input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
-use trueaxis_nc::Program;
+use trueaxis_nc::moves::Step;
+use trueaxis_nc::{Outcome, Program};
 use walk::Walk;
 
 /// What is wanted of the compensated program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProgramOptions {
+    /// The program is unrolled first: loops, subprograms, repeated parts and computed numbers.
+    pub flat: bool,
     /// The tip alone, with the linear axes.
     pub position_only: bool,
     /// How far the tip may be missed between the ends of blocks, mm.
@@ -49,6 +57,9 @@ pub struct ProgramOptions {
     pub increments: Option<Increments>,
     /// Larger corrections are refused.
     pub limit: CorrectionLimit,
+    /// Every pose by [`trueaxis_machine::compensate::Compensator::at`] instead of whole stretches by
+    /// the batch compensator: the reference, some ten times slower.
+    pub pose_by_pose: bool,
     /// What stands in the heading: machine, its file, version.
     pub mark: String,
 }
@@ -56,11 +67,13 @@ pub struct ProgramOptions {
 impl Default for ProgramOptions {
     fn default() -> Self {
         Self {
+            flat: false,
             position_only: false,
             residual_mm: 1e-3,
             residual_rad: 1e-5,
             increments: Some(Increments::default()),
             limit: CorrectionLimit::default(),
+            pose_by_pose: false,
             mark: String::new(),
         }
     }
@@ -91,13 +104,13 @@ pub struct Rewritten {
     pub proof: Proof,
     /// How sure the corrections are.
     pub confidence: Confidence,
-    /// What wrong signs would leave.
+    /// What no correction and wrong signs would leave.
     pub conventions: Vec<Convention>,
 }
 
 /// Places are looked at so finely; each further try halves it.
 const SPACING_MM: f64 = 5.0;
-const ANGLE_DEG: f64 = 1.0;
+const ANGLE_DEG: f64 = 0.6;
 const TRIES: u32 = 5;
 
 /// Rewrites a program so that the actual tool goes where it says, and proves it by simulating the
@@ -119,6 +132,17 @@ pub fn compensate_program(
         return (None, problems);
     }
     let machine = &super::not_twice(machine, Place::whole(program.file()), &mut problems);
+    let flat;
+    let program = match options.flat {
+        false => program,
+        true => match flat::unrolled(&setup.mounted(machine), program, setup, &mut problems) {
+            Some(unrolled) => {
+                flat = unrolled;
+                &flat
+            }
+            None => return (None, problems),
+        },
+    };
     let mut told = std::mem::take(&mut problems);
     let mut best = None;
     for attempt in 0..TRIES {
@@ -141,12 +165,13 @@ pub fn compensate_program(
     (best.filter(|_| !told.has_errors()), told)
 }
 
-fn densify(options: &ProgramOptions, attempt: u32) -> Densify {
+fn densify(options: &ProgramOptions, attempt: u32, least: u32) -> Densify {
     let part = 0.5_f64.powi(attempt as i32);
-    Densify::Tolerance {
+    Densify::Places {
         chord_mm: 0.2 * options.residual_mm,
         angle_rad: (ANGLE_DEG * part).to_radians(),
         spacing_mm: SPACING_MM * part,
+        least,
     }
 }
 
@@ -159,20 +184,23 @@ fn once(
 ) -> (Option<Rewritten>, Diagnostics) {
     let mut problems = Diagnostics::new();
     let mounted = setup.mounted(machine);
-    let densify = densify(options, attempt);
+    // Where a turn counts it has to be seen.
+    let least = if correct::reverses(machine) { 2 << attempt } else { 1 };
     let refuse = |problems: &mut Diagnostics, programs: &[String], fault: &Fault| {
         let place = place(program, programs, fault);
         problems.error(fault.code, place, fault.message.clone(), fault.hint);
     };
-    let mut walk = match Walk::new(&mounted, program, setup, densify, options) {
+    let walk = match Walk::new(&mounted, program, setup, options) {
         Ok(walk) => walk,
         Err(fault) => {
             refuse(&mut problems, &[], &fault);
             return (None, problems);
         }
     };
+    let nominal = AxisPath::new(&mounted, setup, densify(options, attempt, least), 0.01);
     let settings = setup.settings(false);
-    let outcome = execute(&mounted, program, setup, &settings, &mut |step| walk.take(&step));
+    let (outcome, walk) =
+        both(nominal, walk, |take| execute(&mounted, program, setup, &settings, take));
     problems.append(outcome.problems);
     setup.warn_of_zeros(program.file(), &mut problems);
     if let Some(fault) = &walk.fault {
@@ -190,10 +218,37 @@ fn once(
     let (text, numbers) = walk.text.finish(&guard::comment(&options.mark, control));
     let found = walk.found;
     let written = Program::new(program.file(), text, control);
-    let finer = self::densify(options, attempt + 1);
+    // The middle of every block at least is looked at.
+    let finer = densify(options, attempt + 1, 2 * least);
     let proof = verify::prove(machine, [program, &written], setup, &found, &numbers, finer);
     let text = written.source().to_vec();
     (Some(Rewritten { text, found, proof, confidence, conventions }), problems)
+}
+
+/// Executes a program, and writes it in a thread of its own.
+fn both<'w>(
+    nominal: AxisPath<'w>,
+    mut walk: Walk<'w>,
+    execute: impl FnOnce(&mut dyn FnMut(Step)) -> Outcome,
+) -> (Outcome, Walk<'w>) {
+    std::thread::scope(|scope| {
+        let (mut ahead, stretches) = Gather::along(nominal);
+        let writer = scope.spawn(move || {
+            for stretch in stretches {
+                walk.take(&stretch);
+                if walk.fault.is_some() {
+                    break;
+                }
+            }
+            walk
+        });
+        let outcome = execute(&mut |step| ahead.take(step));
+        ahead.finish();
+        match writer.join() {
+            Ok(walk) => (outcome, walk),
+            Err(panic) => std::panic::resume_unwind(panic),
+        }
+    })
 }
 
 impl Rewritten {

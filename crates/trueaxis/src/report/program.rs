@@ -1,7 +1,7 @@
 //! A compensated program, as text and JSON.
 
 use super::numbers;
-use crate::compensate::program::{Convention, ProgramOptions, Residual, Rewritten};
+use crate::compensate::program::{Convention, ProgramOptions, Residual, Rewritten, Wrong};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use trueaxis_machine::Machine;
@@ -135,11 +135,12 @@ impl ProgramReport<'_> {
         remarks
     }
 
-    /// What wrong signs would leave: name, tip in µm, tool axis in µrad.
+    /// What no correction and wrong signs would leave: name, tip in µm, tool axis in µrad.
     pub(super) fn conventions(&self) -> Vec<(String, f64, f64)> {
-        let name = |c: &Convention| match c.axis {
-            None => "all signs wrong".to_owned(),
-            Some(axis) => format!("sign of {} wrong", self.axis_name(axis)),
+        let name = |c: &Convention| match c.what {
+            Wrong::NoCorrection => "no correction".to_owned(),
+            Wrong::AllSigns => "all signs wrong".to_owned(),
+            Wrong::SignOf(axis) => format!("sign of {} wrong", self.axis_name(axis)),
         };
         let rows = self.rewritten.conventions.iter();
         rows.map(|c| (name(c), c.tip_mm * 1e3, c.axis_rad * 1e6)).collect()
@@ -198,7 +199,7 @@ pub fn program_text(r: &ProgramReport<'_>) -> String {
         let _ = writeln!(text, "\nconvention check at the block with the largest correction:");
     }
     for (name, tip, axis) in rows {
-        let _ = writeln!(text, "  {name:20} would leave {tip:10.3} µm and {axis:10.3} µrad");
+        let _ = writeln!(text, "  {name:20} leaves {tip:10.3} µm and {axis:10.3} µrad");
     }
     for remark in r.remarks() {
         let _ = writeln!(text, "note: {remark}");

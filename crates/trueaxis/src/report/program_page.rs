@@ -120,8 +120,9 @@ fn conventions(r: &ProgramReport<'_>) -> Markup {
     html! {
         section {
             h2 { "Convention check" }
-            p.soft { "What would be left at the block with the largest correction if the control took \
-                a correction with the wrong sign. Try one pose on the machine before the first part." }
+            p.soft { "What would be left at the block with the largest correction without any, and if the \
+                control took it with a wrong sign: a wrong sign makes it about twice as bad as no \
+                correction. Try one pose on the machine before the first part." }
             div.scroll { table {
                 thead { tr { th {} th { "tip, µm" } th { "tool axis, µrad" } } }
                 tbody { @for (name, tip, axis) in r.conventions() { tr {

@@ -27,7 +27,7 @@ pub(super) fn nearest(
     if angle(&axis, &direction.vector()) < trueaxis_machine::tcp::POLE_RAD {
         return Ok(*now);
     }
-    Ok(control.aim(direction, now)?[0].command)
+    Ok(control.aim_nearest(direction, now)?.command)
 }
 
 /// The pose of an alignment: by the sign of the rotary axis that tilts the tool.

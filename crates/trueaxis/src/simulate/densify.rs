@@ -22,6 +22,18 @@ pub enum Densify {
         /// The longest piece, mm: errors vary along straight lines too.
         spacing_mm: f64,
     },
+    /// As [`Densify::Tolerance`], for who asks where the tool is and not how the axes go from place
+    /// to place: lines of the tip are not cut because straight axes would leave them.
+    Places {
+        /// Between circles and their chords, mm.
+        chord_mm: f64,
+        /// Of the tool axis and of each rotary axis, rad.
+        angle_rad: f64,
+        /// The longest piece, mm.
+        spacing_mm: f64,
+        /// Each move at least into so many pieces.
+        least: u32,
+    },
 }
 
 impl Default for Densify {
@@ -55,6 +67,20 @@ impl Densify {
             | Self::Tolerance { spacing_mm, angle_rad, .. } => {
                 pieces(length_mm / spacing_mm).max(pieces(turned_rad / angle_rad))
             }
+            Self::Places { spacing_mm, angle_rad, least, .. } => {
+                let count = pieces(length_mm / spacing_mm).max(pieces(turned_rad / angle_rad));
+                count.max(f64::from(least))
+            }
+        }
+    }
+
+    /// How far a rotary axis may turn in a piece, rad, and how far straight axes may lead the tip off
+    /// its line, mm.
+    pub(super) fn limits_of_pieces(&self) -> Option<(f64, f64)> {
+        match *self {
+            Self::Off | Self::Count { .. } => None,
+            Self::Tolerance { chord_mm, angle_rad, .. } => Some((angle_rad, chord_mm)),
+            Self::Places { angle_rad, .. } => Some((angle_rad, f64::INFINITY)),
         }
     }
 
@@ -63,7 +89,7 @@ impl Densify {
         match *self {
             Self::Off => Some(0.005),
             Self::Count { .. } => None,
-            Self::Tolerance { chord_mm, .. } => Some(chord_mm),
+            Self::Tolerance { chord_mm, .. } | Self::Places { chord_mm, .. } => Some(chord_mm),
         }
     }
 }

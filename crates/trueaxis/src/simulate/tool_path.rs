@@ -8,6 +8,10 @@ use trueaxis_machine::batch::{BatchError, Commands, CompiledMachine, DeviationTa
 use trueaxis_machine::errors::ErrorValues;
 use trueaxis_machine::{Deviation, Machine};
 
+/// A motion smaller than this has no direction, mm and rad: where an axis stands the kinematics of the
+/// control round, and corrections of other axes reach it through squareness.
+pub(crate) const STILL: f64 = 1e-7;
+
 /// Nodes that are worked on together.
 pub(super) const BATCH: usize = 4096;
 
@@ -119,7 +123,7 @@ impl ToolPath {
         for node in nodes {
             for i in 0..self.axes {
                 let by = node.command[i] - self.command[i];
-                if by != 0.0 {
+                if by.abs() > STILL {
                     self.approach[i] = by.signum();
                 }
                 self.positions[i].push(node.command[i]);

@@ -8,6 +8,7 @@ pub mod paths;
 use std::path::{Path, PathBuf};
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{AxisKind, Command, Travel};
+use trueaxis::machine::errors::{Curve, StatedError};
 
 /// All machines of the library.
 pub const MACHINES: [&str; 8] = [
@@ -40,6 +41,33 @@ pub fn bare(name: &str) -> Machine {
     let stated = machine(name);
     let errors = stated.stated_errors();
     errors.iter().fold(stated.clone(), |m, (index, _)| m.with_error(*index, None))
+}
+
+/// The machine with the same lost motion, mm, of X, Y and Z, and no other reversal: each axis lags so
+/// much more on one side than on the other, and a turn takes it up in the new direction.
+pub fn with_lost_motion(machine: &Machine, lost_mm: f64) -> Machine {
+    let all = machine.stated_errors();
+    let none = all.iter().fold(machine.clone(), |m, (index, _)| m.with_error(*index, None));
+    all.iter().fold(machine.clone(), |m, (index, name)| {
+        let body = &m.bodies()[index.body];
+        let Some(stated) = body.stated(name.kind, name.component).cloned() else { return m };
+        let letter = ["EXX", "EYY", "EZZ"].iter().position(|own| *own == name.to_string());
+        let axis = letter.and_then(|i| {
+            machine.axes().iter().position(|a| a.name.letter() == ['X', 'Y', 'Z'][i])
+        });
+        let reversal = axis.filter(|_| lost_mm != 0.0).map(|axis| {
+            // On the side of the workpiece a positive error leads the tool back.
+            let one = none.clone().with_error(*index, Some(StatedError::constant(1.0, None)));
+            let at = |q: f64| {
+                let mut command = Command::default();
+                command[axis] = q;
+                one.deviation(&command, &one.errors_at(&command, &[0.0; 6]).unwrap())
+            };
+            let along = at(1.0).nominal_tip - at(0.0).nominal_tip;
+            Curve::Constant(-lost_mm * along.dot(&at(0.0).tip_mm).signum())
+        });
+        m.with_error(*index, Some(StatedError { reversal, ..stated }))
+    })
 }
 
 /// Numbers that are the same in every run (splitmix64).

@@ -52,6 +52,12 @@ impl<'a> CommandColumns<'a> {
         (Self { columns, axes }, Self { columns: rest, axes })
     }
 
+    /// Without the first so many poses.
+    #[must_use]
+    pub fn skip(self, poses: usize) -> Self {
+        self.split_at(poses).1
+    }
+
     /// The columns of the axes.
     pub(super) fn each(&mut self) -> &mut [&'a mut [f64]] {
         &mut self.columns[..self.axes]

@@ -224,7 +224,7 @@ impl Block<'_> {
 
     fn computed(&self, axis: Axis) -> Fault {
         let message = format!("the value of {axis} is computed, and would have to be corrected");
-        let hint = "write numbers instead of variables (unroll the program); the postprocessor can";
+        let hint = "unroll it: --flat writes numbers instead of variables";
         refusal(self.m.origin, "computed-coordinate", message, hint)
     }
 

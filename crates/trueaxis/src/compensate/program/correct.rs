@@ -1,14 +1,13 @@
 //! What is to be commanded instead, with what the machine is known to do in its direction of travel.
 
 use super::number::Increments;
+use super::ready::{Preparation, Prepared};
+use crate::simulate::STILL;
 use crate::simulate::axis_path::Fault;
 use trueaxis_machine::axis::{Approach, AxisKind, Command, MAX_AXES};
 use trueaxis_machine::compensate::{AxisLeft, Compensator, Fault as NoCorrection, Scope};
 use trueaxis_machine::{Deviation, Machine};
 use trueaxis_nc::moves::Origin;
-
-/// A motion smaller than this has no direction: mm and rad.
-const STILL: f64 = 1e-13;
 
 /// The largest corrections of the tool that are taken for sound. A rotary axis near a pole may turn
 /// by more than the tool axis does.
@@ -37,6 +36,22 @@ pub(super) struct Corrector {
     least: Command,
     /// The side from which each axis came in the program that is written.
     approach: Approach,
+    /// Corrections of the present stretch; `None` if every one is made by itself.
+    preparation: Option<Preparation>,
+}
+
+/// A place that is to be corrected.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place<'p> {
+    pub nominal: &'p Command,
+    /// From where the axes come to it by the program.
+    pub side: Approach,
+    /// The place before it as it is written.
+    pub from: &'p Command,
+    /// From where the axes came to that one.
+    pub approach: &'p Approach,
+    pub only_position: bool,
+    pub origin: Origin,
 }
 
 /// One corrected place.
@@ -58,18 +73,33 @@ impl Corrector {
         increments: Option<Increments>,
     ) -> Result<Self, NoCorrection> {
         let scope = if position_only { Scope::Position } else { Scope::Pose };
-        let reverses = machine.stated_errors().iter().any(|(index, name)| {
-            let stated = machine.bodies()[index.body].stated(name.kind, name.component);
-            stated.is_some_and(|s| s.reversal.is_some())
-        });
         Ok(Self {
             pose: Compensator::of(machine, scope)?,
             position: Compensator::of(machine, Scope::Position)?,
             limit,
-            reverses,
+            reverses: reverses(machine),
             least: least_motions(machine, increments),
             approach: Approach::default(),
+            preparation: None,
         })
+    }
+
+    /// The same with the batch compensator ahead.
+    #[must_use]
+    pub fn by_batch(self) -> Self {
+        Self { preparation: Some(Preparation::of(&self.pose, self.reverses)), ..self }
+    }
+
+    /// Corrects the places of a stretch ahead; the axes stand at `from` before it.
+    pub fn prepare(&mut self, places: impl Iterator<Item = Command>, from: &Command) {
+        if let Some(preparation) = &mut self.preparation {
+            preparation.prepare(places, (*from, self.approach));
+        }
+    }
+
+    /// What was prepared for a place of the stretch.
+    pub fn prepared(&self, index: usize) -> Option<Prepared> {
+        self.preparation.as_ref()?.at(index)
     }
 
     /// The same history on the machine with another tool.
@@ -83,22 +113,26 @@ impl Corrector {
         self.pose.machine()
     }
 
-    /// The command for a nominal place that is reached from a written one.
-    pub fn at(
-        &self,
-        nominal: &Command,
-        (from, approach): (&Command, &Approach),
-        only_position: bool,
-        origin: Origin,
-    ) -> Result<Corrected, Fault> {
-        let compensator = if only_position { &self.position } else { &self.pose };
-        let mut side = reached(approach, from, nominal);
+    /// The command for a nominal place that is reached from a written one; what was prepared for
+    /// it is taken where its axes come from there.
+    pub fn at(&self, at: &Place<'_>, prepared: Option<Prepared>) -> Result<Corrected, Fault> {
+        let Place { nominal, approach, origin, mut side, .. } = *at;
+        let fits = |p: &Prepared| !at.only_position && (!self.reverses || p.side == side);
+        if let Some(prepared) = prepared.filter(fits) {
+            self.within_limit(&prepared.before, origin)?;
+            let Prepared { command, left, .. } = prepared;
+            let real = turned(approach, at.from, &command, &self.least);
+            if !self.reverses || real == side {
+                return Ok(Corrected { command, left, undecided: false });
+            }
+        }
+        let compensator = if at.only_position { &self.position } else { &self.pose };
         let mut rounds = 3;
         loop {
             let done = compensator.at(nominal, &side);
             let done = done.map_err(|e| self.refused(nominal, origin, &e))?;
             self.within_limit(&done.before, origin)?;
-            let real = turned(approach, from, &done.command, &self.least);
+            let real = turned(approach, at.from, &done.command, &self.least);
             rounds -= 1;
             let undecided = self.reverses && real != side;
             let corrected = Corrected { command: done.command, left: done.axis_left, undecided };
@@ -107,6 +141,32 @@ impl Corrector {
             }
             side = real;
         }
+    }
+
+    /// Whether errors depend on the side from which an axis comes.
+    pub fn reverses(&self) -> bool {
+        self.reverses
+    }
+
+    /// The least motions that count once they are written.
+    pub fn least(&self) -> &Command {
+        &self.least
+    }
+
+    /// From where the axes come behind a motion, as it will be written.
+    pub fn side_behind(&self, side: &Approach, from: &Command, to: &Command) -> Approach {
+        turned(side, from, to, &self.least)
+    }
+
+    /// The command in the mean of both sides: the way it goes tells from where each axis comes.
+    pub fn mean(&self, nominal: &Command, only_position: bool) -> Command {
+        let compensator = if only_position { &self.position } else { &self.pose };
+        compensator.at(nominal, &Approach::default()).map_or(*nominal, |done| done.command)
+    }
+
+    /// The same, if it was made ahead for a place of the stretch.
+    pub fn mean_prepared(&self, index: usize) -> Option<Command> {
+        self.preparation.as_ref()?.mean_at(index)
     }
 
     /// The side from which the axes of the written program came.
@@ -169,6 +229,14 @@ impl Corrector {
         };
         Fault { origin, word: None, code, message: fault.to_string(), hint }
     }
+}
+
+/// Whether an error of the machine depends on the side from which its axis comes.
+pub(super) fn reverses(machine: &Machine) -> bool {
+    machine.stated_errors().iter().any(|(index, name)| {
+        let stated = machine.bodies()[index.body].stated(name.kind, name.component);
+        stated.is_some_and(|s| s.reversal.is_some())
+    })
 }
 
 /// The side after a motion.

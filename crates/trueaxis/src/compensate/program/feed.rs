@@ -24,9 +24,10 @@ impl Block<'_> {
         let feed = self.m.feed.value;
         let way: f64 = (0..3).map(|i| (m.target.0[i] - now.0[i]).powi(2)).sum::<f64>().sqrt();
         let (value, again) = match (self.m.feed.mode, turns_deg) {
-            (FeedMode::InverseTime, _) if self.pieces > 1 => (feed / step.share, None),
+            // A piece in which an axis takes up its play has no part of the way, but needs some time.
+            (FeedMode::InverseTime, _) if self.pieces > 1 => (feed / step.share.max(1e-4), None),
             // The tip moves a little now, and the feed counts along that.
-            (FeedMode::PerMinute, Some(turned)) if way > 1e-9 => {
+            (FeedMode::PerMinute, Some(turned)) if way > 1e-9 && step.share > 0.0 => {
                 (feed * way / (turned * step.share), Some(feed))
             }
             (FeedMode::PerMinute, _) if word.is_none() && step.piece == 0 => {
@@ -41,7 +42,7 @@ impl Block<'_> {
         match word {
             Some(Word { value: None, .. }) => {
                 let message = "the feed is computed, and would have to be changed".to_owned();
-                let hint = "write a number behind F";
+                let hint = "write a number behind F, or unroll the program: --flat";
                 return Err(refusal(self.m.origin, "computed-feed", message, hint));
             }
             Some(word) => self.edits.put(word.number.clone(), text),

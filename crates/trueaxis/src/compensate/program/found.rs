@@ -3,11 +3,10 @@
 use super::block::Block;
 use super::correct::Corrected;
 use super::stand::{Sample, Stand};
-use crate::simulate::Node;
 use std::collections::BTreeMap;
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::{AxisKind, Command, MAX_AXES, Travel};
+use trueaxis_machine::axis::{AxisKind, Command, Travel};
 
 /// Places at which uncertainties are looked at.
 const PLACES: usize = 100;
@@ -40,7 +39,7 @@ pub struct Found {
     pub words_added: u64,
     /// Blocks in which only the rotary axes moved, with a new F so that they take the same time.
     pub feeds_changed: u64,
-    /// Places where an axis turns round by less than its reversal error.
+    /// Places where an axis turns round by less than its reversal error, or by rounding alone.
     pub undecided: u64,
     /// Blocks that stay as they are, by reason.
     pub left: BTreeMap<&'static str, u64>,
@@ -93,13 +92,13 @@ impl Found {
         *self.left.entry(why).or_default() += 1;
     }
 
-    pub(super) fn correct(&mut self, node: &Node, done: &Corrected) {
-        self.sample(&node.command);
-        let line = node.origin.line;
+    /// A place of a line was corrected.
+    pub(super) fn correct(&mut self, (nominal, line): (&Command, u32), done: &Corrected) {
+        self.sample(nominal);
         let mut linear = 0.0_f64;
-        for i in 0..self.kinds.len().min(MAX_AXES) {
-            let (kind, travel) = self.kinds[i];
-            let by = done.command[i] - node.command[i];
+        let places = done.command.iter().zip(nominal);
+        for (i, ((to, was), &(kind, travel))) in places.zip(&self.kinds).enumerate() {
+            let by = to - was;
             let largest = &mut self.largest[i];
             if by.abs() > largest.value.abs() {
                 (largest.value, largest.line) = (by, line);
@@ -108,7 +107,7 @@ impl Found {
                 linear = linear.hypot(by);
             }
             if let Travel::Between(low, high) = travel {
-                let near = (done.command[i] - low).min(high - done.command[i]);
+                let near = (to - low).min(high - to);
                 if near < largest.to_travel_end {
                     (largest.to_travel_end, largest.nearest_line) = (near, line);
                 }
@@ -116,7 +115,7 @@ impl Found {
         }
         if linear > self.worst_mm || self.worst.is_none() {
             self.worst_mm = linear;
-            self.worst = Some((line, node.command, done.command));
+            self.worst = Some((line, *nominal, done.command));
         }
         self.undecided += u64::from(done.undecided);
         if let Some(why) = done.left {

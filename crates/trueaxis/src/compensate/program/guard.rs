@@ -34,22 +34,33 @@ pub(super) fn comment(mark: &str, control: Control) -> String {
     }
 }
 
-/// What the correction of one axis would do with the wrong sign.
+/// What could be wrong with a correction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Wrong {
+    /// There is none: what the others are to be compared with.
+    NoCorrection,
+    /// The signs of all axes.
+    AllSigns,
+    /// The sign of one axis, by its place in [`Machine::axes`].
+    SignOf(usize),
+}
+
+/// What a correction would do with a wrong sign, and what the tool misses without any.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Convention {
-    /// The axis; `None` for all of them at once.
-    pub axis: Option<usize>,
+    /// What is wrong.
+    pub what: Wrong,
     /// What the tip would miss, mm.
     pub tip_mm: f64,
     /// What the tool axis would miss, rad.
     pub axis_rad: f64,
 }
 
-/// At one block: the correction as it is, with every sign turned, and with that of each axis turned.
+/// At one block: without a correction, with every sign of it turned, and with that of each axis.
 pub fn conventions(machine: &Machine, nominal: &Command, command: &Command) -> Vec<Convention> {
     let Some(control) = TipControl::of(machine) else { return Vec::new() };
     let wanted = Stand::of(&control, nominal);
-    let left = |axis: Option<usize>, trial: &Command| {
+    let left = |what: Wrong, trial: &Command| {
         let errors = machine.errors_at(trial, &Approach::default()).unwrap_or_default();
         let there = machine.deviation(trial, &errors);
         let is = Stand {
@@ -57,16 +68,16 @@ pub fn conventions(machine: &Machine, nominal: &Command, command: &Command) -> V
             axis: there.nominal_axis.vector() + there.axis,
         };
         let [tip_mm, axis_rad] = is.from(&wanted);
-        Convention { axis, tip_mm, axis_rad }
+        Convention { what, tip_mm, axis_rad }
     };
     let turned = |i: usize| 2.0 * nominal[i] - command[i];
     let all = std::array::from_fn(turned);
-    let mut rows = vec![left(None, &all)];
+    let mut rows = vec![left(Wrong::NoCorrection, nominal), left(Wrong::AllSigns, &all)];
     for i in 0..machine.axes().len() {
         if command[i] != nominal[i] {
             let mut one = *command;
             one[i] = turned(i);
-            rows.push(left(Some(i), &one));
+            rows.push(left(Wrong::SignOf(i), &one));
         }
     }
     rows

@@ -3,11 +3,11 @@
 use crate::compensate::post::angle;
 use crate::simulate::axis_path::Straight;
 use trueaxis_geometry::Vec3;
-use trueaxis_machine::axis::Command;
+use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_machine::tcp::TipControl;
 
 /// Tip, mm, and tool axis in the workpiece frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Stand {
     pub tip: Vec3,
     pub axis: Vec3,
@@ -61,9 +61,13 @@ pub(super) struct Sample {
     pub command: Command,
     /// Where the nominal machine stands with them: what the control believes.
     pub believed: Stand,
+    /// From where the axes are taken to come.
+    pub side: Approach,
+    /// The place before, from the other side: an axis turns round here.
+    pub turns: bool,
 }
 
-/// Where moves are to be cut.
+/// Where moves are to be cut: docs/model.md eq. 164.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cut<'c> {
     pub control: &'c TipControl,
@@ -77,7 +81,7 @@ impl Cut<'_> {
     /// than the residual; the first one is where the move begins.
     pub fn ends(&self, samples: &[Sample]) -> Vec<usize> {
         let mut ends = Vec::new();
-        let mut wait = vec![(0, samples.len() - 1)];
+        let mut wait = self.stretches(samples);
         while let Some((from, to)) = wait.pop() {
             if to - from < 2 || self.is_straight(&samples[from..=to]) {
                 ends.push(to);
@@ -88,6 +92,23 @@ impl Cut<'_> {
             }
         }
         ends
+    }
+
+    /// From turning point to turning point, the last stretch first; what an axis makes up there is a
+    /// piece of its own where it is more than may be missed.
+    fn stretches(&self, samples: &[Sample]) -> Vec<(usize, usize)> {
+        let mut stretches = Vec::new();
+        let mut to = samples.len() - 1;
+        for k in (1..samples.len()).rev().filter(|k| samples[*k].turns) {
+            let [tip_mm, axis_rad] = samples[k - 1].believed.from(&samples[k].believed);
+            if tip_mm > self.residual_mm || axis_rad > self.residual_rad {
+                stretches.extend((k < to).then_some((k, to)));
+                stretches.push((k - 1, k));
+                to = k - 1;
+            }
+        }
+        stretches.extend((to > 0).then_some((0, to)));
+        stretches
     }
 
     fn is_straight(&self, samples: &[Sample]) -> bool {

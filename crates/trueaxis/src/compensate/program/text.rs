@@ -38,7 +38,7 @@ impl Edits {
         self.0.is_empty()
     }
 
-    fn apply(mut self, source: &[u8], line: Range<usize>) -> Vec<u8> {
+    pub fn apply(mut self, source: &[u8], line: Range<usize>) -> Vec<u8> {
         // Stable: what is put at one place keeps its order.
         self.0.sort_by_key(|(range, _)| range.start);
         let mut out = Vec::with_capacity(line.len() + 32);

@@ -1,14 +1,17 @@
 //! Step by step through the program: what is commanded, what should be, what is written.
 
+mod samples;
+
+use super::ahead::{Ahead, Stretch};
 use super::block::{Block, Written};
-use super::correct::{Corrector, reached};
+use super::correct::Corrector;
 use super::found::{Found, Want};
 use super::refuse::{again, cone, refusal};
-use super::stand::{Cut, Sample, Stand};
+use super::stand::{Cut, Sample};
 use super::text::{Edits, Text};
 use super::{ProgramOptions, residual_share};
 use crate::simulate::axis_path::{AxisPath, Fault};
-use crate::simulate::{Densify, Node, PathStep, SetUp};
+use crate::simulate::{Densify, Node, SetUp};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_nc::Program;
@@ -22,14 +25,11 @@ pub(super) struct Walk<'w> {
     machine: &'w Machine,
     setup: &'w SetUp,
     corrector: Corrector,
-    /// What the control commands by the program as it is.
-    nominal: AxisPath<'w>,
-    /// What it commands by the program that is written.
+    /// What the control commands by the program that is written.
     written: AxisPath<'w>,
     pub text: Text<'w>,
     pub found: Found,
     pub fault: Option<Fault>,
-    nodes: Vec<Node>,
     /// The last block that was changed or could have been.
     last: Option<Origin>,
     /// The tool axis is programmed by vectors.
@@ -44,27 +44,40 @@ pub(super) struct Walk<'w> {
     approaching: bool,
 }
 
+/// Where the axes go in a move of the program as it is.
+#[derive(Debug, Clone, Copy)]
+struct Way<'n> {
+    begin: &'n Command,
+    nodes: &'n [Node],
+    /// The number of the first node in the stretch.
+    first: usize,
+}
+
+/// Of what is written only the ends count; small turns keep the branch of the rotary axes.
+const ENDS: Densify = Densify::Places {
+    chord_mm: f64::INFINITY,
+    angle_rad: std::f64::consts::PI / 180.0,
+    spacing_mm: f64::INFINITY,
+    least: 1,
+};
+
 impl<'w> Walk<'w> {
     pub fn new(
         machine: &'w Machine,
         program: &'w Program,
         setup: &'w SetUp,
-        densify: Densify,
         options: &'w ProgramOptions,
     ) -> Result<Self, Fault> {
-        let path = || AxisPath::new(machine, setup, densify, 0.01);
         let corrector = corrector(machine, options, Origin::default())?;
         Ok(Self {
             options,
             machine,
             setup,
             corrector,
-            nominal: path(),
-            written: path(),
+            written: AxisPath::new(machine, setup, ENDS, 0.01),
             text: Text::of(program),
             found: Found::of(machine),
             fault: None,
-            nodes: Vec::new(),
             last: None,
             vectors: false,
             feed_again: None,
@@ -79,20 +92,26 @@ impl<'w> Walk<'w> {
         self.corrector.machine()
     }
 
-    pub fn take(&mut self, step: &Step) {
-        if self.fault.is_some() {
-            return;
+    /// Writes a stretch of the program.
+    pub fn take(&mut self, stretch: &Stretch) {
+        if let Some(first) = stretch.steps.first() {
+            let places = stretch.nodes.iter().map(|node| node.command);
+            self.corrector.prepare(places, &first.begin);
         }
-        let done = match step {
-            Step::Event(event, origin) => self.event(step, event, *origin),
-            Step::Move(m) => self.travel(m),
-        };
-        let faults = [&mut self.nominal, &mut self.written].map(|path| path.faults.pop());
-        self.fault = done.err().or(faults.into_iter().flatten().next());
+        for ahead in &stretch.steps {
+            if self.fault.is_some() {
+                return;
+            }
+            let done = match (&ahead.fault, &ahead.step) {
+                (Some(fault), _) => Err(fault.clone()),
+                (None, Step::Event(event, origin)) => self.event(&ahead.step, event, *origin),
+                (None, Step::Move(m)) => self.travel(m, ahead, &stretch.nodes),
+            };
+            self.fault = done.err().or_else(|| self.written.faults.pop());
+        }
     }
 
     fn event(&mut self, step: &Step, event: &Event, origin: Origin) -> Result<(), Fault> {
-        self.nominal.take(step, &mut |_| {});
         self.written.take(step, &mut |_| {});
         match event {
             Event::ToolChange(number) => {
@@ -108,26 +127,17 @@ impl<'w> Walk<'w> {
         Ok(())
     }
 
-    fn travel(&mut self, m: &Move) -> Result<(), Fault> {
-        let begin = *self.nominal.command();
-        let mut nodes = std::mem::take(&mut self.nodes);
-        nodes.clear();
-        let on_cone = self.nominal.turns_on_cone();
-        self.nominal.take(&Step::Move(*m), &mut |step| {
-            if let PathStep::Node(node) = step {
-                nodes.push(node);
-            }
-        });
-        if let Some(fault) = self.nominal.faults.pop() {
-            return Err(fault);
-        }
-        let done = match self.why_left(m, &nodes) {
-            Some(why) => self.leave(m, why),
-            None if on_cone => Err(cone(m.origin)),
-            None => self.rewrite(m, &begin, &nodes),
+    fn travel(&mut self, m: &Move, ahead: &Ahead, nodes: &[Node]) -> Result<(), Fault> {
+        let way = Way {
+            begin: &ahead.begin,
+            nodes: &nodes[ahead.nodes.clone()],
+            first: ahead.nodes.start,
         };
-        self.nodes = nodes;
-        done
+        match self.why_left(m, way.nodes) {
+            Some(why) => self.leave(m, why),
+            None if self.written.turns_on_cone() => Err(cone(m.origin)),
+            None => self.rewrite(m, &way),
+        }
     }
 
     /// Why a block stays as it is, whatever the machine does.
@@ -186,9 +196,9 @@ impl<'w> Walk<'w> {
     }
 
     /// Corrects a move and writes it.
-    fn rewrite(&mut self, m: &Move, begin: &Command, nodes: &[Node]) -> Result<(), Fault> {
+    fn rewrite(&mut self, m: &Move, way: &Way<'_>) -> Result<(), Fault> {
         let whole = matches!(m.kind, MoveKind::Rapid | MoveKind::Thread { .. });
-        let samples = self.samples(m, begin, nodes, whole)?;
+        let samples = self.samples(m, way, whole)?;
         self.exact = samples[samples.len() - 1].command;
         if m.direction.is_some() {
             self.vectors = true;
@@ -204,7 +214,7 @@ impl<'w> Walk<'w> {
             return Err(refusal(m.origin, "several-moves", message, hint));
         }
         self.last = Some(m.origin);
-        let ends = match self.nominal.control() {
+        let ends = match self.written.control() {
             Some(control) if !whole => self.cut(control).ends(&samples),
             _ => vec![samples.len() - 1],
         };
@@ -227,7 +237,7 @@ impl<'w> Walk<'w> {
             added: 0,
             pieces: ends.len(),
         };
-        let turns_deg = self.turns_deg(m, begin, nodes);
+        let turns_deg = self.turns_deg(m, way);
         let mut from = 0;
         for (piece, to) in ends.iter().enumerate() {
             let share = samples[*to].u - samples[from].u;
@@ -240,12 +250,15 @@ impl<'w> Walk<'w> {
                 self.feed_again = next.feed_again.or(self.feed_again);
                 self.go(&next.m);
                 self.check_arrival(m, &way.1)?;
+                self.found.undecided += u64::from(self.comes_otherwise(&samples[*to]));
             }
             let stands = samples[from..=*to].iter().map(|s| s.wanted);
             // A piece that needs no words of its own belongs to the line before.
             let piece = if kept { 0 } else { block.further.len() as u32 };
             let from_elsewhere = approaching && from == 0;
-            let end_only = whole || !first_time || from_elsewhere;
+            // While an axis takes up its play at one place, the tool is nowhere else.
+            let takes_up_play = samples[*to].turns && *to == from + 1;
+            let end_only = whole || !first_time || from_elsewhere || takes_up_play;
             let want = Want::of(m.origin.line, piece, end_only);
             self.found.want(want, stands);
             from = *to;
@@ -262,7 +275,7 @@ impl<'w> Walk<'w> {
 
     fn cut<'c>(&self, control: &'c trueaxis_machine::tcp::TipControl) -> Cut<'c> {
         let [residual_mm, residual_rad] = residual_share(self.options);
-        Cut { control, straight: self.nominal.straight(), residual_mm, residual_rad }
+        Cut { control, straight: self.written.straight(), residual_mm, residual_rad }
     }
 
     /// A circle that no correction touches stays one.
@@ -280,63 +293,15 @@ impl<'w> Walk<'w> {
         kept
     }
 
-    /// What the program says along the move, and what has to be commanded for it.
-    fn samples(
-        &mut self,
-        m: &Move,
-        begin: &Command,
-        nodes: &[Node],
-        whole: bool,
-    ) -> Result<Vec<Sample>, Fault> {
-        let Some(control) = self.nominal.control() else {
-            let message = "the machine has fewer than three linear axes".to_owned();
-            let hint = "the tip cannot be corrected; describe another machine";
-            return Err(refusal(m.origin, "not-correctable", message, hint));
-        };
-        let from = *self.written.command();
-        let stand = |c: &Command| Stand::of(control, c);
-        let only_position = self.nominal.is_only_tilted();
-        // Cuts are made as if the way began where it should.
-        let begins = match self.approaching {
-            true => {
-                let place = (&from, self.corrector.approach());
-                let there = self.corrector.at(begin, place, only_position, m.origin);
-                there.map_or(from, |c| c.command)
-            }
-            false => self.exact,
-        };
-        let mut samples = Vec::with_capacity(nodes.len() + 1);
-        let first =
-            Sample { u: 0.0, wanted: stand(begin), command: begins, believed: stand(&begins) };
-        samples.push(first);
-        let total: f64 = nodes.iter().map(|n| n.length).sum();
-        let (mut length, mut last, mut side) = (0.0, from, *self.corrector.approach());
-        for (k, node) in nodes.iter().enumerate() {
-            length += node.length;
-            let is_last = k + 1 == nodes.len();
-            if whole && !is_last {
-                continue;
-            }
-            let place = (&last, &side);
-            let done = self.corrector.at(&node.command, place, only_position, node.origin)?;
-            side = reached(&side, &last, &done.command);
-            last = done.command;
-            let u = if is_last || total <= 0.0 { 1.0 } else { length / total };
-            self.found.correct(node, &done);
-            let (wanted, believed) = (stand(&node.command), stand(&done.command));
-            samples.push(Sample { u, wanted, command: done.command, believed });
-        }
-        Ok(samples)
-    }
-
     /// The degrees that a feed in deg/min counts along, where the tip stands still.
-    fn turns_deg(&self, m: &Move, begin: &Command, nodes: &[Node]) -> Option<f64> {
+    fn turns_deg(&self, m: &Move, way: &Way<'_>) -> Option<f64> {
         if m.kind != MoveKind::Linear || m.feed.mode != FeedMode::PerMinute {
             return None;
         }
-        let end = self.nominal.words_of(self.nominal.command(), m.coordinates);
-        let moved = end.minus(&self.nominal.words_of(begin, m.coordinates));
-        let turned: f64 = nodes.iter().map(|n| n.length).sum();
+        let end = way.nodes.last().map_or(way.begin, |node| &node.command);
+        let end = self.written.words_of(end, m.coordinates);
+        let moved = end.minus(&self.written.words_of(way.begin, m.coordinates));
+        let turned: f64 = way.nodes.iter().map(|n| n.length).sum();
         let stands = moved.0[..3].iter().all(|v| v.abs() <= 1e-9);
         (stands && turned > 0.0).then_some(turned)
     }
@@ -353,7 +318,7 @@ impl<'w> Walk<'w> {
         }
         let message =
             "the move stands in a subprogram, which may be called elsewhere too".to_owned();
-        let hint = "put its blocks into the main program (unroll it); the postprocessor can";
+        let hint = "unroll it: --flat puts its blocks into the main program";
         Err(refusal(m.origin, "in-subprogram", message, hint))
     }
 
@@ -386,10 +351,10 @@ fn corrector(
     options: &ProgramOptions,
     origin: Origin,
 ) -> Result<Corrector, Fault> {
-    Corrector::of(machine, options.position_only, options.limit, options.increments).map_err(
-        |fault| {
-            let hint = "a machine with three linear axes is needed";
-            refusal(origin, "not-correctable", fault.to_string(), hint)
-        },
-    )
+    let made = Corrector::of(machine, options.position_only, options.limit, options.increments);
+    let corrector = made.map_err(|fault| {
+        let hint = "a machine with three linear axes is needed";
+        refusal(origin, "not-correctable", fault.to_string(), hint)
+    })?;
+    Ok(if options.pose_by_pose { corrector } else { corrector.by_batch() })
 }

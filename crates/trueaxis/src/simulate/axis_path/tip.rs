@@ -4,7 +4,7 @@ use super::fault::{fault, too_many_pieces, unreachable};
 use super::{AxisPath, Fault, PathStep, Speed, fraction, path_length};
 use crate::simulate::basic::nearest;
 use crate::simulate::curve::Curve;
-use crate::simulate::densify::{Densify, MOST_PIECES};
+use crate::simulate::densify::MOST_PIECES;
 use crate::simulate::orientation::{NoSwing, Swing};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::Direction;
@@ -25,6 +25,9 @@ struct TipWay<'a> {
     length: f64,
     speed: f64,
 }
+
+/// Basic coordinates and axes.
+type TipPose = (Vec3, Command);
 
 /// A piece is halved so often at most: near a pole an axis may jump however small the piece.
 const MOST_HALVINGS: u32 = 14;
@@ -79,7 +82,7 @@ impl AxisPath<'_> {
             speed: feed.along(length),
         };
         for k in 1..=pieces {
-            self.advance(&way, fraction(k - 1, pieces), fraction(k, pieces), 0, out)?;
+            self.advance(&way, [fraction(k - 1, pieces), fraction(k, pieces)], 0, None, out)?;
         }
         if let Turning::Swing(swing, _) = &turning {
             self.tangent = swing.end_tangent();
@@ -91,21 +94,24 @@ impl AxisPath<'_> {
     }
 
     /// Goes on from u0 to u1, in smaller pieces where the tip would leave the path, or a rotary
-    /// axis turn too far, while the axes go straight between nodes.
+    /// axis turn too far, while the axes go straight between nodes. `known` is the pose at u1 as
+    /// seen from u0, if it was looked at before.
     fn advance(
         &mut self,
         way: &TipWay<'_>,
-        u0: f64,
-        u1: f64,
+        [u0, u1]: [f64; 2],
         halvings: u32,
+        known: Option<TipPose>,
         out: &mut dyn FnMut(PathStep),
     ) -> Result<(), Fault> {
-        let pose = self.tip_pose(way, u1);
+        let pose = known.map_or_else(|| self.tip_pose(way, u1), Ok);
         let (basic, command) = pose.map_err(|error| unreachable(way.m, &error))?;
-        if halvings < MOST_HALVINGS && self.is_too_coarse(way, 0.5 * (u0 + u1), &command) {
+        if halvings < MOST_HALVINGS {
             let middle = 0.5 * (u0 + u1);
-            self.advance(way, u0, middle, halvings + 1, out)?;
-            return self.advance(way, middle, u1, halvings + 1, out);
+            if let Some(there) = self.coarse(way, middle, &command) {
+                self.advance(way, [u0, middle], halvings + 1, there, out)?;
+                return self.advance(way, [middle, u1], halvings + 1, None, out);
+            }
         }
         self.pieces += 1;
         if f64::from(self.pieces) > MOST_PIECES {
@@ -116,27 +122,33 @@ impl AxisPath<'_> {
         Ok(())
     }
 
-    fn is_too_coarse(&self, way: &TipWay<'_>, middle: f64, end: &Command) -> bool {
-        let Densify::Tolerance { chord_mm, angle_rad, .. } = self.densify else { return false };
+    /// Whether the piece to `end` is too coarse, then with the pose in its middle where that was
+    /// looked at.
+    fn coarse(&self, way: &TipWay<'_>, middle: f64, end: &Command) -> Option<Option<TipPose>> {
+        let (angle_rad, chord_mm) = self.densify.limits_of_pieces()?;
         let turned = self.rotary_way(&self.command, end);
         if turned == 0.0 {
-            return false;
+            return None;
         }
         let axes = self.machine.axes().iter().zip(self.command.iter().zip(end));
         let far = |(axis, (a, b)): (&trueaxis_machine::axis::Axis, (&f64, &f64))| {
             axis.kind == AxisKind::Rotary && (b - a).abs() > angle_rad * (1.0 + 1e-9)
         };
         if axes.into_iter().any(far) {
-            return true;
+            return Some(None);
         }
-        let Ok((there, _)) = self.tip_pose(way, middle) else { return false };
+        if chord_mm.is_infinite() {
+            return None;
+        }
+        let (there, at) = self.tip_pose(way, middle).ok()?;
         let between = std::array::from_fn(|i| 0.5 * (self.command[i] + end[i]));
         let tip = way.control.tip_and_axis(&between).0;
-        (tip - self.place_in_workpiece(there)).norm() > chord_mm
+        let leaves = (tip - self.place_in_workpiece(there)).norm() > chord_mm;
+        leaves.then_some(Some((there, at)))
     }
 
     /// Basic coordinates and axes at u of a move of the tip.
-    fn tip_pose(&self, way: &TipWay<'_>, u: f64) -> Result<(Vec3, Command), SolveError> {
+    fn tip_pose(&self, way: &TipWay<'_>, u: f64) -> Result<TipPose, SolveError> {
         let begin = &way.begin;
         let mut command = match way.turning {
             Turning::Axes(end) if u == 1.0 => *end,

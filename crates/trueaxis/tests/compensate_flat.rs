@@ -1,0 +1,219 @@
+//! Programs whose blocks are executed at several places: unrolled they go the same way, and are
+//! compensated as any other.
+
+mod library;
+
+use library::{bare, machine, with_lost_motion};
+use std::path::PathBuf;
+use trueaxis::compensate::program::{MARK, ProgramOptions, Rewritten, compensate_program};
+use trueaxis::geometry::input::Diagnostics;
+use trueaxis::machine::Machine;
+use trueaxis::nc::moves::{Move, Origin, Step};
+use trueaxis::nc::{Control, Library, Program, Settings, interpret};
+use trueaxis::simulate::SetUp;
+
+const LINUXCNC: &str = "\
+(head)
+G21 G90 G94 F500
+o100 sub
+  #3 = [#1 + 10]
+  G1 X[#1] Y#2 (corner)
+  N7 X#3 ; across
+  G91 G1 Y[2*3] F[100*[#5+1]]
+  G90
+o100 endsub
+G0 X100 Y100 Z-50
+#5 = 0 (counts)
+o1 while [#5 LT 3]
+  o100 call [100 + 20*#5] [110]
+  #5 = [#5 + 1]
+o1 endwhile
+o2 if [#5 EQ 3]
+  G2 X[150+#5] Y116 I[3/2] (half a turn)
+o2 else
+  G1 X0 (never)
+o2 endif
+M2
+";
+
+const FANUC: &str = "\
+%
+O0001(LOOPS)
+G21 G90 G94 F500.
+G0 X100. Y100. Z-50.
+#1=0
+WHILE[#1LT3]DO1
+N10 G1 X[100.+#1*20.] Y110. (ROUND)
+M98 P1000 L2
+#1=#1+1
+END1
+IF[#1EQ3]GOTO20
+G1 X0 (NEVER)
+N20 G65 P1001 A120. B5. (MACRO)
+M30
+O1000
+G91 G1 Y5. (UP)
+G90 M99
+O1001
+G1 X#1 F[500+#2]
+Z-#2 Y-#100
+M99
+%
+";
+
+const SINUMERIK: &str = "\
+; head
+N10 G54 G17 G710 G90 G94 F500
+N20 DEF INT II
+N30 R1=100 ; first
+N40 G0 X=R1 Y100 Z-50
+N50 FOR II=0 TO 2
+N60 G1 X=R1+20*II Y=AC(110) ; round
+N70 UP1
+N80 ENDFOR
+LAB1: G1 Y=IC(-R1/50)
+G1 X105 F=R1*2
+LAB2:
+REPEAT LAB1 LAB2 P=2
+IF R1>50 GOTOF ENDE
+G1 X0 ; never
+ENDE: TRANS X=R1/10
+G2 X110 Y140 CR=R1/4
+M30
+";
+
+const UP1: &str = "PROC UP1\nG91 G1 Y5 ; up\nG90\nRET\n";
+
+const HEIDENHAIN: &str = "\
+0 BEGIN PGM A MM
+1 Q1 = +100
+2 Q2 = +3
+3 Q3 = +40
+4 L X+Q1 Y+100 Z-50 R0 FMAX
+5 LBL 1
+6 L IX+10 F500 ; step
+7 L IY-Q2
+8 CALL LBL 1 REP 2
+9 FN 1: Q1 = +Q1 + +40
+10 L X+Q1 FQ1
+11 CALL LBL 2
+12 L Z-Q3
+13 CALL LBL 2
+14 FN 9: IF +Q1 EQU +140 GOTO LBL 5
+15 L X+0 ; never
+16 LBL 5
+17 L X+150 ; last
+18 M30
+19 LBL 2
+20 L IY+5 ; up
+21 LBL 0
+22 END PGM A MM
+";
+
+const PROGRAMS: [(Control, &str, &str, &[&str]); 4] = [
+    (Control::LinuxCnc, "a.ngc", LINUXCNC, &["(corner)", "; across", "(half a turn)"]),
+    (Control::Fanuc, "a.nc", FANUC, &["(ROUND)", "(UP)", "(MACRO)"]),
+    (Control::Sinumerik840d, "a.mpf", SINUMERIK, &["; round", "; up", "; first"]),
+    (Control::Heidenhain, "a.h", HEIDENHAIN, &["; step", "; up", "; last"]),
+];
+
+/// The program in a folder of its own, beside its subprogram.
+fn program(control: Control, name: &str, text: &str) -> Program {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("flat-{name}"));
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("up1.spf"), UP1).unwrap();
+    let path = folder.join(name).display().to_string();
+    Program::new(&path, text.as_bytes().to_vec(), control)
+}
+
+struct Beside;
+
+impl Library for Beside {
+    fn text(&self, name: &str) -> Result<Vec<u8>, String> {
+        match name.to_ascii_uppercase().starts_with("UP1") {
+            true => Ok(UP1.as_bytes().to_vec()),
+            false => Err("not there".to_owned()),
+        }
+    }
+}
+
+/// The moves without the lines that they come from.
+fn moves(program: &Program) -> Vec<Move> {
+    let mut moves = Vec::new();
+    let outcome = interpret(program, &Beside, &Settings::default(), &mut |step| {
+        if let Step::Move(m) = step {
+            moves.push(Move { origin: Origin::default(), ..m });
+        }
+    });
+    assert!(outcome.finished, "{:?}", outcome.problems);
+    moves
+}
+
+fn flat(machine: &Machine, program: &Program) -> (Option<Rewritten>, Diagnostics) {
+    let options = ProgramOptions { flat: true, increments: None, ..ProgramOptions::default() };
+    compensate_program(machine, program, &SetUp::default(), &options)
+}
+
+#[test]
+fn law_an_unrolled_program_makes_the_same_moves() {
+    // Circles stay circles where nothing is to be corrected.
+    let machine = bare("three-axis-mill");
+    for (control, name, text, kept) in PROGRAMS {
+        let program = program(control, name, text);
+        let (done, problems) = flat(&machine, &program);
+        let Some(done) = done else { panic!("{name}: {problems:?}") };
+        let new = String::from_utf8(done.text).unwrap();
+        let unrolled = Program::new(name, new.clone().into_bytes(), control);
+        let (was, is) = (moves(&program), moves(&unrolled));
+        assert!(was.len() > 8, "{name} {}", was.len());
+        assert_eq!(was, is, "{name}:\n{new}");
+        for comment in kept {
+            assert!(new.contains(comment), "{name} lost {comment}:\n{new}");
+        }
+        let gone =
+            ["never", "NEVER", "#", "=R", "Q1", "o1", "CALL", "M98", "REPEAT", "GOTO", "FOR"];
+        for word in gone {
+            let found = new.lines().filter(|l| !l.contains(MARK)).find(|l| l.contains(word));
+            assert_eq!(found, None, "{name}:\n{new}");
+        }
+    }
+}
+
+#[test]
+fn law_an_unrolled_program_is_compensated_as_any_other() {
+    let machine = with_lost_motion(&machine("three-axis-mill"), 2e-3);
+    for (control, name, text, _) in PROGRAMS {
+        let program = program(control, &format!("c-{name}"), text);
+        let refused = compensate_program(
+            &machine,
+            &program,
+            &SetUp::default(),
+            &ProgramOptions { increments: None, ..ProgramOptions::default() },
+        );
+        assert!(refused.0.is_none(), "{name} needs no unrolling");
+        let hints: Vec<String> = refused.1.iter().map(|d| d.hint.clone()).collect();
+        assert!(hints.iter().any(|h| h.contains("--flat")), "{name}: {hints:?}");
+        let (done, problems) = flat(&machine, &program);
+        let Some(done) = done else { panic!("{name}: {problems:?}") };
+        let (before, after) = (done.proof.before, done.proof.after);
+        assert!(before.tip_end.value > 2e-3, "{name} {before:?}");
+        assert!(done.found.undecided == 0 && after.tip_end.value <= 1e-9, "{name} {after:?}");
+        assert!(after.tip.value <= 1e-3, "{name} {after:?}");
+    }
+}
+
+#[test]
+fn what_does_not_unroll_is_named() {
+    // A modal macro is called by moves: the block of the move is not the only one to be executed.
+    let text = "%\nO1\nG21 G90 G94 F500.\nG0 X100. Y100. Z-50.\nG66 P1000\nX110.\nG67\nM30\nO1000\nG1 Y#100 Z-51.\nM99\n%\n";
+    let program = program(Control::Fanuc, "modal.nc", text);
+    let (done, problems) = flat(&bare("three-axis-mill"), &program);
+    match done {
+        // Or it is executed to the same moves.
+        Some(done) => {
+            let new = Program::new("m.nc", done.text, Control::Fanuc);
+            assert_eq!(moves(&program), moves(&new));
+        }
+        None => assert!(problems.iter().any(|d| d.code == "not-unrolled"), "{problems:?}"),
+    }
+}
