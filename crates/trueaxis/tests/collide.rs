@@ -127,13 +127,17 @@ proptest! {
         };
         let (a, b) = (triangle(1.0), triangle(9.0));
         let found = gap(&a, &b, f64::INFINITY).expect("finite").squared_mm2.sqrt();
-        let mut p = a[0];
-        for _ in 0..3000 {
+        let (mut p, mut other) = (a[0], f64::INFINITY);
+        // Between edges that are nearly parallel it goes slowly: until it is there, or long enough.
+        for _ in 0..1_000_000 {
             p = project(&a, project(&b, p));
+            other = (project(&b, p) - p).norm();
+            if other - found < 1e-4 {
+                break;
+            }
         }
-        let other = (project(&b, p) - p).norm();
         prop_assert!(found <= other + 1e-9, "{found} {other}");
-        prop_assert!(other - found < 2e-2 * (1.0 - found.min(1.0)) + 1e-4, "{found} {other}");
+        prop_assert!(other - found < 1e-4, "{found} {other}");
         let back = gap(&b, &a, f64::INFINITY).expect("finite").squared_mm2.sqrt();
         prop_assert!((found - back).abs() < 1e-9);
     }

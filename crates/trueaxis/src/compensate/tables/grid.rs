@@ -152,10 +152,11 @@ const LOOKS: i64 = 13;
 /// [`GridFault`]
 pub fn place(
     wanted: &Wanted<'_>,
-    ends: [(usize, i64, i64); 3],
+    ends: Ends,
     rule: GridRule,
     bound: f64,
 ) -> Result<Gridded, GridFault> {
+    let looks = looks(wanted, ends)?;
     let mut counts = [2_usize; 3];
     let mut best = f64::INFINITY;
     loop {
@@ -165,12 +166,13 @@ pub fn place(
         if largest > rule.largest {
             return Err(GridFault::TooLarge(largest));
         }
-        let (loss, worst) = lost(&grid, wanted, ends)?;
+        let loss = looks.iter().map(|look| difference(&grid, look)).fold(0.0, f64::max);
         best = best.min(loss);
         if loss <= bound {
             return Ok(Gridded { grid, loss, largest });
         }
         // The axis along which the points lie too far apart gets a quarter more.
+        let worst = worst_axis(&grid, wanted, (ends, &looks))?;
         let more = |n: usize| (n + n.div_ceil(4)).min(rule.most_along);
         let mut grown = counts;
         grown[worst] = more(counts[worst]);
@@ -189,47 +191,55 @@ fn side((axis, from, to): (usize, i64, i64), count: usize, interval: i64) -> Sid
     Side { axis, from, step, count }
 }
 
-/// The most that is lost at places in between, and the axis along which most of it is lost.
-fn lost(
-    grid: &Grid,
-    wanted: &Wanted<'_>,
-    ends: [(usize, i64, i64); 3],
-) -> Result<(f64, usize), CommandFault> {
-    let mut most = 0.0_f64;
-    let mut along = [0.0_f64; 3];
+/// A place in between, and what is wanted there.
+type Look = ([i64; 3], [f64; 3]);
+/// From end to end of the three axes.
+type Ends = [(usize, i64, i64); 3];
+/// Of so many looks one tells along which axis most is lost.
+const EVERY: usize = 7;
+
+fn looks(wanted: &Wanted<'_>, ends: Ends) -> Result<Vec<Look>, CommandFault> {
     // Golden steps along each axis fall between the points of any even spacing.
     let at = |i: usize, n: i64| {
         let (_, from, to) = ends[i];
         let share = (0.5 + n as f64 * GOLDEN).fract();
         from + ((to - from) as f64 * share) as i64
     };
-    for n in 0..LOOKS.pow(3) {
-        let (a, b, c) = (n % LOOKS, n / LOOKS % LOOKS, n / LOOKS / LOOKS);
-        let place = [at(0, a), at(1, b), at(2, c)];
-        let off = difference(grid, wanted, place)?;
-        most = most.max(off);
+    let places = (0..LOOKS.pow(3)).map(|n| {
+        let place = [at(0, n % LOOKS), at(1, n / LOOKS % LOOKS), at(2, n / LOOKS / LOOKS)];
+        Ok((place, wanted(place)?))
+    });
+    places.collect()
+}
+
+/// The axis along which most is lost.
+fn worst_axis(
+    grid: &Grid,
+    wanted: &Wanted<'_>,
+    (ends, looks): (Ends, &[Look]),
+) -> Result<usize, CommandFault> {
+    let mut along = [0.0_f64; 3];
+    for (place, _) in looks.iter().step_by(EVERY) {
         for (i, along) in along.iter_mut().enumerate() {
             // Moved onto the points of the other axes, only this axis interpolates.
-            let mut on = place;
+            let mut on = *place;
             for other in (0..3).filter(|o| *o != i) {
                 let side = grid.sides[other];
                 let (index, into) = side.cell(place[other] as f64);
                 on[other] = side.at(index + usize::from(into > 0.5)).min(ends[other].2);
             }
-            *along = along.max(difference(grid, wanted, on)?);
+            *along = along.max(difference(grid, &(on, wanted(on)?)));
         }
     }
-    let worst = (0..3).max_by(|a, b| along[*a].total_cmp(&along[*b])).unwrap_or(0);
-    Ok((most, worst))
+    Ok((0..3).max_by(|a, b| along[*a].total_cmp(&along[*b])).unwrap_or(0))
 }
 
 /// The golden section: its multiples are never near a point of an even spacing for long.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-fn difference(grid: &Grid, wanted: &Wanted<'_>, place: [i64; 3]) -> Result<f64, CommandFault> {
+fn difference(grid: &Grid, (place, want): &Look) -> f64 {
     let have = grid.at(place.map(|p| p as f64));
-    let want = wanted(place)?;
-    Ok(have.iter().zip(want).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max))
+    have.iter().zip(want).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
 #[cfg(test)]
