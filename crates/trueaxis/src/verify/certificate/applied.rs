@@ -20,14 +20,14 @@ pub enum Applied {
         /// How the control interpolates.
         control: Box<dyn Control + Sync>,
         /// What it holds.
-        content: Content,
+        content: Box<Content>,
     },
 }
 
 impl Applied {
     /// Tables that were compiled.
     pub fn tables(compiled: Compiled) -> Self {
-        let (content, control) = (compiled.content(), compiled.order.target.control());
+        let (content, control) = (Box::new(compiled.content()), compiled.order.target.control());
         Self::Tables { compiled: Box::new(compiled), control, content }
     }
 
