@@ -175,6 +175,64 @@ fn law_spoiled_files_are_refused() {
     }
 }
 
+/// No file of any control makes its reader panic or hang: written ones with pieces cut out, doubled and exchanged, with
+/// numbers that are none, and any text under the names that it knows.
+#[test]
+fn law_readers_survive_any_text() {
+    const ODD: [&str; 12] = [
+        "nan",
+        "-1e308",
+        "99999999999999999999",
+        "0",
+        "-0.0",
+        "\u{b5}",
+        "[",
+        "=",
+        "\n\n",
+        "N0A0P",
+        "1.0000001",
+        "]",
+    ];
+    let mut random = library::Random(7);
+    let machine = five(1, &all_errors("XYZCA"));
+    let text = format!(
+        "[machine]\nname = \"m\"\nchain = \"w X' b Y Z t\"\n{TRAVEL}\n{}",
+        all_errors("XYZ")
+    );
+    let three = self::machine(&text);
+    for target in [Target::Isg, Target::Heidenhain, Target::Fanuc, Target::Sinumerik, Target::Csv] {
+        // FANUC's grid of five axes takes its time.
+        let machine = if target == Target::Fanuc { &three } else { &machine };
+        let order = Order { bound_mm: 8e-3, bound_rad: 4e-5, ..Order::of(target) };
+        let compiled = compile(machine, &order).unwrap();
+        let control = target.control();
+        for _ in 0..400 {
+            let mut files = compiled.files.clone();
+            let which = random.between(0.0, files.len() as f64) as usize;
+            let text = &mut files[which].text;
+            for _ in 0..1 + random.between(0.0, 4.0) as usize {
+                let places: Vec<usize> = text.char_indices().map(|(i, _)| i).collect();
+                let mut at =
+                    || places.get(random.between(0.0, places.len() as f64) as usize).copied();
+                let (a, b) = (at().unwrap_or(0), at().unwrap_or(0));
+                let (a, b) = (a.min(b), a.max(b).min(a.min(b) + 60));
+                let b = (a..=b).rev().find(|i| text.is_char_boundary(*i)).unwrap_or(a);
+                match random.between(0.0, 3.0) as usize {
+                    0 => text.replace_range(a..b, ""),
+                    1 => text.replace_range(a..b, ODD[random.between(0.0, 12.0) as usize]),
+                    _ => text.insert_str(a, &text[a..b].to_owned()),
+                }
+            }
+            // What is read, if anything, is a content whose values are numbers.
+            if let Ok(content) = control.read(machine, &files) {
+                let emulation = Emulation::new(machine, control.as_ref(), &content);
+                let added = emulation.added(&[10.0, -20.0, 5.0, 0.2, -0.3, 0.0], &[1.0; 6]);
+                assert!(added.iter().all(|c| c.is_finite()), "{target:?} {added:?}");
+            }
+        }
+    }
+}
+
 /// The first number that is no note.
 fn spoil_number(file: &File) -> String {
     let mut done = false;

@@ -4,7 +4,7 @@
 use super::certificate::{place, rule, word};
 use super::evaluation::Block;
 use super::{command_words, unit};
-use crate::compensate::tables::shown;
+use crate::compensate::tables::{Compiled, shown};
 use crate::verify::certificate::applied::Applied;
 use crate::verify::certificate::inputs::Input;
 use crate::verify::certificate::{Agreement, Certificate, Circumstances, Determined, Study};
@@ -207,10 +207,31 @@ fn compensation(study: &Study) -> Chapter {
                 compiled.tables.len(),
                 control.key()
             );
-            (vec![line], vec![block])
+            let lines = [line].into_iter().chain(besides_tables(compiled)).collect();
+            (lines, vec![block])
         }
     };
     chapter("Compensation", lines, blocks)
+}
+
+/// What the control holds besides tables.
+fn besides_tables(compiled: &Compiled) -> Vec<String> {
+    let mut lines = Vec::new();
+    let names: Vec<String> = compiled.known.iter().map(|k| k.known.error.to_string()).collect();
+    if !names.is_empty() {
+        lines.push(format!("errors that the control's own chain knows: {}", names.join(" ")));
+    }
+    if let Some(joints) = &compiled.joints {
+        let axes: Vec<String> = joints.0.iter().map(|j| j.axis.to_string()).collect();
+        lines.push(format!("kinematic parameters of {}", axes.join(" and ")));
+    }
+    if let Some(gridded) = &compiled.grid {
+        lines.push(format!("a grid of {} points", gridded.grid.values.len()));
+    }
+    if !compiled.lines.is_empty() {
+        lines.push(format!("{} straight lines for the temperatures", compiled.lines.len()));
+    }
+    lines
 }
 
 fn application(study: &Study) -> Chapter {

@@ -73,7 +73,8 @@ pub fn tables_text(report: &TablesReport<'_>) -> String {
         let _ = writeln!(text, "\nTest piece {study}, µm without and with the tables");
         for index in indices {
             let [a, b] = [index.before_mm, index.left_mm].map(|v| v * 1e3);
-            let _ = writeln!(text, "  {:<34} {a:>9.3} {b:>9.3}", index.key);
+            let worse = if b > a { "   worse" } else { "" };
+            let _ = writeln!(text, "  {:<34} {a:>9.3} {b:>9.3}{worse}", index.key);
         }
     }
     if !compiled.advice.is_empty() {
