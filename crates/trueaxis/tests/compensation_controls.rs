@@ -220,7 +220,10 @@ fn law_readers_survive_any_text() {
                 match random.between(0.0, 3.0) as usize {
                     0 => text.replace_range(a..b, ""),
                     1 => text.replace_range(a..b, ODD[random.between(0.0, 12.0) as usize]),
-                    _ => text.insert_str(a, &text[a..b].to_owned()),
+                    _ => {
+                        let piece = text[a..b].to_owned();
+                        text.insert_str(a, &piece);
+                    }
                 }
             }
             // What is read, if anything, is a content whose values are numbers.
@@ -251,6 +254,15 @@ fn cut_short(file: &File) -> String {
 fn without_last_line(file: &File) -> String {
     let lines: Vec<&str> = file.text.trim_end().split('\n').collect();
     lines[..lines.len() - 1].join("\n")
+}
+
+#[test]
+fn an_axis_that_the_control_does_not_know_is_named() {
+    let travel = TRAVEL.replace("axis.X", "axis.U");
+    let machine = machine(&format!("[machine]\nname = \"m\"\nchain = \"w b U Y Z t\"\n{travel}"));
+    let error = compile(&machine, &Order::of(Target::Isg)).unwrap_err();
+    assert_eq!(error.to_string(), "isg knows no axis U");
+    assert!(compile(&machine, &Order::of(Target::Csv)).is_ok());
 }
 
 /// FANUC B-63980EN/01 p. 100: data no. 33 to 49 of an axis with its reference position at no. 40. From the reference
