@@ -256,6 +256,18 @@ fn without_last_line(file: &File) -> String {
     lines[..lines.len() - 1].join("\n")
 }
 
+/// A centre that is not known better than it is off stays where it was.
+#[test]
+fn a_centre_that_is_not_known_well_enough_stays_nominal() {
+    let errors = "[location]\nEX0C = \"3 ± 4 um\"\nEY0A = \"9 ± 2 um\"";
+    let compiled = compile(&five(1, errors), &Order::of(Target::Csv)).unwrap();
+    let [c, a] = compiled.joints.as_ref().map_or([None; 2], |j| [j.0.first(), j.0.get(1)]);
+    let (c, a) = (c.unwrap(), a.unwrap());
+    assert!(c.point[0] == 5_000_000 && a.point[1] == 10_009_000, "{c:?} {a:?}");
+    let out = &compiled.left_out[0];
+    assert!(format!("{:?}", out.what).contains("Error") && out.reason.contains("uncertainty"));
+}
+
 #[test]
 fn an_axis_that_the_control_does_not_know_is_named() {
     let travel = TRAVEL.replace("axis.X", "axis.U");

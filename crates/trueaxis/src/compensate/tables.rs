@@ -2,13 +2,18 @@
 //! what is left.
 //!
 //! ```text
-//!     Machine ──lever──> f_io(q_i) ──place──> nodes ──control──> files ──read──> emulation ──> what is left
+//!     Machine ──split──┬─ chain: known errors, joints ─┐
+//!                      └─ rest ──lever──> tables, grid ─┴─> content ──write──> files ──read──> emulation ──> what is left
 //! ```
 //!
-//! - `lever`: what every axis should add, and what of it is a function of one axis;
-//! - [`place`]: the fewest nodes below a bound of the loss;
-//! - `csv`, `linuxcnc`, `sinumerik`: files, their parsers, their interpolation;
+//! - [`known`]: which errors the control's own chain can hold, by [`joints`] or by functions of each link (`link`);
+//! - `lever`: what every axis should add, and what of it is a function of one axis; `choose`: which of it helps;
+//! - [`place`], [`grid`]: the fewest nodes below a bound of the loss; [`temperature`]: straight lines;
+//! - `csv`, `fanuc`, `heidenhain`, `isg`, `linuxcnc`, `sinumerik`: files, their parsers, their interpolation;
+//! - [`emulation`]: what a control with this [`content`] adds to a command;
 //! - [`proof`](mod@proof): what the written files leave over the volume, of each error, of a test piece.
+//!
+//! docs/decisions/0014-what-a-control-holds.md
 
 mod choose;
 mod compile;

@@ -5,7 +5,7 @@ use super::content::Content;
 use super::control::{Control, File};
 use super::emulation::Emulation;
 use super::grid::{self, GridFault, Gridded};
-use super::joints::{Joints, moves_an_axis};
+use super::joints::Joints;
 use super::known;
 use super::lever::{self, Lever};
 use super::place::{self, PlaceFault, Placed};
@@ -15,6 +15,7 @@ use super::{Compiled, LeftOut, Made, Order, TablesError, What, shown, shown_plac
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Axis, AxisKind, Command, Travel};
 use trueaxis_machine::chain::CommandFault;
+use trueaxis_machine::errors::ErrorName;
 
 /// Compiles the tables of a control, reads them back and says what they leave.
 ///
@@ -31,7 +32,7 @@ pub fn compile(machine: &Machine, order: &Order) -> Result<Compiled, TablesError
     let (chain, rest) = known::split(machine, control.as_ref(), order.kinematics);
     let knowledge = known::compile(&chain, order, control.as_ref())?;
     let written: Vec<_> = knowledge.made.iter().map(|k| k.known.clone()).collect();
-    let joints = joints_of(&chain, control.as_ref());
+    let (joints, uncertain_joints) = joints_of(chain, control.as_ref());
     let mut content = Content { known: written, joints, ..Content::default() };
     let rest = match machine.is_at_temperatures() && control.has_temperature_lines() {
         true => {
@@ -42,7 +43,7 @@ pub fn compile(machine: &Machine, order: &Order) -> Result<Compiled, TablesError
         false => rest,
     };
     let (tables, mut left_out) = tables(machine, &rest, order, (control.as_ref(), &content))?;
-    let uncertain = knowledge.left_out.into_iter();
+    let uncertain = knowledge.left_out.into_iter().chain(uncertain_joints);
     left_out.extend(uncertain.map(|(error, largest)| LeftOut {
         what: What::Error(error),
         largest,
@@ -72,11 +73,23 @@ pub fn compile(machine: &Machine, order: &Order) -> Result<Compiled, TablesError
     })
 }
 
-/// The rotary axes as the control's parameters have them, if it knows an error of them.
-fn joints_of(chain: &Machine, control: &dyn Control) -> Option<Joints> {
-    let some = chain.stated_errors().iter().any(|(_, name)| moves_an_axis(chain, *name));
-    let actual = Joints::actual(chain);
-    (some && !control.knows_links() && actual != Joints::nominal(chain)).then_some(actual)
+/// The rotary axes as the control's parameters have them, if it knows an error of them; and the errors that are not
+/// known well enough.
+fn joints_of(mut chain: Machine, control: &dyn Control) -> (Option<Joints>, Vec<(ErrorName, f64)>) {
+    let mut uncertain = Vec::new();
+    if control.knows_links() {
+        return (None, uncertain);
+    }
+    for (index, name) in chain.stated_errors() {
+        let stated = chain.bodies()[index.body].stated(index.kind, index.component);
+        let size = stated.map_or(0.0, |s| s.at(0.0, 0.0).map_or(0.0, f64::abs));
+        if stated.is_some_and(|s| size <= s.u_at(0.0)) {
+            uncertain.extend((size > 0.0).then_some((name, size)));
+            chain = chain.with_error(index, None);
+        }
+    }
+    let actual = Joints::actual(&chain);
+    ((actual != Joints::nominal(&chain)).then_some(actual), uncertain)
 }
 
 /// Why something stays out that is not known well enough.
