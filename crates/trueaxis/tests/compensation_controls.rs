@@ -256,6 +256,19 @@ fn without_last_line(file: &File) -> String {
     lines[..lines.len() - 1].join("\n")
 }
 
+/// 2 ± 10 µrad of squareness are up to 2 µm of straightness over 1 m, and those are not known either: the uncertainty of a
+/// link is that of all it is made of. 20 ± 10 µrad go in.
+#[test]
+fn squareness_that_is_not_known_well_enough_is_no_straightness() {
+    for (stated, known) in [("2 ± 10 urad", 0), ("20 ± 10 urad", 2)] {
+        let text = format!(
+            "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n{TRAVEL}\n[location]\nEC0Y = \"{stated}\""
+        );
+        let compiled = compile(&machine(&text), &Order::of(Target::Isg)).unwrap();
+        assert_eq!((compiled.known.len(), compiled.left_out.len()), (known, 2 - known), "{stated}");
+    }
+}
+
 /// A centre that is not known better than it is off stays where it was.
 #[test]
 fn a_centre_that_is_not_known_well_enough_stays_nominal() {

@@ -37,6 +37,7 @@ pub mod place;
 pub mod proof;
 mod sinumerik;
 pub mod table;
+mod temp_comp;
 pub mod temperature;
 mod tool_carrier;
 

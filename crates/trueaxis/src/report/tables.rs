@@ -93,7 +93,7 @@ pub fn tables_text(report: &TablesReport<'_>) -> String {
 /// The errors that the control's chain knows, and its grid.
 fn known_text(machine: &Machine, compiled: &Compiled) -> String {
     let mut text = String::new();
-    for MadeKnown { known, loss, largest } in &compiled.known {
+    for MadeKnown { known, loss, largest, .. } in &compiled.known {
         let nodes = match known.nodes.len() {
             1 => "constant".to_owned(),
             n => format!("{n} nodes, loses {} between them", known::shown(known.error, *loss)),
@@ -318,7 +318,7 @@ fn unit_of_error(error: ErrorName) -> (&'static str, f64) {
 }
 
 fn known_json(made: &MadeKnown) -> Json {
-    let MadeKnown { known, loss, largest } = made;
+    let MadeKnown { known, loss, largest, .. } = made;
     let (unit, factor) = unit_of_error(known.error);
     let mut json = json!({ "error": known.error.to_string(), "nodes": known.nodes.len() });
     json[format!("loss_{unit}")] = json!(loss * factor);

@@ -51,11 +51,6 @@ impl Known {
     pub fn count(&self) -> f64 {
         count_of_error(self.error)
     }
-
-    /// The node with the largest value.
-    pub fn largest(&self) -> Option<&Node> {
-        self.nodes.iter().max_by_key(|n| n.up.abs())
-    }
 }
 
 /// What a count of an error is, mm or rad.

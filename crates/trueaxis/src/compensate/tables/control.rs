@@ -45,7 +45,9 @@ pub trait Control {
     }
 
     /// Whether one axis can move another.
-    fn has_cross_tables(&self) -> bool;
+    fn has_cross_tables(&self) -> bool {
+        false
+    }
 
     /// Which axis may move which: each itself; linear axes also by the position of every other.
     fn pairs(&self, machine: &Machine) -> Vec<(usize, usize)> {
@@ -97,7 +99,9 @@ pub trait Control {
     }
 
     /// Whether a table of an endless axis repeats itself.
-    fn has_modulo(&self) -> bool;
+    fn has_modulo(&self) -> bool {
+        true
+    }
 
     /// Nodes and increments of a table.
     fn rule(&self) -> Rule;

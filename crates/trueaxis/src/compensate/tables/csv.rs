@@ -5,7 +5,7 @@ use super::content::Content;
 use super::control::{Control, File, ReadFault, checked};
 use super::joints::moves_an_axis;
 use super::joints_csv;
-use super::place::{Rule, Spacing};
+use super::place::Rule;
 use super::table::{Node, Table, decimal, parse_decimal};
 use trueaxis_machine::Machine;
 use trueaxis_machine::errors::ErrorName;
@@ -30,18 +30,8 @@ impl Control for Csv {
         moves_an_axis(machine, error)
     }
 
-    fn has_modulo(&self) -> bool {
-        true
-    }
-
     fn rule(&self) -> Rule {
-        Rule {
-            spacing: Spacing::Free,
-            fewest_nodes: 2,
-            most_nodes: MOST_NODES,
-            increment: 1.0,
-            position: 1,
-        }
+        Rule { most_nodes: MOST_NODES, ..Rule::FREE }
     }
 
     fn write(&self, machine: &Machine, content: &Content) -> Vec<File> {

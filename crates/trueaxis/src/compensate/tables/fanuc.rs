@@ -44,26 +44,18 @@ impl Control for Fanuc {
         "fanuc"
     }
 
-    fn has_cross_tables(&self) -> bool {
-        false
-    }
-
     /// Centres; directions are nominal.
     fn knows_location(&self, machine: &Machine, error: ErrorName) -> bool {
         moves_an_axis(machine, error) && !error.component.is_rotation()
     }
 
-    fn has_modulo(&self) -> bool {
-        true
-    }
-
     fn rule(&self) -> Rule {
         Rule {
             spacing: Spacing::Stepped { unit: UNIT },
-            fewest_nodes: 2,
             most_nodes: MOST_NODES,
             increment: UNIT as f64,
             position: UNIT,
+            ..Rule::FREE
         }
     }
 

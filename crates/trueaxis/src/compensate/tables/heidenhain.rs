@@ -11,7 +11,7 @@
 
 use super::content::{Content, Known};
 use super::control::{Control, File, ReadFault, checked};
-use super::place::{Rule, Spacing};
+use super::place::Rule;
 use super::table::{Node, PER_UNIT, Table, decimal};
 use std::fmt::Write;
 use trueaxis_machine::Machine;
@@ -32,10 +32,6 @@ impl Control for Heidenhain {
         "heidenhain"
     }
 
-    fn has_cross_tables(&self) -> bool {
-        false
-    }
-
     fn knows_links(&self) -> bool {
         true
     }
@@ -48,18 +44,8 @@ impl Control for Heidenhain {
         }
     }
 
-    fn has_modulo(&self) -> bool {
-        true
-    }
-
     fn rule(&self) -> Rule {
-        Rule {
-            spacing: Spacing::Free,
-            fewest_nodes: 2,
-            most_nodes: MOST_NODES,
-            increment: INCREMENT,
-            position: 100,
-        }
+        Rule { most_nodes: MOST_NODES, increment: INCREMENT, position: 100, ..Rule::FREE }
     }
 
     fn write(&self, machine: &Machine, content: &Content) -> Vec<File> {

@@ -41,10 +41,6 @@ impl Control for Isg {
         "XYZABC"
     }
 
-    fn has_cross_tables(&self) -> bool {
-        false
-    }
-
     /// The tip is left to the volumetric compensation; only rotary axes have lists of their own.
     fn pairs(&self, machine: &Machine) -> Vec<(usize, usize)> {
         let rotary = machine.axes().iter().enumerate().filter(|(_, a)| a.kind == AxisKind::Rotary);
@@ -62,18 +58,8 @@ impl Control for Isg {
         }
     }
 
-    fn has_modulo(&self) -> bool {
-        true
-    }
-
     fn rule(&self) -> Rule {
-        Rule {
-            spacing: Spacing::Free,
-            fewest_nodes: 2,
-            most_nodes: MOST_NODES,
-            increment: UNIT as f64,
-            position: UNIT,
-        }
+        Rule { most_nodes: MOST_NODES, increment: UNIT as f64, position: UNIT, ..Rule::FREE }
     }
 
     fn known_rule(&self) -> Rule {

@@ -12,7 +12,7 @@ use super::{Order, TablesError};
 use crate::volume::commands;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Command};
-use trueaxis_machine::chain::CommandFault;
+use trueaxis_machine::chain::{CommandFault, ErrorFrame};
 use trueaxis_machine::errors::{Component, ErrorIndex, ErrorKind, ErrorName, ErrorValues};
 
 /// Poses at which the reach of a rotation is looked at, beside the corners.
@@ -31,6 +31,8 @@ pub struct MadeKnown {
     pub loss: f64,
     /// Its largest value, mm or rad.
     pub largest: f64,
+    /// Whether it is somewhere larger than its own standard uncertainty.
+    pub certain: bool,
 }
 
 /// What a control can know of a machine, with the errors that are written and those left out.
@@ -92,7 +94,7 @@ pub fn compile(
             if one.largest < 0.5 * increment {
                 continue;
             }
-            match one.largest > largest_u(machine, body, error) {
+            match one.certain {
                 true => knowledge.made.push(one),
                 false => knowledge.left_out.push((error, one.largest)),
             }
@@ -129,11 +131,22 @@ fn of_body(
     }
 }
 
-/// The standard uncertainty of what an error is made of, at the zero of its axis; 0 where none is stated.
-fn largest_u(machine: &Machine, body: usize, error: ErrorName) -> f64 {
-    let chain = &machine.bodies()[body];
-    let of = |kind| chain.stated(kind, error.component).map_or(0.0, |s| s.u_at(0.0));
-    of(ErrorKind::Location).hypot(of(ErrorKind::Motion))
+/// One standard uncertainty of an error of a link with its location errors in it, to first order.
+fn u_of_link(
+    machine: &Machine,
+    (body, component): (usize, Component),
+    command: &Command,
+    frame: ErrorFrame,
+) -> Result<f64, CommandFault> {
+    let errors = machine.errors_at(command, &Approach::default())?;
+    let quantities = machine.uncertain_quantities();
+    let known = machine.uncertainties_at(command, &quantities);
+    let of = |errors: &ErrorValues| {
+        link_errors(machine, body, command, (&errors.bodies[body], frame)).0[component as usize]
+    };
+    let moved =
+        (0..quantities.len()).map(|k| of(&known.displaced_by(&errors, k, 1.0)) - of(&errors));
+    Ok(moved.map(|d| d * d).sum::<f64>().sqrt())
 }
 
 fn function(
@@ -144,20 +157,26 @@ fn function(
 ) -> Result<MadeKnown, TablesError> {
     let (ends, modulo) = range(&machine.axes()[axis], control)?;
     let (count_in, count) = (count_of(machine, axis), count_of_error(error));
-    let value = |at: i64| {
+    let frame = control.link_frame(machine, body);
+    let command = |at: i64| {
         let mut command = Command::default();
         command[axis] = at as f64 * count_in;
+        command
+    };
+    let value = |at: i64| {
+        let command = command(at);
         let of = machine.errors_at(&command, &Approach::default())?.bodies[body];
-        let frame = control.link_frame(machine, body);
         let six = link_errors(machine, body, &command, (&of, frame));
         Ok::<_, CommandFault>(six.0[error.component as usize] / count)
     };
     // Such a chain has one value for both directions.
     let function = |at: i64| Ok([value(at)?; 2]);
-    let mut largest = 0.0_f64;
+    let (mut largest, mut certain) = (0.0_f64, false);
     for i in 0..=GLANCES {
         let at = ends.0 + ((ends.1 - ends.0) as i128 * i as i128 / GLANCES as i128) as i64;
-        largest = largest.max(value(at)?.abs() * count);
+        let size = value(at)?.abs() * count;
+        largest = largest.max(size);
+        certain |= size > u_of_link(machine, (body, error.component), &command(at), frame)?;
     }
     let rotation = error.component.is_rotation();
     let limit = if rotation { order.limit_rad } else { order.limit_mm };
@@ -183,7 +202,8 @@ fn function(
             bound: shown(error, bound),
         },
     })?;
-    Ok(MadeKnown { known: Known { error, modulo, nodes }, loss: loss * count, largest })
+    let known = Known { error, modulo, nodes };
+    Ok(MadeKnown { known, loss: loss * count, largest, certain })
 }
 
 /// How far the tip moves per rad of a rotation of a link, at most over the volume, mm per rad; 1 mm at least.

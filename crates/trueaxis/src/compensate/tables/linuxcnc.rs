@@ -14,7 +14,7 @@
 use super::content::Content;
 use super::control::{Control, File, ReadFault, checked};
 use super::linuxcnc_kinematics as kinematics;
-use super::place::{Rule, Spacing};
+use super::place::Rule;
 use super::table::{Node, PER_UNIT, Table, axis_order, decimal, parse_decimal};
 use std::fmt::Write;
 use trueaxis_machine::Machine;
@@ -35,10 +35,6 @@ impl Control for LinuxCnc {
         "linuxcnc"
     }
 
-    fn has_cross_tables(&self) -> bool {
-        false
-    }
-
     fn knows_location(&self, machine: &Machine, error: ErrorName) -> bool {
         kinematics::knows(machine, error)
     }
@@ -48,13 +44,7 @@ impl Control for LinuxCnc {
     }
 
     fn rule(&self) -> Rule {
-        Rule {
-            spacing: Spacing::Free,
-            fewest_nodes: 2,
-            most_nodes: MOST_NODES,
-            increment: 1.0,
-            position: 1,
-        }
+        Rule { most_nodes: MOST_NODES, ..Rule::FREE }
     }
 
     fn write(&self, machine: &Machine, content: &Content) -> Vec<File> {

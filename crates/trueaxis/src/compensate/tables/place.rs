@@ -37,6 +37,17 @@ pub struct Rule {
     pub position: i64,
 }
 
+impl Rule {
+    /// Nodes anywhere, as many as wanted, every count.
+    pub const FREE: Self = Self {
+        spacing: Spacing::Free,
+        fewest_nodes: 2,
+        most_nodes: usize::MAX,
+        increment: 1.0,
+        position: 1,
+    };
+}
+
 /// Nodes and what is lost between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Placed {
@@ -219,13 +230,7 @@ pub fn stepwise(nodes: &[Node], position: f64, side: f64) -> f64 {
 mod tests {
     use super::*;
 
-    const RULE: Rule = Rule {
-        spacing: Spacing::Free,
-        fewest_nodes: 2,
-        most_nodes: 256,
-        increment: 1.0,
-        position: 1,
-    };
+    const RULE: Rule = Rule { most_nodes: 256, ..Rule::FREE };
 
     /// 10 µm/m over 1 m is one straight line; the parabola 90 µm·(x/m)² sags 22.5 µm·h², so that 1 µm needs 4.7 pieces.
     #[test]

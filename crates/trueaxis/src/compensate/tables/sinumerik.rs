@@ -10,10 +10,9 @@
 
 use super::content::Content;
 use super::control::{Control, File, ReadFault, checked, ended};
-use super::joints_csv::{direction, parse_direction};
 use super::place::{Rule, Spacing};
 use super::table::{Node, Table, axis_order, decimal, parse_decimal};
-use super::temperature::Line;
+use super::temp_comp;
 use super::tool_carrier;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -28,7 +27,6 @@ pub struct Sinumerik {
 
 const ENCODER: &str = "AX_EEC.INI";
 const CROSS: &str = "NC_CEC.INI";
-const TEMPERATURE: &str = "TEMP_COMP.SPF";
 /// What MD38000 and MD18342 can be set to at most.
 const MOST_NODES: usize = 2000;
 /// $AN_CEC tables: two for each of 31 axes.
@@ -51,17 +49,12 @@ impl Control for Sinumerik {
         true
     }
 
-    fn has_modulo(&self) -> bool {
-        true
-    }
-
     fn rule(&self) -> Rule {
         Rule {
             spacing: Spacing::Equal,
-            fewest_nodes: 2,
             most_nodes: MOST_NODES,
             increment: self.increment,
-            position: 1,
+            ..Rule::FREE
         }
     }
 
@@ -101,38 +94,18 @@ impl Control for Sinumerik {
         let tables = [(ENCODER, encoder), (CROSS, cross)]
             .map(|(name, text)| File { name: name.to_owned(), text: text + "M17\n" });
         let carrier = content.joints.as_ref().and_then(|j| tool_carrier::write(machine, j));
-        let warm = (!content.lines.is_empty()).then(|| File {
-            name: TEMPERATURE.to_owned(),
-            text: temperature_text(content, &number),
-        });
+        let warm = (!content.lines.is_empty()).then(|| temp_comp::write(machine, &content.lines));
         tables.into_iter().chain(carrier).chain(warm).collect()
     }
 
     fn read(&self, machine: &Machine, files: &[File]) -> Result<Content, ReadFault> {
-        let order = axis_order(machine);
         let (mut tables, mut lines, mut joints) = (Vec::new(), Vec::new(), None);
         for file in files {
             ended(file, "M17")?;
             match file.name.as_str() {
-                tool_carrier::NAME => {
-                    joints = Some(tool_carrier::read(machine, file)?);
-                    continue;
-                }
-                TEMPERATURE => {
-                    lines = read_temperature(file, &order)?;
-                    continue;
-                }
-                _ => {}
-            }
-            let axis = |name: &str| {
-                let number = name.strip_prefix("AX").and_then(|n| n.parse::<usize>().ok());
-                let axis = number.and_then(|n| order.get(n.checked_sub(1)?));
-                axis.copied().ok_or_else(|| ReadFault::new(&file.name, format!("no axis `{name}`")))
-            };
-            for one in assignments(file)?.into_values() {
-                let (input, output) =
-                    (axis(one.text(file, "INPUT_AXIS")?)?, axis(one.text(file, "OUTPUT_AXIS")?)?);
-                join(file, &mut tables, one.table(file, (input, output))?)?;
+                tool_carrier::NAME => joints = Some(tool_carrier::read(machine, file)?),
+                temp_comp::NAME => lines = temp_comp::read(machine, file)?,
+                _ => read_tables(machine, file, &mut tables)?,
             }
         }
         Ok(Content { tables, lines, joints, ..Content::default() })
@@ -150,47 +123,19 @@ impl Control for Sinumerik {
     }
 }
 
-/// Setting data of the temperature compensation; as of a table, the value is minus what is added.
-fn temperature_text(content: &Content, number: &dyn Fn(usize) -> usize) -> String {
-    let mut text = ";TrueAxis: temperature compensation, mm and deg; MD32750 is 3\n".to_owned();
-    for line in &content.lines {
-        let n = number(line.axis);
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "$SA_TEMP_COMP_ABS_VALUE[AX{n}]={}", decimal(-line.offset));
-        let _ = writeln!(text, "$SA_TEMP_COMP_SLOPE[AX{n}]={}", direction(-line.slope));
-        let _ = writeln!(text, "$SA_TEMP_COMP_REF_POSITION[AX{n}]={}", decimal(line.reference));
+fn read_tables(machine: &Machine, file: &File, tables: &mut Vec<Table>) -> Result<(), ReadFault> {
+    let order = axis_order(machine);
+    let axis = |name: &str| {
+        let number = name.strip_prefix("AX").and_then(|n| n.parse::<usize>().ok());
+        let axis = number.and_then(|n| order.get(n.checked_sub(1)?));
+        axis.copied().ok_or_else(|| ReadFault::new(&file.name, format!("no axis `{name}`")))
+    };
+    for one in assignments(file)?.into_values() {
+        let (input, output) =
+            (axis(one.text(file, "INPUT_AXIS")?)?, axis(one.text(file, "OUTPUT_AXIS")?)?);
+        join(file, tables, one.table(file, (input, output))?)?;
     }
-    text + "M17\n"
-}
-
-fn read_temperature(file: &File, order: &[usize]) -> Result<Vec<Line>, ReadFault> {
-    let mut lines: Vec<Line> = Vec::new();
-    for (i, text) in file.text.lines().enumerate() {
-        if text.starts_with(';') || text == "M17" {
-            continue;
-        }
-        let fault =
-            || ReadFault::new(&file.name, format!("line {}: $SA_TEMP_COMP_…[AXn]=…", i + 1));
-        let (name, value) = text.split_once('=').ok_or_else(fault)?;
-        let (name, n) = name.split_once("[AX").ok_or_else(fault)?;
-        let n = n.trim_end_matches(']').parse::<usize>().map_err(|_| fault())?;
-        let axis = *n.checked_sub(1).and_then(|n| order.get(n)).ok_or_else(fault)?;
-        if lines.last().is_none_or(|l| l.axis != axis) {
-            lines.push(Line { axis, reference: 0, offset: 0, slope: 0 });
-        }
-        let Some(line) = lines.last_mut() else { return Err(fault()) };
-        match name {
-            "$SA_TEMP_COMP_ABS_VALUE" => {
-                line.offset = -parse_decimal(value).ok_or_else(fault)?;
-            }
-            "$SA_TEMP_COMP_SLOPE" => line.slope = -parse_direction(value).ok_or_else(fault)?,
-            "$SA_TEMP_COMP_REF_POSITION" => {
-                line.reference = parse_decimal(value).ok_or_else(fault)?;
-            }
-            _ => return Err(fault()),
-        }
-    }
-    Ok(lines)
+    Ok(())
 }
 
 fn encoder_text(table: &Table, axis: usize) -> String {
