@@ -6,7 +6,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use trueaxis::geometry::input::Diagnostics;
+use trueaxis::input::Diagnostics;
 use trueaxis::report::{Evaluation, evaluation_json, evaluation_text};
 use trueaxis::verify::conditions::Conditions;
 use trueaxis::verify::import::Import;

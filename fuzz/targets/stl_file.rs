@@ -5,7 +5,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use trueaxis::geometry::input::Diagnostics;
+use trueaxis::input::Diagnostics;
 use trueaxis::simulate::collide::{Mesh, read_stl};
 
 fuzz_target!(|data: &[u8]| {

@@ -7,7 +7,7 @@
 
 use libfuzzer_sys::fuzz_target;
 use std::sync::Arc;
-use trueaxis_geometry::input::Diagnostics;
+use trueaxis_input::Diagnostics;
 use trueaxis_machine::Machine;
 use trueaxis_machine::file::NoTables;
 use trueaxis_machine::heat::{TemperatureLog, TemperatureRun, WarmingMachine};

@@ -6,7 +6,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use trueaxis::geometry::input::Diagnostics;
+use trueaxis::input::Diagnostics;
 use trueaxis::identify::thermal::{Tables, identify_thermal, parse_logs};
 
 fuzz_target!(|data: &[u8]| {

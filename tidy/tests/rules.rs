@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 const MAX_LINES_BEFORE_TESTS: usize = 600;
-const MAX_CRATES: usize = 8;
+const MAX_CRATES: usize = 14;
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")

@@ -6,9 +6,7 @@ use std::sync::Arc;
 pub use trueaxis::describe::{axis_index, to_inner, to_shown, warn_beyond_travel};
 use trueaxis::files;
 use trueaxis::geometry::Vec3;
-use trueaxis::geometry::input::{
-    CsvTable, Diagnostics, Dimension, Place, QuantityError, parse_quantity,
-};
+use trueaxis::input::{CsvTable, Diagnostics, Dimension, Place, QuantityError, parse_quantity};
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{Approach, Command};
 use trueaxis::machine::heat::{Conditions, TemperatureRun};

@@ -3,7 +3,7 @@ use clap::Args;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use trueaxis::files;
-use trueaxis::geometry::input::{Diagnostics, Place};
+use trueaxis::input::{Diagnostics, Place};
 use trueaxis::machine::Machine;
 use trueaxis::report::{check_json, check_text};
 use trueaxis::simulate::collide::export;

@@ -11,7 +11,7 @@ use trueaxis::compensate::values::{
     MOST_POSITIONS, Order, ValueTable, ValuesError, compensation_values, travel_positions,
 };
 use trueaxis::files;
-use trueaxis::geometry::input::{Diagnostics, Dimension, Place, parse_quantity};
+use trueaxis::input::{Diagnostics, Dimension, Place, parse_quantity};
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{AxisKind, Command};
 use trueaxis::predict::holes::Compensation;

@@ -2,7 +2,7 @@ use crate::output::{Answer, Format, Outcome, diagnostic_json, report, show, tell
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 use trueaxis::files;
-use trueaxis::geometry::input::{Diagnostics, Dimension, Place, parse_quantity};
+use trueaxis::input::{Diagnostics, Dimension, Place, parse_quantity};
 use trueaxis::report::{Evaluation, evaluation_html, evaluation_json, evaluation_text, remarks};
 use trueaxis::verify::conditions::{Conditions, read_conditions};
 use trueaxis::verify::import::Import;

@@ -8,8 +8,8 @@ use clap::{Args, Subcommand};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::PathBuf;
-use trueaxis::geometry::input::{Diagnostics, Place};
 use trueaxis::identify::expansion::{Expansion, Runs, identify_expansion, read_runs};
+use trueaxis::input::{Diagnostics, Place};
 
 /// What to identify.
 #[derive(Args)]

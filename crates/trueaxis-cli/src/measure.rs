@@ -4,7 +4,7 @@ use clap::Args;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use trueaxis::files;
-use trueaxis::geometry::input::Diagnostics;
+use trueaxis::input::Diagnostics;
 use trueaxis::measure::virtual_campaign::{Measurement, VirtualCampaign, measure, read_virtual};
 use trueaxis::measure::{Campaign, read_campaign};
 use trueaxis::report::{MeasuredReport, measurement_html, measurement_json, measurement_text};
@@ -88,7 +88,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 /// Where the table of each instrument goes.
 fn tables(folder: &Path, campaign: &Campaign, problems: &mut Diagnostics) -> Vec<PathBuf> {
     if let Err(error) = std::fs::create_dir_all(folder) {
-        let place = trueaxis::geometry::input::Place::whole(&folder.display().to_string());
+        let place = trueaxis::input::Place::whole(&folder.display().to_string());
         let message = format!("the folder cannot be made: {error}");
         problems.error("unwritable-file", place, message, "name another -o");
         return Vec::new();

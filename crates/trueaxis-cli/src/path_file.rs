@@ -5,9 +5,9 @@ use std::fs::File;
 use std::io::{self, BufWriter};
 use std::path::Path;
 use trueaxis::files::Part;
-use trueaxis::geometry::input::Diagnostics;
+use trueaxis::input::Diagnostics;
 #[cfg(not(feature = "parquet"))]
-use trueaxis::geometry::input::Place;
+use trueaxis::input::Place;
 use trueaxis::machine::Machine;
 #[cfg(feature = "parquet")]
 use trueaxis::simulate::ParquetTable;

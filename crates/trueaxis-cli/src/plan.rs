@@ -4,7 +4,7 @@ use crate::output::{Answer, Format, Outcome, report, show, tell};
 use crate::report_file::{REPORT, may_write, unusable, write_report};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
-use trueaxis::geometry::input::Place;
+use trueaxis::input::Place;
 use trueaxis::nc::Control;
 use trueaxis::plan::program::write_files;
 use trueaxis::plan::{Chosen, Plan, chosen, planned, read_plan};

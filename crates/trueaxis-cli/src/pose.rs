@@ -4,7 +4,7 @@ use crate::arguments::{self, MachineArguments, argument};
 use crate::output::{Answer, Format, Outcome, finish};
 use clap::Args;
 use std::path::PathBuf;
-use trueaxis::geometry::input::Diagnostics;
+use trueaxis::input::Diagnostics;
 use trueaxis::machine::axis::Approach;
 use trueaxis::report::{PoseReport, pose_json, pose_text};
 

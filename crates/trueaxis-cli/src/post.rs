@@ -9,7 +9,7 @@ use trueaxis::compensate::post::{
     FeedRule, Largest, PostOptions, Posted, Verification, post, verify,
 };
 use trueaxis::files;
-use trueaxis::geometry::input::{Diagnostics, Dimension, Place, parse_quantity};
+use trueaxis::input::{Diagnostics, Dimension, Place, parse_quantity};
 use trueaxis::machine::Machine;
 use trueaxis::nc::Control;
 use trueaxis::nc::cl::{ClFile, Reading};

@@ -3,7 +3,7 @@ use crate::report_file::{REPORT, may_write, unusable, write_report};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
-use trueaxis::geometry::input::{Diagnostics, Place};
+use trueaxis::input::{Diagnostics, Place};
 use trueaxis::part::tolerance;
 use trueaxis::predict::holes::{is_hole_study, predict_holes, read_hole_study};
 use trueaxis::predict::{Error, Prediction, Study, predict, read_study};

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use trueaxis::geometry::Vec3;
 use trueaxis::geometry::frame::{Direction, Point, Workpiece};
-use trueaxis::geometry::input::{CsvTable, Diagnostics};
+use trueaxis::input::{CsvTable, Diagnostics};
 use trueaxis::machine::axis::Command;
 use trueaxis::machine::{FollowError, FollowFault, Machine, Solutions, SolveError, Target};
 use trueaxis::report::numbers::{exact, fixed};

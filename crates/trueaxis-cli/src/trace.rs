@@ -6,7 +6,7 @@ use crate::simulate::ProgramArguments;
 use clap::Args;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
-use trueaxis::geometry::input::Diagnostics;
+use trueaxis::input::Diagnostics;
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{AxisKind, Command};
 use trueaxis::nc::moves::{Axis, Event, FeedMode, Move, MoveKind, OrientationPath, Position, Step};

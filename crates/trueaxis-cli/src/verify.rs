@@ -3,7 +3,7 @@ use crate::report_file::{REPORT, may_write, unusable, write_report};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use trueaxis::files;
-use trueaxis::geometry::input::{Diagnostics, Place};
+use trueaxis::input::{Diagnostics, Place};
 use trueaxis::part::tolerance;
 use trueaxis::report::{
     CalibrationsReport, calibrations_html, calibrations_json, calibrations_text, certificate_html,

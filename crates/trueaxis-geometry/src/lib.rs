@@ -1,11 +1,5 @@
-//! Where things are, and what people wrote about it.
-//!
-//! Two small vocabularies that every other crate shares:
-//!
-//! - [`frame`]: points, directions and poses whose *frames are in their types*, so that a
-//!   workpiece point cannot be added to a machine point by accident.
-//! - [`input`]: text from people: quantities with units (`"12 urad"`), TOML sections that report
-//!   every problem with its place, diagnostics.
+//! Where things are: points, directions and poses whose *frames are in their types* ([`frame`]), so that
+//! a workpiece point cannot be added to a machine point by accident.
 //!
 //! Inside the programs lengths are mm, angles rad, times s, temperatures °C. µm, µrad, deg and
 //! m/min exist only in text.
@@ -24,7 +18,6 @@
 //! It does not know what a machine, a program or a part is.
 
 pub mod frame;
-pub mod input;
 
 /// A column vector of three components; its unit and frame are in the name of the variable.
 pub type Vec3 = nalgebra::Vector3<f64>;

@@ -12,7 +12,7 @@
 
 use std::hint::black_box;
 use std::time::Instant;
-use trueaxis_geometry::input::Diagnostics;
+use trueaxis_input::Diagnostics;
 use trueaxis_machine::Machine;
 use trueaxis_machine::batch::{Commands, CompiledMachine, DeviationTable};
 use trueaxis_machine::file::Tables;

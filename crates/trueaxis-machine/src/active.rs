@@ -2,7 +2,7 @@
 
 use crate::Machine;
 use crate::errors::ErrorName;
-use trueaxis_geometry::input::Section;
+use trueaxis_input::Section;
 
 /// `[compensation] active = ["EXX", "EYY"]`: tables that are switched on in the control.
 pub(crate) fn read_active(section: &Section<'_>) -> Vec<ErrorName> {

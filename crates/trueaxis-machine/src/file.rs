@@ -18,7 +18,7 @@ use crate::chain::{ChainBody, ErrorFrame, ErrorModel, Machine, Squareness};
 use crate::errors::{BodyName, Rotation};
 use crate::tool::ToolAssembly;
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{Diagnostics, Dimension, Item, Section, Source};
+use trueaxis_input::{Diagnostics, Dimension, Item, Section, SourceText};
 
 /// Where the tables that a machine file names come from; this crate opens no file.
 pub trait Tables {
@@ -72,7 +72,7 @@ impl Machine {
     /// assert!((machine.deviation(&command, &errors).tip_mm.x + 0.005).abs() < 1e-9);
     /// ```
     pub fn check(file: &str, text: &str, tables: &dyn Tables) -> (Option<Self>, Diagnostics) {
-        let source = Source::new(file, text);
+        let source = SourceText::new(file, text);
         let machine = source.read(|root| read_machine(root, tables));
         let problems = source.finish();
         (machine.filter(|_| !problems.has_errors()), problems)

@@ -26,7 +26,7 @@ use crate::axis::{Command, Travel};
 use crate::chain::Machine;
 use crate::errors::{Component, Curve, ErrorIndex, ErrorKind, ErrorName, ErrorValues, StatedError};
 use field::Source;
-use trueaxis_geometry::input::Diagnostics;
+use trueaxis_input::Diagnostics;
 
 /// The reference temperature of lengths, ISO 1.
 pub const REFERENCE_CELSIUS: f64 = 20.0;
@@ -168,7 +168,7 @@ impl Machine {
     ///
     /// ```
     /// use trueaxis_machine::{Machine, file::NoTables, heat::Conditions};
-    /// use trueaxis_geometry::input::Diagnostics;
+    /// use trueaxis_input::Diagnostics;
     /// let text = r#"
     ///     machine = { name = "one axis", chain = "w b X Y Z t" }
     ///     [scale.X]
@@ -217,7 +217,7 @@ impl Machine {
         warm.growth = workpiece.and_then(|w| w.growth(conditions, problems));
         let sound = problems.iter().skip(before);
         let mut sound = sound.map(|d| d.severity);
-        sound.all(|s| s != trueaxis_geometry::input::Severity::Error).then_some(warm)
+        sound.all(|s| s != trueaxis_input::Severity::Error).then_some(warm)
     }
 
     /// The same machine with every body at the temperature of its table.

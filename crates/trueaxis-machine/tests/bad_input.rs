@@ -5,7 +5,7 @@
 //! `# expect: warning …` where the machine can still be used.
 
 use std::path::{Path, PathBuf};
-use trueaxis_geometry::input::{Diagnostic, Severity};
+use trueaxis_input::{Diagnostic, Severity};
 use trueaxis_machine::Machine;
 use trueaxis_machine::file::{NoTables, Tables};
 

@@ -8,7 +8,7 @@ use library::{checked, warm};
 use proptest::prelude::*;
 use std::sync::Arc;
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{CsvTable, Diagnostics};
+use trueaxis_input::{CsvTable, Diagnostics};
 use trueaxis_machine::Machine;
 use trueaxis_machine::batch::{Commands, CompiledMachine, DeviationTable};
 use trueaxis_machine::file::NoTables;

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use std::path::Path;
 use std::time::{Duration, Instant};
-use trueaxis_geometry::input::Severity;
+use trueaxis_input::Severity;
 use trueaxis_machine::Machine;
 use trueaxis_machine::file::Tables;
 

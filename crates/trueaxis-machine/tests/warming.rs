@@ -5,7 +5,7 @@ mod library;
 use library::{checked, warm};
 use proptest::prelude::*;
 use std::sync::Arc;
-use trueaxis_geometry::input::Diagnostics;
+use trueaxis_input::Diagnostics;
 use trueaxis_machine::Machine;
 use trueaxis_machine::file::NoTables;
 use trueaxis_machine::heat::field::{ScaleField, Source, ierfc};

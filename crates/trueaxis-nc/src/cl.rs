@@ -22,7 +22,7 @@ mod words;
 
 use crate::moves::{Coolant, Feed, Turning};
 use std::ops::Range;
-use trueaxis_geometry::input::Diagnostics;
+use trueaxis_input::Diagnostics;
 
 /// One place of the tool.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -33,7 +33,7 @@ mod words;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
 
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 
 use crate::interpreter::{Outcome, Settings};
 use crate::library::Library;

@@ -23,7 +23,7 @@ use std::cell::Cell;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
 
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 
 use crate::dialect::Control;
 use crate::library::Library;

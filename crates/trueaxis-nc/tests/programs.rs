@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use support::{same_line, step_line};
-use trueaxis_geometry::input::Severity;
+use trueaxis_input::Severity;
 use trueaxis_nc::moves::{Axis, Position};
 use trueaxis_nc::{Control, Library, Program, Settings, interpret};
 

@@ -3,7 +3,7 @@
 use crate::testpiece::cone::{Cone, ConeSize, INDICES};
 use crate::testpiece::{IndexName, NasMounting, TestPiece};
 use crate::tolerance::{Tolerance, Tolerances};
-use trueaxis_geometry::input::{Dimension, Item, Section};
+use trueaxis_input::{Dimension, Item, Section};
 
 /// The shapes that a file can describe; a new test piece is a new variant.
 #[derive(Debug, Clone)]
@@ -16,7 +16,7 @@ pub enum Shape {
 ///
 /// # Example
 /// ```
-/// use trueaxis_geometry::input::Source;
+/// use trueaxis_input::SourceText;
 /// use trueaxis_part::TestPieceFile;
 /// let text = r#"
 /// name = "our cone"
@@ -31,7 +31,7 @@ pub enum Shape {
 /// [tolerance]
 /// roundness_mzc = "0.1 mm"
 /// "#;
-/// let source = Source::new("our-cone.toml", text);
+/// let source = SourceText::new("our-cone.toml", text);
 /// let file = source.read(|root| TestPieceFile::read(root)).expect("all there");
 /// assert_eq!(file.tolerances.limit_mm("roundness_mzc_mm"), Some(0.1));
 /// assert_eq!(file.piece().position_count(), 72);
@@ -54,7 +54,7 @@ pub struct TestPieceFile {
 const DEFAULT_POSITIONS: usize = 72;
 
 impl TestPieceFile {
-    /// Reads and checks the root of a file; every problem is kept in its `Source`.
+    /// Reads and checks the root of a file; every problem is kept in its `SourceText`.
     ///
     /// `None` if the test piece cannot be used; the source then holds at least one error.
     pub fn read(root: &Section<'_>) -> Option<Self> {
@@ -167,10 +167,10 @@ impl Tolerances {
     ///
     /// # Example
     /// ```
-    /// use trueaxis_geometry::input::Source;
+    /// use trueaxis_input::SourceText;
     /// use trueaxis_part::tolerance::Tolerances;
     /// let text = "source = \"drawing 12\"\n[tolerance]\nroundness_mzc = \"0.05 mm\"";
-    /// let source = Source::new("ours.toml", text);
+    /// let source = SourceText::new("ours.toml", text);
     /// let allowed = source.read(Tolerances::read).expect("all there");
     /// assert_eq!(allowed.limit_mm("roundness_mzc_mm"), Some(0.05));
     /// ```

@@ -10,13 +10,13 @@
 //! ```
 //!
 //! ```
-//! use trueaxis_geometry::input::Source;
+//! use trueaxis_input::SourceText;
 //! use trueaxis_part::TestPieceFile;
 //! use trueaxis_part::testpiece::CutSurface;
 //! use trueaxis_part::tolerance::{Acceptance, Outcome};
 //!
 //! let text = include_str!("../../../testpieces/nas979-gbt33150.toml");
-//! let source = Source::new("nas979-gbt33150.toml", text);
+//! let source = SourceText::new("nas979-gbt33150.toml", text);
 //! let file = source.read(|root| TestPieceFile::read(root)).expect("the shipped file is good");
 //! let piece = file.piece();
 //!

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use std::f64::consts::TAU;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::rotation;
-use trueaxis_geometry::input::Source;
+use trueaxis_input::SourceText;
 use trueaxis_part::fit::circle::{self, Fitter};
 use trueaxis_part::testpiece::cone::{Cone, ConeSize};
 use trueaxis_part::testpiece::{CutSurface, Datum, TestPiece};
@@ -288,7 +288,7 @@ proptest! {
 
     #[test]
     fn law_the_file_parser_survives_any_text(text in "(?s).{0,200}") {
-        let source = Source::new("any.toml", &text);
+        let source = SourceText::new("any.toml", &text);
         let file = source.read(TestPieceFile::read);
         prop_assert!(file.is_none() && source.finish().has_errors());
     }
@@ -300,7 +300,7 @@ proptest! {
         if text.is_char_boundary(at) && text.is_char_boundary(at + 1) {
             text.replace_range(at..=at, &byte);
         }
-        let source = Source::new("damaged.toml", &text);
+        let source = SourceText::new("damaged.toml", &text);
         let file = source.read(TestPieceFile::read);
         prop_assert!(file.is_some() || source.finish().has_errors());
     }
@@ -310,7 +310,7 @@ const NAS979: &str = include_str!("../../../testpieces/nas979-gbt33150.toml");
 const ISO10791: &str = include_str!("../../../testpieces/iso10791-7-cone.toml");
 
 fn codes(text: &str) -> (bool, Vec<&'static str>) {
-    let source = Source::new("piece.toml", text);
+    let source = SourceText::new("piece.toml", text);
     let read = source.read(TestPieceFile::read).is_some();
     (read, source.finish().iter().map(|d| d.code).collect())
 }

@@ -1,7 +1,7 @@
 //! Published numbers of document 000 (Wu et al. 2022).
 
 use trueaxis_geometry::frame::Point;
-use trueaxis_geometry::input::Source;
+use trueaxis_input::SourceText;
 use trueaxis_part::TestPieceFile;
 use trueaxis_part::testpiece::TestPiece;
 use trueaxis_part::testpiece::cone::{Cone, ConeSize};
@@ -89,7 +89,7 @@ fn paper_000_eq_9_normal_and_axis_at_180_degrees() {
 #[test]
 fn paper_000_table_4_tolerances_and_eq_2_in_the_shipped_file() {
     let text = include_str!("../../../testpieces/nas979-gbt33150.toml");
-    let source = Source::new("nas979-gbt33150.toml", text);
+    let source = SourceText::new("nas979-gbt33150.toml", text);
     let file = source.read(TestPieceFile::read).unwrap();
     assert_eq!(source.finish().iter().count(), 0);
     for (key, limit) in

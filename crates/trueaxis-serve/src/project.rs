@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Component, Path, PathBuf};
-use trueaxis::geometry::input::{Diagnostics, Section, Source};
+use trueaxis::input::{Diagnostics, Section, SourceText};
 
 /// A folder with more files than this is no project; the list ends there and says so.
 const MOST_FILES: usize = 5000;
@@ -123,10 +123,10 @@ impl Project {
         let Ok(text) = fs::read_to_string(self.root.join(INDEX)) else {
             return (Vec::new(), Diagnostics::new());
         };
-        let source = Source::new(INDEX, &text);
+        let source = SourceText::new(INDEX, &text);
         let examples = source.read(|root| {
             let list = root.get("example").and_then(|item| item.list()).unwrap_or_default();
-            let one = |item: trueaxis::geometry::input::Item<'_>| {
+            let one = |item: trueaxis::input::Item<'_>| {
                 item.section("example", |section| example(section))
             };
             list.into_iter().filter_map(one).flatten().collect()

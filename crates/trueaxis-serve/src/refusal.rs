@@ -1,7 +1,7 @@
 //! Why a request is not answered: for the page and for people.
 
 use serde_json::{Value, json};
-use trueaxis::geometry::input::{Diagnostics, Severity};
+use trueaxis::input::{Diagnostics, Severity};
 
 /// A request that cannot be answered.
 #[derive(Debug, Clone, PartialEq)]

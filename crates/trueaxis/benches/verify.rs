@@ -3,7 +3,7 @@
 
 use divan::counter::ItemsCount;
 use std::fmt::Write as _;
-use trueaxis::geometry::input::Diagnostics;
+use trueaxis::input::Diagnostics;
 use trueaxis::verify::conditions::Conditions;
 use trueaxis::verify::sheet::Sheet;
 use trueaxis::verify::{Request, Standard, evaluate, iso230_2};

@@ -12,7 +12,7 @@ pub mod program;
 pub mod tables;
 pub mod values;
 
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
 
 /// The machine as commands meet it: what the control compensates already (`[compensation] active` of the

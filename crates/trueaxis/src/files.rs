@@ -10,7 +10,7 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use trueaxis_geometry::input::{Diagnostics, Place, Section};
+use trueaxis_input::{Diagnostics, Place, Section};
 use trueaxis_machine::Machine;
 use trueaxis_machine::file::Tables;
 use trueaxis_machine::heat::TemperatureLog;

@@ -33,6 +33,7 @@ pub mod verify;
 mod volume;
 
 pub use trueaxis_geometry as geometry;
+pub use trueaxis_input as input;
 pub use trueaxis_machine as machine;
 pub use trueaxis_nc as nc;
 pub use trueaxis_part as part;

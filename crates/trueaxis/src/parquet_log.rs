@@ -1,7 +1,7 @@
 //! A log of temperatures as a Parquet file: the columns of the CSV table, by the same names.
 
 use std::fs::File;
-use trueaxis_geometry::input::{CsvTable, Diagnostics, Place};
+use trueaxis_input::{CsvTable, Diagnostics, Place};
 
 /// The table of a Parquet file; what is wrong with it goes to `problems`.
 #[cfg(not(feature = "parquet"))]

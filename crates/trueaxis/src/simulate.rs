@@ -60,7 +60,7 @@ use std::path::Path;
 use temperatures::Present;
 pub(crate) use tool_path::STILL;
 use tool_path::{BATCH, ToolPath};
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Command;
 use trueaxis_machine::heat::TemperatureRun;

@@ -35,7 +35,7 @@ use iso230_4::Circular;
 use iso230_6::Diagonals;
 use iso230_7::Rotation;
 use sheet::{Cells, Sheet};
-use trueaxis_geometry::input::{Diagnostics, Dimension, Place, Unit};
+use trueaxis_input::{Diagnostics, Dimension, Place, Unit};
 
 /// A standard that readings can be evaluated by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

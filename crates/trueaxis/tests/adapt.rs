@@ -12,7 +12,7 @@ use trueaxis::compensate::adapt::{
     read_adapt_study, read_points, virtual_cut,
 };
 use trueaxis::geometry::Vec3;
-use trueaxis::geometry::input::Diagnostics;
+use trueaxis::input::Diagnostics;
 use trueaxis::nc::cl::{ClFile, Reading};
 
 fn example() -> AdaptStudy {

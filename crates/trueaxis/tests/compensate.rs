@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use trueaxis::compensate::values::{Order, ValueTable, compensation_values};
-use trueaxis::geometry::input::Diagnostics;
+use trueaxis::input::Diagnostics;
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{AxisKind, Command};
 use trueaxis::machine::errors::ErrorValues;

@@ -6,7 +6,7 @@ mod library;
 use library::{bare, machine, with_lost_motion};
 use std::path::PathBuf;
 use trueaxis::compensate::program::{MARK, ProgramOptions, Rewritten, compensate_program};
-use trueaxis::geometry::input::Diagnostics;
+use trueaxis::input::Diagnostics;
 use trueaxis::machine::Machine;
 use trueaxis::nc::moves::{Move, Origin, Step};
 use trueaxis::nc::{Control, Library, Program, Settings, interpret};

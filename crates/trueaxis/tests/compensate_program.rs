@@ -12,7 +12,7 @@ use trueaxis::compensate::program::{
     Increments, MARK, ProgramOptions, Rewritten, compensate_program,
 };
 use trueaxis::geometry::Vec3;
-use trueaxis::geometry::input::Diagnostics;
+use trueaxis::input::Diagnostics;
 use trueaxis::machine::Machine;
 use trueaxis::nc::writer::TipWords;
 use trueaxis::nc::{Control, Program};

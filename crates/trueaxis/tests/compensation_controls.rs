@@ -6,7 +6,7 @@ use trueaxis::compensate::tables::content::Content;
 use trueaxis::compensate::tables::control::File;
 use trueaxis::compensate::tables::emulation::Emulation;
 use trueaxis::compensate::tables::{Compiled, Order, Target, compile};
-use trueaxis::geometry::input::Diagnostics;
+use trueaxis::input::Diagnostics;
 use trueaxis::machine::Machine;
 use trueaxis::machine::file::NoTables;
 use trueaxis::machine::heat::Conditions;

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::sync::OnceLock;
 use trueaxis::describe::{MOST_SAMPLES, describe, set_error};
 use trueaxis::files::{self, Folder};
-use trueaxis::geometry::input::{Dimension, parse_measured};
+use trueaxis::input::{Dimension, parse_measured};
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::AxisKind;
 use trueaxis::machine::errors::{Curve, ErrorIndex, ErrorKind, ErrorValues};

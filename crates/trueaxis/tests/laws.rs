@@ -208,7 +208,7 @@ fn law_the_setting_error_is_taken_off_once() {
                  height = \"40 mm\"\nsections = [\"0 mm\", \"20 mm\", \"40 mm\"]\n\
                  roundness_at = \"20 mm\"\n[tool]\ndiameter = \"20 mm\"\n\
                  [tolerance]\nroundness_mzc = \"0.01 mm\"";
-    let source = trueaxis::geometry::input::Source::new("cylinder.toml", piece);
+    let source = trueaxis::input::SourceText::new("cylinder.toml", piece);
     let piece = source.read(trueaxis::part::TestPieceFile::read).expect("a cylinder");
     let machine = machine.expect("a machine");
     let indices = |setting: Setting| {

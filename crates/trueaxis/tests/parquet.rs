@@ -5,7 +5,7 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use std::path::Path;
 use trueaxis::files;
-use trueaxis::geometry::input::Diagnostics;
+use trueaxis::input::Diagnostics;
 use trueaxis::simulate::{
     CsvTable, Options, ParquetTable, SetUp, headings, read_program, simulate,
 };

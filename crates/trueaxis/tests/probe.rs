@@ -9,11 +9,11 @@ mod virtual_probe;
 use library::root;
 use serde_json::Value;
 use trueaxis::geometry::Vec3;
-use trueaxis::geometry::input::Diagnostics;
 use trueaxis::identify::probe::{
     Calibration, Fit, Free, GaugeKind, Lobing, LobingModel, Sample, Side, Study, fit,
     identify_probe, read_study,
 };
+use trueaxis::input::Diagnostics;
 use trueaxis::report::{probe_html, probe_json, probe_table_csv, probe_text};
 use virtual_probe::{VirtualProbe, even};
 

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use std::path::Path;
 use trueaxis::geometry::Vec3;
-use trueaxis::geometry::input::Diagnostics;
+use trueaxis::input::Diagnostics;
 use trueaxis::machine::tcp::TipControl;
 use trueaxis::plan::surface::{Candidates, SurfacePoint, SurfaceStudy, poses};
 

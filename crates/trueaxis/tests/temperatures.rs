@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use trueaxis::files;
-use trueaxis::geometry::input::Diagnostics;
+use trueaxis::input::Diagnostics;
 use trueaxis::machine::Machine;
 use trueaxis::machine::heat::{Conditions, TemperatureLog, TemperatureRun};
 use trueaxis::predict::holes::{predict_holes, read_hole_study};

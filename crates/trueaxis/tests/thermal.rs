@@ -9,10 +9,10 @@ mod laws;
 
 use library::root;
 use serde_json::Value;
-use trueaxis::geometry::input::Diagnostics;
 use trueaxis::identify::thermal::{
     Logs, Tables, ThermalModel, Zero, identify_thermal, parse_logs, read_logs,
 };
+use trueaxis::input::Diagnostics;
 use trueaxis::report::{thermal_html, thermal_json, thermal_lines, thermal_text};
 
 fn expected() -> Value {

@@ -13,7 +13,7 @@ mod reports;
 
 use library::root;
 use serde_json::Value;
-use trueaxis::geometry::input::Diagnostics;
+use trueaxis::input::Diagnostics;
 use trueaxis::report::{Evaluation, evaluation_html, evaluation_json, evaluation_text};
 use trueaxis::verify::conditions::Conditions;
 use trueaxis::verify::{Evaluated, Request, Standard, evaluate};

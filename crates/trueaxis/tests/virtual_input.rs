@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::path::PathBuf;
-use trueaxis::geometry::input::Diagnostics;
+use trueaxis::input::Diagnostics;
 use trueaxis::measure::read_campaign;
 use trueaxis::measure::virtual_campaign::{measure, read_virtual};
 use trueaxis::verify::compare::{compare, read_comparison};

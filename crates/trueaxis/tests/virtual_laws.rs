@@ -275,7 +275,7 @@ fn law_zeros_drift_with_the_time_of_the_campaign() {
 #[test]
 fn law_a_log_of_temperatures_warms_the_true_machine() {
     use std::sync::Arc;
-    use trueaxis::geometry::input::Diagnostics;
+    use trueaxis::input::Diagnostics;
     use trueaxis::machine::file::NoTables;
     use trueaxis::machine::heat::TemperatureLog;
     let text = "[machine]\nname = \"warm\"\nchain = \"w b X Y Z t\"\n[scale.X]\n\

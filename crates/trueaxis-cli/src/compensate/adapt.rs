@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use trueaxis::compensate::adapt::{AdaptStudy, Adaptation, adapt, read_adapt_study};
 use trueaxis::compensate::post::{PostOptions, post, verify};
 use trueaxis::files;
-use trueaxis::geometry::input::{Diagnostics, Dimension, Place, parse_quantity};
+use trueaxis::input::{Diagnostics, Dimension, Place, parse_quantity};
 use trueaxis::nc::writer::TipWords;
 use trueaxis::report::{AdaptReport, AdaptedProgram, adapt_html, adapt_json, adapt_text};
 

@@ -7,7 +7,7 @@ use trueaxis::compensate::program::{
     CorrectionLimit, Increments, MARK, ProgramOptions, compensate_program,
 };
 use trueaxis::files;
-use trueaxis::geometry::input::{Diagnostics, Dimension, Place, parse_quantity};
+use trueaxis::input::{Diagnostics, Dimension, Place, parse_quantity};
 use trueaxis::machine::Machine;
 use trueaxis::report::{ProgramReport, program_html, program_json, program_text};
 use trueaxis::simulate::{CONTROLS, Job, Options, ProgramFiles, control_named};

@@ -7,7 +7,7 @@ use trueaxis::compensate::not_twice;
 use trueaxis::compensate::tables::proof::{IndexLeft, piece_left};
 use trueaxis::compensate::tables::{Compiled, Order, TablesError, Target, compile};
 use trueaxis::files;
-use trueaxis::geometry::input::{Diagnostics, Dimension, Place, parse_quantity};
+use trueaxis::input::{Diagnostics, Dimension, Place, parse_quantity};
 use trueaxis::machine::Machine;
 use trueaxis::predict::read_study;
 use trueaxis::report::{TablesReport, tables_json, tables_text};

@@ -5,11 +5,11 @@ use crate::report_file::{REPORT, may_write};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use trueaxis::files;
-use trueaxis::geometry::input::{Diagnostics, Place};
 use trueaxis::identify::convention::{ConventionCheck, check_conventions};
 use trueaxis::identify::errors::{Identification, identify};
 use trueaxis::identify::machine_file::machine_file;
 use trueaxis::identify::records::{Options, Records, read_options, read_records};
+use trueaxis::input::{Diagnostics, Place};
 use trueaxis::measure::{Campaign, read_campaign};
 use trueaxis::report::{
     IdentificationReport, conventions_json, conventions_text, identification_html,

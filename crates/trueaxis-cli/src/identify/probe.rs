@@ -5,10 +5,10 @@ use crate::report_file::{REPORT, Written, may_write, unusable, write_report};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use trueaxis::files;
-use trueaxis::geometry::input::{Diagnostics, Dimension, Place, parse_quantity};
 use trueaxis::identify::probe::{
     Calibration, Setup, Study, correct, identify_probe, parse_hits, read_study,
 };
+use trueaxis::input::{Diagnostics, Dimension, Place, parse_quantity};
 use trueaxis::report::{corrected_csv, probe_html, probe_json, probe_table_csv, probe_text};
 
 /// The study and what is made of it.

@@ -6,13 +6,13 @@ use clap::Args;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use trueaxis::files;
-use trueaxis::geometry::input::{Diagnostics, Place};
 use trueaxis::identify::fit::FitError;
 use trueaxis::identify::rtcp::forecast::forecast;
 use trueaxis::identify::rtcp::program::{off_poses, program};
 use trueaxis::identify::rtcp::{
     Calibration, Purpose, RtcpStudy, calibrate, machine_file, place_of, read_rtcp,
 };
+use trueaxis::input::{Diagnostics, Place};
 use trueaxis::plan::{extension, file_name};
 use trueaxis::report::{RtcpReport, rtcp_json, rtcp_text};
 use trueaxis::simulate::{CONTROLS, control_named};

@@ -2,8 +2,8 @@ use crate::output::{Answer, Format, Outcome, diagnostic_json, report, show};
 use crate::report_file::{REPORT, may_write, write_report};
 use clap::Args;
 use std::path::PathBuf;
-use trueaxis::geometry::input::Place;
 use trueaxis::identify::thermal::{identify_thermal, read_logs};
+use trueaxis::input::Place;
 use trueaxis::report::{thermal_html, thermal_json, thermal_text};
 
 /// The logs.

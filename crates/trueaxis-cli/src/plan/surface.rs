@@ -4,7 +4,7 @@ use super::written;
 use crate::output::{Answer, Format, Outcome, diagnostic_json, report, show};
 use clap::Args;
 use std::path::PathBuf;
-use trueaxis::geometry::input::{Diagnostics, Place};
+use trueaxis::input::{Diagnostics, Place};
 use trueaxis::nc::Control;
 use trueaxis::plan::extension;
 use trueaxis::plan::program::ProgramCheck;

@@ -4,7 +4,7 @@ use crate::arguments;
 use crate::output::{Answer, Format};
 use serde_json::{Map, Value, json};
 use std::path::Path;
-use trueaxis::geometry::input::{CsvTable, Diagnostics};
+use trueaxis::input::{CsvTable, Diagnostics};
 use trueaxis::machine::axis::{Approach, Command};
 use trueaxis::machine::{Deviation, Machine};
 use trueaxis::report::numbers::exact;

@@ -9,7 +9,7 @@ use crate::errors::{
     Component, Curve, ErrorKind, ErrorName, Harmonic, Interpolation, Measurement, Outside,
     StatedError, Uncertainty,
 };
-use trueaxis_geometry::input::{CsvTable, Diagnostics, Dimension, Item, Section};
+use trueaxis_input::{CsvTable, Diagnostics, Dimension, Item, Section};
 
 /// Fast harmonics are noise: above this order a series says nothing about an axis.
 const HIGHEST_ORDER: f64 = 1e4;

@@ -5,7 +5,7 @@ use crate::chain::{ChainBody, Machine};
 use crate::errors::{BodyName, ErrorValues};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Bed, Body, Pose};
-use trueaxis_geometry::input::Item;
+use trueaxis_input::Item;
 
 /// Directions closer than this (sine of the angle, or volume of three) count as one.
 const ALIKE: f64 = 1e-6;

@@ -12,7 +12,7 @@ use crate::heat::{
     Workpiece, measured_celsius,
 };
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{Dimension, Item, Measured, Section};
+use trueaxis_input::{Dimension, Item, Measured, Section};
 
 /// Nothing that holds a scale or a part grows by more, 1/K (zinc 30e-6, plastics 200e-6).
 const LARGE_EXPANSION: f64 = 300e-6;

@@ -3,7 +3,7 @@
 use super::{positive, read_pose, read_vector_mm};
 use crate::chain::{ChainBody, Link};
 use crate::models::{Model, Shape, ToolSegment};
-use trueaxis_geometry::input::{Dimension, Item, QuantityError, Section, Unit, parse_quantity};
+use trueaxis_input::{Dimension, Item, QuantityError, Section, Unit, parse_quantity};
 
 const SHAPES: &str = "one of: stl = \"models/ram.stl\", box = \"400 200 100 mm\", cylinder = \
                       { diameter = \"80 mm\", length = \"120 mm\" }, cone = { base, top, length }, \

@@ -3,7 +3,7 @@
 use crate::chain::Link;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Pose, rotation};
-use trueaxis_geometry::input::{Dimension, Item, QuantityError, Unit, parse_quantity};
+use trueaxis_input::{Dimension, Item, QuantityError, Unit, parse_quantity};
 
 const HINT: &str = "write \"x y z mm\", \"shift x y z mm\" or \"turn Z 15 deg\", or a list of these \
                     from left to right";

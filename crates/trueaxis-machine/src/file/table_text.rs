@@ -7,7 +7,7 @@ use crate::errors::{
     Uncertainty,
 };
 use std::f64::consts::TAU;
-use trueaxis_geometry::input::{CsvColumn, CsvTable, Diagnostics, Dimension, Place, Unit};
+use trueaxis_input::{CsvColumn, CsvTable, Diagnostics, Dimension, Place, Unit};
 
 /// Two positions closer than this, in mm or rad, are one position with two values.
 const CLOSEST: f64 = 1e-9;

@@ -1,7 +1,7 @@
 //! Conditions: what every temperature sensor says, typed or from a log.
 
 use std::sync::Arc;
-use trueaxis_geometry::input::{
+use trueaxis_input::{
     CsvTable, Diagnostic, Diagnostics, Dimension, Place, Section, Severity, Unit, parse_quantity,
 };
 

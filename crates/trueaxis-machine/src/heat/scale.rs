@@ -6,7 +6,7 @@ use super::field::{ScaleField, Source};
 use super::{ErrorPart, Sensor, ThermalTerm, ThermalU, reach_of};
 use crate::axis::Axis;
 use crate::errors::{Component, Curve, ErrorIndex, ErrorKind};
-use trueaxis_geometry::input::{Diagnostics, Measured};
+use trueaxis_input::{Diagnostics, Measured};
 
 /// The work for a changing flux grows with the square of the rows of its log.
 const MOST_ROWS: usize = 5000;

@@ -4,7 +4,7 @@ use super::conditions::TemperatureLog;
 use super::field::Source;
 use crate::chain::Machine;
 use std::sync::Arc;
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 
 /// A machine holds until a sensor has moved by so much, K: 0.12 µm per metre of steel.
 const STEP_K: f64 = 0.01;
@@ -35,7 +35,7 @@ impl TemperatureRun {
 ///
 /// ```
 /// use std::sync::Arc;
-/// use trueaxis_geometry::input::Diagnostics;
+/// use trueaxis_input::Diagnostics;
 /// use trueaxis_machine::{Machine, file::NoTables};
 /// use trueaxis_machine::heat::{TemperatureLog, TemperatureRun, WarmingMachine};
 /// let text = r#"

@@ -4,7 +4,7 @@ use super::conditions::Conditions;
 use super::expansion::Profile;
 use super::{REFERENCE_CELSIUS, Sensor};
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{Diagnostics, Measured};
+use trueaxis_input::{Diagnostics, Measured};
 
 /// What is known of the growth of the workpiece.
 #[derive(Debug, Clone, PartialEq)]

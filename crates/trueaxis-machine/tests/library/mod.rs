@@ -5,7 +5,7 @@
 
 use std::path::{Path, PathBuf};
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::Diagnostics;
+use trueaxis_input::Diagnostics;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, AxisKind, Command, Travel};
 use trueaxis_machine::errors::{Component, Curve, ErrorIndex, ErrorKind, Harmonic, StatedError};

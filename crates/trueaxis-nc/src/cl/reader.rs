@@ -5,7 +5,7 @@ use super::words::{Major, major};
 use super::{ClCircle, ClCycle, ClPoint, Reading, Record, Word};
 use crate::moves::{Coolant, Feed, FeedMode, Turning};
 use std::collections::HashSet;
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 
 const INCH_MM: f64 = 25.4;
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use trueaxis_geometry::input::Diagnostics;
+use trueaxis_input::Diagnostics;
 
 use super::Run;
 use super::values::Value;

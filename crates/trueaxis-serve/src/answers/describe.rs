@@ -11,7 +11,7 @@ use trueaxis::describe::{self, set_error as put_error};
 use trueaxis::files::Folder;
 use trueaxis::geometry::Vec3;
 use trueaxis::geometry::frame::Pose;
-use trueaxis::geometry::input::{Diagnostics, Place};
+use trueaxis::input::{Diagnostics, Place};
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::Approach;
 use trueaxis::machine::heat::Conditions;

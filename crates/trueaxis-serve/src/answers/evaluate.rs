@@ -7,7 +7,7 @@ use crate::refusal::{Refusal, diagnostics_json};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use trueaxis::files;
-use trueaxis::geometry::input::{Diagnostics, Dimension, parse_quantity};
+use trueaxis::input::{Diagnostics, Dimension, parse_quantity};
 use trueaxis::report::{Block, Evaluation, Picture, evaluation_json, evaluation_text, remarks};
 use trueaxis::verify::conditions::{Conditions, read_conditions};
 use trueaxis::verify::import::Import;

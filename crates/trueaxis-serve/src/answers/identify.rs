@@ -8,10 +8,10 @@ use serde_json::{Value, json};
 use std::path::Path;
 use trueaxis::files::{self, Folder};
 use trueaxis::geometry::Vec3;
-use trueaxis::geometry::input::Diagnostics;
 use trueaxis::identify::errors::{Identification, identify as identify_errors};
 use trueaxis::identify::machine_file::machine_file;
 use trueaxis::identify::records::{Dropped, Options, Records, read_options, read_records_with};
+use trueaxis::input::Diagnostics;
 use trueaxis::measure::{Campaign, read_campaign};
 use trueaxis::report::{Arrow, IdentificationReport, identification_json};
 

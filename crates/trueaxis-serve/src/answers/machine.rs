@@ -5,7 +5,7 @@ use crate::desk::Desk;
 use crate::refusal::Refusal;
 use std::path::PathBuf;
 use trueaxis::files::{self, Folder};
-use trueaxis::geometry::input::Diagnostics;
+use trueaxis::input::Diagnostics;
 use trueaxis::machine::Machine;
 
 /// A machine file that may not be saved yet.

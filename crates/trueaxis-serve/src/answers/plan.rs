@@ -7,7 +7,7 @@ use crate::frame::{Array, Frame};
 use crate::refusal::{Refusal, diagnostics_json};
 use serde_json::{Value, json};
 use std::path::Path;
-use trueaxis::geometry::input::Diagnostics;
+use trueaxis::input::Diagnostics;
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::AxisKind;
 use trueaxis::measure::Readings;

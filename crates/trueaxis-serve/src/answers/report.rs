@@ -9,7 +9,7 @@ use crate::desk::{Desk, Job, Reply};
 use crate::refusal::Refusal;
 use serde_json::{Value, json};
 use std::path::Path;
-use trueaxis::geometry::input::Place;
+use trueaxis::input::Place;
 use trueaxis::plan::{chosen, planned};
 use trueaxis::predict::holes::{is_hole_study, predict_holes, read_hole_study};
 use trueaxis::report::{

@@ -10,7 +10,7 @@ use serde_json::{Map, Value, json};
 use std::path::Path;
 use std::sync::Arc;
 use trueaxis::files;
-use trueaxis::geometry::input::{Diagnostics, Place};
+use trueaxis::input::{Diagnostics, Place};
 use trueaxis::machine::Machine;
 use trueaxis::report::{
     Simulation, array, simulation_html, simulation_json, trouble_code, trouble_text,

@@ -3,7 +3,7 @@
 use crate::body::{Body, short};
 use crate::refusal::Refusal;
 use serde_json::Value;
-use trueaxis::geometry::input::{Dimension, parse_quantity};
+use trueaxis::input::{Dimension, parse_quantity};
 use trueaxis::machine::errors::ErrorName;
 use trueaxis::nc::Control;
 use trueaxis::predict::ErrorChange;

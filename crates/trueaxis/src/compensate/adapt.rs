@@ -33,7 +33,7 @@ pub use surface::{Foot, NominalSurface};
 pub use table::{SurfacePoint, read_points};
 
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 use trueaxis_nc::cl::{ClFile, ClPoint};
 
 /// A place of the wall-thickness map.

@@ -19,7 +19,7 @@ mod write;
 pub use verify::{Largest, Verification, verify};
 
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::Control;

@@ -36,7 +36,7 @@ use crate::simulate::axis_path::{AxisPath, Fault};
 use crate::simulate::{Densify, SetUp, execute, place};
 use ahead::Gather;
 use number::Grid;
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_nc::moves::Step;
 use trueaxis_nc::{Outcome, Program};
@@ -274,10 +274,8 @@ impl Rewritten {
         problems: &mut Diagnostics,
     ) {
         let (proof, file) = (&self.proof, program.file());
-        for problem in proof
-            .problems
-            .iter()
-            .filter(|p| p.severity == trueaxis_geometry::input::Severity::Error)
+        for problem in
+            proof.problems.iter().filter(|p| p.severity == trueaxis_input::Severity::Error)
         {
             let message = format!("the compensated program cannot be read: {}", problem.message);
             problems.error("not-proved", problem.place.clone(), message, &problem.hint);

@@ -309,7 +309,7 @@ fn uncertainty(machine: &Machine, order: &Order, command: &Command, sense: &Sens
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trueaxis_geometry::input::Diagnostics;
+    use trueaxis_input::Diagnostics;
     use trueaxis_machine::file::NoTables;
     use trueaxis_machine::heat::Conditions;
 

@@ -1,6 +1,6 @@
 //! Positions by the names of their axes, in mm and degrees, as people write them.
 
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::errors::BodyName;
@@ -39,7 +39,7 @@ fn beyond_travel(machine: &Machine, command: &Command) -> Vec<BodyName> {
 /// outside the travel is computed, with a warning.
 ///
 /// ```no_run
-/// use trueaxis::geometry::input::{Diagnostics, Place};
+/// use trueaxis::input::{Diagnostics, Place};
 /// # let machine = trueaxis::files::machine("m.toml".as_ref()).0.unwrap();
 /// let at = [("X", 3000.0), ("C", -90.0)];
 /// let command = trueaxis::describe::command(&machine, at, &Place::whole("at"), &mut Diagnostics::new());

@@ -1,7 +1,7 @@
 //! One error put into the text of a machine file.
 
 use super::lines::{Lines, header, value_of};
-use trueaxis_geometry::input::{Diagnostics, Dimension, Place, Source, parse_measured};
+use trueaxis_input::{Diagnostics, Dimension, Place, SourceText, parse_measured};
 use trueaxis_machine::Machine;
 use trueaxis_machine::errors::ErrorName;
 use trueaxis_machine::file::Tables;
@@ -138,7 +138,7 @@ fn as_toml(name: ErrorName, value: &str, place: &Place) -> Result<String, Diagno
         };
     }
     let entry = format!("x = {value}");
-    let source = Source::new(&place.file, &entry);
+    let source = SourceText::new(&place.file, &entry);
     let keys = source.read(|root| root.entries().len());
     if keys != 1 || source.finish().has_errors() || value_of(&entry) != Some(4..entry.len()) {
         let message = format!("{name}: `{value}` is no TOML value");

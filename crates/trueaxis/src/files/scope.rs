@@ -123,7 +123,7 @@ mod tests {
     use super::*;
     use crate::files::{self, read_bytes, write};
     use std::os::unix::fs::symlink;
-    use trueaxis_geometry::input::Diagnostics;
+    use trueaxis_input::Diagnostics;
 
     /// `in/` is the project, with `sub/` and a machine; `out/` stands beside it.
     struct Tree(PathBuf);
@@ -225,7 +225,7 @@ mod tests {
         fs::write(&study, "name = \"c\"\nmachine = \"../machines/x/machine.toml\"\n").unwrap();
         let text = fs::read_to_string(&study).unwrap();
         let machine_of = |study: &Path, text: &str| {
-            let source = trueaxis_geometry::input::Source::new("campaign.toml", text);
+            let source = trueaxis_input::SourceText::new("campaign.toml", text);
             let found = source.read(|root| {
                 root.get("name");
                 files::machine_of(root, study)

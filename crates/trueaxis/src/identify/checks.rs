@@ -8,7 +8,7 @@ use crate::measure::Readings;
 use crate::measure::instrument::Sight;
 use std::collections::BTreeMap;
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::axis::AxisKind;
 use trueaxis_machine::errors::{Component, ErrorIndex, ErrorKind, ErrorValues};
 

@@ -10,7 +10,7 @@ use super::selection::Sums;
 use super::statistics::chi_square_above;
 use crate::measure::Readings;
 use nalgebra::DVector;
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 
 /// One in a thousand by chance.
 const TAIL: f64 = 1e-3;

@@ -20,7 +20,7 @@ use super::statistics::{chi_square_above, normal_quantile_above, robust_deviatio
 use crate::measure::{Campaign, Readings};
 use crate::plan::remedies;
 use nalgebra::DVector;
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::axis::MAX_AXES;
 use trueaxis_machine::errors::ErrorKind;
 

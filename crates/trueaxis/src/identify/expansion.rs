@@ -8,7 +8,7 @@
 
 use crate::files;
 use std::path::Path;
-use trueaxis_geometry::input::{CsvTable, Diagnostics, Dimension, Measured, Section, Source, Unit};
+use trueaxis_input::{CsvTable, Diagnostics, Dimension, Measured, Section, SourceText, Unit};
 
 /// Temperatures nearer than this say little about an expansion, K.
 const LITTLE_K: f64 = 1.0;
@@ -81,7 +81,7 @@ pub fn read_runs(path: &Path) -> (Option<Runs>, Diagnostics) {
 /// The same of a text; its table is looked for beside `path`.
 pub fn parse_runs(path: &Path, text: &str) -> (Option<Runs>, Diagnostics) {
     let file = path.display().to_string();
-    let source = Source::new(&file, text);
+    let source = SourceText::new(&file, text);
     let runs = source.read(|root| read(root, path));
     let problems = source.finish();
     (runs.filter(|_| !problems.has_errors()), problems)
@@ -156,7 +156,7 @@ fn column(table: &CsvTable, name: &str, problems: &mut Diagnostics) -> Option<Ve
             }
         };
     }
-    let place = trueaxis_geometry::input::Place::whole(&table.file);
+    let place = trueaxis_input::Place::whole(&table.file);
     let message = format!("the table has no column for `{name}`");
     problems.error("missing-column", place, message, &format!("its heading is `{name}_um`"));
     None

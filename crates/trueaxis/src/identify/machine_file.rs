@@ -12,7 +12,7 @@ use crate::describe::lines::{Lines, header};
 use crate::measure::Campaign;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use trueaxis_geometry::input::Diagnostic;
+use trueaxis_input::Diagnostic;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::AxisKind;
 use trueaxis_machine::errors::{Curve, ErrorKind, ErrorName};
@@ -208,8 +208,7 @@ fn read_back(
     }
     let (machine, problems) = Machine::check("the new machine file", text, &With(tables, beside));
     let Some(machine) = machine.filter(|_| !problems.has_errors()) else {
-        let first =
-            problems.iter().find(|d| d.severity == trueaxis_geometry::input::Severity::Error);
+        let first = problems.iter().find(|d| d.severity == trueaxis_input::Severity::Error);
         return Err(first.map_or_else(String::new, |d| d.message.clone()));
     };
     for (k, term) in found.design.terms.iter().enumerate() {
@@ -247,7 +246,7 @@ pub fn with_locations(
     let text = file.text();
     let (machine, problems) = Machine::check("the new machine file", &text, beside);
     let Some(machine) = machine.filter(|_| !problems.has_errors()) else {
-        let is_error = |d: &&Diagnostic| d.severity == trueaxis_geometry::input::Severity::Error;
+        let is_error = |d: &&Diagnostic| d.severity == trueaxis_input::Severity::Error;
         return Err(problems.iter().find(is_error).map_or_else(String::new, |d| d.message.clone()));
     };
     for (name, value, _) in errors {

@@ -25,7 +25,7 @@ pub use lobing::{Lobing, LobingModel, Term};
 use super::statistics::student_above;
 use nalgebra::{DMatrix, DVector};
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 
 /// Outside of the latitudes of the calibration by more than this nothing is corrected, rad.
 const BEYOND_RAD: f64 = 0.1;

@@ -3,7 +3,7 @@
 use super::fit::{Model, Rule};
 use crate::files;
 use crate::measure::{Campaign, Readings};
-use trueaxis_geometry::input::{CsvTable, Diagnostics, Item, Place, Section};
+use trueaxis_input::{CsvTable, Diagnostics, Item, Place, Section};
 
 /// Readings, and where each stands.
 #[derive(Debug, Clone, Default)]

@@ -36,7 +36,7 @@ use crate::measure::{Instrument, Reading, Readings};
 use nalgebra::{DMatrix, DVector};
 use std::path::PathBuf;
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::Place;
+use trueaxis_input::Place;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::errors::{ErrorName, ErrorValues};

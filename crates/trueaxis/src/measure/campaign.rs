@@ -8,7 +8,7 @@ use crate::identify::minimal::minimal_location_errors;
 use crate::identify::term::{Shape, Term};
 use std::path::{Path, PathBuf};
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{CsvTable, Diagnostics, Dimension, Item, Section, Source};
+use trueaxis_input::{CsvTable, Diagnostics, Dimension, Item, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::errors::{Component, ErrorKind, ErrorName};
 use trueaxis_machine::file::{read_direction, read_vector_mm};
@@ -81,7 +81,7 @@ pub fn read_campaign<T>(
         return (None, problems);
     };
     let file = path.display().to_string();
-    let source = Source::new(&file, &text);
+    let source = SourceText::new(&file, &text);
     let read = source.read(|root| {
         const VERBS: [&str; 9] =
             ["path", "limit", "want", "candidates", "program", "truth", "disturb", "fit", "accept"];

@@ -19,7 +19,7 @@ pub use touch::{FreeSide, STAND_OFF_MM, hits};
 
 use super::{Campaign, Reading, Readings};
 use crate::files;
-use trueaxis_geometry::input::{CsvTable, Diagnostics, Dimension, Item, Section};
+use trueaxis_input::{CsvTable, Diagnostics, Dimension, Item, Section};
 use trueaxis_machine::axis::{AxisKind, Command};
 
 /// More paths in one campaign are a slip of the pen.

@@ -3,7 +3,7 @@
 use super::instrument::{Instrument, Sight};
 use std::fmt::Write as _;
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{CsvColumn, CsvTable, Diagnostics, Dimension, Place, Unit};
+use trueaxis_input::{CsvColumn, CsvTable, Diagnostics, Dimension, Place, Unit};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, AxisKind, Command};
 

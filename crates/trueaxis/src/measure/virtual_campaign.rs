@@ -31,7 +31,7 @@ use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 use std::path::PathBuf;
 use std::sync::Arc;
-use trueaxis_geometry::input::Diagnostics;
+use trueaxis_input::Diagnostics;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command, MAX_AXES};
 use trueaxis_machine::chain::{CommandFault, Link};

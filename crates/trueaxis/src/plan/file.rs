@@ -4,7 +4,7 @@ use super::exchange::Criterion;
 use super::program::{ProgramSettings, read_program_settings};
 use crate::measure::path::{self, Path};
 use crate::measure::{Campaign, Readings, read_campaign};
-use trueaxis_geometry::input::{Diagnostics, Dimension, Item, Section};
+use trueaxis_input::{Diagnostics, Dimension, Item, Section};
 
 /// A campaign with all that is planned of it.
 #[derive(Debug, Clone)]

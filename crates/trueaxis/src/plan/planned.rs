@@ -7,7 +7,7 @@ use crate::measure::{Campaign, Readings};
 use crate::plan::program::{ProgramCheck, check, program};
 use crate::report::PlanReport;
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::errors::ErrorValues;
 use trueaxis_nc::Control;
 

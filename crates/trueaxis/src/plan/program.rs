@@ -13,7 +13,7 @@ pub(super) use check::{probe_shape, run};
 use crate::measure::path::{Path, Placing, STAND_OFF_MM};
 use crate::measure::{Campaign, Kind};
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{Dimension, Section};
+use trueaxis_input::{Dimension, Section};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
 use trueaxis_machine::file::{read_direction, read_tool_shape};

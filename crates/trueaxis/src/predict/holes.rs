@@ -9,7 +9,7 @@ use crate::files;
 use std::path::Path;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Direction, Point};
-use trueaxis_geometry::input::{Diagnostics, Dimension, Place, Section, Source};
+use trueaxis_input::{Diagnostics, Dimension, Place, Section, SourceText};
 use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_machine::errors::ErrorValues;
 use trueaxis_machine::file::read_vector_mm;
@@ -130,7 +130,7 @@ pub fn read_hole_study(path: &Path) -> (Option<HoleStudy>, Diagnostics) {
 /// The same of a text; its machine is looked for beside `path`.
 pub fn parse_hole_study(path: &Path, text: &str) -> (Option<HoleStudy>, Diagnostics) {
     let file = path.display().to_string();
-    let source = Source::new(&file, text);
+    let source = SourceText::new(&file, text);
     let study = source.read(|root| read(root, path));
     let problems = source.finish();
     (study.filter(|_| !problems.has_errors()), problems)

@@ -5,7 +5,7 @@ use crate::simulate::axis_path::AxisPath;
 use crate::simulate::{Densify, PathStep, ProgramFiles, execute};
 use std::path::{Path, PathBuf};
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Command, MAX_AXES};
 use trueaxis_machine::tcp::TipControl;
@@ -117,8 +117,8 @@ impl CutProgram {
     }
 }
 
-fn is_error(problem: &trueaxis_geometry::input::Diagnostic) -> bool {
-    problem.severity == trueaxis_geometry::input::Severity::Error
+fn is_error(problem: &trueaxis_input::Diagnostic) -> bool {
+    problem.severity == trueaxis_input::Severity::Error
 }
 
 /// The part of the way from a to b that is nearest to a point.

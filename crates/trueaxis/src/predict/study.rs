@@ -8,7 +8,7 @@ use super::{Index, Setting};
 use crate::files;
 use std::path::{Path, PathBuf};
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{Diagnostics, Dimension, Item, Section, Source};
+use trueaxis_input::{Diagnostics, Dimension, Item, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::errors::{BodyName, ErrorKind, ErrorName};
@@ -139,7 +139,7 @@ pub fn read_study(path: &Path) -> (Option<Study>, Diagnostics) {
 /// The same of a text; what it names is looked for beside `path`.
 pub fn parse_study(path: &Path, text: &str) -> (Option<Study>, Diagnostics) {
     let file = path.display().to_string();
-    let source = Source::new(&file, text);
+    let source = SourceText::new(&file, text);
     let study = source.read(|root| read(root, path));
     let problems = source.finish();
     (study.filter(|_| !problems.has_errors()), problems)
@@ -223,7 +223,7 @@ fn read_tolerance_file(root: &Section<'_>, path: &Path) -> Option<Tolerances> {
     let text = files::text(path, "a tolerance file (TOML)", &mut problems);
     let tolerances = text.and_then(|text| {
         let file = path.display().to_string();
-        let source = Source::new(&file, &text);
+        let source = SourceText::new(&file, &text);
         let tolerances = source.read(Tolerances::read);
         problems.append(source.finish());
         tolerances
@@ -237,7 +237,7 @@ fn read_piece(root: &Section<'_>, path: &Path) -> Option<TestPieceFile> {
     let text = files::text(path, "a test piece file (TOML)", &mut problems);
     let piece = text.and_then(|text| {
         let file = path.display().to_string();
-        let source = Source::new(&file, &text);
+        let source = SourceText::new(&file, &text);
         let piece = source.read(TestPieceFile::read);
         problems.append(source.finish());
         piece

@@ -4,7 +4,7 @@ use super::Error;
 use crate::files;
 use std::path::Path;
 use std::sync::Arc;
-use trueaxis_geometry::input::{Diagnostics, Dimension, Section};
+use trueaxis_input::{Diagnostics, Dimension, Section};
 use trueaxis_machine::Machine;
 use trueaxis_machine::heat::{Conditions, TemperatureRun, WarmingMachine};
 use trueaxis_part::testpiece::ToolPosition;

@@ -2,7 +2,7 @@
 
 use super::{Setting, Study};
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::AxisKind;
 use trueaxis_machine::errors::{ErrorName, StatedError};

@@ -1,7 +1,7 @@
 //! Problems as JSON, the same in every document.
 
 use serde_json::Value;
-use trueaxis_geometry::input::{Diagnostic, Diagnostics};
+use trueaxis_input::{Diagnostic, Diagnostics};
 
 /// A diagnostic as JSON.
 pub fn diagnostic_json(diagnostic: &Diagnostic) -> Value {

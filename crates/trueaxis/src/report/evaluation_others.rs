@@ -9,7 +9,7 @@ use crate::verify::iso230_3::{Channel, Drift};
 use crate::verify::iso230_6::Diagonals;
 use crate::verify::iso230_7::{ErrorMotion, Rotation};
 use serde_json::{Map, Value, json};
-use trueaxis_geometry::input::Dimension;
+use trueaxis_input::Dimension;
 
 const UM: f64 = 1e3;
 /// Finer than a picture can show.

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use std::fmt::Write;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Bed, Body, Pose};
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_machine::chain::CommandFault;
 use trueaxis_machine::errors::ErrorValues;

@@ -8,7 +8,7 @@ use super::simulation_views::tool_path;
 use crate::simulate::{AxisUse, Quantity, Series, Trouble, Worst, shown, unit};
 use maud::{Markup, PreEscaped, html};
 use std::path::Path;
-use trueaxis_geometry::input::Severity;
+use trueaxis_input::Severity;
 use trueaxis_machine::axis::{AxisKind, Travel};
 
 /// Rows of the table of troubles, and of other lists that a program can make long.

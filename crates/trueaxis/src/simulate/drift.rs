@@ -2,7 +2,7 @@
 
 use super::summary::Worst;
 use super::{Batch, Observer, SetUp};
-use trueaxis_geometry::input::Diagnostics;
+use trueaxis_input::Diagnostics;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::MAX_AXES;
 use trueaxis_machine::batch::{Commands, CompiledMachine, DeviationTable};

@@ -9,7 +9,7 @@ use super::{
 use crate::files;
 use crate::report::Simulation;
 use std::path::{Path, PathBuf};
-use trueaxis_geometry::input::Diagnostics;
+use trueaxis_input::Diagnostics;
 use trueaxis_machine::Machine;
 use trueaxis_nc::{Control, Program};
 
@@ -73,7 +73,7 @@ impl Job {
     /// Reads set-up and program; all that is wrong goes to `problems`.
     ///
     /// ```no_run
-    /// use trueaxis::geometry::input::Diagnostics;
+    /// use trueaxis::input::Diagnostics;
     /// use trueaxis::simulate::{Job, Options, ProgramFiles};
     /// let (machine, mut problems) = trueaxis::files::machine("mill.toml".as_ref());
     /// let program = "part.mpf".as_ref();

@@ -8,7 +8,7 @@ use crate::files;
 use std::collections::BTreeMap;
 use std::path::Path;
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{Diagnostics, Dimension, Item, Place, Section, Source};
+use trueaxis_input::{Diagnostics, Dimension, Item, Place, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::chain::Link;
 use trueaxis_machine::file::{read_pose, read_shape, read_tool_shape, read_vector_mm};
@@ -107,7 +107,7 @@ pub fn parse_setup(
     folder: &Path,
     machine: &Machine,
 ) -> (Option<SetUp>, Diagnostics) {
-    let source = Source::new(file, text);
+    let source = SourceText::new(file, text);
     let setup = source.read(|root| read(root, machine, folder));
     let problems = source.finish();
     (Some(setup).filter(|_| !problems.has_errors()), problems)

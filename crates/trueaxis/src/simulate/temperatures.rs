@@ -2,7 +2,7 @@
 
 use super::Stamp;
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::Diagnostics;
+use trueaxis_input::Diagnostics;
 use trueaxis_machine::Machine;
 use trueaxis_machine::batch::CompiledMachine;
 use trueaxis_machine::heat::{TemperatureRun, WarmingMachine};

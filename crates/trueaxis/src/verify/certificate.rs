@@ -35,7 +35,7 @@ use crate::volume::commands;
 use left::Left;
 use spread::{Lengths, lengths};
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::Place;
+use trueaxis_input::Place;
 use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_machine::compensate::Fault;
 use trueaxis_part::tolerance::Outcome;

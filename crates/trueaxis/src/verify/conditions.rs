@@ -3,7 +3,7 @@
 use crate::files;
 use std::path::Path;
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{Diagnostics, Dimension, Item, Measured, Section, Source};
+use trueaxis_input::{Diagnostics, Dimension, Item, Measured, Section, SourceText};
 
 /// Air and bodies of a machine are within these, °C; what lies outside is another unit.
 pub const SOUND_TEMPERATURES_C: std::ops::RangeInclusive<f64> = -10.0..=60.0;
@@ -76,7 +76,7 @@ pub fn read_conditions(path: Option<&Path>, problems: &mut Diagnostics) -> Condi
 impl Conditions {
     /// Reads a text; what is wrong comes with its place.
     pub fn read(file: &str, text: &str) -> (Self, Diagnostics) {
-        let source = Source::new(file, text);
+        let source = SourceText::new(file, text);
         let conditions = source.read(read_root);
         (conditions, source.finish())
     }
@@ -132,7 +132,7 @@ fn read_instrument(section: &Section<'_>) -> Instrument {
 
 /// A length (`0.5 um`), an angle (`0.2 arcsec`) or a ratio (`0.5 um/m`, which is an angle too).
 fn extent(item: &Item<'_>) -> Option<Extent> {
-    use trueaxis_geometry::input::parse_quantity;
+    use trueaxis_input::parse_quantity;
     let text = item.text()?;
     let length = parse_quantity(text, Dimension::Length).map(Extent::Length);
     let read = length.or_else(|_| parse_quantity(text, Dimension::Angle).map(Extent::Angle));
@@ -161,7 +161,7 @@ fn positive(item: &Item<'_>, dimension: Dimension) -> Option<f64> {
 
 /// `"500 400 300 mm"`.
 fn lengths<const N: usize>(item: &Item<'_>) -> Option<[f64; N]> {
-    use trueaxis_geometry::input::parse_quantity;
+    use trueaxis_input::parse_quantity;
     let text = item.text()?;
     let mut words: Vec<&str> = text.split_whitespace().collect();
     let unit = words.pop().unwrap_or_default();

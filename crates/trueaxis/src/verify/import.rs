@@ -10,7 +10,7 @@ use crate::verify::conditions::{Circle, Conditions};
 use crate::verify::{Evaluated, Standard};
 use std::borrow::Cow;
 use std::path::Path;
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 
 /// A form of readings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

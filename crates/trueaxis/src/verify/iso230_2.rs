@@ -7,7 +7,7 @@
 //! ASME B5.54 from the same readings.
 //!
 //! ```
-//! use trueaxis::geometry::input::Diagnostics;
+//! use trueaxis::input::Diagnostics;
 //! use trueaxis::verify::iso230_2::{Quantity, evaluate, read};
 //! let table = "target_mm,run,direction,deviation_um\n0,1,up,0\n0,2,up,2\n9,1,up,4\n9,2,up,6\n";
 //! let mut problems = Diagnostics::new();
@@ -279,7 +279,7 @@ pub fn evaluate(measurement: &Measurement, budget: Option<Budget>) -> Positionin
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trueaxis_geometry::input::Diagnostics;
+    use trueaxis_input::Diagnostics;
 
     fn result(table: &str) -> Positioning {
         let mut problems = Diagnostics::new();

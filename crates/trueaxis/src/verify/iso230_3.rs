@@ -6,7 +6,7 @@
 use super::sheet::{Cells, Sheet, heading};
 use super::{check_temperatures, check_times};
 use std::collections::VecDeque;
-use trueaxis_geometry::input::{Diagnostics, Dimension, Place, Unit};
+use trueaxis_input::{Diagnostics, Dimension, Place, Unit};
 
 /// The window without another word, s.
 pub const HOUR_S: f64 = 3600.0;

@@ -4,7 +4,7 @@
 //! outward positive; what was recorded beyond one whole turn is left out, half at each end.
 //!
 //! ```
-//! use trueaxis::geometry::input::Diagnostics;
+//! use trueaxis::input::Diagnostics;
 //! use trueaxis::verify::{conditions::Circle, iso230_4};
 //! // A circle that is 2 µm too large: round, F = D = 2 µm.
 //! let rows: String = (0..=36).map(|i| {
@@ -26,7 +26,7 @@ pub use causes::{Causes, Spike};
 pub use points::{Path, Sense};
 
 use crate::verify::conditions::Circle;
-use trueaxis_geometry::input::Diagnostics;
+use trueaxis_input::Diagnostics;
 use trueaxis_part::fit::circle::{Zone, least_squares};
 
 /// No machine is so far off its radius.
@@ -77,7 +77,7 @@ pub fn evaluate(
 ) -> Option<Circular> {
     let points = points::read(file, text, nominal, problems)?;
     let centre_mm = points.centre_mm;
-    let place = trueaxis_geometry::input::Place::whole(file);
+    let place = trueaxis_input::Place::whole(file);
     let mut paths = Vec::new();
     for path in points.paths {
         match least_squares(&path.points_mm) {

@@ -7,7 +7,7 @@
 use super::conditions::Conditions;
 use super::iso230_2::{self, Budget, Measurement, Positioning, Quantity, role_cells};
 use super::sheet::{Cells, Sheet};
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 
 /// Which way a diagonal goes: +1, −1 or 0 (not moved) for X, Y, Z; the first that moves is +1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -10,7 +10,7 @@ use super::least_squares::LeastSquares;
 use super::sheet::{Cells, Sheet, heading};
 use super::{check_temperatures, check_times};
 use std::f64::consts::{PI, TAU};
-use trueaxis_geometry::input::{Diagnostics, Dimension, Place};
+use trueaxis_input::{Diagnostics, Dimension, Place};
 
 /// Revolutions that make an asynchronous motion believable (from memory of the standard).
 pub const REVOLUTIONS: usize = 20;

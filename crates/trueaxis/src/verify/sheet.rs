@@ -1,6 +1,6 @@
 //! A table with numbers, gaps and words: what measuring instruments write.
 
-use trueaxis_geometry::input::{Diagnostics, Dimension, Place, Unit};
+use trueaxis_input::{Diagnostics, Dimension, Place, Unit};
 
 /// A file with more bad rows than this is not the file that was meant.
 const MOST_BAD_ROWS: usize = 100;
@@ -144,11 +144,10 @@ impl Sheet {
         dimension: Dimension,
         problems: &mut Diagnostics,
     ) -> Option<Vec<f64>> {
-        let fault =
-            |e: trueaxis_geometry::input::QuantityError, place, problems: &mut Diagnostics| {
-                let message = format!("column `{}`: {e}", column.name);
-                problems.error(e.code(), place, message, &e.hint());
-            };
+        let fault = |e: trueaxis_input::QuantityError, place, problems: &mut Diagnostics| {
+            let message = format!("column `{}`: {e}", column.name);
+            problems.error(e.code(), place, message, &e.hint());
+        };
         let unit = match Unit::find(column.unit(), dimension) {
             Ok(unit) => unit,
             Err(e) => {

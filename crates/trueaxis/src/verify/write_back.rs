@@ -7,7 +7,7 @@
 use super::conditions::Conditions;
 use super::iso230_2::{Approached, Position, Positioning};
 use std::fmt::Write as _;
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::axis::{Axis, AxisKind, iso_841_direction};
 
 /// The first line of every table written here; only such a file is overwritten.

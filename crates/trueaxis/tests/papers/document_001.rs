@@ -3,8 +3,8 @@
 use crate::{Ours, shop};
 use trueaxis::compensate::values::{Order, ValueTable, compensation_values};
 use trueaxis::geometry::Vec3;
-use trueaxis::geometry::input::Diagnostics;
 use trueaxis::identify::expansion::{identify_expansion, read_runs};
+use trueaxis::input::Diagnostics;
 use trueaxis::machine::Machine;
 use trueaxis::machine::errors::{ErrorValues, Interpolation, Spline};
 use trueaxis::machine::heat::field::{ScaleField, Source};

@@ -3,10 +3,10 @@
 use crate::Ours;
 use crate::shop::{command, machine, shown, target};
 use std::f64::consts::PI;
-use trueaxis::geometry::input::Diagnostics;
 use trueaxis::identify::probe::datums::{FourHits, xy_datum};
 use trueaxis::identify::probe::{Tables, identify_probe, parse_study};
 use trueaxis::identify::rtcp::{Purpose, RtcpStudy, calibrate, read_rtcp};
+use trueaxis::input::Diagnostics;
 
 pub const CLAIMS: &[(&str, Ours)] = &[
     ("003-eq-1-3-A90-C0", || linear_axes(90.0, 0.0)),

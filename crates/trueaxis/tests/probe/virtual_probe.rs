@@ -5,10 +5,10 @@ use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, Normal};
 use std::f64::consts::TAU;
 use trueaxis::geometry::Vec3;
-use trueaxis::geometry::input::Place;
 use trueaxis::identify::probe::{
     Gauge, GaugeKind, Hit, LobingModel, Reading, Side, Study, Stylus, turned,
 };
+use trueaxis::input::Place;
 
 /// What is true.
 #[derive(Clone)]

@@ -1,10 +1,10 @@
 //! Laws of the thermal models: judged by mathematics and by counting.
 
 use proptest::prelude::*;
-use trueaxis::geometry::input::Diagnostics;
 use trueaxis::identify::thermal::{
     Cycle, Logs, Tables, ThermalModel, Zero, identify_thermal, lagged, parse_logs,
 };
+use trueaxis::input::Diagnostics;
 
 const ROWS: usize = 40;
 

@@ -2,7 +2,7 @@
 
 use super::{document, root};
 use std::path::Path;
-use trueaxis::geometry::input::Diagnostics;
+use trueaxis::input::Diagnostics;
 use trueaxis::part::fit::circle::minimum_zone;
 use trueaxis::verify::conditions::Conditions;
 use trueaxis::verify::import::Import;

@@ -1,7 +1,7 @@
 //! Laws of the evaluations: judged by mathematics.
 
 use proptest::prelude::*;
-use trueaxis::geometry::input::Diagnostics;
+use trueaxis::input::Diagnostics;
 use trueaxis::verify::conditions::Conditions;
 use trueaxis::verify::iso230_2::{Positioning, Quantity, evaluate, read};
 use trueaxis::verify::{self, Request, Standard};

@@ -5,7 +5,7 @@ use super::study::{AdaptStudy, Follow, PathAt};
 use super::surface::{Foot, NominalSurface, tangent};
 use rayon::prelude::*;
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 use trueaxis_nc::cl::{ClPoint, Word};
 
 /// For slopes of the field, mm.

@@ -4,7 +4,7 @@ use super::cutter::Cutter;
 use super::table::{SurfacePoint, read_points};
 use crate::files;
 use std::path::{Path, PathBuf};
-use trueaxis_geometry::input::{Diagnostics, Dimension, Item, Measured, Place, Section, Source};
+use trueaxis_input::{Diagnostics, Dimension, Item, Measured, Place, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_nc::cl::{ClFile, Reading};
 
@@ -130,7 +130,7 @@ pub fn read_adapt_study(path: &Path) -> (Option<AdaptStudy>, Diagnostics) {
     let what = "a study of an adaptation (TOML)";
     let Some(text) = files::text(path, what, &mut problems) else { return (None, problems) };
     let file = path.display().to_string();
-    let source = Source::new(&file, &text);
+    let source = SourceText::new(&file, &text);
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
     let study = source.read(|root| read(root, &folder));
     problems.append(source.finish());

@@ -1,7 +1,7 @@
 //! Points of a surface with their normals and what was measured along them.
 
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{CsvTable, Diagnostics, Dimension, Place, Unit};
+use trueaxis_input::{CsvTable, Diagnostics, Dimension, Place, Unit};
 
 /// Fewer points tell nothing about a surface.
 const LEAST_POINTS: usize = 12;
@@ -33,7 +33,7 @@ pub struct SurfacePoint {
 ///
 /// ```
 /// use trueaxis::compensate::adapt::read_points;
-/// use trueaxis::geometry::input::Diagnostics;
+/// use trueaxis::input::Diagnostics;
 /// let mut rows = "point,x_mm,y_mm,z_mm,i,j,k,deviation_um\n".to_owned();
 /// for k in 0..12 {
 ///     rows += &format!("{k},{k},0,0,0,0,1,12.5\n");

@@ -3,7 +3,7 @@
 use super::{PostOptions, angle};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::rotation;
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 use trueaxis_nc::cl::{ClCircle, ClCycle, ClFile, ClPoint, Word};
 use trueaxis_nc::moves::{Coolant, Feed, FeedMode, Turning};
 

@@ -4,7 +4,7 @@ use super::path::{Stand, Stroke, Way};
 use super::{BlockPlace, PostOptions, Posted, angle};
 use crate::simulate::{AxisWatch, Batch, Densify, Observer, Options, SetUp, TroubleList, simulate};
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::Diagnostics;
+use trueaxis_input::Diagnostics;
 use trueaxis_machine::Machine;
 use trueaxis_nc::Program;
 

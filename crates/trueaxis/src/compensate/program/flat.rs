@@ -17,7 +17,7 @@ use crate::simulate::{SetUp, execute};
 use std::ops::Range;
 use std::path::Path;
 use std::sync::mpsc::{Receiver, sync_channel};
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_nc::lexer::{Lexer, TokenKind};
 use trueaxis_nc::moves::{Event, Origin, Step};

@@ -3,7 +3,7 @@
 use super::found::{Found, Want};
 use super::stand::Stand;
 use crate::simulate::{AxisWatch, Batch, Densify, Observer, Options, SetUp, TroubleList, simulate};
-use trueaxis_geometry::input::Diagnostics;
+use trueaxis_input::Diagnostics;
 use trueaxis_machine::Machine;
 use trueaxis_nc::Program;
 

@@ -5,7 +5,7 @@ use super::fit::rough_centre;
 use super::hit::{Gauge, GaugeKind, Hit, Side};
 use std::f64::consts::TAU;
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 
 /// More hits on one gauge are a slip.
 pub const MOST_HITS: usize = 10_000;
@@ -39,9 +39,8 @@ pub fn check_hits(study: &Study, stylus: &Stylus, problems: &mut Diagnostics) ->
     };
     let before = problems.iter().count();
     let told = |problems: &Diagnostics| {
-        let errors = |d: &&trueaxis_geometry::input::Diagnostic| {
-            d.severity == trueaxis_geometry::input::Severity::Error
-        };
+        let errors =
+            |d: &&trueaxis_input::Diagnostic| d.severity == trueaxis_input::Severity::Error;
         problems.iter().skip(before).any(|d| errors(&d))
     };
     let sight = Sight { gauge, ball_radius_mm: stylus.ball_radius_mm, centre };

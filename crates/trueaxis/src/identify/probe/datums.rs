@@ -1,7 +1,7 @@
 //! The steps before the direction table: eccentricity, Z datum, X and Y datum (document 003, 2.3.2).
 
 use nalgebra::{Matrix3, Vector3};
-use trueaxis_geometry::input::Measured;
+use trueaxis_input::Measured;
 
 /// A dial against the stylus ball while the spindle turns.
 #[derive(Debug, Clone, PartialEq)]

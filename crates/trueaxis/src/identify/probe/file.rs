@@ -8,9 +8,7 @@ use crate::files;
 use crate::verify::sheet::{Cells, Sheet};
 use std::path::Path;
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{
-    Diagnostics, Dimension, Item, Measured, Section, Source, parse_quantity,
-};
+use trueaxis_input::{Diagnostics, Dimension, Item, Measured, Section, SourceText, parse_quantity};
 
 /// Harmonics that are tried unless the study says otherwise.
 const MOST_HARMONICS: usize = 12;
@@ -88,7 +86,7 @@ pub fn read_study(path: &Path) -> (Option<Study>, Diagnostics) {
 
 /// The same for a text and tables that need not lie on a disk.
 pub fn parse_study(file: &str, text: &str, tables: &Tables<'_>) -> (Option<Study>, Diagnostics) {
-    let source = Source::new(file, text);
+    let source = SourceText::new(file, text);
     let study = source.read(|root| read(root, file, tables));
     let problems = source.finish();
     (study.filter(|_| !problems.has_errors()), problems)

@@ -1,7 +1,7 @@
 //! A hit of a touch probe on a gauge, and what its position says of the pre-travel.
 
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::Place;
+use trueaxis_input::Place;
 
 /// What the probe touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

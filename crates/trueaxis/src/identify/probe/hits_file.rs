@@ -5,7 +5,7 @@ use super::fit::rough_centre;
 use super::hit::{Gauge, GaugeKind, Hit, Side};
 use crate::verify::sheet::{Cells, Column, Sheet, heading};
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{Diagnostics, Dimension};
+use trueaxis_input::{Diagnostics, Dimension};
 
 /// What the control writes down.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -9,8 +9,8 @@ use crate::measure::path::{Placing, leaves_travel};
 use crate::measure::{Instrument, Kind};
 use std::path::Path;
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{
-    CsvColumn, CsvTable, Diagnostics, Dimension, Item, Place, Section, Source, Unit,
+use trueaxis_input::{
+    CsvColumn, CsvTable, Diagnostics, Dimension, Item, Place, Section, SourceText, Unit,
 };
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
@@ -51,7 +51,7 @@ pub fn read_rtcp(path: &Path, purpose: Purpose) -> (Option<RtcpStudy>, Diagnosti
 /// The same of a text; machine and tables are looked for beside `path`.
 pub fn parse_rtcp(path: &Path, text: &str, purpose: Purpose) -> (Option<RtcpStudy>, Diagnostics) {
     let file = path.display().to_string();
-    let source = Source::new(&file, text);
+    let source = SourceText::new(&file, text);
     let study = source.read(|root| read(root, path, purpose));
     let problems = source.finish();
     (study.filter(|_| !problems.has_errors()), problems)

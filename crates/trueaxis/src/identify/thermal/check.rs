@@ -1,7 +1,7 @@
 //! What logs cannot say: each with its name, its file and its line.
 
 use super::{Cycle, Logs, jitter_square};
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 
 /// Fewer rows are no cycle.
 const FEWEST_ROWS: usize = 10;

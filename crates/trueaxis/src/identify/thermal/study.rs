@@ -6,8 +6,8 @@ use super::{Cycle, Logs, Zero};
 use crate::files;
 use std::ops::Range;
 use std::path::Path;
-use trueaxis_geometry::input::{
-    CsvColumn, CsvTable, Diagnostics, Dimension, Item, Place, Section, Source, Unit,
+use trueaxis_input::{
+    CsvColumn, CsvTable, Diagnostics, Dimension, Item, Place, Section, SourceText, Unit,
 };
 use trueaxis_machine::errors::{Component, ErrorName};
 
@@ -54,7 +54,7 @@ pub struct Tables<'a> {
 
 /// The same for a text and logs that need not lie on a disk.
 pub fn parse_logs(file: &str, text: &str, tables: &Tables<'_>) -> (Option<Logs>, Diagnostics) {
-    let source = Source::new(file, text);
+    let source = SourceText::new(file, text);
     let logs = source.read(|root| read(root, tables));
     let problems = source.finish();
     (logs.filter(|_| !problems.has_errors()), problems)

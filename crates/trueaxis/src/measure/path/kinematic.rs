@@ -8,7 +8,7 @@
 use super::sphere::{read_cone, read_s, read_turning};
 use crate::measure::instrument::Sight;
 use crate::measure::{Campaign, Readings};
-use trueaxis_geometry::input::{Item, Section};
+use trueaxis_input::{Item, Section};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::AxisKind;
 

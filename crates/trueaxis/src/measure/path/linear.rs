@@ -6,7 +6,7 @@ use super::spread::{Random, read_range};
 use super::{MOST_STATIONS, Placing, read_at, read_count, station};
 use crate::measure::{Campaign, Readings};
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{Dimension, Item, Section};
+use trueaxis_input::{Dimension, Item, Section};
 use trueaxis_machine::axis::{AxisKind, Command};
 
 /// A circle of a bar about its table ball in a plane of the workpiece, first counter-clockwise,

@@ -5,7 +5,7 @@ use super::super::{Campaign, Instrument, Readings};
 use super::touch::STAND_OFF_MM;
 use std::fmt;
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::Section;
+use trueaxis_input::Section;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
 use trueaxis_machine::errors::{BodyName, Component, ErrorKind, ErrorName};

@@ -9,7 +9,7 @@ use crate::measure::instrument::Sight;
 use crate::measure::{Campaign, Readings};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Direction, Point};
-use trueaxis_geometry::input::{Dimension, Item, Section};
+use trueaxis_input::{Dimension, Item, Section};
 use trueaxis_machine::Target;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::file::read_direction;

@@ -4,7 +4,7 @@
 use super::{MOST_STATIONS, Placing, leaves_travel, read_count, read_position, station};
 use crate::measure::{Campaign, Kind, Readings};
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{Item, Section};
+use trueaxis_input::{Item, Section};
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
 
 /// Draws per pose that is wanted; more are wasted on a ball that is out of reach.

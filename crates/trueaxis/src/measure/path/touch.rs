@@ -4,7 +4,7 @@ use super::spread::tell_left;
 use super::{Placing, leaves_travel, read_axes, read_count, read_poses, station};
 use crate::measure::{Campaign, Kind, Reading, Readings};
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::Section;
+use trueaxis_input::Section;
 use trueaxis_machine::axis::Command;
 use trueaxis_machine::file::read_direction;
 

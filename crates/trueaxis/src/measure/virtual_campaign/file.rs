@@ -7,7 +7,7 @@ use crate::measure::path::{Path, read_paths};
 use crate::measure::{Campaign, Kind};
 use std::f64::consts::PI;
 use std::sync::Arc;
-use trueaxis_geometry::input::{Diagnostics, Dimension, Item, Section};
+use trueaxis_input::{Diagnostics, Dimension, Item, Section};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command, MAX_AXES};
 use trueaxis_machine::errors::{ErrorName, ErrorValues, StatedError};

@@ -11,8 +11,8 @@ use crate::simulate::{
     simulate,
 };
 use trueaxis_geometry::frame::Pose;
-use trueaxis_geometry::input::{Diagnostics, Severity};
 use trueaxis_geometry::{Mat3, Vec3};
+use trueaxis_input::{Diagnostics, Severity};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Command;
 use trueaxis_machine::chain::Link;

@@ -5,7 +5,7 @@ use crate::files;
 use crate::simulate::collide::{Mesh, load_stl};
 use std::path::{Path, PathBuf};
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{Diagnostics, Dimension, Section, Source, Unit};
+use trueaxis_input::{Diagnostics, Dimension, Section, SourceText, Unit};
 use trueaxis_machine::Machine;
 use trueaxis_machine::file::{read_direction, read_tool_shape};
 use trueaxis_machine::models::ToolSegment;
@@ -62,7 +62,7 @@ pub fn read_surface(path: &Path) -> (Option<SurfaceStudy>, Diagnostics) {
         return (None, problems);
     };
     let file = path.display().to_string();
-    let source = Source::new(&file, &text);
+    let source = SourceText::new(&file, &text);
     let study = source.read(|root| read(root, path));
     problems.append(source.finish());
     (study.filter(|_| !problems.has_errors()), problems)

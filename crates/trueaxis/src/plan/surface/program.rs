@@ -10,7 +10,7 @@ use crate::simulate::collide::{BodyModel, Role};
 use crate::simulate::{SetUp, SetUpTool};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Direction, Point};
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::Target;
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
 use trueaxis_machine::chain::Link;

@@ -6,7 +6,7 @@ use super::shape::triangles_of;
 use super::stl::{read_stl, write_stl};
 use crate::files;
 use std::path::Path;
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_machine::models::Shape;
 

@@ -7,7 +7,7 @@
 
 use super::triangle::{Triangle, is_degenerate};
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 
 const HEADING: usize = 84;
 const FACET: usize = 50;

@@ -8,7 +8,7 @@ use super::detail::details;
 use super::pyramid::{BUCKET, Pyramid};
 use super::{Recording, Stretch};
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::Diagnostics;
+use trueaxis_input::Diagnostics;
 use trueaxis_machine::Machine;
 use trueaxis_machine::heat::WarmingMachine;
 

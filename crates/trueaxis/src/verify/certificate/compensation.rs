@@ -6,7 +6,7 @@ use super::inputs::{Input, Inputs};
 use super::loaded::check_loaded;
 use super::used::read_at;
 use crate::compensate::tables::{Order, Target, compile};
-use trueaxis_geometry::input::{Diagnostics, Dimension, Section};
+use trueaxis_input::{Diagnostics, Dimension, Section};
 use trueaxis_machine::Machine;
 use trueaxis_machine::compensate::{Compensator, Fault, Scope};
 

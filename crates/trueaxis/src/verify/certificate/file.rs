@@ -14,7 +14,7 @@ use crate::files;
 use crate::predict::Sampling;
 use crate::verify::conditions::SOUND_TEMPERATURES_C;
 use std::path::Path;
-use trueaxis_geometry::input::{Diagnostics, Dimension, Item, Measured, Section, Source};
+use trueaxis_input::{Diagnostics, Dimension, Item, Measured, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Axis, AxisKind, Travel};
 
@@ -87,7 +87,7 @@ pub fn read_certificate(path: &Path) -> (Option<Study>, Diagnostics) {
         return (None, problems);
     };
     let file = path.display().to_string();
-    let source = Source::new(&file, &text);
+    let source = SourceText::new(&file, &text);
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut inputs = Inputs::beside(folder);
     let own = path.file_name().map_or(String::new(), |name| name.display().to_string());

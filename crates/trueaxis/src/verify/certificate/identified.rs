@@ -10,7 +10,7 @@ use crate::identify::records::{read_options, read_records};
 use crate::identify::term::stated;
 use crate::measure::read_campaign;
 use std::path::Path;
-use trueaxis_geometry::input::{Diagnostics, Item, Section};
+use trueaxis_input::{Diagnostics, Item, Section};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Approach;
 

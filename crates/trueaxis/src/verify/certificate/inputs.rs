@@ -4,7 +4,7 @@ use crate::files::{self, Folder};
 use sha2::{Digest, Sha256};
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
-use trueaxis_geometry::input::Diagnostics;
+use trueaxis_input::Diagnostics;
 use trueaxis_machine::Machine;
 use trueaxis_machine::file::Tables;
 

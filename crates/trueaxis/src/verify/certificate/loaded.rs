@@ -2,7 +2,7 @@
 
 use super::applied::Applied;
 use super::inputs::{Input, Inputs, sha256};
-use trueaxis_geometry::input::{Diagnostics, Section};
+use trueaxis_input::{Diagnostics, Section};
 
 /// The compiled files with their hashes, and the folder they were compared with: `loaded = "FOLDER"` holds
 /// what the control has loaded. A file that is missing or has another content is an error.

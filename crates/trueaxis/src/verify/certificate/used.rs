@@ -2,7 +2,7 @@
 
 use super::inputs::Inputs;
 use crate::describe::{axis_index, command, to_inner};
-use trueaxis_geometry::input::{CsvTable, Diagnostics, Item, Place, Section};
+use trueaxis_input::{CsvTable, Diagnostics, Item, Place, Section};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 

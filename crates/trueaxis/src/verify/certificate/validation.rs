@@ -6,7 +6,7 @@ use super::used::{Used, read_at, twin};
 use crate::measure::instrument::Instrument;
 use crate::measure::{Kind, Readings};
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{CsvTable, Diagnostics, Dimension, Place, Section};
+use trueaxis_input::{CsvTable, Diagnostics, Dimension, Place, Section};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Axis, Command};
 use trueaxis_machine::twist::Reference;
@@ -67,7 +67,7 @@ pub fn read_validation(
     let u_mm = section.require("u", hint).and_then(|item| above_zero(&item, Dimension::Length));
     let columns = "a table of the axes and x_um, y_um, z_um: actual less programmed tip";
     let [before, after] = ["before", "after"].map(|key| section.require(key, columns));
-    let mut read = |item: Option<trueaxis_geometry::input::Item<'_>>, role| {
+    let mut read = |item: Option<trueaxis_input::Item<'_>>, role| {
         let item = item?;
         let mut problems = Diagnostics::new();
         let rows = rows(item.text()?, role, machine, inputs, &mut problems);

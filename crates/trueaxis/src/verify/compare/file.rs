@@ -4,7 +4,7 @@ use super::{Against, Comparison, Decision, Rule, pair};
 use crate::files;
 use crate::measure::{Campaign, Readings, read_campaign};
 use std::path::{Path, PathBuf};
-use trueaxis_geometry::input::{Diagnostics, Dimension, Item, Section, Source};
+use trueaxis_input::{Diagnostics, Dimension, Item, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::heat::Conditions;
 
@@ -15,7 +15,7 @@ pub fn read_comparison(path: &Path) -> (Option<Comparison>, Diagnostics) {
         return (None, problems);
     };
     let file = path.display().to_string();
-    let source = Source::new(&file, &text);
+    let source = SourceText::new(&file, &text);
     let folder = path.parent().unwrap_or(Path::new(""));
     let read = source.read(|root| read(root, folder));
     problems.append(source.finish());

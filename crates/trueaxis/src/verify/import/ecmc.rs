@@ -4,7 +4,7 @@ use super::{Beside, Imported, Printed};
 use crate::verify::Standard;
 use crate::verify::iso230_2::Quantity;
 use std::borrow::Cow;
-use trueaxis_geometry::input::{Diagnostics, Dimension, Place, Unit};
+use trueaxis_input::{Diagnostics, Dimension, Place, Unit};
 
 const UP: &str = "### Data forward direction";
 const DOWN: &str = "### Data backward direction";

@@ -8,7 +8,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use trueaxis_geometry::Vec3;
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 
 /// A tree of more nodes than this is no measurement.
 const MOST_NODES: u32 = 20_000_000;

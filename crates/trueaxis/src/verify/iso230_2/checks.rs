@@ -5,7 +5,7 @@
 
 use super::{Direction, Measurement, Reading, Target};
 use std::collections::HashMap;
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::axis::AxisKind;
 
 /// Up to this travel, mm, a linear axis is tested with five runs (5.3.2).

@@ -2,7 +2,7 @@
 
 use crate::verify::sheet::{Cells, Column, Sheet, heading};
 use std::collections::HashMap;
-use trueaxis_geometry::input::{Diagnostics, Dimension, Unit};
+use trueaxis_input::{Diagnostics, Dimension, Unit};
 use trueaxis_machine::axis::AxisKind;
 
 /// From which side a target was reached.

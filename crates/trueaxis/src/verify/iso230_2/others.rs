@@ -83,7 +83,7 @@ fn b554(positions: &[Position]) -> B554 {
 #[cfg(test)]
 mod tests {
     use crate::verify::iso230_2::{evaluate, read};
-    use trueaxis_geometry::input::Diagnostics;
+    use trueaxis_input::Diagnostics;
 
     #[test]
     fn vdi_and_b554_by_hand() {

@@ -6,7 +6,7 @@
 
 use super::{Position, Quantity};
 use crate::verify::conditions::{Conditions, Extent};
-use trueaxis_geometry::input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::axis::AxisKind;
 
 /// Coverage factor.

@@ -3,7 +3,7 @@
 use crate::verify::conditions::Circle;
 use crate::verify::sheet::{Cells, Sheet, heading};
 use std::f64::consts::{PI, TAU};
-use trueaxis_geometry::input::{Diagnostics, Dimension};
+use trueaxis_input::{Diagnostics, Dimension};
 use trueaxis_part::fit::circle::least_squares;
 
 /// Which way round.

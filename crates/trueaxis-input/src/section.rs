@@ -1,4 +1,4 @@
-use super::{
+use crate::{
     Diagnostics, Dimension, Measured, Place, QuantityError, Unit, parse_measured, parse_quantity,
 };
 use std::cell::{Cell, RefCell};
@@ -7,18 +7,18 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// A TOML text under reading: every problem is kept, with its place, until [`Source::finish`].
+/// A TOML text under reading: every problem is kept, with its place, until [`SourceText::finish`].
 ///
 /// ```
-/// use trueaxis_geometry::input::{Dimension, Source};
-/// let source = Source::new("tool.toml", "length = '100 mm'\nwidht = '3 mm'");
+/// use trueaxis_input::{Dimension, SourceText};
+/// let source = SourceText::new("tool.toml", "length = '100 mm'\nwidht = '3 mm'");
 /// let length = source.read(|root| root.quantity("length", Dimension::Length));
 /// assert_eq!(length, Some(100.0));
 /// let problems = source.finish();
 /// assert_eq!(problems.iter().next().unwrap().code, "unknown-key");
 /// ```
 #[derive(Debug)]
-pub struct Source<'a> {
+pub struct SourceText<'a> {
     file: &'a str,
     text: &'a str,
     /// Byte offset where each line begins.
@@ -29,7 +29,7 @@ pub struct Source<'a> {
     problems: RefCell<Diagnostics>,
 }
 
-impl<'a> Source<'a> {
+impl<'a> SourceText<'a> {
     /// A text and the name of its file.
     pub fn new(file: &'a str, text: &'a str) -> Self {
         let line_starts =
@@ -87,7 +87,7 @@ impl<'a> Source<'a> {
 /// A value of a TOML file with its key path and place.
 #[derive(Debug, Clone, Copy)]
 pub struct Item<'s> {
-    source: &'s Source<'s>,
+    source: &'s SourceText<'s>,
     value: &'s Spanned<DeValue<'s>>,
 }
 
@@ -260,7 +260,7 @@ impl<'s> Item<'s> {
 /// A table of a TOML file; it remembers which keys were asked for and reports the others.
 #[derive(Debug)]
 pub struct Section<'s> {
-    source: &'s Source<'s>,
+    source: &'s SourceText<'s>,
     name: String,
     span: Range<usize>,
     table: &'s DeTable<'s>,
@@ -269,7 +269,7 @@ pub struct Section<'s> {
 
 impl<'s> Section<'s> {
     fn new(
-        source: &'s Source<'s>,
+        source: &'s SourceText<'s>,
         name: String,
         span: Range<usize>,
         table: &'s DeTable<'s>,

@@ -11,4 +11,4 @@ mod section;
 pub use csv::{CsvColumn, CsvTable};
 pub use diagnostic::{Diagnostic, Diagnostics, Place, Severity};
 pub use quantity::{Dimension, Measured, QuantityError, Unit, parse_measured, parse_quantity};
-pub use section::{Item, Section, Source};
+pub use section::{Item, Section, SourceText};

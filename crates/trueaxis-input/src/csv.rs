@@ -1,4 +1,4 @@
-use super::{Diagnostics, Place, Unit};
+use crate::{Diagnostics, Place, Unit};
 
 /// One column of numbers with the name that stands above it.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,7 +14,7 @@ pub struct CsvColumn {
 /// A table of finite numbers under named columns, with the line of every row.
 ///
 /// ```
-/// use trueaxis_geometry::input::{CsvTable, Diagnostics};
+/// use trueaxis_input::{CsvTable, Diagnostics};
 /// let mut problems = Diagnostics::new();
 /// let table = CsvTable::parse("x.csv", "# made by hand\nposition_mm,EXX_um\n0,1.5\n10,2\n", &mut problems);
 /// assert_eq!(table.columns[1].values, [1.5, 2.0]);

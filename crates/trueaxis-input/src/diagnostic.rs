@@ -41,7 +41,7 @@ impl Place {
     /// The place of a byte offset in a text.
     ///
     /// ```
-    /// use trueaxis_geometry::input::Place;
+    /// use trueaxis_input::Place;
     /// let place = Place::of("m.toml", "a = 1\nµ = 2", 9);
     /// assert_eq!((place.line, place.column), (2, 3));
     /// ```

@@ -120,9 +120,9 @@ impl Unit {
     /// Finds a unit of a dimension.
     ///
     /// ```
-    /// use trueaxis_geometry::input::{Dimension, Unit};
+    /// use trueaxis_input::{Dimension, Unit};
     /// assert_eq!(Unit::find("um", Dimension::Length)?.to_inner(250.0), 0.25);
-    /// # Ok::<(), trueaxis_geometry::input::QuantityError>(())
+    /// # Ok::<(), trueaxis_input::QuantityError>(())
     /// ```
     ///
     /// # Errors
@@ -154,11 +154,11 @@ impl Unit {
     /// A number from people in the inner unit.
     ///
     /// ```
-    /// use trueaxis_geometry::input::{Dimension, Unit};
+    /// use trueaxis_input::{Dimension, Unit};
     /// let metre = Unit::find("m", Dimension::Length)?;
     /// assert_eq!(metre.checked(2.0), Ok(2000.0));
     /// assert!(metre.checked(1e308).is_err()); // 1e311 mm is no double
-    /// # Ok::<(), trueaxis_geometry::input::QuantityError>(())
+    /// # Ok::<(), trueaxis_input::QuantityError>(())
     /// ```
     ///
     /// # Errors
@@ -300,7 +300,7 @@ impl std::error::Error for QuantityError {}
 /// Reads one quantity such as `"12 urad"` and returns it in the inner unit.
 ///
 /// ```
-/// use trueaxis_geometry::input::{Dimension, parse_quantity};
+/// use trueaxis_input::{Dimension, parse_quantity};
 /// assert_eq!(parse_quantity("30 m/min", Dimension::Velocity), Ok(500.0));
 /// assert!(parse_quantity("30", Dimension::Length).is_err());
 /// assert!(parse_quantity("30 deg", Dimension::Length).is_err());
@@ -318,10 +318,10 @@ pub fn parse_quantity(text: &str, dimension: Dimension) -> Result<f64, QuantityE
 /// Reads a quantity that may carry a standard uncertainty: `"12 urad ± 1 urad"`, `"12 ± 1 urad"`.
 ///
 /// ```
-/// use trueaxis_geometry::input::{Dimension, parse_measured};
+/// use trueaxis_input::{Dimension, parse_measured};
 /// let squareness = parse_measured("12 ± 1 mrad", Dimension::Angle)?;
 /// assert_eq!((squareness.value, squareness.u), (0.012, Some(0.001)));
-/// # Ok::<(), trueaxis_geometry::input::QuantityError>(())
+/// # Ok::<(), trueaxis_input::QuantityError>(())
 /// ```
 ///
 /// # Errors
