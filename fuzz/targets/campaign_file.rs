@@ -5,6 +5,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
+use trueaxis::files::disk;
 use trueaxis::measure::read_campaign;
 use trueaxis::measure::virtual_campaign::{measure, read_virtual};
 
@@ -20,7 +21,7 @@ fuzz_target!(|data: &[u8]| {
     let path = folder.join("campaign.toml");
     std::fs::write(&path, data).expect("written");
     let (read, problems) =
-        read_campaign(&path, |root, campaign| read_virtual(root, campaign, None));
+        read_campaign(&disk(), &path, |root, campaign| read_virtual(&disk(), root, campaign, None));
     let Some((campaign, real)) = read else {
         assert!(problems.has_errors());
         return;

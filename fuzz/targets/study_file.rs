@@ -7,6 +7,7 @@
 
 use libfuzzer_sys::fuzz_target;
 use std::path::Path;
+use trueaxis::files::disk;
 use trueaxis::identify::expansion::{identify_expansion, parse_runs};
 use trueaxis::predict::holes::{parse_hole_study, predict_holes};
 use trueaxis::predict::parse_study;
@@ -17,15 +18,15 @@ fuzz_target!(|data: &[u8]| {
     if ["/dev", "/proc", "/sys", "/run", "std"].iter().any(|word| text.contains(word)) {
         return;
     }
-    let (study, problems) = parse_study(Path::new("examples/03_predict/study.toml"), text);
+    let (study, problems) = parse_study(&disk(), Path::new("examples/03_predict/study.toml"), text);
     assert!(study.is_some() != problems.has_errors());
-    let (runs, problems) = parse_runs(Path::new("examples/05_identify/runs.toml"), text);
+    let (runs, problems) = parse_runs(&disk(), Path::new("examples/05_identify/runs.toml"), text);
     assert!(runs.is_some() != problems.has_errors());
     if let Some(runs) = runs {
         let found = identify_expansion(&runs);
         assert!(found.per_k.is_finite() && found.u_per_k.is_finite());
     }
-    let (holes, problems) = parse_hole_study(Path::new("examples/03_predict/holes.toml"), text);
+    let (holes, problems) = parse_hole_study(&disk(), Path::new("examples/03_predict/holes.toml"), text);
     assert!(holes.is_some() != problems.has_errors());
     if let Some(holes) = holes.filter(|h| h.holes_mm.len() < 100) {
         // Either a prediction or the holes that cannot be reached.

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 pub use trueaxis::describe::{axis_index, to_inner, to_shown, warn_beyond_travel};
 use trueaxis::files;
+use trueaxis::files::disk;
 use trueaxis::geometry::Vec3;
 use trueaxis::input::{CsvTable, Diagnostics, Dimension, Place, QuantityError, parse_quantity};
 use trueaxis::machine::Machine;
@@ -77,7 +78,7 @@ impl MachineArguments {
         let (machine, found) = files::machine(&self.machine);
         problems.append(found);
         let start_s = log_time("--log-start", text, problems);
-        let log = files::temperature_log(path, problems);
+        let log = trueaxis::simulate::read_temperature_log(&disk(), path, problems);
         let run = TemperatureRun { log: Arc::new(log?), start_s: start_s? };
         let conditions = conditions_at(&run, "--log-start", problems)?;
         let machine = machine?.at(&conditions, problems)?;
@@ -129,7 +130,7 @@ fn conditions_of(
     time_s: Option<Option<f64>>,
     problems: &mut Diagnostics,
 ) -> Option<Conditions> {
-    let log = files::temperature_log(path, problems)?;
+    let log = trueaxis::simulate::read_temperature_log(&disk(), path, problems)?;
     let last_s = *log.times_s().last()?;
     let run = TemperatureRun { log: Arc::new(log), start_s: time_s.unwrap_or(Some(last_s))? };
     conditions_at(&run, "--log-time", problems)
@@ -241,7 +242,7 @@ fn example(machine: &Machine) -> String {
 
 /// Reads a CSV table of positions or poses; one without rows is a mistake, not an empty answer.
 pub fn table(path: &Path, what: &str, problems: &mut Diagnostics) -> Option<CsvTable> {
-    let text = files::text(path, what, problems)?;
+    let text = disk().text(path, what, problems)?;
     let mut found = Diagnostics::new();
     let table = CsvTable::parse(&path.display().to_string(), &text, &mut found);
     let readable = found.iter().all(|d| !matches!(d.code, "bad-separator" | "empty-table"));

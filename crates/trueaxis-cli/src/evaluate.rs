@@ -2,6 +2,7 @@ use crate::output::{Answer, Format, Outcome, diagnostic_json, report, show, tell
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 use trueaxis::files;
+use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Dimension, Place, parse_quantity};
 use trueaxis::report::{Evaluation, evaluation_html, evaluation_json, evaluation_text, remarks};
 use trueaxis::verify::conditions::{Conditions, read_conditions};
@@ -107,7 +108,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         crate::report_file::may_write(path, &crate::report_file::REPORT, &mut problems);
     }
     let file = arguments.data.display().to_string();
-    let text = files::text(&arguments.data, "a table of readings (CSV)", &mut problems);
+    let text = disk().text(&arguments.data, "a table of readings (CSV)", &mut problems);
     let standard = arguments.standard.0;
     let import = arguments.import.map_or_else(|| Import::of(&arguments.data), |form| form.0);
     let evaluated = text.and_then(|text| {
@@ -232,7 +233,7 @@ fn conditions(arguments: &Arguments, problems: &mut Diagnostics) -> (Conditions,
     let there = beside.is_file().then_some(&beside);
     let path = arguments.conditions.as_ref().or(there);
     let name = path.unwrap_or(&beside).display().to_string();
-    (read_conditions(path.map(PathBuf::as_path), problems), name)
+    (read_conditions(&disk(), path.map(PathBuf::as_path), problems), name)
 }
 
 fn answer(

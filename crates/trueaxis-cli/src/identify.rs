@@ -8,6 +8,7 @@ use clap::{Args, Subcommand};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::PathBuf;
+use trueaxis::files::disk;
 use trueaxis::identify::expansion::{Expansion, Runs, identify_expansion, read_runs};
 use trueaxis::input::{Diagnostics, Place};
 
@@ -70,7 +71,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 fn run_expansion(arguments: &ExpansionArguments) -> Outcome {
-    let (runs, mut problems) = read_runs(&arguments.file);
+    let (runs, mut problems) = read_runs(&disk(), &arguments.file);
     let answer = runs.map(|runs| answer(&runs, arguments, &mut problems));
     finish(problems, answer)
 }

@@ -4,6 +4,7 @@ use clap::Args;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use trueaxis::files;
+use trueaxis::files::disk;
 use trueaxis::input::Diagnostics;
 use trueaxis::measure::virtual_campaign::{Measurement, VirtualCampaign, measure, read_virtual};
 use trueaxis::measure::{Campaign, read_campaign};
@@ -55,7 +56,7 @@ const TRUTH: Written = Written {
 };
 
 pub fn run(arguments: &Arguments) -> Outcome {
-    let (read, mut problems) = read_campaign(&arguments.campaign, |root, campaign| {
+    let (read, mut problems) = read_campaign(&disk(), &arguments.campaign, |root, campaign| {
         read_virtual(root, campaign, arguments.seed)
     });
     if let Some(path) = &arguments.report {

@@ -4,9 +4,10 @@ use crate::output::{Answer, Format, Outcome, report, show, tell};
 use crate::report_file::{REPORT, may_write, unusable, write_report};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
+use trueaxis::files::disk;
+use trueaxis::files::write_files;
 use trueaxis::input::Place;
 use trueaxis::nc::Control;
-use trueaxis::plan::program::write_files;
 use trueaxis::plan::{Chosen, Plan, chosen, planned, read_plan};
 use trueaxis::report::{plan_html, plan_json, plan_text};
 use trueaxis::simulate::{CONTROLS, control_named};
@@ -68,7 +69,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 
 fn run_campaign(arguments: &CampaignArguments) -> Outcome {
     let Some(file) = &arguments.file else { return Outcome::Unusable };
-    let (plan, mut problems) = read_plan(file);
+    let (plan, mut problems) = read_plan(&disk(), file);
     let control = control_named(&arguments.dialect);
     if control.is_none() {
         let message = format!("`{}` is no control that is known", arguments.dialect);

@@ -9,6 +9,7 @@ use trueaxis::compensate::post::{
     FeedRule, Largest, PostOptions, Posted, Verification, post, verify,
 };
 use trueaxis::files;
+use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Dimension, Place, parse_quantity};
 use trueaxis::machine::Machine;
 use trueaxis::nc::Control;
@@ -177,7 +178,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 
 impl Arguments {
     fn read_file(&self, problems: &mut Diagnostics) -> Option<ClFile> {
-        let text = files::bytes(&self.file, "a cutter-location file", problems)?;
+        let text = disk().bytes(&self.file, "a cutter-location file", problems)?;
         let reading = Reading { inches: self.units.map(|u| u == Units::Inch) };
         let (file, found) = ClFile::read(&self.file.display().to_string(), text, &reading);
         problems.append(found);
@@ -270,7 +271,7 @@ impl Arguments {
 }
 
 fn read_template(path: &Path, problems: &mut Diagnostics) -> Option<Templates> {
-    let text = files::text(path, "a template of programs", problems)?;
+    let text = disk().text(path, "a template of programs", problems)?;
     let refuse = |error: trueaxis::nc::writer::WriteError| {
         let place = Place::whole(&path.display().to_string());
         let hint = "--show-template prints one that works";

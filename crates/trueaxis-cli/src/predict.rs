@@ -3,6 +3,7 @@ use crate::report_file::{REPORT, may_write, unusable, write_report};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
+use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Place};
 use trueaxis::part::tolerance;
 use trueaxis::predict::holes::{is_hole_study, predict_holes, read_hole_study};
@@ -42,7 +43,7 @@ pub struct Arguments {
 
 /// Holes on a circle.
 fn run_holes(arguments: &Arguments) -> Outcome {
-    let (study, mut problems) = read_hole_study(&arguments.study);
+    let (study, mut problems) = read_hole_study(&disk(), &arguments.study);
     if !arguments.no_report {
         // Before the work, not after it.
         may_write(&arguments.report, &REPORT, &mut problems);
@@ -81,10 +82,10 @@ fn run_holes(arguments: &Arguments) -> Outcome {
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
-    if is_hole_study(&arguments.study) {
+    if is_hole_study(&disk(), &arguments.study) {
         return run_holes(arguments);
     }
-    let (study, mut problems) = read_study(&arguments.study);
+    let (study, mut problems) = read_study(&disk(), &arguments.study);
     let samples = arguments.samples.as_deref().map(|text| sample_count(text, &mut problems));
     if !arguments.no_report {
         // Before the work, not after it.

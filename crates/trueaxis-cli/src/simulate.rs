@@ -7,6 +7,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{BufWriter, IsTerminal};
 use std::path::{Path, PathBuf};
 use trueaxis::files::Part;
+use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Dimension, Place, parse_quantity};
 use trueaxis::machine::Machine;
 use trueaxis::machine::heat::TemperatureRun;
@@ -112,6 +113,7 @@ impl ProgramArguments {
         problems: &mut Diagnostics,
     ) -> Option<Job> {
         let files = ProgramFiles {
+            files: &disk(),
             program: &self.program,
             text: None,
             setup: self.setup.as_deref(),
@@ -125,7 +127,7 @@ impl ProgramArguments {
             None => None,
         };
         let options = self.options(keep_going, problems);
-        let files = ProgramFiles { control, ..files };
+        let files = ProgramFiles { files: &disk(), control, ..files };
         // Also with bad options all that is wrong with the files is told.
         let job = Job::read(machine, &files, options.clone().unwrap_or_default(), problems);
         let options = Options { temperatures, ..options? };

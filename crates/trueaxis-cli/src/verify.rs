@@ -3,6 +3,7 @@ use crate::report_file::{REPORT, may_write, unusable, write_report};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use trueaxis::files;
+use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Place};
 use trueaxis::part::tolerance;
 use trueaxis::report::{
@@ -89,7 +90,7 @@ fn diff(arguments: &Arguments, old_path: &Path, new_path: &Path) -> Outcome {
 }
 
 fn run_comparison(arguments: &Arguments, file: &Path) -> Outcome {
-    let (task, mut problems) = read_comparison(file);
+    let (task, mut problems) = read_comparison(&disk(), file);
     if let Some(path) = &arguments.report {
         may_write(path, &REPORT, &mut problems);
     }
@@ -131,7 +132,7 @@ fn judged(outcome: tolerance::Outcome, shown: Outcome) -> Outcome {
 }
 
 fn run_certificate(arguments: &Arguments, path: &Path) -> Outcome {
-    let (study, mut problems) = read_certificate(path);
+    let (study, mut problems) = read_certificate(&disk(), path);
     if let Some(path) = &arguments.report {
         may_write(path, &REPORT, &mut problems);
     }

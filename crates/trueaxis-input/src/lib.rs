@@ -5,10 +5,12 @@
 
 mod csv;
 mod diagnostic;
+mod files;
 mod quantity;
 mod section;
 
 pub use csv::{CsvColumn, CsvTable};
 pub use diagnostic::{Diagnostic, Diagnostics, Place, Severity};
+pub use files::{Files, Source};
 pub use quantity::{Dimension, Measured, QuantityError, Unit, parse_measured, parse_quantity};
 pub use section::{Item, Section, SourceText};

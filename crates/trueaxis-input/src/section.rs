@@ -1,5 +1,6 @@
 use crate::{
-    Diagnostics, Dimension, Measured, Place, QuantityError, Unit, parse_measured, parse_quantity,
+    Diagnostics, Dimension, Files, Measured, Place, QuantityError, Unit, parse_measured,
+    parse_quantity,
 };
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
@@ -21,6 +22,8 @@ use toml::de::{DeTable, DeValue};
 pub struct SourceText<'a> {
     file: &'a str,
     text: &'a str,
+    /// The files that the text may name.
+    files: Files,
     /// Byte offset where each line begins.
     line_starts: Vec<usize>,
     /// The last place that was asked for, as byte offset and column: most questions come in the
@@ -30,11 +33,17 @@ pub struct SourceText<'a> {
 }
 
 impl<'a> SourceText<'a> {
-    /// A text and the name of its file.
+    /// A text and the name of its file; the files that it names cannot be had.
     pub fn new(file: &'a str, text: &'a str) -> Self {
+        Self::from(&Files::none(), file, text)
+    }
+
+    /// A text, the name of its file, and where the files that it names are read from.
+    pub fn from(files: &Files, file: &'a str, text: &'a str) -> Self {
         let line_starts =
             std::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i + 1)).collect();
-        Self { file, text, line_starts, last: Cell::new((0, 1)), problems: RefCell::default() }
+        let (files, last) = (files.clone(), Cell::new((0, 1)));
+        Self { file, text, files, line_starts, last, problems: RefCell::default() }
     }
 
     /// As [`Place::of`], in a time that does not grow with the file.
@@ -92,6 +101,11 @@ pub struct Item<'s> {
 }
 
 impl<'s> Item<'s> {
+    /// The files that the text may name.
+    pub fn files(&self) -> &'s Files {
+        &self.source.files
+    }
+
     /// Where the value stands.
     pub fn place(&self) -> Place {
         self.source.place(self.value.span().start)
@@ -275,6 +289,11 @@ impl<'s> Section<'s> {
         table: &'s DeTable<'s>,
     ) -> Self {
         Self { source, name, span, table, asked: RefCell::default() }
+    }
+
+    /// The files that the text may name.
+    pub fn files(&self) -> &'s Files {
+        &self.source.files
     }
 
     /// The name of the section, such as `axis.X`.

@@ -17,8 +17,9 @@ use crate::axis::{Axis, AxisKind, Limits, Travel, iso_841_direction, iso_841_sen
 use crate::chain::{ChainBody, ErrorFrame, ErrorModel, Machine, Squareness};
 use crate::errors::{BodyName, Rotation};
 use crate::tool::ToolAssembly;
+use std::path::{Path, PathBuf};
 use trueaxis_geometry::Vec3;
-use trueaxis_input::{Diagnostics, Dimension, Item, Section, SourceText};
+use trueaxis_input::{Diagnostics, Dimension, Files, Item, Section, SourceText};
 
 /// Where the tables that a machine file names come from; this crate opens no file.
 pub trait Tables {
@@ -44,7 +45,51 @@ impl Tables for NoTables {
     }
 }
 
+/// The tables beside a machine file.
+#[derive(Debug, Clone)]
+pub struct Folder {
+    files: Files,
+    path: PathBuf,
+}
+
+impl Folder {
+    /// The folder of a file.
+    pub fn of(files: &Files, file: &Path) -> Self {
+        let path = file.parent().unwrap_or(Path::new("")).to_owned();
+        Self { files: files.clone(), path }
+    }
+}
+
+impl Tables for Folder {
+    fn text(&self, name: &str) -> Result<String, String> {
+        self.files.read_text(&self.path.join(name)).map_err(|e| e.to_string())
+    }
+
+    fn display(&self, name: &str) -> String {
+        self.path.join(name).display().to_string()
+    }
+}
+
+/// The machine that a study names by `machine = "…"`, relative to the study file, and its path.
+pub fn machine_of(root: &Section<'_>, study: &Path) -> Option<(PathBuf, Machine)> {
+    let hint = "the machine file, relative to this file";
+    let name = root.require("machine", hint)?.text()?;
+    let path = study.parent().unwrap_or(Path::new("")).join(name);
+    let (machine, problems) = Machine::read(root.files(), &path);
+    root.take_over(problems);
+    Some((path, machine?))
+}
+
 impl Machine {
+    /// Reads and checks a machine file with the tables that it names.
+    pub fn read(files: &Files, path: &Path) -> (Option<Self>, Diagnostics) {
+        let mut problems = Diagnostics::new();
+        let Some(text) = files.text(path, "a machine file (TOML)", &mut problems) else {
+            return (None, problems);
+        };
+        Self::check(&path.display().to_string(), &text, &Folder::of(files, path))
+    }
+
     /// Checks a machine file and everything that it names.
     ///
     /// Returns the machine if there was no error, and everything that was found, with its place.

@@ -13,6 +13,7 @@ use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
 use trueaxis::files;
+use trueaxis::files::disk;
 use trueaxis::geometry::Vec3;
 use trueaxis::geometry::frame::rotation;
 use trueaxis::machine::errors::ErrorValues;
@@ -173,7 +174,7 @@ fn whole_machine() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines/xkas2525/machine.toml");
     let (machine, mut problems) = files::machine(&path);
     let machine = machine.expect("a shipped machine");
-    let models = load_models(&machine, &path, &mut problems);
+    let models = load_models(&disk(), &machine, &path, &mut problems);
     let segment = |diameter_mm, length_mm| ToolSegment { diameter_mm, length_mm };
     let tool = ToolShape {
         tip_mm: machine.tip_mm(),

@@ -11,6 +11,7 @@
 use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
+use trueaxis::files::disk;
 use trueaxis::machine::axis::Approach;
 use trueaxis::predict::{Bench, Cutting, Judge, Sampling, Study, monte_carlo, read_study};
 
@@ -19,7 +20,8 @@ const ROUNDS: usize = 7;
 
 fn study() -> Study {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let (study, problems) = read_study(&root.join("examples/03_predict/nas979-on-xkas2525.toml"));
+    let (study, problems) =
+        read_study(&disk(), &root.join("examples/03_predict/nas979-on-xkas2525.toml"));
     assert!(!problems.has_errors(), "the shipped study is sound");
     study.expect("a study")
 }

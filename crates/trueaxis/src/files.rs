@@ -10,34 +10,29 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use trueaxis_input::{Diagnostics, Place, Section};
+use trueaxis_input::{Diagnostics, Files, Source};
 use trueaxis_machine::Machine;
-use trueaxis_machine::file::Tables;
-use trueaxis_machine::heat::TemperatureLog;
 
 /// No file that people write or export is longer; a larger one is refused before it fills the memory.
 const MAX_BYTES: u64 = 256 << 20;
 
-/// The tables beside a machine file.
-pub struct Folder {
-    path: PathBuf,
-}
+/// The disk, within the scope that holds ([`within`]).
+#[derive(Debug, Clone, Copy)]
+struct Disk;
 
-impl Folder {
-    /// The folder of a file.
-    pub fn of(file: &Path) -> Self {
-        Self { path: file.parent().unwrap_or(Path::new("")).to_owned() }
+impl Source for Disk {
+    fn read(&self, path: &Path) -> io::Result<Vec<u8>> {
+        read_bytes(path)
+    }
+
+    fn is_file(&self, path: &Path) -> bool {
+        is_file(path)
     }
 }
 
-impl Tables for Folder {
-    fn text(&self, name: &str) -> Result<String, String> {
-        read_text(&self.path.join(name)).map_err(|e| e.to_string())
-    }
-
-    fn display(&self, name: &str) -> String {
-        self.path.join(name).display().to_string()
-    }
+/// The files of this computer.
+pub fn disk() -> Files {
+    Files::new(Disk)
 }
 
 /// Reads and checks a machine file with the tables that it names.
@@ -47,74 +42,7 @@ impl Tables for Folder {
 /// assert_eq!(machine.unwrap().chain_text(), "w b X Y Z C A t");
 /// ```
 pub fn machine(path: &Path) -> (Option<Machine>, Diagnostics) {
-    let mut problems = Diagnostics::new();
-    let Some(text) = text(path, "a machine file (TOML)", &mut problems) else {
-        return (None, problems);
-    };
-    Machine::check(&path.display().to_string(), &text, &Folder::of(path))
-}
-
-/// The machine that a study names by `machine = "…"`, relative to the study file, and its path.
-pub fn machine_of(root: &Section<'_>, study: &Path) -> Option<(PathBuf, Machine)> {
-    let hint = "the machine file, relative to this file";
-    let name = root.require("machine", hint)?.text()?;
-    let path = study.parent().unwrap_or(Path::new("")).join(name);
-    let (machine, problems) = machine(&path);
-    root.take_over(problems);
-    Some((path, machine?))
-}
-
-/// Reads a text file; if it cannot be read, says why.
-pub fn text(path: &Path, what: &str, problems: &mut Diagnostics) -> Option<String> {
-    match read_text(path) {
-        Ok(text) => Some(text),
-        Err(error) => {
-            let place = Place::whole(&path.display().to_string());
-            let message = format!("cannot be read: {error}");
-            problems.error("unreadable-file", place, message, &format!("{what} is due here"));
-            None
-        }
-    }
-}
-
-/// Reads a log of temperatures: CSV, or Parquet with the same columns if the file ends in
-/// `.parquet`.
-pub fn temperature_log(path: &Path, problems: &mut Diagnostics) -> Option<TemperatureLog> {
-    let file = path.display().to_string();
-    if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("parquet")) {
-        let source = open(path, "a Parquet log of temperatures", problems)?;
-        let table = crate::parquet_log::table(&file, source, problems)?;
-        return TemperatureLog::from_table(&table, problems);
-    }
-    let text = text(path, "a CSV log of temperatures", problems)?;
-    TemperatureLog::parse(&file, &text, problems)
-}
-
-/// Opens an ordinary file that is not too long; if it cannot be opened, says why.
-fn open(path: &Path, what: &str, problems: &mut Diagnostics) -> Option<fs::File> {
-    let opened = readable(path).and_then(fs::File::open).and_then(|file| {
-        let found = file.metadata()?;
-        match found.is_file() && found.len() <= MAX_BYTES {
-            true => Ok(file),
-            false => Err(io::Error::other(format!("no file of at most {MAX_BYTES} bytes"))),
-        }
-    });
-    let complain = |error: io::Error| {
-        let place = Place::whole(&path.display().to_string());
-        let message = format!("cannot be read: {error}");
-        problems.error("unreadable-file", place, message, &format!("{what} is due here"));
-    };
-    opened.map_err(complain).ok()
-}
-
-/// Reads a file that need not be UTF-8, such as an NC program; if it cannot be read, says why.
-pub fn bytes(path: &Path, what: &str, problems: &mut Diagnostics) -> Option<Vec<u8>> {
-    let complain = |error: io::Error| {
-        let place = Place::whole(&path.display().to_string());
-        let message = format!("cannot be read: {error}");
-        problems.error("unreadable-file", place, message, &format!("{what} is due here"));
-    };
-    read_bytes(path).map_err(complain).ok()
+    Machine::read(&disk(), path)
 }
 
 /// Reads a file that need not be UTF-8.
@@ -135,16 +63,6 @@ pub fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
 /// Whether an ordinary file stands there that may be read.
 pub fn is_file(path: &Path) -> bool {
     readable(path).is_ok_and(|path| path.is_file())
-}
-
-fn read_text(path: &Path) -> io::Result<String> {
-    let refuse = |message| Err(io::Error::new(io::ErrorKind::InvalidData, message));
-    let bytes = read_bytes(path)?;
-    String::from_utf8(bytes).or_else(|error| {
-        let sound = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        let line = sound.iter().filter(|b| **b == b'\n').count() + 1;
-        refuse(format!("line {line} is not UTF-8 text; save the file as UTF-8"))
-    })
 }
 
 /// Writes a file whole or not at all: into a temporary file beside it, then renamed.
@@ -184,6 +102,20 @@ pub fn write_folder(place: &Path, files: &[(&str, &str)]) -> io::Result<()> {
     fill().inspect_err(|_| {
         let _ = fs::remove_dir_all(&part);
     })
+}
+
+/// Writes programs and tables of poses into a folder; what was written.
+///
+/// # Errors
+/// What the disk says.
+pub fn write_files(folder: &Path, written: &[(String, Vec<u8>)]) -> io::Result<Vec<PathBuf>> {
+    let mut paths = Vec::new();
+    for (name, content) in written {
+        let path = folder.join(name);
+        write(&path, content)?;
+        paths.push(path);
+    }
+    Ok(paths)
 }
 
 /// A file that is being written beside its place; unless it is put there, it vanishes.

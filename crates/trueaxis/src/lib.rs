@@ -24,7 +24,7 @@ pub mod describe;
 pub mod files;
 pub mod identify;
 pub mod measure;
-mod parquet_log;
+
 pub mod plan;
 pub mod predict;
 pub mod report;

@@ -17,6 +17,7 @@ mod densify;
 mod drift;
 mod job;
 mod orientation;
+mod parquet_log;
 #[cfg(feature = "parquet")]
 mod parquet_table;
 mod program;
@@ -25,6 +26,7 @@ mod series;
 mod setup;
 mod summary;
 mod table;
+mod temperature_log;
 mod temperatures;
 pub mod timing;
 mod tool_path;
@@ -48,6 +50,7 @@ pub use series::{PathPoint, Quantity, Series};
 pub use setup::{CONTROLS, Nearness, SetUp, SetUpTool, control_named, parse_setup, read_setup};
 pub use summary::{AxisUse, Reversal, Summary, Worst, shown, unit};
 pub use table::{CsvTable, headings};
+pub use temperature_log::read_temperature_log;
 pub use tool_path::Batch;
 pub use trace::{Trace, TracedNode, block_line, trace};
 pub use trouble::{AxisWatch, Log, Trouble, TroubleKind, TroubleList};
@@ -168,7 +171,7 @@ pub(crate) fn execute(
 ) -> Outcome {
     let control = TipControl::of(mounted);
     let turn = basic::turn_to_workpiece(mounted, setup);
-    let folder = Folder::beside(Path::new(program.file()), control.as_ref(), turn);
+    let folder = Folder::beside(&setup.files, Path::new(program.file()), control.as_ref(), turn);
     interpret(program, &folder, settings, take)
 }
 

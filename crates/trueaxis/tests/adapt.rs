@@ -11,6 +11,7 @@ use trueaxis::compensate::adapt::{
     AdaptStudy, Adaptation, Field, FieldOptions, Follow, NominalSurface, SurfacePoint, adapt,
     read_adapt_study, read_points, virtual_cut,
 };
+use trueaxis::files::disk;
 use trueaxis::geometry::Vec3;
 use trueaxis::input::Diagnostics;
 use trueaxis::nc::cl::{ClFile, Reading};
@@ -18,7 +19,7 @@ use trueaxis::nc::cl::{ClFile, Reading};
 fn example() -> AdaptStudy {
     let file = "../../examples/06_compensate/bangle-adapt.toml";
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
-    let (study, problems) = read_adapt_study(&path);
+    let (study, problems) = read_adapt_study(&disk(), &path);
     let told: Vec<String> = problems.iter().map(ToString::to_string).collect();
     study.unwrap_or_else(|| panic!("{told:?}"))
 }

@@ -8,6 +8,7 @@ mod library;
 use library::{Random, bare, root};
 use nalgebra::{DMatrix, DVector};
 use std::path::PathBuf;
+use trueaxis::files::disk;
 use trueaxis::geometry::Vec3;
 use trueaxis::identify::errors::{Identification, identify};
 use trueaxis::identify::minimal::minimal_location_errors;
@@ -276,7 +277,8 @@ fn law_without_correlations_the_interval_is_too_long() {
 
 /// The frustum of NAS 979 on the gantry, its errors left out.
 fn frustum() -> Study {
-    let (study, problems) = read_study(&root().join("examples/03_predict/nas979-on-xkas2525.toml"));
+    let (study, problems) =
+        read_study(&disk(), &root().join("examples/03_predict/nas979-on-xkas2525.toml"));
     let mut study = study.unwrap_or_else(|| panic!("{problems:?}"));
     let stated = study.machine.stated_errors();
     study.machine =

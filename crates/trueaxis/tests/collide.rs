@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 use std::path::{Path, PathBuf};
 use trueaxis::files;
+use trueaxis::files::disk;
 use trueaxis::geometry::frame::{Pose, rotation};
 use trueaxis::geometry::{Mat3, Vec3};
 use trueaxis::input::Diagnostics;
@@ -338,7 +339,7 @@ fn shipped(name: &str) -> (Machine, Vec<BodyModel>) {
     let path = root().join("machines").join(name).join("machine.toml");
     let (machine, mut problems) = files::machine(&path);
     let machine = machine.unwrap_or_else(|| panic!("{problems:?}"));
-    let models = load_models(&machine, &path, &mut problems);
+    let models = load_models(&disk(), &machine, &path, &mut problems);
     assert!(!problems.has_errors(), "{problems:?}");
     (machine, models)
 }
@@ -541,7 +542,7 @@ fn oracle_outside_machines_are_read() {
     let mut total = 0;
     for path in &found {
         let mut problems = Diagnostics::new();
-        let mesh = load_stl(path, 1.0, &mut problems);
+        let mesh = load_stl(&disk(), path, 1.0, &mut problems);
         let mesh = mesh.unwrap_or_else(|| panic!("{path:?}: {problems:?}"));
         let notes: Vec<&str> = problems.iter().map(|d| d.code).collect();
         let (count, pieces) = (mesh.triangles().len(), mesh.piece_count());

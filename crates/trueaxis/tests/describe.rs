@@ -8,11 +8,12 @@ use serde_json::Value;
 use std::path::Path;
 use std::sync::OnceLock;
 use trueaxis::describe::{MOST_SAMPLES, describe, set_error};
-use trueaxis::files::{self, Folder};
+use trueaxis::files;
 use trueaxis::input::{Dimension, parse_measured};
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::AxisKind;
 use trueaxis::machine::errors::{Curve, ErrorIndex, ErrorKind, ErrorValues};
+use trueaxis::machine::file::Folder;
 use trueaxis::report::description_json;
 
 fn text_of(name: &str) -> String {

@@ -6,6 +6,7 @@ mod library;
 use library::{Random, machine, machine_path, root};
 use nalgebra::{DMatrix, DVector};
 use std::path::{Path, PathBuf};
+use trueaxis::files::disk;
 use trueaxis::geometry::Vec3;
 use trueaxis::identify::convention::check_conventions;
 use trueaxis::identify::design::Design;
@@ -499,7 +500,7 @@ fn gives_back(name: &str, cases: &[(&str, &str)]) -> MachineFile {
     let (found, codes) = run(&campaign, &Options::default(), readings);
     let found = found.unwrap_or_else(|| panic!("{codes:?}"));
     let old = std::fs::read_to_string(&campaign.machine_path).expect("the machine file");
-    let folder = trueaxis::files::Folder::of(&campaign.machine_path);
+    let folder = trueaxis::machine::file::Folder::of(&disk(), &campaign.machine_path);
     let made = machine_file(&campaign, &found, Some("2026-11-21"), &old, &folder).expect("a file");
     let comments = |text: &str| text.lines().filter(|l| l.starts_with('#')).count();
     assert!(comments(&made.text) >= comments(&old));
@@ -523,7 +524,7 @@ fn gives_back(name: &str, cases: &[(&str, &str)]) -> MachineFile {
 
 fn example(name: &str) -> (Campaign, Options, Records) {
     let path = root().join("examples/05_identify").join(name);
-    let (read, problems) = read_campaign(&path, |root, _| Some(read_options(root)));
+    let (read, problems) = read_campaign(&disk(), &path, |root, _| Some(read_options(root)));
     let (campaign, options) = read.unwrap_or_else(|| panic!("{problems:?}"));
     let mut problems = Diagnostics::new();
     let records = read_records(&campaign, &mut problems);

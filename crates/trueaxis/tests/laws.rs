@@ -3,6 +3,7 @@
 mod library;
 
 use library::root;
+use trueaxis::files::disk;
 use trueaxis::machine::Machine;
 use trueaxis::machine::errors::ErrorValues;
 use trueaxis::machine::file::NoTables;
@@ -13,7 +14,7 @@ use trueaxis::predict::{
 
 fn study() -> Study {
     let path = root().join("examples/03_predict/nas979-on-xkas2525.toml");
-    let (study, problems) = read_study(&path);
+    let (study, problems) = read_study(&disk(), &path);
     assert!(!problems.has_errors());
     let mut study = study.expect("a study");
     study.sampling = None;

@@ -5,11 +5,12 @@ mod library;
 use library::root;
 use serde_json::Value;
 use std::path::Path;
+use trueaxis::files::disk;
 use trueaxis::predict::{Cutting, Prediction, Reference, Setting, Study, predict, read_study};
 
 fn study() -> Study {
     let path = root().join("examples/03_predict/nas979-on-xkas2525.toml");
-    let (study, problems) = read_study(&path);
+    let (study, problems) = read_study(&disk(), &path);
     let list: Vec<String> = problems.iter().map(ToString::to_string).collect();
     let mut study = study.unwrap_or_else(|| panic!("{}", list.join("\n")));
     study.sampling = None;

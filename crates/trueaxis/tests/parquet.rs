@@ -5,6 +5,7 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use std::path::Path;
 use trueaxis::files;
+use trueaxis::files::disk;
 use trueaxis::input::Diagnostics;
 use trueaxis::simulate::{
     CsvTable, Options, ParquetTable, SetUp, headings, read_program, simulate,
@@ -25,7 +26,7 @@ fn parquet_holds_the_numbers_of_csv() {
     let file = folder.join("rounds.nc");
     std::fs::write(&file, text).expect("a program");
     let setup = SetUp::default();
-    let program = read_program(&file, None, &setup, &mut problems).expect("a program");
+    let program = read_program(&disk(), &file, None, &setup, &mut problems).expect("a program");
     let target = std::fs::File::create(folder.join("rounds.parquet")).expect("a file");
 
     let (mut csv, mut columns) =
@@ -96,7 +97,7 @@ fn a_log_as_parquet_is_the_log_as_csv() {
     let path = folder.join("hall.parquet");
     let read = || {
         let mut problems = Diagnostics::new();
-        let log = files::temperature_log(&path, &mut problems);
+        let log = trueaxis::simulate::read_temperature_log(&disk(), &path, &mut problems);
         (log, problems.iter().map(|d| d.code).collect::<Vec<_>>())
     };
     let (times, celsius) = ([0.0, 1.0, 2.5], [20.0, 20.25, 21.5]);

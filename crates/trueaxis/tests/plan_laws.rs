@@ -4,6 +4,7 @@ mod library;
 
 use library::{Random, root};
 use std::sync::atomic::{AtomicU32, Ordering};
+use trueaxis::files::disk;
 use trueaxis::geometry::Vec3;
 use trueaxis::identify::design::Design;
 use trueaxis::identify::fit::fit;
@@ -17,7 +18,7 @@ use trueaxis::plan::{Criterion, Plan, choose, expect, read_plan};
 
 /// A plan of an example of the project.
 fn example(name: &str) -> Plan {
-    let (plan, problems) = read_plan(&root().join("examples/04_plan").join(name));
+    let (plan, problems) = read_plan(&disk(), &root().join("examples/04_plan").join(name));
     plan.unwrap_or_else(|| panic!("{problems:?}"))
 }
 
@@ -30,7 +31,7 @@ fn campaign(machine: &str, rest: &str) -> (Option<Plan>, String) {
     let machine = root().join("machines").join(machine).join("machine.toml");
     let text = format!("name = \"law\"\nmachine = '{}'\n{rest}", machine.display());
     std::fs::write(&file, text).expect("a temporary file");
-    let (plan, problems) = read_plan(&file);
+    let (plan, problems) = read_plan(&disk(), &file);
     std::fs::remove_file(&file).expect("it is there");
     let told = problems.iter().map(|d| format!("{} {}", d.code, d.message)).collect::<Vec<_>>();
     (plan, told.join("\n"))

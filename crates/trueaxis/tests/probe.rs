@@ -8,6 +8,7 @@ mod virtual_probe;
 
 use library::root;
 use serde_json::Value;
+use trueaxis::files::disk;
 use trueaxis::geometry::Vec3;
 use trueaxis::identify::probe::{
     Calibration, Fit, Free, GaugeKind, Lobing, LobingModel, Sample, Side, Study, fit,
@@ -23,7 +24,7 @@ fn expected() -> Value {
 }
 
 fn study(name: &str) -> Study {
-    let (study, problems) = read_study(&root().join("examples/05_identify").join(name));
+    let (study, problems) = read_study(&disk(), &root().join("examples/05_identify").join(name));
     assert!(!problems.has_errors(), "{problems:?}");
     study.expect("a study")
 }

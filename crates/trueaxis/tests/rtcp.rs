@@ -7,6 +7,7 @@ use proptest::prelude::*;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
+use trueaxis::files::disk;
 use trueaxis::geometry::Vec3;
 use trueaxis::identify::rtcp::forecast::forecast;
 use trueaxis::identify::rtcp::program::{off_poses, program};
@@ -98,7 +99,7 @@ fn study_with(name: &str, errors: &str, dice: &mut Random) -> RtcpStudy {
         }
         std::fs::write(folder.join(format!("{set}.csv")), table).unwrap();
     }
-    let (study, problems) = parse_rtcp(&folder.join("law.toml"), &text, Purpose::Result);
+    let (study, problems) = parse_rtcp(&disk(), &folder.join("law.toml"), &text, Purpose::Result);
     std::fs::remove_dir_all(&folder).unwrap();
     let mut study = study.unwrap_or_else(|| panic!("{problems:?}"));
     stand_by(&mut study);
@@ -282,7 +283,7 @@ fn steps(table: &str) -> Calibration {
         root().join("machines/i5-engraver/machine.toml").display()
     );
     std::fs::write(folder.join("s.csv"), table).unwrap();
-    let (study, problems) = parse_rtcp(&folder.join("s.toml"), &text, Purpose::Result);
+    let (study, problems) = parse_rtcp(&disk(), &folder.join("s.toml"), &text, Purpose::Result);
     std::fs::remove_dir_all(&folder).unwrap();
     solved(&study.unwrap_or_else(|| panic!("{problems:?}")))
 }
@@ -444,7 +445,7 @@ fn law_numbers_and_offsets_belong_together() {
 #[test]
 fn oracle_the_engraver_of_numpy() {
     let path = root().join("examples/05_identify/rtcp-engraver.toml");
-    let (study, problems) = read_rtcp(Path::new(&path), Purpose::Result);
+    let (study, problems) = read_rtcp(&disk(), Path::new(&path), Purpose::Result);
     let study = study.unwrap_or_else(|| panic!("{problems:?}"));
     assert!(problems.iter().next().is_none(), "{problems:?}");
     let found = solved(&study);
@@ -466,7 +467,7 @@ fn oracle_numpy_solves_the_same() {
     let data: serde_json::Value =
         serde_json::from_str(&std::fs::read_to_string(data).unwrap()).unwrap();
     let path = root().join("examples/05_identify/rtcp-engraver.toml");
-    let mut study = read_rtcp(Path::new(&path), Purpose::Result).0.unwrap();
+    let mut study = read_rtcp(&disk(), Path::new(&path), Purpose::Result).0.unwrap();
     study.tool_u_mm = [0.0; 2];
     let found = solved(&study);
     for new in &found.new {
@@ -480,7 +481,7 @@ fn oracle_numpy_solves_the_same() {
 #[test]
 fn a_wrong_sign_is_suspected() {
     let path = root().join("examples/05_identify/rtcp-engraver.toml");
-    let mut study = read_rtcp(Path::new(&path), Purpose::Result).0.unwrap();
+    let mut study = read_rtcp(&disk(), Path::new(&path), Purpose::Result).0.unwrap();
     for row in &mut study.sets[3].rows {
         row.read_mm[1] = row.read_mm[1].map(|v| -v);
     }

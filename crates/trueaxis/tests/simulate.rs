@@ -4,6 +4,7 @@
 
 use proptest::prelude::*;
 use std::path::Path;
+use trueaxis::files::disk;
 use trueaxis::geometry::Vec3;
 use trueaxis::machine::Machine;
 use trueaxis::machine::file::NoTables;
@@ -294,7 +295,8 @@ fn turned_head() -> (Machine, SetUp) {
     );
     let text = "[tool.1]\nlength = \"100 mm\"\n[tool.2]\nlength = \"150 mm\"\n\
                 [work_offset.G54]\nX = \"12 mm\"\nY = \"-7 mm\"\nZ = \"-60 mm\"\n";
-    let (setup, problems) = trueaxis::simulate::parse_setup("setup", text, Path::new(""), &machine);
+    let (setup, problems) =
+        trueaxis::simulate::parse_setup(&disk(), "setup", text, Path::new(""), &machine);
     (machine, setup.unwrap_or_else(|| panic!("{problems:?}")))
 }
 
@@ -352,7 +354,8 @@ fn law_tcp_begins_where_the_tip_is_also_on_skew_axes() {
          [axis.Y]\ndirection = \"0.2 1 0\"\n[axis.C]\ntravel = \"unlimited\"\n",
     );
     let text = "[tool.1]\nlength = \"100 mm\"\n[work_offset.G54]\nX = \"5 mm\"\n";
-    let setup = trueaxis::simulate::parse_setup("setup", text, Path::new(""), &machine).0.unwrap();
+    let setup =
+        trueaxis::simulate::parse_setup(&disk(), "setup", text, Path::new(""), &machine).0.unwrap();
     let text = b"G54\nT1 M6\nD1\nG1 X10 Y50 Z5 F1000\nTRAORI\nG1 X20\nM30\n";
     let program = Program::new("t.mpf", text.to_vec(), Control::Sinumerik840d);
     let mut nodes = Nodes::default();

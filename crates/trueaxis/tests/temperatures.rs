@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use trueaxis::files;
+use trueaxis::files::disk;
 use trueaxis::input::Diagnostics;
 use trueaxis::machine::Machine;
 use trueaxis::machine::heat::{Conditions, TemperatureLog, TemperatureRun};
@@ -84,7 +85,8 @@ impl Observer for Places {
 fn walk(folder: &Folder, nc: &str, options: &Options) -> (Places, Vec<&'static str>) {
     let program = folder.file("part.nc", nc);
     let setup = SetUp::default();
-    let program = read_program(&program, None, &setup, &mut Diagnostics::new()).expect("read");
+    let program =
+        read_program(&disk(), &program, None, &setup, &mut Diagnostics::new()).expect("read");
     let mut places = Places::default();
     let run = simulate(&machine(folder), &program, &setup, options, &mut [&mut places]);
     let errors = run.problems.iter().filter(|d| d.severity.to_string() == "error");
@@ -129,7 +131,8 @@ fn law_a_log_that_never_moves_is_constant_conditions() {
     let conditions = Conditions::typed("t", text, &mut problems).expect("sound");
     let constant = machine(&folder).at(&conditions, &mut problems).expect("sound");
     let program = folder.0.join("part.nc");
-    let program = read_program(&program, None, &SetUp::default(), &mut problems).expect("read");
+    let program =
+        read_program(&disk(), &program, None, &SetUp::default(), &mut problems).expect("read");
     let mut places = Places::default();
     simulate(&constant, &program, &SetUp::default(), &Options::default(), &mut [&mut places]);
     assert_eq!(places.0, logged.0);
@@ -145,7 +148,8 @@ fn the_drift_is_told_with_its_temperatures() {
     let mut drift = Drift::of(&machine, &setup, &run).expect("sound");
     let mut bodies = BodyTable::new(Vec::new());
     let program = folder.file("part.nc", PROGRAM);
-    let program = read_program(&program, None, &setup, &mut Diagnostics::new()).expect("read");
+    let program =
+        read_program(&disk(), &program, None, &setup, &mut Diagnostics::new()).expect("read");
     let mut observers: [&mut dyn Observer; 2] = [&mut drift, &mut bodies];
     simulate(&machine, &program, &setup, &options, &mut observers);
     let sensors = drift.sensors();
@@ -195,7 +199,7 @@ fn holes(folder: &Folder, temperature: &str) -> PathBuf {
 #[test]
 fn law_u_of_a_hole_from_the_expansion_of_the_workpiece_alone() {
     let folder = Folder::new("holes-u");
-    let (study, problems) = read_hole_study(&holes(&folder, "workpiece = \"28 degC\""));
+    let (study, problems) = read_hole_study(&disk(), &holes(&folder, "workpiece = \"28 degC\""));
     let study = study.unwrap_or_else(|| panic!("{:?}", problems.sorted()));
     let found = predict_holes(&study).expect("reachable");
     for set in &found.sets {
@@ -218,7 +222,7 @@ fn law_u_of_a_hole_from_the_expansion_of_the_workpiece_alone() {
 fn holes_over_a_log_are_made_at_their_times() {
     let folder = Folder::new("holes-log");
     let path = holes(&folder, "log = \"hall.csv\"\nstart = \"100 s\"\nduration = \"200 s\"");
-    let (study, problems) = read_hole_study(&path);
+    let (study, problems) = read_hole_study(&disk(), &path);
     let study = study.unwrap_or_else(|| panic!("{:?}", problems.sorted()));
     let found = predict_holes(&study).expect("reachable");
     assert_eq!(found.times_s, [25.0, 75.0, 125.0, 175.0]);
@@ -231,7 +235,7 @@ fn holes_over_a_log_are_made_at_their_times() {
     assert!(held[0].worst_mm < 1e-12 && found.sets[0].worst_mm > 0.03);
     // Longer than the log.
     let path = holes(&folder, "log = \"hall.csv\"\nstart = \"100 s\"\nduration = \"1 h\"");
-    let study = read_hole_study(&path).0.expect("read");
+    let study = read_hole_study(&disk(), &path).0.expect("read");
     let problems = predict_holes(&study).expect_err("the log ends").sorted();
     assert!(problems.iter().any(|d| d.message.contains("the log ends after 200.0 s")));
 }
@@ -240,7 +244,7 @@ fn holes_over_a_log_are_made_at_their_times() {
 fn bad_temperatures_of_a_study_are_named() {
     let folder = Folder::new("holes-bad");
     let codes = |temperature: &str| {
-        let problems = read_hole_study(&holes(&folder, temperature)).1;
+        let problems = read_hole_study(&disk(), &holes(&folder, temperature)).1;
         let errors = problems.iter().filter(|d| d.severity.to_string() == "error");
         errors.map(|d| d.code).collect::<Vec<_>>()
     };
@@ -283,7 +287,7 @@ fn law_a_test_piece_over_a_log_lies_between_its_ends() {
         .replace("../../testpieces", &root.join("testpieces").display().to_string());
     let read = |temperature: &str| {
         let path = folder.file("study.toml", &format!("{text}\n[temperature]\n{temperature}\n"));
-        let (study, problems) = read_study(&path);
+        let (study, problems) = read_study(&disk(), &path);
         let mut study = study.unwrap_or_else(|| panic!("{:?}", problems.sorted()));
         study.sampling = None;
         study

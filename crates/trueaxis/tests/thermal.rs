@@ -9,6 +9,7 @@ mod laws;
 
 use library::root;
 use serde_json::Value;
+use trueaxis::files::disk;
 use trueaxis::identify::thermal::{
     Logs, Tables, ThermalModel, Zero, identify_thermal, parse_logs, read_logs,
 };
@@ -21,7 +22,8 @@ fn expected() -> Value {
 }
 
 fn example() -> Logs {
-    let (logs, problems) = read_logs(&root().join("examples/05_identify/lathe-thermal.toml"));
+    let (logs, problems) =
+        read_logs(&disk(), &root().join("examples/05_identify/lathe-thermal.toml"));
     assert!(problems.iter().next().is_none(), "{problems:?}");
     logs.expect("logs")
 }

@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::PathBuf;
+use trueaxis::files::disk;
 use trueaxis::input::Diagnostics;
 use trueaxis::measure::read_campaign;
 use trueaxis::measure::virtual_campaign::{measure, read_virtual};
@@ -48,7 +49,7 @@ fn codes(problems: &Diagnostics) -> Vec<&'static str> {
 fn read(folder: &Folder, text: &str) -> (Vec<&'static str>, bool) {
     let path = folder.put("campaign.toml", text);
     let (read, problems) =
-        read_campaign(&path, |root, campaign| read_virtual(root, campaign, None));
+        read_campaign(&disk(), &path, |root, campaign| read_virtual(root, campaign, None));
     assert!(problems.iter().all(|d| d.place.line > 0 || !d.place.file.is_empty()), "{problems:?}");
     assert_eq!(read.is_none(), problems.has_errors(), "{problems:?}");
     let measured = read.is_some_and(|(campaign, real)| measure(&campaign, &real).is_ok());
@@ -115,7 +116,7 @@ fn a_log_that_is_too_short_is_told() {
 }
 
 fn compared(folder: &Folder, text: &str) -> Vec<&'static str> {
-    let (task, problems) = read_comparison(&folder.put("verify.toml", text));
+    let (task, problems) = read_comparison(&disk(), &folder.put("verify.toml", text));
     assert_eq!(task.is_none(), problems.has_errors());
     codes(&problems)
 }
@@ -129,7 +130,7 @@ fn every_fault_of_a_comparison_is_told() {
     folder.put("far.csv", "X,Y,Z,A,C,x_um,y_um,z_um\n99,0,0,0,0,1,2,3\n");
     let head = "name = \"v\"\n[compare]\ncampaign = \"campaign.toml\"\n";
     assert_eq!(compared(&folder, head).iter().filter(|c| **c == "missing-column").count(), 0);
-    let (task, _) = read_comparison(&folder.put("verify.toml", head));
+    let (task, _) = read_comparison(&disk(), &folder.put("verify.toml", head));
     assert!(compare(&task.expect("sound")).is_ok());
     let cases = [
         ("name = \"v\"\n".to_owned(), "missing-key"),
@@ -189,7 +190,7 @@ fn law_a_damaged_campaign_is_measured_or_told_never_both_never_a_panic() {
         let text: String = text.into_iter().collect();
         let path = folder.put("campaign.toml", &text);
         let (read, problems) =
-            read_campaign(&path, |root, campaign| read_virtual(root, campaign, None));
+            read_campaign(&disk(), &path, |root, campaign| read_virtual(root, campaign, None));
         assert_eq!(read.is_none(), problems.has_errors(), "{text}");
         let Some((campaign, real)) = read else {
             both[0] += 1;
@@ -209,7 +210,7 @@ fn law_the_shipped_readings_come_from_their_seed() {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../examples/07_verify");
     let path = folder.join("probe-ball-campaign.toml");
     let (read, problems) =
-        read_campaign(&path, |root, campaign| read_virtual(root, campaign, None));
+        read_campaign(&disk(), &path, |root, campaign| read_virtual(root, campaign, None));
     let (campaign, real) = read.unwrap_or_else(|| panic!("{problems:?}"));
     let measured = measure(&campaign, &real).expect("stations within the tables").readings;
     let shipped = campaign.readings(&mut Diagnostics::new()).expect("beside the campaign");

@@ -4,6 +4,7 @@ mod library;
 
 use library::{MACHINES, Random, bare, machine};
 use std::path::PathBuf;
+use trueaxis::files::disk;
 use trueaxis::geometry::Vec3;
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{AxisKind, Command, MAX_AXES, Travel};
@@ -48,6 +49,7 @@ fn instrument(kind: Kind, machine: &Machine) -> Instrument {
 
 fn campaign(machine: &Machine, instrument: Instrument) -> Campaign {
     Campaign {
+        files: disk(),
         name: "test".into(),
         path: PathBuf::from("test.toml"),
         machine: machine.clone(),

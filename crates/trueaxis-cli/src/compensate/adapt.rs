@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use trueaxis::compensate::adapt::{AdaptStudy, Adaptation, adapt, read_adapt_study};
 use trueaxis::compensate::post::{PostOptions, post, verify};
 use trueaxis::files;
+use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Dimension, Place, parse_quantity};
 use trueaxis::nc::writer::TipWords;
 use trueaxis::report::{AdaptReport, AdaptedProgram, adapt_html, adapt_json, adapt_text};
@@ -60,7 +61,7 @@ const CL: Written = Written {
 };
 
 pub fn run(arguments: &AdaptArguments) -> Outcome {
-    let (study, mut problems) = read_adapt_study(&arguments.file);
+    let (study, mut problems) = read_adapt_study(&disk(), &arguments.file);
     if !arguments.no_report {
         // Before the work, not after it.
         may_write(&arguments.report, &REPORT, &mut problems);

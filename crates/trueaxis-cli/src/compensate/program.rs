@@ -7,6 +7,7 @@ use trueaxis::compensate::program::{
     CorrectionLimit, Increments, MARK, ProgramOptions, compensate_program,
 };
 use trueaxis::files;
+use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Dimension, Place, parse_quantity};
 use trueaxis::machine::Machine;
 use trueaxis::report::{ProgramReport, program_html, program_json, program_text};
@@ -158,6 +159,7 @@ impl ProgramArguments {
             }
         };
         let files = ProgramFiles {
+            files: &disk(),
             program: &self.program,
             text: None,
             setup: self.setup.as_deref(),

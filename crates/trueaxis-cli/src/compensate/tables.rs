@@ -7,6 +7,7 @@ use trueaxis::compensate::not_twice;
 use trueaxis::compensate::tables::proof::{IndexLeft, piece_left};
 use trueaxis::compensate::tables::{Compiled, Order, TablesError, Target, compile};
 use trueaxis::files;
+use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Dimension, Place, parse_quantity};
 use trueaxis::machine::Machine;
 use trueaxis::predict::read_study;
@@ -272,7 +273,7 @@ fn cut(
     compiled: &Compiled,
     problems: &mut Diagnostics,
 ) -> Option<Vec<IndexLeft>> {
-    let (study, found) = read_study(path);
+    let (study, found) = read_study(&disk(), path);
     problems.append(found);
     let mut study = study?;
     study.machine = study.machine.with_active_compensation();

@@ -5,6 +5,7 @@ use crate::report_file::{REPORT, may_write};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use trueaxis::files;
+use trueaxis::files::disk;
 use trueaxis::identify::convention::{ConventionCheck, check_conventions};
 use trueaxis::identify::errors::{Identification, identify};
 use trueaxis::identify::machine_file::machine_file;
@@ -39,7 +40,7 @@ pub struct CampaignArguments {
 pub fn run(arguments: &CampaignArguments) -> Outcome {
     let Some(file) = &arguments.file else { return Outcome::Unusable };
     let mut problems = Diagnostics::new();
-    let (read, found) = read_campaign(file, |root, _| Some(read_options(root)));
+    let (read, found) = read_campaign(&disk(), file, |root, _| Some(read_options(root)));
     problems.append(found);
     if let Some(path) = &arguments.report {
         may_write(path, &REPORT, &mut problems);
@@ -142,9 +143,9 @@ impl Work<'_> {
 
     /// Writes the machine file and the tables that it names.
     fn write(&self, output: &Path, problems: &mut Diagnostics) -> Option<()> {
-        let old = files::text(&self.campaign.machine_path, "the machine file", problems)?;
+        let old = disk().text(&self.campaign.machine_path, "the machine file", problems)?;
         let shown = output.display().to_string();
-        let beside = files::Folder::of(output);
+        let beside = trueaxis::machine::file::Folder::of(&disk(), output);
         let date = self.options.date.as_deref();
         let made = machine_file(&self.campaign, &self.found, date, &old, &beside);
         let refuse = |message: String, hint: &str, problems: &mut Diagnostics| {

@@ -5,6 +5,7 @@ use crate::report_file::{REPORT, Written, may_write, unusable, write_report};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use trueaxis::files;
+use trueaxis::files::disk;
 use trueaxis::identify::probe::{
     Calibration, Setup, Study, correct, identify_probe, parse_hits, read_study,
 };
@@ -54,7 +55,7 @@ const TABLE: Written =
     Written { argument: "--table", what: "a direction table", begins: &[b"# stylus "] };
 
 pub fn run(arguments: &Arguments) -> Outcome {
-    let (study, mut problems) = read_study(&arguments.file);
+    let (study, mut problems) = read_study(&disk(), &arguments.file);
     let outputs =
         [(&arguments.report, &REPORT), (&arguments.output, &CORRECTED), (&arguments.table, &TABLE)];
     for (path, kind) in outputs {
@@ -132,7 +133,7 @@ fn tables<'a>(
         tables.push((path, probe_table_csv(found, study.table_steps, turned)));
     }
     if let (Some(raw), Some(path)) = (&arguments.correct, &arguments.output) {
-        let text = files::text(raw, "a table of hits (CSV)", problems)?;
+        let text = disk().text(raw, "a table of hits (CSV)", problems)?;
         let setup = Setup {
             gauge: &study.gauge,
             ball_radius_mm: found.ball_radius_mm,

@@ -6,6 +6,7 @@ use clap::Args;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use trueaxis::files;
+use trueaxis::files::disk;
 use trueaxis::identify::fit::FitError;
 use trueaxis::identify::rtcp::forecast::forecast;
 use trueaxis::identify::rtcp::program::{off_poses, program};
@@ -52,7 +53,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     if let Some(folder) = &arguments.programs {
         return programs(arguments, folder);
     }
-    let (study, mut problems) = read_rtcp(&arguments.file, Purpose::Result);
+    let (study, mut problems) = read_rtcp(&disk(), &arguments.file, Purpose::Result);
     let found = match problems.has_errors() {
         true => None,
         false => study.as_ref().and_then(|study| solved(study, &mut problems)),
@@ -83,7 +84,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 
 /// Programs for all sets, each read back through the simulation.
 fn programs(arguments: &Arguments, folder: &Path) -> Outcome {
-    let (study, mut problems) = read_rtcp(&arguments.file, Purpose::Programs);
+    let (study, mut problems) = read_rtcp(&disk(), &arguments.file, Purpose::Programs);
     let control = control_named(&arguments.dialect);
     if control.is_none() {
         let message = format!("`{}` is no control that is known", arguments.dialect);
@@ -171,8 +172,8 @@ fn write_machine(
         problems.error("unwritable-file", Place::whole(&shown), message.to_owned(), hint);
         return;
     }
-    let Some(old) = files::text(&study.machine_path, "the machine file", problems) else { return };
-    let beside = files::Folder::of(output);
+    let Some(old) = disk().text(&study.machine_path, "the machine file", problems) else { return };
+    let beside = trueaxis::machine::file::Folder::of(&disk(), output);
     let written = machine_file(study, found, &old, &beside).and_then(|text| {
         files::write(output, text.as_bytes()).map_err(|e| format!("cannot be written: {e}"))
     });

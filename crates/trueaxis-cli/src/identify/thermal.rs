@@ -2,6 +2,7 @@ use crate::output::{Answer, Format, Outcome, diagnostic_json, report, show};
 use crate::report_file::{REPORT, may_write, write_report};
 use clap::Args;
 use std::path::PathBuf;
+use trueaxis::files::disk;
 use trueaxis::identify::thermal::{identify_thermal, read_logs};
 use trueaxis::input::Place;
 use trueaxis::report::{thermal_html, thermal_json, thermal_text};
@@ -29,7 +30,7 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
-    let (logs, mut problems) = read_logs(&arguments.file);
+    let (logs, mut problems) = read_logs(&disk(), &arguments.file);
     if let Some(path) = &arguments.report {
         // Before the work, not after it.
         may_write(path, &REPORT, &mut problems);

@@ -4,6 +4,7 @@ use super::written;
 use crate::output::{Answer, Format, Outcome, diagnostic_json, report, show};
 use clap::Args;
 use std::path::PathBuf;
+use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Place};
 use trueaxis::nc::Control;
 use trueaxis::plan::extension;
@@ -48,7 +49,7 @@ struct Made {
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
-    let (study, mut problems) = read_surface(&arguments.file);
+    let (study, mut problems) = read_surface(&disk(), &arguments.file);
     let control = control_named(&arguments.dialect);
     if control.is_none() {
         let message = format!("`{}` is no control that is known", arguments.dialect);

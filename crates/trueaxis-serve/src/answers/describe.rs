@@ -8,12 +8,13 @@ use crate::project::version;
 use crate::refusal::{Refusal, diagnostics_json};
 use serde_json::{Value, json};
 use trueaxis::describe::{self, set_error as put_error};
-use trueaxis::files::Folder;
+use trueaxis::files::disk;
 use trueaxis::geometry::Vec3;
 use trueaxis::geometry::frame::Pose;
 use trueaxis::input::{Diagnostics, Place};
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::Approach;
+use trueaxis::machine::file::Folder;
 use trueaxis::machine::heat::Conditions;
 use trueaxis::report::{PoseReport, check_json, description_json, pose_json};
 use trueaxis::simulate::collide::{BodyModel, load_models};
@@ -38,7 +39,7 @@ pub(super) fn models(desk: &Desk, body: &Value, _: &Job) -> Result<Reply, Refusa
     let body = Body::of(body, &["machine", "text"])?;
     let Draft { machine, path, mut problems, .. } = draft(desk, &body)?;
     let Some(machine) = machine else { return Err(Refusal::unusable(&problems)) };
-    let models = load_models(&machine, &path, &mut problems);
+    let models = load_models(&disk(), &machine, &path, &mut problems);
     let (list, corners) = surfaces(&models);
     let frame = Frame::new()
         .say("models", list)
@@ -114,7 +115,7 @@ pub(super) fn set_error(desk: &Desk, body: &Value, _: &Job) -> Result<Reply, Ref
     let name = body.text("machine")?;
     let path = desk.project.path(name)?;
     let (error, value) = (body.text("error")?, body.text("value")?);
-    let folder = Folder::of(&path);
+    let folder = Folder::of(&disk(), &path);
     let text = put_error(body.text("text")?, name, &folder, error, value)
         .map_err(|problems| Refusal::unusable(&problems))?;
     let (_, problems) = Machine::check(name, &text, &folder);

@@ -7,6 +7,7 @@ use crate::refusal::{Refusal, diagnostics_json};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use trueaxis::files;
+use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Dimension, parse_quantity};
 use trueaxis::report::{Block, Evaluation, Picture, evaluation_json, evaluation_text, remarks};
 use trueaxis::verify::conditions::{Conditions, read_conditions};
@@ -50,7 +51,7 @@ pub(super) fn judged(desk: &Desk, body: &Body<'_>) -> Result<Judged, Refusal> {
     let path = body.optional_text("path")?.map(|name| desk.project.path(name)).transpose()?;
     let (file, text) = match &path {
         Some(path) => {
-            let text = files::text(path, "a table of readings (CSV)", &mut problems);
+            let text = disk().text(path, "a table of readings (CSV)", &mut problems);
             (path.display().to_string(), text)
         }
         None => (body.text("name")?.to_owned(), Some(body.text("text")?.to_owned())),
@@ -58,7 +59,7 @@ pub(super) fn judged(desk: &Desk, body: &Body<'_>) -> Result<Judged, Refusal> {
     let named = body.optional_text("conditions")?.map(|n| desk.project.path(n)).transpose()?;
     let beside = path.as_deref().map(|path| path.with_extension("toml"));
     let conditions_file = named.or(beside.filter(|beside| files::is_file(beside)));
-    let mut conditions = read_conditions(conditions_file.as_deref(), &mut problems);
+    let mut conditions = read_conditions(&disk(), conditions_file.as_deref(), &mut problems);
     if let Some(radius_mm) = quantity(body, "radius", Dimension::Length)? {
         conditions.circle.radius_mm = Some(radius_mm);
     }

@@ -6,12 +6,13 @@ use crate::frame::{Array, Frame};
 use crate::refusal::{Refusal, diagnostics_json};
 use serde_json::{Value, json};
 use std::path::Path;
-use trueaxis::files::{self, Folder};
+use trueaxis::files::disk;
 use trueaxis::geometry::Vec3;
 use trueaxis::identify::errors::{Identification, identify as identify_errors};
 use trueaxis::identify::machine_file::machine_file;
 use trueaxis::identify::records::{Dropped, Options, Records, read_options, read_records_with};
 use trueaxis::input::Diagnostics;
+use trueaxis::machine::file::Folder;
 use trueaxis::measure::{Campaign, read_campaign};
 use trueaxis::report::{Arrow, IdentificationReport, identification_json};
 
@@ -42,7 +43,7 @@ pub(super) fn identified<'a>(
     dropped: impl FnOnce(&Campaign) -> Result<Option<Dropped<'a>>, Refusal>,
     job: &Job,
 ) -> Result<Identified, Refusal> {
-    let (read, mut problems) = read_campaign(path, |root, _| Some(read_options(root)));
+    let (read, mut problems) = read_campaign(&disk(), path, |root, _| Some(read_options(root)));
     let Some((campaign, options)) = read else { return Err(Refusal::unusable(&problems)) };
     let dropped = dropped(&campaign)?;
     let records = read_records_with(&campaign, dropped, &mut problems);
@@ -132,10 +133,10 @@ fn instruments(desk: &Desk, campaign: &Campaign) -> Value {
 fn machine_file_json(identified: &Identified) -> Value {
     let Identified { campaign, options, found, .. } = identified;
     let mut unread = Diagnostics::new();
-    let Some(old) = files::text(&campaign.machine_path, "the machine file", &mut unread) else {
+    let Some(old) = disk().text(&campaign.machine_path, "the machine file", &mut unread) else {
         return Value::Null;
     };
-    let beside = Folder::of(&campaign.machine_path);
+    let beside = Folder::of(&trueaxis::files::disk(), &campaign.machine_path);
     let Ok(made) = machine_file(campaign, found, options.date.as_deref(), &old, &beside) else {
         return Value::Null;
     };

@@ -4,9 +4,10 @@ use crate::body::Body;
 use crate::desk::Desk;
 use crate::refusal::Refusal;
 use std::path::PathBuf;
-use trueaxis::files::{self, Folder};
+use trueaxis::files::disk;
 use trueaxis::input::Diagnostics;
 use trueaxis::machine::Machine;
+use trueaxis::machine::file::Folder;
 
 /// A machine file that may not be saved yet.
 pub(super) struct Draft {
@@ -23,11 +24,14 @@ pub(super) fn draft(desk: &Desk, body: &Body<'_>) -> Result<Draft, Refusal> {
     let mut problems = Diagnostics::new();
     let text = match body.optional_text("text")? {
         Some(text) => Some(text.to_owned()),
-        None => files::text(&path, "a machine file (TOML)", &mut problems),
+        None => disk().text(&path, "a machine file (TOML)", &mut problems),
     };
     let Some(text) = text else { return Err(Refusal::unusable(&problems)) };
-    let (machine, problems) =
-        Machine::check(&path.display().to_string(), &text, &Folder::of(&path));
+    let (machine, problems) = Machine::check(
+        &path.display().to_string(),
+        &text,
+        &Folder::of(&trueaxis::files::disk(), &path),
+    );
     let machine = machine.filter(|_| !problems.has_errors());
     Ok(Draft { machine, path, text, problems })
 }

@@ -7,6 +7,7 @@ use crate::frame::{Array, Frame};
 use crate::refusal::{Refusal, diagnostics_json};
 use serde_json::{Value, json};
 use std::path::Path;
+use trueaxis::files::disk;
 use trueaxis::input::Diagnostics;
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::AxisKind;
@@ -16,7 +17,7 @@ use trueaxis::report::{PlanReport, plan_json};
 
 /// A plan that may be asked, and what was found in its file.
 pub(super) fn read(path: &Path) -> Result<(Plan, Diagnostics), Refusal> {
-    let (plan, problems) = read_plan(path);
+    let (plan, problems) = read_plan(&disk(), path);
     match plan.filter(|_| !problems.has_errors()) {
         Some(plan) => Ok((plan, problems)),
         None => Err(Refusal::unusable(&problems)),

@@ -7,6 +7,7 @@ use crate::frame::{Array, Frame};
 use crate::refusal::{Refusal, diagnostics_json};
 use serde_json::{Value, json};
 use std::path::Path;
+use trueaxis::files::disk;
 use trueaxis::input::Diagnostics;
 use trueaxis::machine::axis::AxisKind;
 use trueaxis::machine::heat::Conditions;
@@ -21,7 +22,7 @@ use trueaxis::report;
 pub(super) fn whole(desk: &Desk, body: &Value, job: &Job) -> Result<Reply, Refusal> {
     let body = Body::of(body, &["study"])?;
     let path = desk.project.path(body.text("study")?)?;
-    if is_hole_study(&path) {
+    if is_hole_study(&disk(), &path) {
         return holes(&path);
     }
     let (study, problems) = study(&path)?;
@@ -53,7 +54,7 @@ pub(super) fn what_if(desk: &Desk, body: &Value, _: &Job) -> Result<Reply, Refus
 
 /// A study that may be predicted, and what was found in its file.
 pub(super) fn study(path: &Path) -> Result<(Study, Diagnostics), Refusal> {
-    let (study, problems) = read_study(path);
+    let (study, problems) = read_study(&disk(), path);
     match study.filter(|_| !problems.has_errors()) {
         Some(study) => Ok((study, problems)),
         None => Err(Refusal::unusable(&problems)),
@@ -131,7 +132,7 @@ fn with_sections(frame: Frame, prediction: &Prediction) -> Frame {
 }
 
 fn holes(path: &Path) -> Result<Reply, Refusal> {
-    let (study, problems) = read_hole_study(path);
+    let (study, problems) = read_hole_study(&disk(), path);
     let Some(study) = study.filter(|_| !problems.has_errors()) else {
         return Err(Refusal::unusable(&problems));
     };

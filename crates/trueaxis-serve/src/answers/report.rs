@@ -9,6 +9,7 @@ use crate::desk::{Desk, Job, Reply};
 use crate::refusal::Refusal;
 use serde_json::{Value, json};
 use std::path::Path;
+use trueaxis::files::disk;
 use trueaxis::input::Place;
 use trueaxis::plan::{chosen, planned};
 use trueaxis::predict::holes::{is_hole_study, predict_holes, read_hole_study};
@@ -57,8 +58,8 @@ pub(super) fn undrawn(error: DrawingError) -> Refusal {
 }
 
 fn prediction(path: &Path, job: &Job) -> Result<String, Refusal> {
-    if is_hole_study(path) {
-        let (study, problems) = read_hole_study(path);
+    if is_hole_study(&disk(), path) {
+        let (study, problems) = read_hole_study(&disk(), path);
         let Some(study) = study.filter(|_| !problems.has_errors()) else {
             return Err(Refusal::unusable(&problems));
         };
@@ -82,7 +83,7 @@ fn plan(body: &Body<'_>, path: &Path) -> Result<String, Refusal> {
 }
 
 fn comparison(path: &Path) -> Result<String, Refusal> {
-    let (task, mut problems) = read_comparison(path);
+    let (task, mut problems) = read_comparison(&disk(), path);
     let Some(task) = task.filter(|_| !problems.has_errors()) else {
         return Err(Refusal::unusable(&problems));
     };

@@ -10,6 +10,7 @@ use serde_json::{Map, Value, json};
 use std::path::Path;
 use std::sync::Arc;
 use trueaxis::files;
+use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Place};
 use trueaxis::machine::Machine;
 use trueaxis::report::{
@@ -119,6 +120,7 @@ fn read(
         control_named(name).ok_or_else(|| Refusal::new(422, "unknown-control", message(), CONTROLS))
     });
     let files = ProgramFiles {
+        files: &disk(),
         program: &program,
         text: text.map(str::as_bytes),
         setup: setup.as_deref(),

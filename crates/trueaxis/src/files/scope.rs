@@ -225,10 +225,10 @@ mod tests {
         fs::write(&study, "name = \"c\"\nmachine = \"../machines/x/machine.toml\"\n").unwrap();
         let text = fs::read_to_string(&study).unwrap();
         let machine_of = |study: &Path, text: &str| {
-            let source = trueaxis_input::SourceText::new("campaign.toml", text);
+            let source = trueaxis_input::SourceText::from(&files::disk(), "campaign.toml", text);
             let found = source.read(|root| {
                 root.get("name");
-                files::machine_of(root, study)
+                trueaxis_machine::file::machine_of(root, study)
             });
             (found, source.finish())
         };
@@ -265,7 +265,11 @@ mod tests {
         within(&tree.path("in/a.txt"), || assert!(!read("in/a.txt")));
         let mut problems = Diagnostics::new();
         within(&tree.path("in"), || {
-            files::temperature_log(&tree.path("out/log.parquet"), &mut problems)
+            crate::simulate::read_temperature_log(
+                &files::disk(),
+                &tree.path("out/log.parquet"),
+                &mut problems,
+            )
         });
         assert!(problems.iter().any(|d| d.message.contains(OUTSIDE)));
     }

@@ -6,9 +6,10 @@
 //!
 //! g_i is the geometric error, free at every position and common to all runs; o_j the zero of run j.
 
-use crate::files;
 use std::path::Path;
-use trueaxis_input::{CsvTable, Diagnostics, Dimension, Measured, Section, SourceText, Unit};
+use trueaxis_input::{
+    CsvTable, Diagnostics, Dimension, Files, Measured, Section, SourceText, Unit,
+};
 
 /// Temperatures nearer than this say little about an expansion, K.
 const LITTLE_K: f64 = 1.0;
@@ -70,18 +71,18 @@ pub struct Expansion {
 }
 
 /// Reads the file of an identification, and the table that it names.
-pub fn read_runs(path: &Path) -> (Option<Runs>, Diagnostics) {
+pub fn read_runs(files: &Files, path: &Path) -> (Option<Runs>, Diagnostics) {
     let mut problems = Diagnostics::new();
-    let Some(text) = files::text(path, "a file of laser runs (TOML)", &mut problems) else {
+    let Some(text) = files.text(path, "a file of laser runs (TOML)", &mut problems) else {
         return (None, problems);
     };
-    parse_runs(path, &text)
+    parse_runs(files, path, &text)
 }
 
 /// The same of a text; its table is looked for beside `path`.
-pub fn parse_runs(path: &Path, text: &str) -> (Option<Runs>, Diagnostics) {
+pub fn parse_runs(files: &Files, path: &Path, text: &str) -> (Option<Runs>, Diagnostics) {
     let file = path.display().to_string();
-    let source = SourceText::new(&file, text);
+    let source = SourceText::from(files, &file, text);
     let runs = source.read(|root| read(root, path));
     let problems = source.finish();
     (runs.filter(|_| !problems.has_errors()), problems)
@@ -94,7 +95,7 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Runs> {
     let table = table_path.and_then(|p| {
         let path = path.parent().unwrap_or(Path::new("")).join(p);
         let mut problems = Diagnostics::new();
-        let text = files::text(&path, "a CSV table of laser runs", &mut problems);
+        let text = root.files().text(&path, "a CSV table of laser runs", &mut problems);
         let shown = path.display().to_string();
         let table = text.map(|text| CsvTable::parse(&shown, &text, &mut problems));
         let sound = !problems.has_errors();

@@ -1,7 +1,6 @@
 //! The readings of a campaign with the file that each came from.
 
 use super::fit::{Model, Rule};
-use crate::files;
 use crate::measure::{Campaign, Readings};
 use trueaxis_input::{CsvTable, Diagnostics, Item, Place, Section};
 
@@ -60,7 +59,7 @@ pub fn read_records_with(
             None => tables
                 .iter()
                 .map(|path| {
-                    let text = files::text(path, "a table of readings (CSV)", problems);
+                    let text = campaign.files.text(path, "a table of readings (CSV)", problems);
                     (path.display().to_string(), text)
                 })
                 .collect(),

@@ -2,15 +2,15 @@
 
 use super::instrument::{Instrument, SetupError, SetupUnknown};
 use super::{Kind, Readings};
-use crate::files;
 use crate::identify::design::Design;
 use crate::identify::minimal::minimal_location_errors;
 use crate::identify::term::{Shape, Term};
 use std::path::{Path, PathBuf};
 use trueaxis_geometry::Vec3;
-use trueaxis_input::{CsvTable, Diagnostics, Dimension, Item, Section, SourceText};
+use trueaxis_input::{CsvTable, Diagnostics, Dimension, Files, Item, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::errors::{Component, ErrorKind, ErrorName};
+use trueaxis_machine::file::machine_of;
 use trueaxis_machine::file::{read_direction, read_vector_mm};
 use trueaxis_machine::heat::Conditions;
 use trueaxis_machine::twist::Reference;
@@ -23,6 +23,8 @@ const MOST_INSTRUMENTS: usize = 100;
 pub struct Campaign {
     /// Its name.
     pub name: String,
+    /// Where its files are read from.
+    pub files: Files,
     /// The campaign file.
     pub path: PathBuf,
     /// The machine as its file states it, with the errors that are sought.
@@ -54,7 +56,9 @@ impl Campaign {
         let mut sound = true;
         for (index, (instrument, tables)) in self.instruments.iter().zip(&self.tables).enumerate() {
             for path in tables {
-                let table = files::text(path, "a table of readings (CSV)", problems)
+                let table = self
+                    .files
+                    .text(path, "a table of readings (CSV)", problems)
                     .map(|text| CsvTable::parse(&path.display().to_string(), &text, problems));
                 let index = u32::try_from(index).unwrap_or(u32::MAX);
                 let read = table.and_then(|table| {
@@ -73,15 +77,16 @@ impl Campaign {
 /// Reads a campaign file; `rest` reads the sections of one verb (`[[path]]`, `[truth]` …), those of
 /// the others are left alone.
 pub fn read_campaign<T>(
+    files: &Files,
     path: &Path,
     rest: impl FnOnce(&Section<'_>, &Campaign) -> Option<T>,
 ) -> (Option<(Campaign, T)>, Diagnostics) {
     let mut problems = Diagnostics::new();
-    let Some(text) = files::text(path, "a campaign file (TOML)", &mut problems) else {
+    let Some(text) = files.text(path, "a campaign file (TOML)", &mut problems) else {
         return (None, problems);
     };
     let file = path.display().to_string();
-    let source = SourceText::new(&file, &text);
+    let source = SourceText::from(files, &file, &text);
     let read = source.read(|root| {
         const VERBS: [&str; 9] =
             ["path", "limit", "want", "candidates", "program", "truth", "disturb", "fit", "accept"];
@@ -99,7 +104,7 @@ pub fn read_campaign<T>(
 fn read(root: &Section<'_>, path: &Path) -> Option<Campaign> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let name = root.require("name", "say what is measured").and_then(|i| i.text());
-    let machine = files::machine_of(root, path);
+    let machine = machine_of(root, path);
     let conditions = root.section("temperature", Conditions::read);
     let Some((machine_path, machine)) = machine else {
         root.entries();
@@ -129,6 +134,7 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Campaign> {
     });
     Some(Campaign {
         name: name?.to_owned(),
+        files: root.files().clone(),
         path: path.to_owned(),
         machine,
         machine_path,

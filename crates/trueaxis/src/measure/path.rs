@@ -18,7 +18,6 @@ pub use spread::{Poses, read_poses};
 pub use touch::{FreeSide, STAND_OFF_MM, hits};
 
 use super::{Campaign, Reading, Readings};
-use crate::files;
 use trueaxis_input::{CsvTable, Diagnostics, Dimension, Item, Section};
 use trueaxis_machine::axis::{AxisKind, Command};
 
@@ -206,7 +205,7 @@ fn read_table(section: &Section<'_>, campaign: &Campaign, instrument: usize) -> 
     let folder = campaign.path.parent().unwrap_or(std::path::Path::new(""));
     let path = folder.join(file);
     let mut problems = Diagnostics::new();
-    let text = files::text(&path, "a table of poses (CSV)", &mut problems);
+    let text = section.files().text(&path, "a table of poses (CSV)", &mut problems);
     let table = text.map(|t| CsvTable::parse(&path.display().to_string(), &t, &mut problems));
     let sound = !problems.has_errors();
     section.take_over(problems);

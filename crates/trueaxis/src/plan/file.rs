@@ -4,7 +4,7 @@ use super::exchange::Criterion;
 use super::program::{ProgramSettings, read_program_settings};
 use crate::measure::path::{self, Path};
 use crate::measure::{Campaign, Readings, read_campaign};
-use trueaxis_input::{Diagnostics, Dimension, Item, Section};
+use trueaxis_input::{Diagnostics, Dimension, Files, Item, Section};
 
 /// A campaign with all that is planned of it.
 #[derive(Debug, Clone)]
@@ -57,8 +57,8 @@ pub struct Want {
 }
 
 /// Reads a campaign with its paths and what is to be chosen.
-pub fn read_plan(path: &std::path::Path) -> (Option<Plan>, Diagnostics) {
-    let (read, problems) = read_campaign(path, |root, campaign| {
+pub fn read_plan(files: &Files, path: &std::path::Path) -> (Option<Plan>, Diagnostics) {
+    let (read, problems) = read_campaign(files, path, |root, campaign| {
         let paths = path::read_paths(root, campaign);
         let candidates = match root.get("candidates") {
             None => Some(None),

@@ -7,7 +7,7 @@
 
 mod check;
 
-pub use check::{ProgramCheck, check, write_files};
+pub use check::{ProgramCheck, check};
 pub(super) use check::{probe_shape, run};
 
 use crate::measure::path::{Path, Placing, STAND_OFF_MM};

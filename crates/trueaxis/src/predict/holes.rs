@@ -5,13 +5,13 @@
 
 use super::Error;
 use super::temperatures::{CuttingClock, RunningTemperatures, StudyTemperatures};
-use crate::files;
 use std::path::Path;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Direction, Point};
-use trueaxis_input::{Diagnostics, Dimension, Place, Section, SourceText};
+use trueaxis_input::{Diagnostics, Dimension, Files, Place, Section, SourceText};
 use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_machine::errors::ErrorValues;
+use trueaxis_machine::file::machine_of;
 use trueaxis_machine::file::read_vector_mm;
 use trueaxis_machine::{Machine, Target};
 
@@ -113,24 +113,28 @@ pub struct HolePrediction {
 }
 
 /// Whether a study file is about holes.
-pub fn is_hole_study(path: &Path) -> bool {
-    let text = files::text(path, "a study file", &mut Diagnostics::new());
+pub fn is_hole_study(files: &Files, path: &Path) -> bool {
+    let text = files.text(path, "a study file", &mut Diagnostics::new());
     text.is_some_and(|t| t.lines().any(|line| line.trim() == "[holes]"))
 }
 
 /// Reads a study of holes; all problems at once.
-pub fn read_hole_study(path: &Path) -> (Option<HoleStudy>, Diagnostics) {
+pub fn read_hole_study(files: &Files, path: &Path) -> (Option<HoleStudy>, Diagnostics) {
     let mut problems = Diagnostics::new();
-    let Some(text) = files::text(path, "a study file (TOML)", &mut problems) else {
+    let Some(text) = files.text(path, "a study file (TOML)", &mut problems) else {
         return (None, problems);
     };
-    parse_hole_study(path, &text)
+    parse_hole_study(files, path, &text)
 }
 
 /// The same of a text; its machine is looked for beside `path`.
-pub fn parse_hole_study(path: &Path, text: &str) -> (Option<HoleStudy>, Diagnostics) {
+pub fn parse_hole_study(
+    files: &Files,
+    path: &Path,
+    text: &str,
+) -> (Option<HoleStudy>, Diagnostics) {
     let file = path.display().to_string();
-    let source = SourceText::new(&file, text);
+    let source = SourceText::from(files, &file, text);
     let study = source.read(|root| read(root, path));
     let problems = source.finish();
     (study.filter(|_| !problems.has_errors()), problems)
@@ -138,7 +142,7 @@ pub fn parse_hole_study(path: &Path, text: &str) -> (Option<HoleStudy>, Diagnost
 
 fn read(root: &Section<'_>, path: &Path) -> Option<HoleStudy> {
     let name = root.require("name", "give the study a name").and_then(|i| i.text());
-    let machine = files::machine_of(root, path).map(|(_, machine)| machine);
+    let machine = machine_of(root, path).map(|(_, machine)| machine);
     let folder = path.parent().unwrap_or(Path::new(""));
     let temperatures = StudyTemperatures::read(root, folder, false);
     let machine = machine.and_then(|m| temperatures.warm(root, m));

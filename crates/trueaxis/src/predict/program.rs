@@ -5,7 +5,7 @@ use crate::simulate::axis_path::AxisPath;
 use crate::simulate::{Densify, PathStep, ProgramFiles, execute};
 use std::path::{Path, PathBuf};
 use trueaxis_geometry::Vec3;
-use trueaxis_input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Command, MAX_AXES};
 use trueaxis_machine::tcp::TipControl;
@@ -43,8 +43,13 @@ pub(super) struct Passing {
 
 impl CutProgram {
     /// Reads a program and what it commands on a machine; a set-up beside it is taken.
-    pub fn read(path: &Path, machine: &Machine, problems: &mut Diagnostics) -> Option<Self> {
-        let files = ProgramFiles { program: path, text: None, setup: None, control: None };
+    pub fn read(
+        files: &Files,
+        path: &Path,
+        machine: &Machine,
+        problems: &mut Diagnostics,
+    ) -> Option<Self> {
+        let files = ProgramFiles { files, program: path, text: None, setup: None, control: None };
         let setup = files.setup(machine, problems)?;
         let program = files.program(&setup, problems)?;
         let mut places = Vec::new();

@@ -5,13 +5,13 @@ use super::monte_carlo::Sampling;
 use super::program::CutProgram;
 use super::temperatures::{RunningTemperatures, StudyTemperatures};
 use super::{Index, Setting};
-use crate::files;
 use std::path::{Path, PathBuf};
 use trueaxis_geometry::Vec3;
-use trueaxis_input::{Diagnostics, Dimension, Item, Section, SourceText};
+use trueaxis_input::{Diagnostics, Dimension, Files, Item, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::errors::{BodyName, ErrorKind, ErrorName};
+use trueaxis_machine::file::machine_of;
 use trueaxis_machine::file::read_pose;
 use trueaxis_part::testpiece::TestPiece;
 use trueaxis_part::tolerance::{Acceptance, Tolerances, Verdict};
@@ -128,18 +128,18 @@ impl Study {
 }
 
 /// Reads a study file and everything that it names; all problems at once.
-pub fn read_study(path: &Path) -> (Option<Study>, Diagnostics) {
+pub fn read_study(files: &Files, path: &Path) -> (Option<Study>, Diagnostics) {
     let mut problems = Diagnostics::new();
-    let Some(text) = files::text(path, "a study file (TOML)", &mut problems) else {
+    let Some(text) = files.text(path, "a study file (TOML)", &mut problems) else {
         return (None, problems);
     };
-    parse_study(path, &text)
+    parse_study(files, path, &text)
 }
 
 /// The same of a text; what it names is looked for beside `path`.
-pub fn parse_study(path: &Path, text: &str) -> (Option<Study>, Diagnostics) {
+pub fn parse_study(files: &Files, path: &Path, text: &str) -> (Option<Study>, Diagnostics) {
     let file = path.display().to_string();
-    let source = SourceText::new(&file, text);
+    let source = SourceText::from(files, &file, text);
     let study = source.read(|root| read(root, path));
     let problems = source.finish();
     (study.filter(|_| !problems.has_errors()), problems)
@@ -148,7 +148,7 @@ pub fn parse_study(path: &Path, text: &str) -> (Option<Study>, Diagnostics) {
 fn read(root: &Section<'_>, path: &Path) -> Option<Study> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let name = root.require("name", "give the study a name").and_then(|i| i.text());
-    let (machine_path, machine) = files::machine_of(root, path).unzip();
+    let (machine_path, machine) = machine_of(root, path).unzip();
     let temperatures = StudyTemperatures::read(root, folder, true);
     let machine = machine.and_then(|m| temperatures.warm(root, m));
     let hint = "the file of the test piece, relative to the study file";
@@ -195,7 +195,7 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Study> {
 fn read_program(root: &Section<'_>, folder: &Path, machine: &Machine) -> Option<CutProgram> {
     let name = root.get("program")?.text()?;
     let mut problems = Diagnostics::new();
-    let program = CutProgram::read(&folder.join(name), machine, &mut problems);
+    let program = CutProgram::read(root.files(), &folder.join(name), machine, &mut problems);
     root.take_over(problems);
     program
 }
@@ -220,7 +220,7 @@ fn check_uncertainties(root: &Section<'_>, decision: Option<Decision>, machine: 
 /// A file with `source` and `[tolerance]`, used instead of the tolerances of the test piece.
 fn read_tolerance_file(root: &Section<'_>, path: &Path) -> Option<Tolerances> {
     let mut problems = Diagnostics::new();
-    let text = files::text(path, "a tolerance file (TOML)", &mut problems);
+    let text = root.files().text(path, "a tolerance file (TOML)", &mut problems);
     let tolerances = text.and_then(|text| {
         let file = path.display().to_string();
         let source = SourceText::new(&file, &text);
@@ -234,7 +234,7 @@ fn read_tolerance_file(root: &Section<'_>, path: &Path) -> Option<Tolerances> {
 
 fn read_piece(root: &Section<'_>, path: &Path) -> Option<TestPieceFile> {
     let mut problems = Diagnostics::new();
-    let text = files::text(path, "a test piece file (TOML)", &mut problems);
+    let text = root.files().text(path, "a test piece file (TOML)", &mut problems);
     let piece = text.and_then(|text| {
         let file = path.display().to_string();
         let source = SourceText::new(&file, &text);

@@ -1,7 +1,7 @@
 //! `[temperature]` of a study: constant, or a log that runs on while the part is made.
 
 use super::Error;
-use crate::files;
+use crate::simulate::read_temperature_log;
 use std::path::Path;
 use std::sync::Arc;
 use trueaxis_input::{Diagnostics, Dimension, Section};
@@ -87,7 +87,8 @@ fn read_log(section: &Section<'_>, folder: &Path, has_feed: bool) -> Option<Stud
     let start_s = start.as_ref().and_then(|i| i.quantity(Dimension::Time));
     let pace = read_pace(section, has_feed);
     let mut problems = Diagnostics::new();
-    let log = path.and_then(|p| files::temperature_log(&folder.join(p), &mut problems));
+    let log =
+        path.and_then(|p| read_temperature_log(section.files(), &folder.join(p), &mut problems));
     section.take_over(problems);
     let (log, start_s) = (Arc::new(log?), start_s?);
     let conditions = log.at(start_s);

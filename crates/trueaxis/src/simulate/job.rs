@@ -6,16 +6,17 @@ use super::{
     AxisWatch, Batch, Collisions, Drift, Observer, Options, Run, SetUp, Summary, TroubleList,
     read_program, read_setup, simulate,
 };
-use crate::files;
 use crate::report::Simulation;
 use std::path::{Path, PathBuf};
-use trueaxis_input::Diagnostics;
+use trueaxis_input::{Diagnostics, Files};
 use trueaxis_machine::Machine;
 use trueaxis_nc::{Control, Program};
 
 /// A program and what belongs to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProgramFiles<'a> {
+    /// Where the files are read from.
+    pub files: &'a Files,
     /// The program; its subprograms are looked for beside it.
     pub program: &'a Path,
     /// Its text if it is not to be read from the disk.
@@ -29,8 +30,10 @@ pub struct ProgramFiles<'a> {
 impl ProgramFiles<'_> {
     /// Reads the set-up; one without anything if there is none.
     pub fn setup(&self, machine: &Machine, problems: &mut Diagnostics) -> Option<SetUp> {
-        let Some(path) = self.setup_path() else { return Some(SetUp::default()) };
-        let (setup, found) = read_setup(&path, machine);
+        let Some(path) = self.setup_path() else {
+            return Some(SetUp { files: self.files.clone(), ..SetUp::default() });
+        };
+        let (setup, found) = read_setup(self.files, &path, machine);
         problems.append(found);
         setup
     }
@@ -38,7 +41,7 @@ impl ProgramFiles<'_> {
     /// Reads the program; its name and its text are all that is known of one that is on no disk.
     pub(crate) fn program(&self, setup: &SetUp, problems: &mut Diagnostics) -> Option<Program> {
         match self.text {
-            None => read_program(self.program, self.control, setup, problems),
+            None => read_program(self.files, self.program, self.control, setup, problems),
             Some(text) => {
                 let control = self.control.or(setup.control);
                 program_of(self.program, text.to_vec(), control, problems)
@@ -48,7 +51,7 @@ impl ProgramFiles<'_> {
 
     fn setup_path(&self) -> Option<PathBuf> {
         let beside = || self.program.with_extension("setup.toml");
-        let found = || self.text.is_none().then(beside).filter(|path| files::is_file(path));
+        let found = || self.text.is_none().then(beside).filter(|path| self.files.is_file(path));
         self.setup.map(Path::to_owned).or_else(found)
     }
 }
@@ -77,7 +80,7 @@ impl Job {
     /// use trueaxis::simulate::{Job, Options, ProgramFiles};
     /// let (machine, mut problems) = trueaxis::files::machine("mill.toml".as_ref());
     /// let program = "part.mpf".as_ref();
-    /// let files = ProgramFiles { program, text: None, setup: None, control: None };
+    /// let files = ProgramFiles { files: &trueaxis::files::disk(), program, text: None, setup: None, control: None };
     /// let job = Job::read(machine.unwrap(), &files, Options::default(), &mut problems).unwrap();
     /// let found = job.run(job.collisions(), &mut []);
     /// assert!(!found.run.problems.has_errors() && !found.troubles.is_grave());
@@ -97,7 +100,7 @@ impl Job {
     /// The same with the models of the machine, whose STL files lie beside the machine file.
     #[must_use]
     pub fn with_models(mut self, machine_file: &Path, problems: &mut Diagnostics) -> Self {
-        self.models = load_models(&self.machine, machine_file, problems);
+        self.models = load_models(&self.setup.files, &self.machine, machine_file, problems);
         self
     }
 

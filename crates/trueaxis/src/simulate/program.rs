@@ -2,10 +2,9 @@
 
 use super::basic::rotary_angles;
 use super::setup::{CONTROLS, SetUp};
-use crate::files;
 use std::path::{Path, PathBuf};
 use trueaxis_geometry::{Mat3, Vec3};
-use trueaxis_input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::moves::{Branch, Position};
 use trueaxis_nc::{Control, Library, Program};
@@ -13,12 +12,13 @@ use trueaxis_nc::{Control, Library, Program};
 /// Reads an NC program; whose it is comes from the caller, the set-up, the file's extension or its
 /// first lines, in this order.
 pub fn read_program(
+    files: &Files,
     path: &Path,
     control: Option<Control>,
     setup: &SetUp,
     problems: &mut Diagnostics,
 ) -> Option<Program> {
-    let bytes = files::bytes(path, "an NC program", problems)?;
+    let bytes = files.bytes(path, "an NC program", problems)?;
     program_of(path, bytes, control.or(setup.control), problems)
 }
 
@@ -87,6 +87,7 @@ fn sniff(bytes: &[u8]) -> Option<Control> {
 
 /// The folder of the main program as a library of subprograms, and the angles of the machine.
 pub(super) struct Folder<'m> {
+    files: Files,
     path: PathBuf,
     control: Option<&'m TipControl>,
     /// From the directions of the basic frame to those of the workpiece.
@@ -94,8 +95,14 @@ pub(super) struct Folder<'m> {
 }
 
 impl<'m> Folder<'m> {
-    pub fn beside(program: &Path, control: Option<&'m TipControl>, turn: Mat3) -> Self {
-        Self { path: program.parent().unwrap_or(Path::new("")).to_owned(), control, turn }
+    pub fn beside(
+        files: &Files,
+        program: &Path,
+        control: Option<&'m TipControl>,
+        turn: Mat3,
+    ) -> Self {
+        let path = program.parent().unwrap_or(Path::new("")).to_owned();
+        Self { files: files.clone(), path, control, turn }
     }
 
     /// The file of a subprogram: the name as it is, in upper and lower case, with the usual
@@ -106,7 +113,7 @@ impl<'m> Folder<'m> {
         let endings = ["", ".ngc", ".nc", ".spf", ".SPF", ".mpf", ".MPF", ".h", ".H", ".NC"];
         let mut all = cases.iter().flat_map(|c| endings.iter().map(move |e| format!("{c}{e}")));
         plain
-            .then(|| all.find(|n| files::is_file(&self.path.join(n))))
+            .then(|| all.find(|n| self.files.is_file(&self.path.join(n))))
             .flatten()
             .map(|n| self.path.join(n))
     }
@@ -115,7 +122,7 @@ impl<'m> Folder<'m> {
 impl Library for Folder<'_> {
     fn text(&self, name: &str) -> Result<Vec<u8>, String> {
         let path = self.find(name).ok_or("there is no such file beside the main program")?;
-        files::read_bytes(&path).map_err(|e| e.to_string())
+        self.files.read(&path).map_err(|e| e.to_string())
     }
 
     fn display(&self, name: &str) -> String {

@@ -4,11 +4,10 @@
 //! assumed but zeros where it is silent.
 
 use super::collide::{BodyModel, Mesh, Role, ToolShape, load_stl, triangles_of};
-use crate::files;
 use std::collections::BTreeMap;
 use std::path::Path;
 use trueaxis_geometry::Vec3;
-use trueaxis_input::{Diagnostics, Dimension, Item, Place, Section, SourceText};
+use trueaxis_input::{Diagnostics, Dimension, Files, Item, Place, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::chain::Link;
 use trueaxis_machine::file::{read_pose, read_shape, read_tool_shape, read_vector_mm};
@@ -65,6 +64,8 @@ impl Default for Nearness {
 pub struct SetUp {
     /// Whether there is a set-up file; without one offsets and lengths are 0.
     pub given: bool,
+    /// Where subprograms are read from.
+    pub files: Files,
     /// Whose program it is, if stated.
     pub control: Option<Control>,
     /// Work offsets by number, from 1 for G54.
@@ -89,32 +90,33 @@ pub struct SetUp {
 /// let (setup, problems) = trueaxis::simulate::read_setup(path, &machine.unwrap());
 /// assert!(!problems.has_errors() && setup.unwrap().given);
 /// ```
-pub fn read_setup(path: &Path, machine: &Machine) -> (Option<SetUp>, Diagnostics) {
+pub fn read_setup(files: &Files, path: &Path, machine: &Machine) -> (Option<SetUp>, Diagnostics) {
     let mut problems = Diagnostics::new();
-    let Some(text) = files::text(path, "a set-up file (TOML)", &mut problems) else {
+    let Some(text) = files.text(path, "a set-up file (TOML)", &mut problems) else {
         return (None, problems);
     };
     let folder = path.parent().unwrap_or(Path::new(""));
-    let (setup, found) = parse_setup(&path.display().to_string(), &text, folder, machine);
+    let (setup, found) = parse_setup(files, &path.display().to_string(), &text, folder, machine);
     problems.append(found);
     (setup, problems)
 }
 
 /// Reads the text of a set-up file; the files that it names lie in a folder.
 pub fn parse_setup(
+    files: &Files,
     file: &str,
     text: &str,
     folder: &Path,
     machine: &Machine,
 ) -> (Option<SetUp>, Diagnostics) {
-    let source = SourceText::new(file, text);
+    let source = SourceText::from(files, file, text);
     let setup = source.read(|root| read(root, machine, folder));
     let problems = source.finish();
     (Some(setup).filter(|_| !problems.has_errors()), problems)
 }
 
 fn read(root: &Section<'_>, machine: &Machine, folder: &Path) -> SetUp {
-    let mut setup = SetUp { given: true, ..SetUp::default() };
+    let mut setup = SetUp { given: true, files: root.files().clone(), ..SetUp::default() };
     setup.control = root.get("control").and_then(|item| read_control(&item));
     root.text("name");
     root.section("work_offset", |section| {
@@ -186,7 +188,7 @@ fn read_body(
     let mesh = match read_shape(section)? {
         Shape::Stl { path, unit_mm } => {
             let mut problems = Diagnostics::new();
-            let mesh = load_stl(&folder.join(path), unit_mm, &mut problems);
+            let mesh = load_stl(section.files(), &folder.join(path), unit_mm, &mut problems);
             root.take_over(problems);
             mesh?
         }
@@ -216,7 +218,7 @@ fn read_nearness(section: &Section<'_>) -> Nearness {
 fn read_archive(root: &Section<'_>, item: &Item<'_>, folder: &Path, setup: &mut SetUp) {
     let Some(name) = item.text() else { return };
     let path = folder.join(name);
-    let bytes = match files::read_bytes(&path) {
+    let bytes = match root.files().read(&path) {
         Ok(bytes) => bytes,
         Err(error) => {
             let message = format!("`{name}` cannot be read: {error}");

@@ -1,9 +1,8 @@
 //! What is known beside the readings: a small TOML file next to the data.
 
-use crate::files;
 use std::path::Path;
 use trueaxis_geometry::Vec3;
-use trueaxis_input::{Diagnostics, Dimension, Item, Measured, Section, SourceText};
+use trueaxis_input::{Diagnostics, Dimension, Files, Item, Measured, Section, SourceText};
 
 /// Air and bodies of a machine are within these, °C; what lies outside is another unit.
 pub const SOUND_TEMPERATURES_C: std::ops::RangeInclusive<f64> = -10.0..=60.0;
@@ -63,9 +62,13 @@ pub struct Conditions {
 }
 
 /// Reads a file of conditions; without one, or if it cannot be read, nothing is known.
-pub fn read_conditions(path: Option<&Path>, problems: &mut Diagnostics) -> Conditions {
+pub fn read_conditions(
+    files: &Files,
+    path: Option<&Path>,
+    problems: &mut Diagnostics,
+) -> Conditions {
     let what = "a file of conditions (TOML)";
-    let Some((path, text)) = path.and_then(|p| Some((p, files::text(p, what, problems)?))) else {
+    let Some((path, text)) = path.and_then(|p| Some((p, files.text(p, what, problems)?))) else {
         return Conditions::default();
     };
     let (conditions, found) = Conditions::read(&path.display().to_string(), &text);

@@ -2,6 +2,7 @@
 
 use crate::{Ours, shop};
 use trueaxis::compensate::values::{Order, ValueTable, compensation_values};
+use trueaxis::files::disk;
 use trueaxis::geometry::Vec3;
 use trueaxis::identify::expansion::{identify_expansion, read_runs};
 use trueaxis::input::Diagnostics;
@@ -27,7 +28,7 @@ pub const CLAIMS: &[(&str, Ours)] = &[
     ("001-values-machine-only", || values(|table| 1e3 * table.worst[1])),
     ("001-expansion", || {
         let file = shop::root().join("examples/05_identify/y-axis-two-temperatures.toml");
-        let (runs, problems) = read_runs(&file);
+        let (runs, problems) = read_runs(&disk(), &file);
         let runs = runs.unwrap_or_else(|| panic!("{:?}", problems.sorted()));
         vec![identify_expansion(&runs).per_k * 1e6]
     }),

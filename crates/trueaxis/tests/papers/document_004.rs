@@ -2,6 +2,7 @@
 
 use crate::Ours;
 use crate::shop::{command, list, machine, nominal, root, shown, target};
+use trueaxis::files::disk;
 use trueaxis::geometry::Vec3;
 use trueaxis::machine::axis::Command;
 use trueaxis::machine::{Machine, Target};
@@ -38,7 +39,7 @@ pub const CLAIMS: &[(&str, Ours)] = &[
 /// The paths of examples/04_plan/probe-ball.toml.
 fn planned() -> Plan {
     let file = root().join("examples/04_plan/probe-ball.toml");
-    let (plan, problems) = read_plan(&file);
+    let (plan, problems) = read_plan(&disk(), &file);
     plan.unwrap_or_else(|| panic!("{problems:?}"))
 }
 

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
+use trueaxis::files::disk;
 use trueaxis::geometry::Vec3;
 use trueaxis::geometry::frame::{Direction, Point};
 use trueaxis::machine::axis::{AxisKind, Command};
@@ -24,7 +25,8 @@ pub fn machine(name: &str) -> Machine {
 
 /// The README's first study, without its Monte Carlo run.
 pub static STUDY: LazyLock<Study> = LazyLock::new(|| {
-    let (study, problems) = read_study(&root().join("examples/03_predict/nas979-on-xkas2525.toml"));
+    let (study, problems) =
+        read_study(&disk(), &root().join("examples/03_predict/nas979-on-xkas2525.toml"));
     let list: Vec<String> = problems.iter().map(ToString::to_string).collect();
     let mut study = study.unwrap_or_else(|| panic!("{}", list.join("\n")));
     study.sampling = None;

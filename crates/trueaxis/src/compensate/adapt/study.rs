@@ -2,9 +2,8 @@
 
 use super::cutter::Cutter;
 use super::table::{SurfacePoint, read_points};
-use crate::files;
 use std::path::{Path, PathBuf};
-use trueaxis_input::{Diagnostics, Dimension, Item, Measured, Place, Section, SourceText};
+use trueaxis_input::{Diagnostics, Dimension, Files, Item, Measured, Place, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_nc::cl::{ClFile, Reading};
 
@@ -125,12 +124,12 @@ pub struct AdaptStudy {
 }
 
 /// Reads a study with the machine, the path and the tables that it names.
-pub fn read_adapt_study(path: &Path) -> (Option<AdaptStudy>, Diagnostics) {
+pub fn read_adapt_study(files: &Files, path: &Path) -> (Option<AdaptStudy>, Diagnostics) {
     let mut problems = Diagnostics::new();
     let what = "a study of an adaptation (TOML)";
-    let Some(text) = files::text(path, what, &mut problems) else { return (None, problems) };
+    let Some(text) = files.text(path, what, &mut problems) else { return (None, problems) };
     let file = path.display().to_string();
-    let source = SourceText::new(&file, &text);
+    let source = SourceText::from(files, &file, &text);
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
     let study = source.read(|root| read(root, &folder));
     problems.append(source.finish());
@@ -157,14 +156,15 @@ fn read(root: &Section<'_>, folder: &Path) -> Option<AdaptStudy> {
     let blank = root.section("virtual_cut", |s| s.text("blank").map(|t| folder.join(t))).flatten();
     let mut found = Diagnostics::new();
     let machine = machine.and_then(|path| {
-        let (machine, problems) = files::machine(&path);
+        let (machine, problems) = Machine::read(root.files(), &path);
         found.append(problems);
         machine
     });
-    let cl = cl.and_then(|path| read_path(&path, &mut found));
-    let points = table.as_ref().and_then(|path| read_table(path, &mut found));
-    let blank =
-        blank.map(|path| Some((path.display().to_string(), read_table(&path, &mut found)?)));
+    let cl = cl.and_then(|path| read_path(root.files(), &path, &mut found));
+    let points = table.as_ref().and_then(|path| read_table(root.files(), path, &mut found));
+    let blank = blank.map(|path| {
+        Some((path.display().to_string(), read_table(root.files(), &path, &mut found)?))
+    });
     root.take_over(found);
     Some(AdaptStudy {
         name: name?,
@@ -182,8 +182,8 @@ fn read(root: &Section<'_>, folder: &Path) -> Option<AdaptStudy> {
     })
 }
 
-fn read_table(path: &Path, problems: &mut Diagnostics) -> Option<Vec<SurfacePoint>> {
-    let text = files::text(path, "a table of measured points (CSV)", problems)?;
+fn read_table(files: &Files, path: &Path, problems: &mut Diagnostics) -> Option<Vec<SurfacePoint>> {
+    let text = files.text(path, "a table of measured points (CSV)", problems)?;
     let file = path.display().to_string();
     let points = read_points(&file, &text, problems)?;
     if points.len() > MOST_CELLS {
@@ -194,8 +194,8 @@ fn read_table(path: &Path, problems: &mut Diagnostics) -> Option<Vec<SurfacePoin
     Some(points)
 }
 
-fn read_path(path: &Path, problems: &mut Diagnostics) -> Option<ClFile> {
-    let text = files::bytes(path, "a cutter-location file", problems)?;
+fn read_path(files: &Files, path: &Path, problems: &mut Diagnostics) -> Option<ClFile> {
+    let text = files.bytes(path, "a cutter-location file", problems)?;
     let (file, found) = ClFile::read(&path.display().to_string(), text, &Reading::default());
     let sound = !found.has_errors();
     problems.append(found);

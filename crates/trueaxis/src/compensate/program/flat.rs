@@ -12,7 +12,6 @@
 use super::number::Grid;
 use super::text::Edits;
 use super::words::Words;
-use crate::files;
 use crate::simulate::{SetUp, execute};
 use std::ops::Range;
 use std::path::Path;
@@ -61,7 +60,7 @@ pub(super) fn unrolled(
     let control = program.dialect().control;
     let mut programs = vec![program.clone()];
     for name in &outcome.programs[1..] {
-        match files::read_bytes(Path::new(name)) {
+        match setup.files.read(Path::new(name)) {
             Ok(bytes) => programs.push(Program::new(name, bytes, control)),
             Err(e) => {
                 let message = format!("cannot be read again: {e}");

@@ -4,11 +4,12 @@ use super::datums::{DialTurn, FourHits, ZSteps};
 use super::hit::{Gauge, GaugeKind, Hit, Side};
 use super::hits_file::{Reading, Setup, parse_hits};
 use super::lobing::LobingModel;
-use crate::files;
 use crate::verify::sheet::{Cells, Sheet};
 use std::path::Path;
 use trueaxis_geometry::Vec3;
-use trueaxis_input::{Diagnostics, Dimension, Item, Measured, Section, SourceText, parse_quantity};
+use trueaxis_input::{
+    Diagnostics, Dimension, Files, Item, Measured, Section, SourceText, parse_quantity,
+};
 
 /// Harmonics that are tried unless the study says otherwise.
 const MOST_HARMONICS: usize = 12;
@@ -68,14 +69,14 @@ pub struct Tables<'a> {
 }
 
 /// Reads a study and the hits that it names.
-pub fn read_study(path: &Path) -> (Option<Study>, Diagnostics) {
+pub fn read_study(files: &Files, path: &Path) -> (Option<Study>, Diagnostics) {
     let mut problems = Diagnostics::new();
-    let Some(text) = files::text(path, "a study of a touch probe (TOML)", &mut problems) else {
+    let Some(text) = files.text(path, "a study of a touch probe (TOML)", &mut problems) else {
         return (None, problems);
     };
     let beside = |name: &str| path.parent().unwrap_or(Path::new("")).join(name);
     let load = |name: &str, problems: &mut Diagnostics| {
-        files::text(&beside(name), "a table of hits (CSV)", problems)
+        files.text(&beside(name), "a table of hits (CSV)", problems)
     };
     let show = |name: &str| beside(name).display().to_string();
     let tables = Tables { load: &load, show: &show };

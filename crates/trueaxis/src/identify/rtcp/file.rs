@@ -3,18 +3,18 @@
 use super::centres::Centres;
 use super::control::{MachineZero, Names, Slot, Slots};
 use super::{ReadingSet, Row, RtcpStudy, SAME_RAD, command_of, spread};
-use crate::files;
 use crate::measure::instrument::{SetupError, SetupUnknown, Sight};
 use crate::measure::path::{Placing, leaves_travel};
 use crate::measure::{Instrument, Kind};
 use std::path::Path;
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{
-    CsvColumn, CsvTable, Diagnostics, Dimension, Item, Place, Section, SourceText, Unit,
+    CsvColumn, CsvTable, Diagnostics, Dimension, Files, Item, Place, Section, SourceText, Unit,
 };
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::errors::{BodyName, ErrorValues};
+use trueaxis_machine::file::machine_of;
 use trueaxis_machine::file::read_vector_mm;
 use trueaxis_machine::twist::Reference;
 
@@ -39,19 +39,23 @@ pub enum Purpose {
 }
 
 /// Reads an RTCP file with its machine and its tables.
-pub fn read_rtcp(path: &Path, purpose: Purpose) -> (Option<RtcpStudy>, Diagnostics) {
+pub fn read_rtcp(files: &Files, path: &Path, purpose: Purpose) -> (Option<RtcpStudy>, Diagnostics) {
     let mut problems = Diagnostics::new();
-    let Some(text) = files::text(path, "a file of an RTCP calibration (TOML)", &mut problems)
-    else {
+    let Some(text) = files.text(path, "a file of an RTCP calibration (TOML)", &mut problems) else {
         return (None, problems);
     };
-    parse_rtcp(path, &text, purpose)
+    parse_rtcp(files, path, &text, purpose)
 }
 
 /// The same of a text; machine and tables are looked for beside `path`.
-pub fn parse_rtcp(path: &Path, text: &str, purpose: Purpose) -> (Option<RtcpStudy>, Diagnostics) {
+pub fn parse_rtcp(
+    files: &Files,
+    path: &Path,
+    text: &str,
+    purpose: Purpose,
+) -> (Option<RtcpStudy>, Diagnostics) {
     let file = path.display().to_string();
-    let source = SourceText::new(&file, text);
+    let source = SourceText::from(files, &file, text);
     let study = source.read(|root| read(root, path, purpose));
     let problems = source.finish();
     (study.filter(|_| !problems.has_errors()), problems)
@@ -60,7 +64,7 @@ pub fn parse_rtcp(path: &Path, text: &str, purpose: Purpose) -> (Option<RtcpStud
 fn read(root: &Section<'_>, path: &Path, purpose: Purpose) -> Option<RtcpStudy> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let name = root.require("name", "say which machine, when").and_then(|i| i.text());
-    let found = files::machine_of(root, path);
+    let found = machine_of(root, path);
     let item = root.get("machine");
     let date = root.get("date").and_then(|i| i.date_or_text());
     let errors = root.get("errors");
@@ -376,7 +380,7 @@ fn dimension(kind: AxisKind) -> Dimension {
 
 fn read_table(section: &Section<'_>, path: &Path) -> Option<CsvTable> {
     let mut problems = Diagnostics::new();
-    let text = files::text(path, "a table of readings (CSV)", &mut problems);
+    let text = section.files().text(path, "a table of readings (CSV)", &mut problems);
     let table = text.map(|t| CsvTable::parse(&path.display().to_string(), &t, &mut problems));
     let sound = !problems.has_errors();
     section.take_over(problems);

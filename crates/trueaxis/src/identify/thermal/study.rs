@@ -3,11 +3,10 @@
 use super::check::{check_cycle, check_cycles};
 use super::subsets::combinations;
 use super::{Cycle, Logs, Zero};
-use crate::files;
 use std::ops::Range;
 use std::path::Path;
 use trueaxis_input::{
-    CsvColumn, CsvTable, Diagnostics, Dimension, Item, Place, Section, SourceText, Unit,
+    CsvColumn, CsvTable, Diagnostics, Dimension, Files, Item, Place, Section, SourceText, Unit,
 };
 use trueaxis_machine::errors::{Component, ErrorName};
 
@@ -28,14 +27,14 @@ const MOST_FILES: usize = 1000;
 ///
 /// A log that cannot be used is an error, not left out: a model of the other cycles would be
 /// another answer.
-pub fn read_logs(path: &Path) -> (Option<Logs>, Diagnostics) {
+pub fn read_logs(files: &Files, path: &Path) -> (Option<Logs>, Diagnostics) {
     let mut problems = Diagnostics::new();
-    let Some(text) = files::text(path, "a study of a thermal model (TOML)", &mut problems) else {
+    let Some(text) = files.text(path, "a study of a thermal model (TOML)", &mut problems) else {
         return (None, problems);
     };
     let beside = |name: &str| path.parent().unwrap_or(Path::new("")).join(name);
     let load = |name: &str, problems: &mut Diagnostics| {
-        files::text(&beside(name), "a log of displacement and temperatures (CSV)", problems)
+        files.text(&beside(name), "a log of displacement and temperatures (CSV)", problems)
     };
     let show = |name: &str| beside(name).display().to_string();
     let (logs, found) =

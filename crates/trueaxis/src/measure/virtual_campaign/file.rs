@@ -1,7 +1,6 @@
 //! `[truth]` and `[disturb]` of a campaign file.
 
 use super::{AxisDisturb, Chance, Disturb, Drawn, Truth, VirtualCampaign, chance, normal};
-use crate::files;
 use crate::measure::instrument::{Instrument, SetupError, SetupUnknown};
 use crate::measure::path::{Path, read_paths};
 use crate::measure::{Campaign, Kind};
@@ -110,7 +109,7 @@ fn read_truth(section: &Section<'_>, campaign: &Campaign, seed: Option<u64>) -> 
 fn read_machine(item: &Item<'_>, campaign: &Campaign, truth: &mut Truth) {
     let Some(name) = item.text() else { return };
     let path = campaign.path.parent().unwrap_or(std::path::Path::new("")).join(name);
-    let (machine, problems) = files::machine(&path);
+    let (machine, problems) = Machine::read(item.files(), &path);
     let sound = !problems.has_errors();
     let mut told = Diagnostics::new();
     // What is only worth a warning was said of the machine of the campaign already.
@@ -322,7 +321,7 @@ fn read_log(section: &Section<'_>, campaign: &Campaign) -> Option<Arc<Temperatur
     let item = section.get("temperature_log")?;
     let path = campaign.path.parent().unwrap_or(std::path::Path::new("")).join(item.text()?);
     let mut problems = Diagnostics::new();
-    let text = files::text(&path, "a log of temperatures (CSV)", &mut problems);
+    let text = section.files().text(&path, "a log of temperatures (CSV)", &mut problems);
     let log = text
         .and_then(|text| TemperatureLog::parse(&path.display().to_string(), &text, &mut problems));
     section.take_over(problems);

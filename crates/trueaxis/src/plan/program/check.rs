@@ -1,7 +1,6 @@
 //! What the machine would do with a program: how long it takes, and what is in its way.
 
 use super::ProgramSettings;
-use crate::files;
 use crate::measure::path::Path;
 use crate::measure::{Campaign, Kind};
 use crate::report::trouble_text;
@@ -81,6 +80,7 @@ pub fn check(
     };
     let setup = SetUp {
         given: true,
+        files: campaign.files.clone(),
         tools: [(1, tool)].into_iter().collect(),
         bodies: bodies(settings, own.kind, own.reference_point_mm),
         start: super::start(campaign, path, settings),
@@ -107,7 +107,7 @@ pub(in super::super) fn run(
     let mut watch = AxisWatch::on(machine);
     let mut visits = Visits { nearest: stations.iter().map(|c| (c, f64::INFINITY)).collect() };
     let mut found = Diagnostics::new();
-    let models = load_models(machine, machine_path, &mut found);
+    let models = load_models(&setup.files, machine, machine_path, &mut found);
     let mut collisions = Collisions::watch(machine, models, setup);
     let mut observers: Vec<&mut dyn Observer> = vec![&mut summary, &mut watch, &mut visits];
     if let Some(collisions) = &mut collisions {
@@ -196,21 +196,4 @@ fn cylinder(
     let turn = Mat3::from_columns(&[x, along.cross(&x), along]);
     let placement: Link = Pose::new(turn, from_mm);
     Some(BodyModel { name: name.to_owned(), node: Some(0), placement, role: Role::Fixture, mesh })
-}
-
-/// Writes programs and tables of poses into a folder; what was written.
-///
-/// # Errors
-/// What the disk says.
-pub fn write_files(
-    folder: &std::path::Path,
-    written: &[(String, Vec<u8>)],
-) -> std::io::Result<Vec<std::path::PathBuf>> {
-    let mut paths = Vec::new();
-    for (name, content) in written {
-        let path = folder.join(name);
-        files::write(&path, content)?;
-        paths.push(path);
-    }
-    Ok(paths)
 }

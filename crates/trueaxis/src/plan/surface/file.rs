@@ -1,12 +1,12 @@
 //! A study of a surface to be probed, read and checked.
 
 use super::points::Candidates;
-use crate::files;
 use crate::simulate::collide::{Mesh, load_stl};
 use std::path::{Path, PathBuf};
 use trueaxis_geometry::Vec3;
-use trueaxis_input::{Diagnostics, Dimension, Section, SourceText, Unit};
+use trueaxis_input::{Diagnostics, Dimension, Files, Section, SourceText, Unit};
 use trueaxis_machine::Machine;
+use trueaxis_machine::file::machine_of;
 use trueaxis_machine::file::{read_direction, read_tool_shape};
 use trueaxis_machine::models::ToolSegment;
 use trueaxis_nc::cl::{ClFile, Reading};
@@ -25,6 +25,8 @@ pub struct SurfaceStudy {
     pub machine: Machine,
     /// Where it is described.
     pub machine_path: PathBuf,
+    /// Where files are read from.
+    pub files: Files,
     /// The file of the surface, as it is shown.
     pub surface_file: String,
     /// Where points may be.
@@ -56,13 +58,13 @@ pub struct SurfaceStudy {
 }
 
 /// Reads a study and the files that it names.
-pub fn read_surface(path: &Path) -> (Option<SurfaceStudy>, Diagnostics) {
+pub fn read_surface(files: &Files, path: &Path) -> (Option<SurfaceStudy>, Diagnostics) {
     let mut problems = Diagnostics::new();
-    let Some(text) = files::text(path, "a study of a surface (TOML)", &mut problems) else {
+    let Some(text) = files.text(path, "a study of a surface (TOML)", &mut problems) else {
         return (None, problems);
     };
     let file = path.display().to_string();
-    let source = SourceText::new(&file, &text);
+    let source = SourceText::from(files, &file, &text);
     let study = source.read(|root| read(root, path));
     problems.append(source.finish());
     (study.filter(|_| !problems.has_errors()), problems)
@@ -72,7 +74,7 @@ fn read(root: &Section<'_>, path: &Path) -> Option<SurfaceStudy> {
     // Every key is asked for before anything is given up, or it would count as unknown.
     let folder = path.parent().unwrap_or(Path::new(""));
     let name = root.require("name", "say which surface").and_then(|i| i.text());
-    let machine = files::machine_of(root, path);
+    let machine = machine_of(root, path);
     let unit_mm = read_unit(root);
     let surface = read_candidates(root, folder, unit_mm);
     let part = root.text("part").map(|name| mesh(root, &folder.join(name), unit_mm));
@@ -103,6 +105,7 @@ fn read(root: &Section<'_>, path: &Path) -> Option<SurfaceStudy> {
         file: path.display().to_string(),
         name: name?.to_owned(),
         machine: machine.with_tip(Vec3::new(0.0, 0.0, -probe.length_mm)),
+        files: root.files().clone(),
         machine_path,
         surface_file,
         candidates,
@@ -207,7 +210,7 @@ fn read_unit(root: &Section<'_>) -> f64 {
 
 fn mesh(root: &Section<'_>, path: &Path, unit_mm: f64) -> Option<Mesh> {
     let mut found = Diagnostics::new();
-    let mesh = load_stl(path, unit_mm, &mut found);
+    let mesh = load_stl(root.files(), path, unit_mm, &mut found);
     root.take_over(found);
     mesh
 }
@@ -235,7 +238,7 @@ fn read_candidates(
         (Some(item), None) => {
             let path = folder.join(item.text()?);
             let mut found = Diagnostics::new();
-            let bytes = files::bytes(&path, "a cutter-location file", &mut found);
+            let bytes = root.files().bytes(&path, "a cutter-location file", &mut found);
             let read = bytes.map(|b| {
                 let reading = Reading::default();
                 ClFile::read(&path.display().to_string(), b, &reading)

@@ -260,6 +260,7 @@ pub fn check_surface(
     });
     let setup = SetUp {
         given: true,
+        files: study.files.clone(),
         tools: [(1, tool)].into_iter().collect(),
         bodies: part.into_iter().collect(),
         start: start(study, poses),

@@ -4,9 +4,8 @@ use super::mesh::Mesh;
 use super::scene::{BodyModel, Role};
 use super::shape::triangles_of;
 use super::stl::{read_stl, write_stl};
-use crate::files;
 use std::path::Path;
-use trueaxis_input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_machine::Machine;
 use trueaxis_machine::models::Shape;
 
@@ -14,6 +13,7 @@ use trueaxis_machine::models::Shape;
 ///
 /// What cannot be read is left out and said why.
 pub fn load_models(
+    files: &Files,
     machine: &Machine,
     machine_file: &Path,
     problems: &mut Diagnostics,
@@ -22,7 +22,7 @@ pub fn load_models(
     let mut models = Vec::new();
     for model in machine.models() {
         let mesh = match &model.shape {
-            Shape::Stl { path, unit_mm } => load_stl(&folder.join(path), *unit_mm, problems),
+            Shape::Stl { path, unit_mm } => load_stl(files, &folder.join(path), *unit_mm, problems),
             shape => triangles_of(shape).and_then(|triangles| {
                 let mesh = Mesh::new(triangles);
                 if mesh.is_none() {
@@ -47,8 +47,13 @@ pub fn load_models(
 }
 
 /// The mesh of an STL file; `unit_mm` is how many mm one unit of it is.
-pub fn load_stl(path: &Path, unit_mm: f64, problems: &mut Diagnostics) -> Option<Mesh> {
-    let bytes = files::bytes(path, "an STL file", problems)?;
+pub fn load_stl(
+    files: &Files,
+    path: &Path,
+    unit_mm: f64,
+    problems: &mut Diagnostics,
+) -> Option<Mesh> {
+    let bytes = files.bytes(path, "an STL file", problems)?;
     let file = path.display().to_string();
     let mesh = Mesh::new(read_stl(&file, &bytes, unit_mm, problems)?)?;
     if !mesh.is_closed() {

@@ -10,11 +10,10 @@ use super::validation::{Allowed, Validation, read_validation};
 use super::{Determined, identified};
 use crate::compensate::not_twice;
 use crate::describe::axis_index;
-use crate::files;
 use crate::predict::Sampling;
 use crate::verify::conditions::SOUND_TEMPERATURES_C;
 use std::path::Path;
-use trueaxis_input::{Diagnostics, Dimension, Item, Measured, Section, SourceText};
+use trueaxis_input::{Diagnostics, Dimension, Files, Item, Measured, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Axis, AxisKind, Travel};
 
@@ -81,15 +80,15 @@ pub struct Application {
 }
 
 /// Reads a study with all that it names; nothing with errors.
-pub fn read_certificate(path: &Path) -> (Option<Study>, Diagnostics) {
+pub fn read_certificate(files: &Files, path: &Path) -> (Option<Study>, Diagnostics) {
     let mut problems = Diagnostics::new();
-    let Some(text) = files::text(path, "a study of a certificate (TOML)", &mut problems) else {
+    let Some(text) = files.text(path, "a study of a certificate (TOML)", &mut problems) else {
         return (None, problems);
     };
     let file = path.display().to_string();
-    let source = SourceText::new(&file, &text);
+    let source = SourceText::from(files, &file, &text);
     let folder = path.parent().unwrap_or(Path::new(""));
-    let mut inputs = Inputs::beside(folder);
+    let mut inputs = Inputs::beside(files, folder);
     let own = path.file_name().map_or(String::new(), |name| name.display().to_string());
     inputs.add("study", &own, text.as_bytes());
     let read = source.read(|root| read(root, folder, inputs));

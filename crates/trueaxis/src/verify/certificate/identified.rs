@@ -38,7 +38,7 @@ pub fn read(
     let path = folder.join(name);
     let mut problems = Diagnostics::new();
     inputs.text("campaign of the identification", name, &mut problems);
-    let (read, found) = read_campaign(&path, |root, _| Some(read_options(root)));
+    let (read, found) = read_campaign(section.files(), &path, |root, _| Some(read_options(root)));
     problems.append(found);
     let found = read.and_then(|(campaign, options)| {
         // Names of the campaign, as from the folder of the study.

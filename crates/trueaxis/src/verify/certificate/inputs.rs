@@ -1,12 +1,11 @@
 //! What a certificate was made from: every file with its SHA-256, so that anybody can make it again.
 
-use crate::files::{self, Folder};
 use sha2::{Digest, Sha256};
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
-use trueaxis_input::Diagnostics;
+use trueaxis_input::{Diagnostics, Files};
 use trueaxis_machine::Machine;
-use trueaxis_machine::file::Tables;
+use trueaxis_machine::file::{Folder, Tables};
 
 /// A file that went into a certificate.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -22,6 +21,7 @@ pub struct Input {
 /// The files of a study, in the order in which they were read.
 #[derive(Debug)]
 pub struct Inputs {
+    files: Files,
     /// Names are relative to this folder.
     folder: PathBuf,
     list: Vec<Input>,
@@ -29,8 +29,8 @@ pub struct Inputs {
 
 impl Inputs {
     /// Of a study that stands in this folder.
-    pub fn beside(folder: &Path) -> Self {
-        Self { folder: folder.to_owned(), list: Vec::new() }
+    pub fn beside(files: &Files, folder: &Path) -> Self {
+        Self { files: files.clone(), folder: folder.to_owned(), list: Vec::new() }
     }
 
     /// Takes a file into the list; each only once.
@@ -49,7 +49,7 @@ impl Inputs {
         problems: &mut Diagnostics,
     ) -> Option<(PathBuf, String)> {
         let path = self.folder.join(name);
-        let text = files::text(&path, role, problems)?;
+        let text = self.files.text(&path, role, problems)?;
         self.add(role, name, text.as_bytes());
         Some((path, text))
     }
@@ -61,7 +61,7 @@ impl Inputs {
         name: &str,
         problems: &mut Diagnostics,
     ) -> Option<Input> {
-        let content = files::bytes(&self.folder.join(name), role, problems)?;
+        let content = self.files.bytes(&self.folder.join(name), role, problems)?;
         self.add(role, name, &content);
         Some(Input { role, name: name.to_owned(), sha256: sha256(&content) })
     }
@@ -74,7 +74,7 @@ impl Inputs {
         problems: &mut Diagnostics,
     ) -> Option<Machine> {
         let (path, text) = self.text(role, name, problems)?;
-        let seen = Seen { folder: Folder::of(&path), texts: RefCell::default() };
+        let seen = Seen { folder: Folder::of(&self.files, &path), texts: RefCell::default() };
         let (machine, found) = Machine::check(&path.display().to_string(), &text, &seen);
         problems.append(found);
         let beside = Path::new(name).parent().unwrap_or(Path::new(""));

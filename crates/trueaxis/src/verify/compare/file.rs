@@ -1,21 +1,20 @@
 //! The file of a comparison.
 
 use super::{Against, Comparison, Decision, Rule, pair};
-use crate::files;
 use crate::measure::{Campaign, Readings, read_campaign};
 use std::path::{Path, PathBuf};
-use trueaxis_input::{Diagnostics, Dimension, Item, Section, SourceText};
+use trueaxis_input::{Diagnostics, Dimension, Files, Item, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::heat::Conditions;
 
 /// Reads a comparison with all that it names.
-pub fn read_comparison(path: &Path) -> (Option<Comparison>, Diagnostics) {
+pub fn read_comparison(files: &Files, path: &Path) -> (Option<Comparison>, Diagnostics) {
     let mut problems = Diagnostics::new();
-    let Some(text) = files::text(path, "a file of a comparison (TOML)", &mut problems) else {
+    let Some(text) = files.text(path, "a file of a comparison (TOML)", &mut problems) else {
         return (None, problems);
     };
     let file = path.display().to_string();
-    let source = SourceText::new(&file, &text);
+    let source = SourceText::from(files, &file, &text);
     let folder = path.parent().unwrap_or(Path::new(""));
     let read = source.read(|root| read(root, folder));
     problems.append(source.finish());
@@ -55,7 +54,7 @@ fn read_compare(section: &Section<'_>, folder: &Path) -> Option<(Campaign, Readi
                 .then(|| root.section("temperature", Conditions::read)),
         )
     };
-    let (read, problems) = read_campaign(&path, temperature);
+    let (read, problems) = read_campaign(section.files(), &path, temperature);
     section.take_over(problems);
     let (mut campaign, conditions) = read?;
     let conditions = conditions.flatten();
@@ -126,7 +125,7 @@ fn read_machine(
     conditions: Option<&Conditions>,
     folder: &Path,
 ) -> Option<Machine> {
-    let (machine, problems) = files::machine(&folder.join(item.text()?));
+    let (machine, problems) = Machine::read(section.files(), &folder.join(item.text()?));
     section.take_over(problems);
     let machine = machine?;
     if machine.chain_text() != campaign.machine.chain_text() {

@@ -1,11 +1,10 @@
 //! A log of temperatures as a Parquet file: the columns of the CSV table, by the same names.
 
-use std::fs::File;
 use trueaxis_input::{CsvTable, Diagnostics, Place};
 
 /// The table of a Parquet file; what is wrong with it goes to `problems`.
 #[cfg(not(feature = "parquet"))]
-pub fn table(file: &str, _: File, problems: &mut Diagnostics) -> Option<CsvTable> {
+pub fn table(file: &str, _: Vec<u8>, problems: &mut Diagnostics) -> Option<CsvTable> {
     problems.error(
         "parquet-not-built",
         Place::whole(file),
@@ -18,8 +17,8 @@ pub fn table(file: &str, _: File, problems: &mut Diagnostics) -> Option<CsvTable
 
 /// The table of a Parquet file; what is wrong with it goes to `problems`.
 #[cfg(feature = "parquet")]
-pub fn table(file: &str, source: File, problems: &mut Diagnostics) -> Option<CsvTable> {
-    let columns = match read(source) {
+pub fn table(file: &str, bytes: Vec<u8>, problems: &mut Diagnostics) -> Option<CsvTable> {
+    let columns = match read(bytes) {
         Ok(columns) => columns,
         Err(message) => {
             let message = format!("cannot be read as Parquet: {message}");
@@ -40,10 +39,10 @@ pub fn table(file: &str, source: File, problems: &mut Diagnostics) -> Option<Csv
 const MOST_ROWS: i64 = 10_000_000;
 
 #[cfg(feature = "parquet")]
-fn read(source: File) -> Result<Vec<(String, Vec<f64>)>, String> {
+fn read(bytes: Vec<u8>) -> Result<Vec<(String, Vec<f64>)>, String> {
     use parquet::file::reader::{FileReader, SerializedFileReader};
     use parquet::record::Field;
-    let reader = SerializedFileReader::new(source).map_err(|e| e.to_string())?;
+    let reader = SerializedFileReader::new(bytes::Bytes::from(bytes)).map_err(|e| e.to_string())?;
     let metadata = reader.metadata().file_metadata();
     if !(0..=MOST_ROWS).contains(&metadata.num_rows()) {
         return Err(format!("{} rows, at most {MOST_ROWS} are read", metadata.num_rows()));
