@@ -135,7 +135,7 @@ fn shipped() -> &'static [Shipped] {
             let commented: String = entries.by_ref().collect();
             let windows = commented.replace('\n', "\r\n");
             let open = text.trim_end().to_owned();
-            let folder = Folder::of(&machine_path(name));
+            let folder = Folder::of(&files::disk(), &machine_path(name));
             Shipped { folder, machine: machine(name), texts: [commented, windows, open] }
         };
         MACHINES.iter().map(one).collect()
@@ -235,7 +235,7 @@ proptest! {
     /// Any bytes as a machine file: an answer, never a panic.
     #[test]
     fn law_any_text_is_answered(text in "[\\[\\]{}=\"'#a-zE0-9 .\n\r]{0,200}", value in ".{0,20}") {
-        let _ = set_error(&text, "m.toml", &Folder::of(Path::new("nowhere/m.toml")), "EC0Y", &value);
+        let _ = set_error(&text, "m.toml", &Folder::of(&files::disk(), Path::new("nowhere/m.toml")), "EC0Y", &value);
         let machine = &shipped()[6].machine;
         let page = description_json(&describe(machine, Some(&text)));
         prop_assert_eq!(page["links"].as_array().map(Vec::len), Some(machine.bodies().len()));
@@ -250,7 +250,7 @@ fn a_machine_file_below_the_project_folder_is_edited_in_place() {
     files::within(&root, || {
         files::write(&path, text_of("three-axis-mill").as_bytes()).unwrap();
         let old = String::from_utf8(files::read_bytes(&path).unwrap()).unwrap();
-        let folder = Folder::of(&path);
+        let folder = Folder::of(&files::disk(), &path);
         let new = set_error(&old, "machine.toml", &folder, "EC0Y", "7 urad").unwrap();
         files::write(&path, new.as_bytes()).unwrap();
     });
