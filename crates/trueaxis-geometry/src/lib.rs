@@ -18,8 +18,18 @@
 //! It does not know what a machine, a program or a part is.
 
 pub mod frame;
+pub mod statistics;
 
 /// A column vector of three components; its unit and frame are in the name of the variable.
 pub type Vec3 = nalgebra::Vector3<f64>;
 /// A 3×3 matrix that acts on column vectors.
 pub type Mat3 = nalgebra::Matrix3<f64>;
+
+/// Straight or turning.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AxisKind {
+    /// Moves along its direction, mm.
+    Linear,
+    /// Turns about its direction, rad.
+    Rotary,
+}

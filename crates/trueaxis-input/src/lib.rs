@@ -8,6 +8,7 @@ mod diagnostic;
 mod files;
 mod quantity;
 mod section;
+pub mod sheet;
 
 pub use csv::{CsvColumn, CsvTable};
 pub use diagnostic::{Diagnostic, Diagnostics, Place, Severity};

@@ -1,4 +1,5 @@
 use crate::errors::BodyName;
+pub use trueaxis_geometry::AxisKind;
 use trueaxis_geometry::Vec3;
 
 /// At most this many axes; commands are arrays of this length.
@@ -18,15 +19,6 @@ pub enum Carries {
     Workpiece,
     /// The tool.
     Tool,
-}
-
-/// Straight or turning.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum AxisKind {
-    /// Moves along its direction, mm.
-    Linear,
-    /// Turns about its direction, rad.
-    Rotary,
 }
 
 /// How far an axis can go, mm or rad.

@@ -20,6 +20,7 @@ pub mod axis;
 pub mod batch;
 pub mod chain;
 pub mod compensate;
+pub mod describe;
 mod deviation;
 pub mod errors;
 pub mod file;
@@ -29,6 +30,7 @@ pub mod models;
 pub mod tcp;
 mod tool;
 pub mod twist;
+pub mod volume;
 
 pub use chain::{ErrorFrame, ErrorModel, Machine, Squareness};
 pub use deviation::Deviation;

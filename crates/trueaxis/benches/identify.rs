@@ -7,14 +7,14 @@
 use divan::Bencher;
 use std::path::Path;
 use trueaxis::geometry::Vec3;
-use trueaxis::identify::design::Design;
-use trueaxis::identify::fit::fit;
-use trueaxis::identify::minimal::minimal_location_errors;
-use trueaxis::identify::term::Shape;
 use trueaxis::machine::errors::{BodyName, Component, ErrorKind, ErrorName};
 use trueaxis::machine::twist::Reference;
 use trueaxis::measure::instrument::{Instrument, SetupUnknown};
 use trueaxis::measure::{Kind, Reading, Readings};
+use trueaxis::unknowns::design::Design;
+use trueaxis::unknowns::fit::fit;
+use trueaxis::unknowns::minimal::minimal_location_errors;
+use trueaxis::unknowns::term::Shape;
 
 fn main() {
     divan::main();

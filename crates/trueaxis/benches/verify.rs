@@ -4,8 +4,8 @@
 use divan::counter::ItemsCount;
 use std::fmt::Write as _;
 use trueaxis::input::Diagnostics;
+use trueaxis::input::sheet::Sheet;
 use trueaxis::verify::conditions::Conditions;
-use trueaxis::verify::sheet::Sheet;
 use trueaxis::verify::{Request, Standard, evaluate, iso230_2};
 
 fn main() {

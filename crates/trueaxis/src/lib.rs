@@ -19,27 +19,22 @@
 //! The nouns live in crates of their own and are handed on here: [`geometry`], [`machine`],
 //! [`part`].
 
-pub mod compensate;
-pub mod describe;
 pub mod files;
-pub mod identify;
-pub mod measure;
 
-pub mod plan;
-pub mod predict;
 pub mod report;
-pub mod simulate;
 pub mod verify;
-mod volume;
 
+pub use trueaxis_calibrate::{identify, instruments, measure, plan, unknowns};
+pub use trueaxis_correct::{compensate, predict};
 pub use trueaxis_geometry as geometry;
 pub use trueaxis_input as input;
 pub use trueaxis_machine as machine;
+pub use trueaxis_machine::describe;
+pub use trueaxis_motion as simulate;
 pub use trueaxis_nc as nc;
 pub use trueaxis_part as part;
 
-/// The version that reports state.
-pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+pub use trueaxis_report::VERSION;
 
 /// The examples of the README are tests.
 #[cfg(doctest)]

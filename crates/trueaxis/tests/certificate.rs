@@ -11,9 +11,7 @@ use std::path::PathBuf;
 use trueaxis::files::disk;
 use trueaxis::geometry::Vec3;
 use trueaxis::identify::errors::{Identification, identify};
-use trueaxis::identify::minimal::minimal_location_errors;
 use trueaxis::identify::records::{Options, Records};
-use trueaxis::identify::term::{Basis, Shape, Term, stated};
 use trueaxis::input::Diagnostics;
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{Approach, AxisKind, Command, Travel};
@@ -23,6 +21,8 @@ use trueaxis::machine::twist::Reference;
 use trueaxis::measure::instrument::{Instrument, SetupUnknown};
 use trueaxis::measure::{Campaign, Kind, Reading, Readings};
 use trueaxis::predict::{Cutting, Judge, Sampling, Study, read_study};
+use trueaxis::unknowns::minimal::minimal_location_errors;
+use trueaxis::unknowns::term::{Basis, Shape, Term, stated};
 use trueaxis::verify::certificate::applied::Applied;
 use trueaxis::verify::certificate::known::Known;
 use trueaxis::verify::certificate::left::{Left, Off};
@@ -112,6 +112,7 @@ struct Trial {
 impl Bench {
     fn new(machine: &Machine, stations: usize, random: &mut Random) -> Self {
         let campaign = Campaign {
+            files: disk(),
             name: "test".to_owned(),
             path: PathBuf::from("campaign.toml"),
             machine: machine.clone(),

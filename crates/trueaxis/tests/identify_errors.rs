@@ -9,13 +9,9 @@ use std::path::{Path, PathBuf};
 use trueaxis::files::disk;
 use trueaxis::geometry::Vec3;
 use trueaxis::identify::convention::check_conventions;
-use trueaxis::identify::design::Design;
 use trueaxis::identify::errors::{Identification, Verdict, birge, identify};
-use trueaxis::identify::fit::fit;
 use trueaxis::identify::machine_file::{MachineFile, machine_file};
-use trueaxis::identify::minimal::minimal_location_errors;
 use trueaxis::identify::records::{Loss, Options, Records, read_options, read_records};
-use trueaxis::identify::term::{Shape, Term};
 use trueaxis::input::Diagnostics;
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{Approach, AxisKind};
@@ -24,6 +20,10 @@ use trueaxis::machine::file::Tables;
 use trueaxis::machine::twist::Reference;
 use trueaxis::measure::instrument::{Instrument, SetupUnknown};
 use trueaxis::measure::{Campaign, Kind, Reading, Readings, read_campaign};
+use trueaxis::unknowns::design::Design;
+use trueaxis::unknowns::fit::fit;
+use trueaxis::unknowns::minimal::minimal_location_errors;
+use trueaxis::unknowns::term::{Shape, Term};
 
 fn probe(machine: &Machine, kind: Kind) -> Instrument {
     let free = |error| SetupUnknown { name: kind.unknown_name(error), error, prior_u: None };
@@ -81,6 +81,7 @@ fn campaign(name: &str, terms: Vec<Term>, kind: Kind) -> Campaign {
     let machine = machine(name);
     let instruments = vec![probe(&machine, kind)];
     Campaign {
+        files: disk(),
         name: "a test".to_owned(),
         path: PathBuf::from("campaign.toml"),
         machine_path: machine_path(name),
@@ -613,7 +614,7 @@ fn oracle_unobservable_combinations_span_the_null_space_of_numpy() {
         }
         let columns = design.columns(&places, 0..places.len());
         let normal = &columns * columns.transpose();
-        let sight = trueaxis::identify::fit::Observability::of(&normal);
+        let sight = trueaxis::unknowns::fit::Observability::of(&normal);
         assert_eq!(sight.rank as u64, entry["rank"].as_u64().expect("a rank"), "{name}");
         let ours = design.names();
         let theirs: Vec<DVector<f64>> = entry["null_space"]
@@ -643,7 +644,7 @@ fn oracle_unobservable_combinations_span_the_null_space_of_numpy() {
             assert!(outside.norm() < 1e-5, "{name}: {}", outside.norm());
         }
         // The sentences are combinations that nobody sees either.
-        for confusion in trueaxis::identify::confusion::confusions(&sight) {
+        for confusion in trueaxis::unknowns::confusion::confusions(&sight) {
             let mut along = DVector::zeros(ours.len());
             confusion.members.iter().for_each(|(k, s)| along[*k] = s * sight.column_length(*k));
             let along = along.normalize();

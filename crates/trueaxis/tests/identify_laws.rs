@@ -4,19 +4,19 @@ mod library;
 
 use library::{MACHINES, Random, bare, machine};
 use trueaxis::geometry::Vec3;
-use trueaxis::identify::confusion::confusions;
-use trueaxis::identify::design::Design;
-use trueaxis::identify::fit::{
-    LEAST_SINGULAR_VALUE, Model, Observability, Rule, fit, fit_by, normal_matrix,
-};
-use trueaxis::identify::minimal::minimal_location_errors;
-use trueaxis::identify::term::{Shape, Term};
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{Approach, AxisKind};
 use trueaxis::machine::errors::{ErrorName, StatedError};
 use trueaxis::machine::twist::Reference;
 use trueaxis::measure::instrument::{Instrument, SetupUnknown};
 use trueaxis::measure::{Kind, Reading, Readings};
+use trueaxis::unknowns::confusion::confusions;
+use trueaxis::unknowns::design::Design;
+use trueaxis::unknowns::fit::{
+    LEAST_SINGULAR_VALUE, Model, Observability, Rule, fit, fit_by, normal_matrix,
+};
+use trueaxis::unknowns::minimal::minimal_location_errors;
+use trueaxis::unknowns::term::{Shape, Term};
 
 fn instrument(kind: Kind, machine: &Machine) -> Instrument {
     let free = |error| SetupUnknown { name: kind.unknown_name(error), error, prior_u: None };
@@ -54,7 +54,7 @@ fn truth(machine: &Machine, terms: &[Term], values: &[f64]) -> Machine {
             .take_while(|(t, _)| t.index == terms[k].index)
             .map(|(t, v)| (*t, *v))
             .collect();
-        let stated: StatedError = trueaxis::identify::term::stated(&mine, None);
+        let stated: StatedError = trueaxis::unknowns::term::stated(&mine, None);
         truth = truth.with_error(terms[k].index, Some(stated));
         k += mine.len();
     }

@@ -6,8 +6,6 @@ use library::{Random, root};
 use std::sync::atomic::{AtomicU32, Ordering};
 use trueaxis::files::disk;
 use trueaxis::geometry::Vec3;
-use trueaxis::identify::design::Design;
-use trueaxis::identify::fit::fit;
 use trueaxis::machine::axis::AxisKind;
 use trueaxis::machine::tcp::TipControl;
 use trueaxis::measure::Readings;
@@ -15,6 +13,8 @@ use trueaxis::measure::path::{FreeSide, Path, hits};
 use trueaxis::nc::Control;
 use trueaxis::plan::program::{check, program};
 use trueaxis::plan::{Criterion, Plan, choose, expect, read_plan};
+use trueaxis::unknowns::design::Design;
+use trueaxis::unknowns::fit::fit;
 
 /// A plan of an example of the project.
 fn example(name: &str) -> Plan {
@@ -187,8 +187,8 @@ fn law_five_minutes_are_enough_for_the_rotary_axes() {
         .map(|k| if design.unknown(k).is_some_and(|u| u.is_angle()) { 4e-5 } else { -0.015 })
         .collect();
     // What cannot be seen would come back in second order.
-    let sight = trueaxis::identify::fit::Observability::of(
-        &trueaxis::identify::fit::normal_matrix(&design, &chosen.stations, &[]),
+    let sight = trueaxis::unknowns::fit::Observability::of(
+        &trueaxis::unknowns::fit::normal_matrix(&design, &chosen.stations, &[]),
     );
     truth = sight.seen_part(&truth);
     let clean: Vec<[f64; 3]> = (0..chosen.stations.len())

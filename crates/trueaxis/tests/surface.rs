@@ -2,6 +2,7 @@
 
 use proptest::prelude::*;
 use std::path::Path;
+use trueaxis::files::disk;
 use trueaxis::geometry::Vec3;
 use trueaxis::input::Diagnostics;
 use trueaxis::machine::tcp::TipControl;
@@ -12,6 +13,7 @@ fn study() -> SurfaceStudy {
     let path = root.join("machines/i5-engraver/machine.toml");
     let machine = trueaxis::files::machine(&path).0.expect("a machine");
     SurfaceStudy {
+        files: disk(),
         file: "s.toml".to_owned(),
         name: "s".to_owned(),
         machine: machine.with_tip(Vec3::new(0.0, 0.0, -90.0)),

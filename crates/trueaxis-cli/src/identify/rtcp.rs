@@ -7,7 +7,6 @@ use serde_json::json;
 use std::path::{Path, PathBuf};
 use trueaxis::files;
 use trueaxis::files::disk;
-use trueaxis::identify::fit::FitError;
 use trueaxis::identify::rtcp::forecast::forecast;
 use trueaxis::identify::rtcp::program::{off_poses, program};
 use trueaxis::identify::rtcp::{
@@ -17,6 +16,7 @@ use trueaxis::input::{Diagnostics, Place};
 use trueaxis::plan::{extension, file_name};
 use trueaxis::report::{RtcpReport, rtcp_json, rtcp_text};
 use trueaxis::simulate::{CONTROLS, control_named};
+use trueaxis::unknowns::fit::FitError;
 
 /// The readings.
 #[derive(Args)]

@@ -12,8 +12,9 @@ use trueaxis::input::Diagnostics;
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::AxisKind;
 use trueaxis::measure::Readings;
+use trueaxis::plan::PlanReport;
 use trueaxis::plan::{Plan, PlannedPath, chosen, planned, read_plan, tools};
-use trueaxis::report::{PlanReport, plan_json};
+use trueaxis::report::plan_json;
 
 /// A plan that may be asked, and what was found in its file.
 pub(super) fn read(path: &Path) -> Result<(Plan, Diagnostics), Refusal> {

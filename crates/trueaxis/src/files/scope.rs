@@ -2,9 +2,8 @@
 
 use std::borrow::Cow;
 use std::cell::RefCell;
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 thread_local! {
     /// The folders of the scopes that this thread is in, without links; `None` for one that is not there.
@@ -265,7 +264,7 @@ mod tests {
         within(&tree.path("in/a.txt"), || assert!(!read("in/a.txt")));
         let mut problems = Diagnostics::new();
         within(&tree.path("in"), || {
-            crate::simulate::read_temperature_log(
+            trueaxis_motion::read_temperature_log(
                 &files::disk(),
                 &tree.path("out/log.parquet"),
                 &mut problems,

@@ -1,17 +1,16 @@
 //! Two calibrations of one machine, as text, JSON and a page.
 
-use super::DrawingError;
-use super::evaluation::{Block, write_block};
-use super::evaluation_plots::{Band, Picture, Scatter};
-use super::picture_page::{PicturePage, picture_page};
-use super::{command_words, shown, unit};
 use crate::verify::calibrations::{Calibrations, ErrorChange, Moved};
 use maud::html;
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Travel;
+use trueaxis_machine::describe::{command_words, shown, unit};
 use trueaxis_machine::errors::{ErrorKind, ErrorName};
+use trueaxis_report::picture_page::{PicturePage, picture_page};
+use trueaxis_report::{Band, Picture, Scatter};
+use trueaxis_report::{Block, DrawingError, write_block};
 
 /// Rows of the table of shares.
 const MOST_SHARES: usize = 12;
@@ -212,7 +211,7 @@ pub fn calibrations_json(report: &CalibrationsReport<'_>) -> Value {
         .map(|s| json!({ "error": s.error.to_string(), "largest_um": s.largest_mm * 1e3 }));
     json!({
         "schema": "trueaxis/diff/1",
-        "version": crate::VERSION,
+        "version": trueaxis_report::VERSION,
         "machine": report.new.name(),
         "chain": old.chain_text(),
         "old": report.files[0],

@@ -1,8 +1,6 @@
 //! A certificate as text and JSON; the page is in `certificate_page`.
 
 use super::certificate_blocks::{Chapter, chapters};
-use super::evaluation::write_block;
-use super::{shown, unit};
 use crate::verify::certificate::applied::Applied;
 use crate::verify::certificate::inputs::Input;
 use crate::verify::certificate::{
@@ -12,7 +10,9 @@ use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::axis::{Axis, Command, Travel};
+use trueaxis_machine::describe::{shown, unit};
 use trueaxis_part::tolerance::Outcome;
+use trueaxis_report::write_block;
 
 /// A word for programs and people.
 pub(super) fn word(outcome: Outcome) -> &'static str {
@@ -139,7 +139,7 @@ pub fn certificate_json(study: &Study, certificate: &Certificate) -> Value {
     });
     json!({
         "schema": "trueaxis/certificate/1",
-        "version": crate::VERSION,
+        "version": trueaxis_report::VERSION,
         "name": study.name,
         "verdict": word(certificate.outcome),
         "reason": certificate.reason,
@@ -223,7 +223,7 @@ fn pose(study: &Study, axes: &[Axis], p: &PoseResult) -> Value {
 pub(super) fn place(axes: &[Axis], at: &Command) -> Vec<String> {
     let one = |(axis, q): (&Axis, &f64)| {
         let digits = if unit(axis) == "mm" { 1 } else { 2 };
-        super::numbers::fixed(shown(axis, *q), digits)
+        trueaxis_report::numbers::fixed(shown(axis, *q), digits)
     };
     axes.iter().zip(at).map(one).collect()
 }

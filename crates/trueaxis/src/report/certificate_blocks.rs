@@ -2,16 +2,16 @@
 //! ISO/TR 16907.
 
 use super::certificate::{place, rule, word};
-use super::evaluation::Block;
-use super::{command_words, unit};
-use crate::compensate::tables::{Compiled, shown};
 use crate::verify::certificate::applied::Applied;
 use crate::verify::certificate::inputs::Input;
 use crate::verify::certificate::{Agreement, Certificate, Circumstances, Determined, Study};
 use std::f64::consts::PI;
+use trueaxis_correct::compensate::tables::{Compiled, shown};
 use trueaxis_machine::axis::{AxisKind, Travel};
 use trueaxis_machine::compensate::Scope;
+use trueaxis_machine::describe::{command_words, unit};
 use trueaxis_machine::errors::{Component, Curve, ErrorKind, StatedError, Uncertainty};
+use trueaxis_report::Block;
 
 /// One topic.
 pub(super) struct Chapter {
@@ -61,7 +61,8 @@ fn kinematics(study: &Study) -> Chapter {
 fn zone(study: &Study) -> String {
     let one = |axis: &trueaxis_machine::axis::Axis| match axis.travel {
         Travel::Between(from, to) => {
-            let number = |q| super::numbers::rounded(super::shown(axis, q));
+            let number =
+                |q| trueaxis_report::numbers::rounded(trueaxis_machine::describe::shown(axis, q));
             format!("{} {} … {} {}", axis.name, number(from), number(to), unit(axis))
         }
         _ if axis.kind == AxisKind::Rotary => format!("{} all around", axis.name),
@@ -105,7 +106,7 @@ fn errors(study: &Study) -> Chapter {
 
 /// `-5.9 … 22.0 ± 0.5`
 fn cell(study: &Study, body: usize, error: &StatedError, scale: f64) -> String {
-    let number = |v: f64| super::numbers::fixed(v * scale, 1);
+    let number = |v: f64| trueaxis_report::numbers::fixed(v * scale, 1);
     let value = match (&error.mean, reach(study, body, error)) {
         (Curve::Constant(value), _) => number(*value),
         (_, Some([low, high])) => format!("{} … {}", number(low), number(high)),
@@ -339,7 +340,7 @@ fn poses(study: &Study, certificate: &Certificate) -> Block {
     ];
     block.headings.extend(rest.map(str::to_owned));
     let three = |v: &trueaxis_geometry::Vec3| {
-        let one = |v: &f64| super::numbers::fixed(v * 1e3, 1);
+        let one = |v: &f64| trueaxis_report::numbers::fixed(v * 1e3, 1);
         v.iter().map(one).collect::<Vec<_>>().join(" ")
     };
     for p in &certificate.poses {
@@ -365,7 +366,7 @@ fn documentation(study: &Study) -> Chapter {
     let lines = vec![
         format!(
             "made by trueaxis {}; {} draws with seed {} (JCGM 101); the same inputs and version give the same bytes",
-            crate::VERSION, study.sampling.samples, study.sampling.seed
+            trueaxis_report::VERSION, study.sampling.samples, study.sampling.seed
         ),
         "the temperatures are told, not corrected for; the uncertainties hold at the temperature of the determination"
             .to_owned(),

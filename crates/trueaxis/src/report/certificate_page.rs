@@ -2,14 +2,14 @@
 
 use super::certificate::word;
 use super::certificate_blocks::{Chapter, chapters};
-use super::evaluation::Block;
-use super::page::document;
-use super::plots::{
-    COLOURS, DrawingError, INK, Labels, axes, draw, drawing_error, legend, pen, px,
-};
 use crate::verify::certificate::{Certificate, Study};
 use maud::{Markup, PreEscaped, html};
 use plotters::prelude::*;
+use trueaxis_report::Block;
+use trueaxis_report::page::document;
+use trueaxis_report::plots::{
+    COLOURS, DrawingError, INK, Labels, axes, draw, drawing_error, legend, pen, px,
+};
 
 /// The page.
 ///
@@ -121,7 +121,7 @@ fn picture(
 }
 
 fn dots<'a, 'b: 'a>(
-    chart: &mut super::plots::Chart<'a, 'b>,
+    chart: &mut trueaxis_report::plots::Chart<'a, 'b>,
     points: &Points,
     label: &str,
     colour: RGBColor,

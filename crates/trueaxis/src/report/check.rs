@@ -1,11 +1,11 @@
 //! A machine file, checked: what the machine is and what it lacks.
 
-use super::numbers::{fixed, rounded};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Axis, AxisKind, Carries, Travel};
 use trueaxis_machine::errors::{Component, Curve, ErrorKind, ErrorName};
+use trueaxis_report::numbers::{fixed, rounded};
 
 /// What the machine is and what it lacks.
 pub fn check_text(machine: &Machine) -> String {

@@ -1,15 +1,14 @@
 //! A comparison of readings with a prediction, as text, JSON and a page.
 
-use super::DrawingError;
-use super::evaluation::{Block, write_block};
-use super::evaluation_plots::{Band, Picture, Scatter};
-use super::picture_page::{PicturePage, picture_page};
-use crate::measure::virtual_campaign::shown_unit;
 use crate::verify::compare::{Against, Comparison, Coverage, Part, Rule, Verified};
 use maud::html;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
+use trueaxis_calibrate::measure::virtual_campaign::shown_unit;
 use trueaxis_part::tolerance::Outcome;
+use trueaxis_report::picture_page::{PicturePage, picture_page};
+use trueaxis_report::{Band, Picture, Scatter};
+use trueaxis_report::{Block, DrawingError, write_block};
 
 /// Places that the terminal and the page show.
 const WORST_PLACES: usize = 10;

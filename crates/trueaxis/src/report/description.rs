@@ -1,15 +1,15 @@
 //! A machine as a page needs it: chain, errors, sensors, tools, models.
 
-use super::numbers::rounded;
-use super::{array, shown};
-use crate::describe::{DescribedError, DescribedLink, Description};
+use super::array;
 use serde_json::{Value, json};
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::ToolAssembly;
 use trueaxis_machine::axis::{Axis, AxisKind, Carries, Travel};
 use trueaxis_machine::chain::Link;
+use trueaxis_machine::describe::{DescribedError, DescribedLink, Description, shown};
 use trueaxis_machine::errors::ErrorKind;
 use trueaxis_machine::models::{Model, Shape};
+use trueaxis_report::numbers::rounded;
 
 /// The links, errors, sensors, tools and models of a machine. A pose is 12 numbers: its rotation row by
 /// row, then its origin in mm; bodies are named by their place among the links, the bed is null.
@@ -53,7 +53,7 @@ fn link_json(link: &DescribedLink<'_>) -> Value {
     let direction = link.axis.map_or(Vec3::z(), |a| a.direction);
     let limit = |value: Option<f64>| link.axis.zip(value).map(|(a, v)| rounded(shown(a, v)));
     let limits = link.axis.map(|a| a.limits).unwrap_or_default();
-    let unit = link.axis.map(super::unit);
+    let unit = link.axis.map(trueaxis_machine::describe::unit);
     let mut document = json!({
         "name": link.body.name.to_string(),
         "kind": kind,
@@ -96,7 +96,7 @@ fn error_json(error: &DescribedError<'_>, axis: Option<&Axis>) -> Value {
     let curve = error.curve.as_ref().zip(axis).map(|(curve, axis)| {
         json!({
             "at": curve.at.iter().map(|q| rounded(shown(axis, *q)) + 0.0).collect::<Vec<_>>(),
-            "at_unit": super::unit(axis),
+            "at_unit": trueaxis_machine::describe::unit(axis),
             "values": all(&curve.values),
             "reversal": curve.reversal.as_ref().map(all),
             "u": curve.u.as_ref().map(all),

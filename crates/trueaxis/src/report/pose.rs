@@ -1,6 +1,5 @@
 //! The tool at one position: nominal, actual, and what every error does to it.
 
-use super::numbers::fixed;
 use serde_json::{Value, json};
 use std::fmt::Write;
 use trueaxis_geometry::Vec3;
@@ -11,6 +10,7 @@ use trueaxis_machine::chain::CommandFault;
 use trueaxis_machine::errors::ErrorValues;
 use trueaxis_machine::heat::ErrorPart;
 use trueaxis_machine::{Deviation, Machine};
+use trueaxis_report::numbers::fixed;
 
 /// A machine at one position.
 #[derive(Debug, Clone)]

@@ -11,7 +11,7 @@ mod tip;
 
 pub use tip::{Share, TipChange};
 
-use crate::identify::statistics::normal_quantile_above;
+use trueaxis_geometry::statistics::normal_quantile_above;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Travel;
 use trueaxis_machine::errors::{Component, ErrorKind, ErrorName, StatedError};

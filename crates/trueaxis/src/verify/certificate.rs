@@ -31,13 +31,13 @@ pub use file::{Application, Circumstances, Study, read_certificate};
 pub use used::Used;
 pub use validation::{Measured, Validation};
 
-use crate::volume::commands;
 use left::Left;
 use spread::{Lengths, lengths};
 use trueaxis_geometry::Vec3;
 use trueaxis_input::Place;
 use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_machine::compensate::Fault;
+use trueaxis_machine::volume::commands;
 use trueaxis_part::tolerance::Outcome;
 
 /// Poses over the zone beside its corners.

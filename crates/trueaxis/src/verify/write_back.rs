@@ -161,9 +161,9 @@ fn uncertainty(result: &Positioning, p: &Position, first: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::verify::iso230_2::{evaluate, read};
     use trueaxis_machine::Machine;
     use trueaxis_machine::file::Tables;
+    use trueaxis_standards::iso230_2::{evaluate, read};
 
     struct One(String);
 

@@ -1,10 +1,10 @@
 //! What a change of errors does to the tool over the travel of all axes.
 
-use crate::volume::commands;
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Command;
 use trueaxis_machine::errors::{ErrorIndex, ErrorName};
+use trueaxis_machine::volume::commands;
 
 /// Poses over the travel of all axes.
 const POSES: u32 = 4096;

@@ -1,9 +1,9 @@
 //! What is done against the errors, pose by pose.
 
-use crate::compensate::tables::Compiled;
-use crate::compensate::tables::content::Content;
-use crate::compensate::tables::control::Control;
-use crate::compensate::tables::emulation::Emulation;
+use trueaxis_correct::compensate::tables::Compiled;
+use trueaxis_correct::compensate::tables::content::Content;
+use trueaxis_correct::compensate::tables::control::Control;
+use trueaxis_correct::compensate::tables::emulation::Emulation;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_machine::compensate::{Compensator, Fault};

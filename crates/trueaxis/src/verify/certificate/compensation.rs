@@ -5,7 +5,7 @@ use super::file::{Application, above_zero};
 use super::inputs::{Input, Inputs};
 use super::loaded::check_loaded;
 use super::used::read_at;
-use crate::compensate::tables::{Order, Target, compile};
+use trueaxis_correct::compensate::tables::{Order, Target, compile};
 use trueaxis_input::{Diagnostics, Dimension, Section};
 use trueaxis_machine::Machine;
 use trueaxis_machine::compensate::{Compensator, Fault, Scope};

@@ -7,9 +7,9 @@
 //! ```
 
 use super::left::Left;
-use crate::identify::statistics::chi_square_above;
 use nalgebra::{DMatrix, DVector};
 use trueaxis_geometry::Vec3;
+use trueaxis_geometry::statistics::chi_square_above;
 use trueaxis_part::tolerance::Outcome;
 
 /// A prediction that is right is called wrong once in a hundred certificates.

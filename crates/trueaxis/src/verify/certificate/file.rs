@@ -8,14 +8,14 @@ use super::known::Known;
 use super::used::{Used, read_used};
 use super::validation::{Allowed, Validation, read_validation};
 use super::{Determined, identified};
-use crate::compensate::not_twice;
-use crate::describe::axis_index;
-use crate::predict::Sampling;
-use crate::verify::conditions::SOUND_TEMPERATURES_C;
 use std::path::Path;
+use trueaxis_correct::compensate::not_twice;
+use trueaxis_correct::predict::Sampling;
 use trueaxis_input::{Diagnostics, Dimension, Files, Item, Measured, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Axis, AxisKind, Travel};
+use trueaxis_machine::describe::axis_index;
+use trueaxis_standards::conditions::SOUND_TEMPERATURES_C;
 
 /// What a certificate is made from.
 pub struct Study {

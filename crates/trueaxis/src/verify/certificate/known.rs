@@ -9,9 +9,9 @@
 //! A machine file states one u per error and says nothing of what they have in common; an
 //! identification knows that two errors which look alike can only be wrong together.
 
-use crate::identify::errors::Identification;
-use crate::identify::term::Term;
 use nalgebra::{DMatrix, SymmetricEigen};
+use trueaxis_calibrate::identify::errors::Identification;
+use trueaxis_calibrate::unknowns::term::Term;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_machine::errors::{ErrorIndex, ErrorValues, Uncertainties};
@@ -59,7 +59,7 @@ impl Known {
     /// ```
     /// use nalgebra::DMatrix;
     /// use trueaxis::machine::{Machine, errors::ErrorName, file::NoTables};
-    /// use trueaxis::identify::term::Term;
+    /// use trueaxis::unknowns::term::Term;
     /// use trueaxis::verify::certificate::known::Known;
     /// let text = "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n[location]\nEX0X = \"0 ± 9 um\"";
     /// let machine = Machine::check("m.toml", text, &NoTables).0.unwrap();

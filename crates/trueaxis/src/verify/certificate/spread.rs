@@ -7,11 +7,11 @@
 //! One draw moves all poses together: errors of the machine do.
 
 use super::left::Left;
-use crate::predict::Sampling;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
+use trueaxis_correct::predict::Sampling;
 use trueaxis_geometry::Vec3;
 
 /// What is within this share of all draws is told.
@@ -31,7 +31,7 @@ pub struct Lengths {
 /// Draws the factors and measures the left-over of every pose.
 ///
 /// # Source
-/// JCGM 101:2008, clause 7; ChaCha8 with one stream per draw, as [`crate::predict::monte_carlo`].
+/// JCGM 101:2008, clause 7; ChaCha8 with one stream per draw, as [`trueaxis_correct::predict::monte_carlo`].
 pub fn lengths(poses: &[Left], sampling: Sampling) -> Lengths {
     let factors = poses.first().map_or(0, |p| p.slopes.len());
     let draws: Vec<Vec<f64>> = (0..sampling.samples)

@@ -1,10 +1,10 @@
 //! Poses that the identification has used: a validation on them would prove nothing.
 
 use super::inputs::Inputs;
-use crate::describe::{axis_index, command, to_inner};
 use trueaxis_input::{CsvTable, Diagnostics, Item, Place, Section};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
+use trueaxis_machine::describe::{axis_index, command, to_inner};
 
 /// Nearer than this in all axes, two poses are one: mm.
 const SAME_MM: f64 = 1.0;

@@ -3,8 +3,8 @@
 use super::file::{Circumstances, above_zero, read_circumstances};
 use super::inputs::Inputs;
 use super::used::{Used, read_at, twin};
-use crate::measure::instrument::Instrument;
-use crate::measure::{Kind, Readings};
+use trueaxis_calibrate::instruments::instrument::Instrument;
+use trueaxis_calibrate::measure::{Kind, Readings};
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{CsvTable, Diagnostics, Dimension, Place, Section};
 use trueaxis_machine::Machine;

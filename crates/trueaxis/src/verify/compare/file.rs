@@ -1,8 +1,8 @@
 //! The file of a comparison.
 
 use super::{Against, Comparison, Decision, Rule, pair};
-use crate::measure::{Campaign, Readings, read_campaign};
 use std::path::{Path, PathBuf};
+use trueaxis_calibrate::measure::{Campaign, Readings, read_campaign};
 use trueaxis_input::{Diagnostics, Dimension, Files, Item, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::heat::Conditions;

@@ -1,7 +1,7 @@
 //! Two sets of readings of the same places, reading by reading.
 
-use crate::measure::{Campaign, Readings};
 use std::collections::BTreeMap;
+use trueaxis_calibrate::measure::{Campaign, Readings};
 use trueaxis_machine::axis::{AxisKind, Command};
 
 /// Commands that differ by less are one place: a hit moves by the errors, mm and rad.

@@ -1,0 +1,125 @@
+//! What each reading does to the result, and which do not fit.
+//!
+//! ```text
+//!     H = J C Jᵀ       leverage = tr H       t = r/(s √(1 − Hᵢᵢ))
+//!     D = rᵀ(I − H)⁻¹ H (I − H)⁻¹ r / p      Cook's distance of the whole row    docs/model.md eq. 129
+//! ```
+
+use crate::measure::Readings;
+use crate::unknowns::design::Design;
+use crate::unknowns::fit::Fit;
+use nalgebra::{Matrix3, Vector3};
+use rayon::prelude::*;
+use trueaxis_geometry::statistics::{robust_deviation, student_above};
+
+/// What one row does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Influence {
+    /// How much of its own it predicts: 0 to the number of its channels.
+    pub leverage: f64,
+    /// Cook's distance: how far the unknowns move without it, in units of their spread.
+    pub cook: f64,
+    /// Residuals over their standard deviations, before the common scale.
+    pub standardised: [f64; 3],
+}
+
+/// A number that does not fit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Outlier {
+    /// Its row.
+    pub row: usize,
+    /// Its channel.
+    pub channel: usize,
+    /// Its studentised residual.
+    pub studentised: f64,
+    /// Its residual, mm or rad.
+    pub residual: f64,
+}
+
+/// All rows.
+#[derive(Debug, Clone)]
+pub struct Influences {
+    /// One entry a row.
+    pub rows: Vec<Influence>,
+    /// Numbers beyond the limit, the worst first.
+    pub outliers: Vec<Outlier>,
+    /// The limit of studentised residuals: 5 % that any of all numbers is beyond it (Bonferroni).
+    pub limit: f64,
+}
+
+/// Leverage, Cook's distance, and what does not fit.
+pub fn influences(design: &Design, readings: &Readings, weights: &[f64], fit: &Fit) -> Influences {
+    let n = design.unknowns();
+    let of_chunk = |rows: &[usize]| {
+        let mut slopes = vec![0.0; 3 * n];
+        rows.iter().map(|i| row(design, readings, weights, fit, *i, &mut slopes)).collect()
+    };
+    let indices: Vec<usize> = (0..readings.len()).collect();
+    let rows: Vec<Influence> = indices
+        .par_chunks(512)
+        .map(of_chunk)
+        .collect::<Vec<Vec<Influence>>>()
+        .into_iter()
+        .flatten()
+        .collect();
+    let channels = |i: usize| channels(design, readings, i);
+    let all = || (0..rows.len()).flat_map(|i| (0..channels(i)).map(move |c| (i, c)));
+    let scale = robust_deviation(all().map(|(i, c)| rows[i].standardised[c])).max(1.0);
+    let numbers = all().count().max(1);
+    let limit = student_above(0.025 / numbers as f64, fit.degrees_of_freedom.max(3) as f64);
+    let mut outliers: Vec<Outlier> = all()
+        .map(|(row, channel)| Outlier {
+            row,
+            channel,
+            studentised: rows[row].standardised[channel] / scale,
+            residual: fit.residuals[row][channel],
+        })
+        .filter(|o| o.studentised.abs() > limit)
+        .collect();
+    outliers.sort_by(|a, b| b.studentised.abs().total_cmp(&a.studentised.abs()));
+    Influences { rows, outliers, limit }
+}
+
+fn channels(design: &Design, readings: &Readings, i: usize) -> usize {
+    design.instruments[readings.instruments[i] as usize].sight.channels()
+}
+
+fn row(
+    design: &Design,
+    readings: &Readings,
+    weights: &[f64],
+    fit: &Fit,
+    i: usize,
+    slopes: &mut [f64],
+) -> Influence {
+    let channels = design.slopes(readings, i, slopes);
+    let noise = design.instruments[readings.instruments[i] as usize].noise;
+    let weight = weights.get(i).copied().unwrap_or(1.0);
+    let n = design.unknowns();
+    let slope = |c: usize| &slopes[c * n..(c + 1) * n];
+    let found = fit.sight.rank.max(1) as f64;
+    let mut h = Matrix3::zeros();
+    let mut r = Vector3::zeros();
+    for c in 0..channels {
+        r[c] = fit.residuals[i][c] / noise[c];
+        let bent: Vec<f64> = (0..n)
+            .map(|k| fit.covariance.column(k).iter().zip(slope(c)).map(|(a, b)| a * b).sum())
+            .collect();
+        for d in 0..channels {
+            let sum: f64 = bent.iter().zip(slope(d)).map(|(a, b)| a * b).sum();
+            h[(c, d)] = weight * sum / (noise[c] * noise[d]);
+        }
+    }
+    let kept = Matrix3::identity() - h;
+    // A reading that alone decides something predicts itself whatever it is.
+    let alone = kept.try_inverse().filter(|m| m.iter().all(|v| v.abs() < 1e6));
+    let cook = alone.map_or(f64::INFINITY, |m| {
+        let without = m * r;
+        weight * without.dot(&(h * without)) / found
+    });
+    let standardised = std::array::from_fn(|c| match c < channels && kept[(c, c)] > 1e-6 {
+        true => r[c] / kept[(c, c)].sqrt(),
+        false => 0.0,
+    });
+    Influence { leverage: h.trace(), cook, standardised }
+}

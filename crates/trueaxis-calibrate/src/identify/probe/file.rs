@@ -1,0 +1,392 @@
+//! A study of a probe and its hits, read and checked.
+
+use super::datums::{DialTurn, FourHits, ZSteps};
+use super::hit::{Gauge, GaugeKind, Hit, Side};
+use super::hits_file::{Reading, Setup, parse_hits};
+use super::lobing::LobingModel;
+use std::path::Path;
+use trueaxis_geometry::Vec3;
+use trueaxis_input::sheet::{Cells, Sheet};
+use trueaxis_input::{
+    Diagnostics, Dimension, Files, Item, Measured, Section, SourceText, parse_quantity,
+};
+
+/// Harmonics that are tried unless the study says otherwise.
+const MOST_HARMONICS: usize = 12;
+/// Directions of the table of the control, as in document 003.
+const STEPS: usize = 60;
+/// More than these are a slip.
+const LARGEST_COUNT: usize = 3600;
+/// Tables of one study.
+const MOST_TABLES: usize = 200;
+
+/// What is known, what was touched, and where the hits are.
+#[derive(Debug, Clone)]
+pub struct Study {
+    /// The file as the user named it.
+    pub file: String,
+    /// In words.
+    pub name: String,
+    /// How the table goes on between the hits.
+    pub model: LobingModel,
+    /// The highest harmonic that is tried.
+    pub most_harmonics: usize,
+    /// Directions of the table of the control.
+    pub table_steps: usize,
+    /// What was touched.
+    pub gauge: Gauge,
+    /// What touched it.
+    pub styli: Vec<Stylus>,
+    /// A dial against the ball.
+    pub eccentricity: Option<DialTurn>,
+    /// Reference tool, gauge block, ring.
+    pub z_datum: Option<ZSteps>,
+    /// Four hits.
+    pub xy_datum: Option<FourHits>,
+}
+
+/// One stylus with its hits.
+#[derive(Debug, Clone)]
+pub struct Stylus {
+    /// Its name.
+    pub name: String,
+    /// Radius of its ball as stated, mm.
+    pub ball_radius_mm: f64,
+    /// What the control writes down.
+    pub reading: Reading,
+    /// The hits of the calibration.
+    pub hits: Vec<Hit>,
+    /// Hits in fresh directions that only check it.
+    pub check: Vec<Hit>,
+}
+
+/// Where the tables of a study come from.
+pub struct Tables<'a> {
+    /// The text of a table by its name in the study.
+    pub load: &'a dyn Fn(&str, &mut Diagnostics) -> Option<String>,
+    /// What to call it in messages.
+    pub show: &'a dyn Fn(&str) -> String,
+}
+
+/// Reads a study and the hits that it names.
+pub fn read_study(files: &Files, path: &Path) -> (Option<Study>, Diagnostics) {
+    let mut problems = Diagnostics::new();
+    let Some(text) = files.text(path, "a study of a touch probe (TOML)", &mut problems) else {
+        return (None, problems);
+    };
+    let beside = |name: &str| path.parent().unwrap_or(Path::new("")).join(name);
+    let load = |name: &str, problems: &mut Diagnostics| {
+        files.text(&beside(name), "a table of hits (CSV)", problems)
+    };
+    let show = |name: &str| beside(name).display().to_string();
+    let tables = Tables { load: &load, show: &show };
+    let (study, found) = parse_study(&path.display().to_string(), &text, &tables);
+    problems.append(found);
+    (study, problems)
+}
+
+/// The same for a text and tables that need not lie on a disk.
+pub fn parse_study(file: &str, text: &str, tables: &Tables<'_>) -> (Option<Study>, Diagnostics) {
+    let source = SourceText::new(file, text);
+    let study = source.read(|root| read(root, file, tables));
+    let problems = source.finish();
+    (study.filter(|_| !problems.has_errors()), problems)
+}
+
+fn read(root: &Section<'_>, file: &str, tables: &Tables<'_>) -> Option<Study> {
+    // Every key is asked for before anything is given up, or it would count as unknown.
+    let name = root.require("name", "say which probe").and_then(|i| i.text()).map(str::to_owned);
+    root.text("source");
+    let names = LobingModel::ALL.map(|(model, name)| (name, model));
+    let model = choice(root, "model", &names).unwrap_or(LobingModel::Fourier);
+    let most_harmonics = count(root, "most_harmonics", MOST_HARMONICS, 2);
+    let table_steps = count(root, "table_steps", STEPS, 4);
+    let ring = root.section("ring", |s| read_gauge(s, GaugeKind::Ring));
+    let sphere = root.section("sphere", |s| read_gauge(s, GaugeKind::Sphere));
+    let gauge = match (ring, sphere) {
+        (Some(gauge), None) | (None, Some(gauge)) => gauge,
+        (ring, _) => {
+            let message = match ring {
+                Some(_) => "a study is about one gauge: a ring or a sphere".to_owned(),
+                None => "neither [ring] nor [sphere] is there".to_owned(),
+            };
+            let hint = "[ring] diameter = \"62 mm\", centre = \"0 0 mm\"";
+            root.error("missing-gauge", message, hint);
+            None
+        }
+    };
+    if model == LobingModel::Spline && gauge.as_ref().is_some_and(|g| g.kind == GaugeKind::Sphere) {
+        let message = "a spline goes around a ring only".to_owned();
+        root.error("unsuitable-model", message, "on a sphere: model = \"fourier\"");
+    }
+    let styli = read_styli(root, gauge.as_ref(), tables);
+    let eccentricity = root.section("eccentricity", |s| read_dial(s, tables)).flatten();
+    let z_datum = root.section("z_datum", read_z).flatten();
+    let four = root.section("xy_datum", |s| read_four(s, gauge.as_ref())).flatten();
+    Some(Study {
+        file: file.to_owned(),
+        name: name?,
+        model,
+        most_harmonics,
+        table_steps,
+        gauge: gauge?,
+        styli: styli?,
+        eccentricity,
+        z_datum,
+        xy_datum: four,
+    })
+}
+
+fn choice<T: Copy>(section: &Section<'_>, key: &str, names: &[(&str, T)]) -> Option<T> {
+    let item = section.get(key)?;
+    let text = item.text()?;
+    let found = names.iter().find(|(name, _)| *name == text);
+    if found.is_none() {
+        let known: Vec<String> = names.iter().map(|(n, _)| format!("\"{n}\"")).collect();
+        let message = format!("`{text}` is not known here");
+        item.error("unknown-word", message, &known.join(" or "));
+    }
+    found.map(|(_, value)| *value)
+}
+
+fn count(root: &Section<'_>, key: &str, default: usize, least: usize) -> usize {
+    let Some(item) = root.get(key) else { return default };
+    let Some(value) = item.count() else { return default };
+    if !(least..=LARGEST_COUNT).contains(&value) {
+        let message = format!("{value} is not from {least} to {LARGEST_COUNT}");
+        item.error("bad-count", message, &format!("{key} = {default}"));
+    }
+    value.min(LARGEST_COUNT)
+}
+
+fn positive(section: &Section<'_>, key: &str, hint: &str) -> Option<Measured> {
+    let item = section.require(key, hint)?;
+    let found = item.measured(Dimension::Length)?;
+    if found.value <= 0.0 {
+        item.error("not-positive", format!("{} mm is not positive", found.value), hint);
+        return None;
+    }
+    Some(found)
+}
+
+fn read_gauge(section: &Section<'_>, kind: GaugeKind) -> Option<Gauge> {
+    let diameter = positive(section, "diameter", "diameter = \"62 ± 0.0005 mm\"");
+    let wanted = if kind == GaugeKind::Ring { 2 } else { 3 };
+    let centre = section.get("centre").map(|item| read_centre(&item, wanted));
+    let u_centre = section.get("centre_u").map(|item| (item, item.quantity(Dimension::Length)));
+    if let Some((item, Some(u))) = &u_centre
+        && *u < 0.0
+    {
+        let message = format!("{u} mm is below zero");
+        item.error("negative-uncertainty", message, "centre_u = \"0.5 um\"");
+    }
+    if let (Some((item, _)), None) = (&u_centre, &centre) {
+        let message = "the uncertainty of a centre that is not stated".to_owned();
+        item.error("missing-key", message, "centre = \"0 0 mm\"");
+    }
+    let side = match kind {
+        GaugeKind::Ring => {
+            let sides = [("inside", Side::Inside), ("outside", Side::Outside)];
+            choice(section, "side", &sides).unwrap_or(Side::Inside)
+        }
+        GaugeKind::Sphere => Side::Outside,
+    };
+    let centre_mm = match centre {
+        Some(stated) => Some(stated?),
+        None => None,
+    };
+    let diameter = diameter?;
+    Some(Gauge {
+        kind,
+        side,
+        radius_mm: 0.5 * diameter.value,
+        u_radius_mm: 0.5 * diameter.u.unwrap_or(0.0),
+        centre_mm,
+        u_centre_mm: u_centre.and_then(|u| u.1).unwrap_or(0.0),
+    })
+}
+
+fn read_centre(item: &Item<'_>, wanted: usize) -> Option<Vec3> {
+    let text = item.text()?;
+    let mut words: Vec<&str> = text.split_whitespace().collect();
+    let unit = words.pop().unwrap_or_default();
+    let read = |word: &&str| parse_quantity(&format!("{word} {unit}"), Dimension::Length);
+    let values: Result<Vec<f64>, _> = words.iter().map(read).collect();
+    match values {
+        Ok(v) if v.len() == wanted => Some(Vec3::from_fn(|i, _| v.get(i).copied().unwrap_or(0.0))),
+        _ => {
+            let message = format!("`{text}` is not {wanted} lengths");
+            let hint =
+                "numbers, then the unit, such as \"0 0 mm\" (ring) or \"0 0 -200 mm\" (sphere)";
+            item.error("bad-vector", message, hint);
+            None
+        }
+    }
+}
+
+fn read_styli(
+    root: &Section<'_>,
+    gauge: Option<&Gauge>,
+    tables: &Tables<'_>,
+) -> Option<Vec<Stylus>> {
+    let hint = "[stylus.NAME] ball_diameter = \"4 mm\", hits = [\"ring.csv\"]";
+    let item = root.require("stylus", hint)?;
+    let mut styli = Vec::new();
+    let mut sound = true;
+    item.section("stylus", |all| {
+        for (name, _, item) in all.entries() {
+            let path = format!("stylus.{name}");
+            let found = item.section(&path, |s| read_stylus(s, name, gauge, tables)).flatten();
+            sound &= found.is_some();
+            styli.extend(found);
+        }
+        if all.entries().is_empty() {
+            all.error("missing-key", "no stylus is named".to_owned(), hint);
+            sound = false;
+        }
+    })?;
+    sound.then_some(styli)
+}
+
+fn read_stylus(
+    section: &Section<'_>,
+    name: &str,
+    gauge: Option<&Gauge>,
+    tables: &Tables<'_>,
+) -> Option<Stylus> {
+    let ball = positive(section, "ball_diameter", "ball_diameter = \"4 mm\"");
+    let reading = choice(section, "reading", &Reading::ALL.map(|(r, name)| (name, r)));
+    let hits = section.require("hits", "hits = [\"ring.csv\"]").and_then(|i| i.list());
+    let check = section.get("check").map(|i| i.list());
+    let (gauge, ball) = (gauge?, ball?);
+    let ball_radius_mm = 0.5 * ball.value;
+    if gauge.contact_mm(ball_radius_mm) <= 0.0 {
+        let message = "the ball does not fit into the ring".to_owned();
+        section.error("wrong-size", message, "are diameters of ring and ball swapped?");
+        return None;
+    }
+    let setup = Setup {
+        gauge,
+        ball_radius_mm,
+        reading: reading.unwrap_or(Reading::Spindle),
+        orientation_rad: 0.0,
+        on_gauge: true,
+    };
+    let hits = read_tables(section, &hits?, &setup, tables)?;
+    let check = match check {
+        Some(list) => read_tables(section, &list?, &setup, tables)?,
+        None => Vec::new(),
+    };
+    Some(Stylus { name: name.to_owned(), ball_radius_mm, reading: setup.reading, hits, check })
+}
+
+/// All hits of a list of tables, each `"a.csv"` or `{ table = "a.csv", orientation = "180 deg" }`.
+fn read_tables(
+    section: &Section<'_>,
+    list: &[Item<'_>],
+    setup: &Setup<'_>,
+    tables: &Tables<'_>,
+) -> Option<Vec<Hit>> {
+    let (mut hits, mut named, mut sound) = (Vec::new(), Vec::new(), true);
+    for item in list.iter().take(MOST_TABLES) {
+        let (name, orientation_rad) = match item.is_table() {
+            false => (item.text(), None),
+            true => item
+                .section("hits", |s| {
+                    let table = s.require("table", "table = \"ring.csv\"").and_then(|i| i.text());
+                    (table, s.quantity("orientation", Dimension::Angle))
+                })
+                .unwrap_or_default(),
+        };
+        let Some(name) = name else {
+            sound = false;
+            continue;
+        };
+        if named.contains(&name) {
+            let message = format!("`{name}` is named twice");
+            let hint = "hits and their copy are no two witnesses";
+            item.error("duplicate-table", message, hint);
+            sound = false;
+            continue;
+        }
+        named.push(name);
+        let mut found = Diagnostics::new();
+        let setup = Setup { orientation_rad: orientation_rad.unwrap_or(0.0), ..*setup };
+        let text = (tables.load)(name, &mut found);
+        let rows = text.and_then(|t| parse_hits(&(tables.show)(name), &t, &setup, &mut found));
+        section.take_over(found);
+        sound &= rows.is_some();
+        hits.extend(rows.into_iter().flatten());
+    }
+    sound.then_some(hits)
+}
+
+fn read_dial(section: &Section<'_>, tables: &Tables<'_>) -> Option<DialTurn> {
+    let at_rad = section.quantity("at", Dimension::Angle).unwrap_or(0.0);
+    let name = section.require("table", "columns angle_deg,reading_um")?.text()?;
+    let mut found = Diagnostics::new();
+    let readings = (tables.load)(name, &mut found).and_then(|text| {
+        let sheet = Sheet::parse(&(tables.show)(name), &text, |_| Cells::Numbers, &mut found)?;
+        let (Some(angle), Some(reading)) = (sheet.about("angle"), sheet.about("reading")) else {
+            let message = "the table lacks `angle_deg` or `reading_um`".to_owned();
+            let hint = "angle of the spindle, reading of the dial (plunger in: positive)";
+            found.error("missing-column", sheet.headings_place(), message, hint);
+            return None;
+        };
+        let angles = sheet.inner(angle, Dimension::Angle, &mut found)?;
+        let readings = sheet.inner(reading, Dimension::Length, &mut found)?;
+        Some(angles.into_iter().zip(readings).collect())
+    });
+    section.take_over(found);
+    let turn = DialTurn { at_rad, readings: readings? };
+    if super::datums::eccentricity(&turn).is_none() {
+        let message = format!("{} readings tell no eccentricity", turn.readings.len());
+        section.error("too-few-hits", message, "four readings or more around a whole turn");
+        return None;
+    }
+    Some(turn)
+}
+
+fn read_z(section: &Section<'_>) -> Option<ZSteps> {
+    let length = positive(section, "reference_length", "reference_length = \"100 ± 0.001 mm\"");
+    let block = positive(section, "block", "block = \"50 ± 0.0002 mm\"");
+    let hint = "the spindle when the reference tool touches the block on the ring";
+    let reference = section.require("reference_z", hint);
+    let reference = reference.and_then(|i| i.measured(Dimension::Length));
+    let list = section.require("probe_z", "probe_z = [\"-210.012 mm\"]").and_then(|i| i.list());
+    let triggers = list?.into_iter().map(|i| i.quantity(Dimension::Length));
+    let probe_z_mm: Option<Vec<f64>> = triggers.collect();
+    let probe_z_mm = probe_z_mm?;
+    if probe_z_mm.is_empty() {
+        let message = "no trigger is stated".to_owned();
+        section.error("too-few-hits", message, "probe_z = [\"-210.012 mm\"]");
+        return None;
+    }
+    Some(ZSteps {
+        reference_length_mm: length?,
+        block_mm: block?,
+        reference_z_mm: reference?,
+        probe_z_mm,
+    })
+}
+
+fn read_four(section: &Section<'_>, gauge: Option<&Gauge>) -> Option<FourHits> {
+    let hit = |key| section.require(key, "the spindle at the trigger, such as \"28.97 mm\"");
+    let hits = ["x_plus", "x_minus", "y_plus", "y_minus"].map(hit);
+    let hits = hits.map(|h| h.and_then(|i| i.quantity(Dimension::Length)));
+    let [Some(a), Some(b), Some(c), Some(d)] = hits else { return None };
+    let gauge = gauge?;
+    let Some(centre) = gauge.centre_mm.filter(|_| gauge.kind == GaugeKind::Ring) else {
+        let message = "four hits tell the offset only from a known centre of a ring".to_owned();
+        section.error("missing-key", message, "[ring] centre = \"0 0 mm\"");
+        return None;
+    };
+    if a <= b || c <= d {
+        let message = "the hit in the positive direction is not beyond that in the negative one";
+        let hint = "within a ring x_plus is the greater; are they swapped?";
+        section.error("wrong-side", message.to_owned(), hint);
+        return None;
+    }
+    let centre_mm = [centre.x, centre.y];
+    Some(FourHits { hits_mm: [a, b, c, d], centre_mm, ring_radius_mm: gauge.radius_mm })
+}

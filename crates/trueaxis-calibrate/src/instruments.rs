@@ -1,0 +1,9 @@
+//! Instruments: where they stand, what they read.
+
+pub mod instrument;
+mod kind;
+mod readings;
+
+pub use instrument::Instrument;
+pub use kind::Kind;
+pub use readings::{Reading, Readings};

@@ -1,0 +1,317 @@
+//! What an instrument reads at a pose of the machine, and how the reading follows a small motion.
+//!
+//! Every instrument of the shop looks at one point of the tool (a socket, a stylus, a reflector)
+//! from one point of the reference (a ball, a face, a station), and reads one of five things of it:
+//! its [`Sight`]. How a reading grows with an error of the machine follows from one wrench:
+//!
+//! ```text
+//!     δr = f · v + m · ω         (v, ω) the twist of the error            docs/model.md eq. 104
+//! ```
+
+use trueaxis_geometry::Vec3;
+use trueaxis_geometry::frame::Pose;
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::Command;
+use trueaxis_machine::chain::Link;
+use trueaxis_machine::errors::{ErrorValues, Rotation, Six};
+use trueaxis_machine::twist::{Reference, Twist};
+
+/// What is read of the tool point P as seen from the reference point Q; R the attitude of the tool.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sight {
+    /// `Rᵀ(Q − P)`: ball minus socket in the frame of the probe, z towards the spindle.
+    ProbeOffset,
+    /// `P − Q`: where the tool point is, along x, y, z of the reference.
+    Place,
+    /// `|P − Q|`.
+    Distance,
+    /// `n · (P − Q)` along the direction n of the station.
+    Along,
+    /// How far the tool is turned about n against its nominal attitude.
+    Turn,
+}
+
+impl Sight {
+    /// How many numbers a reading has.
+    pub fn channels(self) -> usize {
+        match self {
+            Self::ProbeOffset | Self::Place => 3,
+            Self::Distance | Self::Along | Self::Turn => 1,
+        }
+    }
+
+    /// Whether it reads an angle (rad) and not a length (mm).
+    pub fn is_angle(self) -> bool {
+        self == Self::Turn
+    }
+}
+
+/// What of a set-up is not known exactly, and may be found with the errors of the machine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SetupError {
+    /// The tool point is displaced along x, y, z (0, 1, 2) of the tool, mm.
+    ToolPoint(usize),
+    /// The instrument is displaced along x, y, z of the reference, mm.
+    ReferencePoint(usize),
+    /// The instrument is turned about x, y, z of the reference, through its origin, rad.
+    ReferenceTurn(usize),
+    /// The zero of a channel, mm or rad: dead path, length of a bar, radius of a stylus.
+    Zero(usize),
+    /// Readings are too long by this share: wavelength, scale of a sensor.
+    Scale,
+}
+
+/// An unknown of a set-up.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SetupUnknown {
+    /// Its name, such as `ball_x`.
+    pub name: String,
+    /// What it displaces.
+    pub error: SetupError,
+    /// The standard uncertainty with which it is known to be 0 (mm, rad or 1); `None`: free.
+    pub prior_u: Option<f64>,
+}
+
+/// An instrument as it is set up on the machine.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Instrument {
+    /// Its name in the campaign.
+    pub name: String,
+    /// What it is, in the words of the shop.
+    pub kind: crate::instruments::Kind,
+    /// What it reads.
+    pub sight: Sight,
+    /// What it stands on.
+    pub reference: Reference,
+    /// P, in the frame of the tool, mm.
+    pub tool_point_mm: Vec3,
+    /// Q, in the frame of the reference, mm.
+    pub reference_point_mm: Vec3,
+    /// n where a station says nothing else, a unit vector in the frame of the reference.
+    pub direction: Vec3,
+    /// What the reading is measured against: the length of a bar, the radius of a ball, mm; of a
+    /// probe-ball the distance from ball to probe, where the feed of a path counts.
+    pub length_mm: f64,
+    /// The standard uncertainty of one reading of each channel, mm or rad.
+    pub noise: [f64; 3],
+    /// What is not known of its set-up.
+    pub unknowns: Vec<SetupUnknown>,
+}
+
+/// The tool at a station as the reference sees it.
+#[derive(Debug, Clone, Copy)]
+pub struct View {
+    /// reference_from_tool without errors.
+    pub nominal: Link,
+    /// reference_from_tool as it is.
+    pub actual: Link,
+    /// n, a unit vector in the frame of the reference.
+    pub direction: Vec3,
+}
+
+/// How a reading follows a small motion of the tool: force and moment on the twist.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wrench {
+    /// Per mm of a shift.
+    pub force: Vec3,
+    /// Per rad of a turn about the origin of the reference.
+    pub moment: Vec3,
+}
+
+impl Wrench {
+    /// The reading per unit of an error with this twist.
+    pub fn on(&self, twist: &Twist) -> f64 {
+        self.force.dot(&twist.shift_mm) + self.moment.dot(&twist.turn_rad)
+    }
+}
+
+/// A set-up as it really is: its unknowns with their values.
+#[derive(Debug, Clone, Copy, Default)]
+struct Setup {
+    tool_point_mm: Vec3,
+    shift_and_turn: Six,
+    zero: [f64; 3],
+    scale: f64,
+}
+
+impl Instrument {
+    /// The tool at a command of a machine with these errors, as the instrument's reference sees it.
+    pub fn view(
+        &self,
+        machine: &Machine,
+        command: &Command,
+        errors: &ErrorValues,
+        direction: Vec3,
+    ) -> View {
+        let nominal = self.tool_seen(machine, command, &ErrorValues::default());
+        View { nominal, actual: self.tool_seen(machine, command, errors), direction }
+    }
+
+    /// reference_from_tool at a command of a machine with these errors.
+    pub fn tool_seen(&self, machine: &Machine, command: &Command, errors: &ErrorValues) -> Link {
+        match self.reference {
+            Reference::Workpiece => machine.pose(command, errors).relabel(),
+            Reference::Bed => machine.tool_on_bed(command, errors).relabel(),
+        }
+    }
+
+    /// What it reads at a command of the nominal machine in the nominal set-up.
+    pub fn nominal_reading(
+        &self,
+        machine: &Machine,
+        command: &Command,
+        direction: Vec3,
+    ) -> [f64; 3] {
+        self.read(&self.view(machine, command, &ErrorValues::default(), direction), &[])
+    }
+
+    /// The reading at a station, with the unknowns of the set-up at these values.
+    ///
+    /// Lengths in mm, angles in rad; the channels that the sight does not have are 0.
+    pub fn read(&self, view: &View, unknowns: &[f64]) -> [f64; 3] {
+        let setup = self.setup(unknowns);
+        let seen_by_instrument = displaced_by(&setup.shift_and_turn).inverse() * view.actual;
+        let p = seen_by_instrument.linear() * (self.tool_point_mm + setup.tool_point_mm)
+            + seen_by_instrument.shift_mm();
+        let from_q = p - self.reference_point_mm;
+        let mut reading = match self.sight {
+            Sight::ProbeOffset => (seen_by_instrument.linear().transpose() * -from_q).into(),
+            Sight::Place => from_q.into(),
+            Sight::Distance => [from_q.norm(), 0.0, 0.0],
+            Sight::Along => [view.direction.dot(&from_q), 0.0, 0.0],
+            Sight::Turn => {
+                let turn = seen_by_instrument.linear() * view.nominal.linear().transpose();
+                // The axis times the sine of the angle: half of R − Rᵀ.
+                let [x, y, z] =
+                    [(2, 1), (0, 2), (1, 0)].map(|(i, j)| 0.5 * (turn[(i, j)] - turn[(j, i)]));
+                [view.direction.dot(&Vec3::new(x, y, z)), 0.0, 0.0]
+            }
+        };
+        for (value, zero) in reading.iter_mut().zip(setup.zero).take(self.sight.channels()) {
+            *value = *value * (1.0 + setup.scale) + zero;
+        }
+        reading
+    }
+
+    /// How each channel follows a small motion of the tool at its nominal pose.
+    ///
+    /// ```text
+    ///     probe offset i   f = −R·eᵢ     m = −Q × R·eᵢ
+    ///     place i          f = eᵢ        m = P × eᵢ
+    ///     distance         f = d         m = P × d          d = (P − Q)/|P − Q|
+    ///     along n          f = n         m = P × n
+    ///     turn about n     f = 0         m = n                        docs/model.md eq. 105
+    /// ```
+    pub fn wrenches(&self, view: &View) -> [Wrench; 3] {
+        let r = view.nominal.linear();
+        let p = r * self.tool_point_mm + view.nominal.shift_mm();
+        let through = |point: Vec3, force: Vec3| Wrench { force, moment: point.cross(&force) };
+        let nothing = Wrench { force: Vec3::zeros(), moment: Vec3::zeros() };
+        let q = self.reference_point_mm;
+        match self.sight {
+            Sight::ProbeOffset => [0, 1, 2].map(|i| through(q, -r.column(i).into_owned())),
+            Sight::Place => [0, 1, 2].map(|i| through(p, Vec3::ith(i, 1.0))),
+            Sight::Distance => {
+                // At the reference point itself a distance has no direction; nothing is seen there.
+                let d = (p - q).try_normalize(0.0).unwrap_or_else(Vec3::zeros);
+                [through(p, d), nothing, nothing]
+            }
+            Sight::Along => [through(p, view.direction), nothing, nothing],
+            Sight::Turn => {
+                [Wrench { force: Vec3::zeros(), moment: view.direction }, nothing, nothing]
+            }
+        }
+    }
+
+    /// How a channel follows an unknown of the set-up; `wrench` is that of the channel.
+    ///
+    /// A displaced instrument sees the tool displaced the other way.
+    pub fn setup_slope(
+        &self,
+        error: SetupError,
+        channel: usize,
+        wrench: &Wrench,
+        view: &View,
+    ) -> f64 {
+        match error {
+            SetupError::ToolPoint(i) if self.sight != Sight::Turn => {
+                wrench.force.dot(&view.nominal.linear().column(i))
+            }
+            SetupError::ToolPoint(_) => 0.0,
+            SetupError::ReferencePoint(i) => -wrench.force[i],
+            SetupError::ReferenceTurn(i) => -wrench.moment[i],
+            SetupError::Zero(i) if i == channel => self.zero_sign(),
+            SetupError::Zero(_) => 0.0,
+            SetupError::Scale => self.read(&View { actual: view.nominal, ..*view }, &[])[channel],
+        }
+    }
+
+    /// A larger radius of ball and stylus stands for a shorter reading, all other zeros for a longer.
+    fn zero_sign(&self) -> f64 {
+        if self.kind.triggers() { -1.0 } else { 1.0 }
+    }
+
+    fn setup(&self, unknowns: &[f64]) -> Setup {
+        let mut setup = Setup::default();
+        for (unknown, value) in self.unknowns.iter().zip(unknowns) {
+            match unknown.error {
+                SetupError::ToolPoint(i) => setup.tool_point_mm[i] += value,
+                SetupError::ReferencePoint(i) => setup.shift_and_turn.0[i] += value,
+                SetupError::ReferenceTurn(i) => setup.shift_and_turn.0[3 + i] += value,
+                SetupError::Zero(i) => setup.zero[i] += self.zero_sign() * value,
+                SetupError::Scale => setup.scale += value,
+            }
+        }
+        setup
+    }
+}
+
+/// reference_from_instrument.
+fn displaced_by(six: &Six) -> Link {
+    let turn = trueaxis_geometry::Mat3::identity() + six.rotation_minus_identity(Rotation::Exact);
+    Pose::new(turn, six.shift_mm())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::instruments::Kind;
+
+    fn instrument(sight: Sight) -> Instrument {
+        Instrument {
+            name: "probe".into(),
+            kind: Kind::ProbeBall,
+            sight,
+            reference: Reference::Workpiece,
+            tool_point_mm: Vec3::new(0.0, 0.0, -100.0),
+            reference_point_mm: Vec3::new(10.0, 0.0, 0.0),
+            direction: Vec3::x(),
+            length_mm: 0.0,
+            noise: [1e-3; 3],
+            unknowns: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn a_probe_reads_the_ball_from_its_socket() {
+        // The tool 100 mm above (10 0 0), tip 3 µm too far in X: the ball is 3 µm to the left.
+        let nominal = Link::shift(Vec3::new(10.0, 0.0, 100.0));
+        let actual = Link::shift(Vec3::new(10.003, 0.0, 100.0));
+        let view = View { nominal, actual, direction: Vec3::x() };
+        let [x, y, z] = instrument(Sight::ProbeOffset).read(&view, &[]);
+        assert!((x + 0.003).abs() < 1e-12 && y == 0.0 && z.abs() < 1e-12);
+        assert!((instrument(Sight::Along).read(&view, &[])[0] - 0.003).abs() < 1e-12);
+        assert!((instrument(Sight::Distance).read(&view, &[])[0] - 0.003).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_longer_bar_reads_more_by_as_much() {
+        let nominal = Link::shift(Vec3::new(160.0, 0.0, 100.0));
+        let view = View { nominal, actual: nominal, direction: Vec3::x() };
+        let mut bar = instrument(Sight::Distance);
+        bar.unknowns =
+            vec![SetupUnknown { name: "length".into(), error: SetupError::Zero(0), prior_u: None }];
+        // |P − Q| = 150 mm and 0.02 mm of the bar.
+        assert!((bar.read(&view, &[0.02])[0] - 150.02).abs() < 1e-12);
+    }
+}

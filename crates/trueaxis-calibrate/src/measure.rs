@@ -1,0 +1,13 @@
+//! Measure: which instrument stands where, what it reads, and what it would read.
+//!
+//! ```text
+//!     campaign.toml ──read_campaign──> Campaign {machine, instruments, unknowns}
+//!     readings.csv  ──read_readings──> Readings {commands, values}      ──> identify
+//! ```
+
+mod campaign;
+pub mod path;
+pub mod virtual_campaign;
+
+pub use crate::instruments::{Instrument, Kind, Reading, Readings, instrument};
+pub use campaign::{Campaign, read_campaign, usual_setup};

@@ -1,0 +1,26 @@
+//! Plan: what a measurement will tell, before anybody measures.
+//!
+//! ```text
+//!     campaign.toml ──read_plan──> Plan {campaign, paths, candidates}
+//!     [Path] + Design ──expect──> Expectation: u of every unknown, what cannot be told, what helps
+//!     candidates + limit ──choose──> Chosen: the poses that tell most in the time
+//!     Path ──program──> NC text ──check──> duration, troubles
+//!     all of it ──planned──> PlanReport
+//! ```
+
+mod choose;
+mod exchange;
+mod expect;
+mod file;
+mod planned;
+pub mod program;
+mod remedy;
+pub mod surface;
+mod trial;
+
+pub use choose::{Chosen, choose};
+pub use exchange::{Candidate, Criterion, Exchange, Selection};
+pub use expect::{Expectation, Expected, Seen, Unobservable, expect, seen};
+pub use file::{Candidates, Limit, Plan, Want, read_plan};
+pub use planned::{PlanReport, PlannedPath, chosen, extension, file_name, planned, tools};
+pub use remedy::remedies;

@@ -1,0 +1,117 @@
+//! What readings will tell: the uncertainty of every unknown, and what stays hidden.
+
+use super::remedy::remedies;
+use crate::measure::{Campaign, Readings};
+use crate::unknowns::confusion::confusions;
+use crate::unknowns::design::{Design, Unknown};
+use crate::unknowns::fit::{Observability, normal_matrix};
+use nalgebra::DMatrix;
+
+/// How large an error is taken to be where its effect is shown: 10 µm or 10 µrad, in mm and rad.
+pub const USUAL_SIZE: f64 = 0.01;
+
+/// What to expect of one unknown.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Expected {
+    /// Its number in the design.
+    pub unknown: usize,
+    /// Its name.
+    pub name: String,
+    /// Whether it is an angle (rad) and not a length (mm) or a plain number.
+    pub is_angle: bool,
+    /// The standard uncertainty to expect, mm, rad or 1; `None` if it cannot be seen alone.
+    pub u: Option<f64>,
+}
+
+/// A combination that stays hidden.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unobservable {
+    /// As a sum of unknowns.
+    pub combination: String,
+    /// In a sentence.
+    pub words: String,
+    /// The cheapest further set-up that would tell, if one is known.
+    pub resolve_with: Option<String>,
+}
+
+/// What to expect of a set of readings.
+#[derive(Debug, Clone)]
+pub struct Expectation {
+    /// Every unknown, the machine's first.
+    pub unknowns: Vec<Expected>,
+    /// The combinations that stay hidden.
+    pub unobservable: Vec<Unobservable>,
+    /// How many combinations are seen.
+    pub rank: usize,
+    /// The greatest over the smallest singular value that is seen.
+    pub condition: f64,
+    /// The covariance of all unknowns over what is seen.
+    pub covariance: DMatrix<f64>,
+}
+
+/// The uncertainties that these stations will give, by the stated noise of the instruments.
+pub fn expect(campaign: &Campaign, design: &Design, stations: &Readings) -> Expectation {
+    let sight = Observability::of(&normal_matrix(design, stations, &[]));
+    let covariance = sight.covariance();
+    let unknowns = (0..design.unknowns()).filter_map(|k| {
+        let unknown = design.unknown(k)?;
+        let u = sight.is_seen[k].then(|| covariance[(k, k)].max(0.0).sqrt());
+        Some(Expected { unknown: k, name: unknown.name(), is_angle: unknown.is_angle(), u })
+    });
+    let unobservable = confusions(&sight).into_iter().map(|confusion| Unobservable {
+        combination: confusion.formula(design),
+        words: confusion.words(design),
+        resolve_with: remedies(campaign, design, &confusion),
+    });
+    Expectation {
+        unknowns: unknowns.collect(),
+        unobservable: unobservable.collect(),
+        rank: sight.rank,
+        condition: sight.condition(),
+        covariance,
+    }
+}
+
+/// How a path sees one error of the machine.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Seen {
+    /// The name of the error.
+    pub name: String,
+    /// Whether the error is an angle.
+    pub is_angle: bool,
+    /// The largest |reading| of each channel along the path, mm or rad, for an error of
+    /// 10 µm or 10 µrad.
+    pub largest: Vec<f64>,
+}
+
+/// What a path sees of each error of the machine, one at a time.
+///
+/// ```text
+///     max over stations |∂reading/∂E| · 10 µm or 10 µrad                       docs/model.md eq. 111
+/// ```
+pub fn seen(design: &Design, stations: &Readings) -> Vec<Seen> {
+    let n = design.unknowns();
+    let mut rows = vec![0.0_f64; 3 * n];
+    let mut largest = vec![[0.0_f64; 3]; n];
+    let mut channels = 1;
+    for i in 0..stations.len() {
+        let count = design.slopes(stations, i, &mut rows);
+        channels = channels.max(count);
+        for (k, largest) in largest.iter_mut().enumerate() {
+            for c in 0..count {
+                largest[c] = largest[c].max(rows[c * n + k].abs());
+            }
+        }
+    }
+    let of = |(k, largest): (usize, [f64; 3])| {
+        let unknown = design.unknown(k)?;
+        if !matches!(unknown, Unknown::Term(_)) {
+            return None;
+        }
+        // 10 µm in mm, 10 µrad in rad.
+        let size = if unknown.is_angle() { USUAL_SIZE / 1e3 } else { USUAL_SIZE };
+        let largest = largest.iter().take(channels).map(|v| v * size).collect();
+        Some(Seen { name: unknown.name(), is_angle: unknown.is_angle(), largest })
+    };
+    largest.into_iter().enumerate().filter_map(of).collect()
+}

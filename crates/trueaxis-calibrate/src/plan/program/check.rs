@@ -1,0 +1,199 @@
+//! What the machine would do with a program: how long it takes, and what is in its way.
+
+use super::ProgramSettings;
+use crate::measure::path::Path;
+use crate::measure::{Campaign, Kind};
+use trueaxis_geometry::frame::Pose;
+use trueaxis_geometry::{Mat3, Vec3};
+use trueaxis_input::{Diagnostics, Severity};
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::Command;
+use trueaxis_machine::chain::Link;
+use trueaxis_machine::models::{Shape, ToolSegment};
+use trueaxis_motion::collide::{BodyModel, Mesh, Role, load_models, triangles_of};
+use trueaxis_motion::report::trouble_text;
+use trueaxis_motion::{
+    AxisWatch, Batch, Collisions, Observer, Options, SetUp, SetUpTool, Summary, TroubleList,
+    simulate,
+};
+use trueaxis_nc::{Control, Program};
+
+/// A ball is hit and held; what is looked at for collisions is what lies inside its surface.
+const INSIDE: f64 = 0.6;
+
+/// What came of a program.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProgramCheck {
+    /// How long it runs, s.
+    pub duration_s: f64,
+    /// How far from its station the machine would stand at worst, mm or rad: what the decimals of
+    /// the program leave. Infinite if a station is not reached.
+    pub off_station: f64,
+    /// What would go wrong, in words.
+    pub grave: Vec<String>,
+    /// What costs only time, or comes near.
+    pub minor: Vec<String>,
+    /// Errors of the program itself.
+    pub errors: Vec<String>,
+}
+
+impl ProgramCheck {
+    /// Whether nothing is in its way.
+    pub fn is_sound(&self) -> bool {
+        self.grave.is_empty() && self.errors.is_empty()
+    }
+}
+
+/// Watches how near the machine comes to its stations.
+struct Visits<'p> {
+    /// Stations in order; nearest so far.
+    nearest: Vec<(&'p Command, f64)>,
+}
+
+impl Observer for Visits<'_> {
+    fn path(&mut self, batch: &Batch<'_>) {
+        for node in batch.nodes.iter().filter(|n| n.last) {
+            for (station, nearest) in &mut self.nearest {
+                let off = station.iter().zip(&node.command).map(|(a, b)| (a - b).abs());
+                *nearest = nearest.min(off.fold(0.0, f64::max));
+            }
+        }
+    }
+}
+
+/// Runs a program on the machine with probe, ball and stem.
+pub fn check(
+    campaign: &Campaign,
+    path: &Path,
+    settings: &ProgramSettings,
+    text: &[u8],
+    control: Control,
+) -> ProgramCheck {
+    let machine = &campaign.machine;
+    let own = path.stations.instruments.first().map_or(0, |i| *i as usize);
+    let own = &campaign.instruments[own];
+    let tool = SetUpTool {
+        name: own.kind.name().to_owned(),
+        tip_mm: own.tool_point_mm,
+        shape: stated_shape(settings, own.kind, -own.tool_point_mm.z),
+        ..SetUpTool::default()
+    };
+    let setup = SetUp {
+        given: true,
+        files: campaign.files.clone(),
+        tools: [(1, tool)].into_iter().collect(),
+        bodies: bodies(settings, own.kind, own.reference_point_mm),
+        start: super::start(campaign, path, settings),
+        ..SetUp::default()
+    };
+    let program = Program::new(&path.name, text.to_vec(), control);
+    // A probe never comes to the nominal place of a hit by a block of its own.
+    let stations = match own.kind {
+        Kind::TouchProbeBall => &[][..],
+        _ => &path.stations.commands[..],
+    };
+    run(machine, &campaign.machine_path, &setup, &program, stations)
+}
+
+/// Runs a program with all that stands on the machine.
+pub(in crate::plan) fn run(
+    machine: &Machine,
+    machine_path: &std::path::Path,
+    setup: &SetUp,
+    program: &Program,
+    stations: &[Command],
+) -> ProgramCheck {
+    let mut summary = Summary::of(machine);
+    let mut watch = AxisWatch::on(machine);
+    let mut visits = Visits { nearest: stations.iter().map(|c| (c, f64::INFINITY)).collect() };
+    let mut found = Diagnostics::new();
+    let models = load_models(&setup.files, machine, machine_path, &mut found);
+    let mut collisions = Collisions::watch(machine, models, setup);
+    let mut observers: Vec<&mut dyn Observer> = vec![&mut summary, &mut watch, &mut visits];
+    if let Some(collisions) = &mut collisions {
+        observers.push(collisions);
+    }
+    let run = simulate(machine, program, setup, &Options::default(), &mut observers);
+    let logs = [Some(watch.log), collisions.map(|c| c.log)];
+    let troubles = TroubleList::of(logs.into_iter().flatten());
+    let told = |grave: bool| {
+        let mut texts: Vec<String> = troubles
+            .list
+            .iter()
+            .filter(|t| t.grave == grave)
+            .map(|t| format!("line {}: {}", t.first.line, trouble_text(machine, t)))
+            .collect();
+        texts.dedup_by(|a, b| a.split_once(": ").map(|x| x.1) == b.split_once(": ").map(|x| x.1));
+        texts
+    };
+    let errors = run.problems.iter().chain(found.iter()).filter(|d| d.severity == Severity::Error);
+    ProgramCheck {
+        duration_s: summary.time_s,
+        off_station: visits.nearest.iter().map(|(_, off)| *off).fold(0.0, f64::max),
+        grave: told(true),
+        minor: told(false),
+        errors: errors.map(|d| d.message.clone()).collect(),
+    }
+}
+
+/// The stated probe, or a slim one: stylus, body, holder.
+fn stated_shape(settings: &ProgramSettings, kind: Kind, length_mm: f64) -> Vec<ToolSegment> {
+    if !settings.probe.is_empty() {
+        return settings.probe.clone();
+    }
+    match kind {
+        Kind::TouchProbeBall | Kind::TouchProbeFace => probe_shape(3.0, length_mm),
+        _ => slim(8.0, 50.0, length_mm),
+    }
+}
+
+/// A slim touch probe.
+pub(in crate::plan) fn probe_shape(stylus_mm: f64, length_mm: f64) -> Vec<ToolSegment> {
+    slim(stylus_mm, 40.0, length_mm)
+}
+
+fn slim(stylus: f64, body: f64, length_mm: f64) -> Vec<ToolSegment> {
+    if length_mm <= 1.0 {
+        return Vec::new();
+    }
+    let slim = (0.45 * length_mm).min(150.0);
+    let segment = |diameter_mm, length_mm| ToolSegment { diameter_mm, length_mm };
+    vec![segment(stylus, slim), segment(body, length_mm - slim)]
+}
+
+/// The ball and its stem on the workpiece.
+fn bodies(settings: &ProgramSettings, kind: Kind, ball_mm: Vec3) -> Vec<BodyModel> {
+    if !kind.holds_a_ball() {
+        return Vec::new();
+    }
+    let radius = 0.5 * settings.ball_diameter_mm;
+    let along = settings.stem;
+    let mut bodies = Vec::new();
+    // The socket of a probe-ball encloses the ball; a stylus does not.
+    if kind == Kind::TouchProbeBall {
+        let size = 2.0 * radius * INSIDE;
+        let from = ball_mm - along * (0.5 * size);
+        bodies.extend(cylinder("ball", size, size, from, along));
+    }
+    let length = (settings.stem_length_mm - radius).max(1.0);
+    let from = ball_mm + along * (radius * 1.2);
+    bodies.extend(cylinder("stem of the ball", settings.stem_diameter_mm, length, from, along));
+    bodies
+}
+
+fn cylinder(
+    name: &str,
+    diameter_mm: f64,
+    length_mm: f64,
+    from_mm: Vec3,
+    along: Vec3,
+) -> Option<BodyModel> {
+    let shape =
+        Shape::Cone { base_diameter_mm: diameter_mm, top_diameter_mm: diameter_mm, length_mm };
+    let mesh = triangles_of(&shape).and_then(Mesh::new)?;
+    let any = if along.x.abs() < 0.9 { Vec3::x() } else { Vec3::y() };
+    let x = along.cross(&any).normalize();
+    let turn = Mat3::from_columns(&[x, along.cross(&x), along]);
+    let placement: Link = Pose::new(turn, from_mm);
+    Some(BodyModel { name: name.to_owned(), node: Some(0), placement, role: Role::Fixture, mesh })
+}

@@ -1,0 +1,235 @@
+//! The design of a measurement: how every reading follows every unknown, before anything is read.
+//!
+//! ```text
+//!     J = ∂reading/∂unknown at the nominal machine;   row = (f·v + m·ω) φ      docs/model.md eq. 107
+//! ```
+
+use super::term::{Basis, Term};
+use crate::instruments::instrument::{SetupUnknown, Sight, View};
+use crate::instruments::{Instrument, Readings};
+use nalgebra::DMatrix;
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::{Approach, Command};
+use trueaxis_machine::chain::CommandFault;
+use trueaxis_machine::errors::{ErrorIndex, ErrorValues};
+
+/// What is sought with which instruments on which machine.
+///
+/// The unknowns are numbered: first the terms of the machine, then the unknowns of each set-up.
+#[derive(Debug, Clone)]
+pub struct Design {
+    /// The machine; of the errors that are sought it states nothing.
+    pub machine: Machine,
+    /// What is sought of it.
+    pub terms: Vec<Term>,
+    /// The instruments as they are set up.
+    pub instruments: Vec<Instrument>,
+    /// Where the unknowns of each instrument begin.
+    offsets: Vec<usize>,
+    /// Terms of one error stand together: the error, and its terms.
+    runs: Vec<(ErrorIndex, std::ops::Range<usize>)>,
+    /// The functions that the terms share, each once.
+    functions: Vec<(Option<usize>, Basis)>,
+    /// Which of them each term is.
+    function_of: Vec<usize>,
+}
+
+/// An unknown by its place in the list.
+#[derive(Debug, Clone, Copy)]
+pub enum Unknown<'a> {
+    /// A factor of the machine.
+    Term(&'a Term),
+    /// Something of a set-up.
+    Setup(&'a Instrument, &'a SetupUnknown),
+}
+
+impl Unknown<'_> {
+    /// Its name: `EC0Y`, `probe.ball_x`.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Term(term) => term.name(),
+            Self::Setup(instrument, unknown) => format!("{}.{}", instrument.name, unknown.name),
+        }
+    }
+
+    /// What was known of it before: value and standard uncertainty.
+    pub fn prior(&self) -> Option<(f64, f64)> {
+        match self {
+            Self::Term(term) => term.prior,
+            Self::Setup(_, unknown) => unknown.prior_u.map(|u| (0.0, u)),
+        }
+    }
+
+    /// Whether it is an angle (rad); the others are lengths (mm) or plain numbers.
+    pub fn is_angle(&self) -> bool {
+        use crate::instruments::instrument::SetupError;
+        match self {
+            Self::Term(term) => term.error.component.is_rotation(),
+            Self::Setup(instrument, unknown) => match unknown.error {
+                SetupError::ReferenceTurn(_) => true,
+                SetupError::Zero(_) => instrument.sight.is_angle(),
+                _ => false,
+            },
+        }
+    }
+}
+
+impl Design {
+    /// A design; the machine forgets what it states of the errors that are sought.
+    pub fn new(machine: &Machine, terms: Vec<Term>, instruments: Vec<Instrument>) -> Self {
+        let mut machine = machine.clone();
+        let mut runs: Vec<(ErrorIndex, std::ops::Range<usize>)> = Vec::new();
+        for (k, term) in terms.iter().enumerate() {
+            machine = machine.with_error(term.index, None);
+            match runs.last_mut().filter(|(index, _)| *index == term.index) {
+                Some((_, range)) => range.end = k + 1,
+                None => runs.push((term.index, k..k + 1)),
+            }
+        }
+        let mut functions: Vec<(Option<usize>, Basis)> = Vec::new();
+        let mut function_of = Vec::new();
+        for term in &terms {
+            let function = (term.axis, term.basis);
+            let known = functions.iter().position(|f| *f == function);
+            function_of.push(known.unwrap_or(functions.len()));
+            if known.is_none() {
+                functions.push(function);
+            }
+        }
+        let mut next = terms.len();
+        let mut offsets = Vec::new();
+        for instrument in &instruments {
+            offsets.push(next);
+            next += instrument.unknowns.len();
+        }
+        offsets.push(next);
+        Self { machine, terms, instruments, offsets, runs, functions, function_of }
+    }
+
+    /// How many unknowns.
+    pub fn unknowns(&self) -> usize {
+        self.offsets.last().copied().unwrap_or(0)
+    }
+
+    /// One unknown.
+    pub fn unknown(&self, k: usize) -> Option<Unknown<'_>> {
+        if let Some(term) = self.terms.get(k) {
+            return Some(Unknown::Term(term));
+        }
+        let of = self.offsets.windows(2).position(|w| (w[0]..w[1]).contains(&k))?;
+        let instrument = self.instruments.get(of)?;
+        Some(Unknown::Setup(instrument, instrument.unknowns.get(k - self.offsets[of])?))
+    }
+
+    /// The names of all unknowns.
+    pub fn names(&self) -> Vec<String> {
+        (0..self.unknowns()).filter_map(|k| self.unknown(k)).map(|u| u.name()).collect()
+    }
+
+    /// The unknowns of one set-up among these values.
+    pub fn setup<'v>(&self, instrument: usize, values: &'v [f64]) -> &'v [f64] {
+        &values[self.offsets[instrument]..self.offsets[instrument + 1]]
+    }
+
+    /// The errors of the machine at a command with these values of the unknowns.
+    ///
+    /// # Errors
+    /// A command outside an error table of the machine file.
+    pub fn errors_at(
+        &self,
+        command: &Command,
+        approach: &Approach,
+        values: &[f64],
+    ) -> Result<ErrorValues, CommandFault> {
+        let mut errors = self.machine.errors_at(command, approach)?;
+        let phi = self.functions_at(command, approach);
+        for ((term, f), c) in self.terms.iter().zip(&self.function_of).zip(values) {
+            errors.add(term.index, c * phi[*f]);
+        }
+        Ok(errors)
+    }
+
+    /// φ of every function at a command.
+    fn functions_at(&self, command: &Command, approach: &Approach) -> Vec<f64> {
+        let at = |(axis, basis): &(Option<usize>, Basis)| {
+            let (q, side) = axis.map_or((0.0, 0.0), |i| (command[i], approach[i]));
+            basis.value(q, side)
+        };
+        self.functions.iter().map(at).collect()
+    }
+
+    /// What the instrument of a row would read with these values of the unknowns, mm or rad.
+    ///
+    /// # Errors
+    /// A command outside an error table of the machine file.
+    pub fn read(
+        &self,
+        readings: &Readings,
+        i: usize,
+        values: &[f64],
+    ) -> Result<[f64; 3], CommandFault> {
+        let of = readings.instruments[i] as usize;
+        let instrument = &self.instruments[of];
+        let command = &readings.commands[i];
+        let errors = self.errors_at(command, &readings.approaches[i], values)?;
+        let actual = instrument.tool_seen(&self.machine, command, &errors);
+        let nominal = match instrument.sight {
+            Sight::Turn => instrument.tool_seen(&self.machine, command, &ErrorValues::default()),
+            _ => actual, // no other reading asks for it
+        };
+        let view = View { nominal, actual, direction: readings.directions[i] };
+        Ok(instrument.read(&view, self.setup(of, values)))
+    }
+
+    /// Writes how each channel of a reading follows every unknown: one channel after the other,
+    /// each as long as there are unknowns. Returns how many channels there are.
+    pub fn slopes(&self, readings: &Readings, i: usize, out: &mut [f64]) -> usize {
+        let n = self.unknowns();
+        let of = readings.instruments[i] as usize;
+        let instrument = &self.instruments[of];
+        let (command, approach) = (&readings.commands[i], &readings.approaches[i]);
+        let frames = self.machine.error_frames(command, instrument.reference);
+        let nominal = *frames.reference_from_tool();
+        let view = View { nominal, actual: nominal, direction: readings.directions[i] };
+        let wrenches = instrument.wrenches(&view);
+        let channels = instrument.sight.channels();
+        out[..channels * n].fill(0.0);
+        let phi = self.functions_at(command, approach);
+        for (index, run) in &self.runs {
+            let twist = frames.twist(*index);
+            for (c, wrench) in wrenches.iter().take(channels).enumerate() {
+                let on = wrench.on(&twist);
+                for k in run.clone() {
+                    out[c * n + k] = on * phi[self.function_of[k]];
+                }
+            }
+        }
+        for (j, unknown) in instrument.unknowns.iter().enumerate() {
+            for (c, wrench) in wrenches.iter().take(channels).enumerate() {
+                out[c * n + self.offsets[of] + j] =
+                    instrument.setup_slope(unknown.error, c, wrench, &view);
+            }
+        }
+        channels
+    }
+
+    /// The rows of these readings in units of their noise, one *column* each: Jᵀ/u.
+    pub fn columns(&self, readings: &Readings, range: std::ops::Range<usize>) -> DMatrix<f64> {
+        let n = self.unknowns();
+        let channels =
+            |i: usize| self.instruments[readings.instruments[i] as usize].sight.channels();
+        let mut values = vec![0.0; n * range.clone().map(channels).sum::<usize>()];
+        let mut next = 0;
+        for i in range {
+            let noise = self.instruments[readings.instruments[i] as usize].noise;
+            let end = next + n * channels(i);
+            self.slopes(readings, i, &mut values[next..end]);
+            for (row, u) in values[next..end].chunks_exact_mut(n.max(1)).zip(noise) {
+                row.iter_mut().for_each(|v| *v /= u);
+            }
+            next = end;
+        }
+        let m = values.len() / n.max(1);
+        DMatrix::from_vec(n, m, values)
+    }
+}

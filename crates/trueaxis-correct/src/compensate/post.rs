@@ -1,0 +1,183 @@
+//! Cutter locations into an NC program for one machine.
+//!
+//! ```text
+//!     ClFile ──path──> strokes (line or arc, tip and tool axis)      cycles and circles as strokes
+//!            ──axes──> legs: axis positions, best branch and turn     a leg ends where an axis must
+//!                                                                     rewind or the tool changes
+//!            ──cut───> pieces within chord and angle tolerance
+//!            ──feed, write──> text                                    Writer of trueaxis-nc
+//!     text ──simulate──> the largest difference from the strokes      verify
+//! ```
+
+mod axes;
+mod cut;
+mod feed;
+mod path;
+mod verify;
+mod write;
+
+pub use verify::{Largest, Verification, verify};
+
+use trueaxis_geometry::Vec3;
+use trueaxis_input::{Diagnostics, Place};
+use trueaxis_machine::Machine;
+use trueaxis_machine::tcp::TipControl;
+use trueaxis_nc::Control;
+use trueaxis_nc::cl::ClFile;
+use trueaxis_nc::writer::{Decimals, Templates, TipWords};
+
+/// How feeds are written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum FeedRule {
+    /// In mm/min, so that the tip moves as the file says. Without tool-centre point the number is
+    /// that of the linear axes of each block, and no axis is asked for more than it can.
+    #[default]
+    Tip,
+    /// Inverse time (G93); no axis is asked for more than it can.
+    InverseTime,
+    /// As [`Self::Tip`], but no axis is asked for more than its greatest velocity.
+    AxisLimit,
+}
+
+/// What program is wanted.
+#[derive(Debug, Clone)]
+pub struct PostOptions {
+    /// For which control.
+    pub control: Control,
+    /// How the tool axis is written with tool-centre point; `None`: the control has none, axis
+    /// positions are written.
+    pub tip_words: Option<TipWords>,
+    /// Between path and chord, mm.
+    pub tolerance_mm: f64,
+    /// Of the tool axis between blocks, rad.
+    pub axis_tolerance_rad: f64,
+    /// A tool axis nearer to a pole than this passes through it, rad.
+    pub pole_rad: f64,
+    /// How feeds are written.
+    pub feed: FeedRule,
+    /// The feed where the file has none, mm/min.
+    pub usual_feed_mm_per_min: Option<f64>,
+    /// How far the tool goes back along its axis before it is turned elsewhere, mm.
+    pub retract_mm: f64,
+    /// Digits.
+    pub decimals: Decimals,
+    /// Start, tool call and end; `None` for those of the control.
+    pub templates: Option<Templates>,
+    /// The name of the program.
+    pub name: String,
+    /// Its number.
+    pub number: u32,
+}
+
+impl PostOptions {
+    /// The usual ones for a control, with tool-centre point by angles.
+    pub fn of(control: Control) -> Self {
+        Self {
+            control,
+            tip_words: Some(TipWords::Angles),
+            tolerance_mm: 0.01,
+            axis_tolerance_rad: 0.05_f64.to_radians(),
+            pole_rad: 0.0,
+            feed: FeedRule::Tip,
+            usual_feed_mm_per_min: None,
+            retract_mm: 50.0,
+            decimals: Decimals::default(),
+            templates: None,
+            name: "PROGRAM".to_owned(),
+            number: 1,
+        }
+    }
+}
+
+/// What a block of the program has to do with the file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct BlockPlace {
+    /// The line of the program, from 1.
+    line: u32,
+    /// The stroke.
+    stroke: u32,
+    /// Which part of the stroke it ends: 1 is its end.
+    until: f64,
+}
+
+/// A program and where it comes from.
+#[derive(Debug, Clone)]
+pub struct Posted {
+    /// The text.
+    pub text: Vec<u8>,
+    /// Strokes of the tool in the file.
+    pub strokes: usize,
+    /// Blocks that move the tool along them.
+    pub blocks: usize,
+    /// How often the tool goes back so that an axis can rewind or change its branch.
+    pub rewinds: usize,
+    /// How far tool axes were turned to pass through a pole, rad; 0 if none was.
+    pub pole_deviation_rad: f64,
+    places: Vec<BlockPlace>,
+    path: path::Path,
+}
+
+/// Writes the program of a cutter-location file.
+///
+/// The points are taken in the workpiece frame of the machine file, the tool is the machine's. No
+/// text comes back where a number of the program would leave the travel of an axis.
+///
+/// ```
+/// use trueaxis_correct::compensate::post::{PostOptions, post};
+/// use trueaxis_machine::{Machine, file::NoTables};
+/// use trueaxis_nc::{Control, cl::{ClFile, Reading}};
+/// let text = "[machine]\nname = \"ac\"\nchain = \"w C' A' b X Y Z t\"";
+/// let machine = Machine::check("ac.toml", text, &NoTables).0.unwrap();
+/// let cl = b"UNITS/MM\nFEDRAT/500\nGOTO/10,0,0,0,0,1\nGOTO/10,5,0,0,-0.5,0.8660254\n".to_vec();
+/// let (cl, _) = ClFile::read("a.cls", cl, &Reading::default());
+/// let mut options = PostOptions::of(Control::Fanuc);
+/// options.tip_words = None;
+/// let (posted, problems) = post(&machine, &cl, &options);
+/// let text = String::from_utf8(posted.unwrap().text).unwrap();
+/// // A = 30°: Y = 5 cos 30°, Z = −5 sin 30° (document 003, eq 2 and 3).
+/// assert!(text.contains("Y4.3301 Z-2.5 A30."), "{text}");
+/// ```
+pub fn post(
+    machine: &Machine,
+    file: &ClFile,
+    options: &PostOptions,
+) -> (Option<Posted>, Diagnostics) {
+    let mut problems = Diagnostics::new();
+    let Some(control) = TipControl::of(machine) else {
+        let message = "the machine has fewer than three linear axes".to_owned();
+        let hint = "the tip cannot follow a path; describe another machine";
+        problems.error("no-linear-axes", Place::whole(machine.name()), message, hint);
+        return (None, problems);
+    };
+    let path = path::Path::of(file, options, &mut problems);
+    if problems.has_errors() {
+        return (None, problems);
+    }
+    let mut path = path;
+    let pole_deviation_rad = axes::pass_poles(&mut path, &control, options.pole_rad);
+    let posted = axes::legs(machine, &path)
+        .and_then(|legs| write::write(machine, &control, path, &legs, options));
+    match posted {
+        Ok(posted) => (Some(Posted { pole_deviation_rad, ..posted }), problems),
+        Err(fault) => {
+            let place =
+                Place { file: file.name().to_owned(), line: fault.line as usize, column: 1 };
+            problems.error(fault.code, place, fault.message, fault.hint);
+            (None, problems)
+        }
+    }
+}
+
+/// Why there is no program, and the line of the file.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Fault {
+    line: u32,
+    code: &'static str,
+    message: String,
+    hint: &'static str,
+}
+
+/// The angle between two unit vectors, to rounding everywhere.
+pub(crate) fn angle(a: &Vec3, b: &Vec3) -> f64 {
+    a.cross(b).norm().atan2(a.dot(b))
+}

@@ -1,0 +1,312 @@
+//! An NC program so rewritten that the actual tool goes where the programmed one should.
+//!
+//! ```text
+//!     program ──execute──> moves ──AxisPath──> commands, nominal stands    walk
+//!     commands ──Compensator──> commands that lead the actual tool there   correct
+//!     ──cut──> straight pieces within the residual                         stand
+//!     ──words──> numbers in the text; everything else stays as it is       block, words, text
+//!     text ──simulate on the machine as it is──> what is left              verify
+//! ```
+
+mod ahead;
+mod block;
+mod correct;
+mod feed;
+mod flat;
+mod found;
+mod guard;
+mod lines;
+mod number;
+mod ready;
+mod refuse;
+mod stand;
+mod text;
+mod turns;
+mod verify;
+mod walk;
+mod words;
+
+pub use correct::CorrectionLimit;
+pub use found::{Found, LargestCorrection};
+pub use guard::{Confidence, Convention, MARK, Wrong, is_compensated};
+pub use number::Increments;
+pub use verify::{BlockResidual, Largest, Proof, Residual};
+
+use ahead::Gather;
+use number::Grid;
+use trueaxis_input::{Diagnostics, Place};
+use trueaxis_machine::Machine;
+use trueaxis_motion::Densify;
+use trueaxis_motion::SetUp;
+use trueaxis_motion::axis_path::AxisPath;
+use trueaxis_motion::axis_path::Fault;
+use trueaxis_motion::execute;
+use trueaxis_motion::place;
+use trueaxis_nc::moves::Step;
+use trueaxis_nc::{Outcome, Program};
+use walk::Walk;
+
+/// What is wanted of the compensated program.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProgramOptions {
+    /// The program is unrolled first: loops, subprograms, repeated parts and computed numbers.
+    pub flat: bool,
+    /// The tip alone, with the linear axes.
+    pub position_only: bool,
+    /// How far the tip may be missed between the ends of blocks, mm.
+    pub residual_mm: f64,
+    /// How far the tool axis may be missed there, rad.
+    pub residual_rad: f64,
+    /// Numbers are rounded to them; `None`: full double precision.
+    pub increments: Option<Increments>,
+    /// Larger corrections are refused.
+    pub limit: CorrectionLimit,
+    /// Every pose by [`trueaxis_machine::compensate::Compensator::at`] instead of whole stretches by
+    /// the batch compensator: the reference, some ten times slower.
+    pub pose_by_pose: bool,
+    /// What stands in the heading: machine, its file, version.
+    pub mark: String,
+}
+
+impl Default for ProgramOptions {
+    fn default() -> Self {
+        Self {
+            flat: false,
+            position_only: false,
+            residual_mm: 1e-3,
+            residual_rad: 1e-5,
+            increments: Some(Increments::default()),
+            limit: CorrectionLimit::default(),
+            pose_by_pose: false,
+            mark: String::new(),
+        }
+    }
+}
+
+impl ProgramOptions {
+    fn grid(&self) -> Grid {
+        Grid(self.increments)
+    }
+}
+
+/// Pieces are cut within this share of the residual: rounding and the places between those that
+/// are looked at need the rest.
+const SHARE: f64 = 0.5;
+
+fn residual_share(options: &ProgramOptions) -> [f64; 2] {
+    [SHARE * options.residual_mm, SHARE * options.residual_rad]
+}
+
+/// A program that was compensated.
+#[derive(Debug, Clone)]
+pub struct Rewritten {
+    /// The text.
+    pub text: Vec<u8>,
+    /// What was done.
+    pub found: Found,
+    /// What it does on the machine as it is.
+    pub proof: Proof,
+    /// How sure the corrections are.
+    pub confidence: Confidence,
+    /// What no correction and wrong signs would leave.
+    pub conventions: Vec<Convention>,
+}
+
+/// Places are looked at so finely; each further try halves it.
+const SPACING_MM: f64 = 5.0;
+const ANGLE_DEG: f64 = 0.6;
+const TRIES: u32 = 5;
+
+/// Rewrites a program so that the actual tool goes where it says, and proves it by simulating the
+/// written text on the machine as it is.
+///
+/// No text comes back where a block cannot be corrected; the block, the reason and what to do are
+/// in the diagnostics.
+pub fn compensate_program(
+    machine: &Machine,
+    program: &Program,
+    setup: &SetUp,
+    options: &ProgramOptions,
+) -> (Option<Rewritten>, Diagnostics) {
+    let mut problems = Diagnostics::new();
+    if is_compensated(program.source()) {
+        let message = "the program is compensated already, its heading says so".to_owned();
+        let hint = "take the program as the postprocessor wrote it";
+        problems.error("already-compensated", Place::whole(program.file()), message, hint);
+        return (None, problems);
+    }
+    let machine = &super::not_twice(machine, Place::whole(program.file()), &mut problems);
+    let flat;
+    let program = match options.flat {
+        false => program,
+        true => match flat::unrolled(&setup.mounted(machine), program, setup, &mut problems) {
+            Some(unrolled) => {
+                flat = unrolled;
+                &flat
+            }
+            None => return (None, problems),
+        },
+    };
+    let mut told = std::mem::take(&mut problems);
+    let mut best = None;
+    for attempt in 0..TRIES {
+        let (rewritten, found) = once(machine, program, setup, options, attempt);
+        let Some(rewritten) = rewritten else {
+            told.append(found);
+            return (None, told);
+        };
+        let done = rewritten.is_within(options);
+        best = Some(rewritten);
+        problems = found;
+        if done {
+            break;
+        }
+    }
+    if let Some(rewritten) = &best {
+        rewritten.refuse_unproved(program, options, &mut problems);
+    }
+    told.append(problems);
+    (best.filter(|_| !told.has_errors()), told)
+}
+
+fn densify(options: &ProgramOptions, attempt: u32, least: u32) -> Densify {
+    let part = 0.5_f64.powi(attempt as i32);
+    Densify::Places {
+        chord_mm: 0.2 * options.residual_mm,
+        angle_rad: (ANGLE_DEG * part).to_radians(),
+        spacing_mm: SPACING_MM * part,
+        least,
+    }
+}
+
+fn once(
+    machine: &Machine,
+    program: &Program,
+    setup: &SetUp,
+    options: &ProgramOptions,
+    attempt: u32,
+) -> (Option<Rewritten>, Diagnostics) {
+    let mut problems = Diagnostics::new();
+    let mounted = setup.mounted(machine);
+    // Where a turn counts it has to be seen.
+    let least = if correct::reverses(machine) { 2 << attempt } else { 1 };
+    let refuse = |problems: &mut Diagnostics, programs: &[String], fault: &Fault| {
+        let place = place(program, programs, fault);
+        problems.error(fault.code, place, fault.message.clone(), fault.hint);
+    };
+    let walk = match Walk::new(&mounted, program, setup, options) {
+        Ok(walk) => walk,
+        Err(fault) => {
+            refuse(&mut problems, &[], &fault);
+            return (None, problems);
+        }
+    };
+    let nominal = AxisPath::new(&mounted, setup, densify(options, attempt, least), 0.01);
+    let settings = setup.settings(false);
+    let (outcome, walk) =
+        both(nominal, walk, |take| execute(&mounted, program, setup, &settings, take));
+    problems.append(outcome.problems);
+    setup.warn_of_zeros(program.file(), &mut problems);
+    if let Some(fault) = &walk.fault {
+        refuse(&mut problems, &outcome.programs, fault);
+    }
+    if problems.has_errors() {
+        return (None, problems);
+    }
+    let tooled = walk.machine();
+    let confidence = guard::confidence(tooled, &walk.found.places);
+    let worst = walk.found.worst;
+    let conventions = worst
+        .map_or(Vec::new(), |(_, nominal, command)| guard::conventions(tooled, &nominal, &command));
+    let control = program.dialect().control;
+    let (text, numbers) = walk.text.finish(&guard::comment(&options.mark, control));
+    let found = walk.found;
+    let written = Program::new(program.file(), text, control);
+    // The middle of every block at least is looked at.
+    let finer = densify(options, attempt + 1, 2 * least);
+    let proof = verify::prove(machine, [program, &written], setup, &found, &numbers, finer);
+    let text = written.source().to_vec();
+    (Some(Rewritten { text, found, proof, confidence, conventions }), problems)
+}
+
+/// Executes a program, and writes it in a thread of its own.
+fn both<'w>(
+    nominal: AxisPath<'w>,
+    mut walk: Walk<'w>,
+    execute: impl FnOnce(&mut dyn FnMut(Step)) -> Outcome,
+) -> (Outcome, Walk<'w>) {
+    std::thread::scope(|scope| {
+        let (mut ahead, stretches) = Gather::along(nominal);
+        let writer = scope.spawn(move || {
+            for stretch in stretches {
+                walk.take(&stretch);
+                if walk.fault.is_some() {
+                    break;
+                }
+            }
+            walk
+        });
+        let outcome = execute(&mut |step| ahead.take(step));
+        ahead.finish();
+        match writer.join() {
+            Ok(walk) => (outcome, walk),
+            Err(panic) => std::panic::resume_unwind(panic),
+        }
+    })
+}
+
+impl Rewritten {
+    /// What rounding and what cannot be corrected leave at the end of a block, mm.
+    fn allowed_mm(options: &ProgramOptions) -> f64 {
+        options.increments.map_or(1e-9, |i| i.linear_mm)
+    }
+
+    /// Whether the written program does what was asked for, on the way between the ends.
+    fn is_within(&self, options: &ProgramOptions) -> bool {
+        let rounding = options.increments.map_or([0.0; 2], |i| [i.linear_mm, i.rotary_deg]);
+        let after = &self.proof.after;
+        let turned = options.residual_rad + 2.0 * rounding[1].to_radians();
+        let axis = !self.found.axis_left.is_empty() || after.axis.value <= turned;
+        axis && after.tip.value <= options.residual_mm + rounding[0]
+    }
+
+    /// A program that does not do on the machine what was meant is not written.
+    fn refuse_unproved(
+        &self,
+        program: &Program,
+        options: &ProgramOptions,
+        problems: &mut Diagnostics,
+    ) {
+        let (proof, file) = (&self.proof, program.file());
+        for problem in
+            proof.problems.iter().filter(|p| p.severity == trueaxis_input::Severity::Error)
+        {
+            let message = format!("the compensated program cannot be read: {}", problem.message);
+            problems.error("not-proved", problem.place.clone(), message, &problem.hint);
+        }
+        let mut off = |line: u32, message: String| {
+            let place = Place { file: file.to_owned(), line: line as usize, column: 1 };
+            let hint = "the control takes the words of this block otherwise; tell us, or unroll it";
+            problems.error("not-proved", place, message, hint);
+        };
+        let end = proof.after.tip_end;
+        // Where an axis cannot be decided its reversal error is left.
+        if self.found.undecided == 0
+            && (end.value.is_nan() || end.value > Self::allowed_mm(options))
+        {
+            let left = end.value * 1e3;
+            off(end.line, format!("read back, the tip ends {left:.6} µm from its place"));
+        }
+        if !self.is_within(options) && self.found.undecided == 0 {
+            let (tip, axis) = (proof.after.tip, proof.after.axis);
+            let left =
+                format!("{:.4} µm, the tool axis by {:.4}", tip.value * 1e3, axis.value * 1e6);
+            off(tip.line, format!("read back, the tip leaves its path by {left} µrad"));
+        }
+        if proof.troubles.is_grave() {
+            let message = "in the compensated program an axis leaves its travel".to_owned();
+            let hint = "move the part; simulate tells the block";
+            problems.error("correction-leaves-travel", Place::whole(file), message, hint);
+        }
+    }
+}

@@ -1,0 +1,302 @@
+//! One block with corrected numbers: the same words in the same order, and what has to be added.
+
+use super::number::{Grid, Of};
+use super::refuse::refusal;
+use super::stand::Stand;
+use super::text::Edits;
+use super::words::{Word, Words};
+use trueaxis_machine::axis::Command;
+use trueaxis_motion::axis_path::{AxisPath, Fault, Straight};
+use trueaxis_nc::Control;
+use trueaxis_nc::moves::{Axis, AxisSet, Coordinates, Move, MoveKind, Position, Way};
+
+/// A block that is being written.
+pub(super) struct Block<'b> {
+    pub m: &'b Move,
+    pub source: &'b [u8],
+    pub words: &'b Words,
+    /// Its numbers are increments unless they say otherwise.
+    pub incremental: bool,
+    pub control: Control,
+    pub grid: Grid,
+    /// The tool axis is programmed by vectors.
+    pub vectors: bool,
+    /// A feed that a block before has replaced.
+    pub feed_again: Option<f64>,
+    pub edits: Edits,
+    /// The lines that follow it.
+    pub further: Vec<String>,
+    pub added: u64,
+    pub pieces: usize,
+}
+
+/// The piece of it that is to be written.
+pub(super) struct Written {
+    /// Which, from 0.
+    pub piece: usize,
+    /// Its part of the way.
+    pub share: f64,
+    /// Where the axes shall stand at its end.
+    pub command: Command,
+}
+
+/// What the control makes of a piece.
+pub(super) struct Next {
+    pub m: Move,
+    /// The feed that is to be stated again in the next block.
+    pub feed_again: Option<f64>,
+}
+
+/// A word on its way into the text.
+pub(super) struct Put {
+    pub letters: &'static str,
+    pub text: String,
+}
+
+/// The letters of the axes in the order of [`Axis::ALL`].
+const LETTERS: [&str; 9] = ["X", "Y", "Z", "A", "B", "C", "U", "V", "W"];
+
+impl Block<'_> {
+    /// Writes a piece that begins where `path` stands; `turns_deg`: only rotary axes move, and the
+    /// feed counts along so many degrees.
+    pub fn write(
+        &mut self,
+        path: &AxisPath<'_>,
+        step: &Written,
+        turns_deg: Option<f64>,
+    ) -> Result<Next, Fault> {
+        let now = path.words_of(path.command(), self.m.coordinates);
+        let wanted = self.wanted(path, &now, step);
+        let mut m = Move {
+            kind: self.kind(),
+            target: now,
+            named: AxisSet::default(),
+            ways: [Way::AsWritten; 3],
+            direction: None,
+            ..*self.m
+        };
+        let mut puts = Vec::new();
+        for axis in Axis::ALL {
+            let by_vector = axis.is_rotary() && self.vectors;
+            if path.axis_of(axis).is_some() && !by_vector {
+                self.axis(axis, (now[axis], wanted[axis]), step.piece, &mut m, &mut puts)?;
+            }
+        }
+        if self.vectors {
+            self.direction(path, step, &mut m, &mut puts)?;
+        }
+        let feed_again = self.feed(&now, step, turns_deg, &m, &mut puts)?;
+        if step.piece == 0 {
+            self.first(puts);
+        } else if !puts.is_empty() {
+            self.follow(&puts);
+        }
+        if self.pieces > 1 && step.piece + 1 == self.pieces {
+            self.functions_at_end();
+        }
+        Ok(Next { m, feed_again })
+    }
+
+    fn kind(&self) -> MoveKind {
+        match self.m.kind {
+            MoveKind::Arc(_) | MoveKind::SpatialArc(_) => MoveKind::Linear,
+            kind => kind,
+        }
+    }
+
+    pub(super) fn is_circle(&self) -> bool {
+        matches!(self.m.kind, MoveKind::Arc(_) | MoveKind::SpatialArc(_))
+    }
+
+    /// Words for axis positions; where rotary axes are rounded, linear ones go with them.
+    fn wanted(&self, path: &AxisPath<'_>, now: &Position, step: &Written) -> Position {
+        let exact = path.words_of(&step.command, self.m.coordinates);
+        let (Some(control), Some(_), Straight::Axes) =
+            (path.control(), self.grid.0, path.straight())
+        else {
+            return exact;
+        };
+        let mut rounded = step.command;
+        for axis in Axis::ALL.into_iter().filter(|a| a.is_rotary()) {
+            if let Some(i) = path.axis_of(axis) {
+                let at = (now[axis], exact[axis]);
+                rounded[i] += self.rotary_rounding(axis, at, step.piece).to_radians();
+            }
+        }
+        match control.place(Stand::of(control, &step.command).tip, &mut rounded) {
+            true => path.words_of(&rounded, self.m.coordinates),
+            false => exact,
+        }
+    }
+
+    /// What rounding, or a number that is near enough to stay, does to a rotary axis, degrees.
+    fn rotary_rounding(&self, axis: Axis, (now, exact): (f64, f64), piece: usize) -> f64 {
+        let rounded = self.grid.round(exact, Of::Rotary);
+        let stays = match self.words.axes[axis as usize].as_ref().filter(|_| piece == 0) {
+            None => now,
+            Some(word) if word.increment.unwrap_or(self.incremental) => return rounded - exact,
+            Some(_) => {
+                let old = self.m.target[axis];
+                let turns = self.way(axis) != Way::AsWritten;
+                old + if turns { 360.0 * ((exact - old) / 360.0).round() } else { 0.0 }
+            }
+        };
+        match self.grid.same(exact, stays, Of::Rotary) {
+            true => stays - exact,
+            false => rounded - exact,
+        }
+    }
+
+    fn axis(
+        &mut self,
+        axis: Axis,
+        (now, wanted): (f64, f64),
+        piece: usize,
+        m: &mut Move,
+        puts: &mut Vec<Put>,
+    ) -> Result<(), Fault> {
+        let of = if axis.is_rotary() { Of::Rotary } else { Of::Linear };
+        let word = self.words.axes[axis as usize].clone().filter(|_| piece == 0);
+        let Some(word) = word else {
+            if piece == 0 && self.m.named.contains(axis) && !self.is_circle() {
+                return Err(self.no_word(axis));
+            }
+            let value = self.grid.round(wanted, of);
+            if !self.grid.same(wanted, now, of) {
+                (m.target[axis], m.named) = (value, m.named.with(axis));
+                let shown = if self.incremental { value - now } else { value };
+                self.added += u64::from(piece == 0);
+                puts.push(Put { letters: LETTERS[axis as usize], text: self.text(shown, of) });
+            }
+            return Ok(());
+        };
+        m.named = m.named.with(axis);
+        let old = self.m.target[axis];
+        let is_increment = word.increment.unwrap_or(self.incremental);
+        let (value, shown) = if is_increment {
+            let old = word.value.ok_or_else(|| self.computed(axis))?;
+            let by = self.grid.round(wanted - now, of);
+            let by = if self.grid.same(by, old, of) { old } else { by };
+            (now + by, Some(by).filter(|by| *by != old))
+        } else {
+            let turn = self.way(axis) != Way::AsWritten;
+            if axis.is_rotary() {
+                m.ways[axis as usize - Axis::A as usize] = self.way(axis);
+            }
+            let wanted = if turn { wanted.rem_euclid(360.0) } else { wanted };
+            let value = self.grid.round(wanted, of);
+            let value = if turn && value >= 360.0 { 0.0 } else { value };
+            if self.grid.same(wanted, old, of) {
+                (old, None)
+            } else {
+                let offset = self.offset(axis, &word, old)?;
+                (value, Some(value - offset))
+            }
+        };
+        m.target[axis] = value;
+        if let Some(shown) = shown {
+            let text = self.text(shown, of);
+            self.edits.put(word.number.clone(), text);
+        }
+        Ok(())
+    }
+
+    /// What the control adds to the written number.
+    fn offset(&self, axis: Axis, word: &Word, target: f64) -> Result<f64, Fault> {
+        let value = word.value.ok_or_else(|| self.computed(axis))?;
+        let near = |a: f64| (a - target).abs() <= 1e-9 * (1.0 + target.abs());
+        if near(value) {
+            return Ok(0.0);
+        }
+        if near(value * 25.4) && !axis.is_rotary() {
+            let message = "the program is in inches, the increments are metric".to_owned();
+            let hint = "let the postprocessor write millimetres";
+            return Err(refusal(self.m.origin, "inch-program", message, hint));
+        }
+        if self.m.coordinates == Coordinates::Machine || self.words.machine.is_some() {
+            return Ok(target - value);
+        }
+        let message =
+            format!("{axis}{value} leads to {target}: polar or scaled coordinates, or a cycle");
+        let hint = "write plain moves with X, Y and Z; a cycle as its single moves";
+        Err(refusal(self.m.origin, "other-coordinates", message, hint))
+    }
+
+    fn computed(&self, axis: Axis) -> Fault {
+        let message = format!("the value of {axis} is computed, and would have to be corrected");
+        let hint = "unroll it: --flat writes numbers instead of variables";
+        refusal(self.m.origin, "computed-coordinate", message, hint)
+    }
+
+    fn no_word(&self, axis: Axis) -> Fault {
+        let message =
+            format!("the block moves {axis} without a word {axis} that could be corrected");
+        let hint = "write plain coordinates instead of poles, angles and contours";
+        refusal(self.m.origin, "no-axis-word", message, hint)
+    }
+
+    fn way(&self, axis: Axis) -> Way {
+        match axis.is_rotary() {
+            true => self.m.ways[axis as usize - Axis::A as usize],
+            false => Way::AsWritten,
+        }
+    }
+
+    fn text(&self, value: f64, of: Of) -> String {
+        self.grid.text(value, of, self.control)
+    }
+
+    /// The tool axis as a vector.
+    fn direction(
+        &mut self,
+        path: &AxisPath<'_>,
+        step: &Written,
+        m: &mut Move,
+        puts: &mut Vec<Put>,
+    ) -> Result<(), Fault> {
+        let here = self.m.direction.filter(|_| step.piece == 0);
+        let (Some(wanted), Some(now)) =
+            (path.direction_of(&step.command), path.direction_of(path.command()))
+        else {
+            return Ok(());
+        };
+        let length = here.map_or(1.0, |d| d.iter().map(|v| v * v).sum::<f64>().sqrt());
+        let old = here.unwrap_or(now);
+        let wanted = wanted.map(|part| part * length);
+        if (0..3).all(|i| self.grid.same(wanted[i], old[i], Of::Direction)) {
+            m.direction = here;
+            return Ok(());
+        }
+        let words: Vec<Option<Word>> = self.words.vector.to_vec();
+        if here.is_some() {
+            let fits = words.iter().zip(old).all(|(word, part)| match word {
+                Some(word) => word.value.is_some_and(|v| (v - part).abs() < 1e-12),
+                None => part == 0.0,
+            });
+            if !fits || words.iter().all(Option::is_none) {
+                let message =
+                    "the direction of the tool is not given by three plain numbers".into();
+                let hint = "write it as A3= B3= C3=, I J K or TX TY TZ, or write the rotary axes";
+                return Err(refusal(self.m.origin, "computed-coordinate", message, hint));
+            }
+        }
+        let mut written = [0.0; 3];
+        for i in 0..3 {
+            written[i] = self.grid.round(wanted[i], Of::Direction);
+            let text = self.text(written[i], Of::Direction);
+            match words[i].as_ref().filter(|_| here.is_some()) {
+                Some(word) => self.edits.put(word.number.clone(), text),
+                None => {
+                    let letters = match self.control {
+                        Control::Sinumerik840d => ["A3=", "B3=", "C3="][i],
+                        Control::Heidenhain => ["TX", "TY", "TZ"][i],
+                        Control::Fanuc | Control::LinuxCnc => ["I", "J", "K"][i],
+                    };
+                    puts.push(Put { letters, text });
+                }
+            }
+        }
+        m.direction = Some(written);
+        Ok(())
+    }
+}

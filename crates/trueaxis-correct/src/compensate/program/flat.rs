@@ -1,0 +1,298 @@
+//! A program unrolled: the blocks in the order of their execution, with numbers for what is computed.
+//!
+//! ```text
+//!     program ──execute, telling blocks──> text of each block, its computed parts
+//!             ──numbers in, statements that only steer out──> flat program
+//!     both executed side by side: the same steps, or none is handed out
+//! ```
+//!
+//! Subprograms, loops, jumps, repeated parts and variables are gone then; comments of executed blocks
+//! stay. Blocks keep no numbers (nothing jumps to them), those of Klartext are counted anew.
+
+use super::number::Grid;
+use super::text::Edits;
+use super::words::Words;
+use std::ops::Range;
+use std::path::Path;
+use std::sync::mpsc::{Receiver, sync_channel};
+use trueaxis_input::{Diagnostics, Place};
+use trueaxis_machine::Machine;
+use trueaxis_motion::{SetUp, execute};
+use trueaxis_nc::lexer::{Lexer, TokenKind};
+use trueaxis_nc::moves::{Event, Origin, Step};
+use trueaxis_nc::{Control, Program, Settings};
+
+/// A block that was executed.
+struct Told {
+    origin: Origin,
+    text: Range<usize>,
+    /// Parts of it and their values; without one they only steer.
+    computed: Vec<(Range<usize>, Option<f64>)>,
+}
+
+/// Steps that are handed over at once.
+const STEPS: usize = 4096;
+
+/// The flat program; why there is none goes to `problems`.
+pub(super) fn unrolled(
+    mounted: &Machine,
+    program: &Program,
+    setup: &SetUp,
+    problems: &mut Diagnostics,
+) -> Option<Program> {
+    let settings = Settings { tell_blocks: true, ..setup.settings(false) };
+    let mut told: Vec<Told> = Vec::new();
+    let outcome = execute(mounted, program, setup, &settings, &mut |step| match step {
+        Step::Event(Event::Block { text }, origin) => {
+            told.push(Told { origin, text, computed: Vec::new() });
+        }
+        Step::Event(Event::Computed { text, value }, _) => {
+            if let Some(block) = told.last_mut() {
+                block.computed.push((text, value));
+            }
+        }
+        _ => {}
+    });
+    if outcome.problems.has_errors() {
+        problems.append(outcome.problems);
+        return None;
+    }
+    let control = program.dialect().control;
+    let mut programs = vec![program.clone()];
+    for name in &outcome.programs[1..] {
+        match setup.files.read(Path::new(name)) {
+            Ok(bytes) => programs.push(Program::new(name, bytes, control)),
+            Err(e) => {
+                let message = format!("cannot be read again: {e}");
+                problems.error("unreadable-file", Place::whole(name), message, "put it back");
+                return None;
+            }
+        }
+    }
+    let mut flat = Flat { programs: &programs, out: Vec::new(), number: 0, origins: Vec::new() };
+    told.iter().for_each(|block| flat.block(block));
+    flat.close();
+    let name = format!("{} (unrolled)", program.file());
+    let text = Program::new(&name, flat.out, control);
+    let origins = flat.origins;
+    match differs(mounted, [program, &text], setup) {
+        None => Some(text),
+        Some(at) => {
+            let origin = origins.get(at.saturating_sub(1) as usize).copied().unwrap_or_default();
+            let file = programs.get(origin.program as usize).map_or(program.file(), Program::file);
+            let place = Place { file: file.to_owned(), line: origin.line as usize, column: 1 };
+            let lines = text.source().split(|b| *b == b'\n');
+            let line =
+                lines.skip(at.saturating_sub(1) as usize).map(String::from_utf8_lossy).next();
+            let line = line.unwrap_or_default();
+            let message =
+                format!("unrolled to `{}`, the program would go another way", line.trim());
+            let hint = "modal macros, cycles with computed arguments and moves in a block that calls \
+                        do not unroll: write this block out; the postprocessor can";
+            problems.error("not-unrolled", place, message, hint);
+            None
+        }
+    }
+}
+
+struct Flat<'p> {
+    programs: &'p [Program],
+    out: Vec<u8>,
+    /// The number of the next block of Klartext.
+    number: u32,
+    /// Where each line comes from.
+    origins: Vec<Origin>,
+}
+
+impl Flat<'_> {
+    fn block(&mut self, told: &Told) {
+        let Some(program) = self.programs.get(told.origin.program as usize) else { return };
+        let source = program.source();
+        let line = without_end(source, &told.text);
+        let steers = |range: &Range<usize>| range.start <= line.start && range.end >= line.end;
+        if told.computed.iter().any(|(range, value)| value.is_none() && steers(range)) {
+            let comments = comments(program, &line);
+            if !comments.is_empty() {
+                let comments = [self.front(program, &line), comments].concat();
+                self.line(&comments, told.origin);
+            }
+            return;
+        }
+        let mut edits = Edits::default();
+        let is_inside = |(range, _): &(Range<usize>, Option<f64>)| {
+            told.computed.iter().any(|(outer, value)| {
+                value.is_none()
+                    && outer != range
+                    && outer.start <= range.start
+                    && outer.end >= range.end
+            })
+        };
+        for (range, value) in told.computed.iter().filter(|part| !is_inside(part)) {
+            let mut range = range.start..range.end.min(line.end);
+            while range.end > range.start && source[range.end - 1].is_ascii_whitespace() {
+                range.end -= 1;
+            }
+            let text = value.map_or(String::new(), |v| number(v, source, range.start, program));
+            edits.put(range, text);
+        }
+        let front = Words::read(source, program.dialect(), line.clone()).front;
+        if front > line.start {
+            let new = String::from_utf8_lossy(&self.front(program, &line)).into_owned();
+            edits.put(line.start..front, new.trim_end().to_owned());
+        }
+        let was_blank = source[line.clone()].iter().all(u8::is_ascii_whitespace);
+        let changed = !edits.is_empty();
+        let text = edits.apply(source, line.clone());
+        let says = text.iter().any(|b| !b.is_ascii_whitespace() && !b.is_ascii_digit());
+        if says || (was_blank && !changed) {
+            let text = text.trim_ascii_start();
+            self.line(text, told.origin);
+        }
+    }
+
+    /// What stands before the words of a block: `/`, and in Klartext the number.
+    fn front(&self, program: &Program, line: &Range<usize>) -> Vec<u8> {
+        let words = Words::read(program.source(), program.dialect(), line.clone());
+        let mut front = String::new();
+        let klartext = program.dialect().control == Control::Heidenhain;
+        if klartext && words.front > line.start {
+            front = format!("{} ", self.number);
+        }
+        if let Some(skip) = words.skip {
+            front += &String::from_utf8_lossy(&program.source()[skip]);
+        }
+        front.into_bytes()
+    }
+
+    fn line(&mut self, text: &[u8], origin: Origin) {
+        self.number += 1;
+        self.out.extend_from_slice(text);
+        self.out.extend_from_slice(self.ending());
+        // A block of several lines counts as several.
+        let lines = 1 + text.iter().filter(|b| **b == b'\n').count();
+        self.origins.extend(std::iter::repeat_n(origin, lines));
+    }
+
+    fn ending(&self) -> &'static [u8] {
+        let main = self.programs.first().map_or(&b""[..], Program::source);
+        match main.iter().position(|b| *b == b'\n') {
+            Some(at) if at > 0 && main[at - 1] == b'\r' => b"\r\n",
+            _ => b"\n",
+        }
+    }
+
+    /// Lines behind the end of the execution that belong to every program: `%`, `END PGM`.
+    fn close(&mut self) {
+        let Some(main) = self.programs.first() else { return };
+        let source = String::from_utf8_lossy(main.source());
+        let is_mark = |line: &str| match main.dialect().control {
+            Control::Heidenhain => line.to_ascii_uppercase().contains("END PGM"),
+            Control::Sinumerik840d => false,
+            Control::Fanuc | Control::LinuxCnc => line.trim() == "%",
+        };
+        let ends = |text: &str| text.trim_end().lines().next_back().is_some_and(is_mark);
+        let is_closed = ends(&String::from_utf8_lossy(&self.out));
+        let Some(mark) = source.lines().rfind(|l| is_mark(l)).filter(|_| !is_closed) else {
+            return;
+        };
+        let words = mark.trim_start_matches(|c: char| c.is_ascii_digit() || c == ' ');
+        let text = match main.dialect().control {
+            Control::Heidenhain => format!("{} {words}", self.number),
+            _ => words.to_owned(),
+        };
+        self.line(text.as_bytes(), Origin::default());
+    }
+}
+
+fn without_end(source: &[u8], text: &Range<usize>) -> Range<usize> {
+    let mut end = text.end.min(source.len());
+    while end > text.start && matches!(source[end - 1], b'\n' | b'\r') {
+        end -= 1;
+    }
+    text.start..end
+}
+
+fn comments(program: &Program, line: &Range<usize>) -> Vec<u8> {
+    let tokens = Lexer::new(program.source(), program.dialect(), line.start);
+    let inside = tokens.take_while(|t| t.start < line.end);
+    let comments = inside.filter(|t| t.kind == TokenKind::Comment);
+    let each: Vec<&[u8]> =
+        comments.map(|t| &program.source()[t.start..t.end.min(line.end)]).collect();
+    each.join(&b' ')
+}
+
+/// A number in full, behind the address that stands before a byte.
+fn number(value: f64, source: &[u8], at: usize, program: &Program) -> String {
+    let address = source[..at].last().map_or(b' ', u8::to_ascii_uppercase);
+    let control = program.dialect().control;
+    let is_place = b"XYZABCUVWIJKRQF".contains(&address);
+    match control {
+        // Without its point a number of FANUC may count increments.
+        Control::Fanuc if !is_place => format!("{value}"),
+        Control::Heidenhain if address == b'F' || !is_place => format!("{value}"),
+        _ => Grid(None).text(value, super::number::Of::Linear, control),
+    }
+}
+
+/// The line of the second program where it begins to do something else than the first.
+fn differs(mounted: &Machine, [a, b]: [&Program; 2], setup: &SetUp) -> Option<u32> {
+    std::thread::scope(|scope| {
+        let (to, from) = sync_channel::<Vec<Step>>(4);
+        scope.spawn(move || {
+            let mut steps = Vec::new();
+            execute(mounted, a, setup, &setup.settings(false), &mut |step| {
+                steps.push(step);
+                if steps.len() >= STEPS {
+                    // Nobody listens any more where they differ.
+                    let _ = to.send(std::mem::take(&mut steps));
+                }
+            });
+            let _ = to.send(steps);
+        });
+        let mut expected = Expected { from, steps: Vec::new().into_iter() };
+        let (mut found, mut last) = (None, 0);
+        let outcome = execute(mounted, b, setup, &setup.settings(false), &mut |step| {
+            let Some((step, origin)) = plain(step).filter(|_| found.is_none()) else { return };
+            last = origin.line;
+            if expected.next() != Some(step) {
+                found = Some(origin.line);
+            }
+        });
+        let ends_early = expected.next().is_some() || outcome.problems.has_errors();
+        found.or(ends_early.then_some(last))
+    })
+}
+
+/// The steps of the other program, as they come.
+struct Expected {
+    from: Receiver<Vec<Step>>,
+    steps: std::vec::IntoIter<Step>,
+}
+
+impl Expected {
+    fn next(&mut self) -> Option<Step> {
+        loop {
+            match self.steps.next() {
+                Some(step) => {
+                    if let Some((step, _)) = plain(step) {
+                        return Some(step);
+                    }
+                }
+                None => self.steps = self.from.recv().ok()?.into_iter(),
+            }
+        }
+    }
+}
+
+/// A step as if it stood nowhere; `None` for what has nothing to do with machining.
+fn plain(step: Step) -> Option<(Step, Origin)> {
+    let nowhere = Origin::default();
+    match step {
+        Step::Move(mut m) => {
+            let origin = std::mem::replace(&mut m.origin, nowhere);
+            Some((Step::Move(m), origin))
+        }
+        Step::Event(Event::Note(_) | Event::Log(_), _) => None,
+        Step::Event(event, origin) => Some((Step::Event(event, nowhere), origin)),
+    }
+}

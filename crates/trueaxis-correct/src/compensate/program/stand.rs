@@ -1,0 +1,149 @@
+//! Where the tool stands at axis positions, and how far two stands are from each other.
+
+use crate::compensate::post::angle;
+use trueaxis_geometry::Vec3;
+use trueaxis_machine::axis::{Approach, Command};
+use trueaxis_machine::tcp::TipControl;
+use trueaxis_motion::axis_path::Straight;
+
+/// Tip, mm, and tool axis in the workpiece frame.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Stand {
+    pub tip: Vec3,
+    pub axis: Vec3,
+}
+
+impl Stand {
+    /// Of the nominal machine.
+    pub fn of(control: &TipControl, command: &Command) -> Self {
+        let (tip, axis) = control.tip_and_axis(command);
+        Self { tip, axis }
+    }
+
+    /// The distance of the tips, mm, and the angle of the axes, rad.
+    pub fn from(&self, other: &Self) -> [f64; 2] {
+        [(self.tip - other.tip).norm(), angle(&self.axis, &other.axis)]
+    }
+
+    /// The distance of the tip from the segment between two stands, and the angle of the axis to
+    /// that at the nearest place.
+    pub fn off_segment(&self, a: &Self, b: &Self) -> [f64; 2] {
+        let way = b.tip - a.tip;
+        let length = way.norm_squared();
+        let whole = angle(&a.axis, &b.axis);
+        let u = if length > 1e-12 {
+            (self.tip - a.tip).dot(&way) / length
+        } else if whole > 0.0 {
+            angle(&a.axis, &self.axis) / whole
+        } else {
+            1.0
+        };
+        self.from(&a.between(b, u.clamp(0.0, 1.0)))
+    }
+
+    fn between(&self, to: &Self, u: f64) -> Self {
+        let axis = self.axis + (to.axis - self.axis) * u;
+        Self {
+            tip: self.tip + (to.tip - self.tip) * u,
+            axis: axis.try_normalize(1e-9).unwrap_or(self.axis),
+        }
+    }
+}
+
+/// A place of a move: what the program says, and what is to be commanded for it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Sample {
+    /// From 0 at the beginning to 1 at the end of the move.
+    pub u: f64,
+    /// Where the tool shall stand.
+    pub wanted: Stand,
+    /// The axis positions for it.
+    pub command: Command,
+    /// Where the nominal machine stands with them: what the control believes.
+    pub believed: Stand,
+    /// From where the axes are taken to come.
+    pub side: Approach,
+    /// The place before, from the other side: an axis turns round here.
+    pub turns: bool,
+}
+
+/// Where moves are to be cut: docs/model.md eq. 164.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cut<'c> {
+    pub control: &'c TipControl,
+    pub straight: Straight,
+    pub residual_mm: f64,
+    pub residual_rad: f64,
+}
+
+impl Cut<'_> {
+    /// The samples at which straight pieces end so that no sample between them is missed by more
+    /// than the residual; the first one is where the move begins.
+    pub fn ends(&self, samples: &[Sample]) -> Vec<usize> {
+        let mut ends = Vec::new();
+        let mut wait = self.stretches(samples);
+        while let Some((from, to)) = wait.pop() {
+            if to - from < 2 || self.is_straight(&samples[from..=to]) {
+                ends.push(to);
+            } else {
+                let middle = (from + to) / 2;
+                wait.push((middle, to));
+                wait.push((from, middle));
+            }
+        }
+        ends
+    }
+
+    /// From turning point to turning point, the last stretch first; what an axis makes up there is a
+    /// piece of its own where it is more than may be missed.
+    fn stretches(&self, samples: &[Sample]) -> Vec<(usize, usize)> {
+        let mut stretches = Vec::new();
+        let mut to = samples.len() - 1;
+        for k in (1..samples.len()).rev().filter(|k| samples[*k].turns) {
+            let [tip_mm, axis_rad] = samples[k - 1].believed.from(&samples[k].believed);
+            if tip_mm > self.residual_mm || axis_rad > self.residual_rad {
+                stretches.extend((k < to).then_some((k, to)));
+                stretches.push((k - 1, k));
+                to = k - 1;
+            }
+        }
+        stretches.extend((to > 0).then_some((0, to)));
+        stretches
+    }
+
+    fn is_straight(&self, samples: &[Sample]) -> bool {
+        let (first, last) = (&samples[0], &samples[samples.len() - 1]);
+        samples[1..samples.len() - 1].iter().all(|s| {
+            let u = (s.u - first.u) / (last.u - first.u).max(f64::MIN_POSITIVE);
+            let [tip_mm, axis_rad] = self.missed(first, last, u, s);
+            tip_mm <= self.residual_mm && axis_rad <= self.residual_rad
+        })
+    }
+
+    /// How far the control is from a sample on its straight way between two others.
+    fn missed(&self, first: &Sample, last: &Sample, u: f64, at: &Sample) -> [f64; 2] {
+        let (from, to) = (&first.command, &last.command);
+        let even: Command = std::array::from_fn(|i| from[i] + (to[i] - from[i]) * u);
+        let there = match self.straight {
+            Straight::Axes => Stand::of(self.control, &even),
+            Straight::TipAndAngles => Stand {
+                axis: Stand::of(self.control, &even).axis,
+                ..first.believed.between(&last.believed, u)
+            },
+            Straight::TipAndSwing => Stand {
+                axis: swung(&first.believed.axis, &last.believed.axis, u),
+                ..first.believed.between(&last.believed, u)
+            },
+        };
+        there.from(&at.believed)
+    }
+}
+
+/// Part of the turn between two directions.
+fn swung(from: &Vec3, to: &Vec3, u: f64) -> Vec3 {
+    let whole = angle(from, to);
+    if whole < 1e-9 {
+        return (from + (to - from) * u).normalize();
+    }
+    (from * ((1.0 - u) * whole).sin() + to * (u * whole).sin()) / whole.sin()
+}

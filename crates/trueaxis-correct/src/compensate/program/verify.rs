@@ -1,0 +1,215 @@
+//! The proof: both programs simulated on the machine as it is, against what was programmed.
+
+use super::found::{Found, Want};
+use super::stand::Stand;
+use trueaxis_input::Diagnostics;
+use trueaxis_machine::Machine;
+use trueaxis_motion::{AxisWatch, Batch, Densify, Observer, Options, SetUp, TroubleList, simulate};
+use trueaxis_nc::Program;
+
+/// A largest value and the line of the program as it was.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Largest {
+    /// mm or rad.
+    pub value: f64,
+    /// From 1.
+    pub line: u32,
+}
+
+impl Largest {
+    fn take(&mut self, value: f64, line: u32) {
+        // NaN counts as the worst.
+        if value > self.value || value.is_nan() {
+            *self = Self { value, line };
+        }
+    }
+}
+
+/// What the actual tool misses, tip in mm and tool axis in rad.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Residual {
+    /// The tip at the ends of blocks.
+    pub tip_end: Largest,
+    /// The tool axis there.
+    pub axis_end: Largest,
+    /// The tip anywhere on the way, with feed.
+    pub tip: Largest,
+    /// The tool axis there.
+    pub axis: Largest,
+}
+
+/// One block before and after.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct BlockResidual {
+    /// The line of the program as it was.
+    pub line: u32,
+    /// The largest deviation of the tip anywhere in the block before, mm.
+    pub tip_before_mm: f64,
+    /// And after.
+    pub tip_after_mm: f64,
+    /// Of the tool axis before, rad.
+    pub axis_before_rad: f64,
+    /// And after.
+    pub axis_after_rad: f64,
+}
+
+/// What the written program does on the machine as it is.
+#[derive(Debug, Clone, Default)]
+pub struct Proof {
+    /// The program as it was.
+    pub before: Residual,
+    /// The program that was written.
+    pub after: Residual,
+    /// The worst blocks, by what is left of the tip.
+    pub worst: Vec<BlockResidual>,
+    /// Pieces compared at their ends.
+    pub compared: u64,
+    /// Axes that leave their travel or go too fast.
+    pub troubles: TroubleList,
+    /// What was found while the written program was read.
+    pub problems: Diagnostics,
+}
+
+/// Blocks in the list of the worst.
+const WORST: usize = 20;
+
+/// Simulates the program as it was and the one that was written.
+pub(super) fn prove(
+    machine: &Machine,
+    programs: [&Program; 2],
+    setup: &SetUp,
+    found: &Found,
+    numbers: &[u32],
+    densify: Densify,
+) -> Proof {
+    let [was, is] = programs;
+    let options = Options { densify, ..Options::default() };
+    let mut before = Compare::of(found, numbers, false);
+    let mut after = Compare::of(found, numbers, true);
+    let mut watch = AxisWatch::on(machine);
+    let (_, run) = rayon::join(
+        || simulate(machine, was, setup, &options, &mut [&mut before]),
+        || simulate(machine, is, setup, &options, &mut [&mut after, &mut watch]),
+    );
+    let mut worst = before.rows;
+    for (row, other) in worst.iter_mut().zip(&after.rows) {
+        (row.tip_after_mm, row.axis_after_rad) = (other.tip_before_mm, other.axis_before_rad);
+        row.line = row.line.max(other.line);
+    }
+    worst.retain(|row| row.line > 0);
+    worst.sort_by(|a, b| {
+        let left = b.tip_after_mm.total_cmp(&a.tip_after_mm);
+        left.then(b.tip_before_mm.total_cmp(&a.tip_before_mm))
+    });
+    worst.truncate(WORST);
+    Proof {
+        before: before.residual,
+        after: after.residual,
+        worst,
+        compared: after.compared,
+        troubles: TroubleList::of([watch.log]),
+        problems: run.problems,
+    }
+}
+
+struct Compare<'f> {
+    found: &'f Found,
+    /// The wants of each line of the simulated program: the first and how many.
+    at_line: Vec<(u32, u32)>,
+    line: u32,
+    ended: bool,
+    rows: Vec<BlockResidual>,
+    residual: Residual,
+    compared: u64,
+}
+
+impl<'f> Compare<'f> {
+    fn of(found: &'f Found, numbers: &[u32], written: bool) -> Self {
+        let mut at_line: Vec<(u32, u32)> = Vec::new();
+        for (i, want) in found.wants.iter().enumerate() {
+            let number = match written {
+                true => numbers[want.line as usize - 1] + want.piece,
+                false => want.line,
+            } as usize;
+            if at_line.len() <= number {
+                at_line.resize(number + 1, (0, 0));
+            }
+            let entry = &mut at_line[number];
+            match entry.1 {
+                0 => *entry = (i as u32, 1),
+                // A block that is executed again goes to the same places.
+                count if (entry.0 + count) as usize == i => entry.1 += 1,
+                _ => {}
+            }
+        }
+        let rows = vec![BlockResidual::default(); numbers.len() + 1];
+        Self {
+            found,
+            at_line,
+            line: 0,
+            ended: false,
+            rows,
+            residual: Residual::default(),
+            compared: 0,
+        }
+    }
+
+    fn wants(&self, line: u32) -> &'f [Want] {
+        let (from, count) = self.at_line.get(line as usize).copied().unwrap_or((0, 0));
+        &self.found.wants[from as usize..(from + count) as usize]
+    }
+
+    /// How far a place is from the way of a piece.
+    fn missed(&self, want: &Want, is: &Stand) -> [f64; 2] {
+        let stands = &self.found.stands[want.from as usize..want.to as usize];
+        let each = stands.windows(2).map(|w| is.off_segment(&w[0], &w[1]));
+        each.min_by(|a, b| a[0].total_cmp(&b[0])).unwrap_or([0.0, 0.0])
+    }
+
+    fn end(&mut self, want: &Want, is: &Stand) {
+        let Some(wanted) = self.found.stands.get(want.to as usize - 1) else { return };
+        let [tip, axis] = is.from(wanted);
+        self.residual.tip_end.take(tip, want.line);
+        self.residual.axis_end.take(axis, want.line);
+        self.compared += 1;
+        self.row(want.line, [tip, axis]);
+    }
+
+    fn row(&mut self, line: u32, [tip, axis]: [f64; 2]) {
+        let row = &mut self.rows[line as usize];
+        row.line = line;
+        row.tip_before_mm = row.tip_before_mm.max(tip);
+        row.axis_before_rad = row.axis_before_rad.max(axis);
+    }
+}
+
+impl Observer for Compare<'_> {
+    fn path(&mut self, batch: &Batch<'_>) {
+        for (i, node) in batch.nodes.iter().enumerate() {
+            let line = if node.origin.program == 0 { node.origin.line } else { 0 };
+            if line != self.line {
+                (self.line, self.ended) = (line, false);
+            }
+            let wants = self.wants(line);
+            let (Some(first), Some(last)) = (wants.first(), wants.last()) else { continue };
+            if self.ended {
+                continue;
+            }
+            let pose = batch.poses.at(i);
+            let is = Stand {
+                tip: pose.nominal_tip.vector() + pose.tip_mm,
+                axis: pose.nominal_axis.vector() + pose.axis,
+            };
+            if node.last {
+                self.ended = true;
+                self.end(last, &is);
+            } else if !first.end_only {
+                let each = wants.iter().map(|w| self.missed(w, &is));
+                let missed = each.min_by(|a, b| a[0].total_cmp(&b[0])).unwrap_or([0.0, 0.0]);
+                self.residual.tip.take(missed[0], first.line);
+                self.residual.axis.take(missed[1], first.line);
+                self.row(first.line, missed);
+            }
+        }
+    }
+}

@@ -1,0 +1,360 @@
+//! Step by step through the program: what is commanded, what should be, what is written.
+
+mod samples;
+
+use super::ahead::{Ahead, Stretch};
+use super::block::{Block, Written};
+use super::correct::Corrector;
+use super::found::{Found, Want};
+use super::refuse::{again, cone, refusal};
+use super::stand::{Cut, Sample};
+use super::text::{Edits, Text};
+use super::{ProgramOptions, residual_share};
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::{AxisKind, Command};
+use trueaxis_motion::axis_path::{AxisPath, Fault};
+use trueaxis_motion::{Densify, Node, SetUp};
+use trueaxis_nc::Program;
+use trueaxis_nc::moves::{Coordinates, Event, FeedMode, Move, MoveKind, Origin, Step};
+
+const TO_MACHINE_ZERO: &str = "rapid to machine coordinates";
+
+/// A program on its way into another.
+pub(super) struct Walk<'w> {
+    options: &'w ProgramOptions,
+    machine: &'w Machine,
+    setup: &'w SetUp,
+    corrector: Corrector,
+    /// What the control commands by the program that is written.
+    written: AxisPath<'w>,
+    pub text: Text<'w>,
+    pub found: Found,
+    pub fault: Option<Fault>,
+    /// The last block that was changed or could have been.
+    last: Option<Origin>,
+    /// The tool axis is programmed by vectors.
+    vectors: bool,
+    /// The feed that the next block has to state again.
+    feed_again: Option<f64>,
+    /// A circle became lines, and the next one may rely on its G2 or G3.
+    circle_gone: bool,
+    /// Where the axes would stand at the end of the last block without rounding.
+    exact: Command,
+    /// The written program stands where nothing was corrected: the next block leads from there.
+    approaching: bool,
+}
+
+/// Where the axes go in a move of the program as it is.
+#[derive(Debug, Clone, Copy)]
+struct Way<'n> {
+    begin: &'n Command,
+    nodes: &'n [Node],
+    /// The number of the first node in the stretch.
+    first: usize,
+}
+
+/// Of what is written only the ends count; small turns keep the branch of the rotary axes.
+const ENDS: Densify = Densify::Places {
+    chord_mm: f64::INFINITY,
+    angle_rad: std::f64::consts::PI / 180.0,
+    spacing_mm: f64::INFINITY,
+    least: 1,
+};
+
+impl<'w> Walk<'w> {
+    pub fn new(
+        machine: &'w Machine,
+        program: &'w Program,
+        setup: &'w SetUp,
+        options: &'w ProgramOptions,
+    ) -> Result<Self, Fault> {
+        let corrector = corrector(machine, options, Origin::default())?;
+        Ok(Self {
+            options,
+            machine,
+            setup,
+            corrector,
+            written: AxisPath::new(machine, setup, ENDS, 0.01),
+            text: Text::of(program),
+            found: Found::of(machine),
+            fault: None,
+            last: None,
+            vectors: false,
+            feed_again: None,
+            circle_gone: false,
+            exact: Command::default(),
+            approaching: true,
+        })
+    }
+
+    /// The machine with the tool that is in it at the end.
+    pub fn machine(&self) -> &Machine {
+        self.corrector.machine()
+    }
+
+    /// Writes a stretch of the program.
+    pub fn take(&mut self, stretch: &Stretch) {
+        if let Some(first) = stretch.steps.first() {
+            let places = stretch.nodes.iter().map(|node| node.command);
+            self.corrector.prepare(places, &first.begin);
+        }
+        for ahead in &stretch.steps {
+            if self.fault.is_some() {
+                return;
+            }
+            let done = match (&ahead.fault, &ahead.step) {
+                (Some(fault), _) => Err(fault.clone()),
+                (None, Step::Event(event, origin)) => self.event(&ahead.step, event, *origin),
+                (None, Step::Move(m)) => self.travel(m, ahead, &stretch.nodes),
+            };
+            self.fault = done.err().or_else(|| self.written.faults.pop());
+        }
+    }
+
+    fn event(&mut self, step: &Step, event: &Event, origin: Origin) -> Result<(), Fault> {
+        self.written.take(step, &mut |_| {});
+        match event {
+            Event::ToolChange(number) => {
+                if let Some(tool) = self.setup.tools.get(number) {
+                    let machine = self.machine.clone().with_tip(tool.tip_mm);
+                    let next = corrector(&machine, self.options, origin)?;
+                    self.corrector = next.with_history_of(&self.corrector);
+                }
+            }
+            Event::ToolCentre(_) => self.vectors = false,
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn travel(&mut self, m: &Move, ahead: &Ahead, nodes: &[Node]) -> Result<(), Fault> {
+        let way = Way {
+            begin: &ahead.begin,
+            nodes: &nodes[ahead.nodes.clone()],
+            first: ahead.nodes.start,
+        };
+        match self.why_left(m, way.nodes) {
+            Some(why) => self.leave(m, why),
+            None if self.written.turns_on_cone() => Err(cone(m.origin)),
+            None => self.rewrite(m, &way),
+        }
+    }
+
+    /// Why a block stays as it is, whatever the machine does.
+    fn why_left(&mut self, m: &Move, nodes: &[Node]) -> Option<&'static str> {
+        match (m.kind, m.coordinates) {
+            (MoveKind::Dwell { .. }, _) => Some(""),
+            (MoveKind::Align { .. }, _) => Some("the tool turns onto a swivelled plane"),
+            (MoveKind::Probe, _) => Some("probing"),
+            (MoveKind::RigidTap { .. }, _) => Some("rigid tapping"),
+            // Nothing moves.
+            _ if nodes.is_empty() => Some(""),
+            (MoveKind::Rapid, Coordinates::Machine) => Some(TO_MACHINE_ZERO),
+            (MoveKind::Rapid, _) if self.counts_from_machine_zero(m) => Some(TO_MACHINE_ZERO),
+            _ => None,
+        }
+    }
+
+    /// FANUC's G53 comes as a place of the program frame.
+    fn counts_from_machine_zero(&mut self, m: &Move) -> bool {
+        let words = (m.origin.program == 0).then(|| self.text.words(m.origin.line).0);
+        words.is_some_and(|w| w.machine.is_some())
+    }
+
+    fn leave(&mut self, m: &Move, why: &'static str) -> Result<(), Fault> {
+        if !why.is_empty() {
+            self.found.leave(why);
+            self.approaching = true;
+        }
+        self.go_as_written(m);
+        if m.origin.program == 0 && m.origin.line > 0 && !self.text.keep(m.origin.line) {
+            return Err(again(m.origin));
+        }
+        self.last = Some(m.origin);
+        Ok(())
+    }
+
+    /// The written program makes the same move; axes that the block does not name stand where they
+    /// were written.
+    fn go_as_written(&mut self, m: &Move) {
+        let mut same = *m;
+        if m.coordinates == Coordinates::Program {
+            let now = self.written.words_of(self.written.command(), Coordinates::Program);
+            for axis in trueaxis_nc::moves::Axis::ALL {
+                if !m.named.contains(axis) {
+                    same.target[axis] = now[axis];
+                }
+            }
+        }
+        self.go(&same);
+    }
+
+    fn go(&mut self, m: &Move) {
+        let from = *self.written.command();
+        self.written.take(&Step::Move(*m), &mut |_| {});
+        self.corrector.moved(&from, self.written.command());
+    }
+
+    /// Corrects a move and writes it.
+    fn rewrite(&mut self, m: &Move, way: &Way<'_>) -> Result<(), Fault> {
+        let whole = matches!(m.kind, MoveKind::Rapid | MoveKind::Thread { .. });
+        let samples = self.samples(m, way, whole)?;
+        self.exact = samples[samples.len() - 1].command;
+        if m.direction.is_some() {
+            self.vectors = true;
+        }
+        if m.origin.program != 0 {
+            return self.in_subprogram(m, &samples);
+        }
+        if self.last == Some(m.origin) {
+            let message = "the block makes several moves, as a cycle or a chamfer does: they have \
+                           no words of their own that could be corrected"
+                .to_owned();
+            let hint = "write the moves one by one; the postprocessor can";
+            return Err(refusal(m.origin, "several-moves", message, hint));
+        }
+        self.last = Some(m.origin);
+        let ends = match self.written.control() {
+            Some(control) if !whole => self.cut(control).ends(&samples),
+            _ => vec![samples.len() - 1],
+        };
+        let approaching = std::mem::take(&mut self.approaching);
+        let first_time = !self.text.was_executed(m.origin.line);
+        let (words, incremental) = self.text.words(m.origin.line);
+        let kept = self.kept_circle(m, &samples, words.motion.is_some());
+        let ends = if kept { vec![samples.len() - 1] } else { ends };
+        let mut block = Block {
+            m,
+            source: self.text.source(),
+            words: &words,
+            incremental,
+            control: self.text.control(),
+            grid: self.options.grid(),
+            vectors: self.vectors,
+            feed_again: self.feed_again.take(),
+            edits: Edits::default(),
+            further: Vec::new(),
+            added: 0,
+            pieces: ends.len(),
+        };
+        let turns_deg = self.turns_deg(m, way);
+        let mut from = 0;
+        for (piece, to) in ends.iter().enumerate() {
+            let share = samples[*to].u - samples[from].u;
+            let way = (samples[from].command, samples[*to].command);
+            if kept {
+                self.go_as_written(m);
+            } else {
+                let step = Written { piece, share, command: way.1 };
+                let next = block.write(&self.written, &step, turns_deg)?;
+                self.feed_again = next.feed_again.or(self.feed_again);
+                self.go(&next.m);
+                self.check_arrival(m, &way.1)?;
+                self.found.undecided += u64::from(self.comes_otherwise(&samples[*to]));
+            }
+            let stands = samples[from..=*to].iter().map(|s| s.wanted);
+            // A piece that needs no words of its own belongs to the line before.
+            let piece = if kept { 0 } else { block.further.len() as u32 };
+            let from_elsewhere = approaching && from == 0;
+            // While an axis takes up its play at one place, the tool is nowhere else.
+            let takes_up_play = samples[*to].turns && *to == from + 1;
+            let end_only = whole || !first_time || from_elsewhere || takes_up_play;
+            let want = Want::of(m.origin.line, piece, end_only);
+            self.found.want(want, stands);
+            from = *to;
+        }
+        let is_circle = matches!(m.kind, MoveKind::Arc(_) | MoveKind::SpatialArc(_));
+        self.found.note(&block, is_circle && !kept, self.feed_again.is_some(), &samples);
+        let (edits, further) = (block.edits, block.further);
+        let unchanged = edits.is_empty() && further.is_empty();
+        let line = m.origin.line;
+        let fits =
+            if unchanged { self.text.keep(line) } else { self.text.change(line, edits, &further) };
+        if fits { Ok(()) } else { Err(again(m.origin)) }
+    }
+
+    fn cut<'c>(&self, control: &'c trueaxis_machine::tcp::TipControl) -> Cut<'c> {
+        let [residual_mm, residual_rad] = residual_share(self.options);
+        Cut { control, straight: self.written.straight(), residual_mm, residual_rad }
+    }
+
+    /// A circle that no correction touches stays one.
+    fn kept_circle(&mut self, m: &Move, samples: &[Sample], says_circle: bool) -> bool {
+        if !matches!(m.kind, MoveKind::Arc(_) | MoveKind::SpatialArc(_)) {
+            self.circle_gone = false;
+            return false;
+        }
+        let untouched = samples.iter().all(|s| {
+            let [tip, axis] = s.wanted.from(&s.believed);
+            tip < 1e-10 && axis < 1e-13
+        });
+        let kept = untouched && (says_circle || !self.circle_gone);
+        self.circle_gone = !kept;
+        kept
+    }
+
+    /// The degrees that a feed in deg/min counts along, where the tip stands still.
+    fn turns_deg(&self, m: &Move, way: &Way<'_>) -> Option<f64> {
+        if m.kind != MoveKind::Linear || m.feed.mode != FeedMode::PerMinute {
+            return None;
+        }
+        let end = way.nodes.last().map_or(way.begin, |node| &node.command);
+        let end = self.written.words_of(end, m.coordinates);
+        let moved = end.minus(&self.written.words_of(way.begin, m.coordinates));
+        let turned: f64 = way.nodes.iter().map(|n| n.length).sum();
+        let stands = moved.0[..3].iter().all(|v| v.abs() <= 1e-9);
+        (stands && turned > 0.0).then_some(turned)
+    }
+
+    /// A subprogram can be called from elsewhere: only one that needs no change is left alone.
+    fn in_subprogram(&mut self, m: &Move, samples: &[Sample]) -> Result<(), Fault> {
+        let untouched = samples.iter().all(|s| {
+            let [tip, axis] = s.wanted.from(&s.believed);
+            tip < 1e-10 && axis < 1e-13
+        });
+        if untouched {
+            self.go_as_written(m);
+            return Ok(());
+        }
+        let message =
+            "the move stands in a subprogram, which may be called elsewhere too".to_owned();
+        let hint = "unroll it: --flat puts its blocks into the main program";
+        Err(refusal(m.origin, "in-subprogram", message, hint))
+    }
+
+    /// The control goes where the written words were meant to lead.
+    fn check_arrival(&self, m: &Move, wanted: &Command) -> Result<(), Fault> {
+        for (i, axis) in self.machine.axes().iter().enumerate() {
+            let by = (self.written.command()[i] - wanted[i]).abs();
+            let (allowed, unit, scale) = match axis.kind {
+                AxisKind::Linear => (0.05, "mm", 1.0),
+                AxisKind::Rotary => (2e-3, "deg", 1_f64.to_degrees()),
+            };
+            // NaN has not arrived.
+            if by.is_nan() || by > allowed {
+                let message = format!(
+                    "with corrected words {} would end {:.6} {unit} from its place",
+                    axis.name,
+                    by * scale
+                );
+                let hint =
+                    "near a pole, where a rotary axis rewinds, or with ACP/ACN: write its angles";
+                return Err(refusal(m.origin, "other-place", message, hint));
+            }
+        }
+        Ok(())
+    }
+}
+
+fn corrector(
+    machine: &Machine,
+    options: &ProgramOptions,
+    origin: Origin,
+) -> Result<Corrector, Fault> {
+    let made = Corrector::of(machine, options.position_only, options.limit, options.increments);
+    let corrector = made.map_err(|fault| {
+        let hint = "a machine with three linear axes is needed";
+        refusal(origin, "not-correctable", fault.to_string(), hint)
+    })?;
+    Ok(if options.pose_by_pose { corrector } else { corrector.by_batch() })
+}

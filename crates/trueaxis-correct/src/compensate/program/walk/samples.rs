@@ -1,0 +1,144 @@
+//! Places of a move: those that the program passes, and those where an axis turns round.
+
+use super::super::correct::{Corrected, Place, reached};
+use super::super::refuse::refusal;
+use super::super::stand::{Sample, Stand};
+use super::super::turns::{At, Stop, stops};
+use super::{Walk, Way};
+use trueaxis_machine::axis::{Approach, Command};
+use trueaxis_motion::axis_path::Fault;
+use trueaxis_nc::moves::Move;
+
+/// A reversal error that is left counts from here on, mm.
+const LEFT_MM: f64 = 1e-6;
+
+impl Walk<'_> {
+    /// What the program says along the move, and what has to be commanded for it.
+    pub(super) fn samples(
+        &mut self,
+        m: &Move,
+        way: &Way<'_>,
+        whole: bool,
+    ) -> Result<Vec<Sample>, Fault> {
+        if self.written.control().is_none() {
+            let message = "the machine has fewer than three linear axes".to_owned();
+            let hint = "the tip cannot be corrected; describe another machine";
+            return Err(refusal(m.origin, "not-correctable", message, hint));
+        }
+        let begins = self.begins(m, way.begin);
+        let mut samples = Vec::with_capacity(way.nodes.len() + 1);
+        samples.push(self.sample(0.0, way.begin, begins));
+        let (mut last, mut side) = (*self.written.command(), *self.corrector.approach());
+        for stop in self.stops(way, whole) {
+            let done = self.correct(m, way, &stop, (&last, &side))?;
+            let nowhere = stop.turns && done.command == last;
+            side = self.corrector.side_behind(&side, &last, &done.command);
+            last = done.command;
+            self.found.correct((&stop.nominal, m.origin.line), &done);
+            if !nowhere {
+                let sample = self.sample(stop.u, &stop.nominal, done.command);
+                samples.push(Sample { turns: stop.turns, side, ..sample });
+            }
+        }
+        Ok(samples)
+    }
+
+    /// Where the axes would stand at the beginning: cuts are made as if the way began where it should.
+    fn begins(&self, m: &Move, begin: &Command) -> Command {
+        if !self.approaching {
+            return self.exact;
+        }
+        let from = *self.written.command();
+        let place = Place {
+            nominal: begin,
+            side: reached(self.corrector.approach(), &from, begin),
+            from: &from,
+            approach: self.corrector.approach(),
+            only_position: self.written.is_only_tilted(),
+            origin: m.origin,
+        };
+        self.corrector.at(&place, None).map_or(from, |c| c.command)
+    }
+
+    fn stops(&self, way: &Way<'_>, whole: bool) -> Vec<Stop> {
+        let total: f64 = way.nodes.iter().map(|n| n.length).sum();
+        let (mut length, count) = (0.0, way.nodes.len());
+        let only_position = self.written.is_only_tilted();
+        let reverses = self.corrector.reverses();
+        let at = |u: f64, nominal: &Command, prepared: Option<usize>| {
+            let ahead = || prepared.and_then(|k| self.corrector.mean_prepared(k));
+            let mean = match reverses {
+                true => ahead().unwrap_or_else(|| self.corrector.mean(nominal, only_position)),
+                false => *nominal,
+            };
+            At { u, nominal: *nominal, mean, prepared }
+        };
+        let mut places = Vec::with_capacity(count);
+        for (k, node) in way.nodes.iter().enumerate() {
+            length += node.length;
+            let is_last = k + 1 == count;
+            if is_last || !whole {
+                let u = if is_last || total <= 0.0 { 1.0 } else { length / total };
+                places.push(at(u, &node.command, Some(way.first + k)));
+            }
+        }
+        let side = self.corrector.approach();
+        if reverses && !whole {
+            let begin = at(0.0, way.begin, None);
+            let mean = |nominal: &Command| self.corrector.mean(nominal, only_position);
+            return stops(&begin, side, &places, (self.corrector.least(), &mean));
+        }
+        let (mut side, mut last) = (*side, *way.begin);
+        let each = places.iter().map(|p| {
+            side = reached(&side, &last, &p.nominal);
+            last = p.nominal;
+            Stop { u: p.u, nominal: p.nominal, side, prepared: p.prepared, turns: false }
+        });
+        each.collect()
+    }
+
+    /// The written numbers lead an axis to its place from another side than it was corrected for:
+    /// rounding turns an axis round that hardly moves, and its reversal error is left.
+    pub(super) fn comes_otherwise(&self, end: &Sample) -> bool {
+        let (side, command) = (self.corrector.approach(), self.written.command());
+        if !self.corrector.reverses() || *side == end.side {
+            return false;
+        }
+        let machine = self.corrector.machine();
+        let tip = |side: &Approach| {
+            let errors = machine.errors_at(command, side).ok()?;
+            Some(machine.deviation(command, &errors).tip_mm)
+        };
+        let by = tip(side).zip(tip(&end.side)).map_or(0.0, |(is, meant)| (is - meant).norm());
+        by > LEFT_MM
+    }
+
+    fn correct(
+        &self,
+        m: &Move,
+        way: &Way<'_>,
+        stop: &Stop,
+        (from, approach): (&Command, &Approach),
+    ) -> Result<Corrected, Fault> {
+        let place = Place {
+            nominal: &stop.nominal,
+            side: stop.side,
+            from,
+            approach,
+            only_position: self.written.is_only_tilted(),
+            origin: way.nodes.first().map_or(m.origin, |node| node.origin),
+        };
+        let prepared = stop.prepared.and_then(|k| self.corrector.prepared(k));
+        self.corrector.at(&place, prepared)
+    }
+
+    fn sample(&self, u: f64, nominal: &Command, command: Command) -> Sample {
+        let stand = |c: &Command| match self.written.control() {
+            Some(control) => Stand::of(control, c),
+            None => Stand::default(),
+        };
+        let (wanted, believed) = (stand(nominal), stand(&command));
+        let side = *self.corrector.approach();
+        Sample { u, wanted, command, believed, side, turns: false }
+    }
+}

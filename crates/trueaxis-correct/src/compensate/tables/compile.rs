@@ -1,0 +1,265 @@
+//! From the machine to the files, and back from the files to what they leave.
+
+use super::choose::{Candidate, choose};
+use super::content::Content;
+use super::control::{Control, File, range};
+use super::emulation::Emulation;
+use super::grid::{GridFault, Gridded};
+use super::joints::Joints;
+use super::lever::Lever;
+use super::place::{PlaceFault, Placed};
+use super::proof::{error_losses, left_over};
+use super::table::{PER_UNIT, Table, count_of, counts};
+use super::{
+    Compiled, LeftOut, Made, Order, TablesError, What, grid, known, lever, place, shown,
+    shown_place, temperature,
+};
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::{Approach, AxisKind, Command, Travel};
+use trueaxis_machine::chain::CommandFault;
+use trueaxis_machine::errors::ErrorName;
+
+/// Compiles the tables of a control, reads them back and says what they leave.
+///
+/// # Errors
+/// [`TablesError`]; then there is no file.
+pub fn compile(machine: &Machine, order: &Order) -> Result<Compiled, TablesError> {
+    let control = order.target.control();
+    for axis in machine.axes() {
+        if !control.letters().contains(axis.name.letter()) {
+            return Err(TablesError::UnknownAxis { axis: axis.name, target: control.key() });
+        }
+    }
+    let reference = order.reference.unwrap_or_else(|| middle(machine));
+    let (chain, rest) = known::split(machine, control.as_ref(), order.kinematics);
+    let knowledge = known::compile(&chain, order, control.as_ref())?;
+    let written: Vec<_> = knowledge.made.iter().map(|k| k.known.clone()).collect();
+    let (joints, uncertain_joints) = joints_of(chain, control.as_ref());
+    let mut content = Content { known: written, joints, ..Content::default() };
+    let rest = match machine.is_at_temperatures() && control.has_temperature_lines() {
+        true => {
+            let cold = rest.without_heat();
+            content.lines = temperature::lines((&rest, &cold), &reference, control.as_ref())?;
+            cold
+        }
+        false => rest,
+    };
+    let (tables, mut left_out) = tables(machine, &rest, order, (control.as_ref(), &content))?;
+    let uncertain = knowledge.left_out.into_iter().chain(uncertain_joints);
+    left_out.extend(uncertain.map(|(error, largest)| LeftOut {
+        what: What::Error(error),
+        largest,
+        reason: UNCERTAIN,
+    }));
+    content.tables = tables.iter().map(|t| t.table.clone()).collect();
+    let gridded = gridded(&rest, order, &reference, (control.as_ref(), &content))?;
+    content.grid = gridded.as_ref().map(|g| g.grid.clone());
+    let files = control.write(machine, &content);
+    let read = recovered(machine, control.as_ref(), &content, &files)?;
+    let left = |content: &Content| left_over(&Emulation::new(machine, control.as_ref(), content));
+    Ok(Compiled {
+        order: *order,
+        reference,
+        before: left(&Content::default())?,
+        wrong_sign: left(&read.negated(machine))?,
+        errors: error_losses(machine, &reference, (control.as_ref(), &read), order),
+        after: left(&read)?,
+        files,
+        tables,
+        known: knowledge.made,
+        lines: content.lines,
+        joints: content.joints,
+        grid: gridded,
+        left_out,
+        advice: control.advice(),
+    })
+}
+
+/// The rotary axes as the control's parameters have them, if it knows an error of them; and the errors that are not
+/// known well enough.
+fn joints_of(mut chain: Machine, control: &dyn Control) -> (Option<Joints>, Vec<(ErrorName, f64)>) {
+    let mut uncertain = Vec::new();
+    if control.knows_links() {
+        return (None, uncertain);
+    }
+    for (index, name) in chain.stated_errors() {
+        let stated = chain.bodies()[index.body].stated(index.kind, index.component);
+        let size = stated.map_or(0.0, |s| s.at(0.0, 0.0).map_or(0.0, f64::abs));
+        if stated.is_some_and(|s| size <= s.u_at(0.0)) {
+            uncertain.extend((size > 0.0).then_some((name, size)));
+            chain = chain.with_error(index, None);
+        }
+    }
+    let actual = Joints::actual(&chain);
+    ((actual != Joints::nominal(&chain)).then_some(actual), uncertain)
+}
+
+/// Why something stays out that is not known well enough.
+const UNCERTAIN: &str = "nowhere larger than its own standard uncertainty";
+
+/// The tables of what the control's chain does not know.
+fn tables(
+    machine: &Machine,
+    rest: &Machine,
+    order: &Order,
+    (control, content): (&dyn Control, &Content),
+) -> Result<(Vec<Made>, Vec<LeftOut>), TablesError> {
+    let lever = Lever::new(rest, order.reference.unwrap_or_else(|| middle(machine)))?;
+    let (mut candidates, mut left_out) = (Vec::new(), Vec::new());
+    for (input, output) in control.pairs(machine) {
+        match candidate(rest, order, control, &lever, (input, output))? {
+            Ok(made) => candidates.push(made),
+            Err(Some(out)) => left_out.push(out),
+            Err(None) => {}
+        }
+    }
+    let already = Emulation::new(machine, control, content);
+    let (tables, worse) = choose(machine, control, &already, candidates);
+    left_out.extend(worse);
+    let (needed, most) = (tables.len(), control.most_tables());
+    match needed > most {
+        true => Err(TablesError::TooManyTables { target: control.key(), needed, most }),
+        false => Ok((tables, left_out)),
+    }
+}
+
+/// The grid of what tables leave where the rotary axes stand at the reference.
+fn gridded(
+    rest: &Machine,
+    order: &Order,
+    reference: &Command,
+    (control, content): (&dyn Control, &Content),
+) -> Result<Option<Gridded>, TablesError> {
+    let Some(rule) = control.grid() else { return Ok(None) };
+    let linear = rest.axes().iter().enumerate().filter(|(_, a)| a.kind == AxisKind::Linear);
+    let axes: Vec<usize> = linear.map(|(i, _)| i).collect();
+    let Some(axes) = axes.first_chunk::<3>() else { return Ok(None) };
+    // The functions, not the tables: what a table loses between its nodes is not for the grid to make up.
+    let lever = Lever::new(rest, *reference)?;
+    let by_tables = |command: &Command| {
+        let mut added = Command::default();
+        for table in &content.tables {
+            let all = lever.functions(table.input, command[table.input], 0.0)?;
+            added[table.output] += all[table.output];
+        }
+        Ok::<_, CommandFault>(added)
+    };
+    let mut ends = [(0, 0, 0); 3];
+    for (end, axis) in ends.iter_mut().zip(axes) {
+        let ((from, to), _) = range(&rest.axes()[*axis], control)?;
+        *end = (*axis, from, to);
+    }
+    let wanted = |place: [i64; 3]| {
+        let mut command = *reference;
+        for ((axis, from, to), at) in ends.iter().zip(place) {
+            // The last point may lie beyond the travel, where nothing is known.
+            command[*axis] = at.clamp(*from, *to) as f64 * count_of(rest, *axis);
+        }
+        let still = Approach::default();
+        let whole = lever::correction(rest, &command, &still)?;
+        let by_tables = by_tables(&command)?;
+        Ok(axes.map(|axis| counts(rest, axis, whole[axis] - by_tables[axis])))
+    };
+    let bound = order.bound_mm * PER_UNIT;
+    grid::place(&wanted, ends, rule, bound).map(Some).map_err(|fault| match fault {
+        GridFault::Machine(fault) => TablesError::Position(fault),
+        GridFault::TooMany(loss) => TablesError::GridPoints {
+            target: control.key(),
+            loss: loss / PER_UNIT * 1e3,
+            bound: order.bound_mm * 1e3,
+        },
+        GridFault::TooLarge(value) => TablesError::GridValue {
+            target: control.key(),
+            value: value as f64 / PER_UNIT * 1e3,
+            most: rule.largest as f64 / PER_UNIT * 1e3,
+        },
+    })
+}
+
+fn recovered(
+    machine: &Machine,
+    control: &dyn Control,
+    written: &Content,
+    files: &[File],
+) -> Result<Content, TablesError> {
+    let read = control.read(machine, files)?.sorted();
+    match read == written.clone().sorted() {
+        true => Ok(read),
+        false => Err(TablesError::NotRecovered("another meaning".to_owned())),
+    }
+}
+
+fn middle(machine: &Machine) -> Command {
+    let mut reference = Command::default();
+    for (q, axis) in reference.iter_mut().zip(machine.axes()) {
+        *q = match (axis.kind, axis.travel) {
+            (AxisKind::Linear, Travel::Between(from, to)) => 0.5 * (from + to),
+            (AxisKind::Rotary, Travel::Between(from, to)) => 0.0_f64.clamp(from, to),
+            _ => 0.0,
+        };
+    }
+    reference
+}
+
+/// The function is first looked at here: size and uncertainty.
+const GLANCES: i64 = 32;
+
+/// A table for a pair of axes; or why there should be none, without a reason if there is nothing to do.
+fn candidate(
+    machine: &Machine,
+    order: &Order,
+    control: &dyn Control,
+    lever: &Lever<'_>,
+    (input, output): (usize, usize),
+) -> Result<Result<Candidate, Option<LeftOut>>, TablesError> {
+    let (axis, moved) = (&machine.axes()[input], &machine.axes()[output]);
+    let ((from, to), modulo) = range(axis, control)?;
+    let (count_in, count_out) = (count_of(machine, input), count_of(machine, output));
+    let function = |at: i64| {
+        let q = at as f64 * count_in;
+        let of = |side| Ok::<_, CommandFault>(lever.functions(input, q, side)?[output]);
+        Ok([counts(machine, output, of(1.0)?), counts(machine, output, of(-1.0)?)])
+    };
+    let (mut largest, mut certain) = (0.0_f64, false);
+    for i in 0..=GLANCES {
+        let at = from + ((to - from) as i128 * i as i128 / GLANCES as i128) as i64;
+        let size = function(at)?.map(f64::abs).into_iter().fold(0.0, f64::max) * count_out;
+        if size > order.limit(moved.kind) {
+            return Err(TablesError::TooLarge {
+                output: moved.name,
+                input: axis.name,
+                value: shown(moved, size),
+                at: shown_place(axis, at as f64 * count_in),
+                limit: shown(moved, order.limit(moved.kind)),
+            });
+        }
+        largest = largest.max(size);
+        certain |= size > lever.u(input, at as f64 * count_in)?[output];
+    }
+    if largest < 0.5 * control.rule().increment * count_out {
+        return Ok(Err(None));
+    }
+    if !certain {
+        let what = What::Table { input, output };
+        return Ok(Err(Some(LeftOut { what, largest, reason: UNCERTAIN })));
+    }
+    let bound = order.bound(moved.kind);
+    let placed = place::place(&function, (from, to), (control.rule(), modulo), bound / count_out);
+    let Placed { nodes, loss } = placed.map_err(|fault| match fault {
+        PlaceFault::Machine(fault) => TablesError::Position(fault),
+        PlaceFault::Increment => TablesError::Increment {
+            target: control.key(),
+            output: moved.name,
+            bound: shown(moved, bound),
+        },
+        PlaceFault::TooMany(loss) => TablesError::TooManyNodes {
+            input: axis.name,
+            output: moved.name,
+            most: control.rule().most_nodes,
+            loss: shown(moved, loss * count_out),
+            bound: shown(moved, bound),
+        },
+    })?;
+    let table = Table { input, output, modulo, nodes };
+    Ok(Ok(Made { table, loss: loss * count_out, largest }))
+}

@@ -1,0 +1,253 @@
+//! What every axis should add to its command, and what of it is a function of one axis.
+//!
+//! ```text
+//!     c_r = −ω_r(q_r) − ω_0r                   own error motion and zero of each rotary axis, about itself
+//!     c_l: tip(q + c, E(q + c)) = nominal tip(q)            all linear axes together
+//!     f_io(q_i) = c_o(q_i; others at the reference) − its mean,      f_oo: + the mean of c_o
+//! ```
+//!
+//! docs/model.md eq. 170, 171. The means are over one set of poses in the volume: so functions of one axis
+//! each are recovered exactly, and where tables are missing the constant is the one that leaves least. Squareness of a rotary axis, say, is left to the linear axes: turning an axis
+//! against an error of another body is right in one pose and wrong in the next.
+
+use super::super::values::{Sense, body_of};
+use nalgebra::{DMatrix, DVector};
+use trueaxis_geometry::Vec3;
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::{Approach, Axis, AxisKind, Command};
+use trueaxis_machine::chain::CommandFault;
+use trueaxis_machine::errors::{Component, ErrorIndex, ErrorKind, ErrorValues};
+use trueaxis_machine::volume::commands;
+
+/// The correction shrinks by its own size relative to the machine in each step: far below a count after these.
+const STEPS: usize = 3;
+
+/// Poses of the means, beside the corners.
+const POSES: u32 = 96;
+
+/// A machine that is to be compensated, the other axes standing at a reference.
+pub struct Lever<'a> {
+    machine: &'a Machine,
+    reference: Command,
+    /// The mean correction of every axis over the volume.
+    mean: Command,
+    /// The mean of every output over the same poses where only this input moves.
+    mean_of: Vec<Command>,
+}
+
+impl<'a> Lever<'a> {
+    /// # Errors
+    /// A reference that an error table does not cover.
+    pub fn new(machine: &'a Machine, reference: Command) -> Result<Self, CommandFault> {
+        let axes = machine.axes().len();
+        let mut lever = Self {
+            machine,
+            reference,
+            mean: Command::default(),
+            mean_of: vec![Command::default(); axes],
+        };
+        lever.whole(0, reference[0], 0.0)?;
+        let mut count = 0.0;
+        for pose in commands(machine.axes(), POSES) {
+            let all = correction(machine, &pose, &Approach::default());
+            let each = (0..axes).map(|input| lever.whole(input, pose[input], 0.0));
+            let (Ok(all), Ok(each)) = (all, each.collect::<Result<Vec<_>, _>>()) else { continue };
+            count += 1.0;
+            lever.mean = sum(&lever.mean, &all);
+            for (mean, one) in lever.mean_of.iter_mut().zip(&each) {
+                *mean = sum(mean, one);
+            }
+        }
+        let means = lever.mean_of.iter_mut().chain([&mut lever.mean]);
+        means.flatten().for_each(|v| *v /= f64::max(count, 1.0));
+        Ok(lever)
+    }
+
+    /// What an input axis at a position makes every axis add, mm or rad: the functions f_io of all
+    /// outputs o.
+    ///
+    /// # Errors
+    /// A position that an error table does not cover.
+    pub fn functions(&self, input: usize, q: f64, side: f64) -> Result<Command, CommandFault> {
+        let mut c = self.whole(input, q, side)?;
+        for (output, axis) in self.machine.axes().iter().enumerate() {
+            if axis.kind == AxisKind::Linear {
+                c[output] -= self.mean_of[input][output];
+                if output == input {
+                    c[output] += self.mean[output];
+                }
+            }
+        }
+        Ok(c)
+    }
+
+    /// One standard uncertainty of those functions.
+    ///
+    /// # Errors
+    /// As [`Lever::functions`].
+    pub fn u(&self, input: usize, q: f64) -> Result<Command, CommandFault> {
+        let mut command = self.reference;
+        command[input] = q;
+        let quantities = self.machine.uncertain_quantities();
+        let here = felt_by_each(self.machine, &command, &quantities)?;
+        let there = felt_by_each(self.machine, &self.reference, &quantities)?;
+        let mut variance = Command::default();
+        for (a, b) in here.iter().zip(&there) {
+            for (output, v) in variance.iter_mut().enumerate() {
+                let base = if output == input { 0.0 } else { b[output] };
+                *v += (a[output] - base).powi(2);
+            }
+        }
+        Ok(variance.map(f64::sqrt))
+    }
+
+    fn whole(&self, input: usize, q: f64, side: f64) -> Result<Command, CommandFault> {
+        let mut command = self.reference;
+        command[input] = q;
+        let mut approach = Approach::default();
+        approach[input] = side;
+        correction(self.machine, &command, &approach)
+    }
+}
+
+/// What every axis should add to its command at a pose, mm or rad.
+///
+/// # Errors
+/// A command that an error table does not cover.
+pub fn correction(
+    machine: &Machine,
+    command: &Command,
+    approach: &Approach,
+) -> Result<Command, CommandFault> {
+    let added = rotary(machine, command, &machine.errors_at(command, approach)?);
+    let errors = |at: &Command| errors_near(machine, at, command, approach);
+    placed(machine, command, &errors, added)
+}
+
+/// What is added already, and what the linear axes have to add to bring the tip to its place, mm or rad; with the
+/// errors at a command.
+///
+/// # Errors
+/// Those of `errors`.
+pub fn placed<F>(
+    machine: &Machine,
+    command: &Command,
+    errors: &dyn Fn(&Command) -> Result<ErrorValues, F>,
+    mut added: Command,
+) -> Result<Command, F> {
+    let wanted = nominal_tip(machine, command);
+    let solve = linear_inverse(machine, command);
+    for _ in 0..STEPS {
+        let at = sum(command, &added);
+        let there = machine.deviation(&at, &errors(&at)?);
+        for (axis, step) in solve(&(there.nominal_tip.vector() + there.tip_mm - wanted)) {
+            added[axis] -= step;
+        }
+    }
+    Ok(added)
+}
+
+/// Where the tip is when the control has added something: the errors are those of where the axes are.
+///
+/// # Errors
+/// A command that an error table does not cover. Where only the sum lies outside a table, at the end of
+/// the travel, the errors of the programmed command stand in.
+pub fn errors_near(
+    machine: &Machine,
+    at: &Command,
+    programmed: &Command,
+    approach: &Approach,
+) -> Result<ErrorValues, CommandFault> {
+    machine.errors_at(at, approach).or_else(|_| machine.errors_at(programmed, approach))
+}
+
+/// Sum of a command and what is added to it.
+pub fn sum(command: &Command, added: &Command) -> Command {
+    let mut sum = *command;
+    for (q, c) in sum.iter_mut().zip(added) {
+        *q += c;
+    }
+    sum
+}
+
+fn nominal_tip(machine: &Machine, command: &Command) -> Vec3 {
+    machine.deviation(command, &ErrorValues::default()).nominal_tip.vector()
+}
+
+/// The rotary part: each axis against its own error motion and its own zero.
+fn rotary(machine: &Machine, command: &Command, errors: &ErrorValues) -> Command {
+    let mut added = Command::default();
+    for (i, axis) in machine.axes().iter().enumerate() {
+        if axis.kind == AxisKind::Rotary {
+            let mut own = ErrorValues::default();
+            let body = body_of(machine, i);
+            for component in Component::ALL {
+                let motion = ErrorIndex { body, kind: ErrorKind::Motion, component };
+                own.set(motion, errors.get(motion));
+            }
+            let zero = own_component(axis);
+            let zero = ErrorIndex { body, kind: ErrorKind::Location, component: zero };
+            own.set(zero, errors.get(zero));
+            added[i] = -Sense::of(machine, i, command).felt(machine, command, &own) + 0.0;
+        }
+    }
+    added
+}
+
+/// The direction in which an axis moves or about which it turns.
+pub fn own_component(axis: &Axis) -> Component {
+    let along = axis.direction.iamax();
+    match axis.kind {
+        AxisKind::Linear => [Component::X, Component::Y, Component::Z][along],
+        AxisKind::Rotary => [Component::A, Component::B, Component::C][along],
+    }
+}
+
+/// From an error of the tip to the steps of the linear axes that make it, the least ones if there is a choice.
+fn linear_inverse(machine: &Machine, command: &Command) -> impl Fn(&Vec3) -> Vec<(usize, f64)> {
+    let linear = machine.axes().iter().enumerate().filter(|(_, a)| a.kind == AxisKind::Linear);
+    let axes: Vec<usize> = linear.map(|(i, _)| i).collect();
+    let columns: Vec<Vec3> = axes
+        .iter()
+        .map(|i| {
+            let (mut more, mut less) = (*command, *command);
+            more[*i] += 0.5;
+            less[*i] -= 0.5;
+            nominal_tip(machine, &more) - nominal_tip(machine, &less)
+        })
+        .collect();
+    let matrix = DMatrix::from_fn(3, axes.len(), |row, column| columns[column][row]);
+    let inverse = matrix.pseudo_inverse(1e-9).unwrap_or_else(|_| DMatrix::zeros(axes.len(), 3));
+    move |off: &Vec3| {
+        let steps = &inverse * DVector::from_column_slice(off.as_slice());
+        axes.iter().copied().zip(steps.iter().copied()).collect()
+    }
+}
+
+/// What one standard uncertainty of each quantity changes of the correction, to first order.
+fn felt_by_each(
+    machine: &Machine,
+    command: &Command,
+    quantities: &[String],
+) -> Result<Vec<Command>, CommandFault> {
+    let errors = machine.errors_at(command, &Approach::default())?;
+    let known = machine.uncertainties_at(command, quantities);
+    let solve = linear_inverse(machine, command);
+    let one = |errors: &ErrorValues| {
+        let mut added = rotary(machine, command, errors);
+        let moved = nominal_tip(machine, &sum(command, &added)) - nominal_tip(machine, command);
+        for (axis, step) in solve(&(machine.deviation(command, errors).tip_mm + moved)) {
+            added[axis] -= step;
+        }
+        added
+    };
+    let without = one(&errors);
+    let each = (0..quantities.len()).map(|quantity| {
+        let mut with = one(&known.displaced_by(&errors, quantity, 1.0));
+        for (a, b) in with.iter_mut().zip(&without) {
+            *a -= b;
+        }
+        with
+    });
+    Ok(each.collect())
+}

@@ -1,0 +1,272 @@
+//! What the tables of a control leave: over the volume, of each error alone, of a test piece.
+
+use super::choose::off;
+use super::content::Content;
+use super::control::Control;
+use super::emulation::Emulation;
+use super::joints::{Joints, moves_an_axis};
+use super::known::split;
+use super::lever::{Lever, correction, errors_near, placed, sum};
+use super::table::Table;
+use super::{Order, TablesError};
+use crate::predict::{Cutting, Error, Judge, Study};
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::{Approach, AxisKind, Command, MAX_AXES};
+use trueaxis_machine::chain::{ChainBody, CommandFault};
+use trueaxis_machine::errors::{ErrorKind, ErrorName, ErrorValues};
+use trueaxis_machine::volume::commands;
+
+/// Poses over the travel of all axes beside the corners, each reached rising and falling.
+const POSES: u32 = 4096;
+/// Poses for each error alone.
+const FEW_POSES: u32 = 96;
+/// Less than this no error does: 1 nm.
+const NOTHING_MM: f64 = 1e-6;
+/// An error counts as represented if this share of what it did is left.
+const SMALL_SHARE: f64 = 0.02;
+
+/// How far the tool is off over the volume.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Left {
+    /// Poses that were looked at, each in two directions.
+    pub poses: usize,
+    /// The largest distance of the tips, mm.
+    pub max_mm: f64,
+    /// Where it is.
+    pub at: Command,
+    /// Root mean square, mm.
+    pub rms_mm: f64,
+    /// The largest angle between the tool axes, rad.
+    pub axis_rad: f64,
+}
+
+/// What one error does alone, and what these tables can leave of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ErrorLoss {
+    /// Which.
+    pub error: ErrorName,
+    /// The most that it moves the tip, mm.
+    pub before_mm: f64,
+    /// The most that is left, mm.
+    pub left_mm: f64,
+    /// Whether the tables represent it.
+    pub represented: bool,
+    /// Where the rest could be put.
+    pub instead: &'static str,
+}
+
+/// What is left over the volume.
+///
+/// # Errors
+/// No pose at all at which the errors are known.
+pub fn left_over(leaves: &Emulation<'_>) -> Result<Left, TablesError> {
+    let mut left = Left::default();
+    let (mut squares, mut count) = (0.0, 0.0);
+    for command in commands(leaves.machine().axes(), POSES) {
+        let mut seen = false;
+        for side in [1.0, -1.0] {
+            let approach = [side; MAX_AXES];
+            let added = leaves.added(&command, &approach);
+            let Some([tip, axis]) = off(leaves.machine(), &command, &added, &approach) else {
+                continue;
+            };
+            seen = true;
+            squares += tip.norm_squared();
+            count += 1.0;
+            left.axis_rad = left.axis_rad.max(axis.norm());
+            if tip.norm() > left.max_mm {
+                (left.max_mm, left.at) = (tip.norm(), command);
+            }
+        }
+        left.poses += usize::from(seen);
+    }
+    if left.poses == 0 {
+        leaves.machine().errors_at(&Command::default(), &Approach::default())?;
+    }
+    left.rms_mm = (squares / f64::max(count, 1.0)).sqrt();
+    Ok(left)
+}
+
+/// Each error alone: what such content of this control, without rounding and with any number of nodes, would
+/// leave.
+pub fn error_losses(
+    machine: &Machine,
+    reference: &Command,
+    (control, content): (&dyn Control, &Content),
+    order: &Order,
+) -> Vec<ErrorLoss> {
+    let bound_mm = order.bound_mm;
+    let cold = machine.without_heat();
+    let all = machine.stated_errors();
+    let bare = all.iter().fold(cold.clone(), |m, (index, _)| m.with_error(*index, None));
+    let poses = commands(machine.axes(), FEW_POSES);
+    let mut losses = Vec::new();
+    for (index, error) in all {
+        let stated = cold.bodies()[index.body].stated(index.kind, index.component).cloned();
+        let alone = bare.clone().with_error(index, stated);
+        let (chain, rest) = split(&alone, control, order.kinematics);
+        let parts = (&chain, &rest);
+        let Ok(best) = Best::of(parts, *reference, (control, content)) else { continue };
+        let (mut before_mm, mut left_mm) = (0.0_f64, 0.0_f64);
+        for (i, command) in poses.iter().enumerate() {
+            let approach = [if i % 2 == 0 { 1.0 } else { -1.0 }; MAX_AXES];
+            let Some(without) = off(&alone, command, &Command::default(), &approach) else {
+                continue;
+            };
+            before_mm = before_mm.max(without[0].norm());
+            let Ok(added) = best.added(command, &approach) else { continue };
+            let Some(with) = off(&alone, command, &added, &approach) else { continue };
+            left_mm = left_mm.max(with[0].norm());
+        }
+        if before_mm > NOTHING_MM {
+            let represented =
+                left_mm <= f64::max(bound_mm.min(0.5 * before_mm), SMALL_SHARE * before_mm);
+            let instead = instead(machine, error, control);
+            losses.push(ErrorLoss { error, before_mm, left_mm, represented, instead });
+        }
+    }
+    losses.sort_by(|a, b| b.left_mm.total_cmp(&a.left_mm));
+    losses
+}
+
+/// The best that a control could do with such tables, such a chain and such a grid.
+struct Best<'a> {
+    /// With what the control's chain knows.
+    chain: &'a Machine,
+    /// With what is left to tables and grid.
+    rest: &'a Machine,
+    control: &'a dyn Control,
+    content: &'a Content,
+    reference: Command,
+    lever: Lever<'a>,
+}
+
+impl<'a> Best<'a> {
+    fn of(
+        (chain, rest): (&'a Machine, &'a Machine),
+        reference: Command,
+        (control, content): (&'a dyn Control, &'a Content),
+    ) -> Result<Self, CommandFault> {
+        let lever = Lever::new(rest, reference)?;
+        Ok(Self { chain, rest, control, content, reference, lever })
+    }
+
+    fn added(&self, command: &Command, approach: &Approach) -> Result<Command, CommandFault> {
+        let mut total = self.by_tables(command, approach)?;
+        if let Some(grid) = &self.content.grid {
+            let mut at = self.reference;
+            for side in &grid.sides {
+                at[side.axis] = command[side.axis];
+            }
+            let still = Approach::default();
+            let whole = correction(self.rest, &at, &still)?;
+            let tables = self.by_tables(&at, &still)?;
+            for side in &grid.sides {
+                total[side.axis] += whole[side.axis] - tables[side.axis];
+            }
+        }
+        Ok(sum(&total, &self.by_chain(command, approach)?))
+    }
+
+    fn by_chain(&self, command: &Command, approach: &Approach) -> Result<Command, CommandFault> {
+        let joints = Joints::actual(self.chain);
+        let errors = |at: &Command| match self.control.knows_links() {
+            true => errors_near(self.chain, at, command, approach),
+            false => {
+                let mut errors = ErrorValues::default();
+                joints.place(self.chain, &mut errors);
+                Ok(errors)
+            }
+        };
+        placed(self.chain, command, &errors, Command::default())
+    }
+
+    fn by_tables(&self, command: &Command, approach: &Approach) -> Result<Command, CommandFault> {
+        let mut total = Command::default();
+        for input in 0..MAX_AXES {
+            let of = |t: &&Table| t.input == input;
+            let outputs: Vec<usize> =
+                self.content.tables.iter().filter(of).map(|t| t.output).collect();
+            if outputs.is_empty() {
+                continue;
+            }
+            let all = self.lever.functions(input, command[input], approach[input])?;
+            let mut some = Command::default();
+            for output in outputs {
+                some[output] = all[output];
+            }
+            total = sum(&total, &some);
+        }
+        Ok(total)
+    }
+}
+
+/// Where an error of the workpiece or the tool on the last axis could be put.
+const WITH_THE_END: &str = "the work offset, or the tool length and its direction";
+
+/// Whether an error shifts the last rotary axis before workpiece or tool along itself: they go with it whatever
+/// it turns.
+fn goes_with_the_end(machine: &Machine, error: ErrorName) -> bool {
+    let (bodies, side) = (machine.bodies(), machine.workpiece_side());
+    let last = [bodies[..side].get(1), bodies[side..].iter().nth_back(1)];
+    let along = |axis: usize| machine.axes()[axis].direction.iamax() == error.component as usize;
+    let is_it = |body: &ChainBody| body.name == error.body && body.axis.is_some_and(along);
+    last.into_iter().flatten().any(is_it)
+}
+
+/// Where the rest of an error could be put.
+fn instead(machine: &Machine, error: ErrorName, control: &dyn Control) -> &'static str {
+    let axis = machine.axes().iter().find(|a| a.name == error.body);
+    let cross = control.has_cross_tables() || control.knows_links() || control.grid().is_some();
+    match (error.kind, axis.map(|a| a.kind), error.component.is_rotation()) {
+        (ErrorKind::Location, None, _) => WITH_THE_END,
+        (ErrorKind::Location, Some(AxisKind::Rotary), _) if !moves_an_axis(machine, error) => {
+            "the zero of the axis"
+        }
+        (ErrorKind::Location, Some(AxisKind::Rotary), false)
+            if goes_with_the_end(machine, error) =>
+        {
+            WITH_THE_END
+        }
+        (ErrorKind::Location, Some(AxisKind::Rotary), _) => {
+            "the control's kinematic parameters (rotary centres and tilts), or the NC program"
+        }
+        (ErrorKind::Location, _, false) => "the zero of the axis",
+        (ErrorKind::Motion, _, true) => {
+            "the NC program; a volumetric compensation for the position alone"
+        }
+        _ if !cross => "a control with cross tables, or the NC program",
+        _ => "the NC program",
+    }
+}
+
+/// An index of a test piece before and after.
+#[derive(Debug, Clone, PartialEq)]
+pub struct IndexLeft {
+    /// Its key.
+    pub key: String,
+    /// Without tables, mm.
+    pub before_mm: f64,
+    /// With the tables as they were read back, mm.
+    pub left_mm: f64,
+}
+
+/// The indices of a test piece cut with the tables; the zero is set with them on.
+///
+/// # Errors
+/// As of [`crate::predict::predict`].
+pub fn piece_left(
+    study: &Study,
+    (control, content): (&dyn Control, &Content),
+) -> Result<Vec<IndexLeft>, Error> {
+    let machine = &study.machine;
+    let plain = |errors: &_, _: &_| *errors;
+    let cutting = Cutting::new(machine, study.piece(), &study.reference)?;
+    let before = Judge { cutting: &cutting, piece: study.piece() }.once(&plain)?;
+    let leaves = Emulation::new(machine, control, content);
+    let cutting = cutting.compensated(&|command, approach| leaves.added(command, approach));
+    let after = Judge { cutting: &cutting, piece: study.piece() }.once(&plain)?;
+    let names = study.piece().index_names().iter().map(|n| n.key.to_string());
+    let pairs = names.zip(before.into_iter().zip(after));
+    Ok(pairs.map(|(key, (before_mm, left_mm))| IndexLeft { key, before_mm, left_mm }).collect())
+}

@@ -1,0 +1,361 @@
+//! Holes on a circle in a warm hall: where they will be, before and after compensation.
+//!
+//! Document 001: compensating the machine alone can make the part worse, since the growth of the
+//! machine and that of the workpiece no longer cancel.
+
+use super::Error;
+use super::temperatures::{CuttingClock, RunningTemperatures, StudyTemperatures};
+use std::path::Path;
+use trueaxis_geometry::Vec3;
+use trueaxis_geometry::frame::{Direction, Point};
+use trueaxis_input::{Diagnostics, Dimension, Files, Place, Section, SourceText};
+use trueaxis_machine::axis::{Approach, Command};
+use trueaxis_machine::errors::ErrorValues;
+use trueaxis_machine::file::{machine_of, read_vector_mm};
+use trueaxis_machine::{Machine, Target};
+
+/// More holes than this are a slip of the pen.
+const MOST_HOLES: usize = 100_000;
+
+/// What the control adds to its commands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Compensation {
+    /// Nothing.
+    None,
+    /// Minus the error of the machine.
+    Machine,
+    /// Minus the comprehensive error, machine − workpiece.
+    Comprehensive,
+}
+
+impl Compensation {
+    /// All three, in the order of reports.
+    pub const ALL: [Self; 3] = [Self::None, Self::Machine, Self::Comprehensive];
+
+    /// Its name in files, reports and JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Machine => "machine",
+            Self::Comprehensive => "comprehensive",
+        }
+    }
+}
+
+/// Holes evenly on a circle, on a machine at temperatures.
+#[derive(Debug)]
+pub struct HoleStudy {
+    /// Its name.
+    pub name: String,
+    /// The machine at its temperatures, those of the start if a log runs on.
+    pub machine: Machine,
+    /// The log that runs on while the holes are made, if one does.
+    pub temperatures: Option<RunningTemperatures>,
+    /// The nominal places, in the workpiece frame, mm.
+    pub holes_mm: Vec<Vec3>,
+    /// Largest distance of a hole from its place in X and Y, mm, if one is stated.
+    pub tolerance_mm: Option<f64>,
+    /// The least increment of a compensation value, mm.
+    pub increment_mm: f64,
+    /// Which compensation is on: the verdict is about it.
+    pub applied: Compensation,
+}
+
+/// One hole under one compensation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hole {
+    /// What the control adds, in least increments along x, y, z.
+    pub increments: [i64; 3],
+    /// Where the hole is at 20 °C, less where it should be, mm.
+    pub error_mm: Vec3,
+    /// Standard uncertainty of that along x, y, z, mm.
+    pub u_mm: Vec3,
+    /// Standard uncertainty of [`Hole::distance_mm`], mm.
+    pub u_distance_mm: f64,
+}
+
+impl Hole {
+    /// Distance from its place in X and Y, mm.
+    pub fn distance_mm(&self) -> f64 {
+        self.error_mm.xy().norm()
+    }
+}
+
+/// All holes under one compensation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HoleSet {
+    /// Which one.
+    pub compensation: Compensation,
+    /// In the order of the study.
+    pub holes: Vec<Hole>,
+    /// The largest distance from its place, mm.
+    pub worst_mm: f64,
+    /// Its standard uncertainty, mm.
+    pub u_worst_mm: f64,
+    /// Whether all are in tolerance, if one is stated.
+    pub in_tolerance: Option<bool>,
+}
+
+/// All that was found out about the holes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HolePrediction {
+    /// None, machine, comprehensive.
+    pub sets: [HoleSet; 3],
+    /// The same at the temperatures of the start, held, where a log runs on.
+    pub held: Option<[HoleSet; 3]>,
+    /// When each hole is made, s from the start; all 0 without a log.
+    pub times_s: Vec<f64>,
+    /// What the reader must know.
+    pub warnings: Vec<String>,
+    /// What grows though nobody says how well its coefficient is known: u lacks it.
+    pub without_u: Vec<String>,
+}
+
+/// Whether a study file is about holes.
+pub fn is_hole_study(files: &Files, path: &Path) -> bool {
+    let text = files.text(path, "a study file", &mut Diagnostics::new());
+    text.is_some_and(|t| t.lines().any(|line| line.trim() == "[holes]"))
+}
+
+/// Reads a study of holes; all problems at once.
+pub fn read_hole_study(files: &Files, path: &Path) -> (Option<HoleStudy>, Diagnostics) {
+    let mut problems = Diagnostics::new();
+    let Some(text) = files.text(path, "a study file (TOML)", &mut problems) else {
+        return (None, problems);
+    };
+    parse_hole_study(files, path, &text)
+}
+
+/// The same of a text; its machine is looked for beside `path`.
+pub fn parse_hole_study(
+    files: &Files,
+    path: &Path,
+    text: &str,
+) -> (Option<HoleStudy>, Diagnostics) {
+    let file = path.display().to_string();
+    let source = SourceText::from(files, &file, text);
+    let study = source.read(|root| read(root, path));
+    let problems = source.finish();
+    (study.filter(|_| !problems.has_errors()), problems)
+}
+
+fn read(root: &Section<'_>, path: &Path) -> Option<HoleStudy> {
+    let name = root.require("name", "give the study a name").and_then(|i| i.text());
+    let machine = machine_of(root, path).map(|(_, machine)| machine);
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let temperatures = StudyTemperatures::read(root, folder, false);
+    let machine = machine.and_then(|m| temperatures.warm(root, m));
+    let holes = root.section("holes", read_holes).flatten();
+    let compensation = root.section("compensation", |s| {
+        let increment_mm = s.quantity("increment", Dimension::Length);
+        let applied = s.get("applied").and_then(|item| {
+            let word = item.text()?;
+            let found = Compensation::ALL.into_iter().find(|c| c.name() == word);
+            if found.is_none() {
+                let message = format!("`{word}` is no compensation");
+                item.error("unknown-word", message, "none, machine or comprehensive");
+            }
+            found
+        });
+        if increment_mm.is_some_and(|i| i <= 0.0) {
+            s.error("not-positive", "an increment is above zero".into(), "such as \"1 um\"");
+        }
+        (increment_mm, applied)
+    });
+    let (increment_mm, applied) = compensation.unwrap_or_default();
+    let (holes_mm, tolerance_mm) = holes?;
+    Some(HoleStudy {
+        name: name?.to_owned(),
+        machine: machine?,
+        temperatures: temperatures.running,
+        holes_mm,
+        tolerance_mm,
+        increment_mm: increment_mm.unwrap_or(1e-3),
+        applied: applied.unwrap_or(Compensation::None),
+    })
+}
+
+fn read_holes(section: &Section<'_>) -> Option<(Vec<Vec3>, Option<f64>)> {
+    let count = section.require("count", "how many holes, such as 32").and_then(|i| i.count());
+    let hint = "the diameter of their circle, such as \"1800 mm\"";
+    let circle = section.require("circle", hint).and_then(|i| i.quantity(Dimension::Length));
+    let hint = "of the circle in the workpiece frame, such as \"1750 1150 0 mm\"";
+    let centre = section.require("centre", hint).and_then(|i| read_vector_mm(&i));
+    let tolerance_mm = section.quantity("tolerance", Dimension::Length);
+    let (count, circle, centre) = (count?, circle?, centre?);
+    if !(1..=MOST_HOLES).contains(&count) {
+        let message = format!("{count} holes");
+        section.error("bad-count", message, &format!("1 to {MOST_HOLES}"));
+        return None;
+    }
+    let hole = |i: usize| {
+        let (sin, cos) = (std::f64::consts::TAU * i as f64 / count as f64).sin_cos();
+        centre + 0.5 * circle * Vec3::new(cos, sin, 0.0)
+    };
+    Some(((0..count).map(hole).collect(), tolerance_mm))
+}
+
+/// Minus an error in whole increments, halves away from zero.
+///
+/// ```
+/// use trueaxis_correct::predict::holes::compensation_increments;
+/// assert_eq!(compensation_increments(-0.0035, 0.001), 4);
+/// assert_eq!(compensation_increments(0.0025, 0.001), -3);
+/// ```
+pub fn compensation_increments(error_mm: f64, increment_mm: f64) -> i64 {
+    // A half that only rounding keeps from being one (0.0035/0.001) counts as one.
+    let steps = -error_mm / increment_mm;
+    (steps + steps.signum() * 1e-9 * steps.abs().max(1.0)).round() as i64
+}
+
+/// Predicts the holes under no, machine-only and comprehensive compensation.
+///
+/// The compensated command is solved for again, so errors of the compensation itself (other
+/// place, other table value, whole increments) are in.
+///
+/// # Errors
+/// A hole that the machine cannot reach, with its number.
+///
+/// # Source
+/// Document 001, section 2 and 3.
+pub fn predict_holes(study: &HoleStudy) -> Result<HolePrediction, Diagnostics> {
+    let running = study.temperatures.as_ref();
+    let sets = drill_all(study, running)?;
+    let held = running.map(|_| drill_all(study, None)).transpose()?;
+    let clock = study.clock(running);
+    let times_s = (0..study.holes_mm.len()).map(|i| clock.time_s(i)).collect();
+    let without_u = study.machine.coefficients_without_u();
+    Ok(HolePrediction { warnings: warnings(&sets), sets, held, times_s, without_u })
+}
+
+impl HoleStudy {
+    /// Each hole is made in the middle of its share of the time.
+    fn clock(&self, running: Option<&RunningTemperatures>) -> CuttingClock {
+        let mut shares: Vec<f64> = (0..self.holes_mm.len()).map(|i| i as f64 + 0.5).collect();
+        shares.push(self.holes_mm.len() as f64);
+        CuttingClock::along(&self.machine, running, &shares)
+    }
+}
+
+fn drill_all(
+    study: &HoleStudy,
+    running: Option<&RunningTemperatures>,
+) -> Result<[HoleSet; 3], Diagnostics> {
+    let mut problems = Diagnostics::new();
+    let mut told = |i: usize, message: String, hint: &str| {
+        let message = format!("hole {}{message}", i + 1);
+        problems.error("unreachable-hole", Place::whole(&study.name), message, hint);
+    };
+    let sets = Compensation::ALL.map(|compensation| {
+        let mut clock = study.clock(running);
+        let mut holes = Vec::with_capacity(study.holes_mm.len());
+        for (i, place) in study.holes_mm.iter().enumerate() {
+            let machine = match clock.machine_at(i) {
+                Ok(machine) => machine.unwrap_or(&study.machine),
+                Err(ends) if compensation == Compensation::None => {
+                    told(i, format!(": {}", log_end(&ends)), "take a longer log, or start earlier");
+                    break;
+                }
+                Err(_) => break,
+            };
+            match drill(machine, study.increment_mm, *place, compensation) {
+                Ok(hole) => holes.push(hole),
+                Err(message) if compensation == Compensation::None => {
+                    told(i, format!(": {message}"), "move the circle, or extend the table");
+                }
+                // The same hole was told already, or lies at the very end of a table.
+                Err(message) => told(i, format!(", compensated: {message}"), ""),
+            }
+        }
+        let worst = holes.iter().max_by(|a, b| a.distance_mm().total_cmp(&b.distance_mm()));
+        let worst_mm = worst.map_or(0.0, Hole::distance_mm);
+        let u_worst_mm = worst.map_or(0.0, |h| h.u_distance_mm);
+        let in_tolerance = study.tolerance_mm.map(|t| worst_mm <= t);
+        HoleSet { compensation, holes, worst_mm, u_worst_mm, in_tolerance }
+    });
+    if problems.has_errors() { Err(problems) } else { Ok(sets) }
+}
+
+fn log_end(ends: &Error) -> String {
+    match ends {
+        Error::LogEnds { time_s, lasts_s, .. } => {
+            format!("it is made after {time_s:.1} s, the log ends after {lasts_s:.1} s")
+        }
+        other => other.to_string(),
+    }
+}
+
+fn warnings(sets: &[HoleSet; 3]) -> Vec<String> {
+    let [before, machine, comprehensive] = sets.each_ref().map(|s| s.worst_mm);
+    let mut warnings = Vec::new();
+    if machine > before {
+        warnings.push(format!(
+            "COMPENSATING THE MACHINE ALONE MAKES THE PART WORSE: {:.3} mm instead of {before:.3} mm; \
+             the workpiece grows more than the scales; the comprehensive compensation leaves {:.3} mm",
+            machine, comprehensive
+        ));
+    }
+    warnings
+}
+
+fn drill(
+    machine: &Machine,
+    increment_mm: f64,
+    place: Vec3,
+    compensation: Compensation,
+) -> Result<Hole, String> {
+    let (tip, errors) = felt(machine, place)?;
+    let error = match compensation {
+        Compensation::None => Vec3::zeros(),
+        Compensation::Machine => {
+            machine.deviation(&tip, &ErrorValues { workpiece_mm: Vec3::zeros(), ..errors }).tip_mm
+        }
+        Compensation::Comprehensive => machine.deviation(&tip, &errors).tip_mm,
+    };
+    let increments = [0, 1, 2].map(|i| compensation_increments(error[i], increment_mm));
+    let added = Vec3::from(increments.map(|n| n as f64 * increment_mm));
+    let (command, errors) = felt(machine, place + added)?;
+    let error_mm = added + machine.deviation(&command, &errors).tip_mm;
+    let (u_mm, u_distance_mm) = uncertainty(machine, &command, &errors, error_mm);
+    Ok(Hole { increments, error_mm, u_mm, u_distance_mm })
+}
+
+/// How well the place of a hole is known, along x, y, z and as a distance from where it should be.
+///
+/// ```text
+///     u²(x) = Σ ((x(z = +1) − x(z = −1))/2)²                               docs/model.md eq. 31
+/// ```
+///
+/// over all uncertain quantities of the machine; the compensation stays what it is.
+fn uncertainty(
+    machine: &Machine,
+    command: &Command,
+    errors: &ErrorValues,
+    error_mm: Vec3,
+) -> (Vec3, f64) {
+    let quantities = machine.uncertain_quantities();
+    let known = machine.uncertainties_at(command, &quantities);
+    let along = error_mm.xy().try_normalize(1e-12);
+    let (mut variance, mut of_distance) = (Vec3::zeros(), 0.0);
+    for quantity in 0..quantities.len() {
+        let tip =
+            |z: f64| machine.deviation(command, &known.displaced_by(errors, quantity, z)).tip_mm;
+        let half = 0.5 * (tip(1.0) - tip(-1.0));
+        variance += half.component_mul(&half);
+        // A hole in its very place moves away in every direction.
+        of_distance += along.map_or(half.xy().norm(), |a| a.dot(&half.xy())).powi(2);
+    }
+    (variance.map(f64::sqrt), of_distance.sqrt())
+}
+
+/// The command that brings the upright tool to a place, and the errors there.
+fn felt(machine: &Machine, place: Vec3) -> Result<(Command, ErrorValues), String> {
+    let target = Target { tip: Point::from_vector(place), axis: Direction::Z };
+    let solved = machine.solve(&target, &Command::default()).map_err(|e| e.to_string())?;
+    let best = solved.solutions.first().ok_or("no solution")?;
+    if !best.within_travel {
+        return Err("it lies outside the travel".to_owned());
+    }
+    let errors = machine.errors_at(&best.command, &Approach::default());
+    Ok((best.command, errors.map_err(|e| e.to_string())?))
+}

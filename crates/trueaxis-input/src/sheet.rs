@@ -1,0 +1,324 @@
+//! A table with numbers, gaps and words: what measuring instruments write.
+
+use crate::{Diagnostics, Dimension, Place, Unit};
+
+/// A file with more bad rows than this is not the file that was meant.
+const MOST_BAD_ROWS: usize = 100;
+
+/// Directions and diagonals are few; more different words are another column.
+const MOST_WORDS: usize = 100;
+
+/// What may stand under a heading.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cells {
+    /// A finite number in every row.
+    Numbers,
+    /// Finite numbers; a cell may be empty, which is NaN in [`Column::values`].
+    Gaps,
+    /// Few different words; [`Column::values`] holds their places in [`Sheet::words`].
+    Words,
+    /// Anything; not looked at.
+    Unused,
+}
+
+/// One column.
+#[derive(Debug, Clone)]
+pub struct Column {
+    /// The whole heading, such as `deviation_um`.
+    pub name: String,
+    /// The place of the heading.
+    pub place: Place,
+    /// What stands under it.
+    pub cells: Cells,
+    /// One a row.
+    pub values: Vec<f64>,
+}
+
+impl Column {
+    /// What the column is about: the heading without its unit.
+    pub fn role(&self) -> &str {
+        heading(&self.name).0
+    }
+
+    /// The unit after the last underscore; empty if there is none.
+    pub fn unit(&self) -> &str {
+        heading(&self.name).1
+    }
+}
+
+/// Columns of equal length, with the line of every row.
+#[derive(Debug, Clone, Default)]
+pub struct Sheet {
+    /// The file as the user named it.
+    pub file: String,
+    /// All columns.
+    pub columns: Vec<Column>,
+    /// The different words, in the order in which they came.
+    pub words: Vec<String>,
+    lines: Vec<usize>,
+}
+
+/// `deviation_um` is `deviation` in `um`.
+pub fn heading(name: &str) -> (&str, &str) {
+    name.rsplit_once('_').unwrap_or((name, ""))
+}
+
+impl Sheet {
+    /// Reads a text: `#` comments, one line of headings, rows. `None` if a row cannot be used: all
+    /// of them are reported, and nothing is dropped in silence.
+    pub fn parse(
+        file: &str,
+        text: &str,
+        cells: impl Fn(&str) -> Cells,
+        problems: &mut Diagnostics,
+    ) -> Option<Self> {
+        let mut sheet = Self { file: file.to_owned(), ..Self::default() };
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let mut bad = 0;
+        for (i, line) in text.lines().enumerate() {
+            let start = line.trim_start();
+            if start.is_empty() || start.starts_with('#') {
+                continue;
+            }
+            if sheet.columns.is_empty() {
+                sheet.read_headings(i + 1, line, &cells, problems)?;
+            } else if sheet.read_row(i + 1, line, problems).is_none() {
+                bad += 1;
+                if bad == MOST_BAD_ROWS {
+                    let message = format!("{bad} rows cannot be read; the rest was not looked at");
+                    let hint = "is this the file that you meant?";
+                    problems.error("too-many-bad-rows", sheet.place(i + 1, 1), message, hint);
+                    return None;
+                }
+            }
+        }
+        if sheet.lines.is_empty() && bad == 0 {
+            let hint = "one line of headings, each with its unit, then one row for each reading";
+            let message = "the table has no row".to_owned();
+            problems.error("empty-table", Place::whole(file), message, hint);
+            return None;
+        }
+        (bad == 0).then_some(sheet)
+    }
+
+    /// How many rows.
+    pub fn rows(&self) -> usize {
+        self.lines.len()
+    }
+
+    /// The place of a row, counted from 0.
+    pub fn row_place(&self, row: usize) -> Place {
+        self.place(self.lines.get(row).copied().unwrap_or(0), 1)
+    }
+
+    /// The place of the headings.
+    pub fn headings_place(&self) -> Place {
+        self.columns.first().map_or(Place::whole(&self.file), |c| c.place.clone())
+    }
+
+    /// The column about something, whatever its unit.
+    pub fn about(&self, role: &str) -> Option<&Column> {
+        self.columns.iter().find(|c| c.role() == role || c.name == role)
+    }
+
+    /// The rows that have one word in a column, as a table of their own.
+    pub fn rows_with(&self, column: &Column, word: f64) -> Self {
+        let kept = |values: &[f64]| {
+            let pairs = values.iter().zip(&column.values);
+            pairs.filter(|(_, w)| **w == word).map(|(v, _)| *v).collect()
+        };
+        let lines = self.lines.iter().zip(&column.values);
+        let columns = self.columns.iter();
+        Self {
+            file: self.file.clone(),
+            columns: columns.map(|c| Column { values: kept(&c.values), ..c.clone() }).collect(),
+            words: self.words.clone(),
+            lines: lines.filter(|(_, w)| **w == word).map(|(line, _)| *line).collect(),
+        }
+    }
+
+    /// The numbers of a column in the inner unit (mm, rad, s, °C).
+    pub fn inner(
+        &self,
+        column: &Column,
+        dimension: Dimension,
+        problems: &mut Diagnostics,
+    ) -> Option<Vec<f64>> {
+        let fault = |e: crate::QuantityError, place, problems: &mut Diagnostics| {
+            let message = format!("column `{}`: {e}", column.name);
+            problems.error(e.code(), place, message, &e.hint());
+        };
+        let unit = match Unit::find(column.unit(), dimension) {
+            Ok(unit) => unit,
+            Err(e) => {
+                fault(e, column.place.clone(), problems);
+                return None;
+            }
+        };
+        let mut values = Vec::with_capacity(column.values.len());
+        for (row, value) in column.values.iter().enumerate() {
+            match unit.checked(*value) {
+                _ if value.is_nan() => values.push(f64::NAN),
+                Ok(value) => values.push(value),
+                Err(e) => {
+                    fault(e, self.row_place(row), problems);
+                    return None;
+                }
+            }
+        }
+        Some(values)
+    }
+
+    fn place(&self, line: usize, column: usize) -> Place {
+        Place { file: self.file.clone(), line, column }
+    }
+
+    fn read_headings(
+        &mut self,
+        line: usize,
+        text: &str,
+        cells: &impl Fn(&str) -> Cells,
+        problems: &mut Diagnostics,
+    ) -> Option<()> {
+        let foreign = [(';', "semicolons"), ('\t', "tabs")];
+        if let Some((_, name)) =
+            foreign.iter().find(|(c, _)| text.trim().contains(*c) && !text.contains(','))
+        {
+            let message = format!("the columns are separated by {name}");
+            let hint = "separate them by commas, and write decimals with a point";
+            problems.error("bad-separator", self.place(line, 1), message, hint);
+            return None;
+        }
+        for (column, name) in fields(text) {
+            let place = self.place(line, column);
+            if self.columns.iter().any(|c| c.name == name) {
+                let message = format!("two columns are named `{name}`");
+                problems.error("duplicate-column", place, message, "give each its own name");
+                return None;
+            }
+            let (name, cells) = (name.to_owned(), cells(name));
+            self.columns.push(Column { name, place, cells, values: Vec::new() });
+        }
+        Some(())
+    }
+
+    fn read_row(&mut self, line: usize, text: &str, problems: &mut Diagnostics) -> Option<()> {
+        let mut sound = 0;
+        let mut fault = None;
+        for (i, (at, field)) in fields(text).enumerate() {
+            let Some(column) = self.columns.get_mut(i) else {
+                fault.get_or_insert((1, None));
+                break;
+            };
+            let value = match column.cells {
+                Cells::Unused => Some(0.0),
+                Cells::Words => word(&mut self.words, field),
+                Cells::Gaps if field.is_empty() => Some(f64::NAN),
+                _ => field.parse::<f64>().ok().filter(|v| v.is_finite()),
+            };
+            match value {
+                Some(value) => column.values.push(value),
+                None => {
+                    fault = Some((at, Some(field.to_owned())));
+                    break;
+                }
+            }
+            sound = i + 1;
+        }
+        if fault.is_none() && sound == self.columns.len() {
+            self.lines.push(line);
+            return Some(());
+        }
+        // The row is not taken: no column may be longer than the others.
+        for column in &mut self.columns {
+            column.values.truncate(self.lines.len());
+        }
+        match fault {
+            Some((at, Some(field))) => {
+                let number = fields(text).position(|(c, _)| c == at);
+                let number = number.and_then(|i| self.columns.get(i));
+                if number.is_some_and(|c| c.cells == Cells::Words) {
+                    let message = format!("`{field}` is one word too many: {MOST_WORDS} different");
+                    let hint = "is this the column that you meant?";
+                    problems.error("too-many-words", self.place(line, at), message, hint);
+                    return None;
+                }
+                let message = format!("`{field}` is not a finite number");
+                let hint = "write a number such as -1.5";
+                problems.error("not-a-number", self.place(line, at), message, hint);
+            }
+            _ => {
+                let count = fields(text).count();
+                let message = format!("fields: {count}, headings: {}", self.columns.len());
+                let hint = "one field under each heading";
+                problems.error("ragged-row", self.place(line, 1), message, hint);
+            }
+        }
+        None
+    }
+}
+
+/// The place of a word in the list.
+fn word(words: &mut Vec<String>, field: &str) -> Option<f64> {
+    let at = words.iter().position(|w| w == field).or_else(|| {
+        words.push(field.to_owned());
+        (words.len() <= MOST_WORDS).then(|| words.len() - 1)
+    });
+    words.truncate(MOST_WORDS);
+    at.map(|at| at as f64)
+}
+
+/// The trimmed fields of a line with the column (from 1, in characters) where each begins.
+fn fields(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    let mut column = 1;
+    text.trim_end_matches('\r').split(',').map(move |field| {
+        let lead = field.chars().take_while(|c| c.is_whitespace()).count();
+        let start = column + lead;
+        // Bytes would do for plain text; a µ in a note must not move the places behind it.
+        column += if field.is_ascii() { field.len() } else { field.chars().count() } + 1;
+        (start, field.trim())
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cells(name: &str) -> Cells {
+        match heading(name).0 {
+            "direction" => Cells::Words,
+            "gap" => Cells::Gaps,
+            _ => Cells::Numbers,
+        }
+    }
+
+    #[test]
+    fn gaps_and_words_are_read_where_they_may_stand() {
+        let mut problems = Diagnostics::new();
+        let text = "# by hand\ntarget_mm,direction,gap_um\n1,up,2\n2,down,\n3,up,4\n";
+        let sheet = Sheet::parse("t.csv", text, cells, &mut problems).unwrap();
+        assert_eq!(sheet.columns[1].values, [0.0, 1.0, 0.0]);
+        assert!(sheet.columns[2].values[1].is_nan());
+        assert_eq!(sheet.row_place(2).line, 5);
+        assert!(!problems.has_errors());
+    }
+
+    #[test]
+    fn too_many_words_are_refused() {
+        let rows: String = (0..=MOST_WORDS).map(|i| format!("w{i}\n")).collect();
+        let mut problems = Diagnostics::new();
+        let text = format!("direction\n{rows}");
+        assert!(Sheet::parse("t.csv", &text, cells, &mut problems).is_none());
+        let found = problems.iter().next().unwrap();
+        assert_eq!((found.code, found.place.line), ("too-many-words", MOST_WORDS + 2));
+    }
+
+    #[test]
+    fn every_bad_row_is_reported_with_its_place() {
+        let mut problems = Diagnostics::new();
+        let text = "target_mm,gap_um\nnan,1\n1\n1,2,3\n4,x\n5,\n";
+        assert!(Sheet::parse("t.csv", text, cells, &mut problems).is_none());
+        let places: Vec<_> = problems.iter().map(|d| d.place.to_string()).collect();
+        assert_eq!(places, ["t.csv:2:1", "t.csv:3:1", "t.csv:4:1", "t.csv:5:3"]);
+    }
+}

@@ -1,0 +1,35 @@
+//! Poses over the travel of all axes: the volume in which machines are compared.
+
+use crate::axis::{Axis, AxisKind, Command, Travel};
+
+/// An axis without stated ends is looked at this far on both sides: mm.
+const FREE_MM: f64 = 250.0;
+
+/// Poses that fill the travel of all axes evenly: all corners, then `count` multiples of irrational numbers.
+///
+/// The numbers are 1/g, 1/g², … of the root g of gⁿ⁺¹ = g + 1, which leave no direction sparse
+/// (Roberts 2018, after Kronecker).
+pub fn commands(axes: &[Axis], count: u32) -> Vec<Command> {
+    let n = axes.len() as i32;
+    let g = (0..60).fold(2.0_f64, |g, _| (1.0 + g).powf(1.0 / f64::from(n + 1)));
+    let ends: Vec<(f64, f64)> = axes.iter().map(ends).collect();
+    let at = |share: &dyn Fn(usize) -> f64| {
+        let mut command = Command::default();
+        for (i, (from, to)) in ends.iter().enumerate() {
+            command[i] = from + (to - from) * share(i);
+        }
+        command
+    };
+    let corners = (0..1_u32 << n).map(|bits| at(&|i| f64::from(bits >> i & 1)));
+    let inside =
+        (1..=count).map(|k| at(&|i| (0.5 + f64::from(k) * g.powi(-(i as i32) - 1)).fract()));
+    corners.chain(inside).collect()
+}
+
+fn ends(axis: &Axis) -> (f64, f64) {
+    match (axis.travel, axis.kind) {
+        (Travel::Between(from, to), _) => (from, to),
+        (_, AxisKind::Rotary) => (-std::f64::consts::PI, std::f64::consts::PI),
+        (_, AxisKind::Linear) => (-FREE_MM, FREE_MM),
+    }
+}

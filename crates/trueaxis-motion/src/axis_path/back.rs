@@ -1,0 +1,81 @@
+//! From axis positions back to the words that lead to them, as things stand in the program.
+
+use super::AxisPath;
+use trueaxis_geometry::frame::inverse3;
+use trueaxis_geometry::{Mat3, Vec3};
+use trueaxis_machine::axis::Command;
+use trueaxis_machine::tcp::TipControl;
+use trueaxis_nc::moves::{Axis, Coordinates, OrientationPath, Position};
+
+/// What the control keeps straight between the ends of a block.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Straight {
+    /// Every axis.
+    Axes,
+    /// The tip and every rotary axis.
+    TipAndAngles,
+    /// The tip; the tool axis swings in the plane of both directions, or on a cone.
+    TipAndSwing,
+}
+
+impl AxisPath<'_> {
+    /// What the next straight block keeps straight.
+    pub fn straight(&self) -> Straight {
+        match (self.follows_tip(), self.orientation) {
+            (false, _) => Straight::Axes,
+            (true, OrientationPath::Axes) => Straight::TipAndAngles,
+            (true, _) => Straight::TipAndSwing,
+        }
+    }
+
+    /// A plane is swivelled and the tip is not followed when rotary axes move.
+    pub fn is_only_tilted(&self) -> bool {
+        self.tilted && !self.tcp
+    }
+
+    /// The tool axis turns on a cone in the next block.
+    pub fn turns_on_cone(&self) -> bool {
+        matches!(self.orientation, OrientationPath::Cone(_))
+    }
+
+    /// The nominal machine with the tool length of the control.
+    pub fn control(&self) -> Option<&TipControl> {
+        self.control.as_ref()
+    }
+
+    /// The machine's axis of a word.
+    pub fn axis_of(&self, axis: Axis) -> Option<usize> {
+        self.axis_of[axis as usize]
+    }
+
+    /// The words, mm and degrees, that lead to axis positions from here.
+    pub fn words_of(&self, command: &Command, from: Coordinates) -> Position {
+        let mut words = Position::default();
+        for axis in Axis::ALL {
+            let Some(index) = self.axis_of[axis as usize] else { continue };
+            let q = command[index];
+            words[axis] = if axis.is_rotary() { q.to_degrees() } else { q };
+        }
+        if from == Coordinates::Machine {
+            return words;
+        }
+        let basic = match &self.control {
+            Some(control) if self.follows_tip() => {
+                let tip = control.tip_and_axis(command).0;
+                inverse3(&self.turn) * (tip - self.shift)
+            }
+            _ => self.linear_axes(command) - self.tool,
+        };
+        let mut place = words;
+        place.0[..3].copy_from_slice(basic.as_slice());
+        self.frame.inverse_place(&place).unwrap_or(place)
+    }
+
+    /// The direction in the program frame along which the tool stands at axis positions.
+    pub fn direction_of(&self, command: &Command) -> Option<[f64; 3]> {
+        let (_, axis) = self.control.as_ref()?.tip_and_axis(command);
+        let linear = Mat3::from_fn(|i, j| self.frame.linear[i][j]);
+        let direction = (self.turn * linear).try_inverse()? * axis;
+        direction.try_normalize(0.0).map(Vec3::into)
+    }
+}

@@ -1,0 +1,68 @@
+use super::Node;
+use crate::densify::MOST_PIECES;
+use crate::timing::TimingError;
+use trueaxis_machine::SolveError;
+use trueaxis_nc::moves::{Move, Origin};
+
+/// Why a move could not be made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fault {
+    /// The block.
+    pub origin: Origin,
+    /// What it is about in the block, to find the column.
+    pub word: Option<u8>,
+    /// Short name.
+    pub code: &'static str,
+    /// What is wrong.
+    pub message: String,
+    /// What to do.
+    pub hint: &'static str,
+}
+
+impl Fault {
+    /// A place of the path that no time can be given to.
+    pub fn untimed(node: &Node, error: &TimingError) -> Self {
+        Self {
+            origin: node.origin,
+            word: None,
+            code: "untimed",
+            message: error.to_string(),
+            hint: "check feed and coordinates of the block",
+        }
+    }
+}
+
+impl Fault {
+    /// A place of the path behind the end of the log of temperatures.
+    pub fn untempered(node: &Node, message: String) -> Self {
+        Self {
+            origin: node.origin,
+            word: None,
+            code: "log-ends",
+            message,
+            hint: "take a longer log or an earlier start, or hold one time of it (--log-time)",
+        }
+    }
+}
+
+pub(super) fn fault(
+    m: &Move,
+    word: Option<u8>,
+    code: &'static str,
+    message: String,
+    hint: &'static str,
+) -> Fault {
+    Fault { origin: m.origin, word, code, message, hint }
+}
+
+pub(super) fn unreachable(m: &Move, error: &SolveError) -> Fault {
+    let hint = "tilt the part or the tool, or take a machine whose rotary axes reach it";
+    fault(m, None, "unreachable-orientation", error.to_string(), hint)
+}
+
+/// No move needs so many pieces.
+pub(super) fn too_many_pieces(m: &Move) -> Fault {
+    let message = format!("the move would be cut into more than {MOST_PIECES} pieces");
+    let hint = "is a unit or a turn wrong? or allow larger pieces: --spacing, --angle, --chord";
+    fault(m, None, "too-many-pieces", message, hint)
+}

@@ -1,0 +1,380 @@
+//! STL files: binary or text, in and out.
+//!
+//! The format has no specification of its own; what is read here is what CAD systems write.
+//! Binary: 80 bytes of heading, the number of facets (u32, little endian), then 50 bytes each:
+//! normal and three corners as f32, and two bytes that mean nothing. Text: `solid`, `facet normal`,
+//! `outer loop`, `vertex`. Normals are not used: the order of the corners says the same.
+
+use super::triangle::{Triangle, is_degenerate};
+use trueaxis_geometry::Vec3;
+use trueaxis_input::{Diagnostics, Place};
+
+const HEADING: usize = 84;
+const FACET: usize = 50;
+/// No corner of a machine lies further out, mm: beyond it the squares of lengths lose sense.
+const LARGEST_MM: f64 = 1e9;
+/// After so many faults the rest of the file says nothing new.
+const MOST_FAULTS: usize = 20;
+const HINT: &str = "export the body again as STL; binary is the safer form";
+
+/// The facets of an STL file, in mm; faults are reported with their byte or line.
+///
+/// Facets without area are left out, with a note that counts them.
+pub fn read_stl(
+    file: &str,
+    bytes: &[u8],
+    unit_mm: f64,
+    problems: &mut Diagnostics,
+) -> Option<Vec<Triangle>> {
+    let mut reader = Reader { file, bytes, unit_mm, faults: Diagnostics::new(), count: 0 };
+    let facets = if is_text(bytes) { reader.text() } else { reader.binary() };
+    if reader.count == 0 && facets.is_empty() {
+        reader.whole("empty-stl", "holds no facet".to_owned());
+    }
+    let sound = reader.count == 0;
+    problems.append(reader.faults);
+    if !sound {
+        return None;
+    }
+    let all = facets.len();
+    let facets: Vec<Triangle> = facets.into_iter().filter(|t| !is_degenerate(t)).collect();
+    if facets.is_empty() {
+        let message = format!("none of its {all} facets has an area");
+        problems.error("empty-stl", Place::whole(file), message, HINT);
+        return None;
+    }
+    if facets.len() < all {
+        let message =
+            format!("{} of {all} facets have no area and are left out", all - facets.len());
+        let hint = "usual where CAD systems triangulate; nothing to do";
+        problems.note("degenerate-facets", Place::whole(file), message, hint);
+    }
+    Some(facets)
+}
+
+/// Whether this is the text form: binary files may begin with `solid`, too, but then their length
+/// fits the number of facets or they hold bytes that no text has.
+fn is_text(bytes: &[u8]) -> bool {
+    let start = bytes.trim_ascii_start();
+    if !start.get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid")) {
+        return false;
+    }
+    let fits =
+        facet_count(bytes).is_some_and(|n| n.checked_mul(FACET) == Some(bytes.len() - HEADING));
+    !fits && !bytes.iter().take(1024).any(|b| *b == 0)
+}
+
+fn facet_count(bytes: &[u8]) -> Option<usize> {
+    let count = bytes.get(HEADING - 4..HEADING)?;
+    let count = u32::from_le_bytes(count.try_into().ok()?);
+    usize::try_from(count).ok()
+}
+
+struct Reader<'a> {
+    file: &'a str,
+    bytes: &'a [u8],
+    unit_mm: f64,
+    faults: Diagnostics,
+    count: usize,
+}
+
+impl Reader<'_> {
+    fn whole(&mut self, code: &'static str, message: String) {
+        self.count += 1;
+        self.faults.error(code, Place::whole(self.file), message, HINT);
+    }
+
+    fn binary(&mut self) -> Vec<Triangle> {
+        let length = self.bytes.len();
+        let Some(count) = facet_count(self.bytes) else {
+            let message = if length == 0 {
+                "the file is empty".to_owned()
+            } else {
+                format!("{length} bytes are no STL file: a binary one has at least {HEADING}")
+            };
+            let code = if length == 0 { "empty-stl" } else { "truncated-stl" };
+            self.whole(code, message);
+            return Vec::new();
+        };
+        let body = &self.bytes[HEADING..];
+        let due = count.saturating_mul(FACET);
+        if body.len() < due {
+            let message = format!(
+                "ends at byte {length}, within facet {} of the {count} that it announces at byte 80",
+                body.len() / FACET + 1
+            );
+            self.whole("truncated-stl", message);
+            return Vec::new();
+        }
+        if body.len() > due {
+            let message =
+                format!("{} bytes follow the {count} facets that it announces", body.len() - due);
+            let hint = "they are not read; if facets are missing, export the body again";
+            self.faults.warn("trailing-bytes", Place::whole(self.file), message, hint);
+        }
+        let mut facets = Vec::with_capacity(count);
+        for (i, bytes) in body[..due].chunks_exact(FACET).enumerate() {
+            let corner = |k: usize| {
+                let value = |c: usize| {
+                    let at = 12 + 12 * k + 4 * c;
+                    let raw = [bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]];
+                    f64::from(f32::from_le_bytes(raw)) * self.unit_mm
+                };
+                Vec3::new(value(0), value(1), value(2))
+            };
+            let facet = [corner(0), corner(1), corner(2)];
+            if facet.iter().all(is_plausible) {
+                facets.push(facet);
+                continue;
+            }
+            let at = HEADING + i * FACET;
+            let message = format!("facet {} (byte {at}): {}", i + 1, fault_of(&facet));
+            self.whole("bad-corner", message);
+            if self.count >= MOST_FAULTS {
+                break;
+            }
+        }
+        facets
+    }
+
+    fn text(&mut self) -> Vec<Triangle> {
+        let mut words = Words { bytes: self.bytes, at: 0 };
+        let mut facets = Vec::new();
+        let mut ended = false;
+        loop {
+            let start = words.peek_at();
+            if words.next_is("facet") {
+                match self.facet(&mut words) {
+                    Some(facet) => facets.push(facet),
+                    None if self.count >= MOST_FAULTS => return facets,
+                    None if words.at_end() => return facets,
+                    // Once more at the next facet, so that all faults come at once.
+                    None => words.skip_to_facet(),
+                }
+            } else if words.next_is("endsolid") {
+                ended = true;
+                words.skip_line();
+            } else if words.next_is("solid") {
+                ended = false;
+                words.skip_line();
+            } else if let Some(word) = words.next() {
+                let message = format!("`{}` where `facet` or `endsolid` is due", shown(word));
+                self.fault(start, "stl-syntax", message);
+                if self.count >= MOST_FAULTS {
+                    return facets;
+                }
+                words.skip_to_facet();
+            } else {
+                if !ended {
+                    let message = "ends without `endsolid`: facets may be missing".to_owned();
+                    self.fault(start, "truncated-stl", message);
+                }
+                return facets;
+            }
+        }
+    }
+
+    fn facet(&mut self, words: &mut Words<'_>) -> Option<Triangle> {
+        self.due(words, "normal")?;
+        for _ in 0..3 {
+            words.next();
+        }
+        self.due(words, "outer")?;
+        self.due(words, "loop")?;
+        let mut facet = [Vec3::zeros(); 3];
+        for corner in &mut facet {
+            let start = words.peek_at();
+            self.due(words, "vertex")?;
+            for value in corner.iter_mut() {
+                let at = words.peek_at();
+                let word = words.next();
+                let number = word.and_then(|w| std::str::from_utf8(w).ok()?.parse::<f64>().ok());
+                let Some(number) = number else {
+                    let found =
+                        word.map_or("the end of the file".into(), |w| format!("`{}`", shown(w)));
+                    self.fault(at, "stl-syntax", format!("a number is due here, not {found}"));
+                    return None;
+                };
+                *value = number * self.unit_mm;
+            }
+            if !is_plausible(corner) {
+                self.fault(start, "bad-corner", fault_of(&[*corner; 3]));
+                return None;
+            }
+        }
+        self.due(words, "endloop")?;
+        self.due(words, "endfacet")?;
+        Some(facet)
+    }
+
+    fn due(&mut self, words: &mut Words<'_>, word: &str) -> Option<()> {
+        let at = words.peek_at();
+        if words.next_is(word) {
+            return Some(());
+        }
+        let found = words.next();
+        let code = if found.is_none() { "truncated-stl" } else { "stl-syntax" };
+        let found = found.map_or("the end of the file".into(), |w| format!("`{}`", shown(w)));
+        self.fault(at, code, format!("`{word}` is due here, not {found}"));
+        None
+    }
+
+    fn fault(&mut self, offset: usize, code: &'static str, message: String) {
+        self.count += 1;
+        let before = &self.bytes[..offset.min(self.bytes.len())];
+        let line_start = before.iter().rposition(|b| *b == b'\n').map_or(0, |i| i + 1);
+        let place = Place {
+            file: self.file.to_owned(),
+            line: before.iter().filter(|b| **b == b'\n').count() + 1,
+            column: before.len() - line_start + 1,
+        };
+        self.faults.error(code, place, message, HINT);
+    }
+}
+
+fn is_plausible(corner: &Vec3) -> bool {
+    // A comparison with NaN is false.
+    corner.iter().all(|v| v.abs() <= LARGEST_MM)
+}
+
+fn fault_of(facet: &Triangle) -> String {
+    let finite = facet.iter().all(|c| c.iter().all(|v| v.is_finite()));
+    match finite {
+        false => "a coordinate is not a finite number".to_owned(),
+        true => format!("a coordinate is larger than {LARGEST_MM:e} mm"),
+    }
+}
+
+fn shown(word: &[u8]) -> String {
+    String::from_utf8_lossy(&word[..word.len().min(20)]).into_owned()
+}
+
+struct Words<'a> {
+    bytes: &'a [u8],
+    at: usize,
+}
+
+impl<'a> Words<'a> {
+    fn peek_at(&mut self) -> usize {
+        while self.bytes.get(self.at).is_some_and(u8::is_ascii_whitespace) {
+            self.at += 1;
+        }
+        self.at
+    }
+
+    fn at_end(&mut self) -> bool {
+        self.peek_at() >= self.bytes.len()
+    }
+
+    fn next(&mut self) -> Option<&'a [u8]> {
+        let start = self.peek_at();
+        let rest = &self.bytes[start..];
+        let end = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
+        self.at = start + end;
+        (end > 0).then(|| &rest[..end])
+    }
+
+    /// Takes the next word if it is this one, in any case.
+    fn next_is(&mut self, word: &str) -> bool {
+        let start = self.peek_at();
+        let found = self.next().is_some_and(|w| w.eq_ignore_ascii_case(word.as_bytes()));
+        if !found {
+            self.at = start;
+        }
+        found
+    }
+
+    fn skip_line(&mut self) {
+        let rest = &self.bytes[self.at..];
+        self.at += rest.iter().position(|b| *b == b'\n').unwrap_or(rest.len());
+    }
+
+    /// To the next facet, or the end of the solid.
+    fn skip_to_facet(&mut self) {
+        loop {
+            let start = self.peek_at();
+            match self.next() {
+                Some(w)
+                    if [&b"facet"[..], b"endsolid"].iter().any(|k| w.eq_ignore_ascii_case(k)) =>
+                {
+                    self.at = start;
+                    return;
+                }
+                Some(_) => {}
+                None => return,
+            }
+        }
+    }
+}
+
+/// The binary form of these facets.
+pub fn write_stl(heading: &str, facets: &[Triangle]) -> Vec<u8> {
+    let mut bytes = Vec::with_capacity(HEADING + FACET * facets.len());
+    // A heading that begins with `solid` would make readers take it for the text form.
+    let heading = format!("TrueAxis: {heading}");
+    bytes.extend(heading.bytes().map(|b| if b.is_ascii_graphic() { b } else { b' ' }).take(80));
+    bytes.resize(80, b' ');
+    let count = u32::try_from(facets.len()).unwrap_or(u32::MAX);
+    bytes.extend(count.to_le_bytes());
+    for facet in facets.iter().take(count as usize) {
+        let normal = (facet[1] - facet[0]).cross(&(facet[2] - facet[0]));
+        let normal = normal.try_normalize(0.0).unwrap_or_default();
+        for vector in [&normal, &facet[0], &facet[1], &facet[2]] {
+            for value in vector.iter() {
+                bytes.extend((*value as f32).to_le_bytes());
+            }
+        }
+        bytes.extend([0, 0]);
+    }
+    bytes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::collide::shape::cuboid;
+
+    const TEXT: &str = "solid one\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   \
+                        vertex 1 0 0\n   vertex 0 2e0 0\n  endloop\n endfacet\nendsolid one\n";
+
+    fn read(bytes: &[u8]) -> (Option<Vec<Triangle>>, Vec<String>) {
+        let mut problems = Diagnostics::new();
+        let facets = read_stl("m.stl", bytes, 1.0, &mut problems);
+        let said = problems.iter().map(|d| format!("{} {}", d.code, d.place)).collect();
+        (facets, said)
+    }
+
+    #[test]
+    fn both_forms_are_read() {
+        let (facets, said) = read(TEXT.as_bytes());
+        assert_eq!((facets.unwrap()[0][2].y, said.len()), (2.0, 0));
+        let boxed = cuboid(Vec3::new(1.0, 2.0, 3.0));
+        let mut bytes = write_stl("box", &boxed);
+        assert_eq!(read(&bytes), (Some(boxed.clone()), vec![]));
+        bytes[..6].copy_from_slice(b"solid "); // what some programs write into binary files
+        assert_eq!(read(&bytes), (Some(boxed), vec![]));
+    }
+
+    #[test]
+    fn faults_are_named_and_placed() {
+        let said = |bytes: &[u8]| read(bytes).1.join(", ");
+        assert_eq!(said(b""), "empty-stl m.stl");
+        assert_eq!(said(b"solid x\nendsolid x"), "empty-stl m.stl");
+        assert_eq!(said(&[7; 30]), "truncated-stl m.stl");
+        assert_eq!(said(TEXT.replace("2e0", "nan").as_bytes()), "bad-corner m.stl:6:4");
+        assert_eq!(said(TEXT.replace("2e0", "zwei").as_bytes()), "stl-syntax m.stl:6:13");
+        assert_eq!(said(TEXT.replace("endloop", "").as_bytes()), "stl-syntax m.stl:8:2");
+        assert_eq!(said(&TEXT.as_bytes()[..60]), "truncated-stl m.stl:5:2");
+        assert_eq!(said(TEXT.replace("2e0", "0").as_bytes()), "empty-stl m.stl");
+        let mut bytes = write_stl("box", &cuboid(Vec3::new(1.0, 2.0, 3.0)));
+        bytes.push(0);
+        assert_eq!(said(&bytes), "trailing-bytes m.stl");
+        bytes.truncate(200);
+        assert_eq!(said(&bytes), "truncated-stl m.stl");
+        let mut bytes = write_stl("box", &cuboid(Vec3::new(1.0, 2.0, 3.0)));
+        bytes[84 + 50 + 12..84 + 50 + 16].copy_from_slice(&f32::NAN.to_le_bytes());
+        assert_eq!(said(&bytes), "bad-corner m.stl");
+        bytes[80..84].copy_from_slice(&u32::MAX.to_le_bytes());
+        assert_eq!(said(&bytes), "truncated-stl m.stl");
+    }
+}

@@ -1,0 +1,174 @@
+//! From files to findings: what a command and a window both ask of a simulation.
+
+use super::collide::{BodyModel, load_models};
+use super::program::program_of;
+use super::{
+    AxisWatch, Batch, Collisions, Drift, Observer, Options, Run, SetUp, Summary, TroubleList,
+    read_program, read_setup, simulate,
+};
+use std::path::{Path, PathBuf};
+use trueaxis_input::{Diagnostics, Files};
+use trueaxis_machine::Machine;
+use trueaxis_nc::{Control, Program};
+
+/// A program and what belongs to it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ProgramFiles<'a> {
+    /// Where the files are read from.
+    pub files: &'a Files,
+    /// The program; its subprograms are looked for beside it.
+    pub program: &'a Path,
+    /// Its text if it is not to be read from the disk.
+    pub text: Option<&'a [u8]>,
+    /// The set-up; without it the file PROGRAM.setup.toml beside a program on the disk.
+    pub setup: Option<&'a Path>,
+    /// Whose program it is, if that is known.
+    pub control: Option<Control>,
+}
+
+impl ProgramFiles<'_> {
+    /// Reads the set-up; one without anything if there is none.
+    pub fn setup(&self, machine: &Machine, problems: &mut Diagnostics) -> Option<SetUp> {
+        let Some(path) = self.setup_path() else {
+            return Some(SetUp { files: self.files.clone(), ..SetUp::default() });
+        };
+        let (setup, found) = read_setup(self.files, &path, machine);
+        problems.append(found);
+        setup
+    }
+
+    /// Reads the program; its name and its text are all that is known of one that is on no disk.
+    pub fn program(&self, setup: &SetUp, problems: &mut Diagnostics) -> Option<Program> {
+        match self.text {
+            None => read_program(self.files, self.program, self.control, setup, problems),
+            Some(text) => {
+                let control = self.control.or(setup.control);
+                program_of(self.program, text.to_vec(), control, problems)
+            }
+        }
+    }
+
+    fn setup_path(&self) -> Option<PathBuf> {
+        let beside = || self.program.with_extension("setup.toml");
+        let found = || self.text.is_none().then(beside).filter(|path| self.files.is_file(path));
+        self.setup.map(Path::to_owned).or_else(found)
+    }
+}
+
+/// Everything that a simulation needs, read and checked.
+pub struct Job {
+    /// The machine with the tool that is in it, at the temperatures of the start.
+    pub machine: Machine,
+    /// The program.
+    pub program: Program,
+    /// Whose program it is.
+    pub control: Control,
+    /// What stands on the machine.
+    pub setup: SetUp,
+    /// How it is simulated.
+    pub options: Options,
+    /// What the bodies of the machine look like; empty where nobody asks.
+    pub models: Vec<BodyModel>,
+}
+
+impl Job {
+    /// Reads set-up and program; all that is wrong goes to `problems`.
+    ///
+    /// ```no_run
+    /// use trueaxis_input::Diagnostics;
+    /// use trueaxis_motion::{Job, Options, ProgramFiles};
+    /// let (machine, mut problems) = trueaxis::files::machine("mill.toml".as_ref());
+    /// let program = "part.mpf".as_ref();
+    /// let files = ProgramFiles { files: &trueaxis::files::disk(), program, text: None, setup: None, control: None };
+    /// let job = Job::read(machine.unwrap(), &files, Options::default(), &mut problems).unwrap();
+    /// let found = job.run(job.collisions(), &mut []);
+    /// assert!(!found.run.problems.has_errors() && !found.troubles.is_grave());
+    /// ```
+    pub fn read(
+        machine: Machine,
+        files: &ProgramFiles<'_>,
+        options: Options,
+        problems: &mut Diagnostics,
+    ) -> Option<Self> {
+        let setup = files.setup(&machine, problems)?;
+        let program = files.program(&setup, problems)?;
+        let control = program.dialect().control;
+        Some(Self { machine, program, control, setup, options, models: Vec::new() })
+    }
+
+    /// The same with the models of the machine, whose STL files lie beside the machine file.
+    #[must_use]
+    pub fn with_models(mut self, machine_file: &Path, problems: &mut Diagnostics) -> Self {
+        self.models = load_models(&self.setup.files, &self.machine, machine_file, problems);
+        self
+    }
+
+    /// Watches the bodies; `None` if there are not two.
+    pub fn collisions(&self) -> Option<Collisions> {
+        Collisions::watch(&self.machine, self.models.clone(), &self.setup)
+    }
+
+    /// Simulates; `collisions` are looked for if they are given, `observers` look on.
+    pub fn run(
+        &self,
+        mut collisions: Option<Collisions>,
+        observers: &mut [&mut dyn Observer],
+    ) -> Findings {
+        let mut summary = Summary::of(&self.machine);
+        let mut watch = AxisWatch::on(&self.machine);
+        let temperatures = self.options.temperatures.as_ref();
+        let mut drift = temperatures.and_then(|run| Drift::of(&self.machine, &self.setup, run));
+        let mut all: Vec<&mut dyn Observer> = vec![&mut summary, &mut watch];
+        for observer in observers {
+            all.push(&mut **observer);
+        }
+        if let Some(collisions) = &mut collisions {
+            all.push(collisions);
+        }
+        if let Some(drift) = &mut drift {
+            all.push(drift);
+        }
+        let run = simulate(&self.machine, &self.program, &self.setup, &self.options, &mut all);
+        let logs = [Some(watch.log), collisions.map(|c| c.log)];
+        let troubles = TroubleList::of(logs.into_iter().flatten());
+        Findings { run, summary, troubles, drift }
+    }
+}
+
+/// What a simulation found.
+pub struct Findings {
+    /// How it ended.
+    pub run: Run,
+    /// What it comes to.
+    pub summary: Summary,
+    /// What went wrong.
+    pub troubles: TroubleList,
+    /// What changing temperatures did, where they followed a log.
+    pub drift: Option<Drift>,
+}
+
+/// Tells how far the main program has come: the part of its lines, 0 to 1. Loops go back; the part
+/// does not.
+pub struct Progress<'t> {
+    lines: f64,
+    line: u32,
+    tell: Box<dyn FnMut(f64) + 't>,
+}
+
+impl<'t> Progress<'t> {
+    /// From the first line on.
+    pub fn through(program: &Program, tell: impl FnMut(f64) + 't) -> Self {
+        let breaks = program.source().iter().filter(|b| **b == b'\n').count();
+        Self { lines: breaks as f64 + 1.0, line: 0, tell: Box::new(tell) }
+    }
+}
+
+impl Observer for Progress<'_> {
+    fn path(&mut self, batch: &Batch<'_>) {
+        let Some(node) = batch.nodes.last() else { return };
+        if node.origin.program == 0 && node.origin.line > self.line {
+            self.line = node.origin.line;
+            (self.tell)((f64::from(self.line) / self.lines).min(1.0));
+        }
+    }
+}

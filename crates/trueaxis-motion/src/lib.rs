@@ -1,0 +1,341 @@
+//! Simulate: the NC program on the machine as it is.
+//!
+//! ```text
+//!     program ──interpret──> moves ──axis_path──> nodes ──clock──> times
+//!                                       nodes ──tool_path──> nominal and actual tool
+//!                                                 └──> summary, troubles, tables, plots
+//! ```
+
+pub mod axis_path;
+mod basic;
+mod body_table;
+mod clock;
+pub mod collide;
+mod collisions;
+mod curve;
+mod densify;
+mod drift;
+mod job;
+mod orientation;
+mod parquet_log;
+#[cfg(feature = "parquet")]
+mod parquet_table;
+mod program;
+mod recording;
+pub mod report;
+mod series;
+mod setup;
+mod summary;
+mod table;
+mod temperature_log;
+mod temperatures;
+pub mod timing;
+mod tool_path;
+mod trace;
+mod trouble;
+
+pub use axis_path::{Fault, Node, PathStep};
+pub use body_table::{BODY_HEADINGS, BodyTable};
+pub use clock::{Stamp, Timing, limit_name, limits};
+pub use collisions::Collisions;
+pub use densify::{Densify, pieces};
+pub use drift::{Drift, SensorRange};
+pub use job::{Findings, Job, ProgramFiles, Progress};
+#[cfg(feature = "parquet")]
+pub use parquet_table::ParquetTable;
+pub use program::read_program;
+pub use recording::{
+    AxisRange, Colour, Curves, Moment, PathPoints, QuantityRange, Recorder, Recording,
+};
+pub use series::{PathPoint, Quantity, Series};
+pub use setup::{CONTROLS, Nearness, SetUp, SetUpTool, control_named, parse_setup, read_setup};
+pub use summary::{AxisUse, Reversal, Summary, Worst, shown, unit};
+pub use table::{CsvTable, headings};
+pub use temperature_log::read_temperature_log;
+pub use tool_path::Batch;
+pub use trace::{Trace, TracedNode, block_line, trace};
+pub use trouble::{AxisWatch, Log, Trouble, TroubleKind, TroubleList};
+pub use trueaxis_nc::Stop;
+
+use axis_path::AxisPath;
+use clock::Clock;
+use program::Folder;
+use std::path::Path;
+use temperatures::Present;
+pub use tool_path::STILL;
+use tool_path::{BATCH, ToolPath};
+use trueaxis_input::{Diagnostics, Place};
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::Command;
+use trueaxis_machine::heat::TemperatureRun;
+use trueaxis_machine::tcp::TipControl;
+use trueaxis_nc::moves::Step;
+use trueaxis_nc::{Outcome, Program, Settings, interpret};
+
+/// Takes what the simulation finds, stretch by stretch, in constant memory.
+pub trait Observer {
+    /// The next stretch of the path.
+    fn path(&mut self, batch: &Batch<'_>);
+
+    /// What the interpreter hands out, before the path of it comes.
+    fn step(&mut self, _step: &Step) {}
+}
+
+/// How a program is simulated.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// How finely moves are cut.
+    pub densify: Densify,
+    /// How far corners may be rounded where the program does not say it, mm.
+    pub rounding_mm: f64,
+    /// How time runs.
+    pub timing: Timing,
+    /// Backward jumps and calls before the program counts as endless.
+    pub most_jumps: u64,
+    /// List errors and go on behind them.
+    pub keep_going: bool,
+    /// The log that the temperatures follow; without one the machine keeps those that it has.
+    pub temperatures: Option<TemperatureRun>,
+    /// Asked, the simulation ends early; what was found until then is not the whole.
+    pub stop: Stop,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            densify: Densify::default(),
+            rounding_mm: 0.01,
+            timing: Timing::default(),
+            most_jumps: Settings::default().most_jumps,
+            keep_going: false,
+            temperatures: None,
+            stop: Stop::default(),
+        }
+    }
+}
+
+/// How a simulation ended.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Run {
+    /// Everything that was found in the program; with errors the results are not complete.
+    pub problems: Diagnostics,
+    /// The programs by the number in [`trueaxis_nc::moves::Origin::program`].
+    pub programs: Vec<String>,
+    /// Somebody asked it to stop before its end.
+    pub stopped: bool,
+}
+
+/// Runs an NC program on a machine and tells the observers all that happens.
+///
+/// Memory does not grow with the program. The workpiece frame of all results is that of the
+/// machine file, or of a work offset if the set-up says so. Where the temperatures follow a log,
+/// every place is evaluated on the machine of its own time; a program that outlasts its log is an
+/// error at the block where the log ends.
+pub fn simulate(
+    machine: &Machine,
+    program: &Program,
+    setup: &SetUp,
+    options: &Options,
+    observers: &mut [&mut dyn Observer],
+) -> Run {
+    let machine = setup.mounted(machine);
+    let settings = Settings {
+        most_jumps: options.most_jumps,
+        stop: options.stop.clone(),
+        ..setup.settings(options.keep_going)
+    };
+    let mut told = Diagnostics::new();
+    let Some(present) = Present::of(&machine, options.temperatures.as_ref(), &mut told) else {
+        return Run { problems: told, programs: Vec::new(), stopped: false };
+    };
+    let mut walk = Walk::new(&machine, present, setup, options, observers);
+    let outcome = execute(&machine, program, setup, &settings, &mut |step| walk.take(&step));
+    let faults = walk.finish();
+    let mut problems = outcome.problems;
+    problems.append(told);
+    setup.warn_of_zeros(program.file(), &mut problems);
+    note_assumed_limits(&machine, program, &mut problems);
+    for fault in faults {
+        let place = place(program, &outcome.programs, &fault);
+        problems.error(fault.code, place, fault.message, fault.hint);
+    }
+    Run { problems, programs: outcome.programs, stopped: options.stop.is_asked() }
+}
+
+/// Executes a program as its control would; subprograms lie beside it.
+pub fn execute(
+    mounted: &Machine,
+    program: &Program,
+    setup: &SetUp,
+    settings: &Settings,
+    take: &mut dyn FnMut(Step),
+) -> Outcome {
+    let control = TipControl::of(mounted);
+    let turn = basic::turn_to_workpiece(mounted, setup);
+    let folder = Folder::beside(&setup.files, Path::new(program.file()), control.as_ref(), turn);
+    interpret(program, &folder, settings, take)
+}
+
+/// Time is as true as the limits of the axes.
+fn note_assumed_limits(machine: &Machine, program: &Program, problems: &mut Diagnostics) {
+    let lacks = |axis: &&trueaxis_machine::axis::Axis| {
+        let limits = axis.limits;
+        limits.velocity.is_none() || limits.acceleration.is_none() || limits.jerk.is_none()
+    };
+    let axes: Vec<String> =
+        machine.axes().iter().filter(lacks).map(|a| a.name.to_string()).collect();
+    if !axes.is_empty() {
+        let message = format!(
+            "usual limits are taken where the machine file has none, on {}",
+            axes.join(" ")
+        );
+        let hint = "state max_velocity, max_acceleration and max_jerk for true times";
+        problems.note("assumed-limits", Place::whole(program.file()), message, hint);
+    }
+}
+
+/// Where a fault stands: the line, and the column of its word if the text is at hand.
+pub fn place(program: &Program, programs: &[String], fault: &Fault) -> Place {
+    let index = fault.origin.program as usize;
+    let mut place = Place::whole(programs.get(index).map_or(program.file(), String::as_str));
+    place.line = fault.origin.line as usize;
+    place.column = 1;
+    if let (0, Some(word)) = (index, fault.word) {
+        let line = program
+            .source()
+            .split(|b| *b == b'\n')
+            .nth((fault.origin.line as usize).wrapping_sub(1));
+        let at = line.and_then(|l| l.iter().position(|b| b.eq_ignore_ascii_case(&word)));
+        place.column = at.map_or(1, |at| at + 1);
+    }
+    place
+}
+
+/// The way of each step through path, clock and poses.
+struct Walk<'w, 'o> {
+    path: AxisPath<'w>,
+    stretch: Stretch<'w, 'o>,
+    keep_going: bool,
+}
+
+impl<'w, 'o> Walk<'w, 'o> {
+    fn new(
+        machine: &'w Machine,
+        present: Present,
+        setup: &'w SetUp,
+        options: &'w Options,
+        observers: &'w mut [&'o mut dyn Observer],
+    ) -> Self {
+        let path = AxisPath::new(machine, setup, options.densify, options.rounding_mm);
+        let start = *path.command();
+        let stretch = Stretch {
+            setup,
+            stop: &options.stop,
+            clock: Clock::new(machine, start, options.timing),
+            tool_path: ToolPath::new(present.compiled(), start),
+            present,
+            tool: 0,
+            at: start,
+            // Where the axes stand before the program.
+            nodes: vec![path.start()],
+            stamps: vec![Stamp::default()],
+            observers,
+            faults: Vec::new(),
+        };
+        Self { path, stretch, keep_going: options.keep_going }
+    }
+
+    fn take(&mut self, step: &Step) {
+        let sound = self.path.faults.is_empty() && self.stretch.faults.is_empty();
+        // Without `keep_going` the first fault ends the simulation.
+        if !(self.keep_going || sound) || self.stretch.stop.is_asked() {
+            return;
+        }
+        let stretch = &mut self.stretch;
+        stretch.observers.iter_mut().for_each(|o| o.step(step));
+        self.path.take(step, &mut |step| stretch.take(step));
+    }
+
+    fn finish(mut self) -> Vec<Fault> {
+        self.stretch.rest();
+        let mut faults = self.path.faults;
+        faults.append(&mut self.stretch.faults);
+        faults
+    }
+}
+
+/// The stretch of the path that waits for its times and poses.
+struct Stretch<'w, 'o> {
+    present: Present,
+    setup: &'w SetUp,
+    stop: &'w Stop,
+    clock: Clock,
+    tool_path: ToolPath,
+    tool: u32,
+    /// Where the axes are.
+    at: Command,
+    nodes: Vec<Node>,
+    stamps: Vec<Stamp>,
+    observers: &'w mut [&'o mut dyn Observer],
+    faults: Vec<Fault>,
+}
+
+impl Stretch<'_, '_> {
+    fn take(&mut self, step: PathStep) {
+        match step {
+            PathStep::Node(node) if node.command == self.at && node.dwell_s == 0.0 => {}
+            PathStep::Node(node) => {
+                let stamps = &mut self.stamps;
+                match self.clock.push(&node, &mut |stamp| stamps.push(stamp)) {
+                    Ok(()) => {
+                        self.at = node.command;
+                        self.nodes.push(node);
+                    }
+                    Err(error) => self.faults.push(Fault::untimed(&node, &error)),
+                }
+                if self.stamps.len() >= BATCH {
+                    self.evaluate();
+                }
+            }
+            PathStep::Tool(number) => self.change_tool(number),
+        }
+    }
+
+    /// Everything that has its time, in batches of one temperature.
+    fn evaluate(&mut self) {
+        while let Some(first) = self.stamps.first().filter(|_| !self.stop.is_asked()) {
+            match self.present.advance(first.time_s) {
+                Ok(true) => {
+                    let since_s = self.present.since_s();
+                    self.tool_path.change_temperatures(self.present.compiled(), since_s);
+                }
+                Ok(false) => {}
+                Err(message) => self.faults.push(Fault::untempered(&self.nodes[0], message)),
+            }
+            let most = self.stamps.len().min(BATCH);
+            // The first one at least: it is why the machine is as it is.
+            let count = self.present.holds(&self.stamps[1..most]) + 1;
+            let (nodes, stamps) = (&self.nodes[..count], &self.stamps[..count]);
+            let batch = self.tool_path.evaluate(self.tool, nodes, stamps, &mut self.faults);
+            self.observers.iter_mut().for_each(|o| o.path(&batch));
+            self.nodes.drain(..count);
+            self.stamps.drain(..count);
+        }
+    }
+
+    /// The axes rest while the tool is changed.
+    fn change_tool(&mut self, number: u32) {
+        self.rest();
+        self.tool = number;
+        if let Some(tool) = self.setup.tools.get(&number) {
+            self.present.change_tip(tool.tip_mm);
+            self.tool_path.change_tool(self.present.compiled());
+        }
+    }
+
+    fn rest(&mut self) {
+        let stamps = &mut self.stamps;
+        self.clock.finish(&mut |stamp| stamps.push(stamp));
+        self.evaluate();
+    }
+}

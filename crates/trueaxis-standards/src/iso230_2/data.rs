@@ -1,0 +1,346 @@
+//! The readings of a positioning test: columns of a table to targets, runs and directions.
+
+use std::collections::HashMap;
+use trueaxis_geometry::AxisKind;
+use trueaxis_input::sheet::{Cells, Column, Sheet, heading};
+use trueaxis_input::{Diagnostics, Dimension, Unit};
+
+/// From which side a target was reached.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Direction {
+    /// ↑, the axis moved in its positive direction.
+    Up,
+    /// ↓.
+    Down,
+}
+
+/// One reading.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reading {
+    /// Which run (cycle), from 1.
+    pub run: u32,
+    /// Actual − target, mm or rad.
+    pub deviation: f64,
+}
+
+/// The readings at one target.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Target {
+    /// mm or rad.
+    pub position: f64,
+    /// Rising, in the order of the runs.
+    pub up: Vec<Reading>,
+    /// Falling.
+    pub down: Vec<Reading>,
+}
+
+impl Target {
+    /// The readings of one direction.
+    pub fn of(&self, direction: Direction) -> &Vec<Reading> {
+        match direction {
+            Direction::Up => &self.up,
+            Direction::Down => &self.down,
+        }
+    }
+
+    fn of_mut(&mut self, direction: Direction) -> &mut Vec<Reading> {
+        match direction {
+            Direction::Up => &mut self.up,
+            Direction::Down => &mut self.down,
+        }
+    }
+}
+
+/// The readings of one axis, mm or rad.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measurement {
+    /// Linear (mm) or rotary (rad).
+    pub kind: AxisKind,
+    /// By position, rising.
+    pub targets: Vec<Target>,
+}
+
+impl Measurement {
+    /// From the first to the last target, mm or rad.
+    pub fn length(&self) -> f64 {
+        match (self.targets.first(), self.targets.last()) {
+            (Some(first), Some(last)) => last.position - first.position,
+            _ => 0.0,
+        }
+    }
+
+    fn dimension(kind: AxisKind) -> Dimension {
+        match kind {
+            AxisKind::Linear => Dimension::Length,
+            AxisKind::Rotary => Dimension::Angle,
+        }
+    }
+}
+
+/// `deviation_up_3`, `actual_down_1`, `up_2`: actual positions or not, direction, run.
+fn wide_role(role: &str) -> Option<(bool, Direction, u32)> {
+    let (actual, rest) = match role.strip_prefix("actual_") {
+        Some(rest) => (true, rest),
+        None => (false, role.strip_prefix("deviation_").unwrap_or(role)),
+    };
+    let (word, run) = rest.rsplit_once('_')?;
+    let direction = match word {
+        "up" => Direction::Up,
+        "down" => Direction::Down,
+        _ => return None,
+    };
+    Some((actual, direction, run.parse().ok().filter(|r| *r > 0)?))
+}
+
+/// What may stand under a heading of a positioning test.
+pub fn role_cells(name: &str) -> Cells {
+    let (role, _) = heading(name);
+    match role {
+        "target" | "actual" | "deviation" | "time" | "temperature" => Cells::Numbers,
+        _ if name == "run" => Cells::Numbers,
+        _ if role.ends_with("_temperature") => Cells::Numbers,
+        _ if wide_role(role).is_some() => Cells::Gaps,
+        _ if name == "direction" || name == "diagonal" => Cells::Words,
+        _ => Cells::Unused,
+    }
+}
+
+/// Reads a table of a positioning test; `None` with errors in `problems`.
+pub fn read(file: &str, text: &str, problems: &mut Diagnostics) -> Option<Measurement> {
+    let sheet = Sheet::parse(file, text, role_cells, problems)?;
+    warn_of_unused(&sheet, &["direction"], problems);
+    crate::check_temperatures(&sheet, problems);
+    crate::check_times(&sheet, false, problems);
+    from_sheet(&sheet, problems)
+}
+
+/// As [`read`], of a table that is there already.
+pub(crate) fn from_sheet(sheet: &Sheet, problems: &mut Diagnostics) -> Option<Measurement> {
+    let Some(target) = sheet.about("target") else {
+        let message = "the table has no column of target positions".to_owned();
+        let hint = "name it target_mm or target_deg";
+        problems.error("missing-column", sheet.headings_place(), message, hint);
+        return None;
+    };
+    let kind = match Unit::find(target.unit(), Dimension::Angle) {
+        Ok(_) => AxisKind::Rotary,
+        Err(_) => AxisKind::Linear,
+    };
+    let targets = sheet.inner(target, Measurement::dimension(kind), problems)?;
+    let wide: Vec<&Column> =
+        sheet.columns.iter().filter(|c| wide_role(c.role()).is_some()).collect();
+    let targets = match wide.is_empty() {
+        true => long(sheet, kind, &targets, problems)?,
+        false => self::wide(sheet, kind, &targets, &wide, problems)?,
+    };
+    Some(Measurement { kind, targets })
+}
+
+/// Nothing is dropped in silence.
+pub(crate) fn warn_of_unused(sheet: &Sheet, used: &[&str], problems: &mut Diagnostics) {
+    for column in &sheet.columns {
+        let words = matches!(column.cells, Cells::Words | Cells::Unused);
+        if words && !used.contains(&column.name.as_str()) {
+            let message = format!("column `{}` is not used", column.name);
+            let hint = "known here: target_mm or _deg, run, direction, actual_… or deviation_…, \
+                        or up_1_um, down_1_um, up_2_um …; time_…, temperature_degC";
+            problems.warn("unused-column", column.place.clone(), message, hint);
+        }
+    }
+}
+
+/// Finds the target of a position; most rows ask for the last one or the one after it.
+#[derive(Default)]
+struct Targets {
+    list: Vec<Target>,
+    places: HashMap<u64, usize>,
+    last: usize,
+}
+
+impl Targets {
+    fn at(&mut self, position: f64) -> &mut Target {
+        // + 0.0: −0 and 0 are one target.
+        let position = position + 0.0;
+        let near = [self.last, self.last + 1, self.last.wrapping_sub(1)];
+        let known = |i: &usize| self.list.get(*i).is_some_and(|t| t.position == position);
+        self.last = match near.iter().copied().find(known) {
+            Some(i) => i,
+            None => {
+                let next = self.list.len();
+                *self.places.entry(position.to_bits()).or_insert(next)
+            }
+        };
+        if self.last == self.list.len() {
+            self.list.push(Target { position, ..Target::default() });
+        }
+        &mut self.list[self.last]
+    }
+
+    fn sorted(mut self) -> Vec<Target> {
+        self.list.sort_by(|a, b| a.position.total_cmp(&b.position));
+        for target in &mut self.list {
+            target.up.sort_by_key(|r| r.run);
+            target.down.sort_by_key(|r| r.run);
+        }
+        self.list
+    }
+}
+
+fn direction_of(word: &str) -> Option<Direction> {
+    match word.to_ascii_lowercase().as_str() {
+        "up" | "+" | "1" | "+1" | "↑" | "forward" | "positive" => Some(Direction::Up),
+        "down" | "-" | "-1" | "−" | "−1" | "↓" | "backward" | "reverse" | "negative" => {
+            Some(Direction::Down)
+        }
+        _ => None,
+    }
+}
+
+/// The direction of every word of the sheet, and the row's direction through it.
+fn directions(sheet: &Sheet, problems: &mut Diagnostics) -> Option<Vec<Direction>> {
+    let Some(column) = sheet.columns.iter().find(|c| c.name == "direction") else {
+        let message = "no column `direction`: every reading counts as rising (↑)".to_owned();
+        let hint = "write up or down; a test from one side only says nothing of the reversal";
+        problems.warn("missing-direction", sheet.headings_place(), message, hint);
+        return Some(vec![Direction::Up; sheet.rows()]);
+    };
+    let known: Vec<Option<Direction>> = sheet.words.iter().map(|w| direction_of(w)).collect();
+    let mut found = Vec::with_capacity(sheet.rows());
+    for (row, value) in column.values.iter().enumerate() {
+        let Some(direction) = known.get(*value as usize).copied().flatten() else {
+            let message = format!("`{}` is no direction", sheet.words[*value as usize]);
+            let place = sheet.row_place(row);
+            problems.error("bad-direction", place, message, "write up or down, or + or -");
+            return None;
+        };
+        found.push(direction);
+    }
+    Some(found)
+}
+
+/// Actual − target, or the deviation as it stands.
+fn deviations(
+    sheet: &Sheet,
+    kind: AxisKind,
+    targets: &[f64],
+    problems: &mut Diagnostics,
+) -> Option<Vec<f64>> {
+    let dimension = Measurement::dimension(kind);
+    match (sheet.about("deviation"), sheet.about("actual")) {
+        (Some(column), None) => sheet.inner(column, dimension, problems),
+        (None, Some(column)) => {
+            let actual = sheet.inner(column, dimension, problems)?;
+            Some(actual.iter().zip(targets).map(|(a, t)| a - t).collect())
+        }
+        (found, _) => {
+            let (code, message) = match found {
+                Some(_) => ("duplicate-column", "both deviations and actual positions are there"),
+                None => ("missing-column", "neither deviations nor actual positions are there"),
+            };
+            let hint = "one column: deviation_um, actual_mm, deviation_arcsec, actual_deg …";
+            problems.error(code, sheet.headings_place(), message.to_owned(), hint);
+            None
+        }
+    }
+}
+
+fn long(
+    sheet: &Sheet,
+    kind: AxisKind,
+    positions: &[f64],
+    problems: &mut Diagnostics,
+) -> Option<Vec<Target>> {
+    let deviations = deviations(sheet, kind, positions, problems)?;
+    let directions = directions(sheet, problems)?;
+    let runs = match sheet.columns.iter().find(|c| c.name == "run") {
+        Some(column) => Some(run_numbers(sheet, column, problems)?),
+        None => None,
+    };
+    let mut targets = Targets::default();
+    for (row, position) in positions.iter().enumerate() {
+        let readings = targets.at(*position).of_mut(directions[row]);
+        let run = runs.as_ref().map_or(readings.len() as u32 + 1, |r| r[row]);
+        readings.push(Reading { run, deviation: deviations[row] });
+    }
+    Some(targets.sorted())
+}
+
+fn run_numbers(sheet: &Sheet, column: &Column, problems: &mut Diagnostics) -> Option<Vec<u32>> {
+    let mut runs = Vec::with_capacity(column.values.len());
+    for (row, value) in column.values.iter().enumerate() {
+        if value.fract() != 0.0 || !(0.0..=1e9).contains(value) {
+            let message = format!("{value} is no number of a run");
+            problems.error("bad-run", sheet.row_place(row), message, "runs are counted 1, 2, 3 …");
+            return None;
+        }
+        runs.push(*value as u32);
+    }
+    Some(runs)
+}
+
+fn wide(
+    sheet: &Sheet,
+    kind: AxisKind,
+    positions: &[f64],
+    columns: &[&Column],
+    problems: &mut Diagnostics,
+) -> Option<Vec<Target>> {
+    let mut targets = Targets::default();
+    for column in columns {
+        let (actual, direction, run) = wide_role(column.role())?;
+        let values = sheet.inner(column, Measurement::dimension(kind), problems)?;
+        for (position, value) in positions.iter().zip(values) {
+            let readings = targets.at(*position).of_mut(direction);
+            // An empty cell is a reading that was not taken; the check tells of unequal counts.
+            if value.is_nan() {
+                continue;
+            }
+            let deviation = if actual { value - position } else { value };
+            readings.push(Reading { run, deviation });
+        }
+    }
+    Some(targets.sorted())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read_ok(text: &str) -> Measurement {
+        let mut problems = Diagnostics::new();
+        let read = read("t.csv", text, &mut problems);
+        assert!(!problems.has_errors(), "{problems:?}");
+        read.unwrap()
+    }
+
+    #[test]
+    fn units_of_the_headings_hold() {
+        let mm = read_ok("target_mm,direction,actual_mm\n100,up,100.003\n");
+        assert!((mm.targets[0].up[0].deviation - 0.003).abs() < 1e-12);
+        let arc = read_ok("target_deg,direction,deviation_arcsec\n90,down,3600\n");
+        assert_eq!(arc.kind, AxisKind::Rotary);
+        assert!((arc.targets[0].down[0].deviation.to_degrees() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn an_empty_cell_of_the_wide_table_is_no_reading() {
+        let m = read_ok("target_mm,up_1_um,up_2_um\n0,1,\n5,1,2\n");
+        assert_eq!((m.targets[0].up.len(), m.targets[1].up.len()), (1, 2));
+    }
+
+    #[test]
+    fn bad_words_are_named() {
+        for (text, code) in [
+            ("target_mm,direction,deviation_um\n0,sideways,1\n", "bad-direction"),
+            ("target_mm,run,direction,deviation_um\n0,1.5,up,1\n", "bad-run"),
+            ("target_mm,direction\n0,up\n", "missing-column"),
+            ("direction,deviation_um\nup,1\n", "missing-column"),
+            ("target_mm,direction,deviation_arcsec\n0,up,1\n", "wrong-unit"),
+            ("target_mm,direction,deviation_um\n0,up,nan\n", "not-a-number"),
+        ] {
+            let mut problems = Diagnostics::new();
+            assert!(read("t.csv", text, &mut problems).is_none());
+            assert!(problems.iter().any(|d| d.code == code), "{code}: {problems:?}");
+        }
+    }
+}

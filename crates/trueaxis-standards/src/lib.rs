@@ -1,0 +1,249 @@
+//! Verify: how good is the machine by the standards? Readings of instruments to the figures of
+//! ISO 230, each with its clause; docs/model.md eq. 60 on.
+//!
+//! - [`iso230_2`]: positioning of linear and rotary axes (also GB/T 17421.2, VDI/DGQ 3441 and the form
+//!   of ASME B5.54);
+//! - [`iso230_3`]: drift; [`iso230_4`]: circular tests; [`iso230_6`]: diagonals; [`iso230_7`]: error
+//!   motion of rotary axes.
+//!
+//! [`compare`](mod@compare) holds readings against a prediction, or against other readings;
+//! [`calibrations`](mod@calibrations) one machine file against a later one;
+//! [`certificate`](mod@certificate) what a compensation leaves, proved on poses that were not used.
+//!
+//! Every standard reads a table of named columns ([`sheet`]) and what is known beside it
+//! ([`conditions`]); the forms of others become such tables in [`import`]. What a test lacks is a diagnostic with the clause; what can be evaluated is.
+
+pub mod conditions;
+pub mod import;
+pub mod iso230_2;
+pub mod iso230_3;
+pub mod iso230_4;
+pub mod iso230_6;
+pub mod iso230_7;
+mod least_squares;
+pub mod report;
+
+use conditions::{Conditions, unsound_temperature};
+use import::Import;
+use iso230_2::{Budget, Measurement, Positioning};
+use iso230_3::Drift;
+use iso230_4::Circular;
+use iso230_6::Diagonals;
+use iso230_7::Rotation;
+use trueaxis_input::sheet::{self, Cells, Sheet};
+use trueaxis_input::{Diagnostics, Dimension, Place, Unit};
+
+/// A standard that readings can be evaluated by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Standard {
+    /// Positioning of one axis.
+    Iso230_2,
+    /// The same in China.
+    Gbt17421_2,
+    /// Positioning as VDI/DGQ 3441 states it.
+    Vdi3441,
+    /// Positioning in the form of ASME B5.54.
+    B5_54,
+    /// Drift and environmental temperature variation error.
+    Iso230_3,
+    /// Circular tests.
+    Iso230_4,
+    /// Body and face diagonals.
+    Iso230_6,
+    /// Error motion of rotary axes.
+    Iso230_7,
+}
+
+impl Standard {
+    /// All of them.
+    pub const ALL: [Self; 8] = [
+        Self::Iso230_2,
+        Self::Gbt17421_2,
+        Self::Vdi3441,
+        Self::B5_54,
+        Self::Iso230_3,
+        Self::Iso230_4,
+        Self::Iso230_6,
+        Self::Iso230_7,
+    ];
+
+    /// The name on the command line and in JSON.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Iso230_2 => "iso230-2",
+            Self::Gbt17421_2 => "gbt17421-2",
+            Self::Vdi3441 => "vdi3441",
+            Self::B5_54 => "b5.54",
+            Self::Iso230_3 => "iso230-3",
+            Self::Iso230_4 => "iso230-4",
+            Self::Iso230_6 => "iso230-6",
+            Self::Iso230_7 => "iso230-7",
+        }
+    }
+
+    /// The name for people.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Iso230_2 => "ISO 230-2:2014, positioning",
+            Self::Gbt17421_2 => "GB/T 17421.2 (the figures of ISO 230-2:2014), positioning",
+            Self::Vdi3441 => "VDI/DGQ 3441, positioning",
+            Self::B5_54 => "in the form of ASME B5.54, positioning",
+            Self::Iso230_3 => "ISO 230-3, drift and environmental temperature variation error",
+            Self::Iso230_4 => "ISO 230-4, circular test",
+            Self::Iso230_6 => "ISO 230-6, diagonals",
+            Self::Iso230_7 => "ISO 230-7, error motion of a rotary axis",
+        }
+    }
+}
+
+/// What to evaluate.
+#[derive(Debug, Clone, Copy)]
+pub struct Request<'a> {
+    /// By which standard.
+    pub standard: Standard,
+    /// The file of the readings, as the user named it.
+    pub file: &'a str,
+    /// Its text.
+    pub text: &'a str,
+    /// What is known beside the readings.
+    pub conditions: &'a Conditions,
+    /// The file that says it.
+    pub conditions_file: &'a str,
+    /// Length of the windows of ISO 230-3, s.
+    pub window_s: f64,
+}
+
+/// The readings, evaluated.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Evaluated {
+    /// ISO 230-2 and its relatives: the readings and the figures.
+    Positioning(Measurement, Box<Positioning>),
+    /// ISO 230-3.
+    Drift(Drift),
+    /// ISO 230-4.
+    Circular(Box<Circular>),
+    /// ISO 230-6.
+    Diagonals(Diagonals),
+    /// ISO 230-7.
+    Rotation(Rotation),
+}
+
+/// Evaluates readings by a standard; `None` with errors in `problems`.
+pub fn evaluate(request: &Request<'_>, problems: &mut Diagnostics) -> Option<Evaluated> {
+    let Request { file, text, conditions, .. } = *request;
+    match request.standard {
+        Standard::Iso230_2 | Standard::Gbt17421_2 | Standard::Vdi3441 | Standard::B5_54 => {
+            let measurement = iso230_2::read(file, text, problems)?;
+            iso230_2::check(&measurement, file, problems);
+            let place = Place::whole(request.conditions_file);
+            let (kind, length) = (measurement.kind, measurement.length());
+            let budget = Budget::new(conditions, kind, length, &place, problems);
+            let result = iso230_2::evaluate(&measurement, budget);
+            Some(Evaluated::Positioning(measurement, Box::new(result)))
+        }
+        Standard::Iso230_3 => {
+            iso230_3::evaluate(file, text, request.window_s, problems).map(Evaluated::Drift)
+        }
+        Standard::Iso230_6 => {
+            iso230_6::evaluate(file, text, conditions, problems).map(Evaluated::Diagonals)
+        }
+        Standard::Iso230_7 => iso230_7::evaluate(file, text, problems).map(Evaluated::Rotation),
+        Standard::Iso230_4 => {
+            let circle = iso230_4::evaluate(file, text, conditions.circle, problems)?;
+            Some(Evaluated::Circular(Box::new(circle)))
+        }
+    }
+}
+
+/// Readings as somebody hands them over.
+#[derive(Debug, Clone, Copy)]
+pub struct Readings<'a> {
+    /// By which standard.
+    pub standard: Standard,
+    /// The file, as the user named it.
+    pub file: &'a str,
+    /// Its text.
+    pub text: &'a str,
+    /// Its form.
+    pub import: Import,
+    /// Which feature of a form that holds several.
+    pub feature: Option<&'a str>,
+    /// What is known beside the readings.
+    pub conditions: &'a Conditions,
+    /// The file that says it.
+    pub conditions_file: &'a str,
+    /// Length of the windows of ISO 230-3, s.
+    pub window_s: f64,
+}
+
+/// Reads a text of any form and evaluates it; with what is known of the readings in the end: beside
+/// them, and within. No result with errors in `problems`.
+pub fn evaluate_text(
+    readings: &Readings<'_>,
+    problems: &mut Diagnostics,
+) -> (Option<Evaluated>, Conditions) {
+    let Readings { standard, file, text, conditions, conditions_file, window_s, .. } = *readings;
+    let read = readings.import.read(standard, file, text, readings.feature, problems);
+    let Some(read) = read else { return (None, conditions.clone()) };
+    let conditions = read.conditions(conditions);
+    let text = read.table();
+    let request =
+        Request { standard, file, text, conditions: &conditions, conditions_file, window_s };
+    let mut evaluated = evaluate(&request, problems);
+    if let Some(evaluated) = &mut evaluated {
+        read.finish(evaluated, file, problems);
+    }
+    (evaluated, conditions)
+}
+
+/// Temperatures in other units than they say, or under the wrong heading.
+fn check_temperatures(sheet: &Sheet, problems: &mut Diagnostics) {
+    let about =
+        |c: &&sheet::Column| c.role() == "temperature" || c.role().ends_with("_temperature");
+    for column in sheet.columns.iter().filter(about) {
+        if let Err(e) = Unit::find(column.unit(), Dimension::Temperature) {
+            let message = format!("column `{}`: {e}", column.name);
+            problems.error(e.code(), column.place.clone(), message, &e.hint());
+            continue;
+        }
+        let unsound = column.values.iter().enumerate();
+        let mut unsound = unsound.filter_map(|(i, v)| Some((i, *v, unsound_temperature(*v)?)));
+        if let Some((row, value, hint)) = unsound.next() {
+            let more = unsound.count();
+            let message = match more {
+                0 => format!("`{}` is {value} °C", column.name),
+                n => format!("`{}` is {value} °C, and {n} more like it", column.name),
+            };
+            problems.error("temperature-range", sheet.row_place(row), message, &hint);
+        }
+    }
+}
+
+/// Times that run backwards: an error where they matter. `false` if they do.
+fn check_times(sheet: &Sheet, matter: bool, problems: &mut Diagnostics) -> bool {
+    let Some(column) = sheet.columns.iter().find(|c| sheet::heading(&c.name).0 == "time") else {
+        return true;
+    };
+    if column.cells == Cells::Unused {
+        return true;
+    }
+    if let Err(e) = Unit::find(column.unit(), Dimension::Time) {
+        let message = format!("column `{}`: {e}", column.name);
+        problems.error(e.code(), column.place.clone(), message, &e.hint());
+        return false;
+    }
+    let Some(row) = column.values.windows(2).position(|w| w[1] < w[0]) else { return true };
+    let message = format!(
+        "`{}` runs backwards, from {} to {}",
+        column.name,
+        column.values[row],
+        column.values[row + 1]
+    );
+    let hint = "are two logs joined, or the clock put back? sort or split the file";
+    let place = sheet.row_place(row + 1);
+    match matter {
+        true => problems.error("time-backwards", place, message, hint),
+        false => problems.warn("time-backwards", place, message, hint),
+    }
+    false
+}

@@ -1,0 +1,157 @@
+//! The tables and pictures of a circular test.
+
+use super::evaluation::{Sheets, figure};
+use crate::iso230_4::{Causes, Circular, PathResult};
+use serde_json::{Map, Value, json};
+use trueaxis_report::Block;
+use trueaxis_report::{Picture, Polar, PolarLine};
+
+const UM: f64 = 1e3;
+
+pub(super) fn sheets(c: &Circular) -> Sheets {
+    let mut figures = vec![figures(c)];
+    figures.extend(c.causes.as_ref().map(|causes| cause_block(c, causes)));
+    let details = c.causes.as_ref().map(|causes| spikes(c, causes)).into_iter().collect();
+    Sheets { figures, details, pictures: vec![picture(c)] }
+}
+
+/// `G ccw`, `G cw`, … in µm.
+fn figures(c: &Circular) -> Block {
+    let note = "G about the least-squares centre, F about the nominal one, outward positive";
+    let mut block = Block::new("Figures of the test", note, &["ISO 230-4", "", "µm"]);
+    let mut row = |symbol: String, name: &str, value: Option<f64>| {
+        block.rows.push(vec![symbol, name.to_owned(), figure(value, UM)]);
+    };
+    for p in &c.paths {
+        let way = p.path.sense.word();
+        row(format!("G {way}"), "circular deviation", Some(p.g_mm));
+        row(format!("F max {way}"), "radial deviation", p.f_mm.map(|f| f[0]));
+        row(format!("F min {way}"), "radial deviation", p.f_mm.map(|f| f[1]));
+    }
+    row("G(b)".into(), "bidirectional circular deviation", c.g_both_mm);
+    row("D".into(), "mean bidirectional radial deviation", c.d_mm);
+    block
+}
+
+fn cause_block(c: &Circular, causes: &Causes) -> Block {
+    let note =
+        "Least squares over all paths; 10° behind each reversal are left out for the spikes.";
+    let mut block = Block::new("What makes it unround", note, &["cause", "", ""]);
+    let mut row = |name: String, value: Option<f64>, scale: f64, unit: &str| {
+        block.rows.push(vec![name, figure(value, scale), unit.to_owned()]);
+    };
+    let [a, b] = &c.axes;
+    row(format!("reversal {a} (B = E↑ − E↓)"), Some(causes.backlash_mm[0]), UM, "µm");
+    row(format!("reversal {b} (B = E↑ − E↓)"), Some(causes.backlash_mm[1]), UM, "µm");
+    row(format!("scale {a} − {b}, over the diameter"), Some(causes.scale_mismatch_mm), UM, "µm");
+    row(format!("squareness {a}{b}, closer than 90°"), causes.squareness_rad, 1e6, "µrad");
+    row("servo mismatch, ccw along +45°".into(), causes.servo_mismatch_mm, UM, "µm");
+    if causes.diagonal_ellipse_mm.is_some() {
+        let name = "squareness and servo mismatch together".to_owned();
+        row(name, causes.diagonal_ellipse_mm, UM, "µm");
+    }
+    row(format!("centre {a}"), Some(causes.centre_mm[0]), UM, "µm");
+    row(format!("centre {b}"), Some(causes.centre_mm[1]), UM, "µm");
+    row("left over, rms".into(), Some(causes.residual_rms_mm), UM, "µm");
+    block
+}
+
+fn spikes(c: &Circular, causes: &Causes) -> Block {
+    let note = "Largest residual within 10° behind the reversal, outward positive.";
+    let mut block = Block::new("Reversal spikes", note, &["axis", "at", "way", "µm"]);
+    for spike in &causes.spikes {
+        block.rows.push(vec![
+            c.axes[spike.axis].clone(),
+            format!("{:.0}°", spike.at_rad.to_degrees()),
+            spike.sense.word().to_owned(),
+            figure(Some(spike.height_mm), UM),
+        ]);
+    }
+    block
+}
+
+fn base_radius(c: &Circular) -> f64 {
+    c.radius_mm.or(c.paths.first().map(|p| p.circle.radius_mm)).unwrap_or(0.0)
+}
+
+fn picture(c: &Circular) -> Picture {
+    /// Finer than the picture can show.
+    const MOST_POINTS: usize = 3600;
+    let radius = base_radius(c);
+    let line = |(i, p): (usize, &PathResult)| {
+        let step = p.path.points_mm.len().div_ceil(MOST_POINTS).max(1);
+        let points = p.path.points_mm.iter().step_by(step).map(|p| {
+            let (x, y) = (p[0] - c.centre_mm[0], p[1] - c.centre_mm[1]);
+            (y.atan2(x), (x.hypot(y) - radius) * UM)
+        });
+        let label = format!("{}, G {} µm", p.path.sense.word(), figure(Some(p.g_mm), UM));
+        PolarLine { label, colour: i, points: points.collect() }
+    };
+    let lines = c.paths.iter().enumerate().map(line).collect();
+    Picture::Polar(Polar {
+        title: "The paths, deviations magnified".to_owned(),
+        note: format!(
+            "Solid circle: nominal, radius {radius:.3} mm. {} to the right, {} upwards.",
+            c.axes[0], c.axes[1]
+        ),
+        lines,
+    })
+}
+
+/// The keys of a circular test in the document `trueaxis/evaluate/1`.
+pub(super) fn json(c: &Circular, map: &mut Map<String, Value>) {
+    let um = |v: Option<f64>| json!(v.map(|v| v * UM));
+    let mut put = |key: &str, value: Value| {
+        map.insert(key.to_owned(), value);
+    };
+    put("axes", json!(c.axes));
+    put("radius_mm", json!(c.radius_mm));
+    put("centre_mm", json!(c.centre_mm));
+    for p in &c.paths {
+        let way = p.path.sense.word();
+        put(&format!("G_{way}_um"), um(Some(p.g_mm)));
+        put(&format!("F_{way}_max_um"), um(p.f_mm.map(|f| f[0])));
+        put(&format!("F_{way}_min_um"), um(p.f_mm.map(|f| f[1])));
+    }
+    let single = c.paths.iter().map(|p| p.g_mm).reduce(f64::max);
+    put("G_um", um(single));
+    put("G_b_um", um(c.g_both_mm));
+    let of_all = c.paths.iter().filter_map(|p| p.f_mm);
+    let of_all = of_all.reduce(|a, b| [a[0].max(b[0]), a[1].min(b[1])]);
+    put("F_max_um", um(of_all.map(|f| f[0])));
+    put("F_min_um", um(of_all.map(|f| f[1])));
+    put("D_um", um(c.d_mm));
+    let path = |p: &PathResult| {
+        json!({
+            "direction": p.path.sense.word(),
+            "points": p.path.points_mm.len(),
+            "overlap_left_out_deg": p.path.overlap_rad.to_degrees(),
+            "G_um": p.g_mm * UM,
+            "F_max_um": um(p.f_mm.map(|f| f[0])),
+            "F_min_um": um(p.f_mm.map(|f| f[1])),
+            "mean_radial_um": um(p.mean_radial_mm),
+            "centre_mm": p.circle.center_mm,
+            "mean_radius_mm": p.circle.radius_mm,
+        })
+    };
+    put("paths", c.paths.iter().map(path).collect());
+    put("causes", c.causes.as_ref().map_or(Value::Null, |causes| causes_json(c, causes)));
+}
+
+fn causes_json(c: &Circular, causes: &Causes) -> Value {
+    let spike = |s: &crate::iso230_4::Spike| {
+        json!({ "axis": c.axes[s.axis], "at_deg": s.at_rad.to_degrees().round(),
+                "direction": s.sense.word(), "height_um": s.height_mm * UM })
+    };
+    json!({
+        "backlash_um": { &c.axes[0]: causes.backlash_mm[0] * UM,
+                         &c.axes[1]: causes.backlash_mm[1] * UM },
+        "scale_mismatch_um": causes.scale_mismatch_mm * UM,
+        "squareness_urad": causes.squareness_rad.map(|v| v * 1e6),
+        "servo_mismatch_um": causes.servo_mismatch_mm.map(|v| v * UM),
+        "diagonal_ellipse_um": causes.diagonal_ellipse_mm.map(|v| v * UM),
+        "centre_um": [causes.centre_mm[0] * UM, causes.centre_mm[1] * UM],
+        "spikes": causes.spikes.iter().map(spike).collect::<Vec<_>>(),
+        "residual_rms_um": causes.residual_rms_mm * UM,
+    })
+}
