@@ -155,12 +155,122 @@ fn forbidden_arrows() -> Vec<String> {
     found
 }
 
+/// Phrases that engineers do not use in this sense, each with the usual term of the field.
+const DIALECT: [(&str, &str); 59] = [
+    ("told", "stated, reported, named, given"),
+    ("tell apart", "separate, distinguish"),
+    ("tells apart", "separates, distinguishes"),
+    ("tell them apart", "separate them"),
+    ("tells them apart", "separates them"),
+    ("tells how", "shows how, describes how"),
+    ("will tell", "will determine, will show"),
+    ("tell most", "give the most information"),
+    ("blame", "error budget, contribution of each error"),
+    ("mend", "correct, fix"),
+    ("mended", "corrected, fixed"),
+    ("behind", "after, beyond, inserted after"),
+    ("hidden error", "unobservable error"),
+    ("hidden errors", "unobservable errors"),
+    ("hidden combination", "unobservable combination"),
+    ("grave", "critical"),
+    ("trouble", "issue, problem"),
+    ("troubles", "issues, problems"),
+    ("left over", "residual, remaining"),
+    ("what is left", "residual error, what remains"),
+    ("is left of", "remains of"),
+    ("seed of chance", "random seed"),
+    ("is due here", "is expected here"),
+    ("out of luck", "not possible"),
+    ("document 000", "Wu et al. 2022"),
+    ("documents 000", "Wu et al. 2022"),
+    ("document 001", "Zhang et al. 2019"),
+    ("document 002", "Jiang et al."),
+    ("document 003", "Zhang et al. 2023"),
+    ("document 004", "Lei and Hsu 2003"),
+    ("at hand", "available"),
+    ("taken off", "subtracted"),
+    ("takes off", "subtracts"),
+    ("looked at", "checked, examined"),
+    ("anew", "again"),
+    ("turns round", "reverses"),
+    ("turned round", "reversed"),
+    ("somebody", "an independent source, a user"),
+    ("nobody", "no one, not known, not measured"),
+    ("machine as it is", "actual machine"),
+    ("really there", "actual"),
+    ("as it really is", "actual"),
+    ("honest", "realistic, reliable"),
+    ("from people", "from users"),
+    ("for people", "in text output, for users"),
+    ("in the shop knows", "is known in practice"),
+    ("feels", "is subject to, sees"),
+    ("goes by", "moves by, changes by"),
+    ("has gone by", "has moved by"),
+    ("sought", "unknown, to be determined"),
+    ("beside it", "for comparison, in addition"),
+    ("beside them", "for comparison, in addition"),
+    ("shown beside", "shown for comparison"),
+    ("how sure", "with what uncertainty, with what confidence"),
+    ("in kind", "in the manner of"),
+    ("will do", "is sufficient"),
+    ("has it", "as in"),
+    ("put right", "corrected"),
+    ("who is to", "which error, which contribution"),
+];
+
+/// Kinds of files whose words are checked. With `rs` or `ts` every line of such a file is checked,
+/// names included; words are parted at everything but letters, digits and `_`.
+const PROSE: [&str; 1] = ["md"];
+
+/// Not checked: the first is generated from texts in `crates/trueaxis/tests/papers`, the second
+/// names the modules of the code, and the third is the list itself.
+const UNCHECKED: [&str; 3] = ["docs/validation.md", "ARCHITECTURE.md", "tidy/tests/rules.rs"];
+
+/// The words of a text in lower case, each with its line; in Markdown without code.
+fn words(path: &Path, text: &str) -> Vec<(String, usize)> {
+    let markdown = has_extension(path, &["md"]);
+    let (mut found, mut fenced) = (Vec::new(), false);
+    for (i, line) in text.lines().enumerate() {
+        let fence = markdown && line.trim_start().starts_with("```");
+        fenced ^= fence;
+        if fence || fenced {
+            continue;
+        }
+        // In a line of Markdown every second piece between backquotes is code.
+        let step = if markdown { 2 } else { 1 };
+        for prose in line.split('`').step_by(step) {
+            let parts = prose.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+            let parts = parts.filter(|w| !w.is_empty());
+            found.extend(parts.map(|w| (w.to_lowercase(), i + 1)));
+        }
+    }
+    found
+}
+
+fn dialect() -> Vec<String> {
+    let mut found = Vec::new();
+    for path in files(&root()).into_iter().filter(|p| has_extension(p, &PROSE)) {
+        let name = shown(&path);
+        if UNCHECKED.iter().any(|u| name == *u) {
+            continue;
+        }
+        let words = words(&path, &read(&path));
+        for (phrase, usual) in DIALECT {
+            let parts: Vec<&str> = phrase.split(' ').collect();
+            let same = |w: &&[(String, usize)]| w.iter().zip(&parts).all(|(a, b)| a.0 == *b);
+            let line = |w: &[(String, usize)]| format!("{name}:{}: “{phrase}”: {usual}", w[0].1);
+            found.extend(words.windows(parts.len()).filter(same).map(line));
+        }
+    }
+    found
+}
+
 /// Lists what breaks the rule.
 type Rule = fn() -> Vec<String>;
 
 #[test]
 fn house_rules() {
-    let rules: [(&str, Rule); 8] = [
+    let rules: [(&str, Rule); 9] = [
         ("files are short", long_files),
         ("names say what is inside", vague_names),
         ("no panic without `// why:`", unexplained_panics),
@@ -169,6 +279,7 @@ fn house_rules() {
         ("machines name their source", machines_without_source),
         ("eight crates", crates_beyond_the_plan),
         ("arrows point one way", forbidden_arrows),
+        ("the words are the field's", dialect),
     ];
     let broken: Vec<String> = rules
         .iter()
