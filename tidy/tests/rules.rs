@@ -218,31 +218,80 @@ const DIALECT: [(&str, &str); 59] = [
     ("who is to", "which error, which contribution"),
 ];
 
-/// Kinds of files whose words are checked. With `rs` or `ts` every line of such a file is checked,
-/// names included; words are parted at everything but letters, digits and `_`.
+/// Kinds of files whose words are checked. With `rs` and `ts` their comments and strings are
+/// checked; see `prose_of_source`.
 const PROSE: [&str; 1] = ["md"];
 
-/// Not checked: the first is generated from texts in `crates/trueaxis/tests/papers`, the second
-/// names the modules of the code, and the third is the list itself.
+/// Not checked: the first is generated from texts in `crates/trueaxis/tests/papers` and from doc
+/// comments of tests, the second names the modules of the code, the third is the list itself.
 const UNCHECKED: [&str; 3] = ["docs/validation.md", "ARCHITECTURE.md", "tidy/tests/rules.rs"];
 
-/// The words of a text in lower case, each with its line; in Markdown without code.
-fn words(path: &Path, text: &str) -> Vec<(String, usize)> {
-    let markdown = has_extension(path, &["md"]);
-    let (mut found, mut fenced) = (Vec::new(), false);
-    for (i, line) in text.lines().enumerate() {
-        let fence = markdown && line.trim_start().starts_with("```");
+/// The prose of a Markdown text: without fenced code and without what stands between backquotes.
+fn prose_of_markdown(text: &str) -> String {
+    let (mut prose, mut fenced) = (String::new(), false);
+    for line in text.lines() {
+        let fence = line.trim_start().starts_with("```");
         fenced ^= fence;
-        if fence || fenced {
+        if !fence && !fenced {
+            line.split('`').step_by(2).for_each(|piece| prose = format!("{prose}{piece} "));
+        }
+        prose.push('\n');
+    }
+    prose
+}
+
+/// The comments and strings of a Rust or TypeScript source. A string without a blank is a key or a
+/// name, and what a string has in braces is code.
+fn prose_of_source(text: &str) -> String {
+    let (mut prose, mut rest) = (String::new(), text);
+    while let Some(first) = rest.chars().next() {
+        let length = if rest.starts_with("//") {
+            rest.find('\n').unwrap_or(rest.len())
+        } else if rest.starts_with("/*") {
+            rest.find("*/").unwrap_or(rest.len())
+        } else if first == '"' || first == '`' {
+            string_length(rest, first)
+        } else if rest.starts_with("'\"'") || rest.starts_with("'`'") {
+            3
+        } else {
+            prose.push(if first == '\n' { '\n' } else { ' ' });
+            rest = &rest[first.len_utf8()..];
             continue;
+        };
+        let (piece, after) = rest.split_at(length);
+        let key = !first.is_ascii_punctuation() || (first != '/' && !piece.contains(' '));
+        let mut depth = 0_usize;
+        for c in piece.chars() {
+            depth += usize::from(c == '{' && first != '/');
+            let code = key || depth > 0;
+            prose.push(if code && c != '\n' { ' ' } else { c });
+            depth -= usize::from(c == '}' && depth > 0);
         }
-        // In a line of Markdown every second piece between backquotes is code.
-        let step = if markdown { 2 } else { 1 };
-        for prose in line.split('`').step_by(step) {
-            let parts = prose.split(|c: char| !(c.is_alphanumeric() || c == '_'));
-            let parts = parts.filter(|w| !w.is_empty());
-            found.extend(parts.map(|w| (w.to_lowercase(), i + 1)));
+        rest = after;
+    }
+    prose
+}
+
+/// Bytes of a string with its quotes; a backslash hides the character after it.
+fn string_length(text: &str, quote: char) -> usize {
+    let mut escaped = false;
+    for (at, c) in text.char_indices().skip(1) {
+        if c == quote && !escaped {
+            return at + c.len_utf8();
         }
+        escaped = c == '\\' && !escaped;
+    }
+    text.len()
+}
+
+/// The words of the prose of a file in lower case, each with its line.
+fn words(path: &Path) -> Vec<(String, usize)> {
+    let markdown = has_extension(path, &["md"]);
+    let prose = if markdown { prose_of_markdown } else { prose_of_source }(&read(path));
+    let mut found = Vec::new();
+    for (i, line) in prose.lines().enumerate() {
+        let parts = line.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+        found.extend(parts.filter(|w| !w.is_empty()).map(|w| (w.to_lowercase(), i + 1)));
     }
     found
 }
@@ -254,7 +303,7 @@ fn dialect() -> Vec<String> {
         if UNCHECKED.iter().any(|u| name == *u) {
             continue;
         }
-        let words = words(&path, &read(&path));
+        let words = words(&path);
         for (phrase, usual) in DIALECT {
             let parts: Vec<&str> = phrase.split(' ').collect();
             let same = |w: &&[(String, usize)]| w.iter().zip(&parts).all(|(a, b)| a.0 == *b);
@@ -267,6 +316,20 @@ fn dialect() -> Vec<String> {
 
 /// Lists what breaks the rule.
 type Rule = fn() -> Vec<String>;
+
+#[test]
+fn prose_is_parted_from_code() {
+    let source =
+        "let told = 1; // a comment\nsay(\"{told} of two \\\" errors\"); put(\"blame\", '\"');\n";
+    let found = prose_of_source(source);
+    let lines: Vec<Vec<&str>> = found.lines().map(|l| l.split_whitespace().collect()).collect();
+    assert_eq!(lines[0], ["//", "a", "comment"]);
+    assert_eq!(lines[1], ["\"", "of", "two", "\\\"", "errors\""]);
+    assert_eq!(
+        prose_of_markdown("one `two` three\n```\nfour\n```\n").split_whitespace().count(),
+        2
+    );
+}
 
 #[test]
 fn house_rules() {
