@@ -113,7 +113,7 @@ def write_measured():
 
 def write_blank():
     cells = [(2 * math.pi * (c + 0.5) / 72, 4.4 + 0.32 * r, 0.0) for r in range(11) for c in range(72)]
-    lines = ["# oracles/bangle.py: the true blank, which nobody in the shop knows, for the virtual cut", HEAD]
+    lines = ["# oracles/bangle.py: the true blank, which is not known in practice, for the virtual cut", HEAD]
     table("bangle-blank.csv", lines, cells, 0.0)
 
 

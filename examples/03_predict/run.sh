@@ -1,4 +1,4 @@
-# Will the part be good? Writes its reports into $OUT.
+# Will the part be within tolerance? Writes its reports into $OUT.
 set -e
 trueaxis=${TRUEAXIS:-target/release/trueaxis}
 out=${OUT:-.}

@@ -1,4 +1,4 @@
-# What will a measurement tell, and what not? Writes its programs into $OUT.
+# What can a measurement determine, and what not? Writes its programs into $OUT.
 set -e
 trueaxis=${TRUEAXIS:-target/release/trueaxis}
 out=${OUT:-.}
@@ -6,5 +6,5 @@ $trueaxis plan examples/04_plan/probe-ball.toml -o "$out/probe-ball" --report "$
 $trueaxis plan examples/04_plan/ball-bar-10791-6.toml -o "$out/ball-bar"
 $trueaxis plan examples/04_plan/touch-probe-5-minutes.toml -o "$out/five-minutes" --dialect fanuc
 $trueaxis plan examples/04_plan/touch-probe-5-minutes.toml --format json
-# Touches all over a free-form bangle, along its normals; the table is what `compensate adapt` reads.
+# Touches on a whole free-form bangle, along its normals; `compensate adapt` reads the table.
 $trueaxis plan probe-surface examples/04_plan/probe-surface.toml -o "$out/probe-surface" --dialect fanuc

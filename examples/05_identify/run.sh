@@ -1,18 +1,18 @@
-# What is the machine like? The expansion of a scale from two laser runs.
+# The expansion coefficient of a scale from two laser runs.
 set -e
 trueaxis=${TRUEAXIS:-target/release/trueaxis}
 $trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml
 $trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml --format json
-# How does the spindle drift with temperatures, and which sensors tell? Judged on logs not seen.
+# How does the spindle drift with temperatures, and which sensors explain it? Judged on held-out logs.
 $trueaxis identify thermal examples/05_identify/lathe-thermal.toml
 $trueaxis identify thermal examples/05_identify/lathe-thermal.toml --format json
-# Which location errors has the machine, and what can a probe on one ball not tell apart?
+# Which location errors does the machine have, and which can a probe on one ball not separate?
 $trueaxis identify examples/05_identify/probe-ball.toml --report "${TMPDIR:-/tmp}/probe-ball.html" -o "${TMPDIR:-/tmp}/probe-ball-machine.toml"
 $trueaxis identify examples/05_identify/probe-ball.toml --format json
 # Ball-bar, R-test and laser at once.
 $trueaxis identify examples/05_identify/mixed-instruments.toml
 $trueaxis identify examples/05_identify/mixed-instruments.toml --check-conventions
-# Where are the rotary centres, and what must the control be told? Document 003, steps 1 to 4.
+# Where are the rotary centres, and what must be entered in the control? Zhang et al. 2023, steps 1 to 4.
 $trueaxis identify rtcp examples/05_identify/rtcp-engraver.toml
 $trueaxis identify rtcp examples/05_identify/rtcp-engraver.toml --format json
 $trueaxis identify rtcp examples/05_identify/rtcp-engraver.toml --programs "${TMPDIR:-/tmp}/rtcp-programs" --dialect fanuc

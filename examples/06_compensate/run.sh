@@ -1,9 +1,9 @@
-# What must the control add to its commands? A gantry in a warm hall (document 001).
+# What must the control add to its commands? A gantry in a warm hall (Zhang et al. 2019).
 set -e
 trueaxis=${TRUEAXIS:-target/release/trueaxis}
 out=${OUT:-.}
 gantry=machines/gantry-001/machine.toml
-# The two ends of document 001: the machine alone would make the part 9 and 4 times worse.
+# Both ends of travel in Zhang et al. 2019: compensating the machine alone makes the part 9 and 4 times worse.
 $trueaxis compensate values $gantry --at "X=3500" --temperature "scale_x=30.5 workpiece=30.5"
 $trueaxis compensate values $gantry --at "Y=2300" --temperature "scale_y=31.2 workpiece=31.2"
 # A table over the travel, for a control.
@@ -12,16 +12,16 @@ $trueaxis compensate values $gantry --axis X --step 350 --temperature "scale_x=3
 # Both directions of approach, and a rotary axis in ten thousandths of a degree.
 $trueaxis compensate values machines/three-axis-mill/machine.toml --axis X --step 60
 $trueaxis compensate values machines/xkas2525/machine.toml --axis C --step 30 --format json
-# Cutter locations into programs that fit this machine, read back and simulated.
+# Cutter locations become programs for this machine, read back and simulated.
 $trueaxis post machines/i5-engraver/machine.toml examples/06_compensate/bangle.cls --dialect fanuc -o "$out/bangle.nc" --verify
 $trueaxis post machines/xkas2525/machine.toml examples/06_compensate/blade.cls --dialect sinumerik --tcp off -o "$out/blade.mpf" --verify
-# A blank as it was probed: the path moved onto it, and the wall that is left (oracles/bangle.py made the example).
+# A blank as it was probed: the path is moved onto it, and the remaining wall (example made by oracles/bangle.py).
 $trueaxis compensate adapt examples/06_compensate/bangle-adapt.toml --report "$out/bangle-adapt.html" --dialect fanuc -o "$out/bangle-adapt.nc" --cl "$out/bangle-adapted.cls"
-# Tables of controls: files, what they represent, what they leave of the tool and of a test piece.
+# Tables of controls: files, the errors they represent, residual error of the tool and of a test piece.
 $trueaxis compensate tables machines/three-axis-mill/machine.toml --target linuxcnc -o "$out/mill-linuxcnc"
 $trueaxis compensate tables machines/xkas2525/machine.toml --target sinumerik -o "$out/xkas-sinumerik" --piece examples/03_predict/nas979-on-xkas2525.toml
 $trueaxis compensate tables machines/xkas2525/machine.toml --target isg -o "$out/xkas-isg" --piece examples/03_predict/nas979-on-xkas2525.toml
-# A program for the actual machine: the frustum of 03_predict before and after (oracles/frustum.py made it).
+# A program for the actual machine: the frustum of 03_predict before and after (made by oracles/frustum.py).
 $trueaxis compensate program machines/xkas2525/machine.toml examples/06_compensate/frustum.mpf -o "$out/frustum-comp.mpf" --report "$out/frustum-comp.html"
 root=$(pwd)
 sed "s|../../frustum-comp.mpf|frustum-comp.mpf|; s|\.\./\.\.|$root|" examples/06_compensate/frustum-compensated.toml > "$out/frustum-compensated.toml"

@@ -12,13 +12,13 @@ $trueaxis evaluate iso230-4 $verify/circle-xy.csv --report "$out/circle.html"
 $trueaxis evaluate iso230-6 $verify/body-diagonals.csv --report "$out/diagonals.html"
 $trueaxis evaluate iso230-3 $verify/spindle-drift.csv --window "30 min" --report "$out/drift.html"
 $trueaxis evaluate iso230-7 $verify/spindle-motion.csv --report "$out/spindle.html"
-# Does the machine file predict what a probe-ball reads? The same readings again from their seed.
+# Does the machine file predict the readings of a probe-ball? The same readings again from their random seed.
 $trueaxis verify $verify/probe-ball.toml --report "$out/probe-ball.html"
 $trueaxis measure $verify/probe-ball-campaign.toml -o "$out/readings" --truth "$out/truth.toml"
-# What moved since the machine was calibrated? Four errors did: exit status 1.
+# What has changed since the calibration of the machine? Four errors: exit status 1.
 $trueaxis verify --diff machines/xkas2525/machine.toml $verify/xkas2525-after-a-year.toml \
     --report "$out/after-a-year.html" || [ $? -eq 1 ]
-# What the compensation leaves, on poses that the identification has not used: tables, and programs.
+# Residual error after compensation at poses that the identification has not used: tables, and programs.
 $trueaxis verify --certificate $verify/certificate.toml --report "$out/certificate.html"
 $trueaxis verify --certificate $verify/certificate-program.toml --report "$out/certificate-program.html"
 # The measured error motion as a table for the machine file.

@@ -276,12 +276,185 @@ fn large_circles() -> Vec<String> {
     found
 }
 
+/// Phrases that engineers do not use in this sense, each with the usual term of the field.
+const DIALECT: [(&str, &str); 59] = [
+    ("told", "stated, reported, named, given"),
+    ("tell apart", "separate, distinguish"),
+    ("tells apart", "separates, distinguishes"),
+    ("tell them apart", "separate them"),
+    ("tells them apart", "separates them"),
+    ("tells how", "shows how, describes how"),
+    ("will tell", "will determine, will show"),
+    ("tell most", "give the most information"),
+    ("blame", "error budget, contribution of each error"),
+    ("mend", "correct, fix"),
+    ("mended", "corrected, fixed"),
+    ("behind", "after, beyond, inserted after"),
+    ("hidden error", "unobservable error"),
+    ("hidden errors", "unobservable errors"),
+    ("hidden combination", "unobservable combination"),
+    ("grave", "critical"),
+    ("trouble", "issue, problem"),
+    ("troubles", "issues, problems"),
+    ("left over", "residual, remaining"),
+    ("what is left", "residual error, what remains"),
+    ("is left of", "remains of"),
+    ("seed of chance", "random seed"),
+    ("is due here", "is expected here"),
+    ("out of luck", "not possible"),
+    ("document 000", "Wu et al. 2022"),
+    ("documents 000", "Wu et al. 2022"),
+    ("document 001", "Zhang et al. 2019"),
+    ("document 002", "Jiang et al."),
+    ("document 003", "Zhang et al. 2023"),
+    ("document 004", "Lei and Hsu 2003"),
+    ("at hand", "available"),
+    ("taken off", "subtracted"),
+    ("takes off", "subtracts"),
+    ("looked at", "checked, examined"),
+    ("anew", "again"),
+    ("turns round", "reverses"),
+    ("turned round", "reversed"),
+    ("somebody", "an independent source, a user"),
+    ("nobody", "no one, not known, not measured"),
+    ("machine as it is", "actual machine"),
+    ("really there", "actual"),
+    ("as it really is", "actual"),
+    ("honest", "realistic, reliable"),
+    ("from people", "from users"),
+    ("for people", "in text output, for users"),
+    ("in the shop knows", "is known in practice"),
+    ("feels", "is subject to, sees"),
+    ("goes by", "moves by, changes by"),
+    ("has gone by", "has moved by"),
+    ("sought", "unknown, to be determined"),
+    ("beside it", "for comparison, in addition"),
+    ("beside them", "for comparison, in addition"),
+    ("shown beside", "shown for comparison"),
+    ("how sure", "with what uncertainty, with what confidence"),
+    ("in kind", "in the manner of"),
+    ("will do", "is sufficient"),
+    ("has it", "as in"),
+    ("put right", "corrected"),
+    ("who is to", "which error, which contribution"),
+];
+
+/// Kinds of files whose words are checked. With `rs` and `ts` their comments and strings are
+/// checked; see `prose_of_source`.
+const PROSE: [&str; 1] = ["md"];
+
+/// Not checked: the first is generated from texts in `crates/trueaxis/tests/papers` and from doc
+/// comments of tests, the second names the modules of the code, the third is the list itself.
+const UNCHECKED: [&str; 3] = ["docs/validation.md", "ARCHITECTURE.md", "tidy/tests/rules.rs"];
+
+/// The prose of a Markdown text: without fenced code and without what stands between backquotes.
+fn prose_of_markdown(text: &str) -> String {
+    let (mut prose, mut fenced) = (String::new(), false);
+    for line in text.lines() {
+        let fence = line.trim_start().starts_with("```");
+        fenced ^= fence;
+        if !fence && !fenced {
+            line.split('`').step_by(2).for_each(|piece| prose = format!("{prose}{piece} "));
+        }
+        prose.push('\n');
+    }
+    prose
+}
+
+/// The comments and strings of a Rust or TypeScript source. A string without a blank is a key or a
+/// name, and what a string has in braces is code.
+fn prose_of_source(text: &str) -> String {
+    let (mut prose, mut rest) = (String::new(), text);
+    while let Some(first) = rest.chars().next() {
+        let length = if rest.starts_with("//") {
+            rest.find('\n').unwrap_or(rest.len())
+        } else if rest.starts_with("/*") {
+            rest.find("*/").unwrap_or(rest.len())
+        } else if first == '"' || first == '`' {
+            string_length(rest, first)
+        } else if rest.starts_with("'\"'") || rest.starts_with("'`'") {
+            3
+        } else {
+            prose.push(if first == '\n' { '\n' } else { ' ' });
+            rest = &rest[first.len_utf8()..];
+            continue;
+        };
+        let (piece, after) = rest.split_at(length);
+        let key = !first.is_ascii_punctuation() || (first != '/' && !piece.contains(' '));
+        let mut depth = 0_usize;
+        for c in piece.chars() {
+            depth += usize::from(c == '{' && first != '/');
+            let code = key || depth > 0;
+            prose.push(if code && c != '\n' { ' ' } else { c });
+            depth -= usize::from(c == '}' && depth > 0);
+        }
+        rest = after;
+    }
+    prose
+}
+
+/// Bytes of a string with its quotes; a backslash hides the character after it.
+fn string_length(text: &str, quote: char) -> usize {
+    let mut escaped = false;
+    for (at, c) in text.char_indices().skip(1) {
+        if c == quote && !escaped {
+            return at + c.len_utf8();
+        }
+        escaped = c == '\\' && !escaped;
+    }
+    text.len()
+}
+
+/// The words of the prose of a file in lower case, each with its line.
+fn words(path: &Path) -> Vec<(String, usize)> {
+    let markdown = has_extension(path, &["md"]);
+    let prose = if markdown { prose_of_markdown } else { prose_of_source }(&read(path));
+    let mut found = Vec::new();
+    for (i, line) in prose.lines().enumerate() {
+        let parts = line.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+        found.extend(parts.filter(|w| !w.is_empty()).map(|w| (w.to_lowercase(), i + 1)));
+    }
+    found
+}
+
+fn dialect() -> Vec<String> {
+    let mut found = Vec::new();
+    for path in files(&root()).into_iter().filter(|p| has_extension(p, &PROSE)) {
+        let name = shown(&path);
+        if UNCHECKED.iter().any(|u| name == *u) {
+            continue;
+        }
+        let words = words(&path);
+        for (phrase, usual) in DIALECT {
+            let parts: Vec<&str> = phrase.split(' ').collect();
+            let same = |w: &&[(String, usize)]| w.iter().zip(&parts).all(|(a, b)| a.0 == *b);
+            let line = |w: &[(String, usize)]| format!("{name}:{}: “{phrase}”: {usual}", w[0].1);
+            found.extend(words.windows(parts.len()).filter(same).map(line));
+        }
+    }
+    found
+}
+
 /// Lists what breaks the rule.
 type Rule = fn() -> Vec<String>;
 
 #[test]
+fn prose_is_parted_from_code() {
+    let source =
+        "let told = 1; // a comment\nsay(\"{told} of two \\\" errors\"); put(\"blame\", '\"');\n";
+    let found = prose_of_source(source);
+    let lines: Vec<Vec<&str>> = found.lines().map(|l| l.split_whitespace().collect()).collect();
+    assert_eq!(lines[0], ["//", "a", "comment"]);
+    assert_eq!(lines[1], ["\"", "of", "two", "\\\"", "errors\""]);
+    assert_eq!(
+        prose_of_markdown("one `two` three\n```\nfour\n```\n").split_whitespace().count(),
+        2
+    );
+}
+
+#[test]
 fn house_rules() {
-    let rules: [(&str, Rule); 11] = [
+    let rules: [(&str, Rule); 12] = [
         ("files are short", long_files),
         ("names say what is inside", vague_names),
         ("no panic without `// why:`", unexplained_panics),
@@ -293,6 +466,7 @@ fn house_rules() {
         ("files, sockets and clocks have one place", disk_sockets_and_clocks),
         ("crates are small", large_crates),
         ("circles are small", large_circles),
+        ("the words are the field's", dialect),
     ];
     let broken: Vec<String> = rules
         .iter()
