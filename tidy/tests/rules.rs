@@ -435,6 +435,33 @@ fn dialect() -> Vec<String> {
     found
 }
 
+/// `docs/decisions/README.md` names each decision with its title.
+fn unlisted_decisions() -> Vec<String> {
+    let folder = root().join("docs/decisions");
+    let index = read(&folder.join("README.md"));
+    let mut found = Vec::new();
+    for path in files(&folder) {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let text = read(&path);
+        let Some((_, title)) = text.lines().next().and_then(|l| l.split_once(". ")) else {
+            continue;
+        };
+        if !index.lines().any(|l| l.contains(&format!("({name})")) && l.contains(title)) {
+            found.push(format!("{}: not in docs/decisions/README.md", shown(&path)));
+        }
+    }
+    found
+}
+
+/// Every example says what it asks, where its data come from and one number to check by hand.
+fn unexplained_examples() -> Vec<String> {
+    let folders = fs::read_dir(root().join("examples")).expect("examples").flatten();
+    let readme = |folder: PathBuf| folder.join("README.md");
+    let asked = folders.map(|e| e.path()).filter(|p| p.is_dir()).map(readme);
+    let bare = asked.filter(|p| !read(p).contains("**By hand:**"));
+    bare.map(|p| format!("{}: say it, with one number checked by hand", shown(&p))).collect()
+}
+
 /// Lists what breaks the rule.
 type Rule = fn() -> Vec<String>;
 
@@ -454,7 +481,7 @@ fn prose_is_parted_from_code() {
 
 #[test]
 fn house_rules() {
-    let rules: [(&str, Rule); 12] = [
+    let rules: [(&str, Rule); 14] = [
         ("files are short", long_files),
         ("names say what is inside", vague_names),
         ("no panic without `// why:`", unexplained_panics),
@@ -467,6 +494,8 @@ fn house_rules() {
         ("crates are small", large_crates),
         ("circles are small", large_circles),
         ("the words are the field's", dialect),
+        ("decisions are listed", unlisted_decisions),
+        ("examples have a README", unexplained_examples),
     ];
     let broken: Vec<String> = rules
         .iter()

@@ -1,6 +1,6 @@
 /** The server's answers, typed, over one WebSocket that reconnects by itself. */
 
-import { decodeFrame, Frame } from "./frame.ts";
+import { decodeFrame, type Frame } from "./frame.ts";
 
 export { latestOnly } from "./latest.ts";
 
@@ -255,7 +255,12 @@ interface RefusalDocument {
 }
 
 function refusal(doc: RefusalDocument | undefined): Refusal {
-  return new Refusal(doc?.code ?? "unknown", doc?.message ?? "the server refused", doc?.hint ?? "", doc?.diagnostics ?? []);
+  return new Refusal(
+    doc?.code ?? "unknown",
+    doc?.message ?? "the server refused",
+    doc?.hint ?? "",
+    doc?.diagnostics ?? [],
+  );
 }
 
 // ---- connection ------------------------------------------------------------------------------
@@ -282,7 +287,8 @@ interface Pending {
 export type ConnectionState = "connecting" | "open" | "lost";
 
 /** Some characters that no other window has (`crypto.randomUUID` is not there beyond loopback). */
-const windowName = (): string => [...crypto.getRandomValues(new Uint8Array(8))].map((byte) => byte.toString(16).padStart(2, "0")).join("");
+const windowName = (): string =>
+  [...crypto.getRandomValues(new Uint8Array(8))].map((byte) => byte.toString(16).padStart(2, "0")).join("");
 
 export class Api {
   onState: (state: ConnectionState) => void = () => {};
@@ -317,7 +323,11 @@ export class Api {
 
   /** The same over `POST`, for what the browser keeps as a file (reports). */
   async post(name: string, body: object): Promise<Blob> {
-    const response = await fetch(`api/${name}`, { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(body) });
+    const response = await fetch(`api/${name}`, {
+      method: "POST",
+      headers: { "content-type": "application/json" },
+      body: JSON.stringify(body),
+    });
     if (!response.ok) {
       const doc = (await response.json().catch(() => ({}))) as { error?: RefusalDocument };
       throw refusal(doc.error ?? { code: String(response.status), message: response.statusText });
@@ -350,7 +360,11 @@ export class Api {
       };
       socket.onmessage = (event) => this.receive(event.data as string | ArrayBuffer);
       socket.onclose = () => {
-        const lost = new Refusal("connection", "no connection to TrueAxis", "Is `trueaxis serve` still running? The page reconnects by itself.");
+        const lost = new Refusal(
+          "connection",
+          "no connection to TrueAxis",
+          "Is `trueaxis serve` still running? The page reconnects by itself.",
+        );
         reject(lost);
         if (this.socket === socket || this.socket === null) this.lose(lost);
       };
@@ -383,7 +397,8 @@ export class Api {
       changed?: Change;
     };
     if (message.changed) this.onChange(message.changed);
-    else if (message.progress !== undefined) this.pending.get(message.id ?? -1)?.onProgress?.(message.progress, message.note ?? "");
+    else if (message.progress !== undefined)
+      this.pending.get(message.id ?? -1)?.onProgress?.(message.progress, message.note ?? "");
     else if (message.error) this.settle(message.id, (waiting) => waiting.reject(refusal(message.error)));
     else this.settle(message.id, (waiting) => waiting.resolve(message.reply));
   }

@@ -55,7 +55,13 @@ export class App {
   private readonly folder = h("span", { class: "folder" });
   private readonly note = h("span", { class: "status-note", role: "status" });
   private readonly link = h("span", { class: "status-link" });
-  private readonly meter = h("progress", { class: "status-meter", max: "1", value: 0, hidden: true, ariaLabel: "Progress" });
+  private readonly meter = h("progress", {
+    class: "status-meter",
+    max: "1",
+    value: 0,
+    hidden: true,
+    ariaLabel: "Progress",
+  });
   private readonly toasts = h("div", { class: "toasts", ariaLive: "polite" });
 
   constructor(root: HTMLElement) {
@@ -117,7 +123,8 @@ export class App {
   /** Tells the tabs; the one that saved in this window knows. */
   private tellChange({ path, version, window: from }: Change): void {
     const own = from === this.api.window;
-    for (const [name, { handle }] of this.mounted) if (!own || name !== this.state_.tab) handle?.changed?.(path ?? null, version ?? null);
+    for (const [name, { handle }] of this.mounted)
+      if (!own || name !== this.state_.tab) handle?.changed?.(path ?? null, version ?? null);
     if (!own && path) this.say(`${path} was saved in another window`);
     if (!this.state_.project?.files.some((file) => file.path === path)) void this.loadProject();
   }
@@ -129,7 +136,7 @@ export class App {
     const params = Object.fromEntries(new URLSearchParams(query));
     const before = this.mounted.get(this.state_.tab);
     if (this.state_.tab !== entry.name) before?.handle?.hide?.();
-    this.set({ tab: entry.name, ...(params["machine"] ? { machine: params["machine"] } : {}) });
+    this.set({ tab: entry.name, ...(params.machine ? { machine: params.machine } : {}) });
     document.title = `${entry.title} – TrueAxis`;
     try {
       const now = await this.mountTab(entry);
@@ -143,7 +150,12 @@ export class App {
   private async mountTab(entry: TabEntry): Promise<Mounted> {
     const there = this.mounted.get(entry.name);
     if (there) return there;
-    const host = h("section", { class: `tab tab-${entry.name}`, id: `tab-${entry.name}`, role: "tabpanel", ariaLabel: entry.title });
+    const host = h("section", {
+      class: `tab tab-${entry.name}`,
+      id: `tab-${entry.name}`,
+      role: "tabpanel",
+      ariaLabel: entry.title,
+    });
     const fresh: Mounted = { host, handle: null };
     this.mounted.set(entry.name, fresh);
     this.main.append(host);
@@ -180,7 +192,7 @@ export class App {
   fail(error: unknown): void {
     if (error instanceof DOMException && error.name === "AbortError") return;
     const refusal = Refusal.from(error);
-    const same = [...this.toasts.children].find((t) => (t as HTMLElement).dataset["message"] === refusal.message);
+    const same = [...this.toasts.children].find((t) => (t as HTMLElement).dataset.message === refusal.message);
     same?.remove();
     const toast = h(
       "div",
@@ -199,7 +211,19 @@ export class App {
 
   private buildBar(): void {
     for (const { name, title } of TABS) {
-      this.tabs.append(h("a", { class: "tab-link", role: "tab", href: `#${name}`, dataTab: name, onclick: (event: MouseEvent) => this.keepMachine(event, name) }, title));
+      this.tabs.append(
+        h(
+          "a",
+          {
+            class: "tab-link",
+            role: "tab",
+            href: `#${name}`,
+            dataTab: name,
+            onclick: (event: MouseEvent) => this.keepMachine(event, name),
+          },
+          title,
+        ),
+      );
     }
     this.tabs.addEventListener("keydown", (event) => this.moveFocus(event));
     const theme = h(
@@ -231,15 +255,19 @@ export class App {
 
   private showState(state: Readonly<State>): void {
     for (const link of this.tabs.querySelectorAll("a")) {
-      const here = link.dataset["tab"] === state.tab;
+      const here = link.dataset.tab === state.tab;
       link.setAttribute("aria-selected", String(here));
     }
     const folder = state.project?.folder ?? "";
     this.folder.textContent = folder.replace(/^.*\/(?=[^/]+\/?$)/, "");
     this.folder.title = folder;
-    this.link.dataset["state"] = state.connection;
+    this.link.dataset.state = state.connection;
     const version = state.project ? ` ${state.project.version}` : "";
-    this.link.textContent = { connecting: "connecting …", open: `TrueAxis${version}`, lost: "no connection – trying again" }[state.connection];
+    this.link.textContent = {
+      connecting: "connecting …",
+      open: `TrueAxis${version}`,
+      lost: "no connection – trying again",
+    }[state.connection];
   }
 }
 
@@ -249,8 +277,19 @@ export function diagnosticList(diagnostics: readonly Diagnostic[]): HTMLElement 
     "ul",
     { class: "diagnostics" },
     diagnostics.map((d) => {
-      const place = d.file ? `${d.file}${d.line ? `:${d.line}${d.column ? `:${d.column}` : ""}` : ""}` : d.line ? `line ${d.line}` : "";
-      return h("li", { class: `diagnostic ${d.severity}` }, h("span", { class: "diagnostic-severity" }, d.severity), place ? h("code", {}, place) : null, h("span", {}, d.message), d.hint ? h("span", { class: "hint" }, d.hint) : null);
+      const place = d.file
+        ? `${d.file}${d.line ? `:${d.line}${d.column ? `:${d.column}` : ""}` : ""}`
+        : d.line
+          ? `line ${d.line}`
+          : "";
+      return h(
+        "li",
+        { class: `diagnostic ${d.severity}` },
+        h("span", { class: "diagnostic-severity" }, d.severity),
+        place ? h("code", {}, place) : null,
+        h("span", {}, d.message),
+        d.hint ? h("span", { class: "hint" }, d.hint) : null,
+      );
     }),
   );
 }
@@ -259,7 +298,15 @@ export function diagnosticList(diagnostics: readonly Diagnostic[]): HTMLElement 
 export function split(host: HTMLElement, key: string, share = 0.6): { left: HTMLElement; right: HTMLElement } {
   const left = h("div", { class: "split-left" });
   const right = h("div", { class: "split-right" });
-  const divider = h("div", { class: "split-divider", role: "separator", tabindex: "0", ariaLabel: "Resize the picture", ariaOrientation: "vertical", ariaValuemin: "20", ariaValuemax: "80" });
+  const divider = h("div", {
+    class: "split-divider",
+    role: "separator",
+    tabindex: "0",
+    ariaLabel: "Resize the picture",
+    ariaOrientation: "vertical",
+    ariaValuemin: "20",
+    ariaValuemax: "80",
+  });
   const pane = h("div", { class: "split" }, left, divider, right);
   const set = (value: number): void => {
     const now = Math.min(0.8, Math.max(0.2, value));

@@ -40,7 +40,8 @@ export const um = (value: number | null | undefined, digits = 1): string => with
 export const urad = (value: number | null | undefined, digits = 1): string => withUnit(value, digits, "µrad");
 export const mm = (value: number | null | undefined, digits = 4): string => withUnit(value, digits, "mm");
 /** Angles stand without a space (ISO 80000-1). */
-export const deg = (value: number | null | undefined, digits = 3): string => withUnit(value, digits, "°").replace(NARROW_SPACE, "");
+export const deg = (value: number | null | undefined, digits = 3): string =>
+  withUnit(value, digits, "°").replace(NARROW_SPACE, "");
 export const celsius = (value: number | null | undefined, digits = 1): string => withUnit(value, digits, "°C");
 export const seconds = (value: number | null | undefined, digits = 1): string => withUnit(value, digits, "s");
 

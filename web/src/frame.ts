@@ -65,7 +65,9 @@ export function decodeFrame<H = Record<string, unknown>>(buffer: ArrayBuffer): F
   if (buffer.byteLength < 4) throw new FrameError("the frame is shorter than its length field");
   const length = new DataView(buffer).getUint32(0, true);
   if (4 + length > buffer.byteLength) throw new FrameError(`the header of ${length} bytes is cut off`);
-  const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length))) as H & { arrays: ArrayHeader[] };
+  const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length))) as H & {
+    arrays: ArrayHeader[];
+  };
   const arrays = new Map<string, NumberArray>();
   let offset = pad8(4 + length);
   for (const { name, type, count } of header.arrays ?? []) {
@@ -80,8 +82,17 @@ export function decodeFrame<H = Record<string, unknown>>(buffer: ArrayBuffer): F
 
 /** The other direction, for tests. */
 export function encodeFrame(header: Record<string, unknown>, arrays: Record<string, NumberArray>): ArrayBuffer {
-  const kinds = new Map<unknown, ElementType>([[Float64Array, "f64"], [Float32Array, "f32"], [Uint32Array, "u32"], [Uint8Array, "u8"]]);
-  const list = Object.entries(arrays).map(([name, a]) => ({ name, type: kinds.get(a.constructor) as ElementType, count: a.length }));
+  const kinds = new Map<unknown, ElementType>([
+    [Float64Array, "f64"],
+    [Float32Array, "f32"],
+    [Uint32Array, "u32"],
+    [Uint8Array, "u8"],
+  ]);
+  const list = Object.entries(arrays).map(([name, a]) => ({
+    name,
+    type: kinds.get(a.constructor) as ElementType,
+    count: a.length,
+  }));
   const text = new TextEncoder().encode(JSON.stringify({ ...header, arrays: list }));
   let size = pad8(4 + text.length);
   for (const a of Object.values(arrays)) size += pad8(a.byteLength);

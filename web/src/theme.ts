@@ -16,7 +16,7 @@ export function isDark(): boolean {
 }
 
 function applyTheme(): void {
-  document.documentElement.dataset["theme"] = isDark() ? "dark" : "light";
+  document.documentElement.dataset.theme = isDark() ? "dark" : "light";
   for (const listener of listeners) listener();
 }
 

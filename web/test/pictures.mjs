@@ -3,11 +3,11 @@
 // Each is 1000 points wide, in at most 256 colours and 90 kB. The page is that of TRUEAXIS or ADDRESS (served.mjs);
 // making pictures smaller takes python3 with Pillow.
 
-import { execFileSync } from 'node:child_process';
-import { mkdirSync, mkdtempSync, rmSync } from 'node:fs';
-import os from 'node:os';
-import path from 'node:path';
-import { browse, open, root, serve } from './served.mjs';
+import { execFileSync } from "node:child_process";
+import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
+import os from "node:os";
+import path from "node:path";
+import { browse, open, root, serve } from "./served.mjs";
 
 const WIDTH = 1000;
 const MOST_BYTES = 90_000;
@@ -36,15 +36,20 @@ print(f"{target}: {os.path.getsize(target)} bytes, at most {2 * half} colours")
 /** What each picture shows: where, and what is done there. */
 const PICTURES = {
   describe: {
-    at: 'describe?machine=machines/xkas2525/machine.toml',
+    at: "describe?machine=machines/xkas2525/machine.toml",
     async act(page) {
-      await page.locator('.scene-note.actual').waitFor();
-      for (const [axis, mm] of [['X', 3100], ['Y', 1250], ['Z', -500]]) await page.fill(`[data-position="${axis}"]`, String(mm));
+      await page.locator(".scene-note.actual").waitFor();
+      for (const [axis, mm] of [
+        ["X", 3100],
+        ["Y", 1250],
+        ["Z", -500],
+      ])
+        await page.fill(`[data-position="${axis}"]`, String(mm));
       await page.click('[data-page="errors"]');
     },
   },
   simulate: {
-    at: 'simulate?machine=machines/i5-engraver/machine.toml&program=examples/02_simulate/ring-fanuc.nc',
+    at: "simulate?machine=machines/i5-engraver/machine.toml&program=examples/02_simulate/ring-fanuc.nc",
     async act(page) {
       await page.click('[data-test="to-largest"]');
       await page.waitForFunction(() => globalThis.trueaxisScene.moment()?.time_s > 0);
@@ -52,25 +57,26 @@ const PICTURES = {
     },
   },
   predict: {
-    at: 'predict?study=examples/03_predict/nas979-head-out-of-square.toml',
+    at: "predict?study=examples/03_predict/nas979-head-out-of-square.toml",
     act: (page) => page.locator('.predict-page:not([hidden]) [data-test="verdict"]').waitFor(),
   },
   identify: {
-    at: 'identify?campaign=examples/05_identify/mixed-instruments.toml',
+    at: "identify?campaign=examples/05_identify/mixed-instruments.toml",
     act: (page) => page.locator('#tab-identify [data-test="verdict"]').waitFor(),
   },
   standards: {
-    at: 'standards?path=examples/07_verify/x-axis-laser.csv&standard=iso230-2',
-    act: (page) => page.locator('#tab-standards .picture .figure-svg').first().waitFor(),
+    at: "standards?path=examples/07_verify/x-axis-laser.csv&standard=iso230-2",
+    act: (page) => page.locator("#tab-standards .picture .figure-svg").first().waitFor(),
   },
   report: {
-    at: 'report?verb=predict&file=examples/03_predict/nas979-head-out-of-square.toml',
-    act: (page) => page.waitForFunction(() => document.querySelector('[data-test=report-note]')?.textContent?.includes('.html')),
+    at: "report?verb=predict&file=examples/03_predict/nas979-head-out-of-square.toml",
+    act: (page) =>
+      page.waitForFunction(() => document.querySelector("[data-test=report-note]")?.textContent?.includes(".html")),
   },
 };
 
-const target = path.join(root, 'docs/pictures');
-const raw = mkdtempSync(path.join(os.tmpdir(), 'trueaxis-pictures-'));
+const target = path.join(root, "docs/pictures");
+const raw = mkdtempSync(path.join(os.tmpdir(), "trueaxis-pictures-"));
 mkdirSync(target, { recursive: true });
 const server = await serve();
 const browser = await browse();
@@ -83,8 +89,8 @@ try {
     await page.waitForTimeout(REST_MS);
     const taken = path.join(raw, `${name}.png`);
     await page.screenshot({ path: taken });
-    const words = ['-c', SMALLER, taken, path.join(target, `${name}.png`), String(WIDTH), String(MOST_BYTES)];
-    process.stdout.write(execFileSync('python3', words));
+    const words = ["-c", SMALLER, taken, path.join(target, `${name}.png`), String(WIDTH), String(MOST_BYTES)];
+    process.stdout.write(execFileSync("python3", words));
     await context.close();
   }
 } finally {

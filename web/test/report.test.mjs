@@ -1,68 +1,69 @@
 // The Report tab: one HTML file per verb, shown, saved, printed.
 
-import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
-import { test } from 'node:test';
-import { cli, open, picture } from './served.mjs';
-import { browser, server } from './shared.mjs';
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { test } from "node:test";
+import { cli, open, picture } from "./served.mjs";
+import { browser, server } from "./shared.mjs";
 
-const FAILING = 'examples/03_predict/nas979-head-out-of-square.toml';
-const LASER = 'examples/07_verify/x-axis-laser.csv';
+const FAILING = "examples/03_predict/nas979-head-out-of-square.toml";
+const LASER = "examples/07_verify/x-axis-laser.csv";
 
-const made = (page) => page.waitForFunction(() => document.querySelector('[data-test=report-note]')?.textContent?.includes('.html'));
+const made = (page) =>
+  page.waitForFunction(() => document.querySelector("[data-test=report-note]")?.textContent?.includes(".html"));
 
-test('the report of a prediction: from its tab, with the verdict, as a file that needs nothing else', async () => {
-  const expected = await cli('predict', FAILING, '--no-report');
+test("the report of a prediction: from its tab, with the verdict, as a file that needs nothing else", async () => {
+  const expected = await cli("predict", FAILING, "--no-report");
   const { page, complaints } = await open(browser, server.address);
   await page.click(`[data-example="${FAILING}"]`);
-  await page.click('.predict-page:not([hidden]) .predict-choice button');
+  await page.click(".predict-page:not([hidden]) .predict-choice button");
   await made(page);
   assert.match(page.url(), /#report\?verb=predict&file=examples\/03_predict/);
-  const frame = page.frameLocator('.report-frame');
-  const text = await frame.locator('body').textContent();
+  const frame = page.frameLocator(".report-frame");
+  const text = await frame.locator("body").textContent();
   assert.ok(text.includes(expected.study));
   assert.match(text, new RegExp(expected.verdict.toUpperCase()));
   const coaxiality = (1e3 * expected.indices.iso.coaxiality_lsc_mm.value).toFixed(2);
   assert.ok(text.includes(coaxiality), `${coaxiality} stands in the report`);
-  await picture(page, 'report');
+  await picture(page, "report");
 
-  const [download] = await Promise.all([page.waitForEvent('download'), page.click('text=Save HTML')]);
-  assert.equal(download.suggestedFilename(), 'nas979-head-out-of-square-predict.html');
-  const file = readFileSync(await download.path(), 'utf8');
+  const [download] = await Promise.all([page.waitForEvent("download"), page.click("text=Save HTML")]);
+  assert.equal(download.suggestedFilename(), "nas979-head-out-of-square-predict.html");
+  const file = readFileSync(await download.path(), "utf8");
   assert.match(file, /^<!DOCTYPE html>/);
   assert.doesNotMatch(file, /<(script|link|iframe)\b|(src|href)="(?!data:|#)/);
   assert.ok(file.includes(coaxiality));
   assert.deepEqual(complaints, []);
 });
 
-test('print prints the report, not the page', async () => {
+test("print prints the report, not the page", async () => {
   const { page, complaints } = await open(browser, server.address);
   await page.goto(new URL(`#report?verb=predict&file=${FAILING}`, server.address).href);
   await made(page);
-  const print = page.locator('text=Print or PDF');
+  const print = page.locator("text=Print or PDF");
   await print.waitFor();
-  await page.waitForFunction(() => document.querySelector('.report-frame').contentDocument?.readyState === 'complete');
+  await page.waitForFunction(() => document.querySelector(".report-frame").contentDocument?.readyState === "complete");
   const printed = await page.evaluate(async () => {
-    const inside = document.querySelector('.report-frame').contentWindow;
-    const done = new Promise((resolve) => inside.addEventListener('beforeprint', () => resolve('report')));
-    window.addEventListener('beforeprint', () => document.body.append('the page was printed'));
-    [...document.querySelectorAll('button')].find((b) => b.textContent === 'Print or PDF').click();
-    return Promise.race([done, new Promise((resolve) => setTimeout(() => resolve('nothing'), 3000))]);
+    const inside = document.querySelector(".report-frame").contentWindow;
+    const done = new Promise((resolve) => inside.addEventListener("beforeprint", () => resolve("report")));
+    window.addEventListener("beforeprint", () => document.body.append("the page was printed"));
+    [...document.querySelectorAll("button")].find((b) => b.textContent === "Print or PDF").click();
+    return Promise.race([done, new Promise((resolve) => setTimeout(() => resolve("nothing"), 3000))]);
   });
-  assert.equal(printed, 'report');
+  assert.equal(printed, "report");
   assert.deepEqual(complaints, []);
 });
 
-test('readings by a standard; what cannot be reported says why', async () => {
+test("readings by a standard; what cannot be reported says why", async () => {
   const { page, complaints } = await open(browser, server.address);
   await page.goto(new URL(`#report?verb=evaluate&file=${LASER}&standard=iso230-2`, server.address).href);
   await made(page);
-  assert.match(await page.frameLocator('.report-frame').locator('body').textContent(), /ISO 230-2/);
+  assert.match(await page.frameLocator(".report-frame").locator("body").textContent(), /ISO 230-2/);
 
   await page.goto(new URL(`#report?verb=predict&file=examples/03_predict/none.toml`, server.address).href);
-  const toast = page.locator('.toast');
+  const toast = page.locator(".toast");
   await toast.waitFor();
   assert.match(await toast.textContent(), /none\.toml/);
-  assert.equal(await page.locator('.report-frame').count(), 0);
+  assert.equal(await page.locator(".report-frame").count(), 0);
   assert.deepEqual(complaints, []);
 });

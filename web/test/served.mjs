@@ -2,23 +2,23 @@
 //
 // The binary is that of TRUEAXIS, or target/release/trueaxis; the browser is CHROMIUM, or /usr/bin/chromium.
 
-import { execFile, spawn } from 'node:child_process';
-import { existsSync, mkdirSync } from 'node:fs';
-import path from 'node:path';
-import { fileURLToPath } from 'node:url';
-import { promisify } from 'node:util';
-import { chromium } from 'playwright-core';
+import { execFile, spawn } from "node:child_process";
+import { existsSync, mkdirSync } from "node:fs";
+import path from "node:path";
+import { fileURLToPath } from "node:url";
+import { promisify } from "node:util";
+import { chromium } from "playwright-core";
 
-export const root = path.resolve(path.dirname(fileURLToPath(import.meta.url)), '../..');
-const binary = process.env.TRUEAXIS ?? path.join(root, 'target/release/trueaxis');
-const browserPath = process.env.CHROMIUM ?? '/usr/bin/chromium';
-const pictures = process.env.PICTURES ?? path.join(root, 'target/screenshots');
+export const root = path.resolve(path.dirname(fileURLToPath(import.meta.url)), "../..");
+const binary = process.env.TRUEAXIS ?? path.join(root, "target/release/trueaxis");
+const browserPath = process.env.CHROMIUM ?? "/usr/bin/chromium";
+const pictures = process.env.PICTURES ?? path.join(root, "target/screenshots");
 
 /** Runs the command line; its JSON. A verdict "no" (status 1) is an answer too. */
 export async function cli(...words) {
   const run = promisify(execFile);
   const options = { cwd: root, maxBuffer: 1 << 28 };
-  const done = await run(binary, [...words, '--format', 'json'], options).catch((error) => {
+  const done = await run(binary, [...words, "--format", "json"], options).catch((error) => {
     if (error.code === 1) return error;
     throw error;
   });
@@ -27,10 +27,10 @@ export async function cli(...words) {
 
 /** The page as it is being written in front of a server; for the folders that tests write into. */
 async function live(server) {
-  const { createServer } = await import('vite');
+  const { createServer } = await import("vite");
   process.env.SERVER = new URL(server).origin;
-  const configFile = path.join(root, 'web/dev/vite.config.ts');
-  const vite = await createServer({ configFile, logLevel: 'error', server: { port: 5290, hmr: false } });
+  const configFile = path.join(root, "web/dev/vite.config.ts");
+  const vite = await createServer({ configFile, logLevel: "error", server: { port: 5290, hmr: false } });
   await vite.listen();
   return vite;
 }
@@ -42,14 +42,14 @@ async function live(server) {
 export async function serve(folder = root) {
   if (process.env.ADDRESS && folder === root) return { address: process.env.ADDRESS, stop: () => {} };
   if (!existsSync(binary)) throw new Error(`${binary} is not there: cargo build --release`);
-  const child = spawn(binary, ['serve', folder, '--port', '0'], { stdio: ['ignore', 'pipe', 'inherit'] });
+  const child = spawn(binary, ["serve", folder, "--port", "0"], { stdio: ["ignore", "pipe", "inherit"] });
   const address = await new Promise((found, failed) => {
-    let text = '';
-    child.stdout.on('data', (piece) => {
+    let text = "";
+    child.stdout.on("data", (piece) => {
       text += piece;
-      if (text.includes('\n')) found(text.trim());
+      if (text.includes("\n")) found(text.trim());
     });
-    child.on('exit', (status) => failed(new Error(`trueaxis serve ended with ${status}`)));
+    child.on("exit", (status) => failed(new Error(`trueaxis serve ended with ${status}`)));
   });
   if (!process.env.ADDRESS) return { address, stop: () => child.kill() };
   const vite = await live(address);
@@ -63,8 +63,16 @@ export async function browse() {
   return chromium.launch({
     executablePath: browserPath,
     args: [
-      '--headless', '--no-sandbox', '--disable-gpu', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
-      '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
+      "--headless",
+      "--no-sandbox",
+      "--disable-gpu",
+      "--use-angle=swiftshader",
+      "--enable-unsafe-swiftshader",
+      "--disable-quic",
+      "--no-first-run",
+      "--disable-background-networking",
+      "--disable-component-update",
+      "--disable-sync",
     ],
   });
 }
@@ -75,19 +83,21 @@ export async function browse() {
  */
 export async function open(browser, address, { dark = false, width = 1400, height = 900 } = {}) {
   const context = await browser.newContext({
-    viewport: { width, height }, colorScheme: dark ? 'dark' : 'light', acceptDownloads: true,
+    viewport: { width, height },
+    colorScheme: dark ? "dark" : "light",
+    acceptDownloads: true,
   });
   const page = await context.newPage();
   const complaints = [];
   const harmless = /GPU stall due to ReadPixels|Automatic fallback to software WebGL/;
-  page.on('console', (message) => {
-    const loud = ['error', 'warning'].includes(message.type());
+  page.on("console", (message) => {
+    const loud = ["error", "warning"].includes(message.type());
     if (loud && !harmless.test(message.text())) complaints.push(`${message.type()}: ${message.text()}`);
   });
-  page.on('pageerror', (error) => complaints.push(`error: ${error.message}`));
-  page.on('request', (request) => {
+  page.on("pageerror", (error) => complaints.push(`error: ${error.message}`));
+  page.on("request", (request) => {
     const url = request.url();
-    const own = url.startsWith(address) || url.startsWith('data:') || url.startsWith('blob:');
+    const own = url.startsWith(address) || url.startsWith("data:") || url.startsWith("blob:");
     if (!own) complaints.push(`request to ${url}`);
   });
   page.setDefaultTimeout(Number(process.env.PATIENCE ?? 30_000));

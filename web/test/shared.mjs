@@ -1,7 +1,7 @@
 // One server on the project and one browser for all tests of a file. Each file runs in a process of its own.
 
-import { after, before } from 'node:test';
-import { browse, serve } from './served.mjs';
+import { after, before } from "node:test";
+import { browse, serve } from "./served.mjs";
 
 export let server;
 export let browser;

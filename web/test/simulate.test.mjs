@@ -1,24 +1,28 @@
 // The Simulate tab against `trueaxis simulate` and `trueaxis pose`.
 
-import assert from 'node:assert/strict';
-import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import os from 'node:os';
-import path from 'node:path';
-import { test } from 'node:test';
-import { cli, open, picture, root, serve } from './served.mjs';
-import { browser, server } from './shared.mjs';
+import assert from "node:assert/strict";
+import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import os from "node:os";
+import path from "node:path";
+import { test } from "node:test";
+import { cli, open, picture, root, serve } from "./served.mjs";
+import { browser, server } from "./shared.mjs";
 
-const engraver = 'machines/i5-engraver/machine.toml';
-const gantry = 'machines/wyxzcat-gantry/machine.toml';
-const impeller = 'examples/02_simulate/impeller-840d.mpf';
-const ring = 'examples/02_simulate/ring-fanuc.nc';
-const collision = 'examples/02_simulate/collision-fanuc.nc';
+const engraver = "machines/i5-engraver/machine.toml";
+const gantry = "machines/wyxzcat-gantry/machine.toml";
+const impeller = "examples/02_simulate/impeller-840d.mpf";
+const ring = "examples/02_simulate/ring-fanuc.nc";
+const collision = "examples/02_simulate/collision-fanuc.nc";
 
-const clock = (s) => `${Math.floor(s / 60)}:${(s - 60 * Math.floor(s / 60)).toFixed(1).padStart(4, '0')}`;
-const um = (v) => `${v.toFixed(1)}\u202fµm`.replace('-', '\u2212');
-const shown = (page, key) => page.locator(`[data-test="${key}"]`).innerText();
+const clock = (s) => `${Math.floor(s / 60)}:${(s - 60 * Math.floor(s / 60)).toFixed(1).padStart(4, "0")}`;
+const um = (v) => `${v.toFixed(1)}\u202fµm`.replace("-", "\u2212");
+const shown = (page, key) => page.locator(`[data-test="${key}"]`).textContent();
 const moment = (page) => page.evaluate(() => globalThis.trueaxisScene.moment());
-const simulated = (page) => page.waitForSelector('.tab-simulate.simulated .readout-block:not(:empty), .tab-simulate.simulated [data-test="place"]:not(:empty)', { state: 'attached' });
+const simulated = (page) =>
+  page.waitForSelector(
+    '.tab-simulate.simulated .readout-block:not(:empty), .tab-simulate.simulated [data-test="place"]:not(:empty)',
+    { state: "attached" },
+  );
 
 /** Waits until the page shows this time. */
 async function shows(page, time_s) {
@@ -29,12 +33,12 @@ async function example(name, machine) {
   const window = await open(browser, server.address);
   await window.page.click(`[data-example="${name}"]`);
   await simulated(window.page);
-  return { ...window, document: await cli('simulate', machine, name, '--no-report') };
+  return { ...window, document: await cli("simulate", machine, name, "--no-report") };
 }
 
 async function summaryIsThatOf(page, document) {
-  assert.ok((await shown(page, 'time')).startsWith(clock(document.time_s)), `machining time ${clock(document.time_s)}`);
-  assert.equal(await shown(page, 'largest'), um(document.deviation.tip_um.value));
+  assert.ok((await shown(page, "time")).startsWith(clock(document.time_s)), `machining time ${clock(document.time_s)}`);
+  assert.equal(await shown(page, "largest"), um(document.deviation.tip_um.value));
 }
 
 /**
@@ -43,120 +47,137 @@ async function summaryIsThatOf(page, document) {
  */
 async function posesAreThoseOf(page, machine) {
   const { axes, approach } = await moment(page);
-  const at = Object.entries(axes).map(([name, value]) => `${name}=${value}`).join(' ');
-  const sides = Object.entries(approach).filter(([, side]) => side !== 0).map(([name, side]) => `${name}=${side > 0 ? '+' : '-'}`).join(' ');
-  const { bodies } = await cli('pose', machine, '--at', at, ...(sides ? ['--approach', sides] : []), '--bodies');
+  const at = Object.entries(axes)
+    .map(([name, value]) => `${name}=${value}`)
+    .join(" ");
+  const sides = Object.entries(approach)
+    .filter(([, side]) => side !== 0)
+    .map(([name, side]) => `${name}=${side > 0 ? "+" : "-"}`)
+    .join(" ");
+  const { bodies } = await cli("pose", machine, "--at", at, ...(sides ? ["--approach", sides] : []), "--bodies");
   assert.ok(bodies.length > 2);
-  await page.locator('.exaggeration').fill('0');
-  assert.equal(await page.locator('.factor').innerText(), '×1');
+  await page.locator(".exaggeration").fill("0");
+  assert.equal(await page.locator(".factor").textContent(), "×1");
   for (const { body, nominal, actual } of bodies) {
-    for (const [which, { rotation, origin_mm }] of [['nominal', nominal], ['ghost', actual]]) {
+    for (const [which, { rotation, origin_mm }] of [
+      ["nominal", nominal],
+      ["ghost", actual],
+    ]) {
       const drawn = await page.evaluate(([name, of]) => globalThis.trueaxisScene.poseOf(name, of), [body, which]);
       const wanted = [...rotation.flat(), ...origin_mm];
-      wanted.forEach((value, i) => assert.ok(Math.abs(value - drawn[i]) < 1e-6, `${which} ${body}[${i}]: ${drawn[i]} instead of ${value}`));
+      wanted.forEach((value, i) =>
+        assert.ok(Math.abs(value - drawn[i]) < 1e-6, `${which} ${body}[${i}]: ${drawn[i]} instead of ${value}`),
+      );
     }
   }
 }
 
-test('the impeller: summary, a click on a line, poses', async () => {
+test("the impeller: summary, a click on a line, poses", async () => {
   const { page, complaints, context, document } = await example(impeller, gantry);
   await summaryIsThatOf(page, document);
   // Only the lines in sight are in the page.
-  await page.locator('.source-scroll').press('PageDown');
+  await page.locator(".source-scroll").press("PageDown");
   await page.click('.source-line[data-line="15"]');
   await page.waitForSelector('.source-line[data-line="15"][aria-current="true"]');
-  assert.match(await shown(page, 'block'), /^N130 G1 X24\.9632/);
+  assert.match(await shown(page, "block"), /^N130 G1 X24\.9632/);
   await posesAreThoseOf(page, gantry);
-  await picture(page, 'simulate');
+  await picture(page, "simulate");
   assert.deepEqual(complaints, []);
   await context.close();
 });
 
-test('the bangle: largest deviation, the moment, colours, keys, playing', async () => {
+test("the bangle: largest deviation, the moment, colours, keys, playing", async () => {
   const { page, complaints, context, document } = await example(ring, engraver);
   await summaryIsThatOf(page, document);
   const worst = document.deviation.tip_um;
   await page.click('[data-test="to-largest"]');
   await shows(page, worst.time_s);
-  await page.waitForFunction((text) => document.querySelector('[data-test="dev-length"]').textContent === text, worst.value.toFixed(1));
-  assert.ok((await shown(page, 'place')).startsWith(`line ${worst.line}`));
+  await page.waitForFunction(
+    (text) => document.querySelector('[data-test="dev-length"]').textContent === text,
+    worst.value.toFixed(1),
+  );
+  assert.ok((await shown(page, "place")).startsWith(`line ${worst.line}`));
   await posesAreThoseOf(page, engraver);
 
-  for (const colour of ['feed', 'load', 'deviation']) {
+  for (const colour of ["feed", "load", "deviation"]) {
     await page.click(`[data-colour="${colour}"]`);
     await page.waitForSelector(`[data-colour="${colour}"][aria-pressed="true"]`);
   }
 
-  await page.locator('.timeline-track').focus();
+  await page.locator(".timeline-track").focus();
   const before = await moment(page);
-  await page.keyboard.press('ArrowRight');
+  await page.keyboard.press("ArrowRight");
   await page.waitForFunction((t) => globalThis.trueaxisScene.moment().time_s > t, before.time_s);
-  await page.keyboard.press('ArrowLeft');
-  await page.keyboard.press('Home');
+  await page.keyboard.press("ArrowLeft");
+  await page.keyboard.press("Home");
   await shows(page, 0);
-  await page.keyboard.press(' ');
+  await page.keyboard.press(" ");
   await page.waitForFunction(() => globalThis.trueaxisScene.moment().time_s > 0.5);
-  await page.keyboard.press(' ');
-  await page.keyboard.press('End');
+  await page.keyboard.press(" ");
+  await page.keyboard.press("End");
   await shows(page, document.time_s);
-  assert.equal(await shown(page, 'clock'), clock(document.time_s));
+  assert.equal(await shown(page, "clock"), clock(document.time_s));
   assert.deepEqual(complaints, []);
   await context.close();
 });
 
-test('the curves: a click picks the time, a drag looks closer', async () => {
+test("the curves: a click picks the time, a drag looks closer", async () => {
   const { page, complaints, context, document } = await example(ring, engraver);
   const plot = page.locator('.timeplot[data-quantity="tip"] .u-over');
   await plot.waitFor();
   const { width, height } = await plot.boundingBox();
   await plot.click({ position: { x: width / 2, y: height / 2 } });
-  await page.waitForFunction((t) => Math.abs(globalThis.trueaxisScene.moment().time_s - t) < 0.05 * t, document.time_s / 2);
+  await page.waitForFunction(
+    (t) => Math.abs(globalThis.trueaxisScene.moment().time_s - t) < 0.05 * t,
+    document.time_s / 2,
+  );
   await plot.hover({ position: { x: 0.25 * width, y: height / 2 } });
   await page.mouse.down();
   await plot.hover({ position: { x: 0.5 * width, y: height / 2 } });
   await page.mouse.up();
-  await page.waitForSelector('.timeline-window:not([hidden])');
-  await page.waitForFunction(() => /path from/.test(document.querySelector('.scene-notes').textContent));
+  await page.waitForSelector(".timeline-window:not([hidden])");
+  await page.waitForFunction(() => /path from/.test(document.querySelector(".scene-notes").textContent));
   await plot.dblclick();
-  await page.waitForSelector('.timeline-window', { state: 'hidden' });
+  await page.waitForSelector(".timeline-window", { state: "hidden" });
   assert.deepEqual(complaints, []);
   await context.close();
 });
 
-test('a collision is a mark that jumps to it', async () => {
+test("a collision is a mark that jumps to it", async () => {
   const { page, complaints, context, document } = await example(collision, engraver);
   const trouble = document.troubles.find((t) => t.grave);
-  assert.match(await shown(page, 'verdict'), /collision/);
-  await page.click('.timeline-mark.grave');
+  assert.match(await shown(page, "verdict"), /collision/);
+  await page.click(".timeline-mark.grave");
   await shows(page, trouble.from_s);
   await page.waitForSelector(`.source-line[data-line="${trouble.line}"][aria-current="true"] .source-mark.error`);
   assert.deepEqual(complaints, []);
   await context.close();
 });
 
-test('tool and stock of the set-up are in the picture', async () => {
-  const folder = mkdtempSync(path.join(os.tmpdir(), 'trueaxis-setup-'));
-  cpSync(path.join(root, path.dirname(engraver)), path.join(folder, 'machine'), { recursive: true });
-  cpSync(path.join(root, collision), path.join(folder, 'short.nc'));
-  const setup = readFileSync(path.join(root, collision.replace('.nc', '.setup.toml')), 'utf8');
-  const stock = '[stock]\nbox = "70 60 20 mm"\nplacement = "0 0 15 mm"\n\n[[fixture]]\nname = "vice"\nbox = "90 12 20 mm"\nplacement = "0 45 5 mm"\n';
-  writeFileSync(path.join(folder, 'short.setup.toml'), `${setup}\n${stock}`);
+test("tool and stock of the set-up are in the picture", async () => {
+  const folder = mkdtempSync(path.join(os.tmpdir(), "trueaxis-setup-"));
+  cpSync(path.join(root, path.dirname(engraver)), path.join(folder, "machine"), { recursive: true });
+  cpSync(path.join(root, collision), path.join(folder, "short.nc"));
+  const setup = readFileSync(path.join(root, collision.replace(".nc", ".setup.toml")), "utf8");
+  const stock =
+    '[stock]\nbox = "70 60 20 mm"\nplacement = "0 0 15 mm"\n\n[[fixture]]\nname = "vice"\nbox = "90 12 20 mm"\nplacement = "0 45 5 mm"\n';
+  writeFileSync(path.join(folder, "short.setup.toml"), `${setup}\n${stock}`);
   const own = await serve(folder);
   try {
     const { page, complaints } = await open(browser, own.address);
     await page.goto(`${own.address}#simulate?machine=machine/machine.toml&program=short.nc`);
     await simulated(page);
     const seen = (what, body) => page.evaluate(([key, name]) => globalThis.trueaxisScene[key](name), [what, body]);
-    assert.deepEqual(await seen('partsOf', 'w'), ['stock', 'vice']);
+    assert.deepEqual(await seen("partsOf", "w"), ["stock", "vice"]);
     // The box of both: x ± 45, y from −30 to 51, z from −5 to 25 mm.
-    assert.deepEqual(await seen('boxOf', 'w'), [-45, -30, -5, 45, 51, 25]);
-    await page.click('.timeline-track');
+    assert.deepEqual(await seen("boxOf", "w"), [-45, -30, -5, 45, 51, 25]);
+    await page.click(".timeline-track");
     // A holder of 32 mm, 90 mm from tip to gauge line; before that moment the machine file's own tool is there.
     await page.waitForFunction(() => {
-      const [x, , tip, , , top] = globalThis.trueaxisScene.boxOf('t').map(Math.round);
+      const [x, , tip, , , top] = globalThis.trueaxisScene.boxOf("t").map(Math.round);
       return x === -16 && tip === -90 && top === 0;
     });
-    assert.ok((await seen('partsOf', 't')).includes('tool holder'));
+    assert.ok((await seen("partsOf", "t")).includes("tool holder"));
     assert.deepEqual(complaints, []);
   } finally {
     await own.stop();
@@ -166,27 +187,32 @@ test('tool and stock of the set-up are in the picture', async () => {
 
 /** As if somebody dropped the file on the page. */
 async function drop(page, name, text) {
-  await page.evaluate(([file, words]) => {
-    const data = new DataTransfer();
-    data.items.add(new File([words], file));
-    document.querySelector('.tab-simulate').dispatchEvent(new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }));
-  }, [name, text]);
+  await page.evaluate(
+    ([file, words]) => {
+      const data = new DataTransfer();
+      data.items.add(new File([words], file));
+      document
+        .querySelector(".tab-simulate")
+        .dispatchEvent(new DragEvent("drop", { dataTransfer: data, bubbles: true, cancelable: true }));
+    },
+    [name, text],
+  );
 }
 
-test('a dropped program: its errors underlined, then a good one', async () => {
+test("a dropped program: its errors underlined, then a good one", async () => {
   const { page, complaints, context } = await open(browser, server.address);
   await page.goto(`${server.address}#simulate?machine=${engraver}`);
   await page.waitForSelector('[data-choice="program"]');
-  await drop(page, 'wrong.nc', 'G21 G90\nG1 X1 Y@ F100\nM30\n');
+  await drop(page, "wrong.nc", "G21 G90\nG1 X1 Y@ F100\nM30\n");
   const mark = page.locator('.source-line[data-line="2"] .source-mark.error');
   await mark.waitFor();
-  assert.equal(await mark.innerText(), '@');
+  assert.equal(await mark.textContent(), "@");
   await mark.focus();
-  assert.match(await page.locator('.source-tip').innerText(), /value is missing/);
-  assert.match(await shown(page, 'verdict'), /one error/);
-  await drop(page, 'right.nc', 'G21 G90 G94\nG1 X1 Y2 F100\nM30\n');
+  assert.match(await page.locator(".source-tip").textContent(), /value is missing/);
+  assert.match(await shown(page, "verdict"), /one error/);
+  await drop(page, "right.nc", "G21 G90 G94\nG1 X1 Y2 F100\nM30\n");
   await simulated(page);
-  assert.match(await shown(page, 'verdict'), /^Runs/);
+  assert.match(await shown(page, "verdict"), /^Runs/);
   assert.deepEqual(complaints, []);
   await context.close();
 });

@@ -1,31 +1,35 @@
 // The first page: every example opens its tab, every machine file is there, a dropped file is not sent anywhere.
 
-import assert from 'node:assert/strict';
-import { test } from 'node:test';
-import { open, picture } from './served.mjs';
-import { browser, server } from './shared.mjs';
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { open, picture } from "./served.mjs";
+import { browser, server } from "./shared.mjs";
 
 /** What the server says of its folder. */
 async function project(page) {
   return page.evaluate(async () => {
-    const answer = await fetch('api/project', { method: 'POST', headers: { 'content-type': 'application/json' }, body: '{}' });
+    const answer = await fetch("api/project", {
+      method: "POST",
+      headers: { "content-type": "application/json" },
+      body: "{}",
+    });
     return answer.json();
   });
 }
 
-test('every example of a tab that is there opens with one click', async () => {
+test("every example of a tab that is there opens with one click", async () => {
   const { page, context, complaints } = await open(browser, server.address);
-  await page.waitForSelector('.card');
+  await page.waitForSelector(".card");
   const { examples, files } = await project(page);
-  const tabs = await page.locator('.tab-link').evaluateAll((links) => links.map((l) => l.dataset.tab));
+  const tabs = await page.locator(".tab-link").evaluateAll((links) => links.map((l) => l.dataset.tab));
   const due = examples.filter((e) => tabs.includes(e.tab));
   assert.ok(due.length >= 3);
-  assert.equal(await page.locator('.card').count(), due.length);
+  assert.equal(await page.locator(".card").count(), due.length);
   for (const { tab, path, title, what } of due) {
     const card = page.locator(`.verb[data-verb="${tab}"] [data-example="${path}"]`, { hasText: title });
     assert.ok((await card.textContent()).includes(what));
   }
-  await picture(page, 'start');
+  await picture(page, "start");
 
   // One example of each tab: its address names the file, and back leads here again.
   for (const tab of new Set(due.map((e) => e.tab))) {
@@ -33,43 +37,51 @@ test('every example of a tab that is there opens with one click', async () => {
     await page.click(`.verb[data-verb="${tab}"] [data-example="${path}"]`);
     await page.waitForFunction((name) => location.hash.startsWith(`#${name}?`), tab);
     assert.ok(decodeURIComponent(await page.evaluate(() => location.hash)).includes(path));
-    await page.locator(`#tab-${tab}`).waitFor({ state: 'visible' });
-    assert.equal(await page.locator('.tab-link[aria-selected="true"]').getAttribute('data-tab'), tab);
+    await page.locator(`#tab-${tab}`).waitFor({ state: "visible" });
+    assert.equal(await page.locator('.tab-link[aria-selected="true"]').getAttribute("data-tab"), tab);
     await page.goBack();
-    await page.locator('.card').first().waitFor({ state: 'visible' });
+    await page.locator(".card").first().waitFor({ state: "visible" });
   }
 
   // Every file of a kind is listed under it.
-  for (const [kind, heading] of [['machine', 'Machines'], ['program', 'Programs'], ['study', 'Studies'], ['campaign', 'Campaigns']]) {
-    const group = page.locator('details.files', { has: page.locator('summary', { hasText: heading }) });
+  for (const [kind, heading] of [
+    ["machine", "Machines"],
+    ["program", "Programs"],
+    ["study", "Studies"],
+    ["campaign", "Campaigns"],
+  ]) {
+    const group = page.locator("details.files", { has: page.locator("summary", { hasText: heading }) });
     const paths = files.filter((f) => f.kind === kind).map((f) => f.path);
-    assert.deepEqual((await group.locator('td:first-child').allTextContents()).sort(), paths.sort());
+    assert.deepEqual((await group.locator("td:first-child").allTextContents()).sort(), paths.sort());
   }
   assert.deepEqual(complaints, []);
   await context.close();
 });
 
-test('a file that no tab opens is told so, and nothing is sent', async () => {
+test("a file that no tab opens is told so, and nothing is sent", async () => {
   const { page, context, complaints } = await open(browser, server.address, { dark: true, width: 1024, height: 768 });
-  await page.waitForSelector('.card');
-  await page.setInputFiles('.drop-input', { name: 'holiday.jpg', mimeType: 'image/jpeg', buffer: Buffer.from('x') });
-  await page.locator('.toast', { hasText: 'holiday.jpg' }).waitFor();
-  await page.click('.toast-close');
-  await picture(page, 'start-dark');
+  await page.waitForSelector(".card");
+  await page.setInputFiles(".drop-input", { name: "holiday.jpg", mimeType: "image/jpeg", buffer: Buffer.from("x") });
+  await page.locator(".toast", { hasText: "holiday.jpg" }).waitFor();
+  await page.click(".toast-close");
+  await picture(page, "start-dark");
   assert.deepEqual(complaints, []);
   await context.close();
 });
 
-test('the arrow keys reach every tab, and an unknown address is the first page', async () => {
+test("the arrow keys reach every tab, and an unknown address is the first page", async () => {
   const { page, context, complaints } = await open(browser, server.address);
-  await page.waitForSelector('.card');
-  const links = page.locator('.tab-link');
+  await page.waitForSelector(".card");
+  const links = page.locator(".tab-link");
   const count = await links.count();
   await links.first().focus();
-  for (let i = 1; i < count; i++) await page.keyboard.press('ArrowRight');
-  assert.equal(await page.evaluate(() => document.activeElement.dataset.tab), await links.last().getAttribute('data-tab'));
-  await page.goto(`${server.address.replace(/\/$/, '')}/#nowhere?x=1`);
-  await page.locator('.card').first().waitFor({ state: 'visible' });
+  for (let i = 1; i < count; i++) await page.keyboard.press("ArrowRight");
+  assert.equal(
+    await page.evaluate(() => document.activeElement.dataset.tab),
+    await links.last().getAttribute("data-tab"),
+  );
+  await page.goto(`${server.address.replace(/\/$/, "")}/#nowhere?x=1`);
+  await page.locator(".card").first().waitFor({ state: "visible" });
   assert.deepEqual(complaints, []);
   await context.close();
 });

@@ -2,13 +2,28 @@
 import assert from "node:assert/strict";
 import { createServer } from "vite";
 
-const vite = await createServer({ server: { middlewareMode: true, hmr: false, ws: false }, appType: "custom", logLevel: "error" });
+const vite = await createServer({
+  server: { middlewareMode: true, hmr: false, ws: false },
+  appType: "custom",
+  logLevel: "error",
+});
 const format = await vite.ssrLoadModule("/src/format.ts");
 const { decodeFrame, encodeFrame } = await vite.ssrLoadModule("/src/frame.ts");
 const { thinned } = await vite.ssrLoadModule("/src/scene/layers.ts");
 
 // As Rust prints: format!("{:.1}", 0.25) is 0.2, ("{:.0}", 2.5) is 2, ("{:.0}", 3.5) is 4, ("{:.2}", 1.005) is 1.00.
-for (const [value, digits, text] of [[0.25, 1, "0.2"], [0.35, 1, "0.3"], [0.75, 1, "0.8"], [2.5, 0, "2"], [3.5, 0, "4"], [-2.5, 0, "-2"], [1.005, 2, "1.00"], [-0.04, 1, "0.0"], [29.1234, 1, "29.1"], [1234567.5, 0, "1234568"]]) {
+for (const [value, digits, text] of [
+  [0.25, 1, "0.2"],
+  [0.35, 1, "0.3"],
+  [0.75, 1, "0.8"],
+  [2.5, 0, "2"],
+  [3.5, 0, "4"],
+  [-2.5, 0, "-2"],
+  [1.005, 2, "1.00"],
+  [-0.04, 1, "0.0"],
+  [29.1234, 1, "29.1"],
+  [1234567.5, 0, "1234568"],
+]) {
   assert.equal(format.fixed(value, digits), text, `${value} to ${digits}`);
 }
 assert.equal(format.um(29.1234), "29.1\u202fµm");
@@ -29,14 +44,25 @@ assert.throws(() => decodeFrame(new ArrayBuffer(2)), /shorter/);
 assert.throws(() => decodeFrame(encodeFrame({}, sent).slice(0, -16)), /cut off/);
 
 const n = 100_000;
-const circle = new Float32Array(3 * n).map((_, i) => (i % 3 === 0 ? Math.cos(i / n) : i % 3 === 1 ? Math.sin(i / n) : 0));
+const circle = new Float32Array(3 * n).map((_, i) =>
+  i % 3 === 0 ? Math.cos(i / n) : i % 3 === 1 ? Math.sin(i / n) : 0,
+);
 const kept = thinned(circle, new Float32Array(n), undefined, [0, 0], 5000);
 assert.ok(kept.length > 500 && kept.length <= 5000 && kept[0] === 0 && kept.at(-1) === n - 1, `${kept.length} kept`);
 
 const { Lines } = await vite.ssrLoadModule("/src/tabs/simulate/lines.ts");
-for (const [text, lines] of [["", []], ["a", ["a"]], ["a\r\n\nb\n", ["a", "", "b"]], ["\n", [""]]]) {
+for (const [text, lines] of [
+  ["", []],
+  ["a", ["a"]],
+  ["a\r\n\nb\n", ["a", "", "b"]],
+  ["\n", [""]],
+]) {
   const read = new Lines(text);
-  assert.deepEqual(Array.from({ length: read.count }, (_, i) => read.line(i + 1)), lines, JSON.stringify(text));
+  assert.deepEqual(
+    Array.from({ length: read.count }, (_, i) => read.line(i + 1)),
+    lines,
+    JSON.stringify(text),
+  );
 }
 const many = new Lines(Array.from({ length: 100_000 }, (_, i) => `N${i}`).join("\n"));
 assert.equal(many.count, 100_000);
@@ -48,18 +74,56 @@ assert.ok(draft.edit("b") && draft.edit("c") && !draft.edit("c") && draft.dirty)
 assert.ok(draft.undo() && draft.text === "b" && draft.redo() && draft.text === "c" && !draft.redo());
 draft.adopt("theirs", "2");
 assert.ok(!draft.dirty && draft.version === "2" && draft.undo() && draft.text === "c" && draft.dirty);
-assert.ok(draft.edit("d") && !draft.canRedo && draft.undo() && draft.undo() && draft.undo() && !draft.undo() && draft.text === "a");
+assert.ok(
+  draft.edit("d") &&
+    !draft.canRedo &&
+    draft.undo() &&
+    draft.undo() &&
+    draft.undo() &&
+    !draft.undo() &&
+    draft.text === "a",
+);
 
 const { errorWords } = await vite.ssrLoadModule("/src/tabs/describe/words.ts");
-const links = [["w", "workpiece", [0, 0, 1]], ["X", "linear", [1, 0, 0]], ["C", "rotary", [0, 0, 1]], ["B", "rotary", [0, 0.6, 0.8]]].map(([name, kind, direction]) => ({ name, kind, direction }));
-for (const [name, body, kind, words] of [["EXX", 1, "motion", "positioning of X"], ["EYX", 1, "motion", "straightness in Y of X"], ["EAX", 1, "motion", "roll of X"], ["ECX", 1, "motion", "tilt about Z of X"], ["EXC", 2, "motion", "radial error motion in X of C"], ["EZC", 2, "motion", "axial error motion of C"], ["ECC", 2, "motion", "angular positioning of C"], ["EAB", 3, "motion", "error motion about X of B"], ["EC0X", 1, "location", "orientation of X about Z"], ["EX0w", 0, "location", "position of workpiece in X"]])
+const links = [
+  ["w", "workpiece", [0, 0, 1]],
+  ["X", "linear", [1, 0, 0]],
+  ["C", "rotary", [0, 0, 1]],
+  ["B", "rotary", [0, 0.6, 0.8]],
+].map(([name, kind, direction]) => ({ name, kind, direction }));
+for (const [name, body, kind, words] of [
+  ["EXX", 1, "motion", "positioning of X"],
+  ["EYX", 1, "motion", "straightness in Y of X"],
+  ["EAX", 1, "motion", "roll of X"],
+  ["ECX", 1, "motion", "tilt about Z of X"],
+  ["EXC", 2, "motion", "radial error motion in X of C"],
+  ["EZC", 2, "motion", "axial error motion of C"],
+  ["ECC", 2, "motion", "angular positioning of C"],
+  ["EAB", 3, "motion", "error motion about X of B"],
+  ["EC0X", 1, "location", "orientation of X about Z"],
+  ["EX0w", 0, "location", "position of workpiece in X"],
+])
   assert.equal(errorWords({ name, body, kind }, links), words);
 
 const { nameBeside } = await vite.ssrLoadModule("/src/tabs/describe/head.ts");
 assert.equal(nameBeside("a/m.toml", new Set(["a/m.toml", "a/m-2.toml"])), "a/m-3.toml");
 const words = await vite.ssrLoadModule("/src/tabs/measure/words.ts");
-for (const [value, text] of [[0.9196, "0.920"], [1.268, "1.27"], [10.00004, "10.0"], [313.4, "313"], [0, "0.00"], [-24.26, "\u221224.3"], [null, "–"]]) assert.equal(words.significant(value), text, `${value}`);
-for (const [time_s, text] of [[31, "31.0\u202fs"], [59.96, "1\u202fmin 0.0\u202fs"], [313.63, "5\u202fmin 13.6\u202fs"]]) assert.equal(words.duration(time_s), text);
+for (const [value, text] of [
+  [0.9196, "0.920"],
+  [1.268, "1.27"],
+  [10.00004, "10.0"],
+  [313.4, "313"],
+  [0, "0.00"],
+  [-24.26, "\u221224.3"],
+  [null, "–"],
+])
+  assert.equal(words.significant(value), text, `${value}`);
+for (const [time_s, text] of [
+  [31, "31.0\u202fs"],
+  [59.96, "1\u202fmin 0.0\u202fs"],
+  [313.63, "5\u202fmin 13.6\u202fs"],
+])
+  assert.equal(words.duration(time_s), text);
 
 await vite.close();
 console.log("unit checks passed");

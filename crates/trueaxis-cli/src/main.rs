@@ -8,6 +8,7 @@ mod arguments;
 mod check;
 mod compensate;
 mod evaluate;
+mod explain;
 mod identify;
 mod measure;
 mod output;
@@ -46,6 +47,7 @@ Examples:
   trueaxis identify examples/05_identify/probe-ball.toml
   trueaxis post machines/i5-engraver/machine.toml examples/06_compensate/bangle.cls --dialect fanuc -o bangle.nc --verify
   trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml
+  trueaxis explain table-too-short
   trueaxis serve --open
 
 Exit status: 0 done, 1 the verdict is no, 2 unusable input or arguments.")]
@@ -82,6 +84,8 @@ enum Verb {
     Evaluate(evaluate::Arguments),
     /// Verify: readings against what a machine file predicts, or against other readings
     Verify(verify::Arguments),
+    /// What a diagnostic means and what to do: explain table-too-short
+    Explain(explain::Arguments),
     /// See it all in a browser, offline: a local server with the page in it
     #[cfg(feature = "serve")]
     Serve(serve::Arguments),
@@ -107,6 +111,7 @@ fn main() -> ExitCode {
         Verb::Post(arguments) => post::run(&arguments),
         Verb::Evaluate(arguments) => evaluate::run(&arguments),
         Verb::Verify(arguments) => verify::run(&arguments),
+        Verb::Explain(arguments) => explain::run(&arguments),
         #[cfg(feature = "serve")]
         Verb::Serve(arguments) => serve::run(&arguments),
     };

@@ -41,20 +41,37 @@ function drawBars(d: Drawing, spec: BarSpec): void {
   const names = Math.min(0.4 * d.width, 14 + 6.6 * Math.max(4, ...spec.bars.map((b) => b.name.length)));
   const values = 26 + 6.4 * Math.max(0, ...spec.bars.map((b) => valueText(b, spec).length - 2));
   const signed = spec.signed ?? spec.bars.some((b) => (b.value ?? 0) < 0);
-  const most = spec.max ?? Math.max(1e-9, spec.limit?.value ?? 0, ...spec.bars.map((b) => Math.abs(b.value ?? 0) + 2 * (b.u ?? 0)));
+  const most =
+    spec.max ??
+    Math.max(1e-9, spec.limit?.value ?? 0, ...spec.bars.map((b) => Math.abs(b.value ?? 0) + 2 * (b.u ?? 0)));
   const [left, right] = [names, Math.max(names + 40, d.width - values)];
-  const x = (v: number): number => (signed ? (left + right) / 2 + (v / most) * ((right - left) / 2) : left + (v / most) * (right - left));
+  const x = (v: number): number =>
+    signed ? (left + right) / 2 + (v / most) * ((right - left) / 2) : left + (v / most) * (right - left);
   const bottom = spec.bars.length * ROW + 4;
   const t = ticks(signed ? -most : 0, most, (right - left) / 60);
   for (const v of t.values) {
-    d.svg.append(s("line", { x1: x(v), x2: x(v), y1: 0, y2: bottom, stroke: v === 0 ? "var(--line-strong)" : "var(--line)", "stroke-width": v === 0 ? 1.2 : 0.7 }));
-    d.svg.append(s("text", { x: x(v), y: bottom + 14, "text-anchor": "middle", fill: "var(--muted)" }, number(v, t.digits)));
+    d.svg.append(
+      s("line", {
+        x1: x(v),
+        x2: x(v),
+        y1: 0,
+        y2: bottom,
+        stroke: v === 0 ? "var(--line-strong)" : "var(--line)",
+        "stroke-width": v === 0 ? 1.2 : 0.7,
+      }),
+    );
+    d.svg.append(
+      s("text", { x: x(v), y: bottom + 14, "text-anchor": "middle", fill: "var(--muted)" }, number(v, t.digits)),
+    );
   }
   d.svg.append(s("text", { x: d.width, y: bottom + 14, "text-anchor": "end", fill: "var(--muted)" }, spec.unit));
   spec.bars.forEach((bar, i) => drawBar(d, spec, bar, i, { x, names }));
   if (spec.limit) {
     const at = x(spec.limit.value);
-    d.svg.append(s("line", { x1: at, x2: at, y1: 0, y2: bottom, stroke: "var(--bad)", "stroke-dasharray": "6 3" }), s("text", { x: at - 4, y: bottom - 4, "text-anchor": "end", fill: "var(--bad)" }, spec.limit.label));
+    d.svg.append(
+      s("line", { x1: at, x2: at, y1: 0, y2: bottom, stroke: "var(--bad)", "stroke-dasharray": "6 3" }),
+      s("text", { x: at - 4, y: bottom - 4, "text-anchor": "end", fill: "var(--bad)" }, spec.limit.label),
+    );
   }
 }
 
@@ -63,13 +80,30 @@ function drawBar(d: Drawing, spec: BarSpec, bar: Bar, i: number, g: { x: (v: num
   const [a, b] = [g.x(0), g.x(bar.value ?? 0)].sort((p, q) => p - q) as [number, number];
   const colour = bar.colour ?? "var(--series-1)";
   const text = valueText(bar, spec);
-  const row = s("g", { class: spec.onpick ? "pick" : "" }, s("title", {}, `${bar.name}: ${text}${bar.note ? `, ${bar.note}` : ""}`), s("rect", { x: 0, y: y - 3, width: d.width, height: ROW, fill: "transparent" }));
-  row.append(s("text", { x: g.names - 8, y: y + 11, "text-anchor": "end", fill: "var(--ink)" }, bar.name), s("rect", { x: a, y: y + 1, width: bar.value === null ? 0 : Math.max(0.75, b - a), height: ROW - 8, fill: colour }), s("text", { x: d.width, y: y + 11, "text-anchor": "end", fill: "var(--ink)" }, text));
-  if (bar.value === null && bar.missing) row.append(s("text", { x: g.x(0) + 6, y: y + 11, fill: "var(--warn)" }, bar.missing));
+  const row = s(
+    "g",
+    { class: spec.onpick ? "pick" : "" },
+    s("title", {}, `${bar.name}: ${text}${bar.note ? `, ${bar.note}` : ""}`),
+    s("rect", { x: 0, y: y - 3, width: d.width, height: ROW, fill: "transparent" }),
+  );
+  row.append(
+    s("text", { x: g.names - 8, y: y + 11, "text-anchor": "end", fill: "var(--ink)" }, bar.name),
+    s("rect", { x: a, y: y + 1, width: bar.value === null ? 0 : Math.max(0.75, b - a), height: ROW - 8, fill: colour }),
+    s("text", { x: d.width, y: y + 11, "text-anchor": "end", fill: "var(--ink)" }, text),
+  );
+  if (bar.value === null && bar.missing)
+    row.append(s("text", { x: g.x(0) + 6, y: y + 11, fill: "var(--warn)" }, bar.missing));
   if (bar.u && bar.value !== null) {
     const [from, to] = [g.x(bar.value - 2 * bar.u), g.x(bar.value + 2 * bar.u)];
     const mid = y + ROW / 2 - 2.5;
-    for (const line of [[from, to, mid, mid], [from, from, mid - 4, mid + 4], [to, to, mid - 4, mid + 4]] as const) row.append(s("line", { x1: line[0], x2: line[1], y1: line[2], y2: line[3], stroke: "var(--ink)", "stroke-width": 1.2 }));
+    for (const line of [
+      [from, to, mid, mid],
+      [from, from, mid - 4, mid + 4],
+      [to, to, mid - 4, mid + 4],
+    ] as const)
+      row.append(
+        s("line", { x1: line[0], x2: line[1], y1: line[2], y2: line[3], stroke: "var(--ink)", "stroke-width": 1.2 }),
+      );
   }
   const pick = spec.onpick;
   if (pick) {

@@ -49,8 +49,20 @@ function cellsOf(links: readonly Link[]): Cell[] {
 /** A double arrow for a slide, an arc for a turn. */
 function glyph(kind: Cell["kind"], x: number, y: number): SVGElement[] {
   const line = { fill: "none", stroke: "var(--muted)", "stroke-width": 1.3 };
-  if (kind === "linear") return [s("path", { d: `M${x - 11} ${y}H${x + 11}M${x - 7} ${y - 3.5}L${x - 11} ${y}L${x - 7} ${y + 3.5}M${x + 7} ${y - 3.5}L${x + 11} ${y}L${x + 7} ${y + 3.5}`, ...line })];
-  if (kind === "rotary") return [s("path", { d: `M${x - 9} ${y + 3}A9 7 0 1 1 ${x + 9} ${y + 3}M${x + 9.5} ${y - 2.5}L${x + 9} ${y + 3}L${x + 4} ${y + 1.2}`, ...line })];
+  if (kind === "linear")
+    return [
+      s("path", {
+        d: `M${x - 11} ${y}H${x + 11}M${x - 7} ${y - 3.5}L${x - 11} ${y}L${x - 7} ${y + 3.5}M${x + 7} ${y - 3.5}L${x + 11} ${y}L${x + 7} ${y + 3.5}`,
+        ...line,
+      }),
+    ];
+  if (kind === "rotary")
+    return [
+      s("path", {
+        d: `M${x - 9} ${y + 3}A9 7 0 1 1 ${x + 9} ${y + 3}M${x + 9.5} ${y - 2.5}L${x + 9} ${y + 3}L${x + 4} ${y + 1.2}`,
+        ...line,
+      }),
+    ];
   return [];
 }
 
@@ -67,18 +79,64 @@ export function chainPicture(host: HTMLElement, spec: ChainSpec): Figure<ChainSp
       draw: ({ svg, width }) => {
         const step = width / cells.length;
         const box = Math.min(64, step - 10);
-        svg.append(s("line", { x1: step / 2, x2: width - step / 2, y1: 24, y2: 24, stroke: "var(--line-strong)", "stroke-width": 3 }));
+        svg.append(
+          s("line", {
+            x1: step / 2,
+            x2: width - step / 2,
+            y1: 24,
+            y2: 24,
+            stroke: "var(--line-strong)",
+            "stroke-width": 3,
+          }),
+        );
         cells.forEach((cell, i) => {
           const x = (i + 0.5) * step;
           const ends = cell.kind === "bed" || cell.kind === "workpiece" || cell.kind === "tool";
-          const fill = cell.kind === "bed" ? "var(--line)" : cell.kind === "workpiece" ? "var(--scene-part)" : cell.kind === "rotary" ? "var(--accent-soft)" : "var(--raised)";
-          const group = s("g", {}, s("title", {}, cell.below || cell.name), s("rect", { x: x - box / 2, y: 3, width: box, height: 42, rx: 3, fill, stroke: "var(--line-strong)", opacity: cell.kind === "workpiece" ? 0.75 : 1 }), s("text", { x, y: ends ? 28 : 20, "text-anchor": "middle", fill: "var(--ink)", "font-weight": "600", "font-size": ends ? Math.min(11.5, box / 6.3) : 12.5 }, cell.name), ...glyph(cell.kind, x, 34));
+          const fill =
+            cell.kind === "bed"
+              ? "var(--line)"
+              : cell.kind === "workpiece"
+                ? "var(--scene-part)"
+                : cell.kind === "rotary"
+                  ? "var(--accent-soft)"
+                  : "var(--raised)";
+          const group = s(
+            "g",
+            {},
+            s("title", {}, cell.below || cell.name),
+            s("rect", {
+              x: x - box / 2,
+              y: 3,
+              width: box,
+              height: 42,
+              rx: 3,
+              fill,
+              stroke: "var(--line-strong)",
+              opacity: cell.kind === "workpiece" ? 0.75 : 1,
+            }),
+            s(
+              "text",
+              {
+                x,
+                y: ends ? 28 : 20,
+                "text-anchor": "middle",
+                fill: "var(--ink)",
+                "font-weight": "600",
+                "font-size": ends ? Math.min(11.5, box / 6.3) : 12.5,
+              },
+              cell.name,
+            ),
+            ...glyph(cell.kind, x, 34),
+          );
           group.addEventListener("pointerenter", () => now.onhover?.(cell.body));
           group.addEventListener("pointerleave", () => now.onhover?.(null));
           svg.append(group);
           // Words that would run into their neighbours are left to the tooltip.
           const size = Math.min(10.5, (step - 4) / (0.56 * cell.below.length));
-          if (size > 8) svg.append(s("text", { x, y: 60, "text-anchor": "middle", fill: "var(--muted)", "font-size": size }, cell.below));
+          if (size > 8)
+            svg.append(
+              s("text", { x, y: 60, "text-anchor": "middle", fill: "var(--muted)", "font-size": size }, cell.below),
+            );
         });
       },
     };

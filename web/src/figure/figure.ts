@@ -35,7 +35,13 @@ export interface Figure<D> {
 
 /** "Radial deviation (µm)" -> "radial-deviation-um", for file names. */
 export function fileName(title: string): string {
-  return title.toLowerCase().replaceAll("µ", "u").replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "") || "figure";
+  return (
+    title
+      .toLowerCase()
+      .replaceAll("µ", "u")
+      .replace(/[^a-z0-9]+/g, "-")
+      .replace(/^-|-$/g, "") || "figure"
+  );
 }
 
 export function csvOf(columns: readonly Column[]): string {
@@ -65,7 +71,10 @@ export function standaloneSvg(svg: SVGSVGElement): string {
   }
   copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");
   copy.setAttribute("font-family", "Helvetica, Arial, sans-serif");
-  copy.insertBefore(s("rect", { width: "100%", height: "100%", fill: style.getPropertyValue("--surface").trim() }), copy.firstChild);
+  copy.insertBefore(
+    s("rect", { width: "100%", height: "100%", fill: style.getPropertyValue("--surface").trim() }),
+    copy.firstChild,
+  );
   return `<?xml version="1.0" encoding="UTF-8"?>\n${new XMLSerializer().serializeToString(copy)}\n`;
 }
 
@@ -95,7 +104,8 @@ export interface Exports {
 
 /** The small menu at the upper right of a figure: SVG, PNG, CSV. */
 export function exportMenu(title: () => string, exports: Exports): HTMLElement {
-  const item = (label: string, run: () => void): HTMLElement => h("button", { class: "figure-save", ariaLabel: `Save as ${label}`, onclick: run }, label);
+  const item = (label: string, run: () => void): HTMLElement =>
+    h("button", { class: "figure-save", ariaLabel: `Save as ${label}`, onclick: run }, label);
   const save = h("span", { class: "figure-menu", role: "group", ariaLabel: "Save this figure" });
   const svg = exports.svg;
   if (svg) save.append(item("SVG", () => download(`${fileName(title())}.svg`, svg(), "image/svg+xml")));
@@ -115,7 +125,11 @@ export function figure<D>(host: HTMLElement, data: D, make: (data: D) => FigureS
   let svg = s("svg");
   let [width, height] = [0, 0];
   const svgText = (): string => standaloneSvg(svg);
-  const menu = exportMenu(() => source.title, { svg: svgText, png: () => pngOf(svgText(), width, height), csv: csvText });
+  const menu = exportMenu(() => source.title, {
+    svg: svgText,
+    png: () => pngOf(svgText(), width, height),
+    csv: csvText,
+  });
   const element = h("figure", { class: "figure" }, h("div", { class: "figure-head" }, title, menu), place);
   host.append(element);
 
@@ -123,7 +137,16 @@ export function figure<D>(host: HTMLElement, data: D, make: (data: D) => FigureS
     width = Math.max(120, Math.floor(place.clientWidth));
     height = Math.round(source.height(width));
     title.textContent = source.title;
-    svg = s("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": source.title, tabindex: "0", "font-size": "11", class: "figure-svg" });
+    svg = s("svg", {
+      width,
+      height,
+      viewBox: `0 0 ${width} ${height}`,
+      role: "img",
+      "aria-label": source.title,
+      tabindex: "0",
+      "font-size": "11",
+      class: "figure-svg",
+    });
     source.draw({ svg, width, height });
     const focused = place.contains(document.activeElement);
     place.replaceChildren(svg);
@@ -167,7 +190,8 @@ export function ticks(low: number, high: number, count: number): { values: numbe
   const power = 10 ** Math.floor(Math.log10(raw));
   const step = [1, 2, 5, 10].map((m) => m * power).find((x) => x >= raw * 0.999) ?? 10 * power;
   const values: number[] = [];
-  for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * span; i++) values.push(i * step === 0 ? 0 : i * step);
+  for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * span; i++)
+    values.push(i * step === 0 ? 0 : i * step);
   return { values, digits: Math.max(0, -Math.floor(Math.log10(step) + 1e-9)), step };
 }
 
@@ -176,7 +200,9 @@ export function roundNumber(x: number, up = true): number {
   if (!(x > 0)) return 1;
   const power = 10 ** Math.floor(Math.log10(x));
   const steps = [1, 2, 5, 10].map((m) => m * power);
-  return up ? (steps.find((y) => y >= x * 0.9999) ?? 10 * power) : (steps.reverse().find((y) => y <= x * 1.0001) ?? power);
+  return up
+    ? (steps.find((y) => y >= x * 0.9999) ?? 10 * power)
+    : (steps.reverse().find((y) => y <= x * 1.0001) ?? power);
 }
 
 /** Widened by a little, so that nothing lies on the frame; not empty. */

@@ -33,14 +33,60 @@ function drawHeatmap(d: Drawing, spec: HeatmapSpec): void {
   for (let i = 0; i < n; i++) {
     for (let j = 0; j < m; j++) {
       const value = spec.values[i * m + j] as number;
-      const rect = s("rect", { x: left + j * cell, y: top + i * cell, width: cell - (cell > 6 ? 1 : 0), height: cell - (cell > 6 ? 1 : 0), fill: Number.isFinite(value) ? css(map((value - range[0]) / (range[1] - range[0] || 1))) : "var(--line)" });
+      const rect = s("rect", {
+        x: left + j * cell,
+        y: top + i * cell,
+        width: cell - (cell > 6 ? 1 : 0),
+        height: cell - (cell > 6 ? 1 : 0),
+        fill: Number.isFinite(value) ? css(map((value - range[0]) / (range[1] - range[0] || 1))) : "var(--line)",
+      });
       rect.addEventListener("pointerenter", () => (readout.textContent = cellText(spec, i, j)));
       d.svg.append(rect);
-      if (cell >= 25 && Number.isFinite(value)) d.svg.append(s("text", { x: left + (j + 0.5) * cell, y: top + (i + 0.5) * cell + 3, "text-anchor": "middle", "font-size": 8, fill: inkOn(map, value, range), "pointer-events": "none" }, number(value, 1)));
+      if (cell >= 25 && Number.isFinite(value))
+        d.svg.append(
+          s(
+            "text",
+            {
+              x: left + (j + 0.5) * cell,
+              y: top + (i + 0.5) * cell + 3,
+              "text-anchor": "middle",
+              "font-size": 8,
+              fill: inkOn(map, value, range),
+              "pointer-events": "none",
+            },
+            number(value, 1),
+          ),
+        );
     }
-    if (named && cell >= 9) d.svg.append(s("text", { x: left - 6, y: top + (i + 0.5) * cell + 4, "text-anchor": "end", fill: "var(--muted)", "font-size": Math.min(11, cell) }, spec.rows[i] ?? ""));
+    if (named && cell >= 9)
+      d.svg.append(
+        s(
+          "text",
+          {
+            x: left - 6,
+            y: top + (i + 0.5) * cell + 4,
+            "text-anchor": "end",
+            fill: "var(--muted)",
+            "font-size": Math.min(11, cell),
+          },
+          spec.rows[i] ?? "",
+        ),
+      );
   }
-  if (named && cell >= 9) spec.columns.forEach((name, j) => d.svg.append(s("text", { transform: `translate(${left + (j + 0.5) * cell + 4} ${top - 6}) rotate(-90)`, fill: "var(--muted)", "font-size": Math.min(11, cell) }, name)));
+  if (named && cell >= 9)
+    spec.columns.forEach((name, j) =>
+      d.svg.append(
+        s(
+          "text",
+          {
+            transform: `translate(${left + (j + 0.5) * cell + 4} ${top - 6}) rotate(-90)`,
+            fill: "var(--muted)",
+            "font-size": Math.min(11, cell),
+          },
+          name,
+        ),
+      ),
+    );
   d.svg.append(readout);
   addCellKeys(d, spec, readout);
 }
@@ -54,7 +100,9 @@ function inkOn(map: ColourMap, value: number, range: [number, number]): string {
 /** "EX0C – A x: 10.00 µm". */
 function cellText(spec: HeatmapSpec, i: number, j: number): string {
   const value = spec.values[i * spec.columns.length + j] as number;
-  const text = Number.isFinite(value) ? withUnit(value, spec.digits ?? 2, spec.unit ?? "") : (spec.blank ?? withUnit(value, 2, ""));
+  const text = Number.isFinite(value)
+    ? withUnit(value, spec.digits ?? 2, spec.unit ?? "")
+    : (spec.blank ?? withUnit(value, 2, ""));
   return `${spec.rows[i]} – ${spec.columns[j]}: ${text}`;
 }
 
@@ -76,11 +124,19 @@ export function heatmap(host: HTMLElement, spec: HeatmapSpec): Figure<HeatmapSpe
   return figure(host, spec, (now) => ({
     title: now.title,
     draw: (d) => drawHeatmap(d, now),
-    columns: () => [{ heading: now.unit ? `(${now.unit})` : "", values: now.rows }, ...now.columns.map((heading, j) => ({ heading, values: now.rows.map((_, i) => now.values[i * now.columns.length + j] ?? null) }))],
+    columns: () => [
+      { heading: now.unit ? `(${now.unit})` : "", values: now.rows },
+      ...now.columns.map((heading, j) => ({
+        heading,
+        values: now.rows.map((_, i) => now.values[i * now.columns.length + j] ?? null),
+      })),
+    ],
     height: (width) => {
       const left = 10 + 7.4 * Math.max(3, ...now.rows.map((r) => r.length));
       const top = 10 + 7.4 * Math.max(3, ...now.columns.map((c) => c.length));
-      return top + 24 + now.rows.length * Math.max(2, Math.min(26, (width - left - 4) / Math.max(1, now.columns.length)));
+      return (
+        top + 24 + now.rows.length * Math.max(2, Math.min(26, (width - left - 4) / Math.max(1, now.columns.length)))
+      );
     },
   }));
 }

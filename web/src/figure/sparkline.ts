@@ -23,15 +23,26 @@ export interface Sparkline {
 
 export function markedSparkline(spec: SparkSpec): Sparkline {
   const { width = 90, height = 20 } = spec;
-  const svg = s("svg", { class: "sparkline", width, height, viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": spec.label });
+  const svg = s("svg", {
+    class: "sparkline",
+    width,
+    height,
+    viewBox: `0 0 ${width} ${height}`,
+    role: "img",
+    "aria-label": spec.label,
+  });
   const x_range = rangeOf(spec.x);
   const y_found = rangeOf(spec.y);
   const y_range = padded([Math.min(0, y_found[0]), Math.max(0, y_found[1])], 0.1);
   const x = (v: number): number => ((v - x_range[0]) / (x_range[1] - x_range[0] || 1)) * width;
   const y = (v: number): number => height - ((v - y_range[0]) / (y_range[1] - y_range[0])) * height;
-  const points = Array.from({ length: Math.min(spec.x.length, spec.y.length) }, (_, i) => `${x(spec.x[i] as number).toFixed(1)} ${y(spec.y[i] as number).toFixed(1)}`);
+  const points = Array.from(
+    { length: Math.min(spec.x.length, spec.y.length) },
+    (_, i) => `${x(spec.x[i] as number).toFixed(1)} ${y(spec.y[i] as number).toFixed(1)}`,
+  );
   svg.append(s("line", { x1: 0, x2: width, y1: y(0), y2: y(0), stroke: "var(--line-strong)", "stroke-width": 0.8 }));
-  if (points.length > 1) svg.append(s("path", { d: `M${points.join("L")}`, fill: "none", stroke: "var(--series-1)", "stroke-width": 1.4 }));
+  if (points.length > 1)
+    svg.append(s("path", { d: `M${points.join("L")}`, fill: "none", stroke: "var(--series-1)", "stroke-width": 1.4 }));
   const line = s("line", { y1: 0, y2: height, stroke: "var(--accent)", visibility: "hidden" });
   svg.append(line);
   const mark = (at: number | null): void => {

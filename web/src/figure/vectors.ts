@@ -34,13 +34,19 @@ interface View {
   scale: number;
 }
 
-const place = (from: ArrayLike<number>, i: number): Triple => [from[3 * i] as number, from[3 * i + 1] as number, from[3 * i + 2] as number];
+const place = (from: ArrayLike<number>, i: number): Triple => [
+  from[3 * i] as number,
+  from[3 * i + 1] as number,
+  from[3 * i + 2] as number,
+];
 const length = (v: Triple): number => Math.hypot(...v);
 
 /** The box around all places: least and greatest of each direction. */
 function boxOf(spec: VectorSpec): [Triple, Triple] {
   const n = Math.floor(spec.at_mm.length / 3);
-  const ranges = [0, 1, 2].map((j) => (n > 0 ? rangeOf(Array.from({ length: n }, (_, i) => spec.at_mm[3 * i + j] as number)) : ([0, 1] as const)));
+  const ranges = [0, 1, 2].map((j) =>
+    n > 0 ? rangeOf(Array.from({ length: n }, (_, i) => spec.at_mm[3 * i + j] as number)) : ([0, 1] as const),
+  );
   return [ranges.map((r) => r[0]) as Triple, ranges.map((r) => r[1]) as Triple];
 }
 
@@ -57,7 +63,11 @@ function viewOf(spec: VectorSpec, corners: Triple[], width: number, height: numb
   const [x, y] = [rangeOf(corners.map((p) => dot(p, right))), rangeOf(corners.map((p) => dot(p, up)))];
   const scale = Math.min((width - 150) / Math.max(1e-6, x[1] - x[0]), (height - 130) / Math.max(1e-6, y[1] - y[0]));
   const [cx, cy] = [(x[0] + x[1]) / 2, (y[0] + y[1]) / 2];
-  return { x: (p) => width / 2 + scale * (dot(p, right) - cx), y: (p) => height / 2 - scale * (dot(p, up) - cy), scale };
+  return {
+    x: (p) => width / 2 + scale * (dot(p, right) - cx),
+    y: (p) => height / 2 - scale * (dot(p, up) - cy),
+    scale,
+  };
 }
 
 /** Edges of the box, and what each direction runs over, in mm. */
@@ -79,7 +89,18 @@ function drawBox(d: Drawing, corners: Triple[], [low, high]: [Triple, Triple], v
     const falls = dy * dx > 0;
     const [x, y] = [(v.x(from) + v.x(to)) / 2, (v.y(from) + v.y(to)) / 2];
     const flat = Math.abs(dy) < 0.1 * Math.abs(dx);
-    d.svg.append(s("text", { x: x + (steep ? -8 : flat ? 0 : falls ? -8 : 8), y: y + (steep ? 4 : 18), "text-anchor": flat ? "middle" : steep || falls ? "end" : "start", fill: "var(--muted)" }, text));
+    d.svg.append(
+      s(
+        "text",
+        {
+          x: x + (steep ? -8 : flat ? 0 : falls ? -8 : 8),
+          y: y + (steep ? 4 : 18),
+          "text-anchor": flat ? "middle" : steep || falls ? "end" : "start",
+          fill: "var(--muted)",
+        },
+        text,
+      ),
+    );
   });
 }
 
@@ -99,7 +120,8 @@ function arrowPath(x: number, y: number, dx: number, dy: number): string {
   const head = Math.min(6, 0.4 * l);
   const [ux, uy] = [dx / l, dy / l];
   const [tx, ty] = [x + dx, y + dy];
-  const side = (k: number): string => `${(tx - head * ux + k * 0.45 * head * uy).toFixed(1)} ${(ty - head * uy - k * 0.45 * head * ux).toFixed(1)}`;
+  const side = (k: number): string =>
+    `${(tx - head * ux + k * 0.45 * head * uy).toFixed(1)} ${(ty - head * uy - k * 0.45 * head * ux).toFixed(1)}`;
   return `M${x.toFixed(1)} ${y.toFixed(1)}L${tx.toFixed(1)} ${ty.toFixed(1)}M${side(1)}L${tx.toFixed(1)} ${ty.toFixed(1)}L${side(-1)}`;
 }
 
@@ -114,7 +136,12 @@ function drawVectors(d: Drawing, spec: VectorSpec): void {
     const at = place(spec.at_mm, i);
     const [x, y] = [v.x(at), v.y(at)];
     const values = spec.sets.map((set) => `${set.name} ${withUnit(length(place(set.um, i)), 1, "µm")}`).join(", ");
-    const group = s("g", {}, s("title", {}, `X ${number(at[0], 1)}, Y ${number(at[1], 1)}, Z ${withUnit(at[2], 1, "mm")}: ${values}`), s("circle", { cx: x, cy: y, r: 1.6, fill: "var(--muted)" }));
+    const group = s(
+      "g",
+      {},
+      s("title", {}, `X ${number(at[0], 1)}, Y ${number(at[1], 1)}, Z ${withUnit(at[2], 1, "mm")}: ${values}`),
+      s("circle", { cx: x, cy: y, r: 1.6, fill: "var(--muted)" }),
+    );
     for (const set of spec.sets) {
       const um = place(set.um, i);
       const tip: Triple = [at[0] + far * um[0], at[1] + far * um[1], at[2] + far * um[2]];
@@ -155,8 +182,10 @@ export function vectors(host: HTMLElement, spec: VectorSpec): Figure<VectorSpec>
     draw: (d) => drawVectors(d, now),
     columns: () => {
       const n = Math.floor(now.at_mm.length / 3);
-      const column = (from: ArrayLike<number>, j: number): number[] => Array.from({ length: n }, (_, i) => from[3 * i + j] as number);
-      const three = (name: string, unit: string, from: ArrayLike<number>) => ["X", "Y", "Z"].map((axis, j) => ({ heading: `${name} ${axis} (${unit})`, values: column(from, j) }));
+      const column = (from: ArrayLike<number>, j: number): number[] =>
+        Array.from({ length: n }, (_, i) => from[3 * i + j] as number);
+      const three = (name: string, unit: string, from: ArrayLike<number>) =>
+        ["X", "Y", "Z"].map((axis, j) => ({ heading: `${name} ${axis} (${unit})`, values: column(from, j) }));
       return [...three("place", "mm", now.at_mm), ...now.sets.flatMap((set) => three(set.name, "µm", set.um))];
     },
     height: (width) => now.height ?? Math.min(430, Math.max(260, 0.6 * width)),

@@ -66,7 +66,8 @@ export interface TimePlot {
 /** The plots of each group, so that a zoom of one is a zoom of all. */
 const groups = new Map<string, Set<TimePlotView>>();
 
-const floats = (values: ArrayLike<number>): number[] | Float64Array => (values instanceof Float64Array ? values : Float64Array.from(values));
+const floats = (values: ArrayLike<number>): number[] | Float64Array =>
+  values instanceof Float64Array ? values : Float64Array.from(values);
 
 function dataOf(spec: TimePlotSpec): uPlot.AlignedData {
   const columns: (number[] | Float64Array)[] = [floats(spec.time_s)];
@@ -97,7 +98,12 @@ class TimePlotView implements TimePlot {
     const menu = exportMenu(() => this.spec.title, { png: () => this.png(), csv: () => this.csvText() });
     this.place.tabIndex = 0;
     this.place.addEventListener("keydown", (event) => this.key(event));
-    this.element = h("figure", { class: "figure timeplot" }, h("div", { class: "figure-head" }, this.title, this.readout, menu), this.place);
+    this.element = h(
+      "figure",
+      { class: "figure timeplot" },
+      h("div", { class: "figure-head" }, this.title, this.readout, menu),
+      this.place,
+    );
     host.append(this.element);
     if (options.group) groups.set(options.group, (groups.get(options.group) ?? new Set()).add(this));
     this.watch = new ResizeObserver(perFrame(() => this.resize()));
@@ -107,7 +113,10 @@ class TimePlotView implements TimePlot {
   }
 
   update(spec: TimePlotSpec): void {
-    const same = this.plot !== null && spec.series.length === this.spec.series.length && spec.series.every((one, i) => one.name === this.spec.series[i]?.name && !one.low === !this.spec.series[i]?.low);
+    const same =
+      this.plot !== null &&
+      spec.series.length === this.spec.series.length &&
+      spec.series.every((one, i) => one.name === this.spec.series[i]?.name && !one.low === !this.spec.series[i]?.low);
     this.spec = spec;
     if (!same) this.build();
     else {
@@ -140,7 +149,18 @@ class TimePlotView implements TimePlot {
 
   csvText(): string {
     const { series, unit, time_s } = this.spec;
-    return csvOf([{ heading: "time (s)", values: time_s }, ...series.flatMap((one) => [{ heading: `${one.name} (${unit})`, values: one.values }, ...(one.low && one.high ? [{ heading: `${one.name} least (${unit})`, values: one.low }, { heading: `${one.name} greatest (${unit})`, values: one.high }] : [])])]);
+    return csvOf([
+      { heading: "time (s)", values: time_s },
+      ...series.flatMap((one) => [
+        { heading: `${one.name} (${unit})`, values: one.values },
+        ...(one.low && one.high
+          ? [
+              { heading: `${one.name} least (${unit})`, values: one.low },
+              { heading: `${one.name} greatest (${unit})`, values: one.high },
+            ]
+          : []),
+      ]),
+    ]);
   }
 
   dispose(): void {
@@ -154,7 +174,10 @@ class TimePlotView implements TimePlot {
   private build(): void {
     this.plot?.destroy();
     this.title.textContent = this.spec.title;
-    this.place.setAttribute("aria-label", `${this.spec.title}, ${this.spec.unit}, over time. Arrow keys move the cursor, Enter goes there, plus and minus zoom.`);
+    this.place.setAttribute(
+      "aria-label",
+      `${this.spec.title}, ${this.spec.unit}, over time. Arrow keys move the cursor, Enter goes there, plus and minus zoom.`,
+    );
     this.plot = new uPlot(this.config(), dataOf(this.spec), this.place);
     if (this.range) this.zoom(this.range);
   }
@@ -168,24 +191,48 @@ class TimePlotView implements TimePlot {
     this.spec.series.forEach((one, i) => {
       const colour = cssColour(`--series-${((one.colour ?? i) % 7) + 1}`);
       series.push({ label: one.name, stroke: colour, width: 1.4, points: { show: false } });
-      if (one.filled && series.length > 2) bands.push({ series: [series.length - 1, series.length - 2], fill: `${colour}38` });
+      if (one.filled && series.length > 2)
+        bands.push({ series: [series.length - 1, series.length - 2], fill: `${colour}38` });
       if (!one.low || !one.high) return;
-      series.push({ stroke: "transparent", points: { show: false } }, { stroke: "transparent", points: { show: false } });
+      series.push(
+        { stroke: "transparent", points: { show: false } },
+        { stroke: "transparent", points: { show: false } },
+      );
       bands.push({ series: [series.length - 1, series.length - 2], fill: `${colour}38` });
     });
-    const axis = { stroke: ink, grid: { stroke: line, width: 0.7 }, ticks: { stroke: line, width: 0.7 }, font: "11px system-ui, sans-serif" };
+    const axis = {
+      stroke: ink,
+      grid: { stroke: line, width: 0.7 },
+      ticks: { stroke: line, width: 0.7 },
+      font: "11px system-ui, sans-serif",
+    };
     return {
       width: Math.max(80, this.place.clientWidth),
       height: this.spec.height ?? 130,
       legend: { show: false },
       scales: { x: { time: false }, y: { range: (_, low, high) => this.tall(low, high) } },
       axes: [
-        { ...axis, size: 28, values: (_, values) => values.map((v) => withUnit(v, Math.max(0, v % 1 === 0 ? 0 : 2), "s")) },
-        { ...axis, size: 58, space: 18, values: (_, values, __, ___, step) => values.map((v) => number(v, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)))) },
+        {
+          ...axis,
+          size: 28,
+          values: (_, values) => values.map((v) => withUnit(v, Math.max(0, v % 1 === 0 ? 0 : 2), "s")),
+        },
+        {
+          ...axis,
+          size: 58,
+          space: 18,
+          values: (_, values, __, ___, step) =>
+            values.map((v) => number(v, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)))),
+        },
       ],
       series,
       bands,
-      cursor: { y: false, drag: { x: true, y: false, setScale: false }, points: { size: 6 }, ...(group ? { sync: { key: group, setSeries: false } } : {}) },
+      cursor: {
+        y: false,
+        drag: { x: true, y: false, setScale: false },
+        points: { size: 6 },
+        ...(group ? { sync: { key: group, setSeries: false } } : {}),
+      },
       hooks: {
         setCursor: [(plot) => this.showReadout(plot)],
         setSelect: [(plot) => this.selected(plot)],
@@ -234,13 +281,15 @@ class TimePlotView implements TimePlot {
     const plot = this.plot;
     if (!plot) return;
     const step = { ArrowLeft: -8, ArrowRight: 8 }[event.key];
-    const { min = 0, max = 1 } = plot.scales["x"] ?? {};
+    const { min = 0, max = 1 } = plot.scales.x ?? {};
     const [a, b] = [min ?? 0, max ?? 1];
     const left = Math.max(0, plot.cursor.left ?? 0);
     const centre = plot.posToVal(left, "x");
-    if (step !== undefined) plot.setCursor({ left: Math.min(plot.over.clientWidth, Math.max(0, left + step)), top: 10 });
+    if (step !== undefined)
+      plot.setCursor({ left: Math.min(plot.over.clientWidth, Math.max(0, left + step)), top: 10 });
     else if (event.key === "Enter") this.options.onpick?.(centre);
-    else if (event.key === "+" || event.key === "=") this.zoomAll([centre - (centre - a) * 0.6, centre + (b - centre) * 0.6]);
+    else if (event.key === "+" || event.key === "=")
+      this.zoomAll([centre - (centre - a) * 0.6, centre + (b - centre) * 0.6]);
     else if (event.key === "-" || event.key === "Escape") this.zoomAll(null);
     else return;
     event.preventDefault();
@@ -257,7 +306,9 @@ class TimePlotView implements TimePlot {
       this.readout.textContent = `${this.spec.readout(i)}   ${time}`;
       return;
     }
-    const parts = this.spec.series.map((one) => `${one.name} ${withUnit(one.values[i], this.spec.digits ?? 2, this.spec.unit)}`);
+    const parts = this.spec.series.map(
+      (one) => `${one.name} ${withUnit(one.values[i], this.spec.digits ?? 2, this.spec.unit)}`,
+    );
     this.readout.textContent = [time, ...parts].join("   ");
   }
 
@@ -296,7 +347,8 @@ class TimePlotView implements TimePlot {
 
   private resize(): void {
     const width = this.place.clientWidth;
-    if (width > 0 && this.plot && width !== this.plot.width) this.plot.setSize({ width, height: this.spec.height ?? 130 });
+    if (width > 0 && this.plot && width !== this.plot.width)
+      this.plot.setSize({ width, height: this.spec.height ?? 130 });
   }
 
   private png(): Promise<Blob | null> {

@@ -1,6 +1,16 @@
 /** The arrow of positive motion of every axis, drawn over the machine. */
 
-import { Box3, BufferGeometry, Group, Line, LineBasicMaterial, Matrix4, Mesh, MeshBasicMaterial, Vector3 } from "three";
+import {
+  type Box3,
+  BufferGeometry,
+  Group,
+  Line,
+  LineBasicMaterial,
+  type Matrix4,
+  Mesh,
+  MeshBasicMaterial,
+  Vector3,
+} from "three";
 import type { Link } from "../api.ts";
 import { alongMatrix, standingCone } from "./shapes.ts";
 
@@ -44,19 +54,41 @@ export function axisArrow(link: Link, box: Box3, body: Matrix4, size: number, co
     const vertical = Math.abs(d.dot(up)) > 0.7;
     const from = centre.clone();
     if (vertical) from.x += extent.x / 2 + 0.25 * size;
-    else from.addScaledVector(up, (Math.abs(up.x) * extent.x + Math.abs(up.y) * extent.y + Math.abs(up.z) * extent.z) / 2 + 0.12 * size);
+    else
+      from.addScaledVector(
+        up,
+        (Math.abs(up.x) * extent.x + Math.abs(up.y) * extent.y + Math.abs(up.z) * extent.z) / 2 + 0.12 * size,
+      );
     const to = from.clone().addScaledVector(d, size);
     group.add(stroke([from, to], thin), head(solid, to, d, 0.3 * size));
     return { group, label_at: to.clone().addScaledVector(d, 0.55 * size), text };
   }
   const axis = d.clone().multiplyScalar(centre.dot(d));
-  const side = new Vector3(1, 0, 0).cross(d).length() > 0.3 ? new Vector3(1, 0, 0).cross(d).normalize() : new Vector3(0, 1, 0).cross(d).normalize();
+  const side =
+    new Vector3(1, 0, 0).cross(d).length() > 0.3
+      ? new Vector3(1, 0, 0).cross(d).normalize()
+      : new Vector3(0, 1, 0).cross(d).normalize();
   const other = d.clone().cross(side);
-  const across = extent.clone().sub(d.clone().multiply(extent).set(Math.abs(d.x * extent.x), Math.abs(d.y * extent.y), Math.abs(d.z * extent.z)));
+  const across = extent.clone().sub(
+    d
+      .clone()
+      .multiply(extent)
+      .set(Math.abs(d.x * extent.x), Math.abs(d.y * extent.y), Math.abs(d.z * extent.z)),
+  );
   const radius = Math.min(1.6 * size, Math.max(0.7 * size, 0.36 * Math.max(across.x, across.y, across.z) + 0.2 * size));
-  const point = (angle: number): Vector3 => axis.clone().addScaledVector(side, radius * Math.cos(angle)).addScaledVector(other, radius * Math.sin(angle));
+  const point = (angle: number): Vector3 =>
+    axis
+      .clone()
+      .addScaledVector(side, radius * Math.cos(angle))
+      .addScaledVector(other, radius * Math.sin(angle));
   const points = Array.from({ length: 49 }, (_, i) => point(-2.4 + (4.4 * i) / 48));
   const tangent = point(2.01).sub(point(2.0)).normalize();
   group.add(stroke(points, thin), head(solid, point(2.0), tangent, 0.3 * size));
-  return { group, label_at: point(2.0).addScaledVector(point(2.0).sub(axis).normalize(), 0.3 * size).addScaledVector(tangent, 0.3 * size), text };
+  return {
+    group,
+    label_at: point(2.0)
+      .addScaledVector(point(2.0).sub(axis).normalize(), 0.3 * size)
+      .addScaledVector(tangent, 0.3 * size),
+    text,
+  };
 }

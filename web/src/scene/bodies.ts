@@ -132,11 +132,13 @@ export class Bodies {
 
   /** Corners of the boxes around what is seen, where the bodies stand now. */
   corners(): Vector3[] {
-    return this.parts.filter(({ solid }) => solid.visible).flatMap(({ solid }) => {
-      solid.geometry.computeBoundingBox();
-      const box = solid.geometry.boundingBox;
-      return box && !box.isEmpty() ? cornersOf(box).map((corner) => corner.applyMatrix4(solid.matrixWorld)) : [];
-    });
+    return this.parts
+      .filter(({ solid }) => solid.visible)
+      .flatMap(({ solid }) => {
+        solid.geometry.computeBoundingBox();
+        const box = solid.geometry.boundingBox;
+        return box && !box.isEmpty() ? cornersOf(box).map((corner) => corner.applyMatrix4(solid.matrixWorld)) : [];
+      });
   }
 
   // ---- poses ----
@@ -151,7 +153,8 @@ export class Bodies {
     this.moving.forEach((_, i) => {
       matrixOf(nominal, 12 * i, n);
       matrixOf(actual, 12 * i, a);
-      for (let j = 0; j < 16; j++) a.elements[j] = (n.elements[j] as number) + k * ((a.elements[j] as number) - (n.elements[j] as number));
+      for (let j = 0; j < 16; j++)
+        a.elements[j] = (n.elements[j] as number) + k * ((a.elements[j] as number) - (n.elements[j] as number));
       this.place(i, n, a);
     });
   }

@@ -15,7 +15,12 @@ const VIEWS: Record<ViewName, { from: [number, number, number]; label: string; t
 };
 
 const KEYS: Record<string, ViewName> = { "0": "iso", "1": "x", "2": "y", "3": "z" };
-const TURNS: Record<string, [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+const TURNS: Record<string, [number, number]> = {
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, -1],
+  ArrowDown: [0, 1],
+};
 
 interface Seen {
   /** What the whole picture has to show. */
@@ -33,15 +38,30 @@ export class ViewCamera {
   private aspect = 1;
   private controls: OrbitControls | null = null;
   private readonly seen: Seen;
-  private readonly parallel = h("button", { onclick: () => this.toggleParallel(), ariaPressed: "false", title: "Parallel projection (5)" }, "Parallel");
+  private readonly parallel = h(
+    "button",
+    { onclick: () => this.toggleParallel(), ariaPressed: "false", title: "Parallel projection (5)" },
+    "Parallel",
+  );
 
   constructor(seen: Seen) {
     this.seen = seen;
     this.perspective.up.set(0, 0, 1);
     this.orthographic.up.set(0, 0, 1);
-    const views = (Object.keys(VIEWS) as ViewName[]).map((name) => h("button", { title: VIEWS[name].title, ariaLabel: VIEWS[name].title, onclick: () => this.setView(name) }, VIEWS[name].label));
+    const views = (Object.keys(VIEWS) as ViewName[]).map((name) =>
+      h(
+        "button",
+        { title: VIEWS[name].title, ariaLabel: VIEWS[name].title, onclick: () => this.setView(name) },
+        VIEWS[name].label,
+      ),
+    );
     const fit = h("button", { title: "Show everything (4)", onclick: () => this.fit() }, "Fit");
-    this.buttons = h("div", { class: "scene-tools" }, h("div", { class: "group", role: "group", ariaLabel: "View" }, views), h("div", { class: "group" }, fit, this.parallel));
+    this.buttons = h(
+      "div",
+      { class: "scene-tools" },
+      h("div", { class: "group", role: "group", ariaLabel: "View" }, views),
+      h("div", { class: "group" }, fit, this.parallel),
+    );
   }
 
   get camera(): PerspectiveCamera | OrthographicCamera {
@@ -52,7 +72,10 @@ export class ViewCamera {
   attach(canvas: HTMLCanvasElement): void {
     canvas.tabIndex = 0;
     canvas.setAttribute("role", "img");
-    canvas.setAttribute("aria-label", "Machine in three dimensions. Arrow keys turn, Shift and arrow keys move, plus and minus zoom, 0 to 3 choose a view.");
+    canvas.setAttribute(
+      "aria-label",
+      "Machine in three dimensions. Arrow keys turn, Shift and arrow keys move, plus and minus zoom, 0 to 3 choose a view.",
+    );
     canvas.addEventListener("keydown", (event) => this.key(event));
     this.controls = new OrbitControls(this.current, canvas);
     this.controls.addEventListener("change", () => this.seen.moved());
@@ -83,7 +106,10 @@ export class ViewCamera {
     // In the directions of the picture: to the right, up, towards the camera.
     const seen = new Box3().setFromPoints(corners.map((p) => new Vector3(p.dot(right), p.dot(up), p.dot(from))));
     const middle = seen.getCenter(new Vector3());
-    const centre = new Vector3().addScaledVector(right, middle.x).addScaledVector(up, middle.y).addScaledVector(from, middle.z);
+    const centre = new Vector3()
+      .addScaledVector(right, middle.x)
+      .addScaledVector(up, middle.y)
+      .addScaledVector(from, middle.z);
     let distance = 0;
     this.half = 0;
     for (const corner of corners) {
@@ -110,7 +136,8 @@ export class ViewCamera {
       to.position.copy(this.current.position);
       this.half = arm.length() * this.tangent();
       this.orthographic.zoom = 1;
-    } else to.position.copy(target).addScaledVector(arm.normalize(), this.half / this.orthographic.zoom / this.tangent());
+    } else
+      to.position.copy(target).addScaledVector(arm.normalize(), this.half / this.orthographic.zoom / this.tangent());
     to.near = this.current.near;
     to.far = this.current.far;
     this.current = to;
@@ -136,7 +163,10 @@ export class ViewCamera {
 
   /** What is seen in height where the camera looks, mm. */
   height(): number {
-    return 2 * (this.current === this.orthographic ? this.half / this.orthographic.zoom : this.arm().length() * this.tangent());
+    return (
+      2 *
+      (this.current === this.orthographic ? this.half / this.orthographic.zoom : this.arm().length() * this.tangent())
+    );
   }
 
   private tangent(): number {
@@ -178,7 +208,9 @@ export class ViewCamera {
   }
 
   private pan(x: number, y: number): void {
-    const by = new Vector3(-x, y, 0).applyQuaternion(this.current.quaternion).multiplyScalar(0.05 * this.arm().length());
+    const by = new Vector3(-x, y, 0)
+      .applyQuaternion(this.current.quaternion)
+      .multiplyScalar(0.05 * this.arm().length());
     this.current.position.add(by);
     this.controls?.target.add(by);
     this.moved();

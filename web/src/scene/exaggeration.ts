@@ -18,7 +18,15 @@ export const sliderOf = (k: number): number => (100 * Math.log(k)) / Math.log(MO
 /** The control of one picture; it sets the picture at once. */
 export function exaggerationControl(view: MachineView, start = 1000): HTMLElement {
   const text = h("output", { class: "factor" });
-  const slider = h("input", { type: "range", min: "0", max: "100", step: "0.5", class: "exaggeration", ariaLabel: "Exaggeration of the deviations", oninput: () => set(factorOf(Number(slider.value))) });
+  const slider = h("input", {
+    type: "range",
+    min: "0",
+    max: "100",
+    step: "0.5",
+    class: "exaggeration",
+    ariaLabel: "Exaggeration of the deviations",
+    oninput: () => set(factorOf(Number(slider.value))),
+  });
   const ghost = h("input", { type: "checkbox", checked: true, onchange: () => view.setGhostVisible(ghost.checked) });
   const set = (k: number): void => {
     slider.value = String(sliderOf(k));

@@ -1,6 +1,14 @@
 /** The ground of the picture: light, and a grid of round millimetres. */
 
-import { type Box3, DirectionalLight, GridHelper, Group, HemisphereLight, type LineBasicMaterial, Vector3 } from "three";
+import {
+  type Box3,
+  DirectionalLight,
+  GridHelper,
+  Group,
+  HemisphereLight,
+  type LineBasicMaterial,
+  Vector3,
+} from "three";
 import { cssColour } from "../theme.ts";
 
 export function lights(): Group {
@@ -27,6 +35,10 @@ export function gridUnder(box: Box3): Grid {
   material.opacity = 0.55;
   helper.rotateX(Math.PI / 2);
   const centre = box.getCenter(new Vector3());
-  helper.position.set(Math.round(centre.x / step_mm) * step_mm, Math.round(centre.y / step_mm) * step_mm, box.min.z - 1e-3 * wide);
+  helper.position.set(
+    Math.round(centre.x / step_mm) * step_mm,
+    Math.round(centre.y / step_mm) * step_mm,
+    box.min.z - 1e-3 * wide,
+  );
   return { helper, step_mm };
 }

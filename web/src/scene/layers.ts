@@ -1,6 +1,20 @@
 /** What is drawn in the frame of the workpiece: tool paths and surfaces, coloured by value. */
 
-import { Box3, BufferAttribute, BufferGeometry, Group, Line, LineBasicMaterial, Mesh, MeshBasicMaterial, DoubleSide, Points, PointsMaterial, Vector2, Vector3 } from "three";
+import {
+  Box3,
+  BufferAttribute,
+  BufferGeometry,
+  Group,
+  Line,
+  LineBasicMaterial,
+  Mesh,
+  MeshBasicMaterial,
+  DoubleSide,
+  Points,
+  PointsMaterial,
+  Vector2,
+  Vector3,
+} from "three";
 import { colourTable, rangeOf, sequential, type ColourMap } from "../figure/colours.ts";
 
 export interface PathData {
@@ -32,7 +46,12 @@ export interface SurfaceData {
   range?: [number, number];
 }
 
-function paint(values: Float32Array, map: ColourMap, range: [number, number], alpha: (i: number) => number): Uint8Array {
+function paint(
+  values: Float32Array,
+  map: ColourMap,
+  range: [number, number],
+  alpha: (i: number) => number,
+): Uint8Array {
   const table = colourTable(map);
   const [low, high] = range;
   const scale = high > low ? 255 / (high - low) : 0;
@@ -40,7 +59,7 @@ function paint(values: Float32Array, map: ColourMap, range: [number, number], al
   for (let i = 0; i < values.length; i++) {
     const v = values[i] as number;
     const at = 4 * i;
-    if (v === v) {
+    if (!Number.isNaN(v)) {
       const k = 3 * Math.max(0, Math.min(255, Math.round((v - low) * scale)));
       colours[at] = table[k] as number;
       colours[at + 1] = table[k + 1] as number;
@@ -63,7 +82,13 @@ function displaced(positions: Float32Array, by: Float32Array | undefined, k: num
  * farther than a tolerance from the last one kept, or its value or kind has changed. The tolerance
  * starts at 1/4000 of the extent and doubles until at most `budget` points are left.
  */
-export function thinned(positions: Float32Array, values: Float32Array, rapid: Uint8Array | undefined, range: [number, number], budget: number): Uint32Array {
+export function thinned(
+  positions: Float32Array,
+  values: Float32Array,
+  rapid: Uint8Array | undefined,
+  range: [number, number],
+  budget: number,
+): Uint32Array {
   const n = Math.floor(positions.length / 3);
   if (n <= budget) return Uint32Array.from({ length: n }, (_, i) => i);
   const [low, high] = rangeOf(positions);
@@ -73,8 +98,20 @@ export function thinned(positions: Float32Array, values: Float32Array, rapid: Ui
     let count = 0;
     let last = -1;
     for (let i = 0; i < n && count <= budget; i++) {
-      const far = last < 0 || i === n - 1 || Math.hypot((positions[3 * i] as number) - (positions[3 * last] as number), (positions[3 * i + 1] as number) - (positions[3 * last + 1] as number), (positions[3 * i + 2] as number) - (positions[3 * last + 2] as number)) > tolerance;
-      if (!far && Math.abs((values[i] as number) - (values[last] as number)) <= value_step && rapid?.[i] === rapid?.[last]) continue;
+      const far =
+        last < 0 ||
+        i === n - 1 ||
+        Math.hypot(
+          (positions[3 * i] as number) - (positions[3 * last] as number),
+          (positions[3 * i + 1] as number) - (positions[3 * last + 1] as number),
+          (positions[3 * i + 2] as number) - (positions[3 * last + 2] as number),
+        ) > tolerance;
+      if (
+        !far &&
+        Math.abs((values[i] as number) - (values[last] as number)) <= value_step &&
+        rapid?.[i] === rapid?.[last]
+      )
+        continue;
       kept[count++] = i;
       last = i;
     }
@@ -87,8 +124,10 @@ function shiftable(shift: { value: Vector2 }): LineBasicMaterial {
   // Seen through the machine: most of a path lies behind or inside something.
   const material = new LineBasicMaterial({ vertexColors: true, transparent: true, depthTest: false });
   material.onBeforeCompile = (shader) => {
-    shader.uniforms["shift"] = shift;
-    shader.vertexShader = shader.vertexShader.replace("void main() {", "uniform vec2 shift;\nvoid main() {").replace("#include <project_vertex>", "#include <project_vertex>\n\tgl_Position.xy += shift * gl_Position.w;");
+    shader.uniforms.shift = shift;
+    shader.vertexShader = shader.vertexShader
+      .replace("void main() {", "uniform vec2 shift;\nvoid main() {")
+      .replace("#include <project_vertex>", "#include <project_vertex>\n\tgl_Position.xy += shift * gl_Position.w;");
   };
   return material;
 }
@@ -119,13 +158,26 @@ export class PathLayer {
     const position = new BufferAttribute(data.positions, 3);
     this.geometry.setAttribute("position", position).setIndex(index);
     const rapid = data.rapid;
-    const colour = new BufferAttribute(paint(data.values, data.map ?? sequential, this.range, (i) => (rapid?.[i] ? 70 : 255)), 4, true);
+    const colour = new BufferAttribute(
+      paint(data.values, data.map ?? sequential, this.range, (i) => (rapid?.[i] ? 70 : 255)),
+      4,
+      true,
+    );
     this.geometry.setAttribute("color", colour);
     this.rest = new BufferGeometry().setAttribute("position", position).setAttribute("color", colour).setIndex(index);
     this.done = new Line(this.geometry, shiftable({ value: new Vector2() }));
     this.beside = this.shifts.map((shift) => new Line(this.geometry, shiftable(shift)));
-    this.dim = new Line(this.rest, new LineBasicMaterial({ vertexColors: true, transparent: true, opacity: 0.9, depthTest: false }));
-    if (data.deviations) this.ghost = new Line(new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(data.positions.length), 3)).setIndex(index), new LineBasicMaterial({ color: ghost, transparent: true, opacity: 0.8 }));
+    this.dim = new Line(
+      this.rest,
+      new LineBasicMaterial({ vertexColors: true, transparent: true, opacity: 0.9, depthTest: false }),
+    );
+    if (data.deviations)
+      this.ghost = new Line(
+        new BufferGeometry()
+          .setAttribute("position", new BufferAttribute(new Float32Array(data.positions.length), 3))
+          .setIndex(index),
+        new LineBasicMaterial({ color: ghost, transparent: true, opacity: 0.8 }),
+      );
     for (const line of [this.dim, this.done, ...this.beside]) line.renderOrder = 8;
     this.group.add(this.dim, this.done, ...this.beside);
     if (this.ghost) this.group.add(this.ghost);
@@ -160,7 +212,8 @@ export class PathLayer {
   extent(): Box3 {
     const box = new Box3();
     const { positions, rapid } = this.data;
-    const add = (i: number): unknown => box.expandByPoint(new Vector3(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]));
+    const add = (i: number): unknown =>
+      box.expandByPoint(new Vector3(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]));
     for (const i of this.kept) if (!rapid?.[i]) add(i);
     if (box.isEmpty()) for (const i of this.kept) add(i);
     return box;
@@ -197,11 +250,21 @@ export class SurfaceLayer {
     this.data = data;
     this.range = data.range ?? rangeOf(data.values);
     this.geometry.setAttribute("position", new BufferAttribute(new Float32Array(data.positions.length), 3));
-    this.geometry.setAttribute("color", new BufferAttribute(paint(data.values, data.map ?? sequential, this.range, () => 255), 4, true));
+    this.geometry.setAttribute(
+      "color",
+      new BufferAttribute(
+        paint(data.values, data.map ?? sequential, this.range, () => 255),
+        4,
+        true,
+      ),
+    );
     if (data.rings > 1 && data.points_per_ring > 1) {
       this.geometry.setIndex(grid(data.rings, data.points_per_ring, data.closed));
       this.group.add(new Mesh(this.geometry, new MeshBasicMaterial({ vertexColors: true, side: DoubleSide })));
-    } else this.group.add(new Points(this.geometry, new PointsMaterial({ vertexColors: true, size: 3, sizeAttenuation: false })));
+    } else
+      this.group.add(
+        new Points(this.geometry, new PointsMaterial({ vertexColors: true, size: 3, sizeAttenuation: false })),
+      );
     for (const child of this.group.children) child.frustumCulled = false;
     this.setExaggeration(1);
   }

@@ -6,10 +6,19 @@ import { cssColour } from "../theme.ts";
 /** What a part is: it decides the colour. */
 export type Role = "bed" | "linear" | "rotary" | "tool" | "cutter" | "part" | "stock";
 
-type Materials = Record<Role, MeshLambertMaterial> & { edge: LineBasicMaterial; ghost: MeshBasicMaterial; ghost_edge: LineBasicMaterial };
+type Materials = Record<Role, MeshLambertMaterial> & {
+  edge: LineBasicMaterial;
+  ghost: MeshBasicMaterial;
+  ghost_edge: LineBasicMaterial;
+};
 
 function solid(name: string): MeshLambertMaterial {
-  return new MeshLambertMaterial({ color: cssColour(name), polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
+  return new MeshLambertMaterial({
+    color: cssColour(name),
+    polygonOffset: true,
+    polygonOffsetFactor: 1,
+    polygonOffsetUnits: 1,
+  });
 }
 
 function line(name: string, opacity: number): LineBasicMaterial {
@@ -25,10 +34,25 @@ export function makeMaterials(): Materials {
     cutter: solid("--scene-part"),
     part: solid("--scene-part"),
     // The path inside it must be seen.
-    stock: new MeshLambertMaterial({ color: cssColour("--scene-stock"), transparent: true, opacity: 0.35, depthWrite: false, side: DoubleSide }),
+    stock: new MeshLambertMaterial({
+      color: cssColour("--scene-stock"),
+      transparent: true,
+      opacity: 0.35,
+      depthWrite: false,
+      side: DoubleSide,
+    }),
     edge: line("--scene-edge", 0.5),
     // Behind the solid where both coincide, so that an undisplaced body looks clean.
-    ghost: new MeshBasicMaterial({ color: cssColour("--scene-ghost"), transparent: true, opacity: 0.2, depthWrite: false, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2 }),
+    ghost: new MeshBasicMaterial({
+      color: cssColour("--scene-ghost"),
+      transparent: true,
+      opacity: 0.2,
+      depthWrite: false,
+      side: DoubleSide,
+      polygonOffset: true,
+      polygonOffsetFactor: 2,
+      polygonOffsetUnits: 2,
+    }),
     ghost_edge: line("--scene-ghost", 0.85),
   };
 }

@@ -9,7 +9,11 @@ export interface WithModels {
 }
 
 /** Asks for the surfaces only where a model comes from an STL file. `body` names the machine as other requests do. */
-export async function withModels(api: Api, body: { machine: string; text?: string }, machine: MachineDescription): Promise<WithModels> {
+export async function withModels(
+  api: Api,
+  body: { machine: string; text?: string },
+  machine: MachineDescription,
+): Promise<WithModels> {
   if (!machine.models.some((model) => "stl" in model.shape)) return { machine, diagnostics: [] };
   const frame = await api.ask("models", body);
   const models = modelsOf(frame.header.models, frame.f32("corners_mm"));
@@ -19,5 +23,9 @@ export async function withModels(api: Api, body: { machine: string; text?: strin
 /** `corners`: 9 numbers per triangle, model after model. */
 export function modelsOf(models: readonly SurfaceModel[], corners: Float32Array): Model[] {
   let at = 0;
-  return models.map(({ triangles, ...model }) => ({ ...model, shape: { mesh: corners.subarray(at, (at += 9 * triangles)) } }));
+  return models.map(({ triangles, ...model }) => {
+    const from = at;
+    at += 9 * triangles;
+    return { ...model, shape: { mesh: corners.subarray(from, at) } };
+  });
 }

@@ -12,7 +12,14 @@ export class Overlay {
   readonly element = h("div", { class: "scene-overlay" });
   private readonly labels = new Map<string, Label>();
   private readonly layer = h("div", { class: "scene-labels", ariaHidden: "true" });
-  private readonly triad = s("svg", { class: "scene-triad", viewBox: "-40 -40 80 80", width: 84, height: 84, "aria-label": "Directions of the machine axes", role: "img" });
+  private readonly triad = s("svg", {
+    class: "scene-triad",
+    viewBox: "-40 -40 80 80",
+    width: 84,
+    height: 84,
+    "aria-label": "Directions of the machine axes",
+    role: "img",
+  });
   private readonly notes = h("div", { class: "scene-notes" });
   private readonly note_lines = new Map<string, HTMLElement>();
   readonly legend = h("div", { class: "scene-legend" });
@@ -67,13 +74,20 @@ export class Overlay {
     const spans = this.element.querySelectorAll<HTMLElement>(".scene-label:not([hidden]), .scene-note");
     return [...spans].map((span) => {
       const box = span.getBoundingClientRect();
-      return { text: span.textContent ?? "", x: box.left + box.width / 2 - origin.left, y: box.top + box.height / 2 - origin.top };
+      return {
+        text: span.textContent ?? "",
+        x: box.left + box.width / 2 - origin.left,
+        y: box.top + box.height / 2 - origin.top,
+      };
     });
   }
 
   private drawTriad(camera: Camera): void {
     const view = new Matrix4().extractRotation(camera.matrixWorldInverse);
-    const axes = (["X", "Y", "Z"] as const).map((name, i) => ({ name, v: new Vector3().setComponent(i, 1).applyMatrix4(view) }));
+    const axes = (["X", "Y", "Z"] as const).map((name, i) => ({
+      name,
+      v: new Vector3().setComponent(i, 1).applyMatrix4(view),
+    }));
     axes.sort((a, b) => a.v.z - b.v.z);
     this.triad.replaceChildren(
       ...axes.flatMap(({ name, v }) => {
@@ -82,7 +96,11 @@ export class Overlay {
         return [
           s("line", { x1: 0, y1: 0, x2: x, y2: y, class: "triad-line" }),
           s("circle", { cx: x, cy: y, r: 2.2, class: "triad-tip" }),
-          s("text", { x: x * 1.4 + (faint ? 8 : 0), y: y * 1.4 + 4, "text-anchor": "middle", class: "triad-text" }, name),
+          s(
+            "text",
+            { x: x * 1.4 + (faint ? 8 : 0), y: y * 1.4 + 4, "text-anchor": "middle", class: "triad-text" },
+            name,
+          ),
         ];
       }),
     );

@@ -34,7 +34,10 @@ export function probeOf(bodies: Bodies, tool: () => ToolShape | null, frames: ()
       const { min, max } = bodies.boxOf(body);
       return [...min.toArray(), ...max.toArray()];
     },
-    partsOf: (name) => (bodies.named(name)?.node.children ?? []).filter((child) => "isMesh" in child && child.visible).map((child) => child.name),
+    partsOf: (name) =>
+      (bodies.named(name)?.node.children ?? [])
+        .filter((child) => "isMesh" in child && child.visible)
+        .map((child) => child.name),
     frames,
   };
 }

@@ -22,14 +22,18 @@ export function homePoses(links: readonly Link[]): Matrix4[] {
     if (known) return known;
     if (!link || depth > links.length) return new Matrix4();
     const here = matrixOf(link.placement);
-    return (poses[i] = link.parent === null ? here : new Matrix4().multiplyMatrices(pose(link.parent, depth + 1), here));
+    const found = link.parent === null ? here : new Matrix4().multiplyMatrices(pose(link.parent, depth + 1), here);
+    poses[i] = found;
+    return found;
   };
   return links.map((_, i) => pose(i, 0));
 }
 
 /** A length that fits the machine: half of its shortest linear travel, within reason. */
 export function unitOf(links: readonly Link[]): number {
-  const spans = links.filter((l) => l.kind === "linear" && Array.isArray(l.travel)).map((l) => Math.abs((l.travel as [number, number])[1] - (l.travel as [number, number])[0]));
+  const spans = links
+    .filter((l) => l.kind === "linear" && Array.isArray(l.travel))
+    .map((l) => Math.abs((l.travel as [number, number])[1] - (l.travel as [number, number])[0]));
   const shortest = spans.length > 0 ? Math.min(...spans) : 500;
   return Math.min(500, Math.max(60, 0.5 * shortest));
 }
@@ -72,11 +76,24 @@ class Draft {
   /** A box with edges along x, y, z of the machine. */
   box(body: number | null, name: string, centre: Vector3, size: Vector3): void {
     if (body === null) this.footprint.union(new Box3().setFromCenterAndSize(centre, size));
-    this.add(body, name, new BoxGeometry(Math.max(1, size.x), Math.max(1, size.y), Math.max(1, size.z)), new Matrix4().setPosition(centre));
+    this.add(
+      body,
+      name,
+      new BoxGeometry(Math.max(1, size.x), Math.max(1, size.y), Math.max(1, size.z)),
+      new Matrix4().setPosition(centre),
+    );
   }
 
   /** A cylinder from `base` along `direction`. */
-  cylinder(body: number | null, name: string, base: Vector3, direction: Vector3, radius: number, length: number, top = radius): void {
+  cylinder(
+    body: number | null,
+    name: string,
+    base: Vector3,
+    direction: Vector3,
+    radius: number,
+    length: number,
+    top = radius,
+  ): void {
     this.add(body, name, standingCone(radius, top, length), alongMatrix(base, direction));
   }
 
@@ -99,7 +116,11 @@ class Draft {
 const plus = (a: Vector3, b: Vector3, k = 1): Vector3 => a.clone().addScaledVector(b, k);
 /** Half-extent `along` |d| and `across` elsewhere, as a full box size. */
 const sized = (d: Vector3, along: number, across: number, height: number): Vector3 =>
-  new Vector3(Math.abs(d.x) * along + (1 - Math.abs(d.x)) * across, Math.abs(d.y) * along + (1 - Math.abs(d.y)) * across, height);
+  new Vector3(
+    Math.abs(d.x) * along + (1 - Math.abs(d.x)) * across,
+    Math.abs(d.y) * along + (1 - Math.abs(d.y)) * across,
+    height,
+  );
 
 /** From the workpiece down to the bed; returns where the bed begins and how wide it must be. */
 function workpieceSide(draft: Draft, w: number): { z: number; centre: Vector3; size: Vector3 } {
@@ -126,7 +147,12 @@ function workpieceSide(draft: Draft, w: number): { z: number; centre: Vector3; s
     } else if (level) {
       const [low, high] = draft.reach(body);
       draft.box(body, `${link.name} knee`, plus(at, UP, -0.25 * u), new Vector3(2.2 * u, 2.2 * u, 0.5 * u));
-      draft.box(body, `${link.name} column`, plus(at, UP, -0.5 * u - 0.5 * (high - low)), new Vector3(0.9 * u, 0.9 * u, high - low));
+      draft.box(
+        body,
+        `${link.name} column`,
+        plus(at, UP, -0.5 * u - 0.5 * (high - low)),
+        new Vector3(0.9 * u, 0.9 * u, high - low),
+      );
       at.z -= 0.5 * u + (high - low) * 0.5;
     } else {
       const [low, high] = draft.reach(body);
@@ -135,7 +161,8 @@ function workpieceSide(draft: Draft, w: number): { z: number; centre: Vector3; s
       const middle = plus(plus(at, d, (low + high) / 2), UP, -0.42 * u);
       const length = high - low + along;
       const side = new Vector3().crossVectors(UP, d).normalize();
-      for (const sign of [-0.7, 0.7]) draft.box(below, `${link.name} guideway`, plus(middle, side, sign * u), sized(d, length, 0.22 * u, 0.16 * u));
+      for (const sign of [-0.7, 0.7])
+        draft.box(below, `${link.name} guideway`, plus(middle, side, sign * u), sized(d, length, 0.22 * u, 0.16 * u));
       draft.box(below, `${link.name} way bed`, plus(middle, UP, -0.2 * u), sized(d, length, 1.9 * u, 0.24 * u));
       const box = sized(d, length, 2.4 * u, 0);
       size.max(box);
@@ -148,7 +175,15 @@ function workpieceSide(draft: Draft, w: number): { z: number; centre: Vector3; s
 }
 
 /** A swivelling table between two supports. */
-function cradle(draft: Draft, body: number, below: number | null, name: string, at: Vector3, d: Vector3, o: Vector3): void {
+function cradle(
+  draft: Draft,
+  body: number,
+  below: number | null,
+  name: string,
+  at: Vector3,
+  d: Vector3,
+  o: Vector3,
+): void {
   const u = draft.unit;
   const floor = Math.min(at.z - 0.15 * u, o.z - 0.3 * u);
   const middle = new Vector3(o.x, o.y, floor);
@@ -157,11 +192,28 @@ function cradle(draft: Draft, body: number, below: number | null, name: string, 
   for (const sign of [-1, 1]) {
     const cheek = plus(o, d, sign * 1.25 * u);
     const top = Math.max(o.z + 0.3 * u, floor);
-    draft.box(body, `${name} cheek`, new Vector3(cheek.x, cheek.y, (top + floor) / 2), sized(d, 0.2 * u, 0.9 * u, top - floor + 0.3 * u));
-    draft.cylinder(body, `${name} trunnion`, plus(o, d, sign * 1.3 * u), d.clone().multiplyScalar(sign), 0.3 * u, 0.25 * u);
+    draft.box(
+      body,
+      `${name} cheek`,
+      new Vector3(cheek.x, cheek.y, (top + floor) / 2),
+      sized(d, 0.2 * u, 0.9 * u, top - floor + 0.3 * u),
+    );
+    draft.cylinder(
+      body,
+      `${name} trunnion`,
+      plus(o, d, sign * 1.3 * u),
+      d.clone().multiplyScalar(sign),
+      0.3 * u,
+      0.25 * u,
+    );
     const support = plus(o, d, sign * 1.75 * u);
     const height = o.z + 0.45 * u - base;
-    draft.box(below, `${name} support`, new Vector3(support.x, support.y, base + height / 2), sized(d, 0.4 * u, 1.1 * u, height));
+    draft.box(
+      below,
+      `${name} support`,
+      new Vector3(support.x, support.y, base + height / 2),
+      sized(d, 0.4 * u, 1.1 * u, height),
+    );
   }
 }
 
@@ -189,14 +241,27 @@ function toolSide(draft: Draft, t: number, floor: number): void {
 }
 
 /** A rotary axis of the head; returns where its carrier goes on. */
-function swivel(draft: Draft, body: number, below: number | null, name: string, at: Vector3, d: Vector3, o: Vector3): Vector3 {
+function swivel(
+  draft: Draft,
+  body: number,
+  below: number | null,
+  name: string,
+  at: Vector3,
+  d: Vector3,
+  o: Vector3,
+): Vector3 {
   const u = draft.unit;
   if (Math.abs(d.z) < 0.3) {
     const crown = Math.max(at.z, o.z + 0.9 * u) + 0.15 * u;
     draft.cylinder(body, `${name} pivot`, plus(o, d, -0.55 * u), d, 0.28 * u, 1.1 * u);
     for (const sign of [-1, 1]) {
       const arm = plus(o, d, sign * 0.62 * u);
-      draft.box(below, `${name} fork`, new Vector3(arm.x, arm.y, (crown + o.z - 0.35 * u) / 2), sized(d, 0.2 * u, 0.7 * u, crown - o.z + 0.35 * u));
+      draft.box(
+        below,
+        `${name} fork`,
+        new Vector3(arm.x, arm.y, (crown + o.z - 0.35 * u) / 2),
+        sized(d, 0.2 * u, 0.7 * u, crown - o.z + 0.35 * u),
+      );
     }
     draft.box(below, `${name} crown`, new Vector3(o.x, o.y, crown + 0.12 * u), sized(d, 1.44 * u, 0.7 * u, 0.24 * u));
     return new Vector3(o.x, o.y, crown + 0.24 * u);
@@ -234,23 +299,61 @@ interface Slide {
 }
 
 /** A linear axis of the head with what guides it on its carrier. */
-function slide(draft: Draft, body: number, below: number | null, at: Vector3, d: Vector3, behind: Vector3 | null, floor: number, rest: number[]): Slide {
+function slide(
+  draft: Draft,
+  body: number,
+  below: number | null,
+  at: Vector3,
+  d: Vector3,
+  behind: Vector3 | null,
+  floor: number,
+  rest: number[],
+): Slide {
   const u = draft.unit;
   const name = draft.links[body]?.name ?? "";
-  const [low, high] = draft.reach(body).map((q) => q * (d.z < -0.7 ? -1 : 1)).sort((a, b) => a - b) as [number, number];
+  const [low, high] = draft
+    .reach(body)
+    .map((q) => q * (d.z < -0.7 ? -1 : 1))
+    .sort((a, b) => a - b) as [number, number];
   if (Math.abs(d.z) > 0.7) {
     const saddle = at.z + high + 0.7 * u;
     const top = saddle + 0.6 * u - low;
-    draft.box(body, `${name} ram`, new Vector3(at.x, at.y, (top + at.z) / 2), new Vector3(0.9 * u, 0.9 * u, top - at.z));
+    draft.box(
+      body,
+      `${name} ram`,
+      new Vector3(at.x, at.y, (top + at.z) / 2),
+      new Vector3(0.9 * u, 0.9 * u, top - at.z),
+    );
     const back = behind ?? backOf(draft, rest);
     if (below === null) {
       const foot = plus(new Vector3(at.x, at.y, 0), back, 1.55 * u);
-      draft.box(null, "column", new Vector3(foot.x, foot.y, (floor + top) / 2), new Vector3(1.5 * u, 1.5 * u, top - floor));
-      for (const sign of [-0.4, 0.4]) draft.box(null, `${name} guideway`, plus(new Vector3(at.x + sign * u, at.y, (saddle + low + top) / 2), back, 0.7 * u), new Vector3(0.16 * u, 0.22 * u, top - saddle - low + u));
-      draft.box(body, `${name} head slide`, plus(new Vector3(at.x, at.y, at.z + 0.7 * u), back, 0.5 * u), new Vector3(1.2 * u, 0.3 * u, 1.2 * u));
+      draft.box(
+        null,
+        "column",
+        new Vector3(foot.x, foot.y, (floor + top) / 2),
+        new Vector3(1.5 * u, 1.5 * u, top - floor),
+      );
+      for (const sign of [-0.4, 0.4])
+        draft.box(
+          null,
+          `${name} guideway`,
+          plus(new Vector3(at.x + sign * u, at.y, (saddle + low + top) / 2), back, 0.7 * u),
+          new Vector3(0.16 * u, 0.22 * u, top - saddle - low + u),
+        );
+      draft.box(
+        body,
+        `${name} head slide`,
+        plus(new Vector3(at.x, at.y, at.z + 0.7 * u), back, 0.5 * u),
+        new Vector3(1.2 * u, 0.3 * u, 1.2 * u),
+      );
       return { at: foot, behind: back };
     }
-    draft.box(below, `${name} saddle`, plus(new Vector3(at.x, at.y, saddle), back, 0.6 * u), new Vector3(1.3 * u, 0.3 * u, 1.3 * u));
+    draft.box(
+      below,
+      `${name} saddle`,
+      plus(new Vector3(at.x, at.y, saddle), back, 0.6 * u),
+      new Vector3(1.3 * u, 0.3 * u, 1.3 * u),
+    );
     return { at: plus(new Vector3(at.x, at.y, saddle), back, 0.75 * u), behind: back };
   }
   const side = across(d);
@@ -262,11 +365,22 @@ function slide(draft: Draft, body: number, below: number | null, at: Vector3, d:
   }
   const beam = plus(middle, side, 0.45 * u);
   draft.box(below, `${name} beam`, beam, sized(d, length, 0.8 * u, 1.1 * u));
-  for (const sign of [-0.35, 0.35]) draft.box(below, `${name} guideway`, plus(plus(middle, side, 0.02 * u), UP, sign * u), sized(d, length, 0.12 * u, 0.14 * u));
+  for (const sign of [-0.35, 0.35])
+    draft.box(
+      below,
+      `${name} guideway`,
+      plus(plus(middle, side, 0.02 * u), UP, sign * u),
+      sized(d, length, 0.12 * u, 0.14 * u),
+    );
   if (below === null || rest.length === 0) {
     for (const sign of [-0.5, 0.5]) {
       const foot = plus(beam, d, sign * (length - 0.8 * u));
-      draft.box(null, "column", new Vector3(foot.x, foot.y, (floor + at.z + 0.55 * u) / 2), sized(d, 0.8 * u, 1.1 * u, at.z + 0.55 * u - floor));
+      draft.box(
+        null,
+        "column",
+        new Vector3(foot.x, foot.y, (floor + at.z + 0.55 * u) / 2),
+        sized(d, 0.8 * u, 1.1 * u, at.z + 0.55 * u - floor),
+      );
     }
   } else {
     draft.spans.set(below, { length, centre: beam });
@@ -275,7 +389,18 @@ function slide(draft: Draft, body: number, below: number | null, at: Vector3, d:
 }
 
 /** A body that carries a beam and runs on two walls. */
-function portal(draft: Draft, body: number, below: number | null, name: string, at: Vector3, d: Vector3, side: Vector3, low: number, high: number, floor: number): Slide {
+function portal(
+  draft: Draft,
+  body: number,
+  below: number | null,
+  name: string,
+  at: Vector3,
+  d: Vector3,
+  side: Vector3,
+  low: number,
+  high: number,
+  floor: number,
+): Slide {
   const u = draft.unit;
   const span = draft.spans.get(body) ?? { length: 3 * u, centre: at };
   const length = high - low + 1.6 * u;
@@ -289,7 +414,12 @@ function portal(draft: Draft, body: number, below: number | null, name: string, 
     // Posts instead of a closed wall: one sees the work.
     for (const k of [-0.5, 0, 0.5]) {
       const post = plus(wall, d, k * (length - 0.5 * u));
-      draft.box(below, `${name} post`, new Vector3(post.x, post.y, (rail - 0.6 * u + floor) / 2), sized(d, 0.5 * u, 0.5 * u, rail - 0.6 * u - floor));
+      draft.box(
+        below,
+        `${name} post`,
+        new Vector3(post.x, post.y, (rail - 0.6 * u + floor) / 2),
+        sized(d, 0.5 * u, 0.5 * u, rail - 0.6 * u - floor),
+      );
     }
   }
   return { at: new Vector3(span.centre.x, span.centre.y, span.centre.z - 0.75 * u), behind: side };
@@ -304,7 +434,9 @@ export function schematic(machine: MachineDescription): Part[] {
   const bed = workpieceSide(draft, w);
   const u = draft.unit;
   toolSide(draft, t, bed.z);
-  const ground = draft.footprint.union(new Box3().setFromCenterAndSize(bed.centre.setZ(bed.z), bed.size)).expandByScalar(0.3 * u);
+  const ground = draft.footprint
+    .union(new Box3().setFromCenterAndSize(bed.centre.setZ(bed.z), bed.size))
+    .expandByScalar(0.3 * u);
   const size = ground.getSize(new Vector3()).setZ(0.5 * u);
   draft.box(null, "bed", ground.getCenter(new Vector3()).setZ(bed.z - 0.25 * u), size);
   return draft.parts;

@@ -1,6 +1,16 @@
 /** Shapes of the machine file as geometry; placements as matrices (doubles kept). */
 
-import { type Box3, BoxGeometry, BufferAttribute, BufferGeometry, CylinderGeometry, ExtrudeGeometry, Matrix4, Shape as Outline, Vector3 } from "three";
+import {
+  type Box3,
+  BoxGeometry,
+  BufferAttribute,
+  BufferGeometry,
+  CylinderGeometry,
+  ExtrudeGeometry,
+  Matrix4,
+  Shape as Outline,
+  Vector3,
+} from "three";
 import type { Shape } from "../api.ts";
 import type { Role } from "./materials.ts";
 
@@ -17,7 +27,10 @@ export interface Part {
 }
 
 export function cornersOf({ min, max }: Box3): Vector3[] {
-  return Array.from({ length: 8 }, (_, i) => new Vector3(i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z));
+  return Array.from(
+    { length: 8 },
+    (_, i) => new Vector3(i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z),
+  );
 }
 
 /** 12 numbers (rotation row by row, origin) -> matrix. */

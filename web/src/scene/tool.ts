@@ -13,7 +13,9 @@ const SLIM = 0.03;
 export function toolParts(bodies: Bodies, tool: ToolShape): Part[] {
   const body = bodies.indexOf("tool");
   if (body < 0) return [];
-  return tool.segments_mm?.length ? stated(body, tool, tool.segments_mm) : inProportion(body, tool, unitOf(bodies.links));
+  return tool.segments_mm?.length
+    ? stated(body, tool, tool.segments_mm)
+    : inProportion(body, tool, unitOf(bodies.links));
 }
 
 function stated(body: number, { length_mm, tip_mm }: ToolShape, segments: readonly [number, number][]): Part[] {
@@ -22,7 +24,13 @@ function stated(body: number, { length_mm, tip_mm }: ToolShape, segments: readon
   return segments.map(([diameter, length], i) => {
     const matrix = new Matrix4().makeTranslation(x, y, z);
     z += length;
-    return { body, name: i === 0 ? "tool" : "tool holder", geometry: standingCone(diameter / 2, diameter / 2, length), matrix, role: i === 0 ? "cutter" : "tool" };
+    return {
+      body,
+      name: i === 0 ? "tool" : "tool holder",
+      geometry: standingCone(diameter / 2, diameter / 2, length),
+      matrix,
+      role: i === 0 ? "cutter" : "tool",
+    };
   });
 }
 
@@ -30,9 +38,16 @@ function inProportion(body: number, { length_mm, diameter_mm }: ToolShape, u: nu
   if (!(length_mm > 0)) return [];
   const radius = diameter_mm !== null && diameter_mm > 0 ? diameter_mm / 2 : SLIM * length_mm;
   const holder = Math.min(0.45 * length_mm, 0.5 * u);
-  const cutter = new CylinderGeometry(radius, radius, length_mm - holder, 32).rotateX(Math.PI / 2).translate(0, 0, -(length_mm + holder) / 2);
+  const cutter = new CylinderGeometry(radius, radius, length_mm - holder, 32)
+    .rotateX(Math.PI / 2)
+    .translate(0, 0, -(length_mm + holder) / 2);
   return [
-    { body, name: "tool holder", geometry: standingCone(Math.max(1.5 * radius, 0.12 * u), Math.max(2 * radius, 0.2 * u), holder), matrix: new Matrix4().makeTranslation(0, 0, -holder) },
+    {
+      body,
+      name: "tool holder",
+      geometry: standingCone(Math.max(1.5 * radius, 0.12 * u), Math.max(2 * radius, 0.2 * u), holder),
+      matrix: new Matrix4().makeTranslation(0, 0, -holder),
+    },
     { body, name: "tool", geometry: cutter, matrix: new Matrix4(), role: "cutter" },
   ];
 }

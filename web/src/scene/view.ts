@@ -1,6 +1,16 @@
 /** The machine in three dimensions: nominal solid, actual as a ghost, drawn only when something changed. */
 
-import { AxesHelper, Box3, Group, type Mesh, type MeshBasicMaterial, type Object3D, Scene, Vector3, WebGLRenderer } from "three";
+import {
+  AxesHelper,
+  Box3,
+  type Group,
+  type Mesh,
+  type MeshBasicMaterial,
+  type Object3D,
+  Scene,
+  Vector3,
+  WebGLRenderer,
+} from "three";
 import type { MachineDescription, Model, ToolShape } from "../api.ts";
 import { h } from "../dom.ts";
 import { factor } from "../format.ts";
@@ -52,7 +62,11 @@ export class MachineView {
     this.scene.add(this.bodies.root, this.bodies.ghost_root, lights());
     new ResizeObserver(() => this.resize()).observe(this.element);
     onTheme(() => this.repaint());
-    window.trueaxisScene = probeOf(this.bodies, () => this.machine?.tool ?? null, () => this.drawn);
+    window.trueaxisScene = probeOf(
+      this.bodies,
+      () => this.machine?.tool ?? null,
+      () => this.drawn,
+    );
   }
 
   private makeRenderer(): WebGLRenderer | null {
@@ -64,7 +78,13 @@ export class MachineView {
       this.camera.attach(renderer.domElement);
       return renderer;
     } catch {
-      this.element.append(h("p", { class: "scene-failed" }, "This browser cannot draw in three dimensions (WebGL is off). All figures and tables work without it."));
+      this.element.append(
+        h(
+          "p",
+          { class: "scene-failed" },
+          "This browser cannot draw in three dimensions (WebGL is off). All figures and tables work without it.",
+        ),
+      );
       return null;
     }
   }
@@ -128,7 +148,9 @@ export class MachineView {
   /** What stands where the workpiece is (stock, part, fixtures), seen through. */
   setOnWorkpiece(models: readonly Model[]): void {
     for (const part of this.on_workpiece) this.bodies.remove(part);
-    this.on_workpiece = models.map(({ body, name, shape, placement }) => this.bodies.add({ body, name, geometry: geometryOf(shape), matrix: matrixOf(placement), role: "stock" }));
+    this.on_workpiece = models.map(({ body, name, shape, placement }) =>
+      this.bodies.add({ body, name, geometry: geometryOf(shape), matrix: matrixOf(placement), role: "stock" }),
+    );
     // As lines alone: two bodies that are seen through, one in the other, are a muddle.
     for (const { ghost } of this.on_workpiece) ghost.visible = false;
     this.showBlock();
@@ -149,11 +171,13 @@ export class MachineView {
   private showBlock(): void {
     if (!this.block) return;
     const { solid, edges, ghost, ghost_edges } = this.block;
-    for (const node of [solid, edges, ghost, ghost_edges]) node.visible = this.layers.path === null && this.on_workpiece.length === 0;
+    for (const node of [solid, edges, ghost, ghost_edges])
+      node.visible = this.layers.path === null && this.on_workpiece.length === 0;
   }
 
   private addArrows(): void {
-    const size = (this.arrow_mm = 0.085 * this.bounds().getSize(new Vector3()).length());
+    const size = 0.085 * this.bounds().getSize(new Vector3()).length();
+    this.arrow_mm = size;
     for (const link of this.bodies.links) {
       const body = this.bodies.named(link.name);
       if (!body || (link.kind !== "linear" && link.kind !== "rotary")) continue;
@@ -162,7 +186,9 @@ export class MachineView {
       const arrow = axisArrow(link, box, body.node.matrix, size, cssColour("--scene-arrow"));
       body.node.add(arrow.group);
       this.arrows.push(arrow.group);
-      this.overlay.label(`axis ${link.name}`, arrow.text, () => arrow.label_at.clone().applyMatrix4(body.node.matrixWorld));
+      this.overlay.label(`axis ${link.name}`, arrow.text, () =>
+        arrow.label_at.clone().applyMatrix4(body.node.matrixWorld),
+      );
     }
   }
 
@@ -193,7 +219,9 @@ export class MachineView {
   /** New colours after a change of theme. */
   private repaint(): void {
     this.bodies.repaint();
-    for (const arrow of this.arrows) for (const child of arrow.children) ((child as Mesh).material as MeshBasicMaterial).color.set(cssColour("--scene-arrow"));
+    for (const arrow of this.arrows)
+      for (const child of arrow.children)
+        ((child as Mesh).material as MeshBasicMaterial).color.set(cssColour("--scene-arrow"));
     if (this.machine) this.layGrid();
     this.requestRender();
   }

@@ -8,7 +8,16 @@ import { fileSelect, isAbort, Question, reportButton, showRefusal } from "./meas
 import { dropOn, takeHanded, type TextFile } from "./measure/drop.ts";
 import { sheetTable } from "./measure/table.ts";
 import type { IdentifyHeader, Instrument } from "./identify/documents.ts";
-import { confoundedPanel, foundPanel, identifiedName, outlierPanel, scorePanel, strongPairs, valueSheet, verdictPanel } from "./identify/panels.ts";
+import {
+  confoundedPanel,
+  foundPanel,
+  identifiedName,
+  outlierPanel,
+  scorePanel,
+  strongPairs,
+  valueSheet,
+  verdictPanel,
+} from "./identify/panels.ts";
 import { Residuals } from "./identify/residuals.ts";
 
 class IdentifyTab implements TabHandle {
@@ -45,7 +54,11 @@ class IdentifyTab implements TabHandle {
   }
 
   open(params: Readonly<Record<string, string>>): void {
-    const campaign = params["campaign"] ?? this.campaign ?? this.app.state.project?.examples.find((example) => example.tab === "identify")?.path ?? null;
+    const campaign =
+      params.campaign ??
+      this.campaign ??
+      this.app.state.project?.examples.find((example) => example.tab === "identify")?.path ??
+      null;
     if (campaign !== this.campaign) {
       this.instruments = [];
       this.dropped = null;
@@ -78,28 +91,69 @@ class IdentifyTab implements TabHandle {
     this.showForm();
     if (!this.campaign) {
       this.clear();
-      fill(this.result, h("section", { class: "panel" }, h("p", {}, "Choose a campaign: it names the machine, the errors sought and the readings of its instruments.")));
+      fill(
+        this.result,
+        h(
+          "section",
+          { class: "panel" },
+          h("p", {}, "Choose a campaign: it names the machine, the errors sought and the readings of its instruments."),
+        ),
+      );
       return;
     }
     if (this.dropped && this.instruments.length > 1 && !this.instrument) {
       this.clear();
-      fill(this.result, h("section", { class: "panel" }, h("p", {}, `Which instrument are the readings in ${this.dropped.name} of? Choose it above.`)));
+      fill(
+        this.result,
+        h(
+          "section",
+          { class: "panel" },
+          h("p", {}, `Which instrument are the readings in ${this.dropped.name} of? Choose it above.`),
+        ),
+      );
       return;
     }
-    const body = { campaign: this.campaign, ...(this.dropped ? { name: this.dropped.name, text: this.dropped.text, ...(this.instrument ? { instrument: this.instrument } : {}) } : {}) };
+    const body = {
+      campaign: this.campaign,
+      ...(this.dropped
+        ? {
+            name: this.dropped.name,
+            text: this.dropped.text,
+            ...(this.instrument ? { instrument: this.instrument } : {}),
+          }
+        : {}),
+    };
     const asked = JSON.stringify(body);
     // Coming back to the tab shows what is there; a question that was stopped is asked again.
     if (asked === this.asked) return;
     this.asked = asked;
     if (this.campaign !== this.shown) this.clear();
-    if (this.figures.length === 0) fill(this.result, h("section", { class: "panel muted" }, "Fitting the errors to the readings, and checking them on readings held out …"));
+    if (this.figures.length === 0)
+      fill(
+        this.result,
+        h(
+          "section",
+          { class: "panel muted" },
+          "Fitting the errors to the readings, and checking them on readings held out …",
+        ),
+      );
     try {
       this.show(await this.question.ask(body, `identifying from ${this.dropped?.name ?? this.campaign}`));
     } catch (error) {
       if (this.asked === asked) this.asked = "";
       if (isAbort(error)) return;
       this.clear();
-      showRefusal(this.result, error, this.dropped ? undefined : h("p", { class: "note" }, "A CSV of readings that is dropped anywhere on this page is used with this campaign."));
+      showRefusal(
+        this.result,
+        error,
+        this.dropped
+          ? undefined
+          : h(
+              "p",
+              { class: "note" },
+              "A CSV of readings that is dropped anywhere on this page is used with this campaign.",
+            ),
+      );
     }
   }
 
@@ -114,10 +168,23 @@ class IdentifyTab implements TabHandle {
   // ---- the form ----
 
   private showForm(): void {
-    const campaigns = fileSelect(this.app, "Campaign", "identify", (file) => file.kind === "campaign", this.campaign, (campaign) => this.app.go("identify", { campaign }));
+    const campaigns = fileSelect(
+      this.app,
+      "Campaign",
+      "identify",
+      (file) => file.kind === "campaign",
+      this.campaign,
+      (campaign) => this.app.go("identify", { campaign }),
+    );
     fill(
       this.head,
-      h("div", { class: "row" }, h("label", { class: "field grow" }, h("span", {}, "Campaign"), campaigns), this.open_file, reportButton(this.app, { verb: "identify", file: this.dropped ? null : this.campaign })),
+      h(
+        "div",
+        { class: "row" },
+        h("label", { class: "field grow" }, h("span", {}, "Campaign"), campaigns),
+        this.open_file,
+        reportButton(this.app, { verb: "identify", file: this.dropped ? null : this.campaign }),
+      ),
       this.readingsRow(),
     );
   }
@@ -127,10 +194,23 @@ class IdentifyTab implements TabHandle {
     const { dropped } = this;
     if (!dropped) {
       if (this.instruments.length === 0) return null;
-      return h("p", { class: "muted note" }, this.instruments.map((one) => `${one.name} (${one.kind}): ${one.tables.join(", ") || "no readings"}`).join(" · "));
+      return h(
+        "p",
+        { class: "muted note" },
+        this.instruments
+          .map((one) => `${one.name} (${one.kind}): ${one.tables.join(", ") || "no readings"}`)
+          .join(" · "),
+      );
     }
     const back = h("button", { onclick: () => this.forget() }, "Readings of the campaign");
-    return h("div", { class: "row" }, h("strong", {}, dropped.name), h("span", { class: "muted" }, "instead of the readings of"), this.instrumentField(), back);
+    return h(
+      "div",
+      { class: "row" },
+      h("strong", {}, dropped.name),
+      h("span", { class: "muted" }, "instead of the readings of"),
+      this.instrumentField(),
+      back,
+    );
   }
 
   /** Whose readings the dropped ones are: to be chosen if there are several, to be named while nothing is known. */
@@ -138,10 +218,26 @@ class IdentifyTab implements TabHandle {
     const known = this.instruments;
     if (known.length === 1) return h("span", {}, known[0]?.name ?? "");
     if (known.length === 0) {
-      const name = h("input", { type: "text", class: "short", value: this.instrument ?? "", placeholder: "instrument, if there are several", ariaLabel: "Instrument of the dropped readings", onchange: () => this.choose(name.value.trim()) });
+      const name = h("input", {
+        type: "text",
+        class: "short",
+        value: this.instrument ?? "",
+        placeholder: "instrument, if there are several",
+        ariaLabel: "Instrument of the dropped readings",
+        onchange: () => this.choose(name.value.trim()),
+      });
       return name;
     }
-    const of = h("select", { ariaLabel: "Instrument of the dropped readings", dataTest: "instrument", onchange: () => this.choose(of.value) }, h("option", { value: "", disabled: true }, "of which instrument? …"), known.map((one) => h("option", { value: one.name }, `${one.name} (${one.kind})`)));
+    const of = h(
+      "select",
+      {
+        ariaLabel: "Instrument of the dropped readings",
+        dataTest: "instrument",
+        onchange: () => this.choose(of.value),
+      },
+      h("option", { value: "", disabled: true }, "of which instrument? …"),
+      known.map((one) => h("option", { value: one.name }, `${one.name} (${one.kind})`)),
+    );
     of.value = this.instrument ?? "";
     return of;
   }
@@ -169,10 +265,26 @@ class IdentifyTab implements TabHandle {
     this.residuals.show(frame);
     this.showCorrelation(header.correlation, frame.f64("correlation"));
     fill(this.result, verdictPanel(document), scorePanel(document));
-    if (document.errors.length > 0) this.add(foundPanel("Errors of the machine", document.errors, "Bars: value; whiskers: ± 2u, about 95 %. Grey: not told from zero (|z| below 2)."));
-    this.result.append(confoundedPanel(document.unobservable, "Everything that is sought can be told from these readings."));
+    if (document.errors.length > 0)
+      this.add(
+        foundPanel(
+          "Errors of the machine",
+          document.errors,
+          "Bars: value; whiskers: ± 2u, about 95 %. Grey: not told from zero (|z| below 2).",
+        ),
+      );
+    this.result.append(
+      confoundedPanel(document.unobservable, "Everything that is sought can be told from these readings."),
+    );
     if (document.errors.length > 0) this.result.append(this.savePanel(header));
-    if (document.setup.length > 0) this.add(foundPanel("Set-up", document.setup, "Where balls, sockets and optics really sat: found along with the errors, of no interest afterwards."));
+    if (document.setup.length > 0)
+      this.add(
+        foundPanel(
+          "Set-up",
+          document.setup,
+          "Where balls, sockets and optics really sat: found along with the errors, of no interest afterwards.",
+        ),
+      );
     this.result.append(outlierPanel(document), sheetTable(valueSheet(document)));
     this.app.say(this.dropped?.name ?? this.campaign ?? "");
   }
@@ -183,7 +295,15 @@ class IdentifyTab implements TabHandle {
   }
 
   private showCorrelation(names: string[], values: Float64Array): void {
-    const spec: HeatmapSpec = { title: "Correlation of what was identified", rows: names, columns: names, values, range: [-1, 1], digits: 3, blank: "cannot be told" };
+    const spec: HeatmapSpec = {
+      title: "Correlation of what was identified",
+      rows: names,
+      columns: names,
+      values,
+      range: [-1, 1],
+      digits: 3,
+      blank: "cannot be told",
+    };
     this.map.hidden = names.length === 0;
     if (this.heat) this.heat.update(spec);
     else {
@@ -191,19 +311,51 @@ class IdentifyTab implements TabHandle {
       this.map.append(this.pairs);
     }
     const strong = strongPairs(names, values);
-    fill(this.pairs, strong.length > 0 ? strong.map(({ words }) => h("li", {}, words)) : h("li", { class: "muted" }, "No two unknowns are correlated by more than 0.9."));
+    fill(
+      this.pairs,
+      strong.length > 0
+        ? strong.map(({ words }) => h("li", {}, words))
+        : h("li", { class: "muted" }, "No two unknowns are correlated by more than 0.9."),
+    );
   }
 
   private savePanel(header: IdentifyHeader): HTMLElement {
     const file = header.machine_file;
     const name = identifiedName(header);
-    if (!file) return h("section", { class: "panel" }, h("h2", {}, "The identified machine"), h("p", {}, "No machine file is offered: these readings do not support one."));
+    if (!file)
+      return h(
+        "section",
+        { class: "panel" },
+        h("h2", {}, "The identified machine"),
+        h("p", {}, "No machine file is offered: these readings do not support one."),
+      );
     const save = (): void => {
       download(name, file.text);
       for (const table of file.tables) download(table.name.replace(/^.*\//, ""), table.text, "text/csv");
     };
     const tables = file.tables.length > 0 ? ` and ${file.tables.map((table) => table.name).join(", ")}` : "";
-    return h("section", { class: "panel" }, h("div", { class: "panel-head" }, h("h2", {}, "The identified machine"), h("button", { class: "primary", dataTest: "save-machine", onclick: save }, "Save the identified machine")), h("p", { class: "muted" }, `${name}${tables}: ${header.machine} with the errors found here in place of its own, each with its uncertainty.`), header.document.verdict.good ? null : h("p", { class: "unsound" }, "The verdict is not good: something that these errors do not describe is left in the readings."));
+    return h(
+      "section",
+      { class: "panel" },
+      h(
+        "div",
+        { class: "panel-head" },
+        h("h2", {}, "The identified machine"),
+        h("button", { class: "primary", dataTest: "save-machine", onclick: save }, "Save the identified machine"),
+      ),
+      h(
+        "p",
+        { class: "muted" },
+        `${name}${tables}: ${header.machine} with the errors found here in place of its own, each with its uncertainty.`,
+      ),
+      header.document.verdict.good
+        ? null
+        : h(
+            "p",
+            { class: "unsound" },
+            "The verdict is not good: something that these errors do not describe is left in the readings.",
+          ),
+    );
   }
 }
 

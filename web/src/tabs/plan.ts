@@ -67,8 +67,30 @@ class PlanTab implements TabHandle {
     const { left, right } = split(host, "plan", 0.54);
     this.view = new MachineView(left);
     this.layer = new StationLayer(this.view);
-    this.slider = h("input", { type: "range", min: "0", max: "0", step: "1", value: "0", class: "station-slider", ariaLabel: "Station of the path", oninput: () => this.go(Number(this.slider.value)) });
-    left.append(h("div", { class: "scene-bottom" }, h("div", { class: "scene-control" }, h("button", { title: "Look at the stations from near", onclick: () => this.layer.closeUp() }, "Close up"), h("span", {}, "Station"), this.slider, this.where)));
+    this.slider = h("input", {
+      type: "range",
+      min: "0",
+      max: "0",
+      step: "1",
+      value: "0",
+      class: "station-slider",
+      ariaLabel: "Station of the path",
+      oninput: () => this.go(Number(this.slider.value)),
+    });
+    left.append(
+      h(
+        "div",
+        { class: "scene-bottom" },
+        h(
+          "div",
+          { class: "scene-control" },
+          h("button", { title: "Look at the stations from near", onclick: () => this.layer.closeUp() }, "Close up"),
+          h("span", {}, "Station"),
+          this.slider,
+          this.where,
+        ),
+      ),
+    );
     this.open_file = dropOn(host, app, "Readings …", (file) => {
       handOver(file);
       app.go("identify", { campaign: this.campaign });
@@ -78,8 +100,12 @@ class PlanTab implements TabHandle {
   }
 
   open(params: Readonly<Record<string, string>>): void {
-    this.campaign = params["campaign"] ?? this.campaign ?? this.app.state.project?.examples.find((example) => example.tab === "plan")?.path ?? null;
-    this.dialect = params["dialect"] ?? this.dialect;
+    this.campaign =
+      params.campaign ??
+      this.campaign ??
+      this.app.state.project?.examples.find((example) => example.tab === "plan")?.path ??
+      null;
+    this.dialect = params.dialect ?? this.dialect;
     void this.run();
   }
 
@@ -97,7 +123,14 @@ class PlanTab implements TabHandle {
     this.showForm();
     if (!this.campaign) {
       this.clear();
-      fill(this.result, h("section", { class: "panel" }, h("p", {}, "Choose a campaign: it names the machine, the errors sought, the instrument and its paths.")));
+      fill(
+        this.result,
+        h(
+          "section",
+          { class: "panel" },
+          h("p", {}, "Choose a campaign: it names the machine, the errors sought, the instrument and its paths."),
+        ),
+      );
       return;
     }
     const body = { campaign: this.campaign, dialect: this.dialect };
@@ -105,7 +138,11 @@ class PlanTab implements TabHandle {
     if (asked === this.asked) return;
     this.asked = asked;
     if (this.campaign !== this.shown) this.clear();
-    if (!this.frame) fill(this.result, h("section", { class: "panel muted" }, "Working out the paths, what they see, and their programs …"));
+    if (!this.frame)
+      fill(
+        this.result,
+        h("section", { class: "panel muted" }, "Working out the paths, what they see, and their programs …"),
+      );
     try {
       await this.show(await this.question.ask(body, `planning ${this.campaign}`));
     } catch (error) {
@@ -125,12 +162,36 @@ class PlanTab implements TabHandle {
   }
 
   private showForm(): void {
-    const campaigns = fileSelect(this.app, "Campaign", "plan", (file) => file.kind === "campaign", this.campaign, (campaign) => this.app.go("plan", { campaign, dialect: this.dialect }));
-    fill(this.head, h("div", { class: "row" }, h("label", { class: "field grow" }, h("span", {}, "Campaign"), campaigns), this.open_file, reportButton(this.app, { verb: "plan", file: this.campaign })));
+    const campaigns = fileSelect(
+      this.app,
+      "Campaign",
+      "plan",
+      (file) => file.kind === "campaign",
+      this.campaign,
+      (campaign) => this.app.go("plan", { campaign, dialect: this.dialect }),
+    );
+    fill(
+      this.head,
+      h(
+        "div",
+        { class: "row" },
+        h("label", { class: "field grow" }, h("span", {}, "Campaign"), campaigns),
+        this.open_file,
+        reportButton(this.app, { verb: "plan", file: this.campaign }),
+      ),
+    );
   }
 
   private dialectSelect(): HTMLElement {
-    const select = h("select", { ariaLabel: "Control of the programs", dataTest: "dialect", onchange: () => this.app.go("plan", { campaign: this.campaign, dialect: select.value }) }, DIALECTS.map(([key, title]) => h("option", { value: key }, title)));
+    const select = h(
+      "select",
+      {
+        ariaLabel: "Control of the programs",
+        dataTest: "dialect",
+        onchange: () => this.app.go("plan", { campaign: this.campaign, dialect: select.value }),
+      },
+      DIALECTS.map(([key, title]) => h("option", { value: key }, title)),
+    );
     select.value = this.dialect;
     return select;
   }
@@ -157,7 +218,10 @@ class PlanTab implements TabHandle {
     if (document.chosen) this.result.append(chosenPanel(document.chosen));
     this.draw(seenPanel(document));
     fill(this.programs, programsPanel(header, this.dialectSelect()));
-    if (header.diagnostics.length > 0) this.programs.append(h("section", { class: "panel" }, h("h2", {}, "Remarks"), diagnosticList(header.diagnostics)));
+    if (header.diagnostics.length > 0)
+      this.programs.append(
+        h("section", { class: "panel" }, h("h2", {}, "Remarks"), diagnosticList(header.diagnostics)),
+      );
     // The chosen poses come last, and are what the plan is about.
     const wanted = document.chosen ? header.paths.length - 1 : Math.min(this.path, header.paths.length - 1);
     this.choosePath(Math.max(0, wanted));
@@ -175,7 +239,10 @@ class PlanTab implements TabHandle {
     const header = this.frame?.header;
     if (!header) return;
     this.path = path;
-    fill(this.paths, pathsPanel(header, path, (chosen) => this.choosePath(chosen)));
+    fill(
+      this.paths,
+      pathsPanel(header, path, (chosen) => this.choosePath(chosen)),
+    );
     this.slider.max = String(Math.max(0, (header.paths[path]?.stations ?? 1) - 1));
     this.layer.show(this.tools(), 0, this.tool_mm);
     this.view.overlay.note("stations", `Strokes: tool axis at every station; the tool is that of the machine file`);
@@ -213,15 +280,35 @@ class PlanTab implements TabHandle {
       const at = this.commands(i);
       return header.axes.map(({ name, unit }) => h("td", { class: "number" }, number(at[name], unit === "mm" ? 3 : 4)));
     };
-    const rows = Array.from({ length: shown }, (_, i) => h("tr", { dataStation: i, tabindex: "0", onclick: () => this.go(i), onkeydown: (event: KeyboardEvent) => event.key === "Enter" && this.go(i) }, h("td", { class: "number" }, String(i + 1)), cells(i)));
-    const heading = header.axes.map(({ name, unit }) => h("th", { class: "number" }, `${name}, ${unit === "mm" ? "mm" : "°"}`));
+    const rows = Array.from({ length: shown }, (_, i) =>
+      h(
+        "tr",
+        {
+          dataStation: i,
+          tabindex: "0",
+          onclick: () => this.go(i),
+          onkeydown: (event: KeyboardEvent) => event.key === "Enter" && this.go(i),
+        },
+        h("td", { class: "number" }, String(i + 1)),
+        cells(i),
+      ),
+    );
+    const heading = header.axes.map(({ name, unit }) =>
+      h("th", { class: "number" }, `${name}, ${unit === "mm" ? "mm" : "°"}`),
+    );
     const name = header.paths[this.path]?.name ?? "";
     this.stations.hidden = count === 0;
     fill(
       this.stations,
       h("h2", {}, name === "chosen" ? "Stations of the chosen poses" : `Stations of path ${name}`),
-      h("div", { class: "stations" }, h("table", {}, h("thead", {}, h("tr", {}, h("th", { class: "number" }, "No."), heading)), h("tbody", {}, rows))),
-      shown < count ? h("p", { class: "muted note" }, `The first ${shown} of ${count}; the slider below the machine reaches all.`) : null,
+      h(
+        "div",
+        { class: "stations" },
+        h("table", {}, h("thead", {}, h("tr", {}, h("th", { class: "number" }, "No."), heading)), h("tbody", {}, rows)),
+      ),
+      shown < count
+        ? h("p", { class: "muted note" }, `The first ${shown} of ${count}; the slider below the machine reaches all.`)
+        : null,
     );
   }
 
@@ -231,12 +318,15 @@ class PlanTab implements TabHandle {
     this.slider.value = String(station);
     const at = this.commands(station);
     // Lengths in a row have their unit once, after the last.
-    const value = (name: string, unit: string, next: string | undefined): string => (unit !== "mm" ? deg(at[name], 1) : next === "mm" ? number(at[name], 1) : mm(at[name], 1));
-    const text = this.frame.header.axes.map(({ name, unit }, i, axes) => `${name}${NARROW_SPACE}${value(name, unit, axes[i + 1]?.unit)}`).join(" ");
+    const value = (name: string, unit: string, next: string | undefined): string =>
+      unit !== "mm" ? deg(at[name], 1) : next === "mm" ? number(at[name], 1) : mm(at[name], 1);
+    const text = this.frame.header.axes
+      .map(({ name, unit }, i, axes) => `${name}${NARROW_SPACE}${value(name, unit, axes[i + 1]?.unit)}`)
+      .join(" ");
     this.where.textContent = `${station + 1} of ${this.span()[1]}: ${text}`;
     this.slider.setAttribute("aria-valuetext", this.where.textContent);
     for (const row of this.stations.querySelectorAll<HTMLElement>("[data-station]")) {
-      const here = row.dataset["station"] === String(station);
+      const here = row.dataset.station === String(station);
       if (here !== (row.getAttribute("aria-selected") === "true")) row.setAttribute("aria-selected", String(here));
       if (here) scrollInto(row);
     }

@@ -16,7 +16,11 @@ import { WhatIf, type Changes } from "./predict/whatif.ts";
 
 type Answer = PieceFrame | Frame<HolesHeader>;
 type Page = "blame" | "what-if" | "numbers";
-const PAGES: readonly [Page, string][] = [["blame", "Who is to blame"], ["what-if", "What if"], ["numbers", "All numbers"]];
+const PAGES: readonly [Page, string][] = [
+  ["blame", "Who is to blame"],
+  ["what-if", "What if"],
+  ["numbers", "All numbers"],
+];
 
 interface Wanted {
   study: string;
@@ -31,7 +35,14 @@ class PredictTab implements TabHandle {
   private readonly holes_page = h("div", { class: "predict-page", hidden: true });
   private readonly pages = new Map<Page, HTMLElement>();
   private readonly page_buttons = h("div", { class: "group", role: "group", ariaLabel: "Shown below" });
-  private piece: { summary: Summary; view: PieceView; sections: Sections; blame: Blame; what_if: WhatIf; details: Details } | null = null;
+  private piece: {
+    summary: Summary;
+    view: PieceView;
+    sections: Sections;
+    blame: Blame;
+    what_if: WhatIf;
+    details: Details;
+  } | null = null;
   private holes: Holes | null = null;
   private study: string | null = null;
   private stop = new AbortController();
@@ -49,9 +60,16 @@ class PredictTab implements TabHandle {
   }
 
   open(params: Readonly<Record<string, string>>): void {
-    const wanted = params["study"] ?? this.study ?? this.firstStudy();
+    const wanted = params.study ?? this.study ?? this.firstStudy();
     if (wanted === null) {
-      fill(this.empty, h("p", {}, "There is no study in this folder. Open an example on the first page, or put a study that names a machine and a test piece into the folder."));
+      fill(
+        this.empty,
+        h(
+          "p",
+          {},
+          "There is no study in this folder. Open an example on the first page, or put a study that names a machine and a test piece into the folder.",
+        ),
+      );
       return;
     }
     if (wanted !== this.study) void this.load(wanted);
@@ -60,7 +78,11 @@ class PredictTab implements TabHandle {
   /** That of the first example, where there are examples. */
   private firstStudy(): string | null {
     const project = this.app.state.project;
-    return project?.examples.find((e) => e.tab === "predict")?.path ?? project?.files.find((f) => f.kind === "study")?.path ?? null;
+    return (
+      project?.examples.find((e) => e.tab === "predict")?.path ??
+      project?.files.find((f) => f.kind === "study")?.path ??
+      null
+    );
   }
 
   changed(path: string): void {
@@ -69,11 +91,16 @@ class PredictTab implements TabHandle {
 
   private async load(study: string): Promise<void> {
     this.stop.abort();
-    const stop = (this.stop = new AbortController());
+    const stop = new AbortController();
+    this.stop = stop;
     this.study = study;
     const progress = this.app.progress(`predicting ${study}`);
     try {
-      const frame = await this.app.api.ask<Answer>("predict", { study }, { onProgress: progress.report, signal: stop.signal });
+      const frame = await this.app.api.ask<Answer>(
+        "predict",
+        { study },
+        { onProgress: progress.report, signal: stop.signal },
+      );
       progress.done();
       this.empty.hidden = true;
       this.holes_page.hidden = frame.header.kind !== "holes";
@@ -146,14 +173,22 @@ class PredictTab implements TabHandle {
       correct: (error, text) => this.tryIt(() => what_if.correct(error, text)),
     });
     const view = new PieceView(scene);
-    const built = { summary, view, sections: new Sections(polar, (index) => view.mark(index)), blame, what_if, details: new Details(place("numbers")) };
+    const built = {
+      summary,
+      view,
+      sections: new Sections(polar, (index) => view.mark(index)),
+      blame,
+      what_if,
+      details: new Details(place("numbers")),
+    };
     this.showPage("blame");
     return built;
   }
 
   private showPage(page: Page): void {
     for (const [name, host] of this.pages) host.hidden = name !== page;
-    for (const button of this.page_buttons.querySelectorAll("button")) button.setAttribute("aria-pressed", String(button.dataset["show"] === page));
+    for (const button of this.page_buttons.querySelectorAll("button"))
+      button.setAttribute("aria-pressed", String(button.dataset.show === page));
   }
 
   private tryIt(change: () => void): void {

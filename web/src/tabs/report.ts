@@ -35,13 +35,25 @@ interface Made {
 
 class ReportTab implements TabHandle {
   private readonly app: App;
-  private readonly verb = h("select", { ariaLabel: "Kind of report", onchange: () => this.showFiles() }, VERBS.map(({ name, title }) => h("option", { value: name }, title)));
+  private readonly verb = h(
+    "select",
+    { ariaLabel: "Kind of report", onchange: () => this.showFiles() },
+    VERBS.map(({ name, title }) => h("option", { value: name }, title)),
+  );
   private readonly file = h("select", { ariaLabel: "File", dataTest: "report-file" });
   private readonly machine = h("select", { ariaLabel: "Machine file" });
   private readonly standard = h("select", { ariaLabel: "Standard" });
   private readonly make = h("button", { class: "primary", onclick: () => void this.run() }, "Make the report");
   private readonly save = h("button", { disabled: true, onclick: () => void this.saveFile() }, "Save HTML");
-  private readonly print = h("button", { disabled: true, title: "The browser's print dialog also saves as PDF", onclick: () => this.frame?.contentWindow?.print() }, "Print or PDF");
+  private readonly print = h(
+    "button",
+    {
+      disabled: true,
+      title: "The browser's print dialog also saves as PDF",
+      onclick: () => this.frame?.contentWindow?.print(),
+    },
+    "Print or PDF",
+  );
   private readonly note = h("span", { class: "muted", dataTest: "report-note" });
   private readonly page = h("div", { class: "report-page" });
   private frame: HTMLIFrameElement | null = null;
@@ -51,7 +63,24 @@ class ReportTab implements TabHandle {
 
   constructor(host: HTMLElement, app: App) {
     this.app = app;
-    fill(host, h("div", { class: "report" }, h("div", { class: "report-head" }, this.verb, this.file, this.machine, this.standard, this.make, h("span", { class: "report-after" }, this.note, this.save, this.print)), this.page));
+    fill(
+      host,
+      h(
+        "div",
+        { class: "report" },
+        h(
+          "div",
+          { class: "report-head" },
+          this.verb,
+          this.file,
+          this.machine,
+          this.standard,
+          this.make,
+          h("span", { class: "report-after" }, this.note, this.save, this.print),
+        ),
+        this.page,
+      ),
+    );
     this.showEmpty();
   }
 
@@ -59,7 +88,10 @@ class ReportTab implements TabHandle {
   private async loadStandards(): Promise<void> {
     if (this.standard.options.length > 0) return;
     const list = await this.app.api.ask<Standard[]>("standards", {});
-    fill(this.standard, list.map(({ key, title }) => h("option", { value: key }, title)));
+    fill(
+      this.standard,
+      list.map(({ key, title }) => h("option", { value: key }, title)),
+    );
   }
 
   open(params: Readonly<Record<string, string>>): void {
@@ -68,13 +100,13 @@ class ReportTab implements TabHandle {
 
   private async show(params: Readonly<Record<string, string>>): Promise<void> {
     await this.loadStandards();
-    const verb = params["verb"] ?? this.verb.value;
+    const verb = params.verb ?? this.verb.value;
     this.verb.value = VERBS.some((v) => v.name === verb) ? verb : "predict";
-    this.showFiles(params["file"], params["machine"] ?? this.app.state.machine ?? undefined);
-    if (params["standard"]) this.standard.value = params["standard"];
+    this.showFiles(params.file, params.machine ?? this.app.state.machine ?? undefined);
+    if (params.standard) this.standard.value = params.standard;
     // A link that names its file asks for the report; coming back to the tab does not ask again.
     const asked = JSON.stringify(params);
-    if (params["file"] && asked !== this.last) void this.run();
+    if (params.file && asked !== this.last) void this.run();
     this.last = asked;
   }
 
@@ -83,7 +115,14 @@ class ReportTab implements TabHandle {
   }
 
   private showEmpty(): void {
-    fill(this.page, h("p", { class: "report-empty muted" }, "Choose what to report on. The report is one HTML file with all figures in it: it opens offline, and the browser prints it or saves it as PDF."));
+    fill(
+      this.page,
+      h(
+        "p",
+        { class: "report-empty muted" },
+        "Choose what to report on. The report is one HTML file with all figures in it: it opens offline, and the browser prints it or saves it as PDF.",
+      ),
+    );
   }
 
   private showFiles(file?: string, machine?: string): void {
@@ -91,8 +130,13 @@ class ReportTab implements TabHandle {
     if (!verb) return;
     // What the first page offers comes first.
     const offered = new Set(this.app.state.project?.examples.map((e) => e.path));
-    const files = [...(this.app.state.project?.files ?? [])].sort((a, b) => Number(offered.has(b.path)) - Number(offered.has(a.path)));
-    const of = (kinds: readonly FileKind[], also: string | undefined): HTMLElement[] => [...new Set([...(also ? [also] : []), ...files.filter((f) => kinds.includes(f.kind)).map((f) => f.path)])].map((path) => h("option", { value: path }, path));
+    const files = [...(this.app.state.project?.files ?? [])].sort(
+      (a, b) => Number(offered.has(b.path)) - Number(offered.has(a.path)),
+    );
+    const of = (kinds: readonly FileKind[], also: string | undefined): HTMLElement[] =>
+      [...new Set([...(also ? [also] : []), ...files.filter((f) => kinds.includes(f.kind)).map((f) => f.path)])].map(
+        (path) => h("option", { value: path }, path),
+      );
     fill(this.file, of(verb.file, file));
     if (file) this.file.value = file;
     fill(this.machine, of(["machine"], machine));
@@ -105,9 +149,15 @@ class ReportTab implements TabHandle {
   private async run(): Promise<void> {
     const verb = VERBS.find((v) => v.name === this.verb.value);
     if (!verb || !this.file.value) return;
-    const body = { verb: verb.name, file: this.file.value, ...(verb.needs_machine ? { machine: this.machine.value } : {}), ...(verb.name === "evaluate" ? { standard: this.standard.value } : {}) };
+    const body = {
+      verb: verb.name,
+      file: this.file.value,
+      ...(verb.needs_machine ? { machine: this.machine.value } : {}),
+      ...(verb.name === "evaluate" ? { standard: this.standard.value } : {}),
+    };
     this.stop.abort();
-    const stop = (this.stop = new AbortController());
+    const stop = new AbortController();
+    this.stop = stop;
     const progress = this.app.progress(`reporting on ${body.file}`);
     this.make.disabled = true;
     this.take(null);
@@ -129,7 +179,13 @@ class ReportTab implements TabHandle {
     this.showEmpty();
     if (!made) return;
     // The same origin, so that the browser can print what is in it; no scripts.
-    this.frame = h("iframe", { class: "report-frame", title: made.name, sandbox: "allow-same-origin allow-modals", src: made.url.replace(/^\//, ""), onload: () => (this.print.disabled = false) });
+    this.frame = h("iframe", {
+      class: "report-frame",
+      title: made.name,
+      sandbox: "allow-same-origin allow-modals",
+      src: made.url.replace(/^\//, ""),
+      onload: () => (this.print.disabled = false),
+    });
     this.note.textContent = `${made.name}, ${bytes(made.bytes)}`;
     this.save.disabled = false;
     fill(this.page, this.frame);

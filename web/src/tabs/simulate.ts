@@ -57,16 +57,41 @@ class SimulateTab implements TabHandle {
     const top = h("div", { class: "simulate-top" });
     const { left, right } = split(top, "simulate", 0.56);
     this.view = new MachineView(left);
-    this.player = new Player({ show: (t) => this.showTime(t), step: (t, step) => this.step(t, step), failed: (e) => this.failed(e), changed: (on) => this.transport.setPlaying(on) });
+    this.player = new Player({
+      show: (t) => this.showTime(t),
+      step: (t, step) => this.step(t, step),
+      failed: (e) => this.failed(e),
+      changed: (on) => this.transport.setPlaying(on),
+    });
     this.transport = new Transport(this.player);
     this.timeline = new Timeline((t) => this.player.seek(t));
     this.path = new ToolPath(this.view, (e) => this.failed(e));
-    this.curves = new Curves({ seek: (t) => this.player.seek(t), zoomed: (window_s) => this.zoomed(window_s), failed: (e) => this.failed(e) });
+    this.curves = new Curves({
+      seek: (t) => this.player.seek(t),
+      zoomed: (window_s) => this.zoomed(window_s),
+      failed: (e) => this.failed(e),
+    });
     this.choices = new Choices(app, (choice, dropped) => this.go(choice, dropped));
     left.append(h("div", { class: "scene-bottom" }, this.path.control, exaggerationControl(this.view)));
     right.classList.add("simulate-side");
-    fill(right, this.choices.element, this.busy, this.summary.element, h("section", { class: "panel simulate-source", ariaLabel: "Source" }, this.source_head, this.source.element), this.readout.element);
-    fill(host, h("div", { class: "simulate" }, top, h("div", { class: "simulate-time" }, this.transport.element, this.timeline.element), this.curves.element));
+    fill(
+      right,
+      this.choices.element,
+      this.busy,
+      this.summary.element,
+      h("section", { class: "panel simulate-source", ariaLabel: "Source" }, this.source_head, this.source.element),
+      this.readout.element,
+    );
+    fill(
+      host,
+      h(
+        "div",
+        { class: "simulate" },
+        top,
+        h("div", { class: "simulate-time" }, this.transport.element, this.timeline.element),
+        this.curves.element,
+      ),
+    );
     dropTarget(host, (file) => void this.choices.take(file));
     document.addEventListener("keydown", (event) => {
       if (this.in_sight && this.simulation) this.transport.key(event);
@@ -82,18 +107,28 @@ class SimulateTab implements TabHandle {
     this.in_sight = true;
     if (window.trueaxisScene) window.trueaxisScene.moment = () => this.moment;
     const first = this.app.state.project?.files.find((f) => f.kind === "machine")?.path ?? null;
-    const machine = params["machine"] ?? this.app.state.machine ?? first;
+    const machine = params.machine ?? this.app.state.machine ?? first;
     // The tab's own link names the machine only: what was open goes on, on that machine.
-    const goes_on = !params["program"] && !params["dropped"];
+    const goes_on = !params.program && !params.dropped;
     const fresh = takeDropped();
     if (fresh) this.keep(fresh);
-    const dropped = goes_on ? this.dropped : (this.kept.get(params["dropped"] ?? "") ?? null);
-    const choice: Choice = goes_on ? { ...this.choice, machine } : { machine, program: params["program"] ?? null, setup: params["setup"] ?? null, control: params["control"] ?? null };
+    const dropped = goes_on ? this.dropped : (this.kept.get(params.dropped ?? "") ?? null);
+    const choice: Choice = goes_on
+      ? { ...this.choice, machine }
+      : {
+          machine,
+          program: params.program ?? null,
+          setup: params.setup ?? null,
+          control: params.control ?? null,
+        };
     if (dropped === this.dropped && JSON.stringify(choice) === JSON.stringify(this.choice)) return;
     this.choice = choice;
     this.dropped = dropped;
     this.choices.show(choice, dropped);
-    if (params["dropped"] && !dropped) this.app.fail(new Refusal("dropped-file", `${params["dropped"]} was open only in the window before`, "Drop it here again."));
+    if (params.dropped && !dropped)
+      this.app.fail(
+        new Refusal("dropped-file", `${params.dropped} was open only in the window before`, "Drop it here again."),
+      );
     void this.run();
   }
 
@@ -108,7 +143,13 @@ class SimulateTab implements TabHandle {
 
   private go(choice: Choice, dropped: Dropped | null): void {
     if (dropped) this.keep(dropped);
-    this.app.go("simulate", { machine: choice.machine, program: choice.program, dropped: dropped?.name, setup: choice.setup, control: choice.control });
+    this.app.go("simulate", {
+      machine: choice.machine,
+      program: choice.program,
+      dropped: dropped?.name,
+      setup: choice.setup,
+      control: choice.control,
+    });
   }
 
   /** The last few only: they may be large. */
@@ -130,13 +171,23 @@ class SimulateTab implements TabHandle {
 
   private async run(keep_going = false): Promise<void> {
     this.stop?.abort();
-    const stop = (this.stop = new AbortController());
+    const stop = new AbortController();
+    this.stop = stop;
     const job = this.job(keep_going);
     this.clear();
     try {
       await this.showMachine(stop.signal);
       if (!job) {
-        fill(this.busy, h("p", {}, this.choice.machine ? "Choose a program of the folder, or drop one here." : "There is no machine file in this folder: put a machine.toml into it, or open an example on the first page."));
+        fill(
+          this.busy,
+          h(
+            "p",
+            {},
+            this.choice.machine
+              ? "Choose a program of the folder, or drop one here."
+              : "There is no machine file in this folder: put a machine.toml into it, or open an example on the first page.",
+          ),
+        );
         this.busy.hidden = false;
         return;
       }
@@ -186,9 +237,21 @@ class SimulateTab implements TabHandle {
     const share = h("span", { class: "muted number" }, "0 %");
     const cancel = (): void => {
       stop.abort();
-      fill(this.busy, h("p", { class: "row" }, h("span", {}, "Stopped."), h("button", { onclick: () => void this.run() }, "Simulate")));
+      fill(
+        this.busy,
+        h(
+          "p",
+          { class: "row" },
+          h("span", {}, "Stopped."),
+          h("button", { onclick: () => void this.run() }, "Simulate"),
+        ),
+      );
     };
-    fill(this.busy, h("p", {}, "Simulating ", h("code", {}, name)), h("p", { class: "row" }, meter, share, h("button", { dataTest: "cancel", onclick: cancel }, "Cancel")));
+    fill(
+      this.busy,
+      h("p", {}, "Simulating ", h("code", {}, name)),
+      h("p", { class: "row" }, meter, share, h("button", { dataTest: "cancel", onclick: cancel }, "Cancel")),
+    );
     this.busy.hidden = false;
     const progress = (done: number): void => {
       meter.value = done;
@@ -221,7 +284,9 @@ class SimulateTab implements TabHandle {
     const wrong = refusal.diagnostics.some((d) => d.severity === "error" && ofFile(d, name) && d.line);
     this.summary.refuse(refusal, wrong && !kept_going ? () => void this.run(true) : null);
     try {
-      const text = this.dropped?.text ?? (this.choice.program ? (await this.app.api.ask("open", { path: this.choice.program })).text : "");
+      const text =
+        this.dropped?.text ??
+        (this.choice.program ? (await this.app.api.ask("open", { path: this.choice.program })).text : "");
       if (!text || this.simulation) return;
       const notes = notesOf(refusal.diagnostics, name);
       this.showSource(name, text, notes);
@@ -250,17 +315,30 @@ class SimulateTab implements TabHandle {
     if (this.shown_program !== index) return;
     const { header } = simulation;
     const path = header.programs[index]?.path ?? known.name;
-    const marks = header.marks.filter((m) => m.grave && m.program === index).map((m) => ({ line: m.line, severity: "error", message: m.text }));
+    const marks = header.marks
+      .filter((m) => m.grave && m.program === index)
+      .map((m) => ({ line: m.line, severity: "error", message: m.text }));
     this.showSource(known.name, known.text, [...notesOf(header.diagnostics, path), ...marks]);
     if (this.moment?.program === index) this.source.setCurrent(this.moment.line);
   }
 
   private showSource(name: string, text: string, notes: LineNote[]): void {
     const programs = this.simulation?.header.programs ?? [];
-    const choose = h("select", { ariaLabel: "Program", onchange: () => void this.showProgram(Number(choose.value)) }, programs.map((p, i) => h("option", { value: i }, p.name)));
+    const choose = h(
+      "select",
+      { ariaLabel: "Program", onchange: () => void this.showProgram(Number(choose.value)) },
+      programs.map((p, i) => h("option", { value: i }, p.name)),
+    );
     choose.value = String(this.shown_program);
     const errors = notes.filter((n) => n.severity === "error").length;
-    fill(this.source_head, h("h2", {}, "Source"), programs.length > 1 ? choose : h("code", { class: "muted", title: name }, name.replace(/^.*[\\/]/, "")), errors > 0 ? h("span", { class: "source-errors" }, errors === 1 ? "1 place underlined" : `${errors} places underlined`) : null);
+    fill(
+      this.source_head,
+      h("h2", {}, "Source"),
+      programs.length > 1 ? choose : h("code", { class: "muted", title: name }, name.replace(/^.*[\\/]/, "")),
+      errors > 0
+        ? h("span", { class: "source-errors" }, errors === 1 ? "1 place underlined" : `${errors} places underlined`)
+        : null,
+    );
     this.source.show(text, notes);
   }
 
@@ -290,9 +368,15 @@ class SimulateTab implements TabHandle {
     this.timeline.setTime(time_s);
     this.transport.setTime(time_s);
     this.curves.setTime(time_s);
-    if (moment.program !== this.shown_program) void this.showProgram(moment.program).catch((error) => this.failed(error));
+    if (moment.program !== this.shown_program)
+      void this.showProgram(moment.program).catch((error) => this.failed(error));
     else this.source.setCurrent(moment.line);
-    this.readout.show(moment, this.texts.get(moment.program) && moment.program === this.shown_program ? this.source.textOf(moment.line).trim() : "");
+    this.readout.show(
+      moment,
+      this.texts.get(moment.program) && moment.program === this.shown_program
+        ? this.source.textOf(moment.line).trim()
+        : "",
+    );
   }
 
   /** The tool of the set-up in place of that of the machine file. */
@@ -321,7 +405,9 @@ function ofFile(d: Diagnostic, name: string): boolean {
 }
 
 function notesOf(diagnostics: readonly Diagnostic[], name: string): LineNote[] {
-  return diagnostics.filter((d) => d.line && ofFile(d, name)).map((d) => ({ line: d.line as number, column: d.column, severity: d.severity, message: d.message, hint: d.hint }));
+  return diagnostics
+    .filter((d) => d.line && ofFile(d, name))
+    .map((d) => ({ line: d.line as number, column: d.column, severity: d.severity, message: d.message, hint: d.hint }));
 }
 
 export const simulate: Tab = {

@@ -80,10 +80,10 @@ class StandardsTab implements TabHandle {
       return;
     }
     // Coming back by the tab shows what was there.
-    if (!params["path"] && !params["dropped"] && this.shown) return;
+    if (!params.path && !params.dropped && this.shown) return;
     this.params = params;
-    if (!params["path"] && params["dropped"] && this.dropped?.name !== params["dropped"]) this.dropped = null;
-    if (params["path"]) this.dropped = null;
+    if (!params.path && params.dropped && this.dropped?.name !== params.dropped) this.dropped = null;
+    if (params.path) this.dropped = null;
     void this.run();
   }
 
@@ -92,7 +92,7 @@ class StandardsTab implements TabHandle {
   }
 
   changed(path: string): void {
-    if (path === this.params["path"] || path === this.conditions) void this.run();
+    if (path === this.params.path || path === this.conditions) void this.run();
   }
 
   private take(file: TextFile): void {
@@ -111,14 +111,27 @@ class StandardsTab implements TabHandle {
     try {
       if (this.standards.length === 0) this.standards = await this.app.api.ask<Standard[]>("standards", {});
       const params = this.params;
-      const path = this.dropped ? null : (params["path"] ?? null);
-      const standard = params["standard"] ?? (await this.standardIn(path)) ?? "iso230-2";
+      const path = this.dropped ? null : (params.path ?? null);
+      const standard = params.standard ?? (await this.standardIn(path)) ?? "iso230-2";
       if (params !== this.params) return;
       this.standard = standard;
       this.showForm();
       if (!path && !this.dropped) {
         this.clear();
-        fill(this.result, h("section", { class: "panel" }, h("p", {}, params["dropped"] ? `Drop ${params["dropped"]} again: the page was loaded anew and does not keep files.` : "Choose readings above, or drop a CSV anywhere here. Nothing leaves this computer.")));
+        fill(
+          this.result,
+          h(
+            "section",
+            { class: "panel" },
+            h(
+              "p",
+              {},
+              params.dropped
+                ? `Drop ${params.dropped} again: the page was loaded anew and does not keep files.`
+                : "Choose readings above, or drop a CSV anywhere here. Nothing leaves this computer.",
+            ),
+          ),
+        );
         return;
       }
       const frame = await this.question.ask(this.body(path), `evaluating ${path ?? this.dropped?.name ?? ""}`);
@@ -126,7 +139,17 @@ class StandardsTab implements TabHandle {
     } catch (error) {
       if (isAbort(error)) return;
       this.clear();
-      showRefusal(this.result, error, h("p", { class: "note" }, "Readings of the instruments of a campaign are not judged by a standard: drop them in ", h("a", { href: "#identify" }, "Identify"), "."));
+      showRefusal(
+        this.result,
+        error,
+        h(
+          "p",
+          { class: "note" },
+          "Readings of the instruments of a campaign are not judged by a standard: drop them in ",
+          h("a", { href: "#identify" }, "Identify"),
+          ".",
+        ),
+      );
     }
   }
 
@@ -139,7 +162,9 @@ class StandardsTab implements TabHandle {
   private body(path: string | null): object {
     const { standard } = this;
     const { radius, window, conditions, feature } = this.params;
-    const from = this.dropped ? { name: this.dropped.name, text: this.dropped.text, import: formOf(this.dropped.name) } : { path };
+    const from = this.dropped
+      ? { name: this.dropped.name, text: this.dropped.text, import: formOf(this.dropped.name) }
+      : { path };
     const more = Object.fromEntries(Object.entries({ radius, window, conditions, feature }).filter(([, v]) => v));
     return { standard, ...from, ...more };
   }
@@ -148,7 +173,10 @@ class StandardsTab implements TabHandle {
     for (const one of this.figures) one.dispose();
     this.figures = [];
     this.shown = false;
-    fill(this.charts, h("p", { class: "empty" }, "The charts stand here. Drop a CSV of readings anywhere on this page."));
+    fill(
+      this.charts,
+      h("p", { class: "empty" }, "The charts stand here. Drop a CSV of readings anywhere on this page."),
+    );
     this.result.replaceChildren();
   }
 
@@ -157,20 +185,64 @@ class StandardsTab implements TabHandle {
   private showForm(): void {
     const { standard } = this;
     const { path = null, conditions } = this.params;
-    const choice = h("select", { ariaLabel: "Standard", dataTest: "standard", onchange: () => this.choose({ standard: choice.value, radius: null, window: null }) }, this.standards.map((one) => h("option", { value: one.key }, one.title)));
+    const choice = h(
+      "select",
+      {
+        ariaLabel: "Standard",
+        dataTest: "standard",
+        onchange: () => this.choose({ standard: choice.value, radius: null, window: null }),
+      },
+      this.standards.map((one) => h("option", { value: one.key }, one.title)),
+    );
     choice.value = standard;
     const isReadings = ({ kind }: { kind: string }): boolean => kind === "readings";
     const now = this.dropped ? null : path;
-    const files = fileSelect(this.app, this.dropped ? this.dropped.name : "Readings", "standards", isReadings, now, (chosen) => this.choose({ path: chosen, dropped: null, standard: null, radius: null, window: null, conditions: null, feature: null }));
-    const beside = h("select", { ariaLabel: "Conditions of the test", class: "file-select", onchange: () => this.choose({ conditions: beside.value || null }) }, h("option", { value: "" }, this.dropped ? "none" : "of the same name beside the readings"), this.conditionFiles().map((p) => h("option", { value: p }, p)));
+    const files = fileSelect(
+      this.app,
+      this.dropped ? this.dropped.name : "Readings",
+      "standards",
+      isReadings,
+      now,
+      (chosen) =>
+        this.choose({
+          path: chosen,
+          dropped: null,
+          standard: null,
+          radius: null,
+          window: null,
+          conditions: null,
+          feature: null,
+        }),
+    );
+    const beside = h(
+      "select",
+      {
+        ariaLabel: "Conditions of the test",
+        class: "file-select",
+        onchange: () => this.choose({ conditions: beside.value || null }),
+      },
+      h("option", { value: "" }, this.dropped ? "none" : "of the same name beside the readings"),
+      this.conditionFiles().map((p) => h("option", { value: p }, p)),
+    );
     beside.value = conditions ?? "";
     const field = (key: string, label: string, hint: string): HTMLElement => {
-      const box = h("input", { type: "text", class: "short", value: this.params[key] ?? "", placeholder: hint, onchange: () => this.choose({ [key]: box.value.trim() || null }) });
+      const box = h("input", {
+        type: "text",
+        class: "short",
+        value: this.params[key] ?? "",
+        placeholder: hint,
+        onchange: () => this.choose({ [key]: box.value.trim() || null }),
+      });
       return h("label", { class: "field" }, h("span", {}, label), box);
     };
     fill(
       this.head,
-      h("div", { class: "row" }, h("label", { class: "field" }, h("span", {}, "Standard"), choice), reportButton(this.app, { verb: "evaluate", file: now, standard })),
+      h(
+        "div",
+        { class: "row" },
+        h("label", { class: "field" }, h("span", {}, "Standard"), choice),
+        reportButton(this.app, { verb: "evaluate", file: now, standard }),
+      ),
       h("div", { class: "row" }, h("label", { class: "field grow" }, h("span", {}, "Readings"), files), this.open_file),
       h(
         "div",
@@ -187,9 +259,20 @@ class StandardsTab implements TabHandle {
   private conditionFiles(): string[] {
     const files = this.app.state.project?.files ?? [];
     const folder = (path: string): string => path.replace(/[^/]*$/, "");
-    const here = this.dropped ? null : folder(this.params["path"] ?? "");
-    const readings = new Set(files.filter((file) => file.kind === "readings" && !/(^|\/)tests?\//.test(file.path)).map((file) => folder(file.path)));
-    return files.filter((file) => file.kind === "other" && file.path.endsWith(".toml") && (here === null ? readings.has(folder(file.path)) : folder(file.path) === here)).map((file) => file.path);
+    const here = this.dropped ? null : folder(this.params.path ?? "");
+    const readings = new Set(
+      files
+        .filter((file) => file.kind === "readings" && !/(^|\/)tests?\//.test(file.path))
+        .map((file) => folder(file.path)),
+    );
+    return files
+      .filter(
+        (file) =>
+          file.kind === "other" &&
+          file.path.endsWith(".toml") &&
+          (here === null ? readings.has(folder(file.path)) : folder(file.path) === here),
+      )
+      .map((file) => file.path);
   }
 
   // ---- the answer ----
@@ -199,7 +282,10 @@ class StandardsTab implements TabHandle {
     this.clear();
     this.shown = true;
     this.conditions = conditions_file;
-    const circle = kindOf(document) === "circular" ? { radius_mm: as<Circular>(document).radius_mm, axes: as<Circular>(document).axes } : {};
+    const circle =
+      kindOf(document) === "circular"
+        ? { radius_mm: as<Circular>(document).radius_mm, axes: as<Circular>(document).axes }
+        : {};
     this.charts.replaceChildren();
     this.figures = drawPictures(this.charts, frame, pictures, circle);
     const file = path ?? this.dropped?.name ?? document.file;
@@ -207,7 +293,15 @@ class StandardsTab implements TabHandle {
     const circumstances = text.split("\n")[2]?.trim() ?? file;
     fill(
       this.result,
-      h("section", { class: "panel" }, h("h1", {}, document.name ?? file), h("p", { class: "muted", dataTest: "circumstances" }, circumstances), this.tiles(document), h("p", { class: "muted note", dataTest: "conditions" }, this.conditionsText(document, conditions_file, file)), diagnostics.length > 0 ? diagnosticList(diagnostics) : null),
+      h(
+        "section",
+        { class: "panel" },
+        h("h1", {}, document.name ?? file),
+        h("p", { class: "muted", dataTest: "circumstances" }, circumstances),
+        this.tiles(document),
+        h("p", { class: "muted note", dataTest: "conditions" }, this.conditionsText(document, conditions_file, file)),
+        diagnostics.length > 0 ? diagnosticList(diagnostics) : null,
+      ),
       sheetsOf(document).map(sheetTable),
     );
     this.app.say(file);
@@ -218,17 +312,46 @@ class StandardsTab implements TabHandle {
       "dl",
       { class: "tiles" },
       tilesOf(document).map((tile) =>
-        h("div", { class: "tile", title: tile.title, dataTile: tile.symbol }, h("dt", {}, tile.symbol, h("span", { class: "muted tile-word" }, tile.word)), h("dd", {}, h("strong", {}, number(tile.value, 2)), h("span", { class: "unit" }, `${NARROW_SPACE}${tile.unit}`), tile.U != null ? h("span", { class: "muted tile-u", title: "expanded uncertainty, k = 2" }, `U ${number(tile.U, 2)}${NARROW_SPACE}${tile.unit}`) : null)),
+        h(
+          "div",
+          { class: "tile", title: tile.title, dataTile: tile.symbol },
+          h("dt", {}, tile.symbol, h("span", { class: "muted tile-word" }, tile.word)),
+          h(
+            "dd",
+            {},
+            h("strong", {}, number(tile.value, 2)),
+            h("span", { class: "unit" }, `${NARROW_SPACE}${tile.unit}`),
+            tile.U != null
+              ? h(
+                  "span",
+                  { class: "muted tile-u", title: "expanded uncertainty, k = 2" },
+                  `U ${number(tile.U, 2)}${NARROW_SPACE}${tile.unit}`,
+                )
+              : null,
+          ),
+        ),
       ),
     );
   }
 
   /** What is known beside the readings, and what is taken for granted without it. */
   private conditionsText(document: EvaluateDocument, conditions: string | null, file: string): string {
-    const used = kindOf(document) === "circular" ? ` Nominal circle: radius ${number(as<Circular>(document).radius_mm, 4)}${NARROW_SPACE}mm about ${as<Circular>(document).centre_mm.map((v) => number(v, 4)).join(", ")}${NARROW_SPACE}mm.` : "";
+    const used =
+      kindOf(document) === "circular"
+        ? ` Nominal circle: radius ${number(as<Circular>(document).radius_mm, 4)}${NARROW_SPACE}mm about ${as<Circular>(
+            document,
+          )
+            .centre_mm.map((v) => number(v, 4))
+            .join(", ")}${NARROW_SPACE}mm.`
+        : "";
     if (conditions) return `Conditions: ${conditions}.${used}`;
-    const lacking = kindOf(document) === "positioning" ? "nothing is known of instrument and temperature, so that no uncertainty U can be stated" : "nothing is known of instrument, date and temperature";
-    const beside = this.dropped ? "Choose a conditions file above if there is one." : `It would be ${file.replace(/\.[^./]*$/, "")}.toml, beside the readings.`;
+    const lacking =
+      kindOf(document) === "positioning"
+        ? "nothing is known of instrument and temperature, so that no uncertainty U can be stated"
+        : "nothing is known of instrument, date and temperature";
+    const beside = this.dropped
+      ? "Choose a conditions file above if there is one."
+      : `It would be ${file.replace(/\.[^./]*$/, "")}.toml, beside the readings.`;
     return `No conditions file: ${lacking}. ${beside}${used}`;
   }
 }

@@ -26,10 +26,21 @@ const KINDS: readonly [FileKind, string, string | null, string][] = [
 ];
 
 /** Where an example of a tab keeps its path in the address. */
-const PARAMETER: Record<string, string> = { describe: "machine", simulate: "program", predict: "study", plan: "campaign", identify: "campaign", standards: "path" };
+const PARAMETER: Record<string, string> = {
+  describe: "machine",
+  simulate: "program",
+  predict: "study",
+  plan: "campaign",
+  identify: "campaign",
+  standards: "path",
+};
 
 function openExample(app: App, example: Example): void {
-  const params: Record<string, string | null | undefined> = { machine: example.machine, program: example.program, standard: example.standard };
+  const params: Record<string, string | null | undefined> = {
+    machine: example.machine,
+    program: example.program,
+    standard: example.standard,
+  };
   params[PARAMETER[example.tab] ?? "path"] ??= example.path;
   app.go(example.tab, params);
 }
@@ -47,7 +58,18 @@ function cards(app: App, project: Project): HTMLElement[] {
         h(
           "ul",
           { class: "cards" },
-          examples.map((example) => h("li", {}, h("button", { class: "card", dataExample: example.path, onclick: () => openExample(app, example) }, h("strong", {}, example.title), h("span", {}, example.what)))),
+          examples.map((example) =>
+            h(
+              "li",
+              {},
+              h(
+                "button",
+                { class: "card", dataExample: example.path, onclick: () => openExample(app, example) },
+                h("strong", {}, example.title),
+                h("span", {}, example.what),
+              ),
+            ),
+          ),
         ),
       ),
     );
@@ -56,7 +78,14 @@ function cards(app: App, project: Project): HTMLElement[] {
 }
 
 function fileRow(app: App, file: ProjectFile, tab: string | null, parameter: string): HTMLElement {
-  const name = tab && app.has(tab) ? h("a", { href: `#${tab}?${new URLSearchParams({ [parameter]: file.path }).toString().replaceAll("%2F", "/")}` }, file.path) : h("span", {}, file.path);
+  const name =
+    tab && app.has(tab)
+      ? h(
+          "a",
+          { href: `#${tab}?${new URLSearchParams({ [parameter]: file.path }).toString().replaceAll("%2F", "/")}` },
+          file.path,
+        )
+      : h("span", {}, file.path);
   return h("tr", {}, h("td", {}, name), h("td", { class: "number muted" }, bytes(file.bytes)));
 }
 
@@ -69,7 +98,15 @@ function files(app: App, project: Project): HTMLElement[] {
         "details",
         { class: "files", open: rows.length <= 12 },
         h("summary", {}, title, h("span", { class: "muted" }, ` ${rows.length}`)),
-        h("table", {}, h("tbody", {}, rows.map((file) => fileRow(app, file, tab, parameter)))),
+        h(
+          "table",
+          {},
+          h(
+            "tbody",
+            {},
+            rows.map((file) => fileRow(app, file, tab, parameter)),
+          ),
+        ),
       ),
     ];
   });
@@ -94,7 +131,13 @@ async function take(app: App, file: File | undefined): Promise<void> {
   if (!file) return;
   const tab = ENDINGS.find(([ending]) => ending.test(file.name))?.[1];
   if (!tab || !app.has(tab)) {
-    app.fail(new Refusal("dropped-file", `${file.name} is not a file that this page opens by dropping`, "Drop an NC program or a CSV of readings; machine files and studies belong into the project folder."));
+    app.fail(
+      new Refusal(
+        "dropped-file",
+        `${file.name} is not a file that this page opens by dropping`,
+        "Drop an NC program or a CSV of readings; machine files and studies belong into the project folder.",
+      ),
+    );
     return;
   }
   dropped = { name: file.name, text: await file.text() };
@@ -102,8 +145,23 @@ async function take(app: App, file: File | undefined): Promise<void> {
 }
 
 function dropZone(app: App): HTMLElement {
-  const input = h("input", { type: "file", class: "drop-input", ariaLabel: "Open a file of this computer", onchange: () => void take(app, input.files?.[0]) });
-  const zone = h("label", { class: "drop" }, h("strong", {}, "Drop a program or readings here"), h("span", { class: "muted" }, "NC programs open in Simulate, CSV readings in Standards. Nothing leaves this computer."), input);
+  const input = h("input", {
+    type: "file",
+    class: "drop-input",
+    ariaLabel: "Open a file of this computer",
+    onchange: () => void take(app, input.files?.[0]),
+  });
+  const zone = h(
+    "label",
+    { class: "drop" },
+    h("strong", {}, "Drop a program or readings here"),
+    h(
+      "span",
+      { class: "muted" },
+      "NC programs open in Simulate, CSV readings in Standards. Nothing leaves this computer.",
+    ),
+    input,
+  );
   const over = (event: DragEvent, on: boolean): void => {
     event.preventDefault();
     zone.classList.toggle("over", on);
@@ -127,8 +185,23 @@ export const start: Tab = {
     app.subscribe(({ project }) => {
       if (project === shown || !project) return;
       shown = project;
-      fill(left, h("div", { class: "start-head" }, h("h1", {}, "Where is the tool really, and is the part good?"), h("p", { class: "muted" }, "Open an example, or a file of this folder.")), cards(app, project));
-      fill(right, h("h2", {}, "Files of this folder"), h("p", { class: "muted path" }, project.folder), dropZone(app), files(app, project));
+      fill(
+        left,
+        h(
+          "div",
+          { class: "start-head" },
+          h("h1", {}, "Where is the tool really, and is the part good?"),
+          h("p", { class: "muted" }, "Open an example, or a file of this folder."),
+        ),
+        cards(app, project),
+      );
+      fill(
+        right,
+        h("h2", {}, "Files of this folder"),
+        h("p", { class: "muted path" }, project.folder),
+        dropZone(app),
+        files(app, project),
+      );
     });
     return {};
   },

@@ -10,7 +10,9 @@ export type Positions = Record<string, number>;
 /** "X=10,C=45" of the address. */
 export function positionsOf(text: string): Positions {
   const pairs = text.split(/[ ,]+/).map((part) => part.split("="));
-  return Object.fromEntries(pairs.filter(([, value]) => value && Number.isFinite(Number(value))).map(([name, value]) => [name, Number(value)]));
+  return Object.fromEntries(
+    pairs.filter(([, value]) => value && Number.isFinite(Number(value))).map(([name, value]) => [name, Number(value)]),
+  );
 }
 
 /** 0, or the end of the travel next to it. */
@@ -48,8 +50,19 @@ export class Axes {
     this.at = { ...at };
     const rows = links.filter((l) => l.kind === "linear" || l.kind === "rotary").map((link) => this.row(link));
     const home = h("button", { onclick: () => this.home(links) }, "All to 0");
-    const heads = h("tr", {}, h("th", {}, "Axis"), h("th", {}, "Travel"), h("th", {}, h("span", { class: "visually-hidden" }, "Slider")), h("th", { class: "number" }, "Position"));
-    fill(this.element, h("div", { class: "panel-head" }, h("h2", {}, "Axes"), home), h("table", { class: "axes" }, h("thead", {}, heads), h("tbody", {}, rows)));
+    const heads = h(
+      "tr",
+      {},
+      h("th", {}, "Axis"),
+      h("th", {}, "Travel"),
+      h("th", {}, h("span", { class: "visually-hidden" }, "Slider")),
+      h("th", { class: "number" }, "Position"),
+    );
+    fill(
+      this.element,
+      h("div", { class: "panel-head" }, h("h2", {}, "Axes"), home),
+      h("table", { class: "axes" }, h("thead", {}, heads), h("tbody", {}, rows)),
+    );
   }
 
   private home(links: readonly Link[]): void {
@@ -68,8 +81,23 @@ export class Axes {
     const step = to - from > 2000 ? 1 : to - from > 100 ? 0.1 : 0.01;
     const name = `${link.name}${link.carries === "workpiece" ? "\u2032" : ""}`;
     const value = this.at[link.name] ?? 0;
-    const slider = h("input", { type: "range", min: from, max: to, step, value: String(value), dataAxis: link.name, ariaLabel: `Axis ${name}, ${spoken}` });
-    const box = h("input", { type: "number", step: "any", value: String(value), class: "position", dataPosition: link.name, ariaLabel: `Position of ${name} in ${spoken}` });
+    const slider = h("input", {
+      type: "range",
+      min: from,
+      max: to,
+      step,
+      value: String(value),
+      dataAxis: link.name,
+      ariaLabel: `Axis ${name}, ${spoken}`,
+    });
+    const box = h("input", {
+      type: "number",
+      step: "any",
+      value: String(value),
+      class: "position",
+      dataPosition: link.name,
+      ariaLabel: `Position of ${name} in ${spoken}`,
+    });
     const travel = h("td", { class: "muted travel" });
     // The machine cannot go there, but the numbers are computed all the same.
     const judge = (q: number): void => {
@@ -95,7 +123,14 @@ export class Axes {
       judge(typed);
       this.move(link.name, typed);
     });
-    const row = h("tr", {}, h("td", { class: "axis-name" }, name), travel, h("td", { class: "axis-slider" }, slider), h("td", { class: "number" }, box, h("span", { class: "unit" }, unit)));
+    const row = h(
+      "tr",
+      {},
+      h("td", { class: "axis-name" }, name),
+      travel,
+      h("td", { class: "axis-slider" }, slider),
+      h("td", { class: "number" }, box, h("span", { class: "unit" }, unit)),
+    );
     row.addEventListener("pointerenter", () => this.actions.hovered(link.name));
     row.addEventListener("pointerleave", () => this.actions.hovered(null));
     return row;

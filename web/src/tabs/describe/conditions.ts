@@ -50,41 +50,88 @@ export class ConditionFields {
   }
 
   private toolRow(tool: ToolShape, tools: readonly ToolEntry[]): HTMLElement {
-    const box = h("input", { type: "number", min: 0, step: "any", class: "position", placeholder: String(tool.length_mm), value: this.now.tool_length_mm === null ? "" : String(this.now.tool_length_mm), dataTest: "tool-length", ariaLabel: "Tool length in millimetres; empty: that of the machine file" });
+    const box = h("input", {
+      type: "number",
+      min: 0,
+      step: "any",
+      class: "position",
+      placeholder: String(tool.length_mm),
+      value: this.now.tool_length_mm === null ? "" : String(this.now.tool_length_mm),
+      dataTest: "tool-length",
+      ariaLabel: "Tool length in millimetres; empty: that of the machine file",
+    });
     const set = (): void => {
       this.now.tool_length_mm = numberOf(box);
       this.changed();
     };
     box.addEventListener("change", set);
-    const pick = h("select", { ariaLabel: "Tool of the machine file", onchange: () => {
-      box.value = pick.value;
-      set();
-    } }, h("option", { value: "" }, "tool of the file"), tools.map((t) => h("option", { value: String(t.length_mm) }, t.name)));
-    return h("div", { class: "row" }, h("h2", {}, "Tool length"), h("span", {}, box, h("span", { class: "unit" }, "mm")), tools.length > 0 ? pick : null);
+    const pick = h(
+      "select",
+      {
+        ariaLabel: "Tool of the machine file",
+        onchange: () => {
+          box.value = pick.value;
+          set();
+        },
+      },
+      h("option", { value: "" }, "tool of the file"),
+      tools.map((t) => h("option", { value: String(t.length_mm) }, t.name)),
+    );
+    return h(
+      "div",
+      { class: "row" },
+      h("h2", {}, "Tool length"),
+      h("span", {}, box, h("span", { class: "unit" }, "mm")),
+      tools.length > 0 ? pick : null,
+    );
   }
 
   private sensorTable(sensors: readonly Sensor[]): HTMLElement {
-    const clear = h("button", { onclick: () => {
-      this.now.celsius = {};
-      for (const box of this.element.querySelectorAll<HTMLInputElement>("input[data-sensor]")) box.value = "";
-      this.changed();
-    } }, "None");
+    const clear = h(
+      "button",
+      {
+        onclick: () => {
+          this.now.celsius = {};
+          for (const box of this.element.querySelectorAll<HTMLInputElement>("input[data-sensor]")) box.value = "";
+          this.changed();
+        },
+      },
+      "None",
+    );
     const rows = sensors.map((sensor) => {
-      const box = h("input", { type: "number", step: "any", class: "position", placeholder: "–", value: String(this.now.celsius[sensor.name] ?? ""), dataSensor: sensor.name, ariaLabel: `Temperature of ${sensor.name} in degrees Celsius` });
+      const box = h("input", {
+        type: "number",
+        step: "any",
+        class: "position",
+        placeholder: "–",
+        value: String(this.now.celsius[sensor.name] ?? ""),
+        dataSensor: sensor.name,
+        ariaLabel: `Temperature of ${sensor.name} in degrees Celsius`,
+      });
       box.addEventListener("change", () => {
         const value = numberOf(box);
         if (value === null) delete this.now.celsius[sensor.name];
         else this.now.celsius[sensor.name] = value;
         this.changed();
       });
-      return h("tr", {}, h("td", {}, h("code", {}, sensor.name)), h("td", { class: "muted" }, sensor.drives.join(", ")), h("td", { class: "number" }, box, h("span", { class: "unit" }, "°C")));
+      return h(
+        "tr",
+        {},
+        h("td", {}, h("code", {}, sensor.name)),
+        h("td", { class: "muted" }, sensor.drives.join(", ")),
+        h("td", { class: "number" }, box, h("span", { class: "unit" }, "°C")),
+      );
     });
     return h(
       "div",
       { class: "sensors" },
       h("div", { class: "panel-head" }, h("h2", {}, "Temperatures by sensor"), clear),
       h("table", {}, h("tbody", {}, rows)),
-      h("p", { class: "hint" }, "With temperatures the deviation is machine − workpiece: what the part has at 20 °C. A sensor without one stands at the temperature of its error table, the workpiece at 20 °C."),
+      h(
+        "p",
+        { class: "hint" },
+        "With temperatures the deviation is machine − workpiece: what the part has at 20 °C. A sensor without one stands at the temperature of its error table, the workpiece at 20 °C.",
+      ),
     );
   }
 }

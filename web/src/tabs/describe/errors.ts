@@ -11,10 +11,25 @@ type Key = "chain" | "value" | "u" | "share";
 const HEADS: readonly { key: Key | null; title: string; hint: string; class?: string }[] = [
   { key: "chain", title: "Error", hint: "Sort in the order of the chain" },
   { key: null, title: "", hint: "", class: "error-words" },
-  { key: "value", title: "Value", hint: "Sort by the greatest amount; of a curve its least and greatest value", class: "number" },
-  { key: "u", title: "u", hint: "Standard uncertainty, the greatest of a curve. U = 2u (k = 2)", class: "number error-u" },
+  {
+    key: "value",
+    title: "Value",
+    hint: "Sort by the greatest amount; of a curve its least and greatest value",
+    class: "number",
+  },
+  {
+    key: "u",
+    title: "u",
+    hint: "Standard uncertainty, the greatest of a curve. U = 2u (k = 2)",
+    class: "number error-u",
+  },
   { key: null, title: "Over travel", hint: "" },
-  { key: "share", title: "Share now", hint: "What it moves the tool tip by at the present position (length). Sort by it", class: "number" },
+  {
+    key: "share",
+    title: "Share now",
+    hint: "What it moves the tool tip by at the present position (length). Sort by it",
+    class: "number",
+  },
   { key: null, title: "In the file", hint: "" },
 ];
 
@@ -25,7 +40,13 @@ export class ErrorTable {
   private key: Key = "chain";
   private readonly body = h("tbody", {});
   private readonly heads = h("tr", {});
-  private readonly search = h("input", { type: "text", class: "error-search", placeholder: "Search: EC0Y, tilt, Z …", ariaLabel: "Search errors", oninput: () => this.filter() });
+  private readonly search = h("input", {
+    type: "text",
+    class: "error-search",
+    placeholder: "Search: EC0Y, tilt, Z …",
+    ariaLabel: "Search errors",
+    oninput: () => this.filter(),
+  });
   private readonly of_body = h("select", { ariaLabel: "Errors of", onchange: () => this.filter() });
   private readonly all = h("input", { type: "checkbox", onchange: () => this.filter() });
   private readonly count = h("span", { class: "muted" });
@@ -35,9 +56,20 @@ export class ErrorTable {
     this.actions = actions;
     fill(
       this.element,
-      h("div", { class: "row errors-tools" }, this.search, this.of_body, h("label", { class: "check" }, this.all, "also not stated"), this.count),
+      h(
+        "div",
+        { class: "row errors-tools" },
+        this.search,
+        this.of_body,
+        h("label", { class: "check" }, this.all, "also not stated"),
+        this.count,
+      ),
       h("table", { class: "errors" }, h("thead", {}, this.heads), this.body),
-      h("p", { class: "hint errors-hint" }, "A value with its unit, ± its standard uncertainty: 12 ± 1 urad. Empty takes the error out of the file. Enter keeps, Escape restores."),
+      h(
+        "p",
+        { class: "hint errors-hint" },
+        "A value with its unit, ± its standard uncertainty: 12 ± 1 urad. Empty takes the error out of the file. Enter keeps, Escape restores.",
+      ),
     );
     this.showHeads();
   }
@@ -51,7 +83,17 @@ export class ErrorTable {
     const same = errors.length === this.rows.length && errors.every((e, i) => this.rows[i]?.error.name === e.name);
     if (!same) {
       this.rows = errors.map((error) => new ErrorRow(error, this.actions));
-      fill(this.of_body, h("option", { value: "" }, "all bodies"), links.map((l) => h("option", { value: l.name }, l.kind === "workpiece" ? "workpiece w" : l.kind === "tool" ? "tool t" : `axis ${l.name}`)));
+      fill(
+        this.of_body,
+        h("option", { value: "" }, "all bodies"),
+        links.map((l) =>
+          h(
+            "option",
+            { value: l.name },
+            l.kind === "workpiece" ? "workpiece w" : l.kind === "tool" ? "tool t" : `axis ${l.name}`,
+          ),
+        ),
+      );
     }
     this.links = links;
     errors.forEach((error, i) => this.rows[i]?.update(error, links));
@@ -73,8 +115,12 @@ export class ErrorTable {
     let shown = 0;
     for (const row of this.rows) {
       const { error } = row;
-      const text = `${error.name} ${errorWords(error, this.links)} ${error.kind} ${error.text ?? ""} ${error.table ?? ""}`.toLowerCase();
-      const there = (error.stated || this.all.checked || row.isInvalid) && (this.of_body.value === "" || this.links[error.body]?.name === this.of_body.value) && words.every((word) => text.includes(word));
+      const text =
+        `${error.name} ${errorWords(error, this.links)} ${error.kind} ${error.text ?? ""} ${error.table ?? ""}`.toLowerCase();
+      const there =
+        (error.stated || this.all.checked || row.isInvalid) &&
+        (this.of_body.value === "" || this.links[error.body]?.name === this.of_body.value) &&
+        words.every((word) => text.includes(word));
       row.element.hidden = !there;
       if (there) shown += 1;
     }
@@ -83,10 +129,17 @@ export class ErrorTable {
   }
 
   private sort(): void {
-    const size: Record<Exclude<Key, "chain">, (row: ErrorRow) => number> = { value: (r) => sizeOf(r.error), u: (r) => r.error.u ?? -1, share: (r) => r.share };
+    const size: Record<Exclude<Key, "chain">, (row: ErrorRow) => number> = {
+      value: (r) => sizeOf(r.error),
+      u: (r) => r.error.u ?? -1,
+      share: (r) => r.share,
+    };
     const key = this.key;
     const order = key === "chain" ? this.rows : [...this.rows].sort((a, b) => size[key](b) - size[key](a));
-    fill(this.body, order.map((row) => row.element));
+    fill(
+      this.body,
+      order.map((row) => row.element),
+    );
     this.showHeads();
   }
 
@@ -99,7 +152,11 @@ export class ErrorTable {
           this.key = key;
           this.sort();
         };
-        return h("th", { class: style ?? null, ariaSort: key === this.key ? (key === "chain" ? "ascending" : "descending") : null }, h("button", { class: "sort", title: hint, onclick: by }, title));
+        return h(
+          "th",
+          { class: style ?? null, ariaSort: key === this.key ? (key === "chain" ? "ascending" : "descending") : null },
+          h("button", { class: "sort", title: hint, onclick: by }, title),
+        );
       }),
     );
   }

@@ -8,7 +8,13 @@ const PAUSE = 500;
 
 export class FileText {
   readonly element = h("section", { class: "panel file-panel" });
-  private readonly area = h("textarea", { class: "file-text", spellcheck: "false", autocomplete: "off", wrap: "off", ariaLabel: "Text of the machine file" });
+  private readonly area = h("textarea", {
+    class: "file-text",
+    spellcheck: "false",
+    autocomplete: "off",
+    wrap: "off",
+    ariaLabel: "Text of the machine file",
+  });
   private readonly gutter = h("div", { class: "file-gutter", ariaHidden: "true" });
   private readonly problems = h("ul", { class: "diagnostics file-problems", ariaLive: "polite" });
   private readonly typed: (text: string) => void;
@@ -43,7 +49,9 @@ export class FileText {
     // Ends of lines of both kinds would all become one.
     const mixed = (this.crlf ? shown.replaceAll("\n", "\r\n") : shown) !== text;
     this.area.readOnly = mixed;
-    this.area.title = mixed ? "The lines of this file end in two ways: edit it with a text editor, or its errors in the table" : "";
+    this.area.title = mixed
+      ? "The lines of this file end in two ways: edit it with a text editor, or its errors in the table"
+      : "";
     if (this.timer !== undefined || this.area.value === shown) return;
     const top = this.area.scrollTop;
     this.area.value = shown;
@@ -58,7 +66,16 @@ export class FileText {
     fill(
       this.problems,
       diagnostics.map((d) =>
-        h("li", { class: `diagnostic ${d.severity}` }, h("span", { class: "diagnostic-severity" }, d.severity), d.line ? h("button", { class: "line-link", onclick: () => this.goTo(d.line as number) }, `line ${d.line}`) : null, h("span", {}, d.message), d.hint ? h("span", { class: "hint" }, d.hint) : null),
+        h(
+          "li",
+          { class: `diagnostic ${d.severity}` },
+          h("span", { class: "diagnostic-severity" }, d.severity),
+          d.line
+            ? h("button", { class: "line-link", onclick: () => this.goTo(d.line as number) }, `line ${d.line}`)
+            : null,
+          h("span", {}, d.message),
+          d.hint ? h("span", { class: "hint" }, d.hint) : null,
+        ),
       ),
     );
   }
@@ -78,7 +95,10 @@ export class FileText {
     const count = this.area.value.split("\n").length;
     if (count === this.lines) return;
     this.lines = count;
-    fill(this.gutter, Array.from({ length: count }, (_, i) => h("div", { class: this.marked.get(i + 1) ?? null }, i + 1)));
+    fill(
+      this.gutter,
+      Array.from({ length: count }, (_, i) => h("div", { class: this.marked.get(i + 1) ?? null }, i + 1)),
+    );
     this.gutter.scrollTop = this.area.scrollTop;
   }
 }

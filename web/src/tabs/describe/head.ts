@@ -34,12 +34,37 @@ export function nameBeside(path: string, taken: ReadonlySet<string>): string {
 export class Head {
   readonly element = h("section", { class: "panel describe-head" });
   private readonly name = h("h1", {});
-  private readonly file = h("select", { class: "machine-file", ariaLabel: "Machine file", onchange: () => this.actions.choose(this.file.value) });
+  private readonly file = h("select", {
+    class: "machine-file",
+    ariaLabel: "Machine file",
+    onchange: () => this.actions.choose(this.file.value),
+  });
   private readonly state = h("span", { class: "edit-state", role: "status", dataTest: "edit-state" });
-  private readonly undo = h("button", { title: "Undo (Ctrl+Z)", disabled: true, onclick: () => this.actions.undo() }, "Undo");
-  private readonly redo = h("button", { title: "Redo (Ctrl+Shift+Z)", disabled: true, onclick: () => this.actions.redo() }, "Redo");
-  private readonly save = h("button", { class: "primary", title: "Save to the machine file (Ctrl+S)", disabled: true, onclick: () => this.actions.save() }, "Save");
-  private readonly save_as = h("button", { title: "Save under another name", onclick: () => this.askName("") }, "Save as …");
+  private readonly undo = h(
+    "button",
+    { title: "Undo (Ctrl+Z)", disabled: true, onclick: () => this.actions.undo() },
+    "Undo",
+  );
+  private readonly redo = h(
+    "button",
+    { title: "Redo (Ctrl+Shift+Z)", disabled: true, onclick: () => this.actions.redo() },
+    "Redo",
+  );
+  private readonly save = h(
+    "button",
+    {
+      class: "primary",
+      title: "Save to the machine file (Ctrl+S)",
+      disabled: true,
+      onclick: () => this.actions.save(),
+    },
+    "Save",
+  );
+  private readonly save_as = h(
+    "button",
+    { title: "Save under another name", onclick: () => this.askName("") },
+    "Save as …",
+  );
   private readonly deviation = h("strong", { class: "deviation", dataTest: "tip-length" }, "–");
   private readonly banner = h("div", { class: "banner", role: "alert", hidden: true });
   private readonly actions: HeadActions;
@@ -50,7 +75,14 @@ export class Head {
     fill(
       this.element,
       h("div", { class: "describe-title" }, this.name, this.file),
-      h("div", { class: "row edit-row" }, h("div", { class: "group" }, this.undo, this.redo), h("div", { class: "group" }, this.save, this.save_as), this.state, h("span", { class: "tip-now" }, "tool tip off by ", this.deviation)),
+      h(
+        "div",
+        { class: "row edit-row" },
+        h("div", { class: "group" }, this.undo, this.redo),
+        h("div", { class: "group" }, this.save, this.save_as),
+        this.state,
+        h("span", { class: "tip-now" }, "tool tip off by ", this.deviation),
+      ),
       this.banner,
     );
   }
@@ -60,14 +92,27 @@ export class Head {
     if (this.now?.draft !== draft) this.closeBanner();
     this.now = now;
     this.name.textContent = this.name.title = now.name;
-    fill(this.file, [...new Set([draft.path, ...now.files])].sort().map((path) => h("option", { value: path }, now.dirty.has(path) ? `${path} (not saved)` : path)));
+    fill(
+      this.file,
+      [...new Set([draft.path, ...now.files])]
+        .sort()
+        .map((path) => h("option", { value: path }, now.dirty.has(path) ? `${path} (not saved)` : path)),
+    );
     this.file.value = draft.path;
     this.undo.disabled = !draft.canUndo;
     this.redo.disabled = !draft.canRedo;
     this.save.disabled = !draft.dirty;
-    this.state.dataset["dirty"] = String(draft.dirty);
-    this.state.textContent = draft.dirty ? (now.usable ? "changed, not saved" : "changed, cannot be used yet") : now.usable ? "saved" : "cannot be used";
-    this.state.title = draft.dirty ? "The picture and the numbers here follow the edit; the other tabs read the saved file." : "";
+    this.state.dataset.dirty = String(draft.dirty);
+    this.state.textContent = draft.dirty
+      ? now.usable
+        ? "changed, not saved"
+        : "changed, cannot be used yet"
+      : now.usable
+        ? "saved"
+        : "cannot be used";
+    this.state.title = draft.dirty
+      ? "The picture and the numbers here follow the edit; the other tabs read the saved file."
+      : "";
   }
 
   /** How far the tool tip is from where it should be, at the present position. */
@@ -79,7 +124,12 @@ export class Head {
   showConflict(): void {
     const path = this.now?.draft.path ?? "";
     this.showBanner(
-      h("p", {}, h("strong", {}, `${path} was changed somewhere else since you opened it.`), " Nothing was overwritten; your edits are still here."),
+      h(
+        "p",
+        {},
+        h("strong", {}, `${path} was changed somewhere else since you opened it.`),
+        " Nothing was overwritten; your edits are still here.",
+      ),
       h(
         "div",
         { class: "row" },
@@ -87,7 +137,11 @@ export class Head {
         h("button", { dataTest: "keep", onclick: () => this.closeBanner() }, "Keep editing"),
         h("button", { dataTest: "other-name", onclick: () => this.askName("") }, "Save under another name …"),
       ),
-      h("p", { class: "hint" }, "“Show theirs” drops your edits; Undo brings them back, and then Save replaces theirs."),
+      h(
+        "p",
+        { class: "hint" },
+        "“Show theirs” drops your edits; Undo brings them back, and then Save replaces theirs.",
+      ),
     );
   }
 
@@ -96,7 +150,14 @@ export class Head {
     if (!this.now) return;
     const taken = new Set([this.now.draft.path, ...this.now.files]);
     const kept = this.banner.querySelector<HTMLInputElement>("input.save-name")?.value;
-    const input = h("input", { type: "text", class: "save-name", value: kept ?? nameBeside(this.now.draft.path, taken), ariaLabel: "Name of the new machine file", spellcheck: "false", ariaInvalid: problem ? "true" : null });
+    const input = h("input", {
+      type: "text",
+      class: "save-name",
+      value: kept ?? nameBeside(this.now.draft.path, taken),
+      ariaLabel: "Name of the new machine file",
+      spellcheck: "false",
+      ariaInvalid: problem ? "true" : null,
+    });
     const form = h(
       "form",
       { class: "row" },
@@ -108,7 +169,12 @@ export class Head {
       event.preventDefault();
       this.actions.saveAs(input.value.trim());
     });
-    this.showBanner(form, problem ? h("p", { class: "field-problem" }, problem) : h("p", { class: "hint" }, "In the same folder, tables that the file names are found."));
+    this.showBanner(
+      form,
+      problem
+        ? h("p", { class: "field-problem" }, problem)
+        : h("p", { class: "hint" }, "In the same folder, tables that the file names are found."),
+    );
     input.focus();
   }
 

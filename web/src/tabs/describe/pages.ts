@@ -15,8 +15,16 @@ export interface Pages {
 
 /** `left` is called before another page is shown. */
 export function pages(list: readonly Page[], left: () => void): Pages {
-  const buttons = list.map(({ name, title }) => h("button", { role: "tab", id: `page-tab-${name}`, dataPage: name, "aria-controls": `page-${name}`, onclick: () => go(name) }, title));
-  const hosts = list.map(({ name, parts }) => h("div", { role: "tabpanel", id: `page-${name}`, "aria-labelledby": `page-tab-${name}` }, parts));
+  const buttons = list.map(({ name, title }) =>
+    h(
+      "button",
+      { role: "tab", id: `page-tab-${name}`, dataPage: name, "aria-controls": `page-${name}`, onclick: () => go(name) },
+      title,
+    ),
+  );
+  const hosts = list.map(({ name, parts }) =>
+    h("div", { role: "tabpanel", id: `page-${name}`, "aria-labelledby": `page-tab-${name}` }, parts),
+  );
   const strip = h("div", { class: "pages-strip", role: "tablist", ariaLabel: "Pages of the machine" }, buttons);
   const go = (name: string): void => {
     left();

@@ -23,7 +23,16 @@ export class PosePanels {
   private bar: Figure<BarSpec> | null = null;
 
   constructor() {
-    fill(this.pick, DIRECTIONS.map((d) => h("button", { ariaPressed: String(d === this.direction), dataDirection: d, onclick: () => this.choose(d) }, d === "axis" ? "tool axis" : d)));
+    fill(
+      this.pick,
+      DIRECTIONS.map((d) =>
+        h(
+          "button",
+          { ariaPressed: String(d === this.direction), dataDirection: d, onclick: () => this.choose(d) },
+          d === "axis" ? "tool axis" : d,
+        ),
+      ),
+    );
     fill(this.budget, h("div", { class: "panel-head" }, h("h2", {}, "Where it comes from"), this.pick, this.total));
   }
 
@@ -36,19 +45,34 @@ export class PosePanels {
   /** No pose: why not. The numbers of the last one go. */
   refuse(message: string, hint: string, diagnostics: readonly Diagnostic[]): void {
     this.pose = null;
-    const list = diagnostics.length > 0 ? diagnosticList(diagnostics) : [h("p", { class: "field-problem" }, message), h("p", { class: "hint" }, hint)];
+    const list =
+      diagnostics.length > 0
+        ? diagnosticList(diagnostics)
+        : [h("p", { class: "field-problem" }, message), h("p", { class: "hint" }, hint)];
     fill(this.tip, h("h2", {}, "Tool tip, as the workpiece sees it"), list);
     this.total.textContent = "";
     this.bar?.update({ title: "", unit: "µm", bars: [] });
   }
 
   private showTip(pose: PoseDocument, notes: readonly Diagnostic[], warm: boolean): void {
-    const cells = (values: Vector, text: (v: number) => string): HTMLElement[] => values.map((v) => h("td", { class: "number" }, text(v)));
+    const cells = (values: Vector, text: (v: number) => string): HTMLElement[] =>
+      values.map((v) => h("td", { class: "number" }, text(v)));
     const length = Math.hypot(...pose.deviation.tip_um);
     const tilt = Math.hypot(...pose.deviation.axis_urad);
-    const heads = h("tr", {}, h("th", {}), ["X", "Y", "Z", "length"].map((name) => h("th", { class: "number" }, name)));
+    const heads = h(
+      "tr",
+      {},
+      h("th", {}),
+      ["X", "Y", "Z", "length"].map((name) => h("th", { class: "number" }, name)),
+    );
     const row = (test: string, name: string, values: HTMLElement[], last = "", deviation = false): HTMLElement =>
-      h("tr", { class: deviation ? "deviation-row" : null, dataTest: test }, h("td", {}, name), values, h("td", { class: "number" }, last));
+      h(
+        "tr",
+        { class: deviation ? "deviation-row" : null, dataTest: test },
+        h("td", {}, name),
+        values,
+        h("td", { class: "number" }, last),
+      );
     fill(
       this.tip,
       h("h2", {}, warm ? "Tool tip, as the part has it at 20 °C" : "Tool tip, as the workpiece sees it"),
@@ -59,11 +83,35 @@ export class PosePanels {
         h(
           "tbody",
           {},
-          row("nominal", "nominal tip", cells(pose.nominal.tip_mm, (v) => mm(v))),
-          row("actual", "actual tip", cells(pose.actual.tip_mm, (v) => mm(v))),
-          row("deviation", "deviation", cells(pose.deviation.tip_um, (v) => um(v)), um(length), true),
-          row("axis", "tool axis", cells(pose.nominal.axis, (v) => number(v, 6))),
-          row("axis-deviation", "deviation", cells(pose.deviation.axis_urad, (v) => urad(v)), urad(tilt), true),
+          row(
+            "nominal",
+            "nominal tip",
+            cells(pose.nominal.tip_mm, (v) => mm(v)),
+          ),
+          row(
+            "actual",
+            "actual tip",
+            cells(pose.actual.tip_mm, (v) => mm(v)),
+          ),
+          row(
+            "deviation",
+            "deviation",
+            cells(pose.deviation.tip_um, (v) => um(v)),
+            um(length),
+            true,
+          ),
+          row(
+            "axis",
+            "tool axis",
+            cells(pose.nominal.axis, (v) => number(v, 6)),
+          ),
+          row(
+            "axis-deviation",
+            "deviation",
+            cells(pose.deviation.axis_urad, (v) => urad(v)),
+            urad(tilt),
+            true,
+          ),
         ),
       ),
       notes.length > 0 ? diagnosticList(notes) : null,
@@ -76,21 +124,35 @@ export class PosePanels {
     if (!pose) return;
     const index = DIRECTIONS.indexOf(direction);
     const tilt = direction === "axis";
-    const all = pose.budget.map((entry) => ({ name: entry.error, value: tilt ? Math.hypot(...entry.axis_urad) : (entry.tip_um[index] ?? 0) }));
+    const all = pose.budget.map((entry) => ({
+      name: entry.error,
+      value: tilt ? Math.hypot(...entry.axis_urad) : (entry.tip_um[index] ?? 0),
+    }));
     const least = 0.005 * Math.max(...all.map((b) => Math.abs(b.value)), 1e-6);
     const shown = all.filter((b) => Math.abs(b.value) > least).sort((a, b) => Math.abs(b.value) - Math.abs(a.value));
-    const top = shown.slice(0, MOST_BARS).map((b) => ({ ...b, colour: b.value < 0 ? "var(--series-2)" : "var(--series-1)" }));
-    const spec: BarSpec = { title: tilt ? "Share of every error in the tilt of the tool axis" : `Share of every error in ${direction}`, unit: tilt ? "µrad" : "µm", bars: top, signed: !tilt };
+    const top = shown
+      .slice(0, MOST_BARS)
+      .map((b) => ({ ...b, colour: b.value < 0 ? "var(--series-2)" : "var(--series-1)" }));
+    const spec: BarSpec = {
+      title: tilt ? "Share of every error in the tilt of the tool axis" : `Share of every error in ${direction}`,
+      unit: tilt ? "µrad" : "µm",
+      bars: top,
+      signed: !tilt,
+    };
     if (this.bar) this.bar.update(spec);
     else this.bar = bars(this.budget, spec);
-    const sum = tilt ? `together ${urad(Math.hypot(...pose.deviation.axis_urad))}` : `sum ${um(pose.deviation.tip_um[index])}`;
+    const sum = tilt
+      ? `together ${urad(Math.hypot(...pose.deviation.axis_urad))}`
+      : `sum ${um(pose.deviation.tip_um[index])}`;
     const rest = shown.length - top.length;
-    this.total.textContent = top.length === 0 ? "no error acts here" : rest > 0 ? `${sum}, ${rest} smaller not shown` : sum;
+    this.total.textContent =
+      top.length === 0 ? "no error acts here" : rest > 0 ? `${sum}, ${rest} smaller not shown` : sum;
   }
 
   private choose(direction: Direction): void {
     this.direction = direction;
-    for (const button of this.pick.querySelectorAll("button")) button.setAttribute("aria-pressed", String(button.dataset["direction"] === direction));
+    for (const button of this.pick.querySelectorAll("button"))
+      button.setAttribute("aria-pressed", String(button.dataset.direction === direction));
     this.showBudget();
   }
 }

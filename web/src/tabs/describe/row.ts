@@ -24,7 +24,8 @@ export function valueText(error: ErrorEntry): string {
 }
 
 /** The greatest amount, for sorting. */
-export const sizeOf = (error: ErrorEntry): number => Math.max(0, Math.abs(error.value ?? 0), ...(error.curve?.values ?? []).map(Math.abs));
+export const sizeOf = (error: ErrorEntry): number =>
+  Math.max(0, Math.abs(error.value ?? 0), ...(error.curve?.values ?? []).map(Math.abs));
 
 export class ErrorRow {
   readonly element = h("tr", {});
@@ -50,12 +51,29 @@ export class ErrorRow {
     this.error = error;
     this.actions = actions;
     this.problem = h("div", { class: "field-problem", id: `problem-${error.name}`, hidden: true });
-    this.box = h("input", { type: "text", class: "error-text", dataError: error.name, spellcheck: "false", autocomplete: "off", ariaLabel: `${error.name} in the machine file`, "aria-describedby": `problem-${error.name}` });
+    this.box = h("input", {
+      type: "text",
+      class: "error-text",
+      dataError: error.name,
+      spellcheck: "false",
+      autocomplete: "off",
+      ariaLabel: `${error.name} in the machine file`,
+      "aria-describedby": `problem-${error.name}`,
+    });
     this.box.addEventListener("change", () => void this.commit());
     this.box.addEventListener("keydown", (event) => event.key === "Escape" && this.restore());
     this.name.addEventListener("click", () => this.error.line !== null && this.actions.goTo(this.error.line));
-    this.element.dataset["row"] = error.name;
-    fill(this.element, h("td", {}, this.name), this.words, this.value, this.uncertainty, this.curve, this.share_cell, h("td", { class: "error-edit" }, this.box, this.problem));
+    this.element.dataset.row = error.name;
+    fill(
+      this.element,
+      h("td", {}, this.name),
+      this.words,
+      this.value,
+      this.uncertainty,
+      this.curve,
+      this.share_cell,
+      h("td", { class: "error-edit" }, this.box, this.problem),
+    );
   }
 
   get isInvalid(): boolean {
@@ -74,9 +92,12 @@ export class ErrorRow {
     this.name.disabled = error.line === null;
     this.words.textContent = words;
     this.value.textContent = valueText(error);
-    this.value.title = error.measured?.instrument ? [error.measured.instrument, error.measured.date].filter(Boolean).join(", ") : "";
+    this.value.title = error.measured?.instrument
+      ? [error.measured.instrument, error.measured.date].filter(Boolean).join(", ")
+      : "";
     this.uncertainty.textContent = withUnit(error.u, 1, unitText(error.unit));
-    this.uncertainty.title = error.u === null ? "no uncertainty stated" : `U = ${withUnit(2 * error.u, 1, unitText(error.unit))} (k = 2)`;
+    this.uncertainty.title =
+      error.u === null ? "no uncertainty stated" : `U = ${withUnit(2 * error.u, 1, unitText(error.unit))} (k = 2)`;
     this.drawCurve(error);
     this.showText(error);
   }
@@ -86,10 +107,29 @@ export class ErrorRow {
     if (key === this.curve_key) return;
     this.curve_key = key;
     this.spark = null;
-    if (!curve || curve.at.length < 3) return fill(this.curve);
-    this.spark = markedSparkline({ x: curve.at, y: curve.values, width: 72, height: 20, label: `${name} over the travel, ${valueText(this.error)}`, at: this.position });
+    if (!curve || curve.at.length < 3) {
+      fill(this.curve);
+      return;
+    }
+    this.spark = markedSparkline({
+      x: curve.at,
+      y: curve.values,
+      width: 72,
+      height: 20,
+      label: `${name} over the travel, ${valueText(this.error)}`,
+      at: this.position,
+    });
     const [from, to] = [curve.at[0] as number, curve.at.at(-1) as number];
-    fill(this.curve, h("span", { title: `${shape}, ${number(from, 0)} … ${withUnit(to, 0, curve.at_unit === "deg" ? "°" : "mm")}, in ${unitText(unit)}` }, this.spark.svg));
+    fill(
+      this.curve,
+      h(
+        "span",
+        {
+          title: `${shape}, ${number(from, 0)} … ${withUnit(to, 0, curve.at_unit === "deg" ? "°" : "mm")}, in ${unitText(unit)}`,
+        },
+        this.spark.svg,
+      ),
+    );
   }
 
   private showText(error: ErrorEntry): void {
@@ -102,7 +142,11 @@ export class ErrorRow {
     const typing = document.activeElement === this.box || this.refused !== null;
     if (untouched || arrived || !typing) this.restore();
     this.box.readOnly = elsewhere;
-    this.box.placeholder = elsewhere ? (error.table ? `column of ${error.table}` : `line ${error.line ?? "–"} of the file`) : `not stated, e.g. 5 ± 1 ${error.unit}`;
+    this.box.placeholder = elsewhere
+      ? error.table
+        ? `column of ${error.table}`
+        : `line ${error.line ?? "–"} of the file`
+      : `not stated, e.g. 5 ± 1 ${error.unit}`;
     this.box.title = elsewhere ? "edit it there" : text;
     this.box.classList.toggle("long", text.length > 24);
   }
@@ -123,7 +167,11 @@ export class ErrorRow {
     }
     this.box.setAttribute("aria-invalid", "true");
     const first = refusal.diagnostics.find((d) => d.severity === "error");
-    fill(this.problem, first?.message ?? refusal.message, h("span", { class: "hint" }, ` ${first?.hint ?? refusal.hint}`));
+    fill(
+      this.problem,
+      first?.message ?? refusal.message,
+      h("span", { class: "hint" }, ` ${first?.hint ?? refusal.hint}`),
+    );
   }
 
   private async commit(): Promise<void> {

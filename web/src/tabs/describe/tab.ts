@@ -43,7 +43,11 @@ export class DescribeTab implements TabHandle {
   private readonly file = new FileText((text) => this.edit(text));
   private readonly pages = pages(
     [
-      { name: "machine", title: "Machine and pose", parts: [this.chain, this.axes.element, this.conditions.element, this.pose.tip, this.pose.budget, this.findings] },
+      {
+        name: "machine",
+        title: "Machine and pose",
+        parts: [this.chain, this.axes.element, this.conditions.element, this.pose.tip, this.pose.budget, this.findings],
+      },
       { name: "errors", title: "Errors", parts: [this.errors.element] },
       { name: "file", title: "File", parts: [this.file.element] },
     ],
@@ -90,13 +94,20 @@ export class DescribeTab implements TabHandle {
   // ---- which file ----
 
   open(params: Readonly<Record<string, string>>): void {
-    const wanted = params["machine"] ?? this.app.state.machine ?? this.machineFiles()[0] ?? null;
+    const wanted = params.machine ?? this.app.state.machine ?? this.machineFiles()[0] ?? null;
     if (!wanted) {
-      fill(this.findings, h("p", {}, "There is no machine file in this folder. Open an example on the first page, or put a machine.toml into the folder."));
+      fill(
+        this.findings,
+        h(
+          "p",
+          {},
+          "There is no machine file in this folder. Open an example on the first page, or put a machine.toml into the folder.",
+        ),
+      );
       return;
     }
-    if (wanted !== this.draft?.path) void this.load(wanted, params["at"]);
-    else if (params["at"] && this.described) this.moveTo(this.described, params["at"]);
+    if (wanted !== this.draft?.path) void this.load(wanted, params.at);
+    else if (params.at && this.described) this.moveTo(this.described, params.at);
   }
 
   /** Somebody saved a file, or news was missed: is ours still as we know it? */
@@ -233,7 +244,11 @@ export class DescribeTab implements TabHandle {
       this.app.go("describe", { machine: path });
     } catch (error) {
       const refusal = Refusal.from(error);
-      this.head.askName(refusal.code === "conflict" ? `${path} is there already; choose another name` : `${refusal.message}. ${refusal.hint}`);
+      this.head.askName(
+        refusal.code === "conflict"
+          ? `${path} is there already; choose another name`
+          : `${refusal.message}. ${refusal.hint}`,
+      );
     }
   }
 
@@ -241,7 +256,13 @@ export class DescribeTab implements TabHandle {
   private accepted(): boolean {
     const [first] = this.errors.invalid;
     if (first === undefined) return true;
-    this.app.fail(new Refusal("not-accepted", `${first} holds a value that cannot be saved`, "Mend it in the table of errors, or press Escape in its field; nothing has been saved."));
+    this.app.fail(
+      new Refusal(
+        "not-accepted",
+        `${first} holds a value that cannot be saved`,
+        "Mend it in the table of errors, or press Escape in its field; nothing has been saved.",
+      ),
+    );
     return false;
   }
 
@@ -273,7 +294,13 @@ export class DescribeTab implements TabHandle {
     if (!draft) return;
     const check = this.described?.check;
     this.name = check?.name ?? this.name;
-    this.head.show({ name: this.name || draft.path, draft, usable: check?.usable ?? true, files: this.machineFiles(), dirty: this.dirtyPaths() });
+    this.head.show({
+      name: this.name || draft.path,
+      draft,
+      usable: check?.usable ?? true,
+      files: this.machineFiles(),
+      dirty: this.dirtyPaths(),
+    });
   }
 
   private async showDescription(description: Description): Promise<void> {
@@ -310,7 +337,11 @@ export class DescribeTab implements TabHandle {
     if (key === this.links_key) return;
     this.links_key = key;
     this.picture?.dispose();
-    this.picture = chainPicture(this.chain, { title: "From the workpiece to the tool", links, onhover: (name) => this.view.highlight(name) });
+    this.picture = chainPicture(this.chain, {
+      title: "From the workpiece to the tool",
+      links,
+      onhover: (name) => this.view.highlight(name),
+    });
     this.axes.show(links, keptPositions(links, this.axes.at));
   }
 
@@ -327,7 +358,11 @@ export class DescribeTab implements TabHandle {
     const same_file = this.scene_key.startsWith(`["${draft.path}"`);
     this.scene_key = key;
     try {
-      const { machine, diagnostics } = await withModels(this.app.api, { machine: draft.path, text: draft.text }, { links, models, tool });
+      const { machine, diagnostics } = await withModels(
+        this.app.api,
+        { machine: draft.path, text: draft.text },
+        { links, models, tool },
+      );
       if (key !== this.scene_key) return;
       this.view.setMachine(machine, same_file);
       this.showFindings(description, diagnostics);
@@ -344,8 +379,19 @@ export class DescribeTab implements TabHandle {
       this.findings,
       h("h2", {}, "What the check says"),
       diagnostics.length > 0 ? diagnosticList(diagnostics) : h("p", {}, "No errors or warnings."),
-      lacks.length > 0 ? [h("h3", { class: "lacks-title" }, "Not stated in the file"), h("ul", { class: "lacks" }, lacks.map((text) => h("li", {}, text)))] : null,
-      check.source ? [h("h3", { class: "lacks-title" }, "Source"), h("p", { class: "muted source" }, check.source)] : null,
+      lacks.length > 0
+        ? [
+            h("h3", { class: "lacks-title" }, "Not stated in the file"),
+            h(
+              "ul",
+              { class: "lacks" },
+              lacks.map((text) => h("li", {}, text)),
+            ),
+          ]
+        : null,
+      check.source
+        ? [h("h3", { class: "lacks-title" }, "Source"), h("p", { class: "muted source" }, check.source)]
+        : null,
     );
   }
 
@@ -384,7 +430,10 @@ export class DescribeTab implements TabHandle {
 
   private refusePose(error: unknown): void {
     const refusal = Refusal.from(error);
-    if (refusal.code === "connection") return this.app.fail(error);
+    if (refusal.code === "connection") {
+      this.app.fail(error);
+      return;
+    }
     this.pose.refuse(refusal.message, refusal.hint, refusal.diagnostics);
     this.errors.showPose(null, this.axes.at);
     this.head.showDeviation(null);

@@ -30,7 +30,9 @@ export function errorWords(error: ErrorEntry, links: readonly Link[]): string {
   if (!link) return error.kind;
   const body = link.kind === "workpiece" ? "workpiece" : link.kind === "tool" ? "tool" : link.name;
   if (error.kind === "motion") return `${motionWords(component, link)} of ${body}`;
-  return "ABC".includes(component) ? `orientation of ${body} about ${linearOf(component)}` : `position of ${body} in ${component}`;
+  return "ABC".includes(component)
+    ? `orientation of ${body} about ${linearOf(component)}`
+    : `position of ${body} in ${component}`;
 }
 
 /** "um" -> "µm", as numbers are shown. */

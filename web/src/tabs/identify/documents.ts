@@ -68,6 +68,6 @@ export function unitOf(found: Found): Unit {
   return found.value_urad === undefined ? "µm" : "µrad";
 }
 
-export function valueOf(found: Found): number | null {
+export function foundValue(found: Found): number | null {
   return (unitOf(found) === "µm" ? found.value_um : found.value_urad) ?? null;
 }

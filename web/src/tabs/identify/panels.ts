@@ -6,19 +6,42 @@ import { bars, type Bar, type BarSpec, type Figure } from "../../figure/index.ts
 import { number, withUnit } from "../../format.ts";
 import { sheetTable, type Sheet } from "../measure/table.ts";
 import { count } from "../measure/words.ts";
-import { unitOf, valueOf, type Found, type IdentifyDocument, type IdentifyHeader, type Score, type Unit, type Unobservable } from "./documents.ts";
+import {
+  unitOf,
+  foundValue,
+  type Found,
+  type IdentifyDocument,
+  type IdentifyHeader,
+  type Score,
+  type Unit,
+  type Unobservable,
+} from "./documents.ts";
 
 export function verdictPanel(doc: IdentifyDocument): HTMLElement {
   const { verdict } = doc;
-  const told = doc.errors.filter((one) => valueOf(one) !== null).length;
-  const found = doc.errors.length > 0 ? `${told} of ${count(doc.errors.length, "error")} found` : "no error of the machine is sought";
+  const told = doc.errors.filter((one) => foundValue(one) !== null).length;
+  const found =
+    doc.errors.length > 0
+      ? `${told} of ${count(doc.errors.length, "error")} found`
+      : "no error of the machine is sought";
   return h(
     "section",
     { class: "panel" },
     h("h1", {}, doc.name),
-    h("p", { class: `verdict ${verdict.good ? "" : "bad"}`, role: "status", dataTest: "verdict" }, h("span", { class: "verdict-word" }, verdict.good ? "Good" : "Not good"), h("span", {}, verdict.words)),
-    h("p", { class: "muted" }, `${count(doc.readings, "reading")} in ${count(doc.places, "place")}: ${found}. Rank ${doc.rank}, condition ${number(doc.condition, 1)}.`),
-    doc.left_out.length > 0 ? h("p", { class: "muted note" }, `Not supported by the readings, and left out: ${doc.left_out.join(", ")}.`) : null,
+    h(
+      "p",
+      { class: `verdict ${verdict.good ? "" : "bad"}`, role: "status", dataTest: "verdict" },
+      h("span", { class: "verdict-word" }, verdict.good ? "Good" : "Not good"),
+      h("span", {}, verdict.words),
+    ),
+    h(
+      "p",
+      { class: "muted" },
+      `${count(doc.readings, "reading")} in ${count(doc.places, "place")}: ${found}. Rank ${doc.rank}, condition ${number(doc.condition, 1)}.`,
+    ),
+    doc.left_out.length > 0
+      ? h("p", { class: "muted note" }, `Not supported by the readings, and left out: ${doc.left_out.join(", ")}.`)
+      : null,
   );
 }
 
@@ -28,7 +51,11 @@ export function scorePanel(doc: IdentifyDocument): HTMLElement {
     ["without_model", "without the errors sought, set-up only", doc.rms.without_model],
     ["in_sample", "in sample", doc.rms.in_sample],
     ["held_out", "held out, by place", doc.rms.held_out],
-    ["repeatability", doc.repeatability_is_measured ? "repeatability, from repeated readings" : "repeatability, as stated", doc.rms.repeatability],
+    [
+      "repeatability",
+      doc.repeatability_is_measured ? "repeatability, from repeated readings" : "repeatability, as stated",
+      doc.rms.repeatability,
+    ],
   ];
   const there = rows.filter((row): row is [string, string, Score] => row[2] !== null);
   const most = Math.max(1e-9, ...there.map(([, , score]) => score.times_noise ?? 0));
@@ -40,42 +67,117 @@ export function scorePanel(doc: IdentifyDocument): HTMLElement {
     h(
       "table",
       {},
-      h("thead", {}, h("tr", {}, h("th", {}), h("th", {}, h("span", { class: "visually-hidden" }, "Bar")), units.map((unit) => h("th", { class: "number" }, unit === "um" ? "µm" : "µrad")), h("th", { class: "number" }, "× noise"))),
-      h("tbody", {}, there.map(([key, label, score]) => h("tr", { dataScore: key }, h("td", {}, label), h("td", { class: "score-cell" }, h("span", { class: `score-bar ${key === "without_model" ? "muted-bar" : ""}`, style: { width: `${(100 * (score.times_noise ?? 0)) / most}%` } })), units.map((unit) => h("td", { class: "number" }, number(score[unit], 3))), h("td", { class: "number" }, number(score.times_noise, 2))))),
+      h(
+        "thead",
+        {},
+        h(
+          "tr",
+          {},
+          h("th", {}),
+          h("th", {}, h("span", { class: "visually-hidden" }, "Bar")),
+          units.map((unit) => h("th", { class: "number" }, unit === "um" ? "µm" : "µrad")),
+          h("th", { class: "number" }, "× noise"),
+        ),
+      ),
+      h(
+        "tbody",
+        {},
+        there.map(([key, label, score]) =>
+          h(
+            "tr",
+            { dataScore: key },
+            h("td", {}, label),
+            h(
+              "td",
+              { class: "score-cell" },
+              h("span", {
+                class: `score-bar ${key === "without_model" ? "muted-bar" : ""}`,
+                style: { width: `${(100 * (score.times_noise ?? 0)) / most}%` },
+              }),
+            ),
+            units.map((unit) => h("td", { class: "number" }, number(score[unit], 3))),
+            h("td", { class: "number" }, number(score.times_noise, 2)),
+          ),
+        ),
+      ),
     ),
   );
 }
 
 function barOf(found: Found): Bar {
-  const value = valueOf(found);
+  const value = foundValue(found);
   if (value === null) return { name: found.name, value: null, missing: "cannot be told from these readings" };
   const weak = found.z !== null && Math.abs(found.z) < 2;
-  return { name: found.name, value, u: found.u, note: `z = ${number(found.z, 1)}`, ...(weak ? { colour: "var(--line-strong)" } : {}) };
+  return {
+    name: found.name,
+    value,
+    u: found.u,
+    note: `z = ${number(found.z, 1)}`,
+    ...(weak ? { colour: "var(--line-strong)" } : {}),
+  };
 }
 
 /** Bars of one group, lengths and angles apart. */
-export function foundPanel(title: string, found: readonly Found[], note: string): { panel: HTMLElement; figures: Figure<BarSpec>[] } {
+export function foundPanel(
+  title: string,
+  found: readonly Found[],
+  note: string,
+): { panel: HTMLElement; figures: Figure<BarSpec>[] } {
   const panel = h("section", { class: "panel" });
   const figures: Figure<BarSpec>[] = [];
   for (const unit of ["µm", "µrad"] as Unit[]) {
     const own = found.filter((one) => unitOf(one) === unit);
-    if (own.length > 0) figures.push(bars(panel, { title: `${title}, ${unit === "µm" ? "lengths" : "angles"}`, unit, digits: 1, bars: own.map(barOf) }));
+    if (own.length > 0)
+      figures.push(
+        bars(panel, {
+          title: `${title}, ${unit === "µm" ? "lengths" : "angles"}`,
+          unit,
+          digits: 1,
+          bars: own.map(barOf),
+        }),
+      );
   }
   panel.append(h("p", { class: "muted note" }, note));
   return { panel, figures };
 }
 
 export function valueSheet(doc: IdentifyDocument): Sheet {
-  const rows = [...doc.errors, ...doc.setup].map((one) => [one.name, valueOf(one), one.u, unitOf(one), one.z]);
-  return { key: "values", title: "All values", head: ["unknown", "value", "standard uncertainty u", "unit", "z = value / u"], rows, digits: [, 3, 3, , 1] };
+  const rows = [...doc.errors, ...doc.setup].map((one) => [one.name, foundValue(one), one.u, unitOf(one), one.z]);
+  return {
+    key: "values",
+    title: "All values",
+    head: ["unknown", "value", "standard uncertainty u", "unit", "z = value / u"],
+    rows,
+    digits: [undefined, 3, 3, undefined, 1],
+  };
 }
 
 export function confoundedPanel(unobservable: readonly Unobservable[], good: string): HTMLElement {
   return h(
     "section",
     { class: "panel", dataTest: "confounded" },
-    h("h2", {}, unobservable.length > 0 ? `${count(unobservable.length, "combination")} that cannot be told apart` : "What cannot be told apart"),
-    unobservable.length === 0 ? h("p", {}, good) : h("ul", { class: "confounded" }, unobservable.map((one) => h("li", {}, h("p", {}, one.words), one.resolve_with ? h("p", { class: "muted" }, `What would tell: ${one.resolve_with}`) : null, h("p", { class: "muted" }, h("code", {}, one.combination))))),
+    h(
+      "h2",
+      {},
+      unobservable.length > 0
+        ? `${count(unobservable.length, "combination")} that cannot be told apart`
+        : "What cannot be told apart",
+    ),
+    unobservable.length === 0
+      ? h("p", {}, good)
+      : h(
+          "ul",
+          { class: "confounded" },
+          unobservable.map((one) =>
+            h(
+              "li",
+              {},
+              h("p", {}, one.words),
+              one.resolve_with ? h("p", { class: "muted" }, `What would tell: ${one.resolve_with}`) : null,
+              h("p", { class: "muted" }, h("code", {}, one.combination)),
+            ),
+          ),
+        ),
   );
 }
 
@@ -88,7 +190,11 @@ export function strongPairs(names: readonly string[], correlation: ArrayLike<num
   for (let i = 0; i < n; i++) {
     for (let j = i + 1; j < n; j++) {
       const r = correlation[i * n + j] as number;
-      if (Math.abs(r) > STRONG) pairs.push({ r, words: `${names[i]} and ${names[j]} (${r > 0 ? "+" : ""}${number(r, 3)}): their ${r < 0 ? "sum" : "difference"} is better known than each` });
+      if (Math.abs(r) > STRONG)
+        pairs.push({
+          r,
+          words: `${names[i]} and ${names[j]} (${r > 0 ? "+" : ""}${number(r, 3)}): their ${r < 0 ? "sum" : "difference"} is better known than each`,
+        });
     }
   }
   return pairs.sort((a, b) => Math.abs(b.r) - Math.abs(a.r)).slice(0, 10);
@@ -96,17 +202,49 @@ export function strongPairs(names: readonly string[], correlation: ArrayLike<num
 
 export function outlierPanel(doc: IdentifyDocument): HTMLElement {
   const sheets: Sheet[] = [
-    { key: "outliers", title: "Outliers", head: ["reading", "channel", "studentised residual"], rows: doc.outliers.map((o) => [`${o.file}:${o.line}`, o.channel, o.studentised]), digits: [, 0, 1] },
-    { key: "influence", title: "Readings that move the result most", head: ["reading", "leverage", "Cook’s distance"], rows: doc.most_influential.map((m) => [`${m.file}:${m.line}`, m.leverage, m.cook]), digits: [, 3, 4] },
-    { key: "follows", title: "Whether the residual follows the axes", head: ["places by", "share of it, held out, %"], rows: doc.residual_follows.map((f) => [f.what, 100 * f.share]), digits: [, 1], note: "Above zero: something of the machine is left that the model does not have." },
+    {
+      key: "outliers",
+      title: "Outliers",
+      head: ["reading", "channel", "studentised residual"],
+      rows: doc.outliers.map((o) => [`${o.file}:${o.line}`, o.channel, o.studentised]),
+      digits: [undefined, 0, 1],
+    },
+    {
+      key: "influence",
+      title: "Readings that move the result most",
+      head: ["reading", "leverage", "Cook’s distance"],
+      rows: doc.most_influential.map((m) => [`${m.file}:${m.line}`, m.leverage, m.cook]),
+      digits: [undefined, 3, 4],
+    },
+    {
+      key: "follows",
+      title: "Whether the residual follows the axes",
+      head: ["places by", "share of it, held out, %"],
+      rows: doc.residual_follows.map((f) => [f.what, 100 * f.share]),
+      digits: [undefined, 1],
+      note: "Above zero: something of the machine is left that the model does not have.",
+    },
   ];
   const [outliers, ...more] = sheets as [Sheet, ...Sheet[]];
   return h(
     "div",
     {},
-    doc.outliers.length > 0 ? sheetTable(outliers) : h("section", { class: "panel", dataSheet: "outliers" }, h("h2", {}, "Outliers"), h("p", {}, `None: no reading is farther off than ${withUnit(doc.outlier_limit, 1, "")} times its standard uncertainty.`)),
+    doc.outliers.length > 0
+      ? sheetTable(outliers)
+      : h(
+          "section",
+          { class: "panel", dataSheet: "outliers" },
+          h("h2", {}, "Outliers"),
+          h(
+            "p",
+            {},
+            `None: no reading is farther off than ${withUnit(doc.outlier_limit, 1, "")} times its standard uncertainty.`,
+          ),
+        ),
     more.map(sheetTable),
-    doc.diagnostics.length > 0 ? h("section", { class: "panel" }, h("h2", {}, "Remarks"), diagnosticList(doc.diagnostics)) : null,
+    doc.diagnostics.length > 0
+      ? h("section", { class: "panel" }, h("h2", {}, "Remarks"), diagnosticList(doc.diagnostics))
+      : null,
   );
 }
 

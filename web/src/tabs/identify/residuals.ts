@@ -34,10 +34,36 @@ export class Residuals {
   private sets: VectorSpec["sets"] = [];
 
   constructor(host: HTMLElement) {
-    this.slider = h("input", { type: "range", min: "0", max: "100", step: "0.5", class: "exaggeration", ariaLabel: "Magnification of the residuals", oninput: () => this.turn({ magnification: factorOf(Number(this.slider.value)) }) });
-    this.sides = h("div", { class: "group", role: "group", ariaLabel: "View" }, SIDES.map(([name, azimuth, elevation, title]) => h("button", { title, onclick: () => this.turn({ azimuth, elevation }) }, name)));
+    this.slider = h("input", {
+      type: "range",
+      min: "0",
+      max: "100",
+      step: "0.5",
+      class: "exaggeration",
+      ariaLabel: "Magnification of the residuals",
+      oninput: () => this.turn({ magnification: factorOf(Number(this.slider.value)) }),
+    });
+    this.sides = h(
+      "div",
+      { class: "group", role: "group", ariaLabel: "View" },
+      SIDES.map(([name, azimuth, elevation, title]) =>
+        h("button", { title, onclick: () => this.turn({ azimuth, elevation }) }, name),
+      ),
+    );
     const check = (box: HTMLInputElement, text: string): HTMLElement => h("label", { class: "check" }, box, text);
-    fill(this.panel, h("div", { class: "vectors-tools" }, this.sides, check(this.before, "before"), check(this.after, "after"), this.slider, this.factor_text), this.drawing);
+    fill(
+      this.panel,
+      h(
+        "div",
+        { class: "vectors-tools" },
+        this.sides,
+        check(this.before, "before"),
+        check(this.after, "after"),
+        this.slider,
+        this.factor_text,
+      ),
+      this.drawing,
+    );
     host.append(this.panel);
     this.drawing.addEventListener("pointerdown", (down) => this.drag(down));
     this.drawing.addEventListener("keydown", (event) => this.key(event));
@@ -52,7 +78,14 @@ export class Residuals {
     ];
     const [, azimuth, elevation] = SIDES[0] as (typeof SIDES)[number];
     const kept = this.spec ?? { azimuth, elevation };
-    this.turn({ title: "Residuals where the machine stood", at_mm, sets: this.sets, azimuth: kept.azimuth, elevation: kept.elevation, magnification: fairMagnification(at_mm, frame.f32("before_um")) });
+    this.turn({
+      title: "Residuals where the machine stood",
+      at_mm,
+      sets: this.sets,
+      azimuth: kept.azimuth,
+      elevation: kept.elevation,
+      magnification: fairMagnification(at_mm, frame.f32("before_um")),
+    });
   }
 
   clear(): void {
@@ -64,7 +97,12 @@ export class Residuals {
     this.slider.value = String(sliderOf(this.spec.magnification));
     this.factor_text.textContent = factor(this.spec.magnification);
     this.slider.setAttribute("aria-valuetext", factor(this.spec.magnification));
-    SIDES.forEach(([, azimuth, elevation], i) => this.sides.children[i]?.setAttribute("aria-pressed", String(this.spec?.azimuth === azimuth && this.spec.elevation === elevation)));
+    SIDES.forEach(([, azimuth, elevation], i) =>
+      this.sides.children[i]?.setAttribute(
+        "aria-pressed",
+        String(this.spec?.azimuth === azimuth && this.spec.elevation === elevation),
+      ),
+    );
     this.draw();
   }
 
@@ -78,15 +116,27 @@ export class Residuals {
   private drag(down: PointerEvent): void {
     const from = this.spec;
     if (!from || !(down.target as Element).closest("svg")) return;
-    const move = (event: PointerEvent): void => this.turn({ azimuth: from.azimuth - 0.5 * (event.clientX - down.clientX), elevation: Math.max(-90, Math.min(90, from.elevation + 0.5 * (event.clientY - down.clientY))) });
+    const move = (event: PointerEvent): void =>
+      this.turn({
+        azimuth: from.azimuth - 0.5 * (event.clientX - down.clientX),
+        elevation: Math.max(-90, Math.min(90, from.elevation + 0.5 * (event.clientY - down.clientY))),
+      });
     window.addEventListener("pointermove", move);
     window.addEventListener("pointerup", () => window.removeEventListener("pointermove", move), { once: true });
   }
 
   private key(event: KeyboardEvent): void {
-    const step = ({ ArrowLeft: [-6, 0], ArrowRight: [6, 0], ArrowUp: [0, 6], ArrowDown: [0, -6] } as Record<string, [number, number]>)[event.key];
+    const step = (
+      { ArrowLeft: [-6, 0], ArrowRight: [6, 0], ArrowUp: [0, 6], ArrowDown: [0, -6] } as Record<
+        string,
+        [number, number]
+      >
+    )[event.key];
     if (!step || !this.spec) return;
     event.preventDefault();
-    this.turn({ azimuth: this.spec.azimuth + step[0], elevation: Math.max(-90, Math.min(90, this.spec.elevation + step[1])) });
+    this.turn({
+      azimuth: this.spec.azimuth + step[0],
+      elevation: Math.max(-90, Math.min(90, this.spec.elevation + step[1])),
+    });
   }
 }

@@ -28,7 +28,10 @@ export class Question<H> {
     this.running = own;
     const progress = this.app.progress(text);
     try {
-      return await this.app.api.ask<Frame<H>>(this.name, body, { signal: own.signal, onProgress: (share, note) => progress.report(share, note || text) });
+      return await this.app.api.ask<Frame<H>>(this.name, body, {
+        signal: own.signal,
+        onProgress: (share, note) => progress.report(share, note || text),
+      });
     } finally {
       if (this.running === own || this.running === null) progress.done();
     }
@@ -45,8 +48,16 @@ const MOST_TOLD = 12;
 /** What is wrong with the input and what to do, where the result would stand. */
 export function showRefusal(host: HTMLElement, error: unknown, more?: Node): void {
   const refusal = Refusal.from(error);
-  const [errors, others] = [true, false].map((wanted) => refusal.diagnostics.filter((d) => (d.severity === "error") === wanted)) as [Diagnostic[], Diagnostic[]];
-  const list = (all: readonly Diagnostic[]): Child => (all.length > 0 ? [diagnosticList(all.slice(0, MOST_TOLD)), all.length > MOST_TOLD ? h("p", { class: "muted" }, `and ${all.length - MOST_TOLD} more`) : null] : null);
+  const [errors, others] = [true, false].map((wanted) =>
+    refusal.diagnostics.filter((d) => (d.severity === "error") === wanted),
+  ) as [Diagnostic[], Diagnostic[]];
+  const list = (all: readonly Diagnostic[]): Child =>
+    all.length > 0
+      ? [
+          diagnosticList(all.slice(0, MOST_TOLD)),
+          all.length > MOST_TOLD ? h("p", { class: "muted" }, `and ${all.length - MOST_TOLD} more`) : null,
+        ]
+      : null;
   const told = refusal.diagnostics.some((d) => refusal.message.endsWith(d.message));
   fill(
     host,
@@ -56,14 +67,28 @@ export function showRefusal(host: HTMLElement, error: unknown, more?: Node): voi
       told ? null : h("h2", {}, refusal.message),
       told || !refusal.hint ? null : h("p", { class: "hint" }, refusal.hint),
       list(errors),
-      others.length > 0 ? h("details", { open: errors.length === 0 }, h("summary", { class: "muted" }, count(others.length, "warning or note", "warnings and notes")), list(others)) : null,
+      others.length > 0
+        ? h(
+            "details",
+            { open: errors.length === 0 },
+            h("summary", { class: "muted" }, count(others.length, "warning or note", "warnings and notes")),
+            list(others),
+          )
+        : null,
       more,
     ),
   );
 }
 
 /** A file of the folder: what is shipped as examples first; test data of the program last. */
-export function fileSelect(app: App, label: string, tab: string, wanted: (file: ProjectFile) => boolean, now: string | null, choose: (path: string) => void): HTMLSelectElement {
+export function fileSelect(
+  app: App,
+  label: string,
+  tab: string,
+  wanted: (file: ProjectFile) => boolean,
+  now: string | null,
+  choose: (path: string) => void,
+): HTMLSelectElement {
   const project = app.state.project;
   const examples = (project?.examples ?? []).filter((example) => example.tab === tab);
   const shown = new Set(examples.map((example) => example.path));
@@ -76,8 +101,20 @@ export function fileSelect(app: App, label: string, tab: string, wanted: (file: 
     { ariaLabel: label, class: "file-select", onchange: () => choose(select.value) },
     now && !shown.has(now) && !files.includes(now) ? option(now) : null,
     now ? null : h("option", { value: "", disabled: true }, `${label} …`),
-    examples.length > 0 ? h("optgroup", { label: "Examples" }, examples.map((example) => option(example.path, example.title))) : null,
-    files.length > 0 ? h("optgroup", { label: "Files of this folder" }, files.map((path) => option(path))) : null,
+    examples.length > 0
+      ? h(
+          "optgroup",
+          { label: "Examples" },
+          examples.map((example) => option(example.path, example.title)),
+        )
+      : null,
+    files.length > 0
+      ? h(
+          "optgroup",
+          { label: "Files of this folder" },
+          files.map((path) => option(path)),
+        )
+      : null,
   );
   select.value = now ?? "";
   return select;
@@ -85,6 +122,6 @@ export function fileSelect(app: App, label: string, tab: string, wanted: (file: 
 
 /** The way to the report of the same question; only for files, as a report names what it read. */
 export function reportButton(app: App, params: Record<string, string | null | undefined>): HTMLElement | null {
-  if (!app.has("report") || !params["file"]) return null;
+  if (!app.has("report") || !params.file) return null;
   return h("button", { class: "report-link", onclick: () => app.go("report", params) }, "Report");
 }

@@ -14,11 +14,20 @@ export interface TextFile {
 const MOST_BYTES = 32e6;
 
 async function read(file: File): Promise<TextFile> {
-  if (file.size > MOST_BYTES) throw new Refusal("large-file", `${file.name} has ${bytes(file.size)}: too much for readings`, `Drop a CSV of at most ${bytes(MOST_BYTES)}, or put the file into the project folder.`);
+  if (file.size > MOST_BYTES)
+    throw new Refusal(
+      "large-file",
+      `${file.name} has ${bytes(file.size)}: too much for readings`,
+      `Drop a CSV of at most ${bytes(MOST_BYTES)}, or put the file into the project folder.`,
+    );
   try {
     return { name: file.name, text: new TextDecoder("utf-8", { fatal: true }).decode(await file.arrayBuffer()) };
   } catch {
-    throw new Refusal("not-text", `${file.name} is not a text file (UTF-8)`, "Save the readings as CSV UTF-8: one line of headings, each with its unit, then one row for each reading.");
+    throw new Refusal(
+      "not-text",
+      `${file.name} is not a text file (UTF-8)`,
+      "Save the readings as CSV UTF-8: one line of headings, each with its unit, then one row for each reading.",
+    );
   }
 }
 

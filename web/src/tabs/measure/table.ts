@@ -30,8 +30,17 @@ function columnIsText(sheet: Sheet, j: number): boolean {
 }
 
 export function sheetTable(sheet: Sheet): HTMLElement {
-  const csv = (): string => csvOf(sheet.head.map((heading, j) => ({ heading, values: sheet.rows.map((row) => row[j] ?? null) })));
-  const save = h("button", { class: "figure-save", ariaLabel: `Save the table ${sheet.title} as CSV`, onclick: () => download(`${fileName(sheet.title)}.csv`, csv(), "text/csv") }, "CSV");
+  const csv = (): string =>
+    csvOf(sheet.head.map((heading, j) => ({ heading, values: sheet.rows.map((row) => row[j] ?? null) })));
+  const save = h(
+    "button",
+    {
+      class: "figure-save",
+      ariaLabel: `Save the table ${sheet.title} as CSV`,
+      onclick: () => download(`${fileName(sheet.title)}.csv`, csv(), "text/csv"),
+    },
+    "CSV",
+  );
   return h(
     "section",
     { class: "panel sheet figure", dataSheet: sheet.key ?? fileName(sheet.title) },
@@ -42,8 +51,26 @@ export function sheetTable(sheet: Sheet): HTMLElement {
       h(
         "table",
         {},
-        h("thead", {}, h("tr", {}, sheet.head.map((text, j) => h("th", { class: columnIsText(sheet, j) ? "" : "number" }, text)))),
-        h("tbody", {}, sheet.rows.map((row, i) => h("tr", {}, row.map((value, j) => cell(value, sheet.digits?.[j] ?? 2, j === 0 ? sheet.hints?.[i] : undefined))))),
+        h(
+          "thead",
+          {},
+          h(
+            "tr",
+            {},
+            sheet.head.map((text, j) => h("th", { class: columnIsText(sheet, j) ? "" : "number" }, text)),
+          ),
+        ),
+        h(
+          "tbody",
+          {},
+          sheet.rows.map((row, i) =>
+            h(
+              "tr",
+              {},
+              row.map((value, j) => cell(value, sheet.digits?.[j] ?? 2, j === 0 ? sheet.hints?.[i] : undefined)),
+            ),
+          ),
+        ),
       ),
     ),
     sheet.note ? h("p", { class: "muted note" }, sheet.note) : null,

@@ -55,6 +55,12 @@ export interface PlanHeader {
   document: PlanDocument;
   machine: string;
   axes: { name: string; unit: "mm" | "deg" }[];
-  paths: { name: string; instrument: string; kind: string; stations: number; files: { name: string; text: string }[] }[];
+  paths: {
+    name: string;
+    instrument: string;
+    kind: string;
+    stations: number;
+    files: { name: string; text: string }[];
+  }[];
   diagnostics: Diagnostic[];
 }

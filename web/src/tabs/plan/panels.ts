@@ -23,14 +23,28 @@ export function summaryPanel(doc: PlanDocument): HTMLElement {
   const told = doc.expected.filter((one) => one.u !== null).length;
   const time_s = doc.paths.reduce((sum, path) => sum + (path.program?.duration_s ?? 0), 0);
   const [state, word] = unsound > 0 ? ["bad", "Not sound"] : doc.rank < seen ? ["warn", "Not all"] : ["", "Tells all"];
-  const words = [unsound > 0 ? `${count(unsound, "program")} would run into something or leave the travel` : null, doc.rank < seen ? `${doc.rank} of ${seen} combinations seen, ${told} unknowns can be told alone` : "everything that is sought can be told"].filter(Boolean);
+  const words = [
+    unsound > 0 ? `${count(unsound, "program")} would run into something or leave the travel` : null,
+    doc.rank < seen
+      ? `${doc.rank} of ${seen} combinations seen, ${told} unknowns can be told alone`
+      : "everything that is sought can be told",
+  ].filter(Boolean);
   return h(
     "section",
     { class: "panel" },
     h("h1", {}, doc.name),
     h("p", { class: "muted" }, `${doc.machine}, `, h("code", { class: "chain-text" }, doc.chain)),
-    h("p", { class: `verdict ${state}`, role: "status", dataTest: "summary" }, h("span", { class: "verdict-word" }, word), h("span", {}, words.join("; "))),
-    h("p", { class: "muted" }, `${count(doc.paths.length, "path")}, ${duration(time_s)} of program together; condition ${significant(doc.condition)}.`),
+    h(
+      "p",
+      { class: `verdict ${state}`, role: "status", dataTest: "summary" },
+      h("span", { class: "verdict-word" }, word),
+      h("span", {}, words.join("; ")),
+    ),
+    h(
+      "p",
+      { class: "muted" },
+      `${count(doc.paths.length, "path")}, ${duration(time_s)} of program together; condition ${significant(doc.condition)}.`,
+    ),
   );
 }
 
@@ -40,15 +54,68 @@ export function pathsPanel({ document, paths }: PlanHeader, now: number, choose:
     const { program } = path;
     const trouble = program ? troubles(program) : [];
     const minor = program?.minor ?? [];
-    const state = !program ? h("span", { class: "muted" }, "no program") : h("span", { class: program.sound ? "sound" : "unsound" }, program.sound ? "sound" : "not sound");
-    const notes = [...trouble.map((text) => h("p", { class: "unsound" }, text)), minor.length > 0 ? h("details", { onclick: (event: Event) => event.stopPropagation() }, h("summary", { class: "muted" }, `${minor.length} minor`), minor.slice(0, 100).map((text) => h("p", { class: "muted" }, text))) : null];
-    const how = path.feed_mm_per_min !== null ? `without a stop at ${number(path.feed_mm_per_min, 0)} mm/min` : path.dwell_s !== null ? `standing ${number(path.dwell_s, 2)} s at each` : null;
+    const state = !program
+      ? h("span", { class: "muted" }, "no program")
+      : h("span", { class: program.sound ? "sound" : "unsound" }, program.sound ? "sound" : "not sound");
+    const notes = [
+      ...trouble.map((text) => h("p", { class: "unsound" }, text)),
+      minor.length > 0
+        ? h(
+            "details",
+            { onclick: (event: Event) => event.stopPropagation() },
+            h("summary", { class: "muted" }, `${minor.length} minor`),
+            minor.slice(0, 100).map((text) => h("p", { class: "muted" }, text)),
+          )
+        : null,
+    ];
+    const how =
+      path.feed_mm_per_min !== null
+        ? `without a stop at ${number(path.feed_mm_per_min, 0)} mm/min`
+        : path.dwell_s !== null
+          ? `standing ${number(path.dwell_s, 2)} s at each`
+          : null;
     const kind = [paths[i]?.instrument, paths[i]?.kind, how].filter(Boolean).join(", ");
-    const cells = [h("td", {}, h("strong", {}, path.name), h("p", { class: "muted" }, kind)), h("td", { class: "number" }, String(path.stations)), h("td", { class: "number" }, program ? duration(program.duration_s) : "–"), h("td", {}, state, notes)];
-    const element = h("tr", { tabindex: "0", ariaSelected: String(i === now), dataPath: path.name, onclick: () => choose(i), onkeydown: (event: KeyboardEvent) => event.key === "Enter" && choose(i) }, cells);
+    const cells = [
+      h("td", {}, h("strong", {}, path.name), h("p", { class: "muted" }, kind)),
+      h("td", { class: "number" }, String(path.stations)),
+      h("td", { class: "number" }, program ? duration(program.duration_s) : "–"),
+      h("td", {}, state, notes),
+    ];
+    const element = h(
+      "tr",
+      {
+        tabindex: "0",
+        ariaSelected: String(i === now),
+        dataPath: path.name,
+        onclick: () => choose(i),
+        onkeydown: (event: KeyboardEvent) => event.key === "Enter" && choose(i),
+      },
+      cells,
+    );
     return element;
   };
-  return h("section", { class: "panel" }, h("h2", {}, "Paths and their programs"), h("table", { class: "paths" }, h("thead", {}, h("tr", {}, h("th", {}, "Path"), h("th", { class: "number" }, "Stations"), h("th", { class: "number" }, "Runs"), h("th", {}, "Troubles"))), h("tbody", {}, document.paths.map(row))));
+  return h(
+    "section",
+    { class: "panel" },
+    h("h2", {}, "Paths and their programs"),
+    h(
+      "table",
+      { class: "paths" },
+      h(
+        "thead",
+        {},
+        h(
+          "tr",
+          {},
+          h("th", {}, "Path"),
+          h("th", { class: "number" }, "Stations"),
+          h("th", { class: "number" }, "Runs"),
+          h("th", {}, "Troubles"),
+        ),
+      ),
+      h("tbody", {}, document.paths.map(row)),
+    ),
+  );
 }
 
 /** An unknown of the set-up is written instrument.name. */
@@ -61,10 +128,29 @@ export function expectedPanel(doc: PlanDocument): Drawn {
   for (const unit of ["um", "urad"]) {
     const own = doc.expected.filter((one) => one.unit === unit).sort((a, b) => Number(isSetup(a)) - Number(isSetup(b)));
     if (own.length === 0) continue;
-    const list = own.map((one) => ({ name: one.name, value: one.expanded_k2, missing: "cannot be told alone", note: "k = 2", ...(isSetup(one) ? { colour: "var(--line-strong)" } : {}) }));
-    figures.push(bars(panel, { title: `Expected uncertainty U (k = 2) of ${unit === "um" ? "lengths" : "angles"}`, unit: unitText(unit), digits: 2, bars: list }));
+    const list = own.map((one) => ({
+      name: one.name,
+      value: one.expanded_k2,
+      missing: "cannot be told alone",
+      note: "k = 2",
+      ...(isSetup(one) ? { colour: "var(--line-strong)" } : {}),
+    }));
+    figures.push(
+      bars(panel, {
+        title: `Expected uncertainty U (k = 2) of ${unit === "um" ? "lengths" : "angles"}`,
+        unit: unitText(unit),
+        digits: 2,
+        bars: list,
+      }),
+    );
   }
-  panel.append(h("p", { class: "muted note" }, "Before anybody measures: from the noise of the instrument and the poses alone. Grey: unknowns of the set-up."));
+  panel.append(
+    h(
+      "p",
+      { class: "muted note" },
+      "Before anybody measures: from the noise of the instrument and the poses alone. Grey: unknowns of the set-up.",
+    ),
+  );
   return { panel, figures };
 }
 
@@ -73,21 +159,53 @@ const UNSEEN = 1e-6;
 
 export function seenPanel(doc: PlanDocument): Drawn {
   const panel = h("section", { class: "panel" });
-  const columns = doc.paths.flatMap((path) => path.channels.map((channel) => (path.channels.length > 1 ? `${path.name} ${channel}` : path.name)));
+  const columns = doc.paths.flatMap((path) =>
+    path.channels.map((channel) => (path.channels.length > 1 ? `${path.name} ${channel}` : path.name)),
+  );
   const errors = doc.paths[0]?.seen_of_10_um_or_urad.map((one) => one.error) ?? [];
-  const values = errors.flatMap((_, i) => doc.paths.flatMap((path) => (path.seen_of_10_um_or_urad[i]?.largest ?? []).map((v) => (Math.abs(v) < UNSEEN ? Number.NaN : v))));
+  const values = errors.flatMap((_, i) =>
+    doc.paths.flatMap((path) =>
+      (path.seen_of_10_um_or_urad[i]?.largest ?? []).map((v) => (Math.abs(v) < UNSEEN ? Number.NaN : v)),
+    ),
+  );
   const units = [...new Set(doc.paths.map((path) => unitText(path.unit)))].join(" or ");
-  const figure = heatmap(panel, { title: `What each path sees of 10 µm or 10 µrad, ${units}`, rows: errors, columns, values, range: [0, Math.max(10, ...values.filter(Number.isFinite))], digits: 2, unit: units, blank: "not seen" });
-  panel.append(h("p", { class: "muted note" }, "Largest reading along the path, for every channel of its instrument. Grey: not seen at all."));
+  const figure = heatmap(panel, {
+    title: `What each path sees of 10 µm or 10 µrad, ${units}`,
+    rows: errors,
+    columns,
+    values,
+    range: [0, Math.max(10, ...values.filter(Number.isFinite))],
+    digits: 2,
+    unit: units,
+    blank: "not seen",
+  });
+  panel.append(
+    h(
+      "p",
+      { class: "muted note" },
+      "Largest reading along the path, for every channel of its instrument. Grey: not seen at all.",
+    ),
+  );
   return { panel, figures: [figure] };
 }
 
 /** The poses that were chosen, against a grid of as many. */
 export function chosenPanel(chosen: Chosen): HTMLElement {
   const grid = new Map(chosen.grid?.expected.map((one) => [one.name, one.expanded_k2]));
-  const rows = chosen.expected.map((one) => [one.name, one.expanded_k2, ...(chosen.grid ? [grid.get(one.name) ?? null] : []), unitText(one.unit)]);
+  const rows = chosen.expected.map((one) => [
+    one.name,
+    one.expanded_k2,
+    ...(chosen.grid ? [grid.get(one.name) ?? null] : []),
+    unitText(one.unit),
+  ]);
   const words = `${chosen.poses} of ${chosen.candidates} poses, ${count(chosen.readings, "reading")}${chosen.time_s !== null ? `, ${duration(chosen.time_s)} as the campaign counts touches and poses` : ""}. ${count(chosen.blocked, "pose")} left out, where the tool would run into something.`;
-  const sheet = sheetTable({ key: "chosen", title: "The chosen poses against a grid of as many", head: ["unknown", "U (k = 2) chosen", ...(chosen.grid ? [`grid of ${chosen.grid.poses}`] : []), "unit"], rows, digits: [, 2, 2] });
+  const sheet = sheetTable({
+    key: "chosen",
+    title: "The chosen poses against a grid of as many",
+    head: ["unknown", "U (k = 2) chosen", ...(chosen.grid ? [`grid of ${chosen.grid.poses}`] : []), "unit"],
+    rows,
+    digits: [undefined, 2, 2],
+  });
   sheet.querySelector(".figure-head")?.after(h("p", { dataTest: "chosen" }, words));
   return sheet;
 }
@@ -100,8 +218,23 @@ export function programsPanel({ paths }: PlanHeader, dialect: HTMLElement): HTML
     const lines = text.split("\n");
     const more = lines.length > SHOWN ? `\n… ${number(lines.length - SHOWN, 0)} more lines are in the file` : "";
     const pre = h("pre", { class: "program", tabindex: "0" });
-    const details = h("details", { ontoggle: () => (pre.textContent = details.open ? `${lines.slice(0, SHOWN).join("\n")}${more}` : "") }, h("summary", {}, name, h("span", { class: "muted" }, ` ${lines.length} lines`)), pre);
-    return h("div", { class: "program-line" }, details, h("button", { ariaLabel: `Save ${name}`, onclick: () => download(name, text) }, "Save"));
+    const details = h(
+      "details",
+      { ontoggle: () => (pre.textContent = details.open ? `${lines.slice(0, SHOWN).join("\n")}${more}` : "") },
+      h("summary", {}, name, h("span", { class: "muted" }, ` ${lines.length} lines`)),
+      pre,
+    );
+    return h(
+      "div",
+      { class: "program-line" },
+      details,
+      h("button", { ariaLabel: `Save ${name}`, onclick: () => download(name, text) }, "Save"),
+    );
   };
-  return h("section", { class: "panel" }, h("div", { class: "panel-head" }, h("h2", {}, "Programs and tables of poses"), dialect), paths.flatMap((path) => path.files.map(line)));
+  return h(
+    "section",
+    { class: "panel" },
+    h("div", { class: "panel-head" }, h("h2", {}, "Programs and tables of poses"), dialect),
+    paths.flatMap((path) => path.files.map(line)),
+  );
 }

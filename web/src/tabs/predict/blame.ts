@@ -8,8 +8,15 @@ import { indicesOf, titleOf, worstOf, type Correction, type PieceDocument, type 
 
 type Group = "blame" | "blame_by_body" | "blame_by_kind";
 type Measure = "gain" | "alone";
-const GROUPS: readonly [Group, string][] = [["blame", "errors"], ["blame_by_body", "axes"], ["blame_by_kind", "kinds"]];
-const MEASURES: readonly [Measure, string][] = [["gain", "gain without it"], ["alone", "alone"]];
+const GROUPS: readonly [Group, string][] = [
+  ["blame", "errors"],
+  ["blame_by_body", "axes"],
+  ["blame_by_kind", "kinds"],
+];
+const MEASURES: readonly [Measure, string][] = [
+  ["gain", "gain without it"],
+  ["alone", "alone"],
+];
 /** More bars than this hide what matters. */
 const MOST = 14;
 
@@ -22,8 +29,16 @@ export interface BlameActions {
 
 export class Blame {
   private readonly index = h("select", { ariaLabel: "Index", onchange: () => this.draw() });
-  private readonly group = h("select", { ariaLabel: "Grouped by", onchange: () => this.draw() }, GROUPS.map(([value, text]) => h("option", { value }, `by ${text}`)));
-  private readonly measure = h("select", { ariaLabel: "What the bars show", onchange: () => this.draw() }, MEASURES.map(([value, text]) => h("option", { value }, text)));
+  private readonly group = h(
+    "select",
+    { ariaLabel: "Grouped by", onchange: () => this.draw() },
+    GROUPS.map(([value, text]) => h("option", { value }, `by ${text}`)),
+  );
+  private readonly measure = h(
+    "select",
+    { ariaLabel: "What the bars show", onchange: () => this.draw() },
+    MEASURES.map(([value, text]) => h("option", { value }, text)),
+  );
   private readonly words = h("p", { class: "muted" });
   private readonly place = h("div");
   private readonly corrections = h("div", { class: "corrections" });
@@ -33,14 +48,26 @@ export class Blame {
 
   constructor(host: HTMLElement, actions: BlameActions) {
     this.actions = actions;
-    host.append(this.corrections, h("div", { class: "panel" }, h("div", { class: "row blame-head" }, this.index, this.group, this.measure), this.words, this.place));
+    host.append(
+      this.corrections,
+      h(
+        "div",
+        { class: "panel" },
+        h("div", { class: "row blame-head" }, this.index, this.group, this.measure),
+        this.words,
+        this.place,
+      ),
+    );
   }
 
   /** `file` is the prediction of the file: its corrections are shown whatever is changed. */
   show(document: PieceDocument, file: PieceDocument, fresh: boolean): void {
     this.document = document;
     if (fresh) {
-      fill(this.index, [...indicesOf(document.indices).keys()].map((key) => h("option", { value: key }, titleOf(key))));
+      fill(
+        this.index,
+        [...indicesOf(document.indices).keys()].map((key) => h("option", { value: key }, titleOf(key))),
+      );
       this.index.value = worstOf(document)?.index ?? "volumetric_max_mm";
     }
     this.draw();
@@ -61,7 +88,12 @@ export class Blame {
     const spec: BarSpec = {
       title: gain ? `What ${titleOf(key)} loses without it` : `${titleOf(key)} if there were only this error`,
       unit: "µm",
-      bars: shown.slice(0, MOST).map((share) => ({ name: share.error, value: size(share), colour: size(share) < 0 ? "var(--series-2)" : "var(--series-1)", note: `alone ${um(1e3 * share.alone_mm)}, without it ${um(1e3 * share.without_mm)}` })),
+      bars: shown.slice(0, MOST).map((share) => ({
+        name: share.error,
+        value: size(share),
+        colour: size(share) < 0 ? "var(--series-2)" : "var(--series-1)",
+        note: `alone ${um(1e3 * share.alone_mm)}, without it ${um(1e3 * share.without_mm)}`,
+      })),
       signed: gain,
       ...(this.group.value === "blame" ? { onpick: (bar) => this.actions.without(bar.name) } : {}),
     };
@@ -69,7 +101,10 @@ export class Blame {
     else this.figure = bars(this.place, spec);
     const rest = shown.length - spec.bars.length;
     const helps = gain && spec.bars.some((b) => (b.value ?? 0) < 0) ? " Orange: it helps by opposing others." : "";
-    this.words.textContent = shown.length === 0 ? `No error matters to ${titleOf(key)}: ${um(1e3 * value)}.` : `${titleOf(key)} is ${um(1e3 * value)}.${helps}${rest > 0 ? ` ${rest} smaller not shown.` : ""}${this.group.value === "blame" ? " Click: switch off." : ""}`;
+    this.words.textContent =
+      shown.length === 0
+        ? `No error matters to ${titleOf(key)}: ${um(1e3 * value)}.`
+        : `${titleOf(key)} is ${um(1e3 * value)}.${helps}${rest > 0 ? ` ${rest} smaller not shown.` : ""}${this.group.value === "blame" ? " Click: switch off." : ""}`;
   }
 
   private showCorrections({ corrections: all, judgements: judged }: PieceDocument): void {
@@ -87,7 +122,11 @@ export class Blame {
         h("td", {}, h("strong", {}, one.error)),
         h("td", { class: "number" }, text),
         judged.map((j) => h("td", { class: "number" }, number(1e3 * (one.indices_mm[j.index] ?? NaN), 1))),
-        h("td", { class: "number" }, h("button", { onclick: () => this.actions.correct(one.error, `${change} ${angle ? "urad" : "um"}`) }, "Try")),
+        h(
+          "td",
+          { class: "number" },
+          h("button", { onclick: () => this.actions.correct(one.error, `${change} ${angle ? "urad" : "um"}`) }, "Try"),
+        ),
       );
     };
     fill(
@@ -95,8 +134,29 @@ export class Blame {
       h(
         "div",
         { class: "panel" },
-        h("div", { class: "panel-head" }, h("h2", {}, "One correction that would do"), h("span", { class: "muted" }, "smallest first, U as it is now; indices in µm after it")),
-        h("table", {}, h("thead", {}, h("tr", {}, h("th", {}, "shim"), h("th", { class: "number" }, "by"), judged.map((j) => h("th", { class: "number" }, titleOf(j.index))), h("th", {}))), h("tbody", {}, all.slice(0, 6).map(row))),
+        h(
+          "div",
+          { class: "panel-head" },
+          h("h2", {}, "One correction that would do"),
+          h("span", { class: "muted" }, "smallest first, U as it is now; indices in µm after it"),
+        ),
+        h(
+          "table",
+          {},
+          h(
+            "thead",
+            {},
+            h(
+              "tr",
+              {},
+              h("th", {}, "shim"),
+              h("th", { class: "number" }, "by"),
+              judged.map((j) => h("th", { class: "number" }, titleOf(j.index))),
+              h("th", {}),
+            ),
+          ),
+          h("tbody", {}, all.slice(0, 6).map(row)),
+        ),
       ),
     );
   }

@@ -7,7 +7,8 @@ import type { Figure } from "../../figure/figure.ts";
 import { number } from "../../format.ts";
 import { indicesOf, partOf, titleOf, type PieceDocument, type PieceFrame } from "./types.ts";
 
-const micro = (value_mm: number | undefined, digits = 1): string => number(value_mm === undefined ? null : 1e3 * value_mm, digits);
+const micro = (value_mm: number | undefined, digits = 1): string =>
+  number(value_mm === undefined ? null : 1e3 * value_mm, digits);
 const th = (text: string, numeric = true): HTMLElement => h("th", { class: numeric ? "number" : "" }, text);
 const td = (text: string): HTMLElement => h("td", { class: "number" }, text);
 
@@ -25,18 +26,30 @@ export class Details {
   show(frame: PieceFrame, before: PieceDocument | null): void {
     const { document } = frame.header;
     this.showChart(frame);
-    fill(this.tables, warnings(frame), monteCarlo(document), variants(document, before), positions(document), setting(document));
+    fill(
+      this.tables,
+      warnings(frame),
+      monteCarlo(document),
+      variants(document, before),
+      positions(document),
+      setting(document),
+    );
     this.showMotions(frame);
   }
 
   private showChart(frame: PieceFrame): void {
     const { sections } = frame.header;
-    const degrees = (i: number): Float64Array => Float64Array.from(partOf(frame.f32("azimuth_rad"), sections, i), (a) => (a * 180) / Math.PI);
+    const degrees = (i: number): Float64Array =>
+      Float64Array.from(partOf(frame.f32("azimuth_rad"), sections, i), (a) => (a * 180) / Math.PI);
     const spec: ChartSpec = {
       title: "Error along the azimuth, positive: material left",
       x: { label: "azimuth", unit: "°", digits: 0 },
       y: { label: "error", unit: "µm", digits: 1 },
-      series: sections.map((section, i) => ({ name: `position ${i + 1}, z = ${number(section.z_mm, 0)} mm`, x: degrees(i), y: partOf(frame.f32("error_um"), sections, i) })),
+      series: sections.map((section, i) => ({
+        name: `position ${i + 1}, z = ${number(section.z_mm, 0)} mm`,
+        x: degrees(i),
+        y: partOf(frame.f32("error_um"), sections, i),
+      })),
     };
     if (this.chart) this.chart.update(spec);
     else this.chart = lineChart(this.chart_place, spec);
@@ -46,13 +59,15 @@ export class Details {
     const { document, sections, rotary } = frame.header;
     const azimuth = Float64Array.from(partOf(frame.f32("azimuth_rad"), sections, 0), (a) => (a * 180) / Math.PI);
     const names = Object.keys(document.commands[0] ?? {});
-    const specs = names.map((name): ChartSpec => ({
-      title: `Motion of ${name}`,
-      x: { label: "azimuth", unit: "°", digits: 0 },
-      y: { label: name, unit: rotary.includes(name) ? "°" : "mm", digits: 3 },
-      series: [{ name, x: azimuth, y: document.commands.map((command) => command[name] ?? NaN) }],
-      height: 190,
-    }));
+    const specs = names.map(
+      (name): ChartSpec => ({
+        title: `Motion of ${name}`,
+        x: { label: "azimuth", unit: "°", digits: 0 },
+        y: { label: name, unit: rotary.includes(name) ? "°" : "mm", digits: 3 },
+        series: [{ name, x: azimuth, y: document.commands.map((command) => command[name] ?? NaN) }],
+        height: 190,
+      }),
+    );
     if (this.motions.length === specs.length) specs.forEach((spec, i) => this.motions[i]?.update(spec));
     else {
       for (const old of this.motions) old.dispose();
@@ -64,7 +79,17 @@ export class Details {
 function warnings(frame: PieceFrame): HTMLElement | null {
   const { document, diagnostics } = frame.header;
   if (document.warnings.length + diagnostics.length === 0) return null;
-  return h("section", { class: "panel" }, h("h2", {}, "Warnings"), h("ul", { class: "warnings" }, document.warnings.map((text) => h("li", {}, text))), diagnostics.length > 0 ? diagnosticList(diagnostics) : null);
+  return h(
+    "section",
+    { class: "panel" },
+    h("h2", {}, "Warnings"),
+    h(
+      "ul",
+      { class: "warnings" },
+      document.warnings.map((text) => h("li", {}, text)),
+    ),
+    diagnostics.length > 0 ? diagnosticList(diagnostics) : null,
+  );
 }
 
 function monteCarlo(document: PieceDocument): HTMLElement | null {
@@ -75,12 +100,31 @@ function monteCarlo(document: PieceDocument): HTMLElement | null {
   return h(
     "section",
     { class: "panel", dataTest: "monte-carlo" },
-    h("div", { class: "panel-head" }, h("h2", {}, "Monte Carlo, µm"), h("span", { class: "muted" }, `JCGM 101, ${sampled.samples} samples, seed ${sampled.seed}`)),
+    h(
+      "div",
+      { class: "panel-head" },
+      h("h2", {}, "Monte Carlo, µm"),
+      h("span", { class: "muted" }, `JCGM 101, ${sampled.samples} samples, seed ${sampled.seed}`),
+    ),
     h(
       "table",
       {},
       h("thead", {}, h("tr", {}, th("index", false), th("mean"), th("u"), th("u, linear"), th("95 % interval"))),
-      h("tbody", {}, rows.map(([key, { monte_carlo: spread, u_mm }]) => h("tr", { dataIndex: key }, h("td", {}, titleOf(key)), td(micro(spread?.mean_mm)), td(micro(spread?.u_mm, 2)), td(micro(u_mm, 2)), td(`${micro(spread?.interval_95_mm[0])} … ${micro(spread?.interval_95_mm[1])}`)))),
+      h(
+        "tbody",
+        {},
+        rows.map(([key, { monte_carlo: spread, u_mm }]) =>
+          h(
+            "tr",
+            { dataIndex: key },
+            h("td", {}, titleOf(key)),
+            td(micro(spread?.mean_mm)),
+            td(micro(spread?.u_mm, 2)),
+            td(micro(u_mm, 2)),
+            td(`${micro(spread?.interval_95_mm[0])} … ${micro(spread?.interval_95_mm[1])}`),
+          ),
+        ),
+      ),
     ),
   );
 }
@@ -97,8 +141,34 @@ function variants(document: PieceDocument, before: PieceDocument | null): HTMLEl
     h(
       "table",
       {},
-      h("thead", {}, h("tr", {}, th("set up", false), keys.map((key) => th(titleOf(key))))),
-      h("tbody", {}, h("tr", {}, h("td", {}, before ? "as changed" : "as in the study"), keys.map((key) => td(micro(own.get(key)?.value)))), document.variants.map((v) => h("tr", {}, h("td", {}, v.name), keys.map((key) => td(micro(v.indices_mm[key])))))),
+      h(
+        "thead",
+        {},
+        h(
+          "tr",
+          {},
+          th("set up", false),
+          keys.map((key) => th(titleOf(key))),
+        ),
+      ),
+      h(
+        "tbody",
+        {},
+        h(
+          "tr",
+          {},
+          h("td", {}, before ? "as changed" : "as in the study"),
+          keys.map((key) => td(micro(own.get(key)?.value))),
+        ),
+        document.variants.map((v) =>
+          h(
+            "tr",
+            {},
+            h("td", {}, v.name),
+            keys.map((key) => td(micro(v.indices_mm[key]))),
+          ),
+        ),
+      ),
     ),
   );
 }
@@ -113,13 +183,39 @@ function positions(document: PieceDocument): HTMLElement {
     h(
       "table",
       {},
-      h("thead", {}, h("tr", {}, th("index", false), document.positions.map((p) => th(`z = ${number(p.z_mm, 0)} mm`)))),
-      h("tbody", {}, keys.map((key) => h("tr", {}, h("td", {}, titleOf(key)), document.positions.map((p) => td(micro(indicesOf(p).get(key)?.value)))))),
+      h(
+        "thead",
+        {},
+        h(
+          "tr",
+          {},
+          th("index", false),
+          document.positions.map((p) => th(`z = ${number(p.z_mm, 0)} mm`)),
+        ),
+      ),
+      h(
+        "tbody",
+        {},
+        keys.map((key) =>
+          h(
+            "tr",
+            {},
+            h("td", {}, titleOf(key)),
+            document.positions.map((p) => td(micro(indicesOf(p).get(key)?.value))),
+          ),
+        ),
+      ),
     ),
   );
 }
 
 function setting(document: PieceDocument): HTMLElement {
   const at = Object.entries(document.setting_command).map(([name, value]) => `${name} ${number(value, 4)}`);
-  return h("section", { class: "panel" }, h("h2", {}, "Part zero is set at"), h("p", { class: "numbers" }, at.join("   "), h("span", { class: "muted" }, "   mm, °")), document.temperature_log ? h("p", {}, "temperatures of ", h("code", {}, document.temperature_log)) : null);
+  return h(
+    "section",
+    { class: "panel" },
+    h("h2", {}, "Part zero is set at"),
+    h("p", { class: "numbers" }, at.join("   "), h("span", { class: "muted" }, "   mm, °")),
+    document.temperature_log ? h("p", {}, "temperatures of ", h("code", {}, document.temperature_log)) : null,
+  );
 }

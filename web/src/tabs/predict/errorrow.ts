@@ -23,8 +23,22 @@ export class ErrorRow {
     this.unit = unit;
     this.onchange = onchange;
     this.on = h("input", { type: "checkbox", checked: true, ariaLabel: `${name} on`, onchange: () => this.changed() });
-    this.slider = h("input", { type: "range", min: "-2", max: "2", step: "0.05", value: "1", ariaLabel: `Factor of ${name}`, oninput: () => this.changed(true) });
-    this.box = h("input", { type: "number", step: "any", value: "0", ariaLabel: `Added to ${name}, ${unit === "µm" ? "micrometres" : "microradians"}`, oninput: () => this.changed(true) });
+    this.slider = h("input", {
+      type: "range",
+      min: "-2",
+      max: "2",
+      step: "0.05",
+      value: "1",
+      ariaLabel: `Factor of ${name}`,
+      oninput: () => this.changed(true),
+    });
+    this.box = h("input", {
+      type: "number",
+      step: "any",
+      value: "0",
+      ariaLabel: `Added to ${name}, ${unit === "µm" ? "micrometres" : "microradians"}`,
+      oninput: () => this.changed(true),
+    });
     this.element = h(
       "tr",
       { dataError: name },
@@ -43,7 +57,10 @@ export class ErrorRow {
     const times = Number(this.slider.value);
     const added = Number(this.box.value);
     if (times === 1 && added === 0) return null;
-    return { ...(times === 1 ? {} : { factor: times }), ...(added === 0 ? {} : { add: `${added} ${this.unit === "µm" ? "um" : "urad"}` }) };
+    return {
+      ...(times === 1 ? {} : { factor: times }),
+      ...(added === 0 ? {} : { add: `${added} ${this.unit === "µm" ? "um" : "urad"}` }),
+    };
   }
 
   /** Dragging an error that is off switches it on again. */
@@ -75,4 +92,3 @@ export class ErrorRow {
     this.show();
   }
 }
-

@@ -35,7 +35,10 @@ function planOf(spec: HolePlanSpec, width: number, height: number): Plan {
   const longest = Math.max(1e-6, ...spec.holes.map((hole) => Math.hypot(hole.error_um[0], hole.error_um[1])));
   // A round factor, so that a reader can divide by it.
   const magnified = Math.max(1, roundNumber(LONGEST / ((longest / 1e3) * per_mm), false));
-  const at = (px: number, py: number): [number, number] => [width / 2 + (px - (x[0] + x[1]) / 2) * per_mm, height / 2 - (py - (y[0] + y[1]) / 2) * per_mm];
+  const at = (px: number, py: number): [number, number] => [
+    width / 2 + (px - (x[0] + x[1]) / 2) * per_mm,
+    height / 2 - (py - (y[0] + y[1]) / 2) * per_mm,
+  ];
   return { at, k: (magnified * per_mm) / 1e3, magnified };
 }
 
@@ -49,7 +52,13 @@ function drawPlan(d: Drawing, spec: HolePlanSpec): void {
     d.svg.append(holeMark(spec, plan, hole, i, [x, y]));
     if (i % numbered !== 0) return;
     const inward = (v: number, middle: number): number => middle + (v - middle) * 0.78;
-    d.svg.append(s("text", { x: inward(x, d.width / 2), y: inward(y, d.height / 2) + 4, "text-anchor": "middle", fill: "var(--muted)" }, String(i + 1)));
+    d.svg.append(
+      s(
+        "text",
+        { x: inward(x, d.width / 2), y: inward(y, d.height / 2) + 4, "text-anchor": "middle", fill: "var(--muted)" },
+        String(i + 1),
+      ),
+    );
   });
   drawScale(d, spec, plan);
 }
@@ -60,14 +69,30 @@ function holeMark(spec: HolePlanSpec, plan: Plan, hole: Hole, i: number, [x, y]:
   const words = `hole ${i + 1}: dX ${um(hole.error_um[0])}, dY ${um(hole.error_um[1])}`;
   const group = s("g", { class: "pick", tabindex: "0", role: "button", "aria-label": words }, s("title", {}, words));
   const within = spec.tolerance_um === null ? 0 : plan.k * spec.tolerance_um;
-  if (within > 3 && within < EDGE) group.append(s("circle", { cx: x, cy: y, r: within, fill: "none", stroke: "var(--line-strong)", "stroke-dasharray": "2 2" }));
-  group.append(s("circle", { cx: x, cy: y, r: spec.chosen === i ? 5 : 3, fill: spec.chosen === i ? "var(--accent)" : "var(--surface)", stroke: "var(--ink)" }), s("circle", { cx: x, cy: y, r: 10, fill: "transparent" }));
+  if (within > 3 && within < EDGE)
+    group.append(
+      s("circle", { cx: x, cy: y, r: within, fill: "none", stroke: "var(--line-strong)", "stroke-dasharray": "2 2" }),
+    );
+  group.append(
+    s("circle", {
+      cx: x,
+      cy: y,
+      r: spec.chosen === i ? 5 : 3,
+      fill: spec.chosen === i ? "var(--accent)" : "var(--surface)",
+      stroke: "var(--ink)",
+    }),
+    s("circle", { cx: x, cy: y, r: 10, fill: "transparent" }),
+  );
   if (length > 1) {
     const [ux, uy] = [dx / length, dy / length];
     const head = Math.min(7, length);
     const [tx, ty] = [x + dx, y + dy];
-    const barb = (side: number): string => `${tx - head * ux + side * 0.4 * head * uy},${ty - head * uy - side * 0.4 * head * ux}`;
-    group.append(s("line", { x1: x, y1: y, x2: tx, y2: ty, stroke: spec.colour, "stroke-width": 1.8 }), s("polygon", { points: `${tx},${ty} ${barb(1)} ${barb(-1)}`, fill: spec.colour }));
+    const barb = (side: number): string =>
+      `${tx - head * ux + side * 0.4 * head * uy},${ty - head * uy - side * 0.4 * head * ux}`;
+    group.append(
+      s("line", { x1: x, y1: y, x2: tx, y2: ty, stroke: spec.colour, "stroke-width": 1.8 }),
+      s("polygon", { points: `${tx},${ty} ${barb(1)} ${barb(-1)}`, fill: spec.colour }),
+    );
   }
   group.addEventListener("click", () => spec.onpick(i));
   group.addEventListener("keydown", (event) => event.key === "Enter" && spec.onpick(i));
@@ -79,14 +104,33 @@ function drawScale(d: Drawing, spec: HolePlanSpec, plan: Plan): void {
   const bar = roundNumber(40 / plan.k, false);
   const [y, length] = [14, plan.k * bar];
   d.svg.append(
-    s("path", { d: `M6 ${y - 5}v10M6 ${y}h${length}M${6 + length} ${y - 5}v10`, stroke: "var(--ink)", "stroke-width": 1.6, fill: "none" }),
+    s("path", {
+      d: `M6 ${y - 5}v10M6 ${y}h${length}M${6 + length} ${y - 5}v10`,
+      stroke: "var(--ink)",
+      "stroke-width": 1.6,
+      fill: "none",
+    }),
     s("text", { x: 14 + length, y: y + 4, fill: "var(--ink)" }, um(bar, bar < 1 ? 2 : 0)),
-    s("text", { x: 4, y: d.height - 6, fill: "var(--actual)", "font-weight": "600" }, `arrows ${factor(plan.magnified)}`),
-    s("text", { x: d.width - 4, y: d.height - 6, "text-anchor": "end", fill: "var(--muted)" }, "X to the right, Y upwards"),
+    s(
+      "text",
+      { x: 4, y: d.height - 6, fill: "var(--actual)", "font-weight": "600" },
+      `arrows ${factor(plan.magnified)}`,
+    ),
+    s(
+      "text",
+      { x: d.width - 4, y: d.height - 6, "text-anchor": "end", fill: "var(--muted)" },
+      "X to the right, Y upwards",
+    ),
   );
   if (spec.tolerance_um === null) return;
   const drawn = plan.k * spec.tolerance_um > 3 && plan.k * spec.tolerance_um < EDGE;
-  d.svg.append(s("text", { x: d.width - 4, y: 18, "text-anchor": "end", fill: "var(--muted)" }, `tolerance ${um(spec.tolerance_um, 0)}${drawn ? ", dashed" : ""}`));
+  d.svg.append(
+    s(
+      "text",
+      { x: d.width - 4, y: 18, "text-anchor": "end", fill: "var(--muted)" },
+      `tolerance ${um(spec.tolerance_um, 0)}${drawn ? ", dashed" : ""}`,
+    ),
+  );
 }
 
 export function holePlan(host: HTMLElement, spec: HolePlanSpec): Figure<HolePlanSpec> {
@@ -95,9 +139,18 @@ export function holePlan(host: HTMLElement, spec: HolePlanSpec): Figure<HolePlan
     draw: (d) => drawPlan(d, now),
     columns: () => [
       { heading: "hole", values: now.holes.map((_, i) => i + 1) },
-      ...(["X", "Y", "Z"] as const).map((axis, k) => ({ heading: `${axis} (mm)`, values: now.holes.map((hole) => hole.nominal_mm[k] as number) })),
-      ...(["X", "Y", "Z"] as const).map((axis, k) => ({ heading: `d${axis} (um)`, values: now.holes.map((hole) => hole.error_um[k] as number) })),
-      ...(["X", "Y", "Z"] as const).map((axis, k) => ({ heading: `u(d${axis}) (um)`, values: now.holes.map((hole) => hole.u_um[k] as number) })),
+      ...(["X", "Y", "Z"] as const).map((axis, k) => ({
+        heading: `${axis} (mm)`,
+        values: now.holes.map((hole) => hole.nominal_mm[k] as number),
+      })),
+      ...(["X", "Y", "Z"] as const).map((axis, k) => ({
+        heading: `d${axis} (um)`,
+        values: now.holes.map((hole) => hole.error_um[k] as number),
+      })),
+      ...(["X", "Y", "Z"] as const).map((axis, k) => ({
+        heading: `u(d${axis}) (um)`,
+        values: now.holes.map((hole) => hole.u_um[k] as number),
+      })),
     ],
     height: (width) => Math.max(220, Math.min(width, (host.clientHeight || 700) - 30)),
   }));

@@ -36,11 +36,25 @@ export class Holes {
   show(path: string, { document, diagnostics }: HolesHeader): void {
     this.document = document;
     this.chosen = null;
-    this.shown = Math.max(0, document.sets.findIndex((set) => set.compensation === document.applied));
-    fill(this.head, h("div", { class: "panel-head" }, h("h1", {}, document.name), studyChoice(this.app, path)), document.temperature_log ? h("p", { class: "muted" }, "temperatures of ", h("code", {}, document.temperature_log)) : null);
+    this.shown = Math.max(
+      0,
+      document.sets.findIndex((set) => set.compensation === document.applied),
+    );
+    fill(
+      this.head,
+      h("div", { class: "panel-head" }, h("h1", {}, document.name), studyChoice(this.app, path)),
+      document.temperature_log
+        ? h("p", { class: "muted" }, "temperatures of ", h("code", {}, document.temperature_log))
+        : null,
+    );
     this.showVerdict(document);
     this.showSets(document, diagnostics);
-    fill(this.picks, document.sets.map((set, i) => h("button", { dataSet: set.compensation, onclick: () => this.pick(i) }, word(set.compensation))));
+    fill(
+      this.picks,
+      document.sets.map((set, i) =>
+        h("button", { dataSet: set.compensation, onclick: () => this.pick(i) }, word(set.compensation)),
+      ),
+    );
     this.pick(this.shown);
   }
 
@@ -51,8 +65,18 @@ export class Holes {
     fill(
       this.verdict,
       h("strong", { dataTest: "verdict" }, good === null ? "NO VERDICT" : good ? "PASS" : "FAIL"),
-      h("span", {}, `${good === null ? "the study states no tolerance" : good ? "every hole will be in tolerance" : "a hole will be out of tolerance"}, compensation: ${word(document.applied)}`),
-      applied ? h("span", { class: "verdict-worst", dataTest: "worst" }, `worst hole ${um(1e3 * applied.worst_mm)}${document.tolerance_mm === null ? "" : ` of ${um(1e3 * document.tolerance_mm)}`}`) : null,
+      h(
+        "span",
+        {},
+        `${good === null ? "the study states no tolerance" : good ? "every hole will be in tolerance" : "a hole will be out of tolerance"}, compensation: ${word(document.applied)}`,
+      ),
+      applied
+        ? h(
+            "span",
+            { class: "verdict-worst", dataTest: "worst" },
+            `worst hole ${um(1e3 * applied.worst_mm)}${document.tolerance_mm === null ? "" : ` of ${um(1e3 * document.tolerance_mm)}`}`,
+          )
+        : null,
     );
   }
 
@@ -60,31 +84,74 @@ export class Holes {
     const row = (set: HoleSet, when: string): HTMLElement =>
       h(
         "tr",
-        { class: when === "" && set.compensation === document.applied ? "judged" : "", dataSet: `${set.compensation}${when}` },
+        {
+          class: when === "" && set.compensation === document.applied ? "judged" : "",
+          dataSet: `${set.compensation}${when}`,
+        },
         h("td", {}, word(set.compensation), h("span", { class: "muted" }, when)),
         h("td", { class: "number", dataCell: "worst" }, number(1e3 * set.worst_mm, 1)),
         h("td", { class: "number muted", dataCell: "U" }, number(2e3 * set.u_worst_mm, 1)),
         h("td", { class: "number" }, number(document.tolerance_mm === null ? null : 1e3 * document.tolerance_mm, 1)),
-        h("td", { class: `used ${set.in_tolerance === null ? "" : set.in_tolerance ? "pass" : "fail"}` }, set.in_tolerance === null ? "" : set.in_tolerance ? "in tolerance" : "out of tolerance"),
+        h(
+          "td",
+          { class: `used ${set.in_tolerance === null ? "" : set.in_tolerance ? "pass" : "fail"}` },
+          set.in_tolerance === null ? "" : set.in_tolerance ? "in tolerance" : "out of tolerance",
+        ),
       );
     fill(
       this.sets,
-      h("div", { class: "panel-head" }, h("h2", {}, "Compensation, worst hole in µm"), h("span", { class: "muted" }, `${document.sets[0]?.holes.length ?? 0} holes; increments of ${um(1e3 * document.increment_mm, 0)}`)),
+      h(
+        "div",
+        { class: "panel-head" },
+        h("h2", {}, "Compensation, worst hole in µm"),
+        h(
+          "span",
+          { class: "muted" },
+          `${document.sets[0]?.holes.length ?? 0} holes; increments of ${um(1e3 * document.increment_mm, 0)}`,
+        ),
+      ),
       h(
         "table",
         { class: "hole-sets" },
-        h("thead", {}, h("tr", {}, h("th", {}, "compensation"), h("th", { class: "number" }, "worst"), h("th", { class: "number" }, "U (k = 2)"), h("th", { class: "number" }, "tolerance"), h("th", {}))),
-        h("tbody", {}, document.sets.map((set) => row(set, "")), (document.sets_at_start ?? []).map((set) => row(set, ", temperatures of the start held"))),
+        h(
+          "thead",
+          {},
+          h(
+            "tr",
+            {},
+            h("th", {}, "compensation"),
+            h("th", { class: "number" }, "worst"),
+            h("th", { class: "number" }, "U (k = 2)"),
+            h("th", { class: "number" }, "tolerance"),
+            h("th", {}),
+          ),
+        ),
+        h(
+          "tbody",
+          {},
+          document.sets.map((set) => row(set, "")),
+          (document.sets_at_start ?? []).map((set) => row(set, ", temperatures of the start held")),
+        ),
       ),
-      document.warnings.length > 0 ? h("ul", { class: "warnings" }, document.warnings.map((text) => h("li", {}, text))) : null,
-      document.u_lacks.length > 0 ? h("p", { class: "muted" }, `U lacks: ${document.u_lacks.join(", ")} (none stated).`) : null,
+      document.warnings.length > 0
+        ? h(
+            "ul",
+            { class: "warnings" },
+            document.warnings.map((text) => h("li", {}, text)),
+          )
+        : null,
+      document.u_lacks.length > 0
+        ? h("p", { class: "muted" }, `U lacks: ${document.u_lacks.join(", ")} (none stated).`)
+        : null,
       diagnostics.length > 0 ? diagnosticList(diagnostics.filter((d) => !document.warnings.includes(d.message))) : null,
     );
   }
 
   private pick(set: number): void {
     this.shown = set;
-    this.picks.querySelectorAll("button").forEach((button, i) => button.setAttribute("aria-pressed", String(i === set)));
+    this.picks
+      .querySelectorAll("button")
+      .forEach((button, i) => button.setAttribute("aria-pressed", String(i === set)));
     this.draw();
     this.showTable();
   }
@@ -118,15 +185,35 @@ export class Holes {
     const set = document?.sets[this.shown];
     if (!document || !set) return;
     const timed = set.holes.some((hole) => hole.time_s > 0);
-    const numeric = (text: string, cell?: string): HTMLElement => h("td", { class: "number", dataCell: cell ?? null }, text);
-    const words = ["hole", ...(timed ? ["time, min:s"] : []), "X, mm", "Y, mm", "dX", "dY", "length", "u(dX)", "u(dY)", ...(set.compensation === "none" ? [] : ["added, increments"])];
+    const numeric = (text: string, cell?: string): HTMLElement =>
+      h("td", { class: "number", dataCell: cell ?? null }, text);
+    const words = [
+      "hole",
+      ...(timed ? ["time, min:s"] : []),
+      "X, mm",
+      "Y, mm",
+      "dX",
+      "dY",
+      "length",
+      "u(dX)",
+      "u(dY)",
+      ...(set.compensation === "none" ? [] : ["added, increments"]),
+    ];
     fill(
       this.table,
       h("div", { class: "panel-head" }, h("h2", {}, `Holes, compensation ${word(set.compensation)}, µm`)),
       h(
         "table",
         {},
-        h("thead", {}, h("tr", {}, words.map((text, i) => h("th", { class: i === 0 ? "" : "number" }, text)))),
+        h(
+          "thead",
+          {},
+          h(
+            "tr",
+            {},
+            words.map((text, i) => h("th", { class: i === 0 ? "" : "number" }, text)),
+          ),
+        ),
         h(
           "tbody",
           {},
@@ -143,7 +230,14 @@ export class Holes {
               numeric(number(Math.hypot(hole.error_um[0], hole.error_um[1]), 1)),
               numeric(number(hole.u_um[0], 1)),
               numeric(number(hole.u_um[1], 1)),
-              set.compensation === "none" ? null : numeric(hole.compensation_increments.slice(0, 2).map((n) => number(n, 0)).join(", ")),
+              set.compensation === "none"
+                ? null
+                : numeric(
+                    hole.compensation_increments
+                      .slice(0, 2)
+                      .map((n) => number(n, 0))
+                      .join(", "),
+                  ),
             ),
           ),
         ),

@@ -1,6 +1,16 @@
 /** The test piece with its error map. */
 
-import { BufferAttribute, BufferGeometry, DoubleSide, LineBasicMaterial, LineLoop, LineSegments, Mesh, MeshBasicMaterial, Vector3 } from "three";
+import {
+  BufferAttribute,
+  BufferGeometry,
+  DoubleSide,
+  LineBasicMaterial,
+  LineLoop,
+  LineSegments,
+  Mesh,
+  MeshBasicMaterial,
+  Vector3,
+} from "three";
 import { download, h } from "../../dom.ts";
 import { diverging, divergingDark } from "../../figure/colours.ts";
 import { csvOf, roundNumber } from "../../figure/figure.ts";
@@ -26,7 +36,10 @@ export class PieceView {
   private readonly slider: HTMLInputElement;
   private readonly factor_text = h("output", { class: "factor" });
   private readonly outline = new LineSegments(new BufferGeometry(), new LineBasicMaterial());
-  private readonly top = new Mesh(new BufferGeometry(), new MeshBasicMaterial({ side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2 }));
+  private readonly top = new Mesh(
+    new BufferGeometry(),
+    new MeshBasicMaterial({ side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2 }),
+  );
   private readonly marked = new LineLoop(new BufferGeometry(), new LineBasicMaterial());
   private chosen = 0;
   private frame: PieceFrame | null = null;
@@ -36,9 +49,31 @@ export class PieceView {
 
   constructor(host: HTMLElement) {
     this.view = new MachineView(host);
-    this.slider = h("input", { type: "range", min: "0", max: "100", step: "1", class: "exaggeration", ariaLabel: "Magnification of the deviations", oninput: () => this.magnify(Number(this.slider.value)) });
-    const save = h("button", { class: "figure-save", ariaLabel: "Save the error map as CSV", onclick: () => this.frame && download("error-map.csv", csv(this.frame), "text/csv") }, "CSV");
-    host.append(h("div", { class: "scene-bottom" }, h("div", { class: "scene-control" }, "deviations", this.slider, this.factor_text, save)));
+    this.slider = h("input", {
+      type: "range",
+      min: "0",
+      max: "100",
+      step: "1",
+      class: "exaggeration",
+      ariaLabel: "Magnification of the deviations",
+      oninput: () => this.magnify(Number(this.slider.value)),
+    });
+    const save = h(
+      "button",
+      {
+        class: "figure-save",
+        ariaLabel: "Save the error map as CSV",
+        onclick: () => this.frame && download("error-map.csv", csv(this.frame), "text/csv"),
+      },
+      "CSV",
+    );
+    host.append(
+      h(
+        "div",
+        { class: "scene-bottom" },
+        h("div", { class: "scene-control" }, "deviations", this.slider, this.factor_text, save),
+      ),
+    );
     for (const object of [this.outline, this.top, this.marked]) object.frustumCulled = false;
     onTheme(() => this.draw());
   }
@@ -90,7 +125,16 @@ export class PieceView {
     };
     this.view.setExaggeration(this.k);
     this.view.setSurface(
-      { positions: join((r) => r.nominal, 3), displacements: join((r) => r.moved, 3), values: join((r) => r.error, 1), rings: rings.length, points_per_ring: m, closed: true, map: isDark() ? divergingDark : diverging, range: [-this.range, this.range] },
+      {
+        positions: join((r) => r.nominal, 3),
+        displacements: join((r) => r.moved, 3),
+        values: join((r) => r.error, 1),
+        rings: rings.length,
+        points_per_ring: m,
+        closed: true,
+        map: isDark() ? divergingDark : diverging,
+        range: [-this.range, this.range],
+      },
       { title: "error", unit: "µm" },
     );
     this.drawOutline(rings, m);
@@ -110,7 +154,12 @@ export class PieceView {
     if (!section) return;
     const radius = 1.05 * section.radius_mm;
     const at = new Vector3(radius * Math.cos(azimuth), radius * Math.sin(azimuth), section.z_mm);
-    this.view.overlay.label("worst", `greatest ${um(errors[worst])} at ${deg((azimuth * 180) / Math.PI, 0)}`, () => at.clone(), "faint");
+    this.view.overlay.label(
+      "worst",
+      `greatest ${um(errors[worst])} at ${deg((azimuth * 180) / Math.PI, 0)}`,
+      () => at.clone(),
+      "faint",
+    );
   }
 
   /** Nominal circles of the sections and lines along the cone. */
@@ -121,7 +170,8 @@ export class PieceView {
       if (i % BETWEEN === 0) for (let j = 0; j < m; j++) lines.push(...point(ring, j), ...point(ring, j + 1));
     });
     const [first, last] = [rings[0], rings.at(-1)];
-    if (first && last) for (let j = 0; j < m; j += Math.max(1, Math.round(m / 12))) lines.push(...point(first, j), ...point(last, j));
+    if (first && last)
+      for (let j = 0; j < m; j += Math.max(1, Math.round(m / 12))) lines.push(...point(first, j), ...point(last, j));
     this.outline.geometry.setAttribute("position", new BufferAttribute(Float32Array.from(lines), 3));
     this.outline.material.color.set(cssColour("--nominal"));
   }
@@ -143,7 +193,9 @@ export class PieceView {
     this.marked.material.color.set(cssColour("--actual"));
     // In front, as the first view sees it.
     const front = new Vector3(-0.527 * section.radius_mm, -0.85 * section.radius_mm, section.z_mm);
-    this.view.overlay.label("section", `section ${this.chosen + 1}, z = ${number(section.z_mm, 0)} mm`, () => front.clone());
+    this.view.overlay.label("section", `section ${this.chosen + 1}, z = ${number(section.z_mm, 0)} mm`, () =>
+      front.clone(),
+    );
   }
 
   /** The face on top, so that nobody looks into a hollow piece. */
@@ -152,7 +204,8 @@ export class PieceView {
     if (!last) return;
     const points = new Float32Array(3 * (m + 1));
     for (let i = 0; i < 3 * m; i++) points[i] = (last.nominal[i] as number) + this.k * (last.moved[i] as number);
-    for (let i = 0; i < 3 * m; i++) points[3 * m + (i % 3)] = (points[3 * m + (i % 3)] as number) + (points[i] as number) / m;
+    for (let i = 0; i < 3 * m; i++)
+      points[3 * m + (i % 3)] = (points[3 * m + (i % 3)] as number) + (points[i] as number) / m;
     this.top.geometry.setAttribute("position", new BufferAttribute(points, 3));
     this.top.geometry.setIndex(Array.from({ length: m }, (_, j) => [j, (j + 1) % m, m]).flat());
     this.top.material.color.set(cssColour("--scene-linear"));
@@ -184,17 +237,23 @@ function ringsOf(frame: PieceFrame): Ring[] {
     });
     return { nominal, moved, error: partOf(frame.f32("error_um"), sections, i) };
   });
-  const mix = (a: Float32Array, b: Float32Array, t: number): Float32Array => a.map((v, i) => v + t * ((b[i] as number) - v));
+  const mix = (a: Float32Array, b: Float32Array, t: number): Float32Array =>
+    a.map((v, i) => v + t * ((b[i] as number) - v));
   return of.flatMap((ring, i) => {
     const next = of[i + 1];
     if (!next) return [ring];
-    return Array.from({ length: BETWEEN }, (_, j) => ({ nominal: mix(ring.nominal, next.nominal, j / BETWEEN), moved: mix(ring.moved, next.moved, j / BETWEEN), error: mix(ring.error, next.error, j / BETWEEN) }));
+    return Array.from({ length: BETWEEN }, (_, j) => ({
+      nominal: mix(ring.nominal, next.nominal, j / BETWEEN),
+      moved: mix(ring.moved, next.moved, j / BETWEEN),
+      error: mix(ring.error, next.error, j / BETWEEN),
+    }));
   });
 }
 
 function csv(frame: PieceFrame): string {
   const { sections } = frame.header;
-  const each = <T>(pick: (section: (typeof sections)[number], i: number) => T): T[] => sections.flatMap((section, i) => Array.from({ length: section.points }, () => pick(section, i)));
+  const each = <T>(pick: (section: (typeof sections)[number], i: number) => T): T[] =>
+    sections.flatMap((section, i) => Array.from({ length: section.points }, () => pick(section, i)));
   const profile = frame.f64("profile_mm");
   const azimuth = frame.f32("azimuth_rad");
   return csvOf([

@@ -16,7 +16,12 @@ const FITS: readonly [string, string, string][] = [
 
 export class Sections {
   private readonly position = h("select", { ariaLabel: "Section of the test piece", onchange: () => this.draw() });
-  private readonly fit = h("select", { ariaLabel: "Fitted circle", onchange: () => this.draw() }, FITS.map(([name, letters]) => h("option", { value: name }, `${name} (${letters})`)), h("option", { value: "all" }, "all four"));
+  private readonly fit = h(
+    "select",
+    { ariaLabel: "Fitted circle", onchange: () => this.draw() },
+    FITS.map(([name, letters]) => h("option", { value: name }, `${name} (${letters})`)),
+    h("option", { value: "all" }, "all four"),
+  );
   private readonly centred = h("input", { type: "checkbox", onchange: () => this.draw() });
   private readonly place = h("div", { class: "predict-polar" });
   private readonly words = h("p", { class: "fit-words", dataTest: "fit" });
@@ -27,7 +32,23 @@ export class Sections {
   /** `onpick`: another section is shown now. */
   constructor(host: HTMLElement, onpick: (index: number) => void) {
     this.position.addEventListener("change", () => onpick(Number(this.position.value)));
-    host.append(h("div", { class: "panel-head" }, h("h2", {}, "Section"), this.position, this.fit, h("label", { class: "check", title: "Deviations from the fitted circle: the form, without eccentricity and size" }, this.centred, "from this circle")), this.words, this.place);
+    host.append(
+      h(
+        "div",
+        { class: "panel-head" },
+        h("h2", {}, "Section"),
+        this.position,
+        this.fit,
+        h(
+          "label",
+          { class: "check", title: "Deviations from the fitted circle: the form, without eccentricity and size" },
+          this.centred,
+          "from this circle",
+        ),
+      ),
+      this.words,
+      this.place,
+    );
   }
 
   show(frame: PieceFrame, before: PieceFrame | null, fresh: boolean): void {
@@ -35,7 +56,12 @@ export class Sections {
     this.before = before;
     if (fresh) {
       const { sections } = frame.header;
-      fill(this.position, sections.map((section, i) => h("option", { value: String(i) }, `position ${i + 1}, z = ${number(section.z_mm, 0)} mm`)));
+      fill(
+        this.position,
+        sections.map((section, i) =>
+          h("option", { value: String(i) }, `position ${i + 1}, z = ${number(section.z_mm, 0)} mm`),
+        ),
+      );
       this.position.value = String(firstShown(sections));
     }
     this.draw();
@@ -50,12 +76,24 @@ export class Sections {
     this.centred.disabled = fit === "all";
     const about = this.centred.checked && fit !== "all" ? fit : null;
     const series = [profile(frame, index, about, this.before ? "with the changes" : "profile", "var(--series-1)")];
-    if (this.before) series.push({ ...profile(this.before, index, about, "as in the file", "var(--muted)"), dash: "3 3" });
+    if (this.before)
+      series.push({ ...profile(this.before, index, about, "as in the file", "var(--muted)"), dash: "3 3" });
     const chosen = section.circles.filter((c) => fit === "all" || c.name === fit);
-    const spec: PolarSpec = { title: `z = ${number(section.z_mm, 0)} mm, radius ${mm(section.radius_mm, 3)}`, unit: "µm", radius_mm: section.radius_mm, series, circles: chosen.flatMap((c) => circlesOf(c, section, about !== null)), axes: ["X", "Y"], height: Math.max(220, Math.min(350, 0.34 * innerHeight)) };
+    const spec: PolarSpec = {
+      title: `z = ${number(section.z_mm, 0)} mm, radius ${mm(section.radius_mm, 3)}`,
+      unit: "µm",
+      radius_mm: section.radius_mm,
+      series,
+      circles: chosen.flatMap((c) => circlesOf(c, section, about !== null)),
+      axes: ["X", "Y"],
+      height: Math.max(220, Math.min(350, 0.34 * innerHeight)),
+    };
     if (this.figure) this.figure.update(spec);
     else this.figure = polar(this.place, spec);
-    fill(this.words, chosen.map((c, i) => [i > 0 ? h("br") : null, wordsOf(c)]));
+    fill(
+      this.words,
+      chosen.map((c, i) => [i > 0 ? h("br") : null, wordsOf(c)]),
+    );
   }
 }
 
@@ -84,8 +122,16 @@ function profile(frame: PieceFrame, index: number, about: string | null, name: s
 function circlesOf(fit: FittedCircle, section: Section, centred: boolean): PolarCircle[] {
   const from_mm = centred ? fit.radius_mm : section.radius_mm;
   const [, letters = "", colour = ""] = FITS.find(([name]) => name === fit.name) ?? [];
-  const circle = (radius_mm: number, name: string, dash?: string): PolarCircle => ({ name, colour, x: centred ? 0 : 1e3 * fit.centre_mm[0], y: centred ? 0 : 1e3 * fit.centre_mm[1], radius: 1e3 * (radius_mm - from_mm), ...(dash ? { dash } : {}) });
-  if (fit.name === "minimum zone") return [circle(fit.inner_mm, `${letters} inner`, "2 2"), circle(fit.outer_mm, `${letters} outer`)];
+  const circle = (radius_mm: number, name: string, dash?: string): PolarCircle => ({
+    name,
+    colour,
+    x: centred ? 0 : 1e3 * fit.centre_mm[0],
+    y: centred ? 0 : 1e3 * fit.centre_mm[1],
+    radius: 1e3 * (radius_mm - from_mm),
+    ...(dash ? { dash } : {}),
+  });
+  if (fit.name === "minimum zone")
+    return [circle(fit.inner_mm, `${letters} inner`, "2 2"), circle(fit.outer_mm, `${letters} outer`)];
   if (fit.name === "maximum inscribed") return [circle(fit.inner_mm, letters)];
   if (fit.name === "minimum circumscribed") return [circle(fit.outer_mm, letters)];
   return [circle(fit.radius_mm, letters)];

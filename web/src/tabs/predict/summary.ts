@@ -4,7 +4,16 @@ import type { App } from "../../app.ts";
 import { download, fill, h, s } from "../../dom.ts";
 import { csvOf, fileName } from "../../figure/figure.ts";
 import { NO_NUMBER, number, um } from "../../format.ts";
-import { expanded, indicesOf, titleOf, worstOf, type IndexValue, type Judgement, type PieceDocument, type Verdict } from "./types.ts";
+import {
+  expanded,
+  indicesOf,
+  titleOf,
+  worstOf,
+  type IndexValue,
+  type Judgement,
+  type PieceDocument,
+  type Verdict,
+} from "./types.ts";
 
 const WORDS: Record<Verdict, [string, string]> = {
   pass: ["PASS", "the part will be in tolerance"],
@@ -41,7 +50,19 @@ export class Summary {
   }
 
   private showHead(path: string, document: PieceDocument): void {
-    fill(this.head, h("div", { class: "panel-head" }, h("h1", {}, document.study), studyChoice(this.app, path)), h("p", { class: "muted" }, document.machine.name, "  ", h("code", {}, document.machine.chain), " · ", document.test_piece));
+    fill(
+      this.head,
+      h("div", { class: "panel-head" }, h("h1", {}, document.study), studyChoice(this.app, path)),
+      h(
+        "p",
+        { class: "muted" },
+        document.machine.name,
+        "  ",
+        h("code", {}, document.machine.chain),
+        " · ",
+        document.test_piece,
+      ),
+    );
   }
 
   private showVerdict(document: PieceDocument, before: PieceDocument | null): void {
@@ -53,7 +74,13 @@ export class Summary {
       this.verdict,
       h("strong", { dataTest: "verdict" }, word),
       h("span", {}, before ? `if changed so: ${meaning}${changed}` : meaning),
-      worst ? h("span", { class: "verdict-worst", dataTest: "worst" }, `${titleOf(worst.index)} ${um(1e3 * worst.value_mm)} of ${um(1e3 * worst.tolerance_mm)}, ${number(100 * worst.used_ratio, 0)} % used`) : null,
+      worst
+        ? h(
+            "span",
+            { class: "verdict-worst", dataTest: "worst" },
+            `${titleOf(worst.index)} ${um(1e3 * worst.value_mm)} of ${um(1e3 * worst.tolerance_mm)}, ${number(100 * worst.used_ratio, 0)} % used`,
+          )
+        : null,
     );
   }
 
@@ -61,21 +88,71 @@ export class Summary {
     const every = rowsOf(document, before);
     const judged = every.filter((row) => row.judged);
     const rows = this.all || judged.length === 0 ? every : judged;
-    const more = h("button", { class: "figure-save", dataTest: "more-indices", onclick: () => this.toggle(document, before) }, this.all ? "only the judged" : `all ${every.length}`);
-    const most = Math.max(1e-9, ...rows.map(({ value, judged, before: b }) => Math.max(value.value + expanded(value, judged), judged?.tolerance_mm ?? 0, b ?? 0)));
+    const more = h(
+      "button",
+      { class: "figure-save", dataTest: "more-indices", onclick: () => this.toggle(document, before) },
+      this.all ? "only the judged" : `all ${every.length}`,
+    );
+    const most = Math.max(
+      1e-9,
+      ...rows.map(({ value, judged, before: b }) =>
+        Math.max(value.value + expanded(value, judged), judged?.tolerance_mm ?? 0, b ?? 0),
+      ),
+    );
     const certain = every.every(({ value }) => value.u_mm === 0);
     const u_words = certain ? "no uncertainty stated" : "U for k = 2";
-    const rule = document.judgements.some((j) => j.expanded_mm !== null) ? "judged by ISO 14253-1 with U" : `simple acceptance: value against tolerance; ${u_words}`;
-    const save = h("button", { class: "figure-save", ariaLabel: "Save the indices as CSV", onclick: () => download(`${fileName(document.study)}-indices.csv`, csv(every), "text/csv") }, "CSV");
+    const rule = document.judgements.some((j) => j.expanded_mm !== null)
+      ? "judged by ISO 14253-1 with U"
+      : `simple acceptance: value against tolerance; ${u_words}`;
+    const save = h(
+      "button",
+      {
+        class: "figure-save",
+        ariaLabel: "Save the indices as CSV",
+        onclick: () => download(`${fileName(document.study)}-indices.csv`, csv(every), "text/csv"),
+      },
+      "CSV",
+    );
     const words = ["index", ...(before ? ["before"] : []), "value", "U", "tolerance", "used", ""];
     fill(
       this.table,
-      h("div", { class: "panel-head" }, h("h2", {}, "Indices, µm"), h("span", { class: "muted" }, rule), judged.length > 0 && judged.length < every.length ? more : null, save),
+      h(
+        "div",
+        { class: "panel-head" },
+        h("h2", {}, "Indices, µm"),
+        h("span", { class: "muted" }, rule),
+        judged.length > 0 && judged.length < every.length ? more : null,
+        save,
+      ),
       h(
         "table",
         {},
-        h("thead", {}, h("tr", {}, words.map((word, i) => h("th", { class: i === 0 || word === "" ? "" : "number", title: word === "U" ? "expanded uncertainty: that of the decision rule where the study judges by ISO 14253-1, else for k = 2" : null }, word)))),
-        h("tbody", {}, rows.map((row) => indexRow(row, most, before !== null))),
+        h(
+          "thead",
+          {},
+          h(
+            "tr",
+            {},
+            words.map((word, i) =>
+              h(
+                "th",
+                {
+                  class: i === 0 || word === "" ? "" : "number",
+                  title:
+                    word === "U"
+                      ? "expanded uncertainty: that of the decision rule where the study judges by ISO 14253-1, else for k = 2"
+                      : null,
+                },
+                word,
+              ),
+            ),
+          ),
+        ),
+        h(
+          "tbody",
+          {},
+          rows.map((row) => indexRow(row, most, before !== null)),
+        ),
       ),
     );
   }
@@ -89,12 +166,18 @@ export class Summary {
 /** The judged ones first, then as the document has them. */
 function rowsOf(document: PieceDocument, before: PieceDocument | null): Row[] {
   const earlier = before ? indicesOf(before.indices) : null;
-  const rows = [...indicesOf(document.indices)].map(([key, value]) => ({ key, value, judged: document.judgements.find((j) => j.index === key), before: earlier?.get(key)?.value }));
+  const rows = [...indicesOf(document.indices)].map(([key, value]) => ({
+    key,
+    value,
+    judged: document.judgements.find((j) => j.index === key),
+    before: earlier?.get(key)?.value,
+  }));
   return [...rows.filter((r) => r.judged), ...rows.filter((r) => !r.judged)];
 }
 
 function indexRow({ key, value, judged, before }: Row, most: number, changed: boolean): HTMLElement {
-  const cell = (name: string, text: string, kind = ""): HTMLElement => h("td", { class: `number ${kind}`, dataCell: name }, text);
+  const cell = (name: string, text: string, kind = ""): HTMLElement =>
+    h("td", { class: `number ${kind}`, dataCell: name }, text);
   const u = expanded(value, judged);
   const moved = before !== undefined && number(1e3 * before, 1) !== number(1e3 * value.value, 1);
   return h(
@@ -106,20 +189,55 @@ function indexRow({ key, value, judged, before }: Row, most: number, changed: bo
     cell("U", u === 0 ? NO_NUMBER : number(1e3 * u, 1), "muted"),
     cell("tolerance", judged ? number(1e3 * judged.tolerance_mm, 1) : ""),
     cell("used", judged ? `${number(100 * judged.used_ratio, 0)} %` : "", judged?.verdict ?? ""),
-    h("td", { class: "bar-cell" }, bar(value.value / most, u / most, judged ? judged.tolerance_mm / most : null, judged?.verdict, changed ? (before ?? 0) / most : null)),
+    h(
+      "td",
+      { class: "bar-cell" },
+      bar(
+        value.value / most,
+        u / most,
+        judged ? judged.tolerance_mm / most : null,
+        judged?.verdict,
+        changed ? (before ?? 0) / most : null,
+      ),
+    ),
   );
 }
 
 const COLOURS: Record<Verdict, string> = { pass: "var(--good)", fail: "var(--bad)", undecided: "var(--warn)" };
 
 /** Value, ± U, tolerance as a tick, all as shares of the width. */
-function bar(value: number, u: number, tolerance: number | null, verdict: Verdict | undefined, before: number | null): SVGSVGElement {
+function bar(
+  value: number,
+  u: number,
+  tolerance: number | null,
+  verdict: Verdict | undefined,
+  before: number | null,
+): SVGSVGElement {
   const x = (share: number): number => 2 + 116 * Math.max(0, Math.min(1, share));
-  const svg = s("svg", { viewBox: "0 0 120 14", preserveAspectRatio: "none", class: "index-bar", "aria-hidden": "true" });
-  svg.append(s("rect", { x: 2, y: 4, width: Math.max(1, x(value) - 2), height: 6, fill: verdict ? COLOURS[verdict] : "var(--line-strong)" }));
-  svg.append(s("line", { x1: x(value - u), x2: x(value + u), y1: 7, y2: 7, stroke: "var(--ink)", "stroke-width": 1.2 }));
-  if (before !== null) svg.append(s("path", { d: `M${x(before)} 1v12`, stroke: "var(--muted)", "stroke-width": 1, "stroke-dasharray": "2 2" }));
-  if (tolerance !== null) svg.append(s("path", { d: `M${x(tolerance)} 0v14`, stroke: "var(--ink)", "stroke-width": 2 }));
+  const svg = s("svg", {
+    viewBox: "0 0 120 14",
+    preserveAspectRatio: "none",
+    class: "index-bar",
+    "aria-hidden": "true",
+  });
+  svg.append(
+    s("rect", {
+      x: 2,
+      y: 4,
+      width: Math.max(1, x(value) - 2),
+      height: 6,
+      fill: verdict ? COLOURS[verdict] : "var(--line-strong)",
+    }),
+  );
+  svg.append(
+    s("line", { x1: x(value - u), x2: x(value + u), y1: 7, y2: 7, stroke: "var(--ink)", "stroke-width": 1.2 }),
+  );
+  if (before !== null)
+    svg.append(
+      s("path", { d: `M${x(before)} 1v12`, stroke: "var(--muted)", "stroke-width": 1, "stroke-dasharray": "2 2" }),
+    );
+  if (tolerance !== null)
+    svg.append(s("path", { d: `M${x(tolerance)} 0v14`, stroke: "var(--ink)", "stroke-width": 2 }));
   return svg;
 }
 
@@ -137,7 +255,16 @@ function csv(rows: readonly Row[]): string {
 /** The studies of the folder, and the way to the report. */
 export function studyChoice(app: App, path: string): HTMLElement {
   const files = app.state.project?.files.filter((f) => f.kind === "study") ?? [];
-  const choose = h("select", { ariaLabel: "Study", onchange: () => app.go("predict", { study: choose.value }) }, [...new Set([path, ...files.map((f) => f.path)])].map((p) => h("option", { value: p }, p)));
+  const choose = h(
+    "select",
+    { ariaLabel: "Study", onchange: () => app.go("predict", { study: choose.value }) },
+    [...new Set([path, ...files.map((f) => f.path)])].map((p) => h("option", { value: p }, p)),
+  );
   choose.value = path;
-  return h("span", { class: "predict-choice" }, choose, h("button", { onclick: () => app.go("report", { verb: "predict", file: path }) }, "Report"));
+  return h(
+    "span",
+    { class: "predict-choice" },
+    choose,
+    h("button", { onclick: () => app.go("report", { verb: "predict", file: path }) }, "Report"),
+  );
 }

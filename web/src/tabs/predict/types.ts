@@ -165,7 +165,12 @@ export function expanded(value: IndexValue, judged: Judgement | undefined): numb
 }
 
 /** The numbers of one section out of an array that holds all sections one after the other. */
-export function partOf<T extends Float32Array | Float64Array>(values: T, sections: readonly Section[], index: number, width = 1): T {
+export function partOf<T extends Float32Array | Float64Array>(
+  values: T,
+  sections: readonly Section[],
+  index: number,
+  width = 1,
+): T {
   const before = sections.slice(0, index).reduce((sum, s) => sum + s.points, 0);
   return values.subarray(width * before, width * (before + (sections[index]?.points ?? 0))) as T;
 }

@@ -30,7 +30,13 @@ export class WhatIf {
   private readonly time = h("span", { class: "muted", dataTest: "what-if-time", role: "status" });
   private readonly refused = h("p", { class: "what-if-refused", role: "alert", hidden: true });
   private readonly reset_button = h("button", { dataTest: "reset", onclick: () => this.reset() }, "As in the file");
-  private readonly search = h("input", { type: "text", class: "what-if-search", placeholder: "find an error, such as EC0Y", ariaLabel: "Find an error", oninput: () => this.filter() });
+  private readonly search = h("input", {
+    type: "text",
+    class: "what-if-search",
+    placeholder: "find an error, such as EC0Y",
+    ariaLabel: "Find an error",
+    oninput: () => this.filter(),
+  });
   private readonly all_button = h("button", { ariaPressed: "false", onclick: () => this.toggleAll() });
   private readonly rows_place = h("tbody");
   private readonly settings_place = h("div", { class: "panel" });
@@ -52,7 +58,19 @@ export class WhatIf {
         h(
           "table",
           { class: "what-if-errors" },
-          h("thead", {}, h("tr", {}, h("th", {}, "on"), h("th", {}, "error"), h("th", {}, "times, −2 … +2"), h("th", { class: "number" }, "factor"), h("th", { class: "number" }, "added"))),
+          h(
+            "thead",
+            {},
+            h(
+              "tr",
+              {},
+              h("th", {}, "on"),
+              h("th", {}, "error"),
+              h("th", {}, "times, −2 … +2"),
+              h("th", { class: "number" }, "factor"),
+              h("th", { class: "number" }, "added"),
+            ),
+          ),
           this.rows_place,
         ),
       ),
@@ -65,7 +83,10 @@ export class WhatIf {
     const rank = weights(header.document);
     const errors = [...header.errors].sort((a, b) => (rank.get(b.name) ?? 0) - (rank.get(a.name) ?? 0));
     this.rows = errors.map((error) => new ErrorRow(error.name, error.unit, () => this.changed()));
-    fill(this.rows_place, this.rows.map((row) => row.element));
+    fill(
+      this.rows_place,
+      this.rows.map((row) => row.element),
+    );
     this.search.value = "";
     this.openSettings(header);
     this.filter();
@@ -74,26 +95,71 @@ export class WhatIf {
   }
 
   private openSettings(header: PieceHeader): void {
-    const set = (name: string, from: number, to: number, step: number, unit: string, known: number | null): Setting => this.setting(name, { from, to, step, unit, known });
-    this.rotary = new Map(header.rotary.map((name) => [name, set(name, -180, 180, 1, "°", header.document.setting_command[name] ?? null)]));
+    const set = (name: string, from: number, to: number, step: number, unit: string, known: number | null): Setting =>
+      this.setting(name, { from, to, step, unit, known });
+    this.rotary = new Map(
+      header.rotary.map((name) => [name, set(name, -180, 180, 1, "°", header.document.setting_command[name] ?? null)]),
+    );
     this.tool = set("tool length", 0, Math.max(100, 2 * header.tool_length_mm), 1, "mm", header.tool_length_mm);
     this.sensors = new Map(header.sensors.map((name) => [name, set(name, 0, 50, 0.1, "°C", null)]));
-    const table = (title: string, what: string, settings: Iterable<Setting>): HTMLElement => h("div", { class: "settings" }, h("h2", {}, title), h("p", { class: "muted" }, what), h("table", {}, h("tbody", {}, [...settings].map((one) => one.element))));
+    const table = (title: string, what: string, settings: Iterable<Setting>): HTMLElement =>
+      h(
+        "div",
+        { class: "settings" },
+        h("h2", {}, title),
+        h("p", { class: "muted" }, what),
+        h(
+          "table",
+          {},
+          h(
+            "tbody",
+            {},
+            [...settings].map((one) => one.element),
+          ),
+        ),
+      );
     fill(
       this.settings_place,
       table("Where the part zero is touched", "Position of the rotary axes when the zero is set", this.rotary.values()),
       table("Tool", "From the holder to the tip", [this.tool]),
-      this.sensors.size > 0 ? table("Temperatures", "What the sensors of the machine say", this.sensors.values()) : null,
+      this.sensors.size > 0
+        ? table("Temperatures", "What the sensors of the machine say", this.sensors.values())
+        : null,
     );
   }
 
-  private setting(name: string, scale: { from: number; to: number; step: number; unit: string; known: number | null }): Setting {
+  private setting(
+    name: string,
+    scale: { from: number; to: number; step: number; unit: string; known: number | null },
+  ): Setting {
     const { from, to, step, unit, known } = scale;
     const words = `${name} in ${unit === "°" ? "degrees" : unit === "mm" ? "millimetres" : "degrees Celsius"}`;
-    const slider = h("input", { type: "range", min: from, max: to, step, value: String(known ?? 20), ariaLabel: words, dataSetting: name });
-    const box = h("input", { type: "number", step: "any", value: known === null ? "" : String(rounded(known)), placeholder: "in file", ariaLabel: `${words}, exactly`, dataSettingBox: name });
+    const slider = h("input", {
+      type: "range",
+      min: from,
+      max: to,
+      step,
+      value: String(known ?? 20),
+      ariaLabel: words,
+      dataSetting: name,
+    });
+    const box = h("input", {
+      type: "number",
+      step: "any",
+      value: known === null ? "" : String(rounded(known)),
+      placeholder: "in file",
+      ariaLabel: `${words}, exactly`,
+      dataSettingBox: name,
+    });
     const text = known === null ? "" : `in the file ${unit === "°" ? deg(known) : mm(known, 1)}`;
-    const element = h("tr", {}, h("td", { class: "axis-name" }, name), h("td", { class: "axis-slider" }, slider), h("td", { class: "number" }, box, h("span", { class: "unit" }, unit)), h("td", { class: "muted" }, text));
+    const element = h(
+      "tr",
+      {},
+      h("td", { class: "axis-name" }, name),
+      h("td", { class: "axis-slider" }, slider),
+      h("td", { class: "number" }, box, h("span", { class: "unit" }, unit)),
+      h("td", { class: "muted" }, text),
+    );
     const one: Setting = {
       element,
       value: null,
@@ -127,14 +193,17 @@ export class WhatIf {
   /** null: nothing is changed. */
   changes(): Changes | null {
     const errors = this.rows.flatMap((row) => (row.change ? [[row.name, row.change] as const] : []));
-    const given = (settings: Map<string, Setting>): [string, number][] => [...settings].flatMap(([name, { value }]) => (value === null ? [] : [[name, value] as [string, number]]));
+    const given = (settings: Map<string, Setting>): [string, number][] =>
+      [...settings].flatMap(([name, { value }]) => (value === null ? [] : [[name, value] as [string, number]]));
     const setting = given(this.rotary);
     const temperature = given(this.sensors);
     const changes: Changes = {
       ...(errors.length > 0 ? { errors: Object.fromEntries(errors) } : {}),
       ...(setting.length > 0 ? { setting_deg: Object.fromEntries(setting) } : {}),
       ...(this.tool?.value != null ? { tool_length_mm: this.tool.value } : {}),
-      ...(temperature.length > 0 ? { temperature: temperature.map(([name, value]) => `${name}=${value}`).join(",") } : {}),
+      ...(temperature.length > 0
+        ? { temperature: temperature.map(([name, value]) => `${name}=${value}`).join(",") }
+        : {}),
     };
     return Object.keys(changes).length > 0 ? changes : null;
   }
@@ -205,15 +274,20 @@ export class WhatIf {
   }
 
   answered(answer_ms: number, drawn_ms: number): void {
-    this.time.dataset["answer"] = String(answer_ms);
-    this.time.dataset["drawn"] = String(drawn_ms);
+    this.time.dataset.answer = String(answer_ms);
+    this.time.dataset.drawn = String(drawn_ms);
     this.time.textContent = `answered in ${number(answer_ms, 0)} ms, drawn after ${number(drawn_ms, 0)} ms`;
   }
 
   refuse(refusal: Refusal): void {
     this.time.textContent = "";
     this.refused.hidden = false;
-    fill(this.refused, h("strong", {}, "Not computed; the figures are those before. "), refusal.message, refusal.hint ? `. ${refusal.hint}` : "");
+    fill(
+      this.refused,
+      h("strong", {}, "Not computed; the figures are those before. "),
+      refusal.message,
+      refusal.hint ? `. ${refusal.hint}` : "",
+    );
   }
 }
 

@@ -23,7 +23,14 @@ export interface SimulationDocument {
   dwell_s: number;
   feed_mm: number;
   moves: number;
-  deviation: { tip_um: Worst; tip_rms_um: number; feed_um: Worst; normal_um: Worst; binormal_um: Worst; axis_urad: Worst };
+  deviation: {
+    tip_um: Worst;
+    tip_rms_um: number;
+    feed_um: Worst;
+    normal_um: Worst;
+    binormal_um: Worst;
+    axis_urad: Worst;
+  };
   troubles_left_out: number;
 }
 
@@ -150,7 +157,10 @@ export class Simulation {
   static async run(app: App, job: Job, watch: Watch): Promise<Simulation> {
     const { program, ...rest } = job;
     const body = typeof program === "string" ? { ...rest, program } : { ...rest, ...program };
-    const frame = await app.api.ask<Frame<SimulationHeader>>("simulate", body, { onProgress: watch.progress, signal: watch.signal });
+    const frame = await app.api.ask<Frame<SimulationHeader>>("simulate", body, {
+      onProgress: watch.progress,
+      signal: watch.signal,
+    });
     return new Simulation(app, frame);
   }
 
@@ -167,7 +177,11 @@ export class Simulation {
   }
 
   path(colour: Colour, points: number, window_s: [number, number] | null): Promise<Frame<PathHeader>> {
-    return this.ask("simulation-path", { colour, points, ...(window_s ? { from_s: window_s[0], to_s: window_s[1] } : {}) });
+    return this.ask("simulation-path", {
+      colour,
+      points,
+      ...(window_s ? { from_s: window_s[0], to_s: window_s[1] } : {}),
+    });
   }
 
   curves(quantities: string[], columns: number, window_s: [number, number] | null): Promise<Frame<CurvesHeader>> {

@@ -42,12 +42,27 @@ export class Choices {
   show(choice: Choice, dropped: Dropped | null): void {
     this.choice = choice;
     this.dropped = dropped;
-    const input = h("input", { type: "file", class: "drop-input", ariaLabel: "Open a program of this computer", onchange: () => void this.take(input.files?.[0]) });
+    const input = h("input", {
+      type: "file",
+      class: "drop-input",
+      ariaLabel: "Open a program of this computer",
+      onchange: () => void this.take(input.files?.[0]),
+    });
     fill(
       this.element,
-      this.labelled("Machine", this.select("machine", this.files("machine", choice.machine), "choose a machine", choice.machine)),
-      this.labelled("Program", this.program(), h("label", { class: "button", title: "Or drop it anywhere on this page" }, "Open …", input)),
-      this.labelled("Set-up", this.select("setup", this.files("setup", choice.setup), dropped ? "none" : "beside the program", choice.setup)),
+      this.labelled(
+        "Machine",
+        this.select("machine", this.files("machine", choice.machine), "choose a machine", choice.machine),
+      ),
+      this.labelled(
+        "Program",
+        this.program(),
+        h("label", { class: "button", title: "Or drop it anywhere on this page" }, "Open …", input),
+      ),
+      this.labelled(
+        "Set-up",
+        this.select("setup", this.files("setup", choice.setup), dropped ? "none" : "beside the program", choice.setup),
+      ),
       this.labelled("Control", this.select("control", CONTROLS, "automatic", choice.control)),
     );
   }
@@ -56,12 +71,24 @@ export class Choices {
   async take(file: File | undefined): Promise<void> {
     if (!file) return;
     if (file.size > MOST_BYTES) {
-      this.app.fail(new Refusal("dropped-file", `${file.name} is larger than 60 MB`, "Put it into the project folder and choose it there, or simulate it with `trueaxis simulate`."));
+      this.app.fail(
+        new Refusal(
+          "dropped-file",
+          `${file.name} is larger than 60 MB`,
+          "Put it into the project folder and choose it there, or simulate it with `trueaxis simulate`.",
+        ),
+      );
       return;
     }
     const text = await file.text();
     if (text.includes("\0")) {
-      this.app.fail(new Refusal("dropped-file", `${file.name} is not a text`, "Drop an NC program as the control reads it (SINUMERIK, FANUC, LinuxCNC or HEIDENHAIN Klartext)."));
+      this.app.fail(
+        new Refusal(
+          "dropped-file",
+          `${file.name} is not a text`,
+          "Drop an NC program as the control reads it (SINUMERIK, FANUC, LinuxCNC or HEIDENHAIN Klartext).",
+        ),
+      );
       return;
     }
     this.pick({ ...this.choice, program: null }, { name: file.name, text });
@@ -82,9 +109,24 @@ export class Choices {
     return this.select("program", files, `${this.dropped.name} (of this computer)`, null);
   }
 
-  private select(key: keyof Choice, options: readonly (readonly [string, string])[], none: string, value: string | null): HTMLElement {
-    const titles: Record<keyof Choice, string> = { machine: "Machine file", program: "NC program", setup: "Set-up: work offsets, tools, stock", control: "Whose program it is" };
-    const select = h("select", { ariaLabel: titles[key], dataChoice: key, onchange: () => this.changed(key, select.value || null) }, h("option", { value: "", disabled: key === "machine" || key === "program" }, none), options.map(([path, word]) => h("option", { value: path }, word)));
+  private select(
+    key: keyof Choice,
+    options: readonly (readonly [string, string])[],
+    none: string,
+    value: string | null,
+  ): HTMLElement {
+    const titles: Record<keyof Choice, string> = {
+      machine: "Machine file",
+      program: "NC program",
+      setup: "Set-up: work offsets, tools, stock",
+      control: "Whose program it is",
+    };
+    const select = h(
+      "select",
+      { ariaLabel: titles[key], dataChoice: key, onchange: () => this.changed(key, select.value || null) },
+      h("option", { value: "", disabled: key === "machine" || key === "program" }, none),
+      options.map(([path, word]) => h("option", { value: path }, word)),
+    );
     select.value = value ?? "";
     return select;
   }

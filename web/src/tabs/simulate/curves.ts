@@ -28,7 +28,17 @@ export class Curves {
   readonly element: HTMLElement;
   private readonly choice = h("div", { class: "curves-choice" });
   private readonly plots_place = h("div", { class: "curves-plots" });
-  private readonly whole = h("button", { class: "curves-whole", hidden: true, title: "Show the whole time again (double click)", dataTest: "whole-time", onclick: () => this.zoomOut() }, "Whole time");
+  private readonly whole = h(
+    "button",
+    {
+      class: "curves-whole",
+      hidden: true,
+      title: "Show the whole time again (double click)",
+      dataTest: "whole-time",
+      onclick: () => this.zoomOut(),
+    },
+    "Whole time",
+  );
   private readonly plots = new Map<string, TimePlot>();
   private readonly owner: CurvesOwner;
   private simulation: Simulation | null = null;
@@ -84,7 +94,8 @@ export class Curves {
   }
 
   private request(): void {
-    if (this.simulation && this.shown.length > 0 && this.simulation.header.duration_s > 0) this.ask({ simulation: this.simulation, keys: this.shown, window_s: this.window_s });
+    if (this.simulation && this.shown.length > 0 && this.simulation.header.duration_s > 0)
+      this.ask({ simulation: this.simulation, keys: this.shown, window_s: this.window_s });
   }
 
   private answered(frame: Frame<CurvesHeader>, { simulation, keys, window_s }: Asked): void {
@@ -95,15 +106,21 @@ export class Curves {
     keys.forEach((key, i) => {
       const quantity = simulation.header.quantities.find((q) => q.key === key);
       if (!quantity || !this.shown.includes(key)) return;
-      const part = (values: Float32Array): Float64Array => Float64Array.from(values.subarray(i * columns, (i + 1) * columns));
+      const part = (values: Float32Array): Float64Array =>
+        Float64Array.from(values.subarray(i * columns, (i + 1) * columns));
       this.showPlot(key, this.spec(quantity, time_s, part(low), part(high)), window_s);
     });
   }
 
   private spec(quantity: Quantity, time_s: Float64Array, low: Float64Array, high: Float64Array): TimePlotSpec {
     const { title, unit, limits, key } = quantity;
-    const marks: TimeMark[] = (this.simulation?.header.marks ?? []).filter((m) => m.grave).map((m) => ({ time_s: m.time_s, label: m.text, kind: "error" }));
-    const lines = (limits ?? []).map((value, i) => ({ value, label: `${i === 0 ? "least" : "greatest"} ${key.endsWith(".speed") ? "velocity" : "travel"}` }));
+    const marks: TimeMark[] = (this.simulation?.header.marks ?? [])
+      .filter((m) => m.grave)
+      .map((m) => ({ time_s: m.time_s, label: m.text, kind: "error" }));
+    const lines = (limits ?? []).map((value, i) => ({
+      value,
+      label: `${i === 0 ? "least" : "greatest"} ${key.endsWith(".speed") ? "velocity" : "travel"}`,
+    }));
     const series = [
       { name: "least", values: low, colour: 0 },
       { name: "greatest", values: high, colour: 0, filled: true },
@@ -120,8 +137,12 @@ export class Curves {
     let plot = this.plots.get(key);
     if (plot) plot.update(spec);
     else {
-      plot = timePlot(this.plots_place, spec, { group: "simulate", onpick: (time_s) => this.owner.seek(time_s), onzoom: (range) => this.zoomed(range) });
-      plot.element.dataset["quantity"] = key;
+      plot = timePlot(this.plots_place, spec, {
+        group: "simulate",
+        onpick: (time_s) => this.owner.seek(time_s),
+        onzoom: (range) => this.zoomed(range),
+      });
+      plot.element.dataset.quantity = key;
       this.plots.set(key, plot);
       if (window_s) plot.zoom(window_s);
     }
@@ -132,19 +153,52 @@ export class Curves {
     const all = this.simulation?.header.quantities ?? [];
     const axes = this.simulation?.header.axes.map((a) => a.name) ?? [];
     const group = (title: string, list: Quantity[], word: (q: Quantity) => string): HTMLElement | null =>
-      list.length === 0 ? null : h("span", { class: "curves-group" }, h("span", { class: "muted" }, title), h("span", { class: "group", role: "group", ariaLabel: title }, list.map((q) => this.chip(q, word(q)))));
+      list.length === 0
+        ? null
+        : h(
+            "span",
+            { class: "curves-group" },
+            h("span", { class: "muted" }, title),
+            h(
+              "span",
+              { class: "group", role: "group", ariaLabel: title },
+              list.map((q) => this.chip(q, word(q))),
+            ),
+          );
     fill(
       this.choice,
-      group("Position", all.filter((q) => axes.includes(q.key)), (q) => q.key),
-      group("Velocity", all.filter((q) => axes.some((a) => q.key === `${a}.speed`)), (q) => q.key.replace(".speed", "")),
-      group("Tip", all.filter((q) => !axes.includes(q.key.replace(".speed", ""))), (q) => SHORT[q.key] ?? q.key),
+      group(
+        "Position",
+        all.filter((q) => axes.includes(q.key)),
+        (q) => q.key,
+      ),
+      group(
+        "Velocity",
+        all.filter((q) => axes.some((a) => q.key === `${a}.speed`)),
+        (q) => q.key.replace(".speed", ""),
+      ),
+      group(
+        "Tip",
+        all.filter((q) => !axes.includes(q.key.replace(".speed", ""))),
+        (q) => SHORT[q.key] ?? q.key,
+      ),
       this.whole,
     );
   }
 
   private chip(quantity: Quantity, word: string): HTMLElement {
     const { key, title, unit } = quantity;
-    const chip = h("button", { ariaPressed: String(this.shown.includes(key)), title: `${title} (${unit})`, ariaLabel: `${title}, ${unit}`, dataKey: key, onclick: () => this.toggle(key, chip) }, word);
+    const chip = h(
+      "button",
+      {
+        ariaPressed: String(this.shown.includes(key)),
+        title: `${title} (${unit})`,
+        ariaLabel: `${title}, ${unit}`,
+        dataKey: key,
+        onclick: () => this.toggle(key, chip),
+      },
+      word,
+    );
     return chip;
   }
 

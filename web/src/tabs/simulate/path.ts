@@ -32,7 +32,8 @@ export class ToolPath {
   private time_s: Float64Array = new Float64Array();
   private now_s = 0;
   private readonly ask = latestOnly<Asked, Frame<PathHeader>>(
-    ({ simulation, colour, window_s }) => simulation.path(colour, Math.min(MOST_POINTS, this.view.mostPathPoints), window_s),
+    ({ simulation, colour, window_s }) =>
+      simulation.path(colour, Math.min(MOST_POINTS, this.view.mostPathPoints), window_s),
     (frame, asked) => this.answered(frame, asked),
     (error) => this.failed(error),
   );
@@ -41,14 +42,35 @@ export class ToolPath {
   constructor(view: MachineView, failed: (error: unknown) => void) {
     this.view = view;
     this.failed = failed;
-    const buttons = COLOURS.map(([colour, word, title]) => h("button", { title, dataColour: colour, ariaPressed: String(colour === this.colour), onclick: () => this.pick(colour) }, word));
-    this.control = h("div", { class: "scene-control" }, h("span", { class: "muted" }, "Path by"), h("span", { class: "group", role: "group", ariaLabel: "What the colour of the path shows" }, buttons), h("button", { title: "Show the path as large as the picture; Fit shows the machine again", dataTest: "look-at-path", onclick: () => view.fitPath() }, "Look at it"));
+    const buttons = COLOURS.map(([colour, word, title]) =>
+      h(
+        "button",
+        { title, dataColour: colour, ariaPressed: String(colour === this.colour), onclick: () => this.pick(colour) },
+        word,
+      ),
+    );
+    this.control = h(
+      "div",
+      { class: "scene-control" },
+      h("span", { class: "muted" }, "Path by"),
+      h("span", { class: "group", role: "group", ariaLabel: "What the colour of the path shows" }, buttons),
+      h(
+        "button",
+        {
+          title: "Show the path as large as the picture; Fit shows the machine again",
+          dataTest: "look-at-path",
+          onclick: () => view.fitPath(),
+        },
+        "Look at it",
+      ),
+    );
   }
 
   setSimulation(simulation: Simulation | null): void {
     this.simulation = simulation;
     // A machine without errors has no deviation to look at.
-    if (simulation && !this.picked) this.show(simulation.header.document.deviation.tip_um.value > 0 ? "deviation" : "feed");
+    if (simulation && !this.picked)
+      this.show(simulation.header.document.deviation.tip_um.value > 0 ? "deviation" : "feed");
     this.window_s = null;
     this.time_s = new Float64Array();
     this.view.setPath(null);
@@ -81,7 +103,8 @@ export class ToolPath {
 
   private show(colour: Colour): void {
     this.colour = colour;
-    for (const button of this.control.querySelectorAll<HTMLElement>("[data-colour]")) button.setAttribute("aria-pressed", String(button.dataset["colour"] === colour));
+    for (const button of this.control.querySelectorAll<HTMLElement>("[data-colour]"))
+      button.setAttribute("aria-pressed", String(button.dataset.colour === colour));
   }
 
   private request(): void {
@@ -94,7 +117,19 @@ export class ToolPath {
     this.time_s = frame.f64("time_s");
     const rapid = frame.u8("rapid");
     const deviations = frame.f32("off_um").map((um) => um / 1000);
-    this.view.setPath({ positions: frame.f32("tip_mm"), origin: header.origin_mm, values: frame.f32("value"), rapid, deviations, range: [header.low, header.high] }, header.low === header.high ? undefined : { title: COLOURS.find(([key]) => key === colour)?.[1] ?? header.title, unit: header.unit });
+    this.view.setPath(
+      {
+        positions: frame.f32("tip_mm"),
+        origin: header.origin_mm,
+        values: frame.f32("value"),
+        rapid,
+        deviations,
+        range: [header.low, header.high],
+      },
+      header.low === header.high
+        ? undefined
+        : { title: COLOURS.find(([key]) => key === colour)?.[1] ?? header.title, unit: header.unit },
+    );
     const part = window_s ? `path from ${clock(window_s[0])} to ${clock(window_s[1])} min:s` : null;
     const coarse = header.complete ? null : `path drawn within ${mm(header.chord_mm, 3)}`;
     this.view.overlay.note("path", [part, coarse].filter(Boolean).join(", ") || null);

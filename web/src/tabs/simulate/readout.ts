@@ -38,17 +38,43 @@ export class Readout {
       this.cells.set(key, td);
       return td;
     };
-    const heading = (words: readonly string[]): HTMLElement => h("tr", {}, words.map((word) => h("th", { class: "number" }, word)));
+    const heading = (words: readonly string[]): HTMLElement =>
+      h(
+        "tr",
+        {},
+        words.map((word) => h("th", { class: "number" }, word)),
+      );
     fill(
       this.element,
       h("div", { class: "readout-head" }, this.place, this.block, this.speed),
-      h("table", { class: "readout-axes" }, h("thead", {}, heading(axes.map((a) => `${a.name} (${a.unit === "deg" ? "°" : a.unit})`))), h("tbody", {}, h("tr", {}, axes.map((a) => cell(`axis-${a.name}`))))),
+      h(
+        "table",
+        { class: "readout-axes" },
+        h("thead", {}, heading(axes.map((a) => `${a.name} (${a.unit === "deg" ? "°" : a.unit})`))),
+        h(
+          "tbody",
+          {},
+          h(
+            "tr",
+            {},
+            axes.map((a) => cell(`axis-${a.name}`)),
+          ),
+        ),
+      ),
       h(
         "table",
         { class: "readout-deviation" },
         h("caption", {}, "Deviation of the tool tip (µm) and tilt of the tool (µrad)"),
         h("thead", {}, heading(DEVIATIONS.map(([, word]) => word))),
-        h("tbody", {}, h("tr", { class: "deviation-row" }, DEVIATIONS.map(([key]) => cell(key)))),
+        h(
+          "tbody",
+          {},
+          h(
+            "tr",
+            { class: "deviation-row" },
+            DEVIATIONS.map(([key]) => cell(key)),
+          ),
+        ),
       ),
     );
   }
@@ -67,7 +93,10 @@ export class Readout {
       const cell = this.cells.get(`axis-${axis.name}`);
       if (!cell) continue;
       cell.textContent = number(at, 4);
-      cell.classList.toggle("outside", axis.travel !== null && at !== undefined && (at < axis.travel[0] || at > axis.travel[1]));
+      cell.classList.toggle(
+        "outside",
+        axis.travel !== null && at !== undefined && (at < axis.travel[0] || at > axis.travel[1]),
+      );
     }
     for (const [key, , value] of DEVIATIONS) {
       const cell = this.cells.get(key);

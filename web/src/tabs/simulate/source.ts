@@ -24,7 +24,12 @@ const PIECE = /\([^)]*\)|;.*$|^\s*\/?\s*N\d+/gi;
 
 export class SourceList {
   readonly element: HTMLElement;
-  private readonly scroll = h("div", { class: "source-scroll", tabindex: "0", role: "listbox", ariaLabel: "Source of the program. A click on a line goes to it." });
+  private readonly scroll = h("div", {
+    class: "source-scroll",
+    tabindex: "0",
+    role: "listbox",
+    ariaLabel: "Source of the program. A click on a line goes to it.",
+  });
   private readonly tall = h("div", { class: "source-tall" });
   private readonly rows = h("div", { class: "source-rows" });
   private readonly tip = h("div", { class: "source-tip", role: "tooltip", id: "source-tip", hidden: true });
@@ -48,7 +53,8 @@ export class SourceList {
     this.scroll.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
     this.scroll.addEventListener("keydown", (event) => this.key(event));
     this.rows.addEventListener("click", (event) => this.clicked(event));
-    for (const kind of ["pointerover", "focusin"]) this.rows.addEventListener(kind, (event) => this.showTip(event.target));
+    for (const kind of ["pointerover", "focusin"])
+      this.rows.addEventListener(kind, (event) => this.showTip(event.target));
     for (const kind of ["pointerleave", "focusout"]) this.rows.addEventListener(kind, () => (this.tip.hidden = true));
     new ResizeObserver(() => this.resize()).observe(this.scroll);
   }
@@ -149,7 +155,7 @@ export class SourceList {
 
   private clicked(event: Event): void {
     const row = (event.target as HTMLElement).closest<HTMLElement>(".source-line");
-    if (row && (document.getSelection()?.toString() ?? "") === "") this.pick(Number(row.dataset["line"]));
+    if (row && (document.getSelection()?.toString() ?? "") === "") this.pick(Number(row.dataset.line));
   }
 
   // ---- drawing ----
@@ -171,7 +177,13 @@ export class SourceList {
     const text = this.lines.line(line);
     return h(
       "div",
-      { class: `source-line ${worst}`, role: "option", dataLine: line, ariaCurrent: line === this.current ? "true" : null, ariaSelected: String(line === this.current) },
+      {
+        class: `source-line ${worst}`,
+        role: "option",
+        dataLine: line,
+        ariaCurrent: line === this.current ? "true" : null,
+        ariaSelected: String(line === this.current),
+      },
       h("span", { class: "source-number" }, line),
       h("span", { class: "source-text" }, notes.length > 0 ? underlined(text, notes) : coloured(text)),
     );
@@ -181,7 +193,13 @@ export class SourceList {
     const mark = (target as HTMLElement | null)?.closest?.<HTMLElement>(".source-mark");
     this.tip.hidden = !mark;
     if (!mark) return;
-    fill(this.tip, h("strong", { class: mark.dataset["severity"] ?? "" }, mark.dataset["severity"]), " ", mark.dataset["message"], mark.dataset["hint"] ? h("p", { class: "hint" }, mark.dataset["hint"]) : null);
+    fill(
+      this.tip,
+      h("strong", { class: mark.dataset.severity ?? "" }, mark.dataset.severity),
+      " ",
+      mark.dataset.message,
+      mark.dataset.hint ? h("p", { class: "hint" }, mark.dataset.hint) : null,
+    );
     const box = mark.getBoundingClientRect();
     const around = this.element.getBoundingClientRect();
     const below = box.bottom - around.top + 4;
@@ -211,11 +229,25 @@ function underlined(text: string, notes: readonly LineNote[]): Child[] {
     if (to <= start && from < text.length) {
       // Two notes on one word: the second says its message with the first.
       const before = parts.at(-1);
-      if (before instanceof HTMLElement) before.dataset["message"] += ` – ${note.message}`;
+      if (before instanceof HTMLElement) before.dataset.message += ` – ${note.message}`;
       continue;
     }
     parts.push(coloured(text.slice(at, start)));
-    parts.push(h("span", { class: `source-mark ${note.severity === "error" ? "error" : "warning"}`, tabindex: "0", ariaDescribedby: "source-tip", ariaLabel: `${text.slice(start, to)} ${note.severity}: ${note.message}`, dataSeverity: note.severity, dataMessage: note.message, dataHint: note.hint ?? "" }, text.slice(start, to) || "\u00a0\u00a0"));
+    parts.push(
+      h(
+        "span",
+        {
+          class: `source-mark ${note.severity === "error" ? "error" : "warning"}`,
+          tabindex: "0",
+          ariaDescribedby: "source-tip",
+          ariaLabel: `${text.slice(start, to)} ${note.severity}: ${note.message}`,
+          dataSeverity: note.severity,
+          dataMessage: note.message,
+          dataHint: note.hint ?? "",
+        },
+        text.slice(start, to) || "\u00a0\u00a0",
+      ),
+    );
     at = to;
   }
   return [...parts, coloured(text.slice(at))];

@@ -25,7 +25,8 @@ function verdict(header: SimulationHeader): HTMLElement {
   const errors = header.diagnostics.filter((d) => d.severity === "error").length;
   const words = [...kinds].map(([kind, n]) => `${n} × ${kind.replaceAll("-", " ")}`);
   if (errors > 0) words.unshift(errors === 1 ? "one error in the program" : `${errors} errors in the program`);
-  if (words.length === 0) return h("strong", { class: "runs good", dataTest: "verdict" }, "Runs: no collision, no over-travel");
+  if (words.length === 0)
+    return h("strong", { class: "runs good", dataTest: "verdict" }, "Runs: no collision, no over-travel");
   return h("strong", { class: "runs bad", dataTest: "verdict" }, `Does not run: ${words.join(", ")}`);
 }
 
@@ -45,7 +46,16 @@ export class Summary {
   show(header: SimulationHeader, errors: number): void {
     const { document: doc } = header;
     const worst = doc.deviation.tip_um;
-    const to = worst.value > 0 ? h("button", { class: "link", dataTest: "to-largest", onclick: () => this.seek(worst.time_s) }, `line ${worst.line}`) : errors === 0 ? h("span", { class: "muted" }, "the machine file states no errors") : null;
+    const to =
+      worst.value > 0
+        ? h(
+            "button",
+            { class: "link", dataTest: "to-largest", onclick: () => this.seek(worst.time_s) },
+            `line ${worst.line}`,
+          )
+        : errors === 0
+          ? h("span", { class: "muted" }, "the machine file states no errors")
+          : null;
     fill(
       this.element,
       h("div", { class: "panel-head" }, verdict(header), h("span", { class: "muted" }, doc.control)),
@@ -53,13 +63,43 @@ export class Summary {
       h(
         "div",
         { class: "facts" },
-        fact("machining time", [clock(doc.time_s), h("small", {}, " min:s")], "time", h("span", { class: "muted" }, `rapid ${clock(doc.rapid_s)}${doc.dwell_s > 0 ? `, dwell ${clock(doc.dwell_s)}` : ""}`)),
+        fact(
+          "machining time",
+          [clock(doc.time_s), h("small", {}, " min:s")],
+          "time",
+          h(
+            "span",
+            { class: "muted" },
+            `rapid ${clock(doc.rapid_s)}${doc.dwell_s > 0 ? `, dwell ${clock(doc.dwell_s)}` : ""}`,
+          ),
+        ),
         fact("largest deviation", um(worst.value), "largest", to),
-        fact("across the path", um(across(doc)), "across", h("span", { class: "muted" }, `rms ${um(doc.deviation.tip_rms_um)}`)),
-        fact("tilt of the tool", urad(doc.deviation.axis_urad.value), "tilt", h("span", { class: "muted" }, `${mm(doc.feed_mm, 0)} in feed`)),
+        fact(
+          "across the path",
+          um(across(doc)),
+          "across",
+          h("span", { class: "muted" }, `rms ${um(doc.deviation.tip_rms_um)}`),
+        ),
+        fact(
+          "tilt of the tool",
+          urad(doc.deviation.axis_urad.value),
+          "tilt",
+          h("span", { class: "muted" }, `${mm(doc.feed_mm, 0)} in feed`),
+        ),
       ),
       this.remarks(header),
-      header.diagnostics.length > 0 ? h("details", { class: "simulate-said", open: header.diagnostics.some((d) => d.severity === "error") }, h("summary", {}, `The program reader says ${header.diagnostics.length === 1 ? "one thing" : `${header.diagnostics.length} things`}`), diagnosticList(header.diagnostics.slice(0, MOST_ROWS))) : null,
+      header.diagnostics.length > 0
+        ? h(
+            "details",
+            { class: "simulate-said", open: header.diagnostics.some((d) => d.severity === "error") },
+            h(
+              "summary",
+              {},
+              `The program reader says ${header.diagnostics.length === 1 ? "one thing" : `${header.diagnostics.length} things`}`,
+            ),
+            diagnosticList(header.diagnostics.slice(0, MOST_ROWS)),
+          )
+        : null,
     );
   }
 
@@ -68,16 +108,41 @@ export class Summary {
     const errors = refusal.diagnostics.filter((d: Diagnostic) => d.severity === "error");
     fill(
       this.element,
-      h("div", { class: "panel-head" }, h("strong", { class: "runs bad", dataTest: "verdict" }, errors.length > 0 ? `Cannot be simulated: ${errors.length === 1 ? "one error" : `${errors.length} errors`}` : refusal.message)),
-      refusal.diagnostics.length > 0 ? diagnosticList(refusal.diagnostics.slice(0, MOST_ROWS)) : refusal.hint ? h("p", { class: "hint" }, refusal.hint) : null,
-      again ? h("p", { class: "row" }, h("button", { dataTest: "keep-going", onclick: again }, "Simulate all the same"), h("span", { class: "muted" }, "goes on behind each error")) : null,
+      h(
+        "div",
+        { class: "panel-head" },
+        h(
+          "strong",
+          { class: "runs bad", dataTest: "verdict" },
+          errors.length > 0
+            ? `Cannot be simulated: ${errors.length === 1 ? "one error" : `${errors.length} errors`}`
+            : refusal.message,
+        ),
+      ),
+      refusal.diagnostics.length > 0
+        ? diagnosticList(refusal.diagnostics.slice(0, MOST_ROWS))
+        : refusal.hint
+          ? h("p", { class: "hint" }, refusal.hint)
+          : null,
+      again
+        ? h(
+            "p",
+            { class: "row" },
+            h("button", { dataTest: "keep-going", onclick: again }, "Simulate all the same"),
+            h("span", { class: "muted" }, "goes on behind each error"),
+          )
+        : null,
     );
   }
 
   private grave(marks: readonly Mark[]): Child {
     const grave = marks.filter((m) => m.grave);
     if (grave.length === 0) return null;
-    return h("ul", { class: "troubles grave" }, grave.slice(0, MOST_ROWS).map((m) => this.trouble(m)));
+    return h(
+      "ul",
+      { class: "troubles grave" },
+      grave.slice(0, MOST_ROWS).map((m) => this.trouble(m)),
+    );
   }
 
   private remarks({ marks, document: doc }: SimulationHeader): Child {
@@ -88,13 +153,27 @@ export class Summary {
       "details",
       { class: "simulate-said" },
       h("summary", {}, rest.length === 1 ? "One remark" : `${rest.length} remarks`),
-      h("ul", { class: "troubles" }, rest.slice(0, MOST_ROWS).map((m) => this.trouble(m))),
+      h(
+        "ul",
+        { class: "troubles" },
+        rest.slice(0, MOST_ROWS).map((m) => this.trouble(m)),
+      ),
       left_out > 0 ? h("p", { class: "muted" }, `and ${left_out} more`) : null,
     );
   }
 
   private trouble(mark: Mark): HTMLElement {
     const until = mark.until_s !== null && mark.until_s > mark.time_s ? ` to ${clock(mark.until_s)}` : "";
-    return h("li", {}, h("button", { class: "trouble", dataKind: mark.kind, onclick: () => this.seek(mark.time_s) }, h("span", { class: "muted number" }, `${clock(mark.time_s)}${until}`), h("span", { class: "muted number" }, `line ${mark.line}`), h("span", {}, mark.text)));
+    return h(
+      "li",
+      {},
+      h(
+        "button",
+        { class: "trouble", dataKind: mark.kind, onclick: () => this.seek(mark.time_s) },
+        h("span", { class: "muted number" }, `${clock(mark.time_s)}${until}`),
+        h("span", { class: "muted number" }, `line ${mark.line}`),
+        h("span", {}, mark.text),
+      ),
+    );
   }
 }

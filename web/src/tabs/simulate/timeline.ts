@@ -19,7 +19,15 @@ export class Timeline {
   private readonly window_part = h("div", { class: "timeline-window", hidden: true });
   private readonly done = h("div", { class: "timeline-done" });
   private readonly thumb = h("div", { class: "timeline-thumb" });
-  private readonly track = h("div", { class: "timeline-track", role: "slider", tabindex: "0", ariaLabel: "Time in the program", ariaValuemin: "0", ariaValuemax: "0", ariaValuenow: "0" });
+  private readonly track = h("div", {
+    class: "timeline-track",
+    role: "slider",
+    tabindex: "0",
+    ariaLabel: "Time in the program",
+    ariaValuemin: "0",
+    ariaValuemax: "0",
+    ariaValuenow: "0",
+  });
   private duration_s = 0;
   private readonly seek: (time_s: number) => void;
 
@@ -33,8 +41,14 @@ export class Timeline {
   setProgram(duration_s: number, marks: readonly Mark[]): void {
     this.duration_s = duration_s;
     this.track.setAttribute("aria-valuemax", String(duration_s));
-    fill(this.marks, clusters(marks, duration_s).map((cluster) => this.button(cluster)));
-    fill(this.spans, marks.filter((m) => m.grave && m.until_s !== null).map((m) => this.span(m)));
+    fill(
+      this.marks,
+      clusters(marks, duration_s).map((cluster) => this.button(cluster)),
+    );
+    fill(
+      this.spans,
+      marks.filter((m) => m.grave && m.until_s !== null).map((m) => this.span(m)),
+    );
     this.setWindow(null);
     this.setTime(0);
   }
@@ -60,8 +74,19 @@ export class Timeline {
 
   private button({ marks, grave }: Cluster): HTMLElement {
     const first = marks[0] as Mark;
-    const words = marks.length === 1 ? `${first.text}, line ${first.line}, ${clock(first.time_s)} min:s` : `${marks.length} places from ${clock(first.time_s)} min:s, the first in line ${first.line}: ${first.text}`;
-    const button = h("button", { class: `timeline-mark ${grave ? "grave" : ""}`, dataKind: first.kind, dataTime: first.time_s, title: words, ariaLabel: words, tabindex: grave ? "0" : "-1", onclick: () => this.seek(first.time_s) });
+    const words =
+      marks.length === 1
+        ? `${first.text}, line ${first.line}, ${clock(first.time_s)} min:s`
+        : `${marks.length} places from ${clock(first.time_s)} min:s, the first in line ${first.line}: ${first.text}`;
+    const button = h("button", {
+      class: `timeline-mark ${grave ? "grave" : ""}`,
+      dataKind: first.kind,
+      dataTime: first.time_s,
+      title: words,
+      ariaLabel: words,
+      tabindex: grave ? "0" : "-1",
+      onclick: () => this.seek(first.time_s),
+    });
     button.style.left = this.share(first.time_s);
     return button;
   }
@@ -93,7 +118,10 @@ function clusters(marks: readonly Mark[], duration_s: number): Cluster[] {
     let open: Cluster | null = null;
     for (const mark of marks.filter((m) => m.grave === grave).sort((a, b) => a.time_s - b.time_s)) {
       if (open && mark.time_s - (open.marks[0] as Mark).time_s < APART * duration_s) open.marks.push(mark);
-      else all.push((open = { marks: [mark], grave }));
+      else {
+        open = { marks: [mark], grave };
+        all.push(open);
+      }
     }
   }
   return all;

@@ -9,7 +9,12 @@ import type { Moment, SetUpTool } from "./answers.ts";
  * The cylinders that the set-up states, where the tool sits in its holder: it is there before the
  * program counts with its length. Else the tool of the machine file, its tip where the program has it.
  */
-export function toolOf(machine: MachineDescription, tools: readonly SetUpTool[], moment: Moment, nominal: Float64Array): ToolShape {
+export function toolOf(
+  machine: MachineDescription,
+  tools: readonly SetUpTool[],
+  moment: Moment,
+  nominal: Float64Array,
+): ToolShape {
   const stated = tools.find((tool) => tool.tool === moment.tool);
   if (stated && stated.segments_mm.length > 0) {
     const { tip_mm, segments_mm } = stated;
@@ -18,7 +23,9 @@ export function toolOf(machine: MachineDescription, tools: readonly SetUpTool[],
   const tip = tipInHolder(machine, moment, nominal);
   const length = tip.length();
   const own = machine.tool;
-  return Math.abs(length - own.length_mm) < 1e-3 ? own : { length_mm: length, diameter_mm: own.diameter_mm, tip_mm: tip.toArray() };
+  return Math.abs(length - own.length_mm) < 1e-3
+    ? own
+    : { length_mm: length, diameter_mm: own.diameter_mm, tip_mm: tip.toArray() };
 }
 
 /** What must be said about the picture of the tool. */
@@ -30,6 +37,7 @@ export function toolNote(machine: MachineDescription, tools: readonly SetUpTool[
 
 /** The tip, given in the workpiece frame, carried into the body of the tool by the poses of this moment. */
 function tipInHolder(machine: MachineDescription, moment: Moment, nominal: Float64Array): Vector3 {
-  const pose = (kind: "workpiece" | "tool"): Matrix4 => matrixOf(nominal, 12 * machine.links.findIndex((link) => link.kind === kind), new Matrix4());
+  const pose = (kind: "workpiece" | "tool"): Matrix4 =>
+    matrixOf(nominal, 12 * machine.links.findIndex((link) => link.kind === kind), new Matrix4());
   return new Vector3(...moment.tip_mm).applyMatrix4(pose("workpiece")).applyMatrix4(pose("tool").invert());
 }

@@ -13,7 +13,21 @@ const END = "M2 3 L7 8 L2 13 Z M7 3 L12 8 L7 13 Z M12 3 H14 V13 H12 Z";
 const HOME = "M14 3 L9 8 L14 13 Z M9 3 L4 8 L9 13 Z M2 3 H4 V13 H2 Z";
 
 function button(title: string, key: string, path: string, act: () => void): HTMLButtonElement {
-  return h("button", { class: "transport-button", title: `${title} (${key})`, ariaLabel: title, dataAct: title.toLowerCase(), onclick: act }, s("svg", { viewBox: "0 0 16 16", width: 14, height: 14, "aria-hidden": "true" }, s("path", { d: path, fill: "currentColor" })));
+  return h(
+    "button",
+    {
+      class: "transport-button",
+      title: `${title} (${key})`,
+      ariaLabel: title,
+      dataAct: title.toLowerCase(),
+      onclick: act,
+    },
+    s(
+      "svg",
+      { viewBox: "0 0 16 16", width: 14, height: 14, "aria-hidden": "true" },
+      s("path", { d: path, fill: "currentColor" }),
+    ),
+  );
 }
 
 export class Transport {
@@ -26,7 +40,16 @@ export class Transport {
   constructor(player: Player) {
     this.player = player;
     this.play_button = button("Play", "space", PLAY, () => player.toggle());
-    const speed = h("select", { ariaLabel: "Speed", dataTest: "factor", onchange: () => player.setFactor(speed.value === "all" ? NO_WAITING : Number(speed.value)) }, FACTORS.map((k) => h("option", { value: k }, k === 1 ? "×1 true time" : `×${k}`)), h("option", { value: "all" }, "as fast as it can"));
+    const speed = h(
+      "select",
+      {
+        ariaLabel: "Speed",
+        dataTest: "factor",
+        onchange: () => player.setFactor(speed.value === "all" ? NO_WAITING : Number(speed.value)),
+      },
+      FACTORS.map((k) => h("option", { value: k }, k === 1 ? "×1 true time" : `×${k}`)),
+      h("option", { value: "all" }, "as fast as it can"),
+    );
     speed.value = "1";
     speed.title = "How fast the time runs; as fast as it can: every block once, without waiting";
     this.element = h(

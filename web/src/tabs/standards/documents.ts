@@ -16,7 +16,14 @@ export interface Circular {
   axes: [string, string];
   radius_mm: number;
   centre_mm: [number, number];
-  paths: { direction: string; points: number; overlap_left_out_deg: number; G_um: number; F_max_um: number; F_min_um: number }[];
+  paths: {
+    direction: string;
+    points: number;
+    overlap_left_out_deg: number;
+    G_um: number;
+    F_max_um: number;
+    F_min_um: number;
+  }[];
   causes: {
     backlash_um: Record<string, number | null>;
     scale_mismatch_um: number | null;
@@ -48,7 +55,13 @@ export interface Rotation {
   revolutions: number;
   readings_per_revolution: number;
   readings_left_out: number;
-  motions: { sensitive: string; total_um: number; synchronous_um: number; asynchronous_um: number | null; fundamental_um: number }[];
+  motions: {
+    sensitive: string;
+    total_um: number;
+    synchronous_um: number;
+    asynchronous_um: number | null;
+    fundamental_um: number;
+  }[];
 }
 
 export interface EvaluateDocument {

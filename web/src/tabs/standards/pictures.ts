@@ -1,6 +1,14 @@
 /** The charts of the standards, from what the server says is in them. */
 
-import { lineChart, polar, seriesColour, type ChartSpec, type Figure, type PolarSpec, type Series } from "../../figure/index.ts";
+import {
+  lineChart,
+  polar,
+  seriesColour,
+  type ChartSpec,
+  type Figure,
+  type PolarSpec,
+  type Series,
+} from "../../figure/index.ts";
 import { h } from "../../dom.ts";
 import type { Frame } from "../../frame.ts";
 
@@ -52,41 +60,88 @@ function seriesOf(picture: ScatterPicture, { line, points }: Arrays): Series[] {
   for (const band of picture.bands) {
     const colour = colourOf(band.colour);
     const half = column(line, band.line, 3, 2);
-    series.push({ name: band.label, colour, x: column(line, band.line, 3, 0), y: column(line, band.line, 3, 1), ...(half.some((w) => w > 0) ? { half } : {}) });
-    if (band.points[1] > 0) series.push({ name: `${band.label}, readings`, quiet: true, colour, line: false, points: true, x: column(points, band.points, 2, 0), y: column(points, band.points, 2, 1) });
+    series.push({
+      name: band.label,
+      colour,
+      x: column(line, band.line, 3, 0),
+      y: column(line, band.line, 3, 1),
+      ...(half.some((w) => w > 0) ? { half } : {}),
+    });
+    if (band.points[1] > 0)
+      series.push({
+        name: `${band.label}, readings`,
+        quiet: true,
+        colour,
+        line: false,
+        points: true,
+        x: column(points, band.points, 2, 0),
+        y: column(points, band.points, 2, 1),
+      });
   }
-  if (picture.dashed[1] > 0) series.push({ name: "mean of both", colour: "var(--ink)", dash: "5 4", x: column(points, picture.dashed, 2, 0), y: column(points, picture.dashed, 2, 1) });
+  if (picture.dashed[1] > 0)
+    series.push({
+      name: "mean of both",
+      colour: "var(--ink)",
+      dash: "5 4",
+      x: column(points, picture.dashed, 2, 0),
+      y: column(points, picture.dashed, 2, 1),
+    });
   return series;
 }
 
 function chartSpec(picture: ScatterPicture, arrays: Arrays): ChartSpec {
   const series = seriesOf(picture, arrays);
-  const spec: ChartSpec = { title: picture.title, x: { ...axisOf(picture.x), digits: 1 }, y: axisOf(picture.y), series, height: 330 };
+  const spec: ChartSpec = {
+    title: picture.title,
+    x: { ...axisOf(picture.x), digits: 1 },
+    y: axisOf(picture.y),
+    series,
+    height: 330,
+  };
   if (!picture.from_zero) return spec;
   // Zero belongs on the axis even if all readings lie on one side of it.
-  const edges = series.flatMap((one) => Array.from(one.y, (v, i) => [v - (one.half?.[i] ?? 0), v + (one.half?.[i] ?? 0)]).flat());
+  const edges = series.flatMap((one) =>
+    Array.from(one.y, (v, i) => [v - (one.half?.[i] ?? 0), v + (one.half?.[i] ?? 0)]).flat(),
+  );
   if (edges.every((v) => v > 0)) spec.y.min = 0;
   if (edges.every((v) => v < 0)) spec.y.max = 0;
   return spec;
 }
 
-function polarSpec(picture: PolarPicture, { points }: Arrays, circle: { radius_mm?: number; axes?: [string, string] }): PolarSpec {
+function polarSpec(
+  picture: PolarPicture,
+  { points }: Arrays,
+  circle: { radius_mm?: number; axes?: [string, string] },
+): PolarSpec {
   return {
     title: picture.title,
     unit: "µm",
     height: 560,
     ...circle,
-    series: picture.lines.map((one) => ({ name: one.label, colour: colourOf(one.colour), angle_rad: column(points, one.points, 2, 0), deviation: column(points, one.points, 2, 1) })),
+    series: picture.lines.map((one) => ({
+      name: one.label,
+      colour: colourOf(one.colour),
+      angle_rad: column(points, one.points, 2, 0),
+      deviation: column(points, one.points, 2, 1),
+    })),
   };
 }
 
 /** Draws all pictures into `host`; returns the figures, to be disposed of. */
-export function drawPictures(host: HTMLElement, frame: Frame<unknown>, pictures: readonly Picture[], circle: { radius_mm?: number; axes?: [string, string] }): Figure<never>[] {
+export function drawPictures(
+  host: HTMLElement,
+  frame: Frame<unknown>,
+  pictures: readonly Picture[],
+  circle: { radius_mm?: number; axes?: [string, string] },
+): Figure<never>[] {
   const arrays = { line: frame.f64("line"), points: frame.f64("points") };
   return pictures.map((picture) => {
     const panel = h("section", { class: "panel picture" });
     host.append(panel);
-    const drawn = picture.kind === "polar" ? polar(panel, polarSpec(picture, arrays, circle)) : lineChart(panel, chartSpec(picture, arrays));
+    const drawn =
+      picture.kind === "polar"
+        ? polar(panel, polarSpec(picture, arrays, circle))
+        : lineChart(panel, chartSpec(picture, arrays));
     if (picture.note) panel.append(h("p", { class: "muted note" }, picture.note));
     return drawn as Figure<never>;
   });

@@ -1,19 +1,39 @@
 /** Result tables of every standard: symbols, what they mean, values, uncertainties. */
 
 import type { Cell, Sheet } from "../measure/table.ts";
-import { as, kindOf, type Circular, type Diagonals, type Drift, type EvaluateDocument, type Positioning, type Rotation } from "./documents.ts";
+import {
+  as,
+  kindOf,
+  type Circular,
+  type Diagonals,
+  type Drift,
+  type EvaluateDocument,
+  type Positioning,
+  type Rotation,
+} from "./documents.ts";
 
-const value = (of: Record<string, unknown>, key: string): number | null => (typeof of[key] === "number" ? (of[key] as number) : null);
+const value = (of: Record<string, unknown>, key: string): number | null =>
+  typeof of[key] === "number" ? (of[key] as number) : null;
 
 /** ISO 230-2: key, symbol, name, what it says in a workshop. */
 const FIGURES: readonly [string, string, string, string][] = [
-  ["A", "A", "bidirectional accuracy of positioning", "what to expect of a commanded position from either side: means ± 2s"],
+  [
+    "A",
+    "A",
+    "bidirectional accuracy of positioning",
+    "what to expect of a commanded position from either side: means ± 2s",
+  ],
   ["A_up", "A↑", "accuracy, rising", "the same, approached from below only"],
   ["A_down", "A↓", "accuracy, falling", "the same, approached from above only"],
   ["R", "R", "bidirectional repeatability", "widest scatter at one target, with its reversal"],
   ["R_up", "R↑", "repeatability, rising", "widest 4s at one target, from below"],
   ["R_down", "R↓", "repeatability, falling", "widest 4s at one target, from above"],
-  ["E", "E", "bidirectional systematic error", "range of the means: what a table of compensation can take away, with B"],
+  [
+    "E",
+    "E",
+    "bidirectional systematic error",
+    "range of the means: what a table of compensation can take away, with B",
+  ],
   ["E_up", "E↑", "systematic error, rising", "range of the means from below"],
   ["E_down", "E↓", "systematic error, falling", "range of the means from above"],
   ["M", "M", "mean bidirectional error", "range of the mean of both directions: what a one-way table can take away"],
@@ -23,7 +43,9 @@ const FIGURES: readonly [string, string, string, string][] = [
 
 /** Unit of deviations for people and in keys, unit of positions. */
 export function unitsOf(p: Positioning): { key: string; shown: string; place: string } {
-  return p.kind === "rotary" ? { key: "arcsec", shown: "arcsec", place: "deg" } : { key: "um", shown: "µm", place: "mm" };
+  return p.kind === "rotary"
+    ? { key: "arcsec", shown: "arcsec", place: "deg" }
+    : { key: "um", shown: "µm", place: "mm" };
 }
 
 function positioning(document: EvaluateDocument): Sheet[] {
@@ -42,16 +64,36 @@ function positioning(document: EvaluateDocument): Sheet[] {
     key: "vdi3441",
     title: "VDI/DGQ 3441",
     head: ["", "figure", shown],
-    rows: [["P", "positional uncertainty", "P"], ["Pa", "positional deviation", "Pa"], ["Ps max", "positional scatter", "Ps"], ["U max", "reversal", "U"]].map(([symbol, title, name]): Cell[] => [symbol as string, title as string, value(p.vdi3441, `${name}_${key}`)]),
+    rows: [
+      ["P", "positional uncertainty", "P"],
+      ["Pa", "positional deviation", "Pa"],
+      ["Ps max", "positional scatter", "Ps"],
+      ["U max", "reversal", "U"],
+    ].map(([symbol, title, name]): Cell[] => [symbol as string, title as string, value(p.vdi3441, `${name}_${key}`)]),
   };
   const b5: Sheet = {
     key: "b5_54",
     title: "Form of ASME B5.54",
     head: ["", "figure", shown],
-    rows: [["both", "range of all readings", "accuracy"], ["↑", "range of all readings, rising", "accuracy_up"], ["↓", "range of all readings, falling", "accuracy_down"], ["repeat", "largest range at one target from one side", "repeatability"], ["reversal", "largest reversal", "reversal"]].map(([symbol, title, name]): Cell[] => [symbol as string, title as string, value(p.b5_54_form, `${name}_${key}`)]),
+    rows: [
+      ["both", "range of all readings", "accuracy"],
+      ["↑", "range of all readings, rising", "accuracy_up"],
+      ["↓", "range of all readings, falling", "accuracy_down"],
+      ["repeat", "largest range at one target from one side", "repeatability"],
+      ["reversal", "largest reversal", "reversal"],
+    ].map(([symbol, title, name]): Cell[] => [
+      symbol as string,
+      title as string,
+      value(p.b5_54_form, `${name}_${key}`),
+    ]),
     note: "The form was not compared with the text of the standard.",
   };
-  const order = document.standard === "vdi3441" ? [vdi, figures, b5] : document.standard === "b5.54" ? [b5, figures, vdi] : [figures, vdi, b5];
+  const order =
+    document.standard === "vdi3441"
+      ? [vdi, figures, b5]
+      : document.standard === "b5.54"
+        ? [b5, figures, vdi]
+        : [figures, vdi, b5];
   return [...order, ...budget(p, key, shown), targets(p, key, shown, place)];
 }
 
@@ -60,7 +102,14 @@ function budget(p: Positioning, key: string, shown: string): Sheet[] {
   const end = `_u_${key}`;
   const words = (name: string): string => (name === "drift" ? "drift, each reading" : name.replaceAll("_", " "));
   const rows = Object.entries(p.budget).map(([name, u]): Cell[] => [words(name.replace(end, "")), u]);
-  return [{ key: "budget", title: "Measuring uncertainty (ISO/TR 230-9)", head: ["contribution, over the measured length", `standard uncertainty, ${shown}`], rows }];
+  return [
+    {
+      key: "budget",
+      title: "Measuring uncertainty (ISO/TR 230-9)",
+      head: ["contribution, over the measured length", `standard uncertainty, ${shown}`],
+      rows,
+    },
+  ];
 }
 
 function targets(p: Positioning, key: string, shown: string, place: string): Sheet {
@@ -69,7 +118,12 @@ function targets(p: Positioning, key: string, shown: string, place: string): She
     key: "targets",
     title: `Every target, ${shown}`,
     head: [`target, ${place}`, "n↑", "n↓", "x̄↑", "x̄↓", "x̄", "s↑", "s↓", "B", "R↑", "R↓", "R"],
-    rows: p.positions.map((one) => [value(one, `target_${place}`), value(one, "n_up"), value(one, "n_down"), ...columns.map((name) => value(one, `${name}_${key}`))]),
+    rows: p.positions.map((one) => [
+      value(one, `target_${place}`),
+      value(one, "n_up"),
+      value(one, "n_down"),
+      ...columns.map((name) => value(one, `${name}_${key}`)),
+    ]),
     digits: [1, 0, 0],
   };
 }
@@ -80,11 +134,23 @@ function circular(document: EvaluateDocument): Sheet[] {
   for (const way of ["ccw", "cw"]) {
     if (value(c, `G_${way}_um`) === null) continue;
     const side = way === "ccw" ? "counter-clockwise" : "clockwise";
-    figures.push([`G ${way}`, `circular deviation, ${side}`, value(c, `G_${way}_um`)], [`F max ${way}`, `greatest radial deviation, ${side}`, value(c, `F_${way}_max_um`)], [`F min ${way}`, `least radial deviation, ${side}`, value(c, `F_${way}_min_um`)]);
+    figures.push(
+      [`G ${way}`, `circular deviation, ${side}`, value(c, `G_${way}_um`)],
+      [`F max ${way}`, `greatest radial deviation, ${side}`, value(c, `F_${way}_max_um`)],
+      [`F min ${way}`, `least radial deviation, ${side}`, value(c, `F_${way}_min_um`)],
+    );
   }
   if (c.G_b_um !== null) figures.push(["G(b)", "bidirectional circular deviation", c.G_b_um]);
   if (c.D_um !== null) figures.push(["D", "mean bidirectional radial deviation", c.D_um]);
-  const sheets: Sheet[] = [{ key: "figures", title: "ISO 230-4 figures of the test", head: ["", "figure", "µm"], rows: figures, note: "G about the least-squares centre, F about the nominal one, outward positive." }];
+  const sheets: Sheet[] = [
+    {
+      key: "figures",
+      title: "ISO 230-4 figures of the test",
+      head: ["", "figure", "µm"],
+      rows: figures,
+      note: "G about the least-squares centre, F about the nominal one, outward positive.",
+    },
+  ];
   const causes = c.causes;
   if (!causes) return sheets;
   const [x, y] = c.axes;
@@ -98,14 +164,31 @@ function circular(document: EvaluateDocument): Sheet[] {
     [`centre ${y}`, causes.centre_um?.[1] ?? null, "µm"],
     ["left over, rms", causes.residual_rms_um, "µm"],
   ];
-  sheets.push({ key: "causes", title: "What makes it unround", head: ["cause", "value", "unit"], rows: rows.filter((row) => row[1] !== null), note: "Least squares over all paths; 10° behind each reversal are left out for the spikes." });
+  sheets.push({
+    key: "causes",
+    title: "What makes it unround",
+    head: ["cause", "value", "unit"],
+    rows: rows.filter((row) => row[1] !== null),
+    note: "Least squares over all paths; 10° behind each reversal are left out for the spikes.",
+  });
   if (causes.spikes.length > 0) {
-    sheets.push({ key: "spikes", title: "Reversal spikes", head: ["axis", "at, deg", "way", "µm"], rows: causes.spikes.map((s) => [s.axis, s.at_deg, s.direction, s.height_um]), digits: [, 0], note: "Largest residual within 10° behind the reversal, outward positive." });
+    sheets.push({
+      key: "spikes",
+      title: "Reversal spikes",
+      head: ["axis", "at, deg", "way", "µm"],
+      rows: causes.spikes.map((s) => [s.axis, s.at_deg, s.direction, s.height_um]),
+      digits: [undefined, 0],
+      note: "Largest residual within 10° behind the reversal, outward positive.",
+    });
   }
   return sheets;
 }
 
-const CHANNEL_UNITS: readonly [string, string][] = [["um", "µm"], ["urad", "µrad"], ["degC", "°C"]];
+const CHANNEL_UNITS: readonly [string, string][] = [
+  ["um", "µm"],
+  ["urad", "µrad"],
+  ["degC", "°C"],
+];
 
 function drift(document: EvaluateDocument): Sheet[] {
   const d = as<Drift>(document);
@@ -113,9 +196,25 @@ function drift(document: EvaluateDocument): Sheet[] {
   const rows = d.channels.map((channel): Cell[] => {
     const [key, shown] = CHANNEL_UNITS.find(([unit]) => `range_${unit}` in channel) ?? ["", ""];
     const of = (name: string): number | null => value(channel, `${name}_${key}`);
-    return [String(channel["name"]), shown, of("range"), of("first_window"), of("largest_window"), (value(channel, "largest_window_from_s") ?? 0) / 60, of("end")];
+    return [
+      String(channel.name),
+      shown,
+      of("range"),
+      of("first_window"),
+      of("largest_window"),
+      (value(channel, "largest_window_from_s") ?? 0) / 60,
+      of("end"),
+    ];
   });
-  return [{ key: "figures", title: "ISO 230-3 range of every channel", head: ["channel", "unit", "range", `first ${minutes} min`, `worst ${minutes} min`, "from, min", "end − begin"], rows, digits: [, , 2, 2, 2, 1, 2] }];
+  return [
+    {
+      key: "figures",
+      title: "ISO 230-3 range of every channel",
+      head: ["channel", "unit", "range", `first ${minutes} min`, `worst ${minutes} min`, "from, min", "end − begin"],
+      rows,
+      digits: [undefined, undefined, 2, 2, 2, 1, 2],
+    },
+  ];
 }
 
 const VOLUME: readonly [string, string, string][] = [
@@ -131,10 +230,35 @@ function diagonals(document: EvaluateDocument): Sheet[] {
   const d = as<Diagonals>(document);
   const columns = ["A", "E", "E_up", "E_down", "M", "R", "B"];
   const sheets: Sheet[] = [
-    { key: "figures", title: "ISO 230-6 figures of the volume", head: ["", "largest of all diagonals", "µm"], rows: VOLUME.map(([key, , title]) => [key.replace("_up", "↑").replace("_down", "↓"), title, value(d, `${key}_um`)]) },
-    { key: "diagonals", title: "Every diagonal, µm", head: ["diagonal", "A", "E", "E↑", "E↓", "M", "R", "B", "stretch, µm/m"], rows: d.diagonals.map((one) => [one.diagonal, ...columns.map((name) => value(one, `${name}_um`)), one.stretch_um_per_m]) },
+    {
+      key: "figures",
+      title: "ISO 230-6 figures of the volume",
+      head: ["", "largest of all diagonals", "µm"],
+      rows: VOLUME.map(([key, , title]) => [
+        key.replace("_up", "↑").replace("_down", "↓"),
+        title,
+        value(d, `${key}_um`),
+      ]),
+    },
+    {
+      key: "diagonals",
+      title: "Every diagonal, µm",
+      head: ["diagonal", "A", "E", "E↑", "E↓", "M", "R", "B", "stretch, µm/m"],
+      rows: d.diagonals.map((one) => [
+        one.diagonal,
+        ...columns.map((name) => value(one, `${name}_um`)),
+        one.stretch_um_per_m,
+      ]),
+    },
   ];
-  if (d.squareness.length > 0) sheets.push({ key: "squareness", title: "Squareness", head: ["axes", "from", "closer than 90°, µrad"], rows: d.squareness.map((s) => [s.axes, `${s.from} diagonals`, s.closer_urad]), note: "A hint: straightness, roll and pitch lengthen diagonals too." });
+  if (d.squareness.length > 0)
+    sheets.push({
+      key: "squareness",
+      title: "Squareness",
+      head: ["axes", "from", "closer than 90°, µrad"],
+      rows: d.squareness.map((s) => [s.axes, `${s.from} diagonals`, s.closer_urad]),
+      note: "A hint: straightness, roll and pitch lengthen diagonals too.",
+    });
   return sheets;
 }
 
@@ -155,7 +279,17 @@ export function sheetsOf(document: EvaluateDocument): Sheet[] {
   return { positioning, circular, drift, diagonals, rotation }[kindOf(document)](document);
 }
 
-const WORDS: Record<string, string> = { A: "accuracy", R: "repeatability", E: "systematic", M: "mean", B: "reversal", E_d: "systematic", R_d: "repeatability", B_d: "reversal", A_d: "accuracy" };
+const WORDS: Record<string, string> = {
+  A: "accuracy",
+  R: "repeatability",
+  E: "systematic",
+  M: "mean",
+  B: "reversal",
+  E_d: "systematic",
+  R_d: "repeatability",
+  B_d: "reversal",
+  A_d: "accuracy",
+};
 
 /** What stands large at the head: the figures that are asked for first. */
 export interface Tile {
@@ -174,17 +308,57 @@ export function tilesOf(document: EvaluateDocument): Tile[] {
       const p = as<Positioning>(document);
       const { key, shown } = unitsOf(p);
       const U = p[`U_${key}`] as Record<string, unknown>;
-      return FIGURES.filter(([name]) => ["A", "R", "E", "M", "B"].includes(name)).map(([name, symbol, title]) => ({ symbol, word: WORDS[name] ?? "", title, value: value(p, `${name}_${key}`), U: value(U, name), unit: shown }));
+      return FIGURES.filter(([name]) => ["A", "R", "E", "M", "B"].includes(name)).map(([name, symbol, title]) => ({
+        symbol,
+        word: WORDS[name] ?? "",
+        title,
+        value: value(p, `${name}_${key}`),
+        U: value(U, name),
+        unit: shown,
+      }));
     }
     case "circular": {
       const c = as<Circular>(document);
-      return [["G_ccw", "G ccw", "circular deviation"], ["G_cw", "G cw", "circular deviation"], ["G_b", "G(b)", "bidirectional circular deviation"], ["D", "D", "mean bidirectional radial deviation"]].map(([key, symbol, title]) => ({ symbol: symbol as string, word: "", title: title as string, value: value(c, `${key}_um`), unit: "µm" })).filter((tile) => tile.value !== null);
+      return [
+        ["G_ccw", "G ccw", "circular deviation"],
+        ["G_cw", "G cw", "circular deviation"],
+        ["G_b", "G(b)", "bidirectional circular deviation"],
+        ["D", "D", "mean bidirectional radial deviation"],
+      ]
+        .map(([key, symbol, title]) => ({
+          symbol: symbol as string,
+          word: "",
+          title: title as string,
+          value: value(c, `${key}_um`),
+          unit: "µm",
+        }))
+        .filter((tile) => tile.value !== null);
     }
     case "diagonals":
-      return VOLUME.filter(([key]) => /_d$/.test(key)).map(([key, , title]) => ({ symbol: key, word: WORDS[key] ?? "", title, value: value(document, `${key}_um`), unit: "µm" }));
+      return VOLUME.filter(([key]) => /_d$/.test(key)).map(([key, , title]) => ({
+        symbol: key,
+        word: WORDS[key] ?? "",
+        title,
+        value: value(document, `${key}_um`),
+        unit: "µm",
+      }));
     case "rotation":
-      return as<Rotation>(document).motions.map((m) => ({ symbol: m.sensitive, word: "total", title: "total error motion", value: m.total_um, unit: "µm" }));
+      return as<Rotation>(document).motions.map((m) => ({
+        symbol: m.sensitive,
+        word: "total",
+        title: "total error motion",
+        value: m.total_um,
+        unit: "µm",
+      }));
     case "drift":
-      return (sheetsOf(document)[0]?.rows ?? []).filter((row) => row[1] !== "°C").map((row) => ({ symbol: String(row[0]), word: "range", title: "range over the whole test", value: row[2] as number | null, unit: String(row[1]) }));
+      return (sheetsOf(document)[0]?.rows ?? [])
+        .filter((row) => row[1] !== "°C")
+        .map((row) => ({
+          symbol: String(row[0]),
+          word: "range",
+          title: "range over the whole test",
+          value: row[2] as number | null,
+          unit: String(row[1]),
+        }));
   }
 }
