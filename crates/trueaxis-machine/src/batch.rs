@@ -32,8 +32,8 @@ pub use compensated::{
 };
 pub use motion::LARGEST_TURN_RAD;
 
-use crate::axis::{Approach, AxisKind, Command, MAX_AXES};
-use crate::chain::{CommandFault, Machine, Squareness};
+use crate::axis::{Approach, Command, MAX_AXES};
+use crate::chain::{CommandFault, Machine};
 use crate::errors::{Curve, ErrorValues, Rotation};
 use motion::{Motion, Range};
 use steps::Steps;
@@ -355,16 +355,13 @@ impl Plan {
                 motions.push(motion);
             }
         }
-        let steps = Steps::of(machine, &motion_of_body);
+        let steps = Steps::of(machine, &motion_of_body)?;
         Some(Self { ranges, motions, steps })
     }
 }
 
 /// Whether the kernels know everything that this machine states.
 fn is_covered(machine: &Machine) -> bool {
-    let model = machine.model();
-    let is_tilted = model.squareness == Squareness::Direction
-        && machine.axes().iter().any(|a| a.kind == AxisKind::Linear);
     let are_locations_constant = machine.bodies().iter().all(|body| {
         let mut stated = body.location.iter().flatten();
         stated.all(|e| matches!(e.mean, Curve::Constant(_)) && e.reversal.is_none())
@@ -373,5 +370,5 @@ fn is_covered(machine: &Machine) -> bool {
         .bodies()
         .iter()
         .all(|body| body.axis.is_some() || body.motion.iter().all(Option::is_none));
-    model.rotation == Rotation::Exact && !is_tilted && are_locations_constant && move_only_axes
+    machine.model().rotation == Rotation::Exact && are_locations_constant && move_only_axes
 }

@@ -8,7 +8,12 @@
 //! ```
 //!
 //! P placement, Λ location errors, J nominal motion, E error motions, M mounting (fixed, behind
-//! the motion; identity for axes).
+//! the motion; identity for axes). The order of the steps between P and M stands in `chain/rule.rs`
+//! and nowhere else.
+
+mod rule;
+
+pub(crate) use rule::Step;
 
 use crate::axis::{Approach, Axis, AxisKind, Command};
 use crate::errors::{
@@ -448,36 +453,28 @@ impl Machine {
         (from_workpiece, from_tool)
     }
 
-    /// `parent_from_link`, the equation at the top of this file.
+    /// `parent_from_link`: the steps of the body from the left to the right.
     pub(crate) fn link(&self, i: usize, command: &Command, errors: &BodyErrors) -> Link {
         let body = &self.bodies[i];
+        let joint = body.axis.map(|axis| (&self.axes[axis], command[axis]));
+        let mut place = body.placement;
         // Most errors of a machine are zero: then there is no product.
-        let displaced = |place: Link, six: &Six| match six.is_zero() {
-            true => place,
-            false => place * self.error_pose(six),
-        };
-        let Some(axis) = body.axis else {
-            return displaced(body.placement, &errors.location) * body.mounting;
-        };
-        let (axis, q) = (&self.axes[axis], command[axis]);
-        let moved = match (axis.kind, body.error_frame, self.model.squareness) {
-            (AxisKind::Linear, _, Squareness::Direction) => {
-                // Only the direction of motion is tilted; what is carried keeps its attitude.
-                let tilt = self.error_pose(&errors.location);
-                let along = tilt.linear() * nominal_motion(axis, q).shift_mm();
-                let tilted = body.placement * Link::shift(errors.location.shift_mm() + along);
-                displaced(tilted, &errors.motion)
+        for step in self.steps(i) {
+            match (step, joint) {
+                (Step::Location, _) if errors.location.is_zero() => {}
+                (Step::Location, _) => place = place * self.error_pose(&errors.location),
+                (Step::Motion, _) if errors.motion.is_zero() => {}
+                (Step::Motion, _) => place = place * self.error_pose(&errors.motion),
+                (Step::Joint, Some((axis, q))) => place = moved_by(place, axis, q),
+                (Step::TiltedJoint, Some((axis, q))) => {
+                    let tilt = self.error_pose(&errors.location);
+                    let along = tilt.linear() * nominal_motion(axis, q).shift_mm();
+                    place = place * Link::shift(errors.location.shift_mm() + along);
+                }
+                (Step::Joint | Step::TiltedJoint, None) => {}
             }
-            (AxisKind::Rotary, ErrorFrame::Fixed, _) => {
-                let placed = displaced(displaced(body.placement, &errors.location), &errors.motion);
-                moved_by(placed, axis, q)
-            }
-            _ => {
-                let placed = displaced(body.placement, &errors.location);
-                displaced(moved_by(placed, axis, q), &errors.motion)
-            }
-        };
-        moved * body.mounting
+        }
+        place * body.mounting
     }
 
     /// `shift(EX, EY, EZ) · turn(EA, EB, EC)`.
@@ -488,6 +485,7 @@ impl Machine {
 }
 
 /// `place · J(q)`; a linear axis turns nothing.
+#[inline]
 pub(crate) fn moved_by(place: Link, axis: &Axis, q: f64) -> Link {
     match axis.kind {
         AxisKind::Linear => {

@@ -11,8 +11,8 @@
 //!
 //! No order of smallness is neglected; docs/model.md eq. 5 and 6.
 
-use crate::axis::{AxisKind, Command};
-use crate::chain::{ErrorFrame, Link, Machine, Squareness, nominal_motion};
+use crate::axis::Command;
+use crate::chain::{Link, Machine, Step, nominal_motion};
 use crate::errors::{BodyErrors, ErrorValues, Rotation, Six};
 use trueaxis_geometry::frame::{Direction, Point, Workpiece, inverse3};
 use trueaxis_geometry::{Mat3, Vec3};
@@ -74,16 +74,6 @@ struct Displacement {
     turn_minus_identity: Mat3,
 }
 
-/// How a body moves at a command, and where its errors act.
-struct Joint {
-    /// J(q).
-    motion: Link,
-    /// The error motion does not turn with the axis.
-    error_stands_still: bool,
-    /// The squareness tilts the direction of motion, not what is carried.
-    tilts_direction_only: bool,
-}
-
 impl Machine {
     /// The deviation of the tool in the workpiece frame under the given errors.
     ///
@@ -109,75 +99,85 @@ impl Machine {
         }
     }
 
+    /// Through one link, its steps from the right to the left.
     fn towards_bed(
         &self,
         i: usize,
         command: &Command,
         errors: &BodyErrors,
-        travellers: [&mut Traveller; 2],
+        mut travellers: [&mut Traveller; 2],
     ) {
         let body = &self.bodies[i];
         let turn = |six: &Six| six.rotation_minus_identity(self.model.rotation);
-        let joint = self.joint(i, command);
-        let location = tilted(&errors.location, joint.as_ref(), turn, turn);
-        let motion = displacement(&errors.motion, turn);
-        for traveller in travellers {
-            traveller.forward(&body.mounting);
-            if let Some(joint) = &joint {
-                if joint.error_stands_still {
-                    traveller.forward(&joint.motion);
-                    traveller.displace(motion.as_ref());
-                } else {
-                    traveller.displace(motion.as_ref());
-                    traveller.forward(&joint.motion);
+        let joint = self.nominal_joint(i, command);
+        for t in &mut travellers {
+            t.forward(&body.mounting);
+        }
+        for step in self.steps(i).iter().rev() {
+            let moves = matches!(step, Step::Joint | Step::TiltedJoint);
+            let error = match step {
+                Step::Location => displacement(&errors.location, turn),
+                Step::Motion => displacement(&errors.motion, turn),
+                Step::TiltedJoint => self.tilt(&errors.location, &joint),
+                Step::Joint => None,
+            };
+            for traveller in &mut travellers {
+                if moves {
+                    traveller.forward(&joint);
                 }
+                traveller.displace(error.as_ref());
             }
-            traveller.displace(location.as_ref());
-            traveller.forward(&body.placement);
+        }
+        for t in &mut travellers {
+            t.forward(&body.placement);
         }
     }
 
+    /// Through the inverse of one link, its steps from the left to the right.
     fn away_from_bed(
         &self,
         i: usize,
         command: &Command,
         errors: &BodyErrors,
-        travellers: [&mut Traveller; 2],
+        mut travellers: [&mut Traveller; 2],
     ) {
         let body = &self.bodies[i];
-        let turn = |six: &Six| six.rotation_minus_identity(self.model.rotation);
         let back = |six: &Six| self.inverse_turn_minus_identity(six);
-        let joint = self.joint(i, command);
-        let location = tilted(&errors.location, joint.as_ref(), turn, back);
-        let motion = displacement(&errors.motion, back);
-        for traveller in travellers {
-            traveller.backward(&body.placement);
-            traveller.displace_back(location.as_ref());
-            if let Some(joint) = &joint {
-                if joint.error_stands_still {
-                    traveller.displace_back(motion.as_ref());
-                    traveller.backward(&joint.motion);
-                } else {
-                    traveller.backward(&joint.motion);
-                    traveller.displace_back(motion.as_ref());
+        let joint = self.nominal_joint(i, command);
+        for t in &mut travellers {
+            t.backward(&body.placement);
+        }
+        for step in self.steps(i) {
+            let moves = matches!(step, Step::Joint | Step::TiltedJoint);
+            let error = match step {
+                Step::Location => displacement(&errors.location, back),
+                Step::Motion => displacement(&errors.motion, back),
+                Step::TiltedJoint => self.tilt(&errors.location, &joint),
+                Step::Joint => None,
+            };
+            for traveller in &mut travellers {
+                traveller.displace_back(error.as_ref());
+                if moves {
+                    traveller.backward(&joint);
                 }
             }
-            traveller.backward(&body.mounting);
+        }
+        for t in &mut travellers {
+            t.backward(&body.mounting);
         }
     }
 
-    /// The joint of a body at a command; none for the workpiece and the tool.
-    fn joint(&self, i: usize, command: &Command) -> Option<Joint> {
-        let body = &self.bodies[i];
-        let axis = body.axis?;
-        let (kind, motion) =
-            (self.axes[axis].kind, nominal_motion(&self.axes[axis], command[axis]));
-        let linear = kind == AxisKind::Linear;
-        Some(Joint {
-            motion,
-            error_stands_still: !linear && body.error_frame == ErrorFrame::Fixed,
-            tilts_direction_only: linear && self.model.squareness == Squareness::Direction,
-        })
+    /// J(q); the workpiece and the tool do not move.
+    fn nominal_joint(&self, i: usize, command: &Command) -> Link {
+        let axis = self.bodies[i].axis;
+        axis.map_or(Link::identity(), |axis| nominal_motion(&self.axes[axis], command[axis]))
+    }
+
+    /// The location errors where they tilt the direction of motion and do not turn what is carried.
+    fn tilt(&self, location: &Six, joint: &Link) -> Option<Displacement> {
+        let turn = location.rotation_minus_identity(self.model.rotation);
+        let shift = turn * joint.shift_mm() + location.shift_mm();
+        (!location.is_zero()).then(|| Displacement { shift, turn_minus_identity: Mat3::zeros() })
     }
 
     /// `R⁻¹ − I` of an error's rotation.
@@ -193,20 +193,6 @@ impl Machine {
 /// The displacement of an error, its turn by a function.
 fn displacement(six: &Six, turn: impl Fn(&Six) -> Mat3) -> Option<Displacement> {
     (!six.is_zero()).then(|| Displacement { shift: six.shift_mm(), turn_minus_identity: turn(six) })
-}
-
-/// That of a location error, which in one model tilts the direction of motion, not what is carried.
-fn tilted(
-    six: &Six,
-    joint: Option<&Joint>,
-    turn: impl Fn(&Six) -> Mat3,
-    turn_felt: impl Fn(&Six) -> Mat3,
-) -> Option<Displacement> {
-    let Some(joint) = joint.filter(|joint| joint.tilts_direction_only) else {
-        return displacement(six, turn_felt);
-    };
-    let shift = turn(six) * joint.motion.shift_mm() + six.shift_mm();
-    (!six.is_zero()).then(|| Displacement { shift, turn_minus_identity: Mat3::zeros() })
 }
 
 /// The deviation of a direction after the actual vector has been made a unit vector again.

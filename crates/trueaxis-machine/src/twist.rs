@@ -4,8 +4,8 @@
 //!     δp = v + ω × p        a point p of the tool, in the frame of the reference     docs/model.md eq. 102
 //! ```
 
-use crate::axis::{AxisKind, Command};
-use crate::chain::{ErrorFrame, Link, Machine, Squareness, moved_by};
+use crate::axis::Command;
+use crate::chain::{Link, Machine, Step, moved_by};
 use crate::errors::{Component, ErrorIndex, ErrorKind, ErrorValues, MAX_BODIES};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Bed, Pose, Tool};
@@ -136,22 +136,23 @@ impl Machine {
         side: f64,
     ) -> BodyFrames {
         let body = &self.bodies[i];
-        let placed = *bed_from_body * body.placement;
-        let Some(axis) = body.axis else {
-            *bed_from_body = placed * body.mounting;
-            return BodyFrames { frames: [placed; 2], side, tilted_mm: None };
-        };
-        let (axis, q) = (&self.axes[axis], command[axis]);
-        let moved = moved_by(placed, axis, q);
-        *bed_from_body = moved * body.mounting;
-        let linear = axis.kind == AxisKind::Linear;
-        let stands_still = !linear && body.error_frame == ErrorFrame::Fixed;
-        let direction_only = linear && self.model.squareness == Squareness::Direction;
-        BodyFrames {
-            frames: [placed, if stands_still { placed } else { moved }],
-            side,
-            tilted_mm: direction_only.then(|| axis.direction * (axis.sense * q)),
+        let mut here = *bed_from_body * body.placement;
+        let mut frames = BodyFrames { frames: [here; 2], side, tilted_mm: None };
+        let joint = body.axis.map(|axis| (&self.axes[axis], command[axis]));
+        for step in self.steps(i) {
+            match (step, joint) {
+                (Step::Location, _) => frames.frames[ErrorKind::Location as usize] = here,
+                (Step::Motion, _) => frames.frames[ErrorKind::Motion as usize] = here,
+                (Step::Joint, Some((axis, q))) => here = moved_by(here, axis, q),
+                (Step::TiltedJoint, Some((axis, q))) => {
+                    frames.tilted_mm = Some(axis.direction * (axis.sense * q));
+                    here = moved_by(here, axis, q);
+                }
+                (Step::Joint | Step::TiltedJoint, None) => {}
+            }
         }
+        *bed_from_body = here * body.mounting;
+        frames
     }
 
     /// The tool as the bed sees it, with these errors; [`Machine::pose`] is what the workpiece sees.

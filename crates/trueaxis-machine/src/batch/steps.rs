@@ -1,7 +1,7 @@
 //! The chain as a list of steps from the tool tip to the workpiece.
 
 use crate::axis::AxisKind;
-use crate::chain::{ChainBody, ErrorFrame, Link, Machine};
+use crate::chain::{ChainBody, Link, Machine, Step as Rule};
 use crate::errors::{Component, Curve, ErrorKind, Rotation, Six};
 use trueaxis_geometry::{Mat3, Vec3};
 
@@ -35,7 +35,8 @@ pub(super) struct Steps {
 }
 
 impl Steps {
-    pub(super) fn of(machine: &Machine, motion_of_body: &[Option<usize>]) -> Self {
+    /// `None` for a machine with a rule that the kernels do not know.
+    pub(super) fn of(machine: &Machine, motion_of_body: &[Option<usize>]) -> Option<Self> {
         let mut path = Path {
             tip: [machine.tip_mm(), Vec3::zeros()],
             axis: [Vec3::z(), Vec3::zeros()],
@@ -44,14 +45,14 @@ impl Steps {
         };
         let side = machine.workpiece_side();
         for i in (side..machine.bodies().len()).rev() {
-            path.towards_bed(machine, i, motion_of_body[i]);
+            path.towards_bed(machine, i, motion_of_body[i])?;
         }
         for i in (0..side).rev() {
-            path.away_from_bed(machine, i, motion_of_body[i]);
+            path.away_from_bed(machine, i, motion_of_body[i])?;
         }
         path.flush();
         let start = [path.tip[0], path.axis[0], path.tip[1], path.axis[1]].map(Into::into);
-        Self { start, list: path.list }
+        Some(Self { start, list: path.list })
     }
 }
 
@@ -101,40 +102,45 @@ struct Path {
 }
 
 impl Path {
-    fn towards_bed(&mut self, machine: &Machine, i: usize, motion: Option<usize>) {
+    /// Through one link, the steps of its rule from the right to the left; `None` for a rule that
+    /// the kernels do not know.
+    fn towards_bed(&mut self, machine: &Machine, i: usize, motion: Option<usize>) -> Option<()> {
         let body = &machine.bodies()[i];
         self.ahead.forward(&body.mounting);
-        if let Some(axis) = body.axis {
-            if is_fixed_rotary(machine, i) {
-                self.joint(machine, axis, 1.0);
-                self.motion(motion, false);
-            } else {
-                self.motion(motion, false);
-                self.joint(machine, axis, 1.0);
+        for step in machine.steps(i).iter().rev() {
+            match step {
+                Rule::Location => {
+                    let (shift, turn) = location(body);
+                    self.ahead.displace(shift, &turn);
+                }
+                Rule::Joint => self.joint(machine, body.axis?, 1.0),
+                Rule::Motion => self.motion(motion, false),
+                Rule::TiltedJoint => return None,
             }
         }
-        let (shift, turn) = location(body);
-        self.ahead.displace(shift, &turn);
         self.ahead.forward(&body.placement);
+        Some(())
     }
 
-    fn away_from_bed(&mut self, machine: &Machine, i: usize, motion: Option<usize>) {
+    /// Through the inverse of one link, from the left to the right.
+    fn away_from_bed(&mut self, machine: &Machine, i: usize, motion: Option<usize>) -> Option<()> {
         let body = &machine.bodies()[i];
         self.ahead.backward(&body.placement);
-        // (I + D)⁻¹(u − t) = u + Dᵀu − (I + Dᵀ)t
-        let (shift, turn) = location(body);
-        let back = turn.transpose();
-        self.ahead.displace(-(shift + back * shift), &back);
-        if let Some(axis) = body.axis {
-            if is_fixed_rotary(machine, i) {
-                self.motion(motion, true);
-                self.joint(machine, axis, -1.0);
-            } else {
-                self.joint(machine, axis, -1.0);
-                self.motion(motion, true);
+        for step in machine.steps(i) {
+            match step {
+                Rule::Location => {
+                    // (I + D)⁻¹(u − t) = u + Dᵀu − (I + Dᵀ)t
+                    let (shift, turn) = location(body);
+                    let back = turn.transpose();
+                    self.ahead.displace(-(shift + back * shift), &back);
+                }
+                Rule::Joint => self.joint(machine, body.axis?, -1.0),
+                Rule::Motion => self.motion(motion, true),
+                Rule::TiltedJoint => return None,
             }
         }
         self.ahead.backward(&body.mounting);
+        Some(())
     }
 
     fn motion(&mut self, motion: Option<usize>, against: bool) {
@@ -189,12 +195,6 @@ impl Path {
             self.list.push(Step::Shift { shift_mm: shift_mm.into() });
         }
     }
-}
-
-fn is_fixed_rotary(machine: &Machine, i: usize) -> bool {
-    let body = &machine.bodies()[i];
-    let is_rotary = body.axis.is_some_and(|a| machine.axes()[a].kind == AxisKind::Rotary);
-    is_rotary && body.error_frame == ErrorFrame::Fixed
 }
 
 /// Shift and `R − I` of location errors.

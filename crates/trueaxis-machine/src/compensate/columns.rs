@@ -1,7 +1,7 @@
 //! How the actual tool moves when an axis moves: the Jacobian of the machine with its errors.
 
 use crate::axis::{Approach, AxisKind, Command, MAX_AXES};
-use crate::chain::{ErrorFrame, Link, Machine, Squareness, nominal_motion};
+use crate::chain::{Link, Machine, Step, nominal_motion};
 use crate::errors::{BodyErrors, ErrorKind, ErrorValues, MAX_BODIES, Six};
 use trueaxis_geometry::{Mat3, Vec3};
 
@@ -109,7 +109,8 @@ fn error_slopes(machine: &Machine, command: &Command, approach: &Approach) -> [S
     slopes
 }
 
-/// d(link · v)/dq of a point and a direction; the cases are those of [`Machine::link`].
+/// d(link · v)/dq of a point and a direction: the product rule through the steps of the link, from
+/// the right to the left.
 fn link_slope(
     machine: &Machine,
     i: usize,
@@ -122,33 +123,44 @@ fn link_slope(
     let Some(index) = body.axis else { return [Vec3::zeros(); 2] };
     let (axis, q) = (&machine.axes[index], command[index]);
     let turn = |six: &Six| Mat3::identity() + six.rotation_minus_identity(model.rotation);
-    let turn_slope = errors.motion.rotation_slope(slopes, model.rotation);
-    let error_slope = |v: Vec3, place: f64| slopes.shift_mm() * place + turn_slope * v;
     let per_unit = axis.direction * axis.sense;
-    let location = turn(&errors.location);
-    let placed = body.placement.linear() * location;
-    let pair = through(&body.mounting, pair);
-    match (axis.kind, body.error_frame) {
-        (AxisKind::Linear, _) if model.squareness == Squareness::Direction => {
-            let along = location * per_unit;
-            pair.map(|(v, place)| body.placement.linear() * (along * place + error_slope(v, place)))
-        }
-        (AxisKind::Linear, _) => {
-            pair.map(|(v, place)| placed * (per_unit * place + error_slope(v, place)))
-        }
-        (AxisKind::Rotary, ErrorFrame::Fixed) => {
-            let (motion, error) = (*nominal_motion(axis, q).linear(), turn(&errors.motion));
-            pair.map(|(v, place)| {
-                let turned = motion * v;
-                placed * (error_slope(turned, place) + error * per_unit.cross(&turned))
-            })
-        }
-        (AxisKind::Rotary, ErrorFrame::Moving) => {
-            let (motion, error) = (*nominal_motion(axis, q).linear(), turn(&errors.motion));
-            pair.map(|(v, place)| {
-                let turned = motion * (error * v + errors.motion.shift_mm() * place);
-                placed * (per_unit.cross(&turned) + motion * error_slope(v, place))
-            })
+    // What the steps to the right carry, and its slope; `None` as long as nothing has moved.
+    let mut carried = through(&body.mounting, pair);
+    let mut slope: Option<[Vec3; 2]> = None;
+    let mut placed = *body.placement.linear();
+    for step in machine.steps(i).iter().rev() {
+        match (step, axis.kind) {
+            // Constant, and the last before the placement.
+            (Step::Location, _) => placed *= turn(&errors.location),
+            (Step::Motion, _) => {
+                let turning = errors.motion.rotation_slope(slopes, model.rotation);
+                let mut grown = carried.map(|(v, place)| slopes.shift_mm() * place + turning * v);
+                // A straight motion has the same slope wherever the errors put what it carries.
+                if axis.kind == AxisKind::Rotary {
+                    let error = Link::new(turn(&errors.motion), errors.motion.shift_mm());
+                    grown = sum(grown, slope.map(|s| s.map(|v| error.linear() * v)));
+                    carried = through(&error, carried);
+                }
+                slope = Some(grown);
+            }
+            (Step::Joint, AxisKind::Rotary) => {
+                let motion = nominal_motion(axis, q);
+                carried = through(&motion, carried);
+                let turned = carried.map(|(v, _)| per_unit.cross(&v));
+                slope = Some(sum(turned, slope.map(|s| s.map(|v| motion.linear() * v))));
+            }
+            (Step::Joint, AxisKind::Linear) => {
+                slope = Some(sum(carried.map(|(_, place)| per_unit * place), slope));
+            }
+            (Step::TiltedJoint, _) => {
+                let along = turn(&errors.location) * per_unit;
+                slope = Some(sum(carried.map(|(_, place)| along * place), slope));
+            }
         }
     }
+    slope.map_or([Vec3::zeros(); 2], |slope| slope.map(|v| placed * v))
+}
+
+fn sum(a: [Vec3; 2], b: Option<[Vec3; 2]>) -> [Vec3; 2] {
+    b.map_or(a, |b| [a[0] + b[0], a[1] + b[1]])
 }
