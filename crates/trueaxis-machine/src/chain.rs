@@ -457,23 +457,22 @@ impl Machine {
     pub(crate) fn link(&self, i: usize, command: &Command, errors: &BodyErrors) -> Link {
         let body = &self.bodies[i];
         let joint = body.axis.map(|axis| (&self.axes[axis], command[axis]));
-        let mut place = body.placement;
         // Most errors of a machine are zero: then there is no product.
-        for step in self.steps(i) {
-            match (step, joint) {
-                (Step::Location, _) if errors.location.is_zero() => {}
-                (Step::Location, _) => place = place * self.error_pose(&errors.location),
-                (Step::Motion, _) if errors.motion.is_zero() => {}
-                (Step::Motion, _) => place = place * self.error_pose(&errors.motion),
-                (Step::Joint, Some((axis, q))) => place = moved_by(place, axis, q),
-                (Step::TiltedJoint, Some((axis, q))) => {
-                    let tilt = self.error_pose(&errors.location);
-                    let along = tilt.linear() * nominal_motion(axis, q).shift_mm();
-                    place = place * Link::shift(errors.location.shift_mm() + along);
-                }
-                (Step::Joint | Step::TiltedJoint, None) => {}
+        let displaced = |place: Link, six: &Six| match six.is_zero() {
+            true => place,
+            false => place * self.error_pose(six),
+        };
+        let place = self.fold_steps(i, body.placement, |place, step| match (step, joint) {
+            (Step::Location, _) => displaced(place, &errors.location),
+            (Step::Motion, _) => displaced(place, &errors.motion),
+            (Step::Joint, Some((axis, q))) => moved_by(place, axis, q),
+            (Step::TiltedJoint, Some((axis, q))) => {
+                let tilt = self.error_pose(&errors.location);
+                let along = tilt.linear() * nominal_motion(axis, q).shift_mm();
+                place * Link::shift(errors.location.shift_mm() + along)
             }
-        }
+            (Step::Joint | Step::TiltedJoint, None) => place,
+        });
         place * body.mounting
     }
 
