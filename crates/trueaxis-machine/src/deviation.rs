@@ -113,7 +113,7 @@ impl Machine {
         for t in &mut travellers {
             t.forward(&body.mounting);
         }
-        for step in self.steps(i).iter().rev() {
+        let travellers = self.fold_steps_back(i, travellers, |mut travellers, step| {
             let moves = matches!(step, Step::Joint | Step::TiltedJoint);
             let error = match step {
                 Step::Location => displacement(&errors.location, turn),
@@ -127,8 +127,9 @@ impl Machine {
                 }
                 traveller.displace(error.as_ref());
             }
-        }
-        for t in &mut travellers {
+            travellers
+        });
+        for t in travellers {
             t.forward(&body.placement);
         }
     }
@@ -147,7 +148,7 @@ impl Machine {
         for t in &mut travellers {
             t.backward(&body.placement);
         }
-        for step in self.steps(i) {
+        let travellers = self.fold_steps(i, travellers, |mut travellers, step| {
             let moves = matches!(step, Step::Joint | Step::TiltedJoint);
             let error = match step {
                 Step::Location => displacement(&errors.location, back),
@@ -161,8 +162,9 @@ impl Machine {
                     traveller.backward(&joint);
                 }
             }
-        }
-        for t in &mut travellers {
+            travellers
+        });
+        for t in travellers {
             t.backward(&body.mounting);
         }
     }

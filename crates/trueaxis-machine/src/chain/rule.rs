@@ -59,8 +59,8 @@ impl Machine {
         }
     }
 
-    /// Walks through [`Machine::steps`] from the left, written out for each list by the compiler: the pose is
-    /// the hottest reader, and a loop with a choice in it costs it 8 %.
+    /// Walks through [`Machine::steps`] from the left, written out for each list by the compiler: a loop with
+    /// a choice in it costs the pose 8 %.
     #[inline(always)]
     pub(crate) fn fold_steps<T>(&self, body: usize, start: T, step: impl Fn(T, Step) -> T) -> T {
         match self.rule(body) {
@@ -68,6 +68,22 @@ impl Machine {
             Rule::Moving => MOVING.iter().fold(start, |place, s| step(place, *s)),
             Rule::Fixed => FIXED.iter().fold(start, |place, s| step(place, *s)),
             Rule::Tilted => TILTED.iter().fold(start, |place, s| step(place, *s)),
+        }
+    }
+
+    /// The same from the right.
+    #[inline(always)]
+    pub(crate) fn fold_steps_back<T>(
+        &self,
+        body: usize,
+        start: T,
+        step: impl Fn(T, Step) -> T,
+    ) -> T {
+        match self.rule(body) {
+            Rule::Rigid => RIGID.iter().rev().fold(start, |state, s| step(state, *s)),
+            Rule::Moving => MOVING.iter().rev().fold(start, |state, s| step(state, *s)),
+            Rule::Fixed => FIXED.iter().rev().fold(start, |state, s| step(state, *s)),
+            Rule::Tilted => TILTED.iter().rev().fold(start, |state, s| step(state, *s)),
         }
     }
 
