@@ -6,6 +6,7 @@ mod library;
 use library::{bare, machine, with_lost_motion};
 use std::path::PathBuf;
 use trueaxis::compensate::program::{MARK, ProgramOptions, Rewritten, compensate_program};
+use trueaxis::files::disk;
 use trueaxis::input::Diagnostics;
 use trueaxis::machine::Machine;
 use trueaxis::nc::moves::{Move, Origin, Step};
@@ -151,7 +152,7 @@ fn moves(program: &Program) -> Vec<Move> {
 
 fn flat(machine: &Machine, program: &Program) -> (Option<Rewritten>, Diagnostics) {
     let options = ProgramOptions { flat: true, increments: None, ..ProgramOptions::default() };
-    compensate_program(machine, program, &SetUp::default(), &options)
+    compensate_program(machine, program, &SetUp { files: disk(), ..SetUp::default() }, &options)
 }
 
 #[test]
@@ -187,7 +188,7 @@ fn law_an_unrolled_program_is_compensated_as_any_other() {
         let refused = compensate_program(
             &machine,
             &program,
-            &SetUp::default(),
+            &SetUp { files: disk(), ..SetUp::default() },
             &ProgramOptions { increments: None, ..ProgramOptions::default() },
         );
         assert!(refused.0.is_none(), "{name} needs no unrolling");

@@ -7,7 +7,7 @@ export type Rgb = [number, number, number];
 export type ColourMap = (t: number) => Rgb;
 
 const gamma = (x: number): number => (x <= 0.0031308 ? 12.92 * x : 1.055 * Math.max(0, x) ** (1 / 2.4) - 0.055);
-// biome-ignore lint/complexity/useMathMinMax: what is not a number becomes 0, not NaN.
+// What is not a number becomes 0, not NaN.
 const clamp01 = (x: number): number => (x > 1 ? 1 : x > 0 ? x : 0);
 
 /** Lightness 0…1, chroma, hue in degrees -> sRGB 0…1. */
