@@ -1,11 +1,8 @@
 //! What differs between the controls, as tables.
 
-mod fanuc;
-mod heidenhain;
-mod linuxcnc;
-mod sinumerik;
-
-use crate::code::Action;
+use crate::rs274::code::Action;
+use crate::rs274::{fanuc, linuxcnc};
+use crate::{heidenhain, sinumerik};
 
 /// The controls whose programs are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -57,10 +54,10 @@ impl Dialect {
     /// The table of a control.
     pub fn of(control: Control) -> &'static Self {
         match control {
-            Control::Sinumerik840d => &sinumerik::DIALECT,
+            Control::Sinumerik840d => &sinumerik::dialect::DIALECT,
             Control::Fanuc => &fanuc::DIALECT,
             Control::LinuxCnc => &linuxcnc::DIALECT,
-            Control::Heidenhain => &heidenhain::DIALECT,
+            Control::Heidenhain => &heidenhain::dialect::DIALECT,
         }
     }
 

@@ -17,6 +17,7 @@
 
 mod arcs;
 mod cycles;
+pub(crate) mod dialect;
 mod drilling;
 mod flow;
 mod frames;
@@ -35,13 +36,13 @@ use std::rc::Rc;
 
 use trueaxis_input::{Diagnostics, Place};
 
-use crate::interpreter::{Outcome, Settings};
-use crate::library::Library;
+use crate::execution::library::Library;
+use crate::execution::{Outcome, Settings};
 use crate::moves::{
     Axis, CompensationSide, Coordinates, Event, Feed, FeedMode, Frame, Move, MoveKind,
     OrientationPath, Origin, Plane, Position, Step, Turning, Way,
 };
-use crate::program::{Fault, Places, Program, fault};
+use crate::text::program::{Fault, Places, Program, fault};
 use cycles::Cycle;
 use flow::{Activation, Labels, Next};
 use frames::Frames;

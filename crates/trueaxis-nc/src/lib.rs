@@ -29,22 +29,18 @@
 //! file: subprograms come through a [`Library`].
 
 pub mod cl;
-pub mod code;
 pub mod dialect;
+mod execution;
 mod heidenhain;
-mod interpreter;
-pub mod lexer;
-mod library;
 pub mod moves;
-mod parser;
-pub mod program;
+mod rs274;
 pub mod sinumerik;
-mod stop;
+mod text;
 pub mod writer;
 
 pub use dialect::{Control, Dialect};
-pub use interpreter::{Outcome, Settings, interpret};
-pub use library::{Library, NoLibrary};
+pub use execution::{Library, NoLibrary, Outcome, Settings, Stop, interpret};
 pub use moves::{Event, Move, MoveKind, Step};
-pub use program::Program;
-pub use stop::Stop;
+pub use rs274::code;
+pub use text::program::Program;
+pub use text::{lexer, program};

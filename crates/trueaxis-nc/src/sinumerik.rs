@@ -15,6 +15,7 @@ mod arc;
 mod archive;
 mod calls;
 mod chain;
+pub(crate) mod dialect;
 mod drilling;
 mod execute;
 mod expression;
@@ -39,10 +40,10 @@ use std::rc::Rc;
 
 use trueaxis_input::{Diagnostics, Place};
 
-use crate::interpreter::{Outcome, Settings};
-use crate::library::Library;
+use crate::execution::library::Library;
+use crate::execution::{Outcome, Settings};
 use crate::moves::{Event, Frame, Move, Origin, Step};
-use crate::program::{Fault, Places, Program, fault};
+use crate::text::program::{Fault, Places, Program, fault};
 pub use archive::{Archive, ArchivedTool, read_archive};
 use calls::{Activation, ModalCall};
 use chain::Chain;
@@ -187,7 +188,7 @@ impl<'r> Run<'r> {
         &mut self,
         program: &Program,
         at: usize,
-        tokens: &mut Vec<crate::lexer::Token>,
+        tokens: &mut Vec<crate::text::lexer::Token>,
     ) -> Result<Next, Fault> {
         self.depth = 0;
         let told = self.settings.tell_blocks;

@@ -3,7 +3,7 @@
 use super::words::Words;
 use super::{Run, fault};
 use crate::moves::{Arc, Axis, CompensationSide, Move, MoveKind, Position};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 /// How far the radius at the end may differ from that at the start: the tolerance that the manual
 /// names for C blocks (iTNC 530, "Circular path C around circle center CC").

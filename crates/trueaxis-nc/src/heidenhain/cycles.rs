@@ -9,7 +9,7 @@ use super::variables::{Stored, Variable};
 use super::words::Words;
 use super::{Run, fault};
 use crate::moves::{Axis, Event, Frame, MoveKind, PathControl};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 /// The machining cycle that a call executes.
 #[derive(Debug, Clone, PartialEq)]

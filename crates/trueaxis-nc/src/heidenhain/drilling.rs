@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::{Run, fault};
 use crate::moves::{Event, Feed, FeedMode, MoveKind, Turning};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 /// Pecks of one hole: more than any program means.
 const MOST_PECKS: u32 = 100_000;

@@ -7,7 +7,7 @@ use super::line::{Cursor, Line};
 use super::variables::Variable;
 use super::{Run, fault};
 use crate::moves::Event;
-use crate::program::{Fault, Program};
+use crate::text::program::{Fault, Program};
 
 /// `LBL 5` or `LBL "UP"`.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]

@@ -5,7 +5,7 @@ use super::{Run, fault};
 use crate::moves::{
     Axis, Coolant, Event, Feed, FeedMode, Move, MoveKind, OrientationPath, Turning,
 };
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 /// What an M function does.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,9 +2,9 @@
 
 use super::fault;
 use crate::dialect::Dialect;
-use crate::lexer::{Lexer, Token, TokenKind, number_value};
 use crate::moves::Axis;
-use crate::program::{Fault, is_trivia};
+use crate::text::lexer::{Lexer, Token, TokenKind, number_value};
+use crate::text::program::{Fault, is_trivia};
 
 /// Words of one block: more than any control takes, little for the memory.
 const MOST_TOKENS: usize = 10_000;

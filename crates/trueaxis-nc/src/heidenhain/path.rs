@@ -10,7 +10,7 @@ use crate::moves::{
     Axis, AxisSet, CompensationSide, Coordinates, Event, Feed, FeedMode, Move, MoveKind, Position,
     Way,
 };
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 impl Run<'_> {
     /// Executes a path block; `None` if the block is none.

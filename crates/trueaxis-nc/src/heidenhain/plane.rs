@@ -7,7 +7,7 @@ use super::variables::{Stored, Variable};
 use super::words::{FeedWord, split_address};
 use super::{Run, fault};
 use crate::moves::{Axis, Branch, Event, MoveKind};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 /// The matrix of space angles: R = Rz(SPC) · Ry(SPB) · Rx(SPA).
 ///

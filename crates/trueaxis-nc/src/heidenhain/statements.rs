@@ -6,7 +6,7 @@ use super::variables::{Stored, Variable};
 use super::words::{Words, split_address};
 use super::{Run, fault};
 use crate::moves::{Axis, Event, MoveKind, OrientationPath};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 /// Functions of contours without dimensions: their path is not computed.
 const FREE_CONTOUR: [&str; 9] =

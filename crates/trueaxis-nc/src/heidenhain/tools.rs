@@ -4,7 +4,7 @@ use super::line::Cursor;
 use super::words::split_address;
 use super::{Run, fault};
 use crate::moves::{Axis, Event, Plane, Position};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 impl Run<'_> {
     pub(super) fn tool_statement(&mut self, c: &mut Cursor<'_>) -> Result<(), Fault> {

@@ -4,7 +4,7 @@ use super::line::Cursor;
 use super::variables::{Stored, Variable};
 use super::{Run, fault};
 use crate::moves::Event;
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 /// Brackets and functions within each other: enough for people, little for the stack.
 const DEEPEST: usize = 60;

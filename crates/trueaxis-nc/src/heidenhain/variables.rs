@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::line::Cursor;
 use super::{Run, fault};
 use crate::moves::{Axis, Turning};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 /// Characters of a text parameter.
 const LONGEST_TEXT: usize = 255;

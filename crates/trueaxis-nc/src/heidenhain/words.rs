@@ -3,7 +3,7 @@
 use super::line::Cursor;
 use super::{Run, fault};
 use crate::moves::{Axis, AxisSet, CompensationSide, Position};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 /// Addresses that may touch what follows, as in `FQ1` or `Xnan`; longer ones first.
 const ADDRESSES: [&str; 38] = [

@@ -3,9 +3,9 @@
 use super::tables::{Motion, Name};
 use super::words::{Mode, Words};
 use super::{Run, fault};
-use crate::interpreter::by_radius;
+use crate::execution::arcs::by_radius;
 use crate::moves::{Arc, MoveKind, Position, SpatialArc};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 /// How far the radii at both ends may differ: machine data 21000 and 21010 as delivered.
 const GAP_MM: f64 = 0.01;

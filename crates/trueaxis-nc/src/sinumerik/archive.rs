@@ -7,10 +7,10 @@ use trueaxis_input::Diagnostics;
 use super::Run;
 use super::values::Value;
 use crate::dialect::Control;
-use crate::interpreter::Settings;
-use crate::library::NoLibrary;
+use crate::execution::Settings;
+use crate::execution::library::NoLibrary;
 use crate::moves::{Frame, Position};
-use crate::program::{Fault, Program};
+use crate::text::program::{Fault, Program};
 
 /// A tool of a dump.
 #[derive(Debug, Clone, PartialEq, Default)]

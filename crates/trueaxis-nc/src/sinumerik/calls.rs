@@ -13,7 +13,7 @@ use super::variables::Slot;
 use super::{Next, Run, fault, functions};
 use crate::dialect::Control;
 use crate::moves::Event;
-use crate::program::{Fault, Program};
+use crate::text::program::{Fault, Program};
 
 /// A part of a program that is executed again.
 #[derive(Debug, Clone)]

@@ -5,7 +5,7 @@ use super::values::Value;
 use super::words::Words;
 use super::{Run, fault};
 use crate::moves::{Axis, Event, MoveKind};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 /// Pecks of one hole: more than any program means.
 const MOST_PECKS: f64 = 1e5;

@@ -4,12 +4,12 @@ use super::system::flat;
 use super::tables::{Angles, Code, Motion, Name, Turning as Way};
 use super::words::Words;
 use super::{Next, Run, fault, transform};
-use crate::interpreter::Settings;
+use crate::execution::Settings;
 use crate::moves::{
     Axis, CompensationSide, Cone, Coolant, Event, Feed, FeedMode, MoveKind, OrientationPath,
     PathControl, Plane, Position, Turning,
 };
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 /// What lasts from block to block.
 #[derive(Debug, Clone)]

@@ -3,8 +3,8 @@
 use super::reader::Reader;
 use super::values::{LONGEST_TEXT, Value};
 use super::{Run, fault};
-use crate::lexer::TokenKind;
-use crate::program::Fault;
+use crate::text::lexer::TokenKind;
+use crate::text::program::Fault;
 
 /// Brackets, functions and signs within each other: enough for people, little for the stack.
 const DEEPEST: usize = 60;

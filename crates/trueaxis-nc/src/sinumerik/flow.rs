@@ -7,7 +7,7 @@ use super::reader::Reader;
 use super::structure::{Keyword, Mark, Structure};
 use super::values::Value;
 use super::{Next, Run, fault};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 /// Where the search for a label goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -6,7 +6,7 @@ use super::transform;
 use super::values::{LONGEST_TEXT, Value, shown};
 use super::{Run, fault};
 use crate::moves::{Axis, Frame};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 const FUNCTIONS: [&str; 43] = [
     "SIN", "COS", "TAN", "ASIN", "ACOS", "ATAN2", "SQRT", "ABS", "POT", "TRUNC", "ROUND",

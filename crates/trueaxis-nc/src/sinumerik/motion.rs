@@ -4,7 +4,7 @@ use super::tables::{Motion, Name};
 use super::words::{Mode, Words};
 use super::{Run, fault};
 use crate::moves::{Axis, AxisSet, Coordinates, FeedMode, Move, MoveKind, Position, Way};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 impl Run<'_> {
     /// The move of a block; `false` if it has none.

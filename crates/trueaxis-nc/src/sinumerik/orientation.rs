@@ -4,7 +4,7 @@ use super::tables::{Angles, Name, Turning};
 use super::words::Words;
 use super::{Run, fault, transform};
 use crate::moves::{Axis, Cone, Event, OrientationPath};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 impl Run<'_> {
     /// The direction that a block programs, in the program frame; a cone is told before it.

@@ -4,7 +4,7 @@ use super::Run;
 use super::tables::{self, Code};
 use super::variables::axis_of;
 use super::words::Mode;
-use crate::lexer::plain_number;
+use crate::text::lexer::plain_number;
 
 impl Run<'_> {
     /// Reads a line that holds nothing but plain words straight into the words; its end.

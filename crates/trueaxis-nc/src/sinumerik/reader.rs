@@ -1,7 +1,7 @@
 //! The tokens of one line, looked at one by one.
 
-use crate::lexer::{Lexer, Token, TokenKind, number_value};
-use crate::program::{Fault, Program};
+use crate::text::lexer::{Lexer, Token, TokenKind, number_value};
+use crate::text::program::{Fault, Program};
 
 use super::fault;
 

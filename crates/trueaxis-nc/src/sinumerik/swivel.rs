@@ -4,7 +4,7 @@ use super::system::flat;
 use super::values::Value;
 use super::{Run, fault, transform};
 use crate::moves::{Axis, Branch, Event, Frame, Move, MoveKind, PathControl, Position};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 /// The parameters of a cycle by their place.
 pub(super) struct Parameters<'a> {

@@ -7,7 +7,7 @@ use super::reader::Reader;
 use super::values::Value;
 use super::{Run, fault};
 use crate::moves::{Axis, Event, Frame};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 /// What stands in the brackets of a system variable.
 #[derive(Debug, Clone, Default)]

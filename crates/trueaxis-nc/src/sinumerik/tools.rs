@@ -4,7 +4,7 @@ use super::system::flat;
 use super::words::{ToolCall, Words};
 use super::{Run, fault};
 use crate::moves::{Event, Turning};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 /// Tools that only have a name here are numbered from this.
 const FIRST_NAMED: u32 = 10_001;

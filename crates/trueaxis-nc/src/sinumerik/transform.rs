@@ -1,7 +1,7 @@
 //! Turns, scales and mirrors as frames.
 
 use crate::moves::{Axis, Frame, Position};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 use super::fault;
 

@@ -1,7 +1,7 @@
 //! What variables hold and expressions give.
 
 use crate::moves::{Axis, Frame};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 use super::fault;
 

@@ -5,9 +5,9 @@ use std::collections::HashMap;
 use super::reader::Reader;
 use super::values::{Kind, LONGEST_TEXT, Value, Variable};
 use super::{Run, fault};
-use crate::lexer::TokenKind;
 use crate::moves::Axis;
-use crate::program::Fault;
+use crate::text::lexer::TokenKind;
+use crate::text::program::Fault;
 
 /// R0 to this.
 const LAST_R: usize = 32_767;

@@ -4,9 +4,9 @@ use super::reader::Reader;
 use super::tables::{self, Code, Name};
 use super::variables::axis_of;
 use super::{Next, Run, fault};
-use crate::lexer::TokenKind;
 use crate::moves::{Axis, AxisSet};
-use crate::program::Fault;
+use crate::text::lexer::TokenKind;
+use crate::text::program::Fault;
 
 /// No word is larger, so that no sum of words leaves the range of numbers.
 const LARGEST: f64 = 1e12;

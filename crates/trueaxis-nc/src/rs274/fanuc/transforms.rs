@@ -6,14 +6,14 @@
 //! "Functions to simplify programming": mirror is applied to the written place first, then scale,
 //! then rotation; the tilted plane holds all of them.
 
-use super::{Run, fault};
-use crate::code::Action;
 use crate::moves::{Axis, Branch, Event, Frame, MoveKind, Plane, Position};
-use crate::program::Fault;
+use crate::rs274::code::Action;
+use crate::rs274::{Run, fault};
+use crate::text::program::Fault;
 
 /// The frames that a program sets up, from the outside to the inside.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Transforms {
+pub(in crate::rs274) struct Transforms {
     /// G68.2 and 3-D G68.
     tilt: Option<Frame>,
     /// The plane is swivelled: G68.2.
@@ -33,7 +33,7 @@ pub(super) struct Transforms {
 
 /// Polar coordinates that are on.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Polar {
+pub(in crate::rs274) struct Polar {
     center_mm: [f64; 2],
     radius_mm: f64,
     angle_deg: f64,
@@ -145,12 +145,12 @@ impl Run<'_> {
     }
 
     /// Whether the tool stands in the workpiece whatever the rotary axes do.
-    pub(super) fn follows_workpiece(&self) -> bool {
+    pub(in crate::rs274) fn follows_workpiece(&self) -> bool {
         self.modes.tool_centre || self.modes.transforms.tilted
     }
 
     /// G15 to G69: true if the action was one of these.
-    pub(super) fn transform(&mut self, action: Action, at: usize) -> Result<bool, Fault> {
+    pub(in crate::rs274) fn transform(&mut self, action: Action, at: usize) -> Result<bool, Fault> {
         match action {
             Action::Polar(on) => self.polar_mode(on),
             Action::Scale => self.scale(at)?,
@@ -190,7 +190,7 @@ impl Run<'_> {
     /// The place in the plane from radius and angle words; they count as used.
     ///
     /// With G91 a radius counts from the present place, an angle from the angle before.
-    pub(super) fn polar_place(&mut self) -> Option<[f64; 2]> {
+    pub(in crate::rs274) fn polar_place(&mut self) -> Option<[f64; 2]> {
         let mut polar = self.modes.transforms.polar?;
         let [a, b, _] = self.modes.plane.axes();
         let (radius, angle) = (self.axis_word(a), self.words.take(b.letter()));
@@ -423,7 +423,7 @@ impl Run<'_> {
     }
 
     /// Warns where a scale along the drill changes what the control leaves as it is.
-    pub(super) fn check_depth(&mut self, axis: usize, at: usize) {
+    pub(in crate::rs274) fn check_depth(&mut self, axis: usize, at: usize) {
         let Some(scale) = self.modes.transforms.scale else { return };
         if scale.linear[axis][axis] != 1.0 {
             let message = "Q and the clearances of the cycle are scaled with its axis".to_owned();
@@ -433,7 +433,7 @@ impl Run<'_> {
     }
 
     /// Warns where a circle becomes an ellipse: different scales in its plane.
-    pub(super) fn check_round(&mut self, plane: Plane, at: usize) {
+    pub(in crate::rs274) fn check_round(&mut self, plane: Plane, at: usize) {
         let Some(scale) = self.modes.transforms.scale else { return };
         let [a, b, _] = plane.axes().map(|a| scale.linear[a as usize][a as usize].abs());
         if (a - b).abs() > 1e-9 * a.max(b) {

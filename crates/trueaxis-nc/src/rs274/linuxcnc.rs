@@ -1,12 +1,16 @@
-use super::{Control, Dialect};
-use crate::code::{Action as A, Cycle, Motion};
+//! LinuxCNC: the table of its codes and its comments that do something.
+
+mod comments;
+
+use crate::dialect::{Control, Dialect};
 use crate::moves::{CompensationSide as Side, Coolant, FeedMode, PathControl, Plane, Turning};
+use crate::rs274::code::{Action as A, Cycle, Motion};
 
 /// LinuxCNC, RS274/NGC.
 ///
 /// # Source
 /// LinuxCNC 2.9 user manual, chapters "G-Codes", "M-Codes", "O Codes".
-pub(super) static DIALECT: Dialect = Dialect {
+pub(crate) static DIALECT: Dialect = Dialect {
     control: Control::LinuxCnc,
     paren_comments: true,
     semicolon_comments: true,

@@ -1,10 +1,17 @@
-use super::{Run, fault};
+//! Comments that do something: MSG, DEBUG, PRINT, LOG, ABORT.
+
 use crate::moves::Event;
-use crate::program::{Block, Fault, Item, Program};
+use crate::rs274::parameters::Parameter;
+use crate::rs274::{Run, fault};
+use crate::text::program::{Block, Fault, Item, Program};
 
 impl Run<'_> {
     /// Comments that do something: MSG, DEBUG, PRINT, LOG, ABORT.
-    pub(super) fn comments(&mut self, program: &Program, block: &Block) -> Result<(), Fault> {
+    pub(in crate::rs274) fn comments(
+        &mut self,
+        program: &Program,
+        block: &Block,
+    ) -> Result<(), Fault> {
         if !program.dialect().o_words {
             return Ok(());
         }
@@ -76,7 +83,6 @@ impl Run<'_> {
     }
 
     fn reference_in_text<'t>(&self, text: &'t str) -> Option<(Option<f64>, &'t str)> {
-        use super::parameters::Parameter;
         let after = text.strip_prefix('#')?;
         if let Some(named) = after.strip_prefix('<') {
             let (name, rest) = named.split_once('>')?;

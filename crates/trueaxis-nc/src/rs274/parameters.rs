@@ -2,7 +2,7 @@ use std::rc::Rc;
 
 use super::{Run, fault};
 use crate::moves::{Axis, Position};
-use crate::program::{Block, Fault, Node, NodeId, Program};
+use crate::text::program::{Block, Fault, Node, NodeId, Program};
 
 /// The parameters of one call: `#1` to `#30` (`#33` on FANUC) and its own names.
 #[derive(Debug, Clone)]

@@ -1,6 +1,6 @@
 use super::parameters::Parameter;
 use super::{Run, fault};
-use crate::program::{Block, Fault, Function, Node, NodeId, Operator, Program};
+use crate::text::program::{Block, Fault, Function, Node, NodeId, Operator, Program};
 
 impl Run<'_> {
     /// The value of an expression. A FANUC parameter without a value is NaN in here; it counts as

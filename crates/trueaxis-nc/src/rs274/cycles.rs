@@ -1,7 +1,7 @@
 use super::{Run, fault};
-use crate::code::Cycle;
 use crate::moves::{Event, MoveKind, Position, Turning};
-use crate::program::Fault;
+use crate::rs274::code::Cycle;
+use crate::text::program::Fault;
 
 /// Pecks and holes of one block: more than any program means.
 const MOST_PECKS: f64 = 1e6;

@@ -5,8 +5,8 @@ mod expression;
 mod plain;
 
 use crate::dialect::{Control, Dialect};
-use crate::lexer::{Lexer, Token, TokenKind};
-use crate::program::{Block, Fault, Item, Node, NodeId, is_trivia};
+use crate::text::lexer::{Lexer, Token, TokenKind};
+use crate::text::program::{Block, Fault, Item, Node, NodeId, is_trivia};
 
 /// Steps of brackets, functions and parameters within each other (a bracket is two): enough for
 /// people, little for the stack.

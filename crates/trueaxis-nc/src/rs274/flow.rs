@@ -4,7 +4,7 @@ use std::rc::Rc;
 use super::parameters::Locals;
 use super::{Activation, Next, Run, fault};
 use crate::moves::Event;
-use crate::program::{Block, Fault, Item, Keyword, Label, Mark, NodeId, Program};
+use crate::text::program::{Block, Fault, Item, Keyword, Label, Mark, NodeId, Program};
 
 impl Activation {
     pub(super) fn new(program: usize, at: usize, line: u32) -> Self {

@@ -1,9 +1,9 @@
 use super::{Next, Run, fault};
-use crate::code::{Action, Motion};
 use crate::moves::{
     Axis, CompensationSide, Event, FeedMode, Move, MoveKind, PathControl, Position, Turning,
 };
-use crate::program::{Block, Fault, Item, Keyword, Label, Program};
+use crate::rs274::code::{Action, Motion};
+use crate::text::program::{Block, Fault, Item, Keyword, Label, Program};
 
 impl Run<'_> {
     /// Executes one block.

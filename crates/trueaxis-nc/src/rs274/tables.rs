@@ -1,7 +1,7 @@
 use super::{Run, fault};
-use crate::code::Action;
 use crate::moves::{Axis, Coordinates, Event, Move, MoveKind, Position};
-use crate::program::Fault;
+use crate::rs274::code::Action;
+use crate::text::program::Fault;
 
 impl Run<'_> {
     /// Tool lengths, work offsets, shifts and reference points.

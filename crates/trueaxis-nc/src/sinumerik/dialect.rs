@@ -1,7 +1,9 @@
-use super::{Control, Dialect};
+//! How the text of SINUMERIK looks.
+
+use crate::dialect::{Control, Dialect};
 
 /// SINUMERIK 840D: how its tokens look. What its words do stands in `sinumerik/tables.rs`.
-pub(super) static DIALECT: Dialect = Dialect {
+pub(crate) static DIALECT: Dialect = Dialect {
     control: Control::Sinumerik840d,
     paren_comments: false,
     semicolon_comments: true,

@@ -1,9 +1,15 @@
-use super::{Control, Dialect};
-use crate::code::{Action as A, Cycle, Motion};
+//! FANUC: the table of its codes, custom macro B, its own coordinates.
+
+pub(super) mod macros;
+mod system;
+pub(super) mod transforms;
+
+use crate::dialect::{Control, Dialect};
 use crate::moves::{CompensationSide as Side, Coolant, FeedMode, PathControl, Plane, Turning};
+use crate::rs274::code::{Action as A, Cycle, Motion};
 
 /// FANUC, G-code system of machining centres, custom macro B.
-pub(super) static DIALECT: Dialect = Dialect {
+pub(crate) static DIALECT: Dialect = Dialect {
     control: Control::Fanuc,
     paren_comments: true,
     semicolon_comments: true,

@@ -1,10 +1,12 @@
+//! M98, G65, G66: subprograms and macros of FANUC.
+
 use std::rc::Rc;
 
-use super::flow::show;
-use super::parameters::Locals;
-use super::{Next, Run, fault};
-use crate::code::Action;
-use crate::program::{Block, Fault, Item, Label, Node, Program};
+use crate::rs274::code::Action;
+use crate::rs274::flow::show;
+use crate::rs274::parameters::Locals;
+use crate::rs274::{Next, Run, fault};
+use crate::text::program::{Block, Fault, Item, Label, Node, Program};
 
 /// The local parameter of each letter, A to Z.
 const NUMBERS: [usize; 26] =
@@ -15,7 +17,7 @@ const MOST_ARGUMENTS: usize = 100;
 
 /// A macro that is called again and again: G66, G66.1.
 #[derive(Debug, Clone)]
-pub(super) struct ModalMacro {
+pub(in crate::rs274) struct ModalMacro {
     each_block: bool,
     /// Depth of calls in which it was set; there alone it is called.
     depth: usize,
@@ -26,7 +28,7 @@ pub(super) struct ModalMacro {
 
 /// What the letters of a block are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Gathering {
+pub(in crate::rs274) enum Gathering {
     Words,
     /// All letters but G, P, L, N and O are arguments.
     Call,
@@ -72,7 +74,12 @@ fn locals_of(arguments: &[(u8, f64)], at: usize) -> Result<Locals, Fault> {
 
 impl Run<'_> {
     /// Whether a block calls a macro with its letters.
-    pub(super) fn gathering(&self, program: &Program, block: &Block, items: &[Item]) -> Gathering {
+    pub(in crate::rs274) fn gathering(
+        &self,
+        program: &Program,
+        block: &Block,
+        items: &[Item],
+    ) -> Gathering {
         if !program.dialect().macro_words {
             return Gathering::Words;
         }
@@ -103,7 +110,7 @@ impl Run<'_> {
     }
 
     /// Calls the modal macro that is due after a move, or instead of a block.
-    pub(super) fn call_modal(
+    pub(in crate::rs274) fn call_modal(
         &mut self,
         block: &Block,
         each_block: bool,
@@ -138,7 +145,7 @@ impl Run<'_> {
     }
 
     /// M98 P…: a FANUC subprogram, L times; P with more than 4 digits carries the count in front.
-    pub(super) fn subprogram_call(&mut self, block: &Block) -> Result<Next, Fault> {
+    pub(in crate::rs274) fn subprogram_call(&mut self, block: &Block) -> Result<Next, Fault> {
         let at = self.words.place(b'P').max(block.span.start);
         let (label, digits) = self.called_label(at)?;
         let repeats = self.words.take(b'L').unwrap_or((digits / 10_000).max(1) as f64);
@@ -151,7 +158,7 @@ impl Run<'_> {
     }
 
     /// G65 P… with letters as arguments, G66, G66.1.
-    pub(super) fn macro_call(
+    pub(in crate::rs274) fn macro_call(
         &mut self,
         actions: &[(Action, usize)],
         block: &Block,
@@ -211,7 +218,7 @@ impl Run<'_> {
 
     /// M99: back to the caller, or once more; in the main program back to its beginning, which is
     /// taken as its end.
-    pub(super) fn subprogram_return(&mut self, block: &Block) -> Result<Next, Fault> {
+    pub(in crate::rs274) fn subprogram_return(&mut self, block: &Block) -> Result<Next, Fault> {
         let back = self.words.take(b'P');
         let at = block.span.start;
         let frame = self.frame();

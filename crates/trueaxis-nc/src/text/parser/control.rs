@@ -1,6 +1,6 @@
 use super::Parser;
-use crate::lexer::{TokenKind, number_value};
-use crate::program::{Item, Keyword, Label};
+use crate::text::lexer::{TokenKind, number_value};
+use crate::text::program::{Item, Keyword, Label};
 
 /// The key words behind an O label; longer ones first where one begins another.
 const O_WORDS: [(&[u8], Keyword); 15] = [

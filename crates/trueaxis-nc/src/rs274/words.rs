@@ -1,12 +1,12 @@
-use super::calls::ModalMacro;
 use super::cycles::CycleMemory;
-use super::transforms::Transforms;
+use super::fanuc::macros::ModalMacro;
+use super::fanuc::transforms::Transforms;
 use super::{Run, Settings, fault};
-use crate::code::{Action, Motion};
 use crate::moves::{
     Axis, AxisSet, CompensationSide, Feed, FeedMode, PathControl, Plane, Position, Turning,
 };
-use crate::program::{Block, Fault, Item, Program};
+use crate::rs274::code::{Action, Motion};
+use crate::text::program::{Block, Fault, Item, Program};
 
 /// No word is larger, so that no sum of words leaves the range of numbers.
 const LARGEST: f64 = 1e12;

@@ -3,7 +3,7 @@
 use super::execute::is_control;
 use super::{Next, Run};
 use crate::moves::Event;
-use crate::program::{Block, Fault, Item, Keyword, Node, NodeId, Program};
+use crate::text::program::{Block, Fault, Item, Keyword, Node, NodeId, Program};
 
 impl Run<'_> {
     /// The same, with what a flat program of the same path would have to say instead.

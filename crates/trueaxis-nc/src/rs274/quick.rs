@@ -1,8 +1,8 @@
 use super::Run;
 use super::words::check_groups;
-use crate::code::Action;
 use crate::dialect::Dialect;
-use crate::lexer::plain_number;
+use crate::rs274::code::Action;
+use crate::text::lexer::plain_number;
 
 /// G codes by their number in tenths, for one look each.
 pub(super) type CodeTable = Box<[Option<Action>; 1000]>;

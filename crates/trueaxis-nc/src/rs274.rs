@@ -1,132 +1,46 @@
-//! Executes a program block by block: words in, moves out.
+//! Executes programs of the RS-274 family, FANUC and LinuxCNC, block by block: words in, moves out.
+//!
+//! What both controls know lies here; `fanuc` and `linuxcnc` hold the tables of their codes and what
+//! only one of them has.
 
 mod arc;
-mod calls;
+pub mod code;
 mod cycles;
 mod execute;
+pub(crate) mod fanuc;
 mod flow;
 mod frames;
-mod messages;
+pub(crate) mod linuxcnc;
 mod parameters;
 mod quick;
 mod straight;
-mod system;
 mod tables;
 mod told;
-mod transforms;
 mod values;
 mod words;
 
-pub(crate) use arc::by_radius;
 use std::cell::Cell;
-
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
 use trueaxis_input::{Diagnostics, Place};
 
-use crate::dialect::Control;
-use crate::library::Library;
-use crate::moves::{Event, Frame, Move, Origin, Plane, Position, Step};
-use crate::program::{Block, Fault, Label, Places, Program, fault};
-use crate::stop::Stop;
-use crate::{heidenhain, sinumerik};
+use crate::execution::library::Library;
+use crate::execution::{Outcome, Settings};
+use crate::moves::{Event, Frame, Move, Origin, Step};
+use crate::text::program::{Block, Fault, Label, Places, Program, fault};
 use frames::Frames;
 use parameters::Locals;
 use quick::CodeTable;
 use words::{Modes, Words};
 
-/// What the control is set to before the program begins.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Settings {
-    /// Backward jumps and calls before the program counts as endless.
-    pub most_jumps: u64,
-    /// Calls within calls.
-    pub deepest_call: usize,
-    /// Go on behind a block with an error instead of stopping there, up to 100 errors.
-    pub keep_going: bool,
-    /// Execute blocks that begin with `/`.
-    pub skipped_blocks_too: bool,
-    /// Lengths are inches until the program says otherwise.
-    pub inches: bool,
-    /// X words are diameters until the program says otherwise (lathes).
-    pub diameters: bool,
-    /// I J K are coordinates of the centre until the program says otherwise.
-    pub absolute_centers: bool,
-    /// The plane until the program says otherwise.
-    pub plane: Plane,
-    /// Lengths of the tools by number.
-    pub tools: BTreeMap<u32, Position>,
-    /// Numbers of the tools that have names.
-    pub tool_names: BTreeMap<String, u32>,
-    /// The work offsets by number, from 1 for G54; where none is given it is zero.
-    pub work_offsets: BTreeMap<u32, Frame>,
-    /// Named read-only parameters of the machine, such as `_ini[axis_x]max_limit`, lower case.
-    pub constants: BTreeMap<String, f64>,
-    /// Tell each block and what it computes: [`Event::Block`], [`Event::Computed`].
-    pub tell_blocks: bool,
-    /// Asked from outside, the execution ends before the next block.
-    pub stop: Stop,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self {
-            most_jumps: 1_000_000,
-            deepest_call: 64,
-            keep_going: false,
-            skipped_blocks_too: true,
-            inches: false,
-            diameters: false,
-            absolute_centers: false,
-            plane: Plane::Xy,
-            tools: BTreeMap::new(),
-            tool_names: BTreeMap::new(),
-            work_offsets: BTreeMap::new(),
-            constants: BTreeMap::new(),
-            tell_blocks: false,
-            stop: Stop::default(),
-        }
-    }
-}
-
-/// How the execution ended and what was found on the way.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Outcome {
-    /// All problems with their places.
-    pub problems: Diagnostics,
-    /// The program came to its end; `false` if an error, or somebody, stopped it.
-    pub finished: bool,
-    /// The programs by the number in [`Origin::program`].
-    pub programs: Vec<String>,
-}
-
-/// Executes a program; every move and event goes to `take` as soon as it is known.
-///
-/// ```
-/// use trueaxis_nc::{Control, NoLibrary, Program, Settings, Step, interpret};
-/// let text = b"G21 G90 F100\nG1 X10 Y#1\no1 repeat [2]\nG91 G1 X1\no1 endrepeat\nM2\n";
-/// let program = Program::new("demo.ngc", text.to_vec(), Control::LinuxCnc);
-/// let mut x_mm = Vec::new();
-/// let outcome = interpret(&program, &NoLibrary, &Settings::default(), &mut |step| {
-///     if let Step::Move(m) = step {
-///         x_mm.push(m.target.0[0]);
-///     }
-/// });
-/// assert!(outcome.finished);
-/// assert_eq!(x_mm, [10.0, 11.0, 12.0]);
-/// ```
-pub fn interpret(
+/// Executes a program of FANUC or LinuxCNC.
+pub(crate) fn interpret(
     program: &Program,
     library: &dyn Library,
     settings: &Settings,
     take: &mut dyn FnMut(Step),
 ) -> Outcome {
-    match program.dialect().control {
-        Control::Sinumerik840d => return sinumerik::interpret(program, library, settings, take),
-        Control::Heidenhain => return heidenhain::interpret(program, library, settings, take),
-        Control::Fanuc | Control::LinuxCnc => {}
-    }
     let mut run = Run::new(program, library, settings, take);
     let finished = run.run();
     let programs = run.programs.iter().map(|p| p.file().to_owned()).collect();

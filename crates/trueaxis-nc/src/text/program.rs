@@ -7,8 +7,8 @@ use std::sync::{Arc, OnceLock};
 use trueaxis_input::{Diagnostics, Place};
 
 use crate::dialect::{Control, Dialect};
-use crate::lexer::{Lexer, TokenKind};
-use crate::parser::parse_block;
+use crate::text::lexer::{Lexer, TokenKind};
+use crate::text::parser::parse_block;
 
 /// Something wrong with a piece of text; a [`Diagnostics`] entry once its place is known.
 #[derive(Debug, Clone, PartialEq, Eq)]

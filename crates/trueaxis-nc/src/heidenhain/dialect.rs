@@ -1,8 +1,10 @@
-use super::{Control, Dialect};
+//! How the text of Klartext looks.
+
+use crate::dialect::{Control, Dialect};
 
 /// HEIDENHAIN Klartext: key words instead of G codes; what M functions do stands with them, since
 /// here many have words of their own and some take effect at the end of their block.
-pub(super) static DIALECT: Dialect = Dialect {
+pub(crate) static DIALECT: Dialect = Dialect {
     control: Control::Heidenhain,
     paren_comments: false,
     semicolon_comments: true,

@@ -1,6 +1,6 @@
 use super::{Activation, Run};
-use crate::code::Motion;
 use crate::moves::{Axis, AxisSet, FeedMode, Move, MoveKind, Origin, Position, Step};
+use crate::rs274::code::Motion;
 
 /// What a letter is in a line of straight moves; axes are 0 to 8.
 const LETTERS: [u8; 256] = {

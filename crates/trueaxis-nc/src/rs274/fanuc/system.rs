@@ -1,7 +1,9 @@
-use super::{Run, fault};
-use crate::code::{Cycle, Motion};
+//! The system variables of FANUC.
+
 use crate::moves::{Axis, CompensationSide, Event, FeedMode, PathControl, Plane, Position};
-use crate::program::{Fault, Item, Program};
+use crate::rs274::code::{Cycle, Motion};
+use crate::rs274::{Run, fault};
+use crate::text::program::{Fault, Item, Program};
 
 /// A table of positions that FANUC variables stand for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,7 +43,7 @@ impl Run<'_> {
     /// # Source
     /// FANUC Series 30i operator's manual, "Custom macro", system variables; tool offsets as in
     /// memory C.
-    pub(super) fn fanuc_variable(&self, number: u32) -> Option<f64> {
+    pub(in crate::rs274) fn fanuc_variable(&self, number: u32) -> Option<f64> {
         let frames = &self.frames;
         let of = |position: &Position, first: u32| self.shown(position, (number - first) as usize);
         if let Some((table, axis)) = table(number) {
@@ -147,7 +149,7 @@ impl Run<'_> {
     }
 
     /// Sets a system variable; `false` if the number is an ordinary variable.
-    pub(super) fn write_system(
+    pub(in crate::rs274) fn write_system(
         &mut self,
         number: u32,
         value: f64,
@@ -203,7 +205,7 @@ impl Run<'_> {
     }
 
     /// Says that a variable was read whose value only the running control has.
-    pub(super) fn system_reads(&mut self, at: usize) {
+    pub(in crate::rs274) fn system_reads(&mut self, at: usize) {
         if let Some(number) = self.guessed.take() {
             let message = format!("only the running control knows #{number}: 0 is taken");
             let hint = "times and signals are not simulated";
@@ -212,7 +214,7 @@ impl Run<'_> {
     }
 
     /// Keeps the comment of a block that sets #3000 or #3006.
-    pub(super) fn keep_remark(&mut self, program: &Program, items: &[Item]) {
+    pub(in crate::rs274) fn keep_remark(&mut self, program: &Program, items: &[Item]) {
         const LONGEST: usize = 80;
         self.remark.clear();
         let comment =
