@@ -1,8 +1,10 @@
 //! What the three languages share while they execute a program.
 
 pub(crate) mod arcs;
-pub(crate) mod library;
-pub(crate) mod stop;
+mod core;
+mod library;
+pub(crate) mod mistakes;
+mod stop;
 
 use std::collections::BTreeMap;
 
@@ -12,6 +14,7 @@ use crate::dialect::Control;
 use crate::moves::{Frame, Plane, Position, Step};
 use crate::text::program::Program;
 use crate::{heidenhain, rs274, sinumerik};
+pub(crate) use core::{Core, Language, Next};
 pub use library::{Library, NoLibrary};
 pub use stop::Stop;
 

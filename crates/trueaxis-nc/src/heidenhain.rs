@@ -31,38 +31,30 @@ mod values;
 mod variables;
 mod words;
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
-use trueaxis_input::{Diagnostics, Place};
-
-use crate::execution::library::Library;
-use crate::execution::{Outcome, Settings};
+use crate::execution::{Core, Language, Library, Next, Outcome, Settings};
 use crate::moves::{
-    Axis, CompensationSide, Coordinates, Event, Feed, FeedMode, Frame, Move, MoveKind,
-    OrientationPath, Origin, Plane, Position, Step, Turning, Way,
+    Axis, CompensationSide, Coordinates, Event, Feed, FeedMode, Move, MoveKind, OrientationPath,
+    Plane, Position, Step, Turning, Way,
 };
-use crate::text::program::{Fault, Places, Program, fault};
+use crate::text::program::{Fault, Program, fault};
 use cycles::Cycle;
-use flow::{Activation, Labels, Next};
+use flow::{Activation, Labels};
 use frames::Frames;
 use line::{Cursor, Line};
 use variables::Variables;
 
+/// Executes a program of Klartext.
 pub(crate) fn interpret(
     program: &Program,
     library: &dyn Library,
     settings: &Settings,
     take: &mut dyn FnMut(Step),
 ) -> Outcome {
-    let mut run = Run::new(program, library, settings, take);
-    let finished = run.run();
-    let programs = run.programs.iter().map(|p| p.file().to_owned()).collect();
-    Outcome { problems: run.problems, finished, programs }
+    Run::new(Core::new(program, library, settings, take)).outcome()
 }
-
-/// Warnings of one run: more than anybody reads.
-const MOST_WARNINGS: usize = 1000;
 
 /// What lasts from block to block.
 struct Modes {
@@ -94,19 +86,12 @@ struct Modes {
 
 /// One execution.
 struct Run<'r> {
-    library: &'r dyn Library,
-    settings: &'r Settings,
-    take: &'r mut dyn FnMut(Step),
-    programs: Vec<Rc<Program>>,
-    loaded: HashMap<String, usize>,
+    core: Core<'r>,
     labels: HashMap<usize, Rc<Labels>>,
     stack: Vec<Activation>,
     selected: Option<String>,
     variables: Variables,
-    jumps: u64,
     frames: Frames,
-    /// What the receiver was told last.
-    told: Frame,
     modes: Modes,
     /// Full turns of A, B and C that the display does not show (M94, M126), degrees.
     turned: [f64; 3],
@@ -120,21 +105,45 @@ struct Run<'r> {
     /// The first corner of the blank.
     blank: Option<[f64; 3]>,
     tools: BTreeMap<u32, (f64, Option<f64>)>,
-    problems: Diagnostics,
-    errors: usize,
-    reported: HashSet<(&'static str, String)>,
-    origin: Origin,
-    /// Where the block begins that is being executed.
-    start: usize,
+    /// The block that is being executed.
+    line: Line,
+}
+
+impl<'r> Language<'r> for Run<'r> {
+    fn core(&mut self) -> &mut Core<'r> {
+        &mut self.core
+    }
+
+    fn advance(&mut self) -> Result<Next, Fault> {
+        let Some(active) = self.stack.last_mut() else { return Ok(Next::Finished) };
+        let (number, at) = (active.program, active.at);
+        let program = Rc::clone(&self.core.programs[number]);
+        self.core.begin(number, at, active.line);
+        if at >= program.source().len() {
+            return self.end_of_text(&program).map_err(|fault| self.core.for_good(fault));
+        }
+        let mut line = std::mem::take(&mut self.line);
+        line.read(program.source(), program.dialect(), at);
+        active.at = line.end;
+        active.line = active.line.saturating_add(line.lines);
+        let next = self.block(&program, &line);
+        self.line = line;
+        next
+    }
+
+    /// The block was left before it was executed.
+    fn pass_over(&mut self) {}
+
+    fn emit_frame(&mut self) {
+        if self.core.emit_frame(self.frames.frame()) {
+            self.tangent = None;
+        }
+    }
 }
 
 impl<'r> Run<'r> {
-    fn new(
-        program: &Program,
-        library: &'r dyn Library,
-        settings: &'r Settings,
-        take: &'r mut dyn FnMut(Step),
-    ) -> Self {
+    fn new(core: Core<'r>) -> Self {
+        let settings = core.settings;
         let modes = Modes {
             inches: settings.inches,
             plane: settings.plane,
@@ -156,18 +165,11 @@ impl<'r> Run<'r> {
         };
         let tools = settings.tools.iter().map(|(n, p)| (*n, (p[Axis::Z], None))).collect();
         Self {
-            library,
-            settings,
-            take,
-            programs: vec![Rc::new(program.clone())],
-            loaded: HashMap::new(),
             labels: HashMap::new(),
             stack: vec![Activation::main()],
             selected: None,
             variables: Variables::default(),
-            jumps: 0,
             frames: Frames::new(settings.work_offsets.get(&1)),
-            told: Frame::IDENTITY,
             modes,
             turned: [0.0; 3],
             pole: None,
@@ -176,45 +178,9 @@ impl<'r> Run<'r> {
             cycle: None,
             blank: None,
             tools,
-            problems: Diagnostics::new(),
-            errors: 0,
-            reported: HashSet::new(),
-            origin: Origin { program: 0, line: 1 },
-            start: 0,
+            line: Line::default(),
+            core,
         }
-    }
-
-    fn run(&mut self) -> bool {
-        self.emit_frame();
-        let mut line = Line::default();
-        while !self.settings.stop.is_asked() {
-            let Some(active) = self.stack.last() else { return true };
-            let (number, at) = (active.program, active.at);
-            let program = Rc::clone(&self.programs[number]);
-            self.origin = Origin { program: number as u32, line: active.line };
-            self.start = at;
-            let next = if at >= program.source().len() {
-                self.end_of_text(&program)
-            } else {
-                line.read(program.source(), program.dialect(), at);
-                if let Some(active) = self.stack.last_mut() {
-                    active.at = line.end;
-                    active.line = active.line.saturating_add(line.lines);
-                }
-                self.block(&program, &line)
-            };
-            match next {
-                Ok(Next::Finished) => return true,
-                Ok(_) => {}
-                Err(fault) => {
-                    self.report(fault);
-                    if !self.settings.keep_going || self.errors >= 100 || at >= line.end {
-                        return false;
-                    }
-                }
-            }
-        }
-        false
     }
 
     fn block(&mut self, program: &Program, line: &Line) -> Result<Next, Fault> {
@@ -222,12 +188,12 @@ impl<'r> Run<'r> {
             let message = "more than 10000 words in one block".to_owned();
             return Err(fault("too-many-words", line.start, message, "is this an NC program?"));
         }
-        if line.skip && !self.settings.skipped_blocks_too {
+        if line.skip && !self.core.settings.skipped_blocks_too {
             return Ok(Next::Following);
         }
-        let told = self.settings.tell_blocks;
+        let told = self.core.settings.tell_blocks;
         if told {
-            self.emit(Event::Block { text: line.start..line.end });
+            self.core.emit(Event::Block { text: line.start..line.end });
         }
         if line.tokens.is_empty() {
             return Ok(Next::Following);
@@ -237,55 +203,9 @@ impl<'r> Run<'r> {
         let next = self.statement(&mut cursor)?;
         cursor.finish()?;
         if steers {
-            self.emit(Event::Computed { text: line.start..line.end, value: None });
+            self.core.emit(Event::Computed { text: line.start..line.end, value: None });
         }
         Ok(next)
-    }
-
-    /// Reports a fault of the program that is being executed.
-    fn report(&mut self, fault: Fault) {
-        let place = self.place(fault.offset);
-        self.problems.error(fault.code, place, fault.message, fault.hint);
-        self.errors += 1;
-    }
-
-    fn place(&self, offset: usize) -> Place {
-        let program = &self.programs[self.origin.program as usize];
-        let mut places = Places::new(program);
-        if offset >= self.start {
-            places = Places::beginning(program, self.start, self.origin.line);
-        }
-        places.of(offset)
-    }
-
-    /// Warns once about each subject.
-    fn warn(&mut self, code: &'static str, subject: &str, at: usize, message: &str, hint: &str) {
-        // Hostile programs could fill the memory with warnings about ever new numbers.
-        if self.reported.len() < MOST_WARNINGS && self.reported.insert((code, subject.to_owned())) {
-            let place = self.place(at);
-            self.problems.warn(code, place, message.to_owned(), hint);
-        }
-    }
-
-    /// Warns once that something known is left out.
-    fn not_applied(&mut self, name: &str, at: usize) {
-        let message = format!("{name} is not applied");
-        let hint = "the moves that follow are those without it";
-        self.warn("not-applied", name, at, &message, hint);
-    }
-
-    fn emit(&mut self, event: Event) {
-        (self.take)(Step::Event(event, self.origin));
-    }
-
-    /// Tells the frame if it has changed.
-    fn emit_frame(&mut self) {
-        let frame = self.frames.frame();
-        if frame != self.told {
-            self.told = frame;
-            self.tangent = None;
-            self.emit(Event::Frame(frame));
-        }
     }
 
     /// A move of which every value is told; the place is kept.
@@ -311,7 +231,7 @@ impl<'r> Run<'r> {
                 self.frames.position.0[i] = *value;
             }
         }
-        (self.take)(Step::Move(step));
+        self.core.emit_move(step);
         Ok(())
     }
 
@@ -322,7 +242,7 @@ impl<'r> Run<'r> {
         for axis in Axis::ALL.into_iter().filter(|a| before[*a] != target[*a]) {
             named = named.with(axis);
         }
-        let mut step = Move::plain(kind, target, named, self.modes.feed, self.origin);
+        let mut step = Move::plain(kind, target, named, self.modes.feed, self.core.origin);
         if self.modes.shortest {
             step.ways = [Way::Shortest; 3];
         }

@@ -20,15 +20,12 @@ mod values;
 mod words;
 
 use std::cell::Cell;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::rc::Rc;
 
-use trueaxis_input::{Diagnostics, Place};
-
-use crate::execution::library::Library;
-use crate::execution::{Outcome, Settings};
-use crate::moves::{Event, Frame, Move, Origin, Step};
-use crate::text::program::{Block, Fault, Label, Places, Program, fault};
+use crate::execution::{Core, Language, Library, Next, Outcome, Settings};
+use crate::moves::{Move, Step};
+use crate::text::program::{Block, Fault, Label, Program, fault};
 use frames::Frames;
 use parameters::Locals;
 use quick::CodeTable;
@@ -41,21 +38,9 @@ pub(crate) fn interpret(
     settings: &Settings,
     take: &mut dyn FnMut(Step),
 ) -> Outcome {
-    let mut run = Run::new(program, library, settings, take);
-    let finished = run.run();
-    let programs = run.programs.iter().map(|p| p.file().to_owned()).collect();
-    Outcome { problems: run.problems, finished, programs }
-}
-
-/// What the next block is, after one was executed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Next {
-    /// The one that follows.
-    Following,
-    /// Wherever the current frame was sent.
-    Jumped,
-    /// None.
-    Finished,
+    let mut run = Run::new(program, Core::new(program, library, settings, take));
+    run.check_turn(run.frames.active, 0);
+    run.outcome()
 }
 
 /// A program that is being executed, and where.
@@ -80,28 +65,17 @@ struct Activation {
 
 /// One execution.
 struct Run<'r> {
-    library: &'r dyn Library,
-    settings: &'r Settings,
-    take: &'r mut dyn FnMut(Step),
-    programs: Vec<Rc<Program>>,
-    loaded: HashMap<String, usize>,
+    core: Core<'r>,
     stack: Vec<Activation>,
     globals: HashMap<u32, f64>,
     named: HashMap<String, f64>,
     returned: Option<f64>,
-    jumps: u64,
     frames: Frames,
-    /// What the receiver was told last.
-    told: Frame,
     modes: Modes,
     words: Words,
     codes: CodeTable,
-    problems: Diagnostics,
-    errors: usize,
-    reported: HashSet<(&'static str, u32)>,
-    origin: Origin,
-    /// Where the block begins that is being executed.
-    start: usize,
+    /// The block that is being executed.
+    block: Block,
     /// A tape mark opened the program: the next one closes it.
     opened: bool,
     /// A variable that only the running control knows was read: it counted as 0.
@@ -112,80 +86,71 @@ struct Run<'r> {
     remark: String,
 }
 
+impl<'r> Language<'r> for Run<'r> {
+    fn core(&mut self) -> &mut Core<'r> {
+        &mut self.core
+    }
+
+    fn advance(&mut self) -> Result<Next, Fault> {
+        let Some(top) = self.stack.last() else { return Ok(Next::Finished) };
+        let program = Rc::clone(&self.core.programs[top.program]);
+        if !self.core.settings.tell_blocks {
+            self.straight_lines(program.source());
+        }
+        let Some(top) = self.stack.last() else { return Ok(Next::Finished) };
+        let (number, at, line) = (top.program, top.at, top.line);
+        if at >= program.source().len() {
+            return self.end_of_text().map_err(|fault| self.core.for_good(fault));
+        }
+        self.core.begin(number, at, line);
+        let mut block = std::mem::take(&mut self.block);
+        let next = self.quick_or_block(&program, at, line, &mut block);
+        if let Ok(Next::Following) = next {
+            self.follow(&block);
+        }
+        self.block = block;
+        next
+    }
+
+    fn pass_over(&mut self) {
+        let block = std::mem::take(&mut self.block);
+        self.follow(&block);
+        self.block = block;
+        if self.core.program().dialect().o_words {
+            // LinuxCNC leaves all subs and goes on in the main program.
+            self.stack.truncate(1);
+        }
+    }
+
+    fn emit_frame(&mut self) {
+        self.core.emit_frame(self.frames.frame());
+    }
+}
+
 impl<'r> Run<'r> {
-    fn new(
-        program: &Program,
-        library: &'r dyn Library,
-        settings: &'r Settings,
-        take: &'r mut dyn FnMut(Step),
-    ) -> Self {
+    fn new(program: &Program, core: Core<'r>) -> Self {
+        let settings = core.settings;
         Self {
-            library,
-            settings,
-            take,
-            programs: vec![Rc::new(program.clone())],
-            loaded: HashMap::new(),
             stack: vec![Activation::new(0, 0, 1)],
             globals: HashMap::new(),
             named: HashMap::new(),
             returned: None,
-            jumps: 0,
             frames: Frames::new(settings.tools.clone(), &settings.work_offsets),
-            told: Frame::IDENTITY,
             modes: Modes::new(settings, program.dialect().macro_words),
             words: Words::default(),
             codes: quick::code_table(program.dialect()),
-            problems: Diagnostics::new(),
-            errors: 0,
-            reported: HashSet::new(),
-            origin: Origin { program: 0, line: 1 },
-            start: 0,
+            block: Block::default(),
             opened: false,
             guessed: Cell::new(None),
             called: None,
             remark: String::new(),
+            core,
         }
     }
 
-    fn run(&mut self) -> bool {
-        self.check_turn(self.frames.active, 0);
-        self.emit_frame();
-        let mut block = Block::default();
-        while !self.settings.stop.is_asked() {
-            let Some(frame) = self.stack.last() else { return true };
-            let program = Rc::clone(&self.programs[frame.program]);
-            if !self.settings.tell_blocks {
-                self.straight_lines(program.source());
-            }
-            let Some(frame) = self.stack.last() else { return true };
-            if frame.at >= program.source().len() {
-                match self.end_of_text() {
-                    Ok(true) => return true,
-                    Ok(false) => continue,
-                    Err(fault) => return self.report(fault),
-                }
-            }
-            let (number, at, line) = (frame.program, frame.at, frame.line);
-            self.start = at;
-            self.origin = Origin { program: number as u32, line };
-            match self.quick_or_block(&program, at, line, &mut block) {
-                Ok(Next::Finished) => return true,
-                Ok(Next::Following) => self.follow(&block),
-                Ok(Next::Jumped) => {}
-                Err(fault) => {
-                    self.report(fault);
-                    if !self.settings.keep_going || self.errors >= 100 {
-                        return false;
-                    }
-                    self.follow(&block);
-                    if program.dialect().o_words {
-                        // LinuxCNC leaves all subs and goes on in the main program.
-                        self.stack.truncate(1);
-                    }
-                }
-            }
-        }
-        false
+    /// The program is one of FANUC, not of LinuxCNC.
+    fn is_fanuc(&self) -> bool {
+        self.core.programs[0].dialect().macro_words
     }
 
     fn quick_or_block(
@@ -195,7 +160,7 @@ impl<'r> Run<'r> {
         line: u32,
         block: &mut Block,
     ) -> Result<Next, Fault> {
-        let quick = match self.settings.tell_blocks {
+        let quick = match self.core.settings.tell_blocks {
             true => None,
             false => self.quick(program.dialect(), program.source(), at),
         };
@@ -212,59 +177,14 @@ impl<'r> Run<'r> {
     }
 
     fn follow(&mut self, block: &Block) {
-        if let Some(frame) = self.stack.last_mut() {
-            frame.at = block.span.end;
-            frame.line = block.line + 1;
-        }
-    }
-
-    /// Reports a fault of the program that is being executed.
-    fn report(&mut self, fault: Fault) -> bool {
-        let place = self.place(fault.offset);
-        self.problems.error(fault.code, place, fault.message, fault.hint);
-        self.errors += 1;
-        false
-    }
-
-    fn place(&self, offset: usize) -> Place {
-        let program = &self.programs[self.origin.program as usize];
-        let mut places = Places::new(program);
-        if offset >= self.start {
-            places = Places::beginning(program, self.start, self.origin.line);
-        }
-        places.of(offset)
-    }
-
-    /// Warns once about each subject.
-    fn warn_once(
-        &mut self,
-        code: &'static str,
-        subject: u32,
-        offset: usize,
-        message: String,
-        hint: &str,
-    ) {
-        if self.reported.insert((code, subject)) {
-            let place = self.place(offset);
-            self.problems.warn(code, place, message, hint);
-        }
-    }
-
-    fn emit(&mut self, event: Event) {
-        (self.take)(Step::Event(event, self.origin));
-    }
-
-    /// Tells the frame if it has changed.
-    fn emit_frame(&mut self) {
-        let frame = self.frames.frame();
-        if frame != self.told {
-            self.told = frame;
-            self.emit(Event::Frame(frame));
+        if let Some(top) = self.stack.last_mut() {
+            top.at = block.span.end;
+            top.line = block.line + 1;
         }
     }
 
     fn emit_move(&mut self, step: Move) {
         self.frames.position = step.target;
-        (self.take)(Step::Move(step));
+        self.core.emit_move(step);
     }
 }

@@ -25,7 +25,7 @@ impl Run<'_> {
     pub(super) fn circle(&mut self, kind: usize, words: &Words, rapid: bool) -> Result<(), Fault> {
         if rapid {
             let message = "a circle with FMAX: its feed is that before it";
-            self.warn("rapid-circle", "", words.at, message, "write F");
+            self.core.warn("rapid-circle", "", words.at, message, "write F");
         }
         self.check_feed(words.at)?;
         let circle = match kind {
@@ -54,7 +54,10 @@ impl Run<'_> {
         let named = words.named().with(first).with(second);
         let target = circle.target;
         let kind = MoveKind::Arc(arc);
-        self.emit_move(Move::plain(kind, target, named, self.modes.feed, self.origin), words.at)?;
+        self.emit_move(
+            Move::plain(kind, target, named, self.modes.feed, self.core.origin),
+            words.at,
+        )?;
         let radial = [target[first] - circle.center[0], target[second] - circle.center[1]];
         let sign = if circle.ccw { 1.0 } else { -1.0 };
         let mut tangent = [0.0; 3];
@@ -113,7 +116,7 @@ impl Run<'_> {
             let swept = if sweep.incremental { sweep.value } else { sweep.value - angle };
             if sweep.incremental && swept != 0.0 && (swept > 0.0) != ccw {
                 let message = "IPA and DR have different signs: DR counts";
-                self.warn("contrary-signs", "IPA", words.at, message, "write the same sign");
+                self.core.warn("contrary-signs", "IPA", words.at, message, "write the same sign");
             }
             if sweep.incremental {
                 let count = (swept.abs() / 360.0 - 1e-9).ceil().max(1.0);
@@ -199,7 +202,7 @@ impl Run<'_> {
         };
         let message = format!("APPR {name} is moved as a line to its point");
         let hint = "the tangential part of the approach is missing";
-        self.warn("not-applied", &format!("APPR {name}"), words.at, &message, hint);
+        self.core.warn("not-applied", &format!("APPR {name}"), words.at, &message, hint);
         if !rapid {
             self.check_feed(words.at)?;
         }

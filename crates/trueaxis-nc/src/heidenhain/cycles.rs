@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use super::flow::Next;
 use super::frames::{Transformation, turn_about};
 use super::line::Cursor;
 use super::variables::{Stored, Variable};
 use super::words::Words;
-use super::{Run, fault};
+use super::{Language, Run, fault};
+use crate::execution::Next;
 use crate::moves::{Axis, Event, Frame, MoveKind, PathControl};
 use crate::text::program::Fault;
 
@@ -62,7 +62,7 @@ impl Run<'_> {
             }
             13 => {
                 let angle_deg = self.labelled_value(c)?;
-                self.emit(Event::SpindleOrient { angle_deg });
+                self.core.emit(Event::SpindleOrient { angle_deg });
                 Ok(())
             }
             19 => self.cycle_19(c),
@@ -88,7 +88,7 @@ impl Run<'_> {
             self.value(c)?;
             let message = "the datum comes from a table that is not read here";
             let hint = "write its values into the program";
-            self.warn("not-applied", "datum table", at, message, hint);
+            self.core.warn("not-applied", "datum table", at, message, hint);
             return Ok(());
         }
         let words = self.words(c)?;
@@ -111,7 +111,7 @@ impl Run<'_> {
             return Err(fault("bad-transformation", at, message, "check its numbers"));
         }
         if tilted {
-            self.emit(Event::Note("transformation within the tilted plane"));
+            self.core.emit(Event::Note("transformation within the tilted plane"));
         }
         self.emit_frame();
         Ok(())
@@ -183,7 +183,7 @@ impl Run<'_> {
         }
         if c.accept("TABLE") {
             c.leave();
-            self.not_applied("TRANS DATUM TABLE", at);
+            self.core.left_out("TRANS DATUM TABLE", at);
             return Ok(());
         }
         c.accept("AXIS");
@@ -201,11 +201,11 @@ impl Run<'_> {
             let tolerance_mm = if c.accept("T") { self.value(c)? * self.unit_mm() } else { 0.0 };
             let control =
                 if tolerance_mm > 0.0 { PathControl::Continuous } else { PathControl::ExactPath };
-            self.emit(Event::Path { control, tolerance_mm });
+            self.core.emit(Event::Path { control, tolerance_mm });
             return Ok(());
         }
         c.leave();
-        self.emit(Event::Note("cycle 32: HSC mode and angular tolerance"));
+        self.core.emit(Event::Note("cycle 32: HSC mode and angular tolerance"));
         Ok(())
     }
 
@@ -257,7 +257,7 @@ impl Run<'_> {
         }
         let message = format!("cycle {number} is not executed: its moves are missing");
         let hint = "let the CAM system write its moves out";
-        self.warn("cycle-not-executed", &number.to_string(), at, &message, hint);
+        self.core.warn("cycle-not-executed", &number.to_string(), at, &message, hint);
         if !matches!(number, 14 | 20 | 220 | 221 | 392 | 400..=499) {
             self.cycle = Some(Cycle::Missing);
         }
@@ -284,14 +284,14 @@ impl Run<'_> {
             return Err(fault("bad-work-offset", at, message, "write Q339=+1"));
         };
         let index = number as u32;
-        let frame = self.settings.work_offsets.get(&index).copied();
+        let frame = self.core.settings.work_offsets.get(&index).copied();
         let frame = frame.unwrap_or(Frame::IDENTITY);
         if self.frames.set_preset(frame).is_none() {
             let message = format!("preset {index} leaves no space to move in");
             return Err(fault("bad-transformation", at, message, "check the table of presets"));
         }
         let rotation_deg = frame.linear[1][0].atan2(frame.linear[0][0]).to_degrees();
-        self.emit(Event::WorkOffset { index, offset: frame.shift, rotation_deg });
+        self.core.emit(Event::WorkOffset { index, offset: frame.shift, rotation_deg });
         self.emit_frame();
         Ok(())
     }
@@ -306,13 +306,13 @@ impl Run<'_> {
             return Ok(Next::Finished);
         }
         if kind == Some(1) {
-            self.not_applied("CYCL CALL PAT: holes of a pattern", at);
+            self.core.left_out("CYCL CALL PAT: holes of a pattern", at);
             return Ok(Next::Following);
         }
         if kind == Some(0) {
             let along = self.along();
             if words.axes[along as usize].take().is_some_and(|w| w.value != 0.0) {
-                self.not_applied("the height in CYCL CALL POS", at);
+                self.core.left_out("the height in CYCL CALL POS", at);
             }
             let target = words.target(&self.frames.position);
             let kind = if rapid { MoveKind::Rapid } else { MoveKind::Linear };

@@ -61,7 +61,7 @@ impl Run<'_> {
         }
         for (q, what) in LEFT_OUT {
             if values.get(&q).is_some_and(|v| *v != 0.0) && !old {
-                self.not_applied(&format!("Q{q} of cycle {number}: {what}"), at);
+                self.core.left_out(&format!("Q{q} of cycle {number}: {what}"), at);
             }
         }
         let rigid = matches!(number, 17 | 207 | 209);
@@ -212,8 +212,8 @@ impl Run<'_> {
         self.go(MoveKind::Linear, hole.bottom, hole.feed, at)?;
         self.wait(hole.dwell_bottom, at)?;
         if hole.number == 202 {
-            self.emit(Event::SpindleOrient { angle_deg: hole.angle_deg });
-            self.not_applied("the lift-off from the wall in cycle 202", at);
+            self.core.emit(Event::SpindleOrient { angle_deg: hole.angle_deg });
+            self.core.left_out("the lift-off from the wall in cycle 202", at);
         }
         self.go(MoveKind::Linear, hole.start, hole.feed_out, at)
     }

@@ -109,7 +109,7 @@ impl Run<'_> {
                     let message = format!("M{} is not known", called.number);
                     let hint = "a function of the machine builder? its moves are missing";
                     let subject = called.number.to_string();
-                    self.warn("unknown-m-code", &subject, called.at, &message, hint);
+                    self.core.warn("unknown-m-code", &subject, called.at, &message, hint);
                 }
                 continue;
             };
@@ -122,9 +122,9 @@ impl Run<'_> {
 
     fn effect(&mut self, effect: Effect, called: &Called, words: &Words) -> Result<bool, Fault> {
         match effect {
-            Effect::Stop(optional) => self.emit(Event::Stop { optional }),
+            Effect::Stop(optional) => self.core.emit(Event::Stop { optional }),
             Effect::End => {
-                self.emit(Event::End);
+                self.core.emit(Event::End);
                 return Ok(true);
             }
             Effect::Spindle(turning) => self.spindle(turning),
@@ -139,8 +139,8 @@ impl Run<'_> {
             Effect::PerRevolution(on) => self.per_revolution(on, words),
             Effect::Retract => self.retract(called)?,
             Effect::CycleEverywhere => self.modes.cycle_everywhere = true,
-            Effect::Note(name) => self.emit(Event::Note(name)),
-            Effect::NotApplied(name) => self.not_applied(name, called.at),
+            Effect::Note(name) => self.core.emit(Event::Note(name)),
+            Effect::NotApplied(name) => self.core.left_out(name, called.at),
             Effect::WithBlock => {}
         }
         Ok(false)
@@ -148,12 +148,12 @@ impl Run<'_> {
 
     pub(super) fn spindle(&mut self, turning: Turning) {
         self.modes.turning = turning;
-        self.emit(Event::Spindle(turning));
+        self.core.emit(Event::Spindle(turning));
     }
 
     fn coolant(&mut self, coolant: Coolant) {
         self.modes.coolant = coolant != Coolant::Off;
-        self.emit(Event::Coolant(coolant));
+        self.core.emit(Event::Coolant(coolant));
     }
 
     /// M128, FUNCTION TCPM, and their ends; TCPM also says how the tool turns.
@@ -164,11 +164,11 @@ impl Run<'_> {
             self.modes.space_angles = false;
             self.direction = None;
         }
-        self.emit(Event::ToolCentre(on));
+        self.core.emit(Event::ToolCentre(on));
         let path = path.unwrap_or(OrientationPath::Axes);
         if on && path != self.modes.orientation {
             self.modes.orientation = path;
-            self.emit(Event::Orientation(path));
+            self.core.emit(Event::Orientation(path));
         }
     }
 
@@ -205,7 +205,7 @@ impl Run<'_> {
         let Some(length_mm) = called.value.filter(|v| v.is_finite()) else {
             let message = "M140 MB MAX goes to the end of the travel, which is not known here";
             let hint = "the retraction is missing; write MB with a length";
-            self.warn("not-applied", "M140", called.at, message, hint);
+            self.core.warn("not-applied", "M140", called.at, message, hint);
             return Ok(());
         };
         let rotary = self.frames.position.0[3..6].iter().any(|v| *v != 0.0);
@@ -214,7 +214,7 @@ impl Run<'_> {
             _ if rotary && !self.frames.is_tilted() => {
                 let message = "M140 with turned axes: the tool axis is not known here";
                 let hint = "the retraction is missing";
-                self.warn("not-applied", "M140 turned", called.at, message, hint);
+                self.core.warn("not-applied", "M140 turned", called.at, message, hint);
                 return Ok(());
             }
             _ => {
@@ -229,7 +229,7 @@ impl Run<'_> {
         }
         let kind = if called.feed.is_some() { MoveKind::Linear } else { MoveKind::Rapid };
         let named = crate::moves::AxisSet::XYZ;
-        let mut step = Move::plain(kind, target, named, self.modes.feed, self.origin);
+        let mut step = Move::plain(kind, target, named, self.modes.feed, self.core.origin);
         if let Some(value) = called.feed {
             if value <= 0.0 {
                 return Err(fault("zero-feed", called.at, "a feed of zero", "write F100"));

@@ -1,11 +1,11 @@
 //! Path blocks: L, LP, LN, CC and what all of them have in common.
 
-use super::flow::Next;
 use super::functions::unit;
 use super::line::Cursor;
 use super::plane::spatial;
 use super::words::{FeedWord, Words};
 use super::{Run, fault};
+use crate::execution::Next;
 use crate::moves::{
     Axis, AxisSet, CompensationSide, Coordinates, Event, Feed, FeedMode, Move, MoveKind, Position,
     Way,
@@ -56,7 +56,13 @@ impl Run<'_> {
                     return Err(fault("missing-value", words.at, message, "write RND R5 or CHF 2"));
                 }
                 let message = format!("{name} is not applied: the corner is kept");
-                self.warn("not-applied", name, words.at, &message, "the path has a sharp corner");
+                self.core.warn(
+                    "not-applied",
+                    name,
+                    words.at,
+                    &message,
+                    "the path has a sharp corner",
+                );
             }
             _ => return self.travel(kind, form, &words).map(Some),
         }
@@ -117,18 +123,18 @@ impl Run<'_> {
     fn end_compensation(&mut self) {
         if self.modes.side != CompensationSide::Off {
             self.modes.side = CompensationSide::Off;
-            self.emit(Event::Compensation(CompensationSide::Off));
+            self.core.emit(Event::Compensation(CompensationSide::Off));
         }
     }
 
     fn compensation(&mut self, words: &Words) {
         let Some(side) = words.side.filter(|s| *s != self.modes.side) else { return };
         self.modes.side = side;
-        self.emit(Event::Compensation(side));
+        self.core.emit(Event::Compensation(side));
         if side != CompensationSide::Off {
             let message = "radius compensation is noted, not applied";
             let hint = "the moves are those of the program; let the CAM system compensate";
-            self.warn("compensation-not-applied", "", words.at, message, hint);
+            self.core.warn("compensation-not-applied", "", words.at, message, hint);
         }
     }
 
@@ -143,7 +149,7 @@ impl Run<'_> {
             Some(FeedWord::PerRevolution(value)) => Feed { mode: FeedMode::PerRevolution, value },
             Some(FeedWord::PerTooth(value)) => {
                 let message = "FZ: the number of teeth is not known, one is taken";
-                self.warn("feed-per-tooth", "", words.at, message, "write FU or F instead");
+                self.core.warn("feed-per-tooth", "", words.at, message, "write FU or F instead");
                 Feed { mode: FeedMode::PerRevolution, value }
             }
         };
@@ -202,7 +208,7 @@ impl Run<'_> {
             named.0 &= !0b11_1000;
         }
         let kind = if rapid { MoveKind::Rapid } else { MoveKind::Linear };
-        let mut step = Move::plain(kind, target, named, self.modes.feed, self.origin);
+        let mut step = Move::plain(kind, target, named, self.modes.feed, self.core.origin);
         step.direction = direction;
         for (i, axis) in rotary.into_iter().enumerate() {
             let increment = words.axes[axis as usize].is_some_and(|w| w.incremental);
@@ -232,7 +238,7 @@ impl Run<'_> {
     fn machine_line(&mut self, words: &Words, rapid: bool) -> Result<(), Fault> {
         if words.calls(92) {
             let message = "M92 is read as M91: its datum is known to the machine only";
-            self.warn("not-applied", "M92", words.at, message, "check where the tool goes");
+            self.core.warn("not-applied", "M92", words.at, message, "check where the tool goes");
         }
         if !rapid {
             self.check_feed(words.at)?;
@@ -240,7 +246,7 @@ impl Run<'_> {
         let machine = words.target(&self.machine_place());
         let named = words.named();
         let kind = if rapid { MoveKind::Rapid } else { MoveKind::Linear };
-        let mut step = Move::plain(kind, machine, named, self.modes.feed, self.origin);
+        let mut step = Move::plain(kind, machine, named, self.modes.feed, self.core.origin);
         step.coordinates = Coordinates::Machine;
         self.emit_move(step, words.at)?;
         let mut place = machine;
@@ -267,11 +273,17 @@ impl Run<'_> {
         if normal.is_some() {
             let message = "LN: the normal is noted, 3D compensation is not applied";
             let hint = "the moves are those of the program";
-            self.warn("not-applied", "LN normal", words.at, message, hint);
+            self.core.warn("not-applied", "LN normal", words.at, message, hint);
         }
         if tool.is_some() && !self.modes.tool_centre {
             let message = "LN with a tool direction, but M128 or FUNCTION TCPM is not on";
-            self.warn("direction-without-tcp", "", words.at, message, "write FUNCTION TCPM before");
+            self.core.warn(
+                "direction-without-tcp",
+                "",
+                words.at,
+                message,
+                "write FUNCTION TCPM before",
+            );
         }
         let target = words.target(&self.frames.position);
         self.line_to(target, words, rapid, tool)

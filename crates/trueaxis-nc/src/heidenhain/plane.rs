@@ -5,7 +5,7 @@ use super::functions::unit;
 use super::line::Cursor;
 use super::variables::{Stored, Variable};
 use super::words::{FeedWord, split_address};
-use super::{Run, fault};
+use super::{Language, Run, fault};
 use crate::moves::{Axis, Branch, Event, MoveKind};
 use crate::text::program::Fault;
 
@@ -151,16 +151,16 @@ impl Run<'_> {
                 if !c.accept("ROT") {
                     return Err(c.unknown());
                 }
-                self.emit(Event::Note("choice of TABLE ROT or COORD ROT"));
+                self.core.emit(Event::Note("choice of TABLE ROT or COORD ROT"));
             } else if c.accept_any(&["DIST", "ABST"]).is_some() {
                 if self.value(c)? != 0.0 {
-                    self.not_applied("DIST of PLANE", at);
+                    self.core.left_out("DIST of PLANE", at);
                 }
             } else if c.accept("MB") {
                 if !c.accept("MAX") {
                     self.value(c)?;
                 }
-                self.not_applied("MB (retraction before the turn) of PLANE", at);
+                self.core.left_out("MB (retraction before the turn) of PLANE", at);
             } else if c.accept_any(&["FMAX", "FAUTO"]).is_none() {
                 match split_address(c) {
                     Some("F") => {
@@ -186,13 +186,13 @@ impl Run<'_> {
         };
         set.ok_or_else(|| no_plane(at))?;
         self.tangent = None;
-        self.emit(Event::TiltedPlane(turn.is_some()));
+        self.core.emit(Event::TiltedPlane(turn.is_some()));
         self.emit_frame();
         let frame = self.frames.frame();
         let axis = frame.vector([0.0, 0.0, 1.0]);
         let now = frame.place(&self.frames.position);
         let angles = match unit(axis) {
-            Some(axis) => self.library.rotary_angles(axis, behaviour.branch, &now),
+            Some(axis) => self.core.library.rotary_angles(axis, behaviour.branch, &now),
             None => None,
         };
         let angles = if turn.is_none() { angles.or(Some([0.0; 3])) } else { angles };

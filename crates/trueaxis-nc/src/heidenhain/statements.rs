@@ -1,10 +1,10 @@
 //! What a block begins with, and the statements that move nothing.
 
-use super::flow::Next;
 use super::line::Cursor;
 use super::variables::{Stored, Variable};
 use super::words::{Words, split_address};
 use super::{Run, fault};
+use crate::execution::{Next, mistakes};
 use crate::moves::{Axis, Event, MoveKind, OrientationPath};
 use crate::text::program::Fault;
 
@@ -64,7 +64,7 @@ impl Run<'_> {
             return self.cycle_statement(c);
         }
         if c.accept("STOP") {
-            self.emit(Event::Stop { optional: false });
+            self.core.emit(Event::Stop { optional: false });
             let words = self.words(c)?;
             return self.block_without_move(&words);
         }
@@ -108,7 +108,7 @@ impl Run<'_> {
         if NOTED.iter().any(|word| c.is(word)) {
             let name = c.shown().to_ascii_uppercase();
             c.leave();
-            self.not_applied(&name, at);
+            self.core.left_out(&name, at);
             return Ok(());
         }
         Err(c.unknown())
@@ -127,12 +127,11 @@ impl Run<'_> {
             9..=12 => self.branch(c),
             14 => {
                 let shown = c.rest();
-                let message = format!("the program ends itself: FN 14 {shown}");
-                Err(fault("program-error", at, message, "see the condition before it"))
+                Err(mistakes::alarm(&shown, at))
             }
             15 | 16 => {
                 let text = c.rest();
-                self.emit(Event::Log(text));
+                self.core.emit(Event::Log(text));
                 Ok(Next::Following)
             }
             18 => {
@@ -150,7 +149,7 @@ impl Run<'_> {
             }
             17 | 19 | 20 | 26 | 27 | 29 | 32 | 37 | 38 => {
                 c.leave();
-                self.not_applied(&format!("FN {number}"), at);
+                self.core.left_out(&format!("FN {number}"), at);
                 Ok(Next::Following)
             }
             _ => {
@@ -260,7 +259,7 @@ impl Run<'_> {
                 self.tool_centre(false, None);
             } else {
                 let name = format!("FUNCTION RESET {}", c.rest());
-                self.not_applied(&name, at);
+                self.core.left_out(&name, at);
             }
             return Ok(());
         }
@@ -273,11 +272,11 @@ impl Run<'_> {
         }
         if c.accept("MODE") && c.accept("MILL") {
             c.leave();
-            self.emit(Event::Note("FUNCTION MODE MILL"));
+            self.core.emit(Event::Note("FUNCTION MODE MILL"));
             return Ok(());
         }
         let name = format!("FUNCTION {}", c.rest());
-        self.not_applied(&name, at);
+        self.core.left_out(&name, at);
         Ok(())
     }
 
@@ -304,7 +303,7 @@ impl Run<'_> {
                 c.take_letters(6);
                 c.accept_symbol(b'-');
                 if !tip && !centre || c.accept_any(&["TIP", "CENTER"]) != Some(0) {
-                    self.not_applied("REFPNT CENTER-CENTER", at);
+                    self.core.left_out("REFPNT CENTER-CENTER", at);
                     c.leave();
                 }
             } else if split_address(c) == Some("F") {

@@ -24,12 +24,18 @@ impl Run<'_> {
             None => None,
         };
         if let Some(name) = name {
-            let number = self.settings.tool_names.get(&name).copied();
+            let number = self.core.settings.tool_names.get(&name).copied();
             if number.is_none() {
                 let message = format!("the tool `{name}` is not known: number 0 is taken");
-                self.warn("unknown-tool-name", &name, at, &message, "give a tool table with names");
+                self.core.warn(
+                    "unknown-tool-name",
+                    &name,
+                    at,
+                    &message,
+                    "give a tool table with names",
+                );
             }
-            self.emit(Event::ToolName(name));
+            self.core.emit(Event::ToolName(name));
             return Ok(Some(number.unwrap_or(0)));
         }
         match self.operand(c)? {
@@ -76,7 +82,7 @@ impl Run<'_> {
             self.change_tool(number, excess, at, axis_given)?;
         }
         if let Some(speed) = speed {
-            self.emit(Event::SpindleSpeed(speed));
+            self.core.emit(Event::SpindleSpeed(speed));
         }
         if let Some(super::words::FeedWord::PerMinute(value)) = feed {
             self.modes.feed_of_tool = value;
@@ -101,7 +107,7 @@ impl Run<'_> {
         if plane != self.modes.plane {
             self.modes.plane = plane;
             self.pole = None;
-            self.emit(Event::Plane(plane));
+            self.core.emit(Event::Plane(plane));
         }
     }
 
@@ -119,7 +125,7 @@ impl Run<'_> {
         if entry.is_none() && number != 0 {
             let message = format!("the length of tool {number} is not known: 0 is taken");
             let hint = "give a tool table, or write TOOL DEF with L and R";
-            self.warn("unknown-tool-length", &number.to_string(), at, &message, hint);
+            self.core.warn("unknown-tool-length", &number.to_string(), at, &message, hint);
         }
         let (length, radius) = entry.unwrap_or((0.0, None));
         self.modes.tool = number;
@@ -130,10 +136,10 @@ impl Run<'_> {
         self.frames.position[along] += self.modes.tool_length_mm - length_mm;
         self.modes.tool_length_mm = length_mm;
         self.tangent = None;
-        self.emit(Event::ToolChange(number));
+        self.core.emit(Event::ToolChange(number));
         let mut length = Position::default();
         length[along] = length_mm;
-        self.emit(Event::ToolLength(length));
+        self.core.emit(Event::ToolLength(length));
         Ok(())
     }
 
@@ -145,7 +151,7 @@ impl Run<'_> {
             return Err(fault("bad-tool", at, message, "write TOOL DEF 1 L+0 R+5"));
         };
         if c.done() {
-            self.emit(Event::ToolSelect(number));
+            self.core.emit(Event::ToolSelect(number));
             return Ok(());
         }
         let (mut length, mut radius) = (0.0, None);
@@ -172,7 +178,7 @@ impl Run<'_> {
             _ => {
                 let name = c.shown().to_ascii_uppercase();
                 c.leave();
-                self.not_applied(&format!("BLK FORM {name}"), at);
+                self.core.left_out(&format!("BLK FORM {name}"), at);
                 return Ok(());
             }
         };
@@ -199,7 +205,13 @@ impl Run<'_> {
         }
         if self.blank.is_none() {
             let message = "BLK FORM 0.2 without 0.1: the other corner is taken as zero";
-            self.warn("blank-without-corner", "blank", at, message, "write BLK FORM 0.1 before it");
+            self.core.warn(
+                "blank-without-corner",
+                "blank",
+                at,
+                message,
+                "write BLK FORM 0.1 before it",
+            );
         }
         self.blank = None;
         if !place.iter().chain(&first).all(|v| v.abs() < 1e9) {
@@ -208,7 +220,7 @@ impl Run<'_> {
         }
         let min_mm = std::array::from_fn(|i| first[i].min(place[i]));
         let max_mm = std::array::from_fn(|i| first[i].max(place[i]));
-        self.emit(Event::Stock { min_mm, max_mm });
+        self.core.emit(Event::Stock { min_mm, max_mm });
         Ok(())
     }
 }

@@ -30,9 +30,9 @@ impl Run<'_> {
             None => match self.variable(c)? {
                 Some(variable) => {
                     let read = self.read(variable, at)?;
-                    if self.settings.tell_blocks {
+                    if self.core.settings.tell_blocks {
                         let value = Some(if negative { -read } else { read });
-                        self.emit(Event::Computed { text: at..c.offset(), value });
+                        self.core.emit(Event::Computed { text: at..c.offset(), value });
                     }
                     Some(read)
                 }

@@ -46,7 +46,7 @@ impl Run<'_> {
         let hole = self.hole(cycle, at)?;
         self.check_depth(hole.axis, at);
         let repeats = self.words.take(b'L').or_else(|| {
-            let fanuc = self.programs[0].dialect().macro_words;
+            let fanuc = self.is_fanuc();
             if fanuc { self.words.take(b'K') } else { None }
         });
         let repeats = repeats.unwrap_or(1.0);
@@ -97,7 +97,7 @@ impl Run<'_> {
             self.modes.cycle.initial_mm = Some(now);
         }
         let incremental = self.modes.incremental;
-        let fanuc = self.programs[0].dialect().macro_words;
+        let fanuc = self.is_fanuc();
         // FANUC counts R from where the cycles began, LinuxCNC from where the drill is.
         let base = self.modes.cycle.initial_mm.filter(|_| fanuc).unwrap_or(now);
         let r_word = self.length(b'R').map(|r| if incremental { r + base } else { r });
@@ -153,12 +153,12 @@ impl Run<'_> {
                     Turning::CounterClockwise => Turning::Clockwise,
                     Turning::Stopped => Turning::Stopped,
                 };
-                self.emit(Event::Spindle(Turning::Stopped));
-                self.emit(Event::Spindle(back));
+                self.core.emit(Event::Spindle(Turning::Stopped));
+                self.core.emit(Event::Spindle(back));
                 self.wait(hole);
                 self.along(MoveKind::Linear, place, hole, hole.clear);
-                self.emit(Event::Spindle(Turning::Stopped));
-                self.emit(Event::Spindle(turning));
+                self.core.emit(Event::Spindle(Turning::Stopped));
+                self.core.emit(Event::Spindle(turning));
             }
             Cycle::Bore | Cycle::BoreDwell => {
                 if cycle == Cycle::BoreDwell {
@@ -171,16 +171,16 @@ impl Run<'_> {
             }
             Cycle::BoreManual => {
                 self.wait(hole);
-                self.emit(Event::Spindle(Turning::Stopped));
-                self.emit(Event::Stop { optional: false });
+                self.core.emit(Event::Spindle(Turning::Stopped));
+                self.core.emit(Event::Stop { optional: false });
                 self.along(MoveKind::Rapid, place, hole, hole.clear);
-                self.emit(Event::Spindle(turning));
+                self.core.emit(Event::Spindle(turning));
             }
             Cycle::BoreStop | Cycle::FineBore => {
                 self.wait(hole);
-                self.emit(Event::Spindle(Turning::Stopped));
+                self.core.emit(Event::Spindle(Turning::Stopped));
                 self.along(MoveKind::Rapid, place, hole, hole.clear);
-                self.emit(Event::Spindle(turning));
+                self.core.emit(Event::Spindle(turning));
             }
             _ => {
                 if cycle == Cycle::DrillDwell {
@@ -197,18 +197,18 @@ impl Run<'_> {
         let mut beside = place;
         beside[self.modes.plane.axes()[0]] += hole.peck;
         let turning = self.modes.turning;
-        self.emit(Event::SpindleOrient { angle_deg: 0.0 });
+        self.core.emit(Event::SpindleOrient { angle_deg: 0.0 });
         self.step(MoveKind::Rapid, beside);
         self.along(MoveKind::Rapid, beside, hole, hole.r);
         self.along(MoveKind::Rapid, place, hole, hole.r);
-        self.emit(Event::Spindle(turning));
+        self.core.emit(Event::Spindle(turning));
         self.along(MoveKind::Linear, place, hole, hole.bottom);
         self.wait(hole);
-        self.emit(Event::SpindleOrient { angle_deg: 0.0 });
+        self.core.emit(Event::SpindleOrient { angle_deg: 0.0 });
         self.along(MoveKind::Rapid, beside, hole, hole.bottom);
         self.step(MoveKind::Rapid, beside);
         self.step(MoveKind::Rapid, place);
-        self.emit(Event::Spindle(turning));
+        self.core.emit(Event::Spindle(turning));
     }
 
     fn wait(&mut self, hole: &Hole) {

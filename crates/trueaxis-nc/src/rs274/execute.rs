@@ -8,16 +8,16 @@ use crate::text::program::{Block, Fault, Item, Keyword, Label, Program};
 impl Run<'_> {
     /// Executes one block.
     pub(super) fn block(&mut self, program: &Program, block: &Block) -> Result<Next, Fault> {
-        if block.skip.is_some() && !self.settings.skipped_blocks_too {
+        if block.skip.is_some() && !self.core.settings.skipped_blocks_too {
             return Ok(Next::Following);
         }
         if let Some(first) = block.faults.first() {
             for later in &block.faults[1..] {
-                self.report(later.clone());
+                self.core.report(later.clone());
             }
             return Err(first.clone());
         }
-        if self.settings.tell_blocks {
+        if self.core.settings.tell_blocks {
             return self.told_block(program, block);
         }
         self.sound_block(program, block)
@@ -68,7 +68,7 @@ impl Run<'_> {
 
     fn tape_mark(&mut self) -> Next {
         if std::mem::replace(&mut self.opened, true) {
-            self.emit(Event::End);
+            self.core.emit(Event::End);
             return Next::Finished;
         }
         Next::Following
@@ -133,7 +133,7 @@ impl Run<'_> {
                     self.act(Action::WorkOffsetFurther, *at)?;
                 }
                 Action::Approach => {
-                    self.emit(Event::Note("G60 approach from one side"));
+                    self.core.emit(Event::Note("G60 approach from one side"));
                     self.motion(Motion::Rapid, machine, *at)?;
                     moved = true;
                 }
@@ -158,7 +158,7 @@ impl Run<'_> {
 
     /// The motion lasts; G31 of FANUC is for one block.
     fn select_motion(&mut self, motion: Motion) {
-        if motion == Motion::Probe && self.programs[0].dialect().macro_words {
+        if motion == Motion::Probe && self.is_fanuc() {
             return;
         }
         self.modes.motion = Some(motion);
@@ -174,7 +174,7 @@ impl Run<'_> {
         actions: &[(Action, usize)],
         block: &Block,
     ) -> Result<bool, Fault> {
-        if !self.programs[0].dialect().macro_words {
+        if !self.is_fanuc() {
             return Ok(false);
         }
         if !actions.iter().any(|(a, _)| a.rank() == Action::ToolLength.rank()) {
@@ -196,12 +196,12 @@ impl Run<'_> {
             _ => None,
         });
         let Some((inches, at)) = units else { return };
-        if self.programs[0].dialect().macro_words {
+        if self.is_fanuc() {
             self.modes.inches = inches;
         } else if self.words.look(b'F').is_some() {
             let message = "F counts in the units before this block".to_owned();
             let hint = "write G20 or G21 in a block before F";
-            self.warn_once("feed-before-units", 0, at, message, hint);
+            self.core.warn("feed-before-units", 0, at, message, hint);
         }
     }
 
@@ -237,7 +237,7 @@ impl Run<'_> {
         }
         if let Some(speed) = self.words.take(b'S') {
             self.modes.speed = speed;
-            self.emit(Event::SpindleSpeed(speed));
+            self.core.emit(Event::SpindleSpeed(speed));
         }
         let at = self.words.place(b'T');
         if let Some(tool) = self.words.take(b'T') {
@@ -246,7 +246,7 @@ impl Run<'_> {
                 return Err(fault("bad-tool", at.max(block.span.start), message, "write T1"));
             }
             self.modes.selected = tool as u32;
-            self.emit(Event::ToolSelect(tool as u32));
+            self.core.emit(Event::ToolSelect(tool as u32));
         }
         Ok(())
     }
@@ -263,7 +263,7 @@ impl Run<'_> {
             Action::Dwell => self.dwell(at)?,
             Action::Plane(plane) => {
                 self.modes.plane = plane;
-                self.emit(Event::Plane(plane));
+                self.core.emit(Event::Plane(plane));
             }
             Action::Inches(inches) => self.modes.inches = inches,
             Action::Diameter(diameter) => self.modes.diameter = diameter,
@@ -280,13 +280,13 @@ impl Run<'_> {
             Action::Spindle(_) | Action::Orient | Action::SurfaceSpeed(_) | Action::ToolChange => {
                 self.spindle(action);
             }
-            Action::Coolant(coolant) => self.emit(Event::Coolant(coolant)),
-            Action::Stop(optional) => self.emit(Event::Stop { optional }),
+            Action::Coolant(coolant) => self.core.emit(Event::Coolant(coolant)),
+            Action::Stop(optional) => self.core.emit(Event::Stop { optional }),
             Action::End => {
-                self.emit(Event::End);
+                self.core.emit(Event::End);
                 return Ok(true);
             }
-            Action::Kinematics(on) => self.emit(Event::ToolCentre(on)),
+            Action::Kinematics(on) => self.core.emit(Event::ToolCentre(on)),
             Action::ModalMacroOff => {
                 self.modes.macros.pop();
             }
@@ -309,19 +309,17 @@ impl Run<'_> {
         match action {
             Action::Note(name) => {
                 self.words.take_parameters();
-                self.emit(Event::Note(name));
+                self.core.emit(Event::Note(name));
             }
             Action::NoteWhole(name) => {
                 let _ = self.words.take_all();
-                self.emit(Event::Note(name));
+                self.core.emit(Event::Note(name));
             }
             Action::NotApplied(name) | Action::NotAppliedAlone(name) => {
                 if matches!(action, Action::NotApplied(_)) {
                     let _ = self.words.take_all();
                 }
-                let message = format!("{name} is not applied");
-                let hint = "the moves that follow are those without it";
-                self.warn_once("not-applied", hash(name), at, message, hint);
+                self.core.left_out(name, at);
             }
             _ => {}
         }
@@ -332,31 +330,31 @@ impl Run<'_> {
             Action::Spindle(turning) => {
                 self.modes.turning = turning;
                 self.words.take(b'P');
-                self.emit(Event::Spindle(turning));
+                self.core.emit(Event::Spindle(turning));
             }
             Action::Orient => {
                 let angle_deg = self.words.take(b'R').unwrap_or(0.0);
                 self.words.take(b'P');
                 self.words.take(b'Q');
-                self.emit(Event::SpindleOrient { angle_deg });
+                self.core.emit(Event::SpindleOrient { angle_deg });
             }
             Action::ToolChange => {
                 self.modes.tool = self.modes.selected;
                 self.modes.turning = Turning::Stopped;
-                self.emit(Event::ToolChange(self.modes.tool));
+                self.core.emit(Event::ToolChange(self.modes.tool));
             }
             Action::SurfaceSpeed(on) => {
                 self.words.take(b'D');
                 let name =
                     if on { "G96 constant surface speed" } else { "G97 revolutions per minute" };
-                self.emit(Event::Note(name));
+                self.core.emit(Event::Note(name));
             }
             _ => {}
         }
     }
 
     fn dwell(&mut self, at: usize) -> Result<(), Fault> {
-        let macro_words = self.programs[0].dialect().macro_words;
+        let macro_words = self.is_fanuc();
         let seconds = match self.words.take(b'P') {
             // FANUC counts P in milliseconds and X in seconds.
             Some(p) if macro_words => Some(p / 1000.0),
@@ -380,11 +378,11 @@ impl Run<'_> {
         }
         self.words.take(b'L');
         self.modes.compensation = side;
-        self.emit(Event::Compensation(side));
+        self.core.emit(Event::Compensation(side));
         if side != CompensationSide::Off {
             let message = "radius compensation is noted, not applied".to_owned();
             let hint = "the moves are those of the program; let the CAM system compensate";
-            self.warn_once("compensation-not-applied", 0, at, message, hint);
+            self.core.warn("compensation-not-applied", 0, at, message, hint);
         }
     }
 
@@ -396,11 +394,11 @@ impl Run<'_> {
             self.words.take(b'R');
         }
         self.modes.path = control;
-        self.emit(Event::Path { control, tolerance_mm });
+        self.core.emit(Event::Path { control, tolerance_mm });
     }
 
     pub(super) fn step(&mut self, kind: MoveKind, target: Position) {
-        let (feed, origin) = (self.modes.feed(), self.origin);
+        let (feed, origin) = (self.modes.feed(), self.core.origin);
         self.emit_move(Move::plain(kind, target, self.words.axes(), feed, origin));
     }
 
@@ -436,7 +434,7 @@ impl Run<'_> {
         match motion {
             Motion::Rapid | Motion::Linear => {
                 let direction = self.take_direction(at)?;
-                let (feed, origin) = (self.modes.feed(), self.origin);
+                let (feed, origin) = (self.modes.feed(), self.core.origin);
                 let named = self.words.axes();
                 let rapid = motion == Motion::Rapid;
                 let kind = if rapid { MoveKind::Rapid } else { MoveKind::Linear };
@@ -529,9 +527,4 @@ fn called_name<'b>(program: &Program, items: &'b [Item]) -> Option<(&'b Label, u
 
 pub(super) fn is_control(item: &Item) -> bool {
     matches!(item, Item::Control { .. })
-}
-
-/// Tells names of codes apart in the list of what was reported.
-fn hash(name: &str) -> u32 {
-    name.bytes().fold(2_166_136_261, |h: u32, b| (h ^ u32::from(b)).wrapping_mul(16_777_619))
 }

@@ -1,5 +1,4 @@
 use std::collections::HashMap;
-use std::rc::Rc;
 
 use super::parameters::Locals;
 use super::{Activation, Next, Run, fault};
@@ -37,25 +36,19 @@ impl Run<'_> {
         self.stack.last_mut().expect("a block belongs to a frame")
     }
 
-    /// The text has no more blocks: `true` if the whole program is at its end.
-    pub(super) fn end_of_text(&mut self) -> Result<bool, Fault> {
-        let frame = self.frame();
-        match frame.sub.take() {
-            None => {
-                if self.opened {
-                    let message = "the closing % is missing".to_owned();
-                    let at = self.current().source().len();
-                    self.warn_once("truncated-program", 0, at, message, "was the file cut off?");
-                }
-                self.emit(Event::End);
-                Ok(true)
+    /// The text has no more blocks.
+    pub(super) fn end_of_text(&mut self) -> Result<Next, Fault> {
+        let at = self.core.program().source().len();
+        let Some(label) = self.frame().sub.take() else {
+            if self.opened {
+                let message = "the closing % is missing";
+                self.core.warn("truncated-program", 0, at, message, "was the file cut off?");
             }
-            Some(label) => {
-                let at = self.current().source().len();
-                let message = format!("the subprogram {} has no end", show(&label));
-                Err(fault("missing-end", at, message, "end it with endsub or M99"))
-            }
-        }
+            self.core.emit(Event::End);
+            return Ok(Next::Finished);
+        };
+        let message = format!("the subprogram {} has no end", show(&label));
+        Err(fault("missing-end", at, message, "end it with endsub or M99"))
     }
 
     /// Executes a control statement; `None` if the rest of the block is to be executed.
@@ -115,8 +108,8 @@ impl Run<'_> {
             return Err(fault("missing-end", at, message, "end it with M99"));
         }
         let message = "the next program begins before this one has an end".to_owned();
-        self.warn_once("missing-end", 0, at, message, "end the main program with M30");
-        self.emit(Event::End);
+        self.core.warn("missing-end", 0, at, message, "end the main program with M30");
+        self.core.emit(Event::End);
         Ok(Some(Next::Finished))
     }
 
@@ -144,22 +137,11 @@ impl Run<'_> {
     /// Goes to a block; going back is counted.
     fn jump(&mut self, start: usize, line: u32, from: usize) -> Result<Next, Fault> {
         if start <= from {
-            self.count(from)?;
+            self.core.count(from)?;
         }
         let frame = self.frame();
         (frame.at, frame.line) = (start, line);
         Ok(Next::Jumped)
-    }
-
-    pub(super) fn count(&mut self, at: usize) -> Result<(), Fault> {
-        self.jumps += 1;
-        if self.jumps <= self.settings.most_jumps {
-            return Ok(());
-        }
-        let message = format!("more than {} jumps and calls: an endless loop?", self.jumps - 1);
-        // Nothing can go on from here.
-        self.errors = usize::MAX / 2;
-        Err(fault("endless-loop", at, message, "check its condition, or raise the limit"))
     }
 
     /// The next mark behind a byte that fits.
@@ -363,12 +345,8 @@ impl Run<'_> {
         repeats: u64,
         at: usize,
     ) -> Result<Next, Fault> {
-        self.count(at)?;
-        if self.stack.len() > self.settings.deepest_call {
-            let message = format!("more than {} calls within each other", self.stack.len() - 1);
-            self.errors = usize::MAX / 2;
-            return Err(fault("calls-too-deep", at, message, "does it call itself for ever?"));
-        }
+        self.core.count(at)?;
+        self.core.check_depth(self.stack.len(), at)?;
         let (number, start, line) = self.find_sub(program, label, name, at)?;
         self.follow(block);
         let mut frame = Activation::new(number, start, line);
@@ -391,29 +369,17 @@ impl Run<'_> {
             let mark = &structure.marks[*structure.subs.get(label)?];
             Some((mark.next, mark.line + 1))
         };
-        let here = self.origin.program as usize;
+        let here = self.core.origin.program as usize;
         if let Some((start, line)) = place(program) {
             return Ok((here, start, line));
         }
-        let number = match self.loaded.get(name) {
-            Some(number) => *number,
-            None => {
-                let text = self.library.text(name).map_err(|why| {
-                    let message = format!("the subprogram {name} is missing: {why}");
-                    fault("missing-subprogram", at, message, "put it where subprograms are found")
-                })?;
-                let file = self.library.display(name);
-                let loaded = Program::new(&file, text, program.dialect().control);
-                self.programs.push(Rc::new(loaded));
-                self.loaded.insert(name.to_owned(), self.programs.len() - 1);
-                self.programs.len() - 1
-            }
-        };
-        match place(&self.programs[number]) {
+        let number = self.core.load(name, [name.to_owned()], at)?;
+        match place(&self.core.programs[number]) {
             Some((start, line)) => Ok((number, start, line)),
             None if program.dialect().macro_words => Ok((number, 0, 1)),
             None => {
-                let message = format!("{} does not define {name}", self.programs[number].file());
+                let message =
+                    format!("{} does not define {name}", self.core.programs[number].file());
                 Err(fault("missing-subprogram", at, message, "it needs o<name> sub … endsub"))
             }
         }

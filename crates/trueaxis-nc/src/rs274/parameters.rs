@@ -67,12 +67,12 @@ impl Run<'_> {
 
     /// Whether a number belongs to this control at all.
     pub(super) fn is_in_range(&self, number: u32) -> bool {
-        number <= self.programs[0].dialect().parameters
+        number <= self.core.programs[0].dialect().parameters
     }
 
     fn read_number(&self, number: u32) -> Option<f64> {
         let numbers = &self.locals().numbers;
-        let own = if self.programs[0].dialect().macro_words { 33 } else { 30 };
+        let own = if self.is_fanuc() { 33 } else { 30 };
         match number {
             0 => None,
             n if n <= own => numbers[n as usize],
@@ -81,7 +81,7 @@ impl Run<'_> {
     }
 
     fn system(&self, number: u32) -> Option<f64> {
-        if self.programs[0].dialect().macro_words {
+        if self.is_fanuc() {
             return self.fanuc_variable(number);
         }
         let frames = &self.frames;
@@ -123,7 +123,7 @@ impl Run<'_> {
         };
         let yes = |flag: bool| Some(f64::from(u8::from(flag)));
         let known = match name {
-            "_line" => Some(f64::from(self.origin.line)),
+            "_line" => Some(f64::from(self.core.origin.line)),
             "_value" => Some(self.returned.unwrap_or(0.0)),
             "_value_returned" => yes(self.returned.is_some()),
             "_metric" => yes(!self.modes.inches),
@@ -142,7 +142,7 @@ impl Run<'_> {
             },
         };
         known
-            .or_else(|| self.settings.constants.get(name).copied())
+            .or_else(|| self.core.settings.constants.get(name).copied())
             .or_else(|| self.named.get(name).copied())
     }
 
@@ -155,7 +155,7 @@ impl Run<'_> {
     ) -> Result<(), Fault> {
         match parameter {
             Parameter::Number(number) => {
-                let own = if self.programs[0].dialect().macro_words { 33 } else { 30 };
+                let own = if self.is_fanuc() { 33 } else { 30 };
                 if number == 0 || !self.is_in_range(number) {
                     let message = format!("there is no parameter #{number} to be set");
                     let hint = "see the manual of the control for the range of parameters";
@@ -170,7 +170,7 @@ impl Run<'_> {
                                            but has no effect"
                     );
                     let hint = "set offsets by G10";
-                    self.warn_once("system-parameter", number, offset, message, hint);
+                    self.core.warn("system-parameter", number, offset, message, hint);
                 }
                 match self.stack.last_mut() {
                     Some(frame) if number <= own => {
@@ -206,6 +206,6 @@ impl Run<'_> {
 
     /// The program that is being executed.
     pub(super) fn current(&self) -> Rc<Program> {
-        Rc::clone(&self.programs[self.origin.program as usize])
+        Rc::clone(&self.core.programs[self.core.origin.program as usize])
     }
 }

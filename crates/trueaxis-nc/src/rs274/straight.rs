@@ -1,5 +1,5 @@
 use super::{Activation, Run};
-use crate::moves::{Axis, AxisSet, FeedMode, Move, MoveKind, Origin, Position, Step};
+use crate::moves::{Axis, AxisSet, FeedMode, Move, MoveKind, Origin, Position};
 use crate::rs274::code::Motion;
 
 /// What a letter is in a line of straight moves; axes are 0 to 8.
@@ -160,11 +160,11 @@ impl Run<'_> {
         let x_mm = if modes.diameter { unit_mm / 2.0 } else { unit_mm };
         let common = Straight { unit_mm, x_mm, incremental: modes.incremental };
         let mut origin = Origin { program: program as u32, line };
-        while !self.settings.stop.is_asked()
+        while !self.core.settings.stop.is_asked()
             && let Some(next) = self.straight_line(&common, source, at, origin)
         {
             // What comes may have to tell where this line was.
-            (self.start, self.origin) = (at, origin);
+            (self.core.start, self.core.origin) = (at, origin);
             at = next;
             line += 1;
             origin.line = line;
@@ -202,7 +202,7 @@ impl Run<'_> {
             self.frames.position = target;
             let named = AxisSet(line.named);
             let step = Move::plain(kind, target, named, self.modes.feed(), origin);
-            (self.take)(Step::Move(step));
+            self.core.emit_move(step);
         }
         Some(line.end)
     }

@@ -1,4 +1,4 @@
-use super::{Run, fault};
+use super::{Language, Run, fault};
 use crate::moves::{Axis, Coordinates, Event, Move, MoveKind, Position};
 use crate::rs274::code::Action;
 use crate::text::program::Fault;
@@ -86,7 +86,7 @@ impl Run<'_> {
 
     fn emit_shift(&mut self) {
         let shift = self.frames.live_shift();
-        self.emit(Event::Shift(shift));
+        self.core.emit(Event::Shift(shift));
         self.emit_frame();
     }
 
@@ -97,7 +97,7 @@ impl Run<'_> {
 
     pub(super) fn emit_offset(&mut self) {
         let work = self.frames.work();
-        self.emit(Event::WorkOffset {
+        self.core.emit(Event::WorkOffset {
             index: self.frames.active as u32 + 1,
             offset: work.offset,
             rotation_deg: work.rotation_deg,
@@ -122,7 +122,7 @@ impl Run<'_> {
 
     /// LinuxCNC turns work offsets about Z only.
     pub(super) fn check_turn(&mut self, index: usize, at: usize) {
-        let fanuc = self.programs[0].dialect().macro_words;
+        let fanuc = self.is_fanuc();
         let Some(work) = self.frames.offsets.get_mut(index).filter(|_| !fanuc) else { return };
         if work.linear.take().is_some() {
             let message = format!(
@@ -130,7 +130,7 @@ impl Run<'_> {
                 index + 1
             );
             let hint = "this control turns work offsets about Z; align the part or the model";
-            self.warn_once("work-offset-not-about-z", index as u32, at, message, hint);
+            self.core.warn("work-offset-not-about-z", index as u32, at, message, hint);
         }
     }
 
@@ -144,9 +144,7 @@ impl Run<'_> {
                 let message = format!("H{h} is not the number of a tool length");
                 return Err(fault("bad-tool", at, message, "write H1"));
             }
-            None if self.programs[0].dialect().macro_words => {
-                self.modes.length_number.unwrap_or(self.modes.tool)
-            }
+            None if self.is_fanuc() => self.modes.length_number.unwrap_or(self.modes.tool),
             None => self.modes.tool,
         };
         let mut length = self.frames.tool;
@@ -164,7 +162,7 @@ impl Run<'_> {
                 if number != 0 && !self.frames.tools.contains_key(&number) {
                     let message = format!("the length of tool {number} is not known: 0 is taken");
                     let hint = "give a tool table";
-                    self.warn_once("unknown-tool-length", number, at, message, hint);
+                    self.core.warn("unknown-tool-length", number, at, message, hint);
                 }
                 length = self.frames.tool_length(number);
                 if action == Action::ToolLengthNegative {
@@ -186,7 +184,7 @@ impl Run<'_> {
         };
         if let Some((on, vectors)) = centre {
             (self.modes.tool_centre, self.modes.vectors) = (on, vectors);
-            self.emit(Event::ToolCentre(on));
+            self.core.emit(Event::ToolCentre(on));
         }
         Ok(())
     }
@@ -200,14 +198,14 @@ impl Run<'_> {
         } else {
             self.frames.change(|f| f.tool = length);
         }
-        self.emit(Event::ToolLength(length));
+        self.core.emit(Event::ToolLength(length));
     }
 
     /// H alone, while a length is on, is another length (FANUC).
     pub(super) fn reselect_length(&mut self, at: usize) -> Result<(), Fault> {
         let Some(number) = self.words.look(b'H') else { return Ok(()) };
         let on = self.modes.length_code != 49.0;
-        if !on || !self.programs[0].dialect().macro_words {
+        if !on || !self.is_fanuc() {
             return Ok(());
         }
         if number == 0.0 {
@@ -248,7 +246,7 @@ impl Run<'_> {
     /// A rapid of the named axes in machine coordinates, whatever the frames are. Where that is in
     /// the program frame only the machine knows; here it is as if all rotary axes stood at zero.
     pub(super) fn machine_move(&mut self, machine: Position) {
-        let (feed, origin) = (self.modes.feed(), self.origin);
+        let (feed, origin) = (self.modes.feed(), self.core.origin);
         let coordinates = Coordinates::Machine;
         let rapid = Move::plain(MoveKind::Rapid, machine, self.words.axes(), feed, origin);
         self.emit_move(Move { coordinates, ..rapid });
@@ -264,7 +262,7 @@ impl Run<'_> {
         let away = |i: usize| (machine.0[i] - self.frames.references[0].0[i]).abs() > 1e-3;
         if (0..9).any(|i| named[i] && away(i)) {
             let message = "G27: this is not the reference point".to_owned();
-            self.warn_once("not-at-reference", 0, at, message, "the control stops here");
+            self.core.warn("not-at-reference", 0, at, message, "the control stops here");
         }
     }
 
@@ -283,11 +281,11 @@ impl Run<'_> {
     /// G10: sets a table by L and P.
     fn set_table(&mut self, at: usize) -> Result<(), Fault> {
         let level = self.words.take(b'L');
-        let fanuc = self.programs[0].dialect().macro_words;
+        let fanuc = self.is_fanuc();
         if fanuc && level.is_some_and(|l| (50.0..=52.0).contains(&l)) {
             let _ = self.words.take_all();
             self.modes.data_input = true;
-            self.emit(Event::Note("G10 L50 parameters are not set"));
+            self.core.emit(Event::Note("G10 L50 parameters are not set"));
             return Ok(());
         }
         let number = self.words.take(b'P');
@@ -320,7 +318,7 @@ impl Run<'_> {
                 let _ = self.words.take_all();
                 let message = "this form of G10 is not applied".to_owned();
                 let hint = "L1, L2, L10, L11 and L20 are, and L12, L13 and L50 of FANUC";
-                self.warn_once("not-applied", 10, at, message, hint);
+                self.core.warn("not-applied", 10, at, message, hint);
                 Ok(())
             }
         }
@@ -328,7 +326,7 @@ impl Run<'_> {
 
     fn set_offset(&mut self, number: u32, from_place: bool, at: usize) -> Result<(), Fault> {
         let index = if number == 0 { self.frames.active } else { number as usize - 1 };
-        if self.programs[0].dialect().macro_words && self.frames.offsets.len() <= index {
+        if self.is_fanuc() && self.frames.offsets.len() <= index {
             self.frames.offsets.resize(index + 1, Default::default());
         }
         if index >= self.frames.offsets.len() {
@@ -337,7 +335,7 @@ impl Run<'_> {
         }
         let words = Axis::ALL.map(|a| self.axis_word(a));
         let rotation = self.words.take(b'R');
-        let incremental = self.modes.incremental && self.programs[0].dialect().macro_words;
+        let incremental = self.modes.incremental && self.is_fanuc();
         self.check_turn(index, at);
         let before = self.frames.clone();
         let mut work = self.frames.offsets[index];
@@ -412,7 +410,7 @@ impl Run<'_> {
             11 => {
                 self.frames.wear.insert(number, value);
             }
-            12 | 13 => self.emit(Event::Note("G10 L12 L13 radius of a tool")),
+            12 | 13 => self.core.emit(Event::Note("G10 L12 L13 radius of a tool")),
             _ => {
                 let mut length = length;
                 length[Axis::Z] = value;
@@ -426,7 +424,7 @@ impl Run<'_> {
         let words = Axis::ALL.map(|a| self.axis_word(a));
         let others = b"RIJQ".map(|letter| self.words.take(letter));
         if others.iter().any(Option::is_some) {
-            self.emit(Event::Note("G10 radius and angles of a tool"));
+            self.core.emit(Event::Note("G10 radius and angles of a tool"));
         }
         let mut length = self.frames.tool_length(number);
         let mut target = self.frames.position;

@@ -8,7 +8,7 @@ use crate::text::program::{Block, Fault, Item, Keyword, Node, NodeId, Program};
 impl Run<'_> {
     /// The same, with what a flat program of the same path would have to say instead.
     pub(super) fn told_block(&mut self, program: &Program, block: &Block) -> Result<Next, Fault> {
-        self.emit(Event::Block { text: block.span.clone() });
+        self.core.emit(Event::Block { text: block.span.clone() });
         for item in &block.items {
             let end = end_of(item, block);
             match item {
@@ -20,10 +20,10 @@ impl Run<'_> {
                         true => (*offset, None),
                         false => (offset + 1, Some(value)),
                     };
-                    self.emit(Event::Computed { text: from..end, value });
+                    self.core.emit(Event::Computed { text: from..end, value });
                 }
                 Item::Assign { offset, .. } => {
-                    self.emit(Event::Computed { text: *offset..end, value: None });
+                    self.core.emit(Event::Computed { text: *offset..end, value: None });
                 }
                 _ => {}
             }
@@ -53,13 +53,13 @@ impl Run<'_> {
             _ => false,
         });
         if whole || !calls {
-            self.emit(Event::Computed { text: block.span.clone(), value: None });
+            self.core.emit(Event::Computed { text: block.span.clone(), value: None });
             return;
         }
         // The M function of the call stands alone: others share no block with it.
         for item in block.items.iter().filter(|item| letter(item, b"MPLQ")) {
             let text = offset_of(item)..end_of(item, block);
-            self.emit(Event::Computed { text, value: None });
+            self.core.emit(Event::Computed { text, value: None });
         }
     }
 }

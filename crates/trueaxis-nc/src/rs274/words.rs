@@ -247,7 +247,7 @@ impl Run<'_> {
                     let Some(action) = known else {
                         let message = format!("M{value} is not known to this control");
                         let hint = "if the machine builder defined it, it has no effect here";
-                        self.warn_once("unknown-m-code", value as u32, *offset, message, hint);
+                        self.core.warn("unknown-m-code", value as u32, *offset, message, hint);
                         continue;
                     };
                     words.actions.push((action, *offset));
@@ -273,14 +273,14 @@ impl Run<'_> {
             if letter == b'E' || letter == b'O' {
                 let message = format!("the word {name} is not known to this control");
                 let hint = "is the program written for another control or a printer?";
-                if self.reported.insert(("unknown-word", u32::from(letter))) {
+                if self.core.is_new("unknown-word", u32::from(letter)) {
                     return Err(fault("unknown-word", offset, message, hint));
                 }
                 continue;
             }
             let message = format!("no code of this block uses the word {name}");
             let hint = "it has no effect; later ones are not listed";
-            self.warn_once("unused-word", u32::from(letter), offset, message, hint);
+            self.core.warn("unused-word", u32::from(letter), offset, message, hint);
         }
         Ok(())
     }

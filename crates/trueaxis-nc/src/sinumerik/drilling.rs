@@ -32,7 +32,7 @@ impl Run<'_> {
     ) -> Result<bool, Fault> {
         let parameters = Parameters { values, at };
         match name.to_ascii_uppercase().as_str() {
-            "WORKPIECE" => self.emit(Event::Note("WORKPIECE blank of the simulation")),
+            "WORKPIECE" => self.core.emit(Event::Note("WORKPIECE blank of the simulation")),
             "CYCLE800" => self.cycle_800(&parameters)?,
             "CYCLE832" => self.cycle_832(&parameters)?,
             "CYCLE81" => self.drill(&parameters, None)?,
@@ -133,7 +133,7 @@ impl Run<'_> {
         let degression = parameters.or_zero(7)?;
         let percent = parameters.number(19)?.is_some();
         if degression != 0.0 && !(percent && degression == 100.0) {
-            self.not_applied(
+            self.core.not_applied(
                 "the degression DAM of CYCLE83",
                 at,
                 "all pecks are as deep as the first",
@@ -207,7 +207,7 @@ impl Run<'_> {
         self.modes.feed = feed;
         let hole = hole?;
         self.along(MoveKind::Rapid, hole.axis, hole.safe);
-        self.emit(Event::SpindleOrient { angle_deg: parameters.or_zero(9)? });
+        self.core.emit(Event::SpindleOrient { angle_deg: parameters.or_zero(9)? });
         self.along(MoveKind::RigidTap { pitch_mm }, hole.axis, hole.bottom);
         // The tap is back where it began.
         self.chain.position[hole.axis] = hole.safe;
@@ -225,10 +225,14 @@ impl Run<'_> {
         self.along(MoveKind::Rapid, hole.axis, hole.safe);
         self.along(MoveKind::Linear, hole.axis, hole.bottom);
         self.wait(dwell);
-        self.emit(Event::SpindleOrient { angle_deg });
+        self.core.emit(Event::SpindleOrient { angle_deg });
         for place in [7, 8, 9] {
             if parameters.or_zero(place)? != 0.0 {
-                self.not_applied("the lift-off of CYCLE86", at, "the tool goes straight out here");
+                self.core.not_applied(
+                    "the lift-off of CYCLE86",
+                    at,
+                    "the tool goes straight out here",
+                );
             }
         }
         self.along(MoveKind::Rapid, hole.axis, hole.retract);

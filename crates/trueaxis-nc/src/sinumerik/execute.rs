@@ -3,7 +3,7 @@
 use super::system::flat;
 use super::tables::{Angles, Code, Motion, Name, Turning as Way};
 use super::words::Words;
-use super::{Next, Run, fault, transform};
+use super::{Language, Next, Run, fault, transform};
 use crate::execution::Settings;
 use crate::moves::{
     Axis, CompensationSide, Cone, Coolant, Event, Feed, FeedMode, MoveKind, OrientationPath,
@@ -130,7 +130,7 @@ impl Run<'_> {
             let hint = "the axes are X Y Z A B C U V W";
             return Err(fault("unknown-axis", *at, message, hint));
         }
-        let first = codes.first().map_or(self.block.start, |(_, at)| *at);
+        let first = codes.first().map_or(self.core.start, |(_, at)| *at);
         words.codes = codes;
         self.other_words(words);
         let mut moved = false;
@@ -142,7 +142,7 @@ impl Run<'_> {
         }
         if exact {
             let (control, tolerance_mm) = self.modes.path;
-            self.emit(Event::Path { control, tolerance_mm });
+            self.core.emit(Event::Path { control, tolerance_mm });
         }
         self.report_unused(words);
         // What the called program moves does not call it again.
@@ -186,7 +186,7 @@ impl Run<'_> {
     fn end_function(&mut self, m: u32) -> Result<Next, Fault> {
         match m {
             0 | 1 => {
-                self.emit(Event::Stop { optional: m == 1 });
+                self.core.emit(Event::Stop { optional: m == 1 });
                 Ok(Next::Following)
             }
             // M17, M2 and M30 end a subprogram alike.
@@ -207,7 +207,7 @@ impl Run<'_> {
         }
         if let Some(speed) = words.speed.take() {
             self.modes.speed = speed;
-            self.emit(Event::SpindleSpeed(speed));
+            self.core.emit(Event::SpindleSpeed(speed));
         }
         Ok(())
     }
@@ -220,16 +220,16 @@ impl Run<'_> {
                 4 => self.spindle(Turning::CounterClockwise),
                 5 => self.spindle(Turning::Stopped),
                 6 => self.change_tool(words.edge.map(|(edge, _)| edge), *at),
-                7 => self.emit(Event::Coolant(Coolant::Mist)),
-                8 => self.emit(Event::Coolant(Coolant::Flood)),
-                9 => self.emit(Event::Coolant(Coolant::Off)),
-                19 => self.emit(Event::SpindleOrient { angle_deg: 0.0 }),
-                40..=45 => self.emit(Event::Note("a gear stage of the spindle")),
-                70 => self.emit(Event::Note("M70 spindle as an axis")),
+                7 => self.core.emit(Event::Coolant(Coolant::Mist)),
+                8 => self.core.emit(Event::Coolant(Coolant::Flood)),
+                9 => self.core.emit(Event::Coolant(Coolant::Off)),
+                19 => self.core.emit(Event::SpindleOrient { angle_deg: 0.0 }),
+                40..=45 => self.core.emit(Event::Note("a gear stage of the spindle")),
+                70 => self.core.emit(Event::Note("M70 spindle as an axis")),
                 _ => {
                     let message = format!("M{m} is not known to this control");
                     let hint = "if the machine builder defined it, it has no effect here";
-                    self.warn_once("unknown-m-code", &m.to_string(), *at, message, hint);
+                    self.core.warn("unknown-m-code", &m.to_string(), *at, message, hint);
                 }
             }
         }
@@ -238,7 +238,7 @@ impl Run<'_> {
 
     fn spindle(&mut self, turning: Turning) {
         self.modes.turning = turning;
-        self.emit(Event::Spindle(turning));
+        self.core.emit(Event::Spindle(turning));
     }
 
     /// Named words that are no part of a move.
@@ -247,7 +247,7 @@ impl Run<'_> {
             return;
         }
         if let Some((angle, ..)) = words.take(Name::SpindlePlace) {
-            self.emit(Event::SpindleOrient { angle_deg: angle });
+            self.core.emit(Event::SpindleOrient { angle_deg: angle });
         }
         if let Some((tolerance, ..)) = words.take(Name::Tolerance) {
             let control = match self.modes.path.0 {
@@ -265,20 +265,20 @@ impl Run<'_> {
             _ => true,
         });
         for text in noted {
-            self.emit(Event::Note(text));
+            self.core.emit(Event::Note(text));
         }
     }
 
     pub(super) fn tell_path(&mut self, control: PathControl, tolerance_mm: f64) {
         self.modes.path = (control, tolerance_mm);
-        self.emit(Event::Path { control, tolerance_mm });
+        self.core.emit(Event::Path { control, tolerance_mm });
     }
 
     fn act(&mut self, code: Code, words: &mut Words, at: usize) -> Result<(), Fault> {
         match code {
             Code::Plane(plane) => {
                 self.modes.plane = plane;
-                self.emit(Event::Plane(plane));
+                self.core.emit(Event::Plane(plane));
                 self.apply_length(at);
             }
             Code::Inches { inches, feed } => {
@@ -294,23 +294,23 @@ impl Run<'_> {
                 self.change_feed(mode);
                 let name =
                     if on { "G96 constant surface speed" } else { "G97 revolutions per minute" };
-                self.emit(Event::Note(name));
+                self.core.emit(Event::Note(name));
             }
             Code::Offset(number) => self.select_offset(number, at)?,
             Code::Frame(word) => self.program_frame(word, words, at)?,
             Code::Shift { fine } => self.shift_frame(fine, words, at)?,
             Code::ToolCentre(on) => {
                 self.modes.tool_centre = on;
-                self.emit(Event::ToolCentre(on));
+                self.core.emit(Event::ToolCentre(on));
             }
             Code::Angles(angles) => self.modes.angles = angles,
             Code::Turning(way) => self.turn_by(way),
             Code::Compensation(side) => {
-                self.emit(Event::Compensation(side));
+                self.core.emit(Event::Compensation(side));
                 if side != CompensationSide::Off {
                     let message = "radius compensation is noted, not applied".to_owned();
                     let hint = "the moves are those of the program; let the CAM system compensate";
-                    self.warn_once("compensation-not-applied", "", at, message, hint);
+                    self.core.warn("compensation-not-applied", "", at, message, hint);
                 }
             }
             Code::Path(control, with_distance) => {
@@ -318,15 +318,15 @@ impl Run<'_> {
                 self.tell_path(control, distance.map_or(0.0, |(d, ..)| d * self.modes.unit_mm()));
             }
             Code::ExactOnce => {
-                self.emit(Event::Path { control: PathControl::ExactStop, tolerance_mm: 0.0 });
+                self.core.emit(Event::Path { control: PathControl::ExactStop, tolerance_mm: 0.0 });
             }
             Code::Dwell => self.dwell(words, at)?,
             Code::Pole(kind) => self.set_pole(kind, words),
             Code::Reference => self.reference(words, at),
-            Code::Limits => self.emit(Event::Note("G25, G26 limits of the working area")),
-            Code::Note(name) => self.emit(Event::Note(name)),
+            Code::Limits => self.core.emit(Event::Note("G25, G26 limits of the working area")),
+            Code::Note(name) => self.core.emit(Event::Note(name)),
             Code::NotApplied(name) => {
-                self.not_applied(name, at, "the moves that follow are those without it");
+                self.core.not_applied(name, at, "the moves that follow are those without it");
             }
             Code::Motion(_) | Code::Machine => {}
         }
@@ -420,7 +420,7 @@ impl Run<'_> {
             (None, Some((turns, speed))) if speed > 0.0 => turns * 60.0 / speed,
             (None, Some(_)) => {
                 let message = "the dwell counts turns of a spindle that has no speed".to_owned();
-                self.warn_once("dwell-without-speed", "", at, message, "write S in a block before");
+                self.core.warn("dwell-without-speed", "", at, message, "write S in a block before");
                 0.0
             }
             _ => -1.0,
@@ -477,7 +477,7 @@ impl Run<'_> {
         if !matches!(way, Way::Machine | Way::Workpiece) {
             self.modes.turns = Some(way);
         }
-        self.emit(Event::Orientation(path));
+        self.core.emit(Event::Orientation(path));
     }
 
     /// SAVE: the modes are back as they were at the call.
@@ -489,29 +489,29 @@ impl Run<'_> {
             (now.edge, now.speed, now.turning);
         self.modes.tangent = now.tangent;
         if now.plane != self.modes.plane {
-            self.emit(Event::Plane(self.modes.plane));
+            self.core.emit(Event::Plane(self.modes.plane));
         }
         if now.path != self.modes.path {
             let (control, tolerance_mm) = self.modes.path;
-            self.emit(Event::Path { control, tolerance_mm });
+            self.core.emit(Event::Path { control, tolerance_mm });
         }
         if now.tool_centre != self.modes.tool_centre {
-            self.emit(Event::ToolCentre(self.modes.tool_centre));
+            self.core.emit(Event::ToolCentre(self.modes.tool_centre));
         }
     }
 
     /// Warns of words that no code used.
     fn report_unused(&mut self, words: &Words) {
         let left = words.centers.iter().chain(&words.through).flatten().count();
-        let at = self.block.start;
+        let at = self.core.start;
         if left > 0 {
             let message = "no code of this block uses I, J or K".to_owned();
-            self.warn_once("unused-word", "IJK", at, message, "circles and threads do");
+            self.core.warn("unused-word", "IJK", at, message, "circles and threads do");
         }
         for (name, _, _, at) in &words.named {
             let message = format!("no code of this block uses this word ({name:?})");
             let hint = "it has no effect; later ones are not listed";
-            self.warn_once("unused-word", &format!("{name:?}"), *at, message, hint);
+            self.core.warn("unused-word", &format!("{name:?}"), *at, message, hint);
         }
     }
 }

@@ -77,7 +77,7 @@ impl Run<'_> {
                 })
             }
             "AXSTRING" => Ok(Value::Text(arguments.text(0)?)),
-            "ISFILE" => Ok(Value::truth(self.library.text(&arguments.text(0)?).is_ok())),
+            "ISFILE" => Ok(Value::truth(self.core.library.text(&arguments.text(0)?).is_ok())),
             _ => text_function(word, &arguments)?.ok_or_else(|| {
                 let message = format!("{word} is not evaluated here");
                 fault("function-not-known", at, message, "set its value by hand")
@@ -121,7 +121,7 @@ impl Run<'_> {
                 None if value.unwrap_or(neutral) == neutral => {}
                 None => {
                     let hint = "the axes are X Y Z A B C U V W";
-                    self.not_applied("the frame of an axis that is not known", place, hint);
+                    self.core.not_applied("the frame of an axis that is not known", place, hint);
                 }
             }
             if reader.is_empty() {

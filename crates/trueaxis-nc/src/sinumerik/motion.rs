@@ -87,14 +87,18 @@ impl Run<'_> {
                 _ => Way::AsWritten,
             }
         });
-        let (feed, origin) = (self.modes.feed(), self.origin);
+        let (feed, origin) = (self.modes.feed(), self.core.origin);
         let mut named = words.axes;
         for axis in [Axis::X, Axis::Y, Axis::Z] {
             if target[axis] != self.chain.position[axis] {
                 named = named.with(axis);
             }
         }
-        self.emit_move(Move { ways, direction, ..Move::plain(kind, target, named, feed, origin) });
+        self.core.emit_move(Move {
+            ways,
+            direction,
+            ..Move::plain(kind, target, named, feed, origin)
+        });
         self.chain.position = target;
     }
 
@@ -102,8 +106,8 @@ impl Run<'_> {
     pub(super) fn step(&mut self, kind: MoveKind, target: Position, words: &Words) {
         let named =
             if matches!(kind, MoveKind::Dwell { .. }) { AxisSet::default() } else { words.axes };
-        let (feed, origin) = (self.modes.feed(), self.origin);
-        self.emit_move(Move::plain(kind, target, named, feed, origin));
+        let (feed, origin) = (self.modes.feed(), self.core.origin);
+        self.core.emit_move(Move::plain(kind, target, named, feed, origin));
         self.chain.position = target;
     }
 
@@ -181,7 +185,11 @@ impl Run<'_> {
             [true, false] => (cos, sin),
             [false, true] => (sin, cos),
             _ => {
-                self.not_applied("ANG with two or no coordinates", at, "write the end of the line");
+                self.core.not_applied(
+                    "ANG with two or no coordinates",
+                    at,
+                    "write the end of the line",
+                );
                 return Ok(target);
             }
         };
@@ -225,7 +233,7 @@ impl Run<'_> {
         if self.modes.tool_centre {
             let message = "machine coordinates while TRAORI is on: the axes are taken".to_owned();
             let hint = "write TRAFOOF before";
-            self.warn_once("machine-move-with-traori", "", at, message, hint);
+            self.core.warn("machine-move-with-traori", "", at, message, hint);
         }
         let now = self.chain.machine();
         let mut target = now;
@@ -240,9 +248,9 @@ impl Run<'_> {
     }
 
     fn go_to_machine(&mut self, kind: MoveKind, target: Position, words: &Words) {
-        let (feed, origin) = (self.modes.feed(), self.origin);
+        let (feed, origin) = (self.modes.feed(), self.core.origin);
         let plain = Move::plain(kind, target, words.axes, feed, origin);
-        self.emit_move(Move { coordinates: Coordinates::Machine, ..plain });
+        self.core.emit_move(Move { coordinates: Coordinates::Machine, ..plain });
         let place = self.chain.program_at(&target);
         // Frames that are in force have an inverse.
         self.chain.position = place.unwrap_or(self.chain.position);
@@ -253,7 +261,7 @@ impl Run<'_> {
     pub(super) fn reference(&mut self, words: &mut Words, at: usize) {
         let message = "G74 and G75 go to the machine zero here".to_owned();
         let hint = "the machine data know the reference and fixed points";
-        self.warn_once("reference-point", "", at, message, hint);
+        self.core.warn("reference-point", "", at, message, hint);
         for (name, _) in &words.numbered {
             let letter = name.as_bytes().first().copied().unwrap_or(b' ');
             if let Some(axis) = super::variables::axis_of(letter) {

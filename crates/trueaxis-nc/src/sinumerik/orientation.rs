@@ -17,7 +17,7 @@ impl Run<'_> {
             [(4, "A4 B4 C4 normals of a surface"), (5, "A5 B5 C5 normals of a surface")]
         {
             if words.vector(number).is_some() {
-                self.not_applied(subject, at, "write the direction of the tool as A3 B3 C3");
+                self.core.not_applied(subject, at, "write the direction of the tool as A3 B3 C3");
             }
         }
         let direction = match (words.vector(3), words.vector(2)) {
@@ -28,7 +28,7 @@ impl Run<'_> {
         if direction.is_some() && !self.modes.tool_centre {
             let message = "a direction of the tool without TRAORI".to_owned();
             let hint = "write TRAORI before it";
-            self.warn_once("direction-without-traori", "", at, message, hint);
+            self.core.warn("direction-without-traori", "", at, message, hint);
         }
         self.tell_cone(direction.is_some(), words, at)?;
         Ok(direction)
@@ -77,7 +77,7 @@ impl Run<'_> {
             if opening.is_some() || angle_deg.is_some() || axis.is_some() || through.is_some() {
                 let message = "words of a cone without ORICONCW, ORICONCCW, ORICONIO or ORICONTO";
                 let hint = "write the code before them";
-                self.warn_once("unused-word", "cone", at, message.into(), hint);
+                self.core.warn("unused-word", "cone", at, message, hint);
             }
             return Ok(());
         };
@@ -86,7 +86,7 @@ impl Run<'_> {
         let through = through.or(kept.through);
         let opening = opening.or(kept.half_opening_deg);
         if opening.is_some_and(|o| o < 0.0) {
-            self.not_applied("a negative NUT", at, "ORICONCW and ORICONCCW say which way");
+            self.core.not_applied("a negative NUT", at, "ORICONCW and ORICONCCW say which way");
         }
         let ccw = match way {
             // The manual's example turns from (0,1,1) to (1,0,1) about (0,0,1) by 270 deg: its
@@ -104,7 +104,7 @@ impl Run<'_> {
             tangential: way == Turning::ConeTangential,
         };
         if turns || angle_deg.is_some() {
-            self.emit(Event::Orientation(OrientationPath::Cone(cone)));
+            self.core.emit(Event::Orientation(OrientationPath::Cone(cone)));
         } else {
             // The words of a block in which the tool axis stands are for the next in which it turns.
             self.modes.next_cone = cone;

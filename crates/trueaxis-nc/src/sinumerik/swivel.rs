@@ -2,7 +2,7 @@
 
 use super::system::flat;
 use super::values::Value;
-use super::{Run, fault, transform};
+use super::{Language, Run, fault, transform};
 use crate::moves::{Axis, Branch, Event, Frame, Move, MoveKind, PathControl, Position};
 use crate::text::program::Fault;
 
@@ -54,7 +54,7 @@ impl Run<'_> {
         let [a, b, c] = angles;
         let Some(rotation) = swivel_rotation(mode, [a?, b?, c?], at)? else {
             let hint = "swivel by angles of the plane; only the machine knows the other";
-            self.not_applied("CYCLE800 by angles of the rotary axes", at, hint);
+            self.core.not_applied("CYCLE800 by angles of the rotary axes", at, hint);
             return Ok(());
         };
         let unit = self.modes.unit_mm();
@@ -79,11 +79,11 @@ impl Run<'_> {
         }
         if parameters.or_zero(0)? != 0.0 {
             let hint = "write the retraction as a move before the cycle";
-            self.not_applied("the retraction of CYCLE800", at, hint);
+            self.core.not_applied("the retraction of CYCLE800", at, hint);
         }
         // A plane that is not turned is no other than the axes'.
         let tilted = self.chain.swivel.linear != Frame::IDENTITY.linear;
-        self.emit(Event::TiltedPlane(tilted));
+        self.core.emit(Event::TiltedPlane(tilted));
         self.emit_frame();
         let branch = match parameters.or_zero(13)? {
             d if d > 0.0 => Branch::Positive,
@@ -98,7 +98,7 @@ impl Run<'_> {
         if !self.chain.change(|c| c.swivel = Frame::IDENTITY) {
             return Err(flat(at));
         }
-        self.emit(Event::TiltedPlane(false));
+        self.core.emit(Event::TiltedPlane(false));
         self.emit_frame();
         Ok(())
     }
@@ -106,11 +106,11 @@ impl Run<'_> {
     fn align(&mut self, keep_tip: bool, branch: Branch) {
         let position = self.chain.position;
         let kind = MoveKind::Align { keep_tip, branch };
-        let (feed, origin) = (self.modes.feed(), self.origin);
-        self.emit_move(Move::plain(kind, position, Default::default(), feed, origin));
+        let (feed, origin) = (self.modes.feed(), self.core.origin);
+        self.core.emit_move(Move::plain(kind, position, Default::default(), feed, origin));
         let direction = self.chain.frame().vector([0.0, 0.0, 1.0]);
         let machine = self.chain.machine();
-        if let Some(angles) = self.library.rotary_angles(direction, branch, &machine) {
+        if let Some(angles) = self.core.library.rotary_angles(direction, branch, &machine) {
             let shift = self.chain.frame().shift;
             for (axis, angle) in [Axis::A, Axis::B, Axis::C].into_iter().zip(angles) {
                 self.chain.position[axis] = angle - shift[axis] - self.chain.tool[axis];

@@ -5,7 +5,7 @@ use super::chain::Part;
 use super::expression::finite;
 use super::reader::Reader;
 use super::values::Value;
-use super::{Run, fault};
+use super::{Language, Run, fault};
 use crate::moves::{Axis, Event, Frame};
 use crate::text::program::Fault;
 
@@ -133,7 +133,11 @@ impl Run<'_> {
                 let mut frame =
                     self.frame_variable(&name, f64::from(number)).unwrap_or(Frame::IDENTITY);
                 if !part.write(&mut frame, axis, value.number(at)?) {
-                    self.not_applied(&format!("this part of ${name}"), at, "assign a whole frame");
+                    self.core.not_applied(
+                        &format!("this part of ${name}"),
+                        at,
+                        "assign a whole frame",
+                    );
                 }
                 frame
             }
@@ -141,7 +145,7 @@ impl Run<'_> {
                 Value::Frame(frame) => **frame,
                 _ => {
                     let hint = "the moves that follow are those without it";
-                    self.not_applied(&format!("${name}="), at, hint);
+                    self.core.not_applied(&format!("${name}="), at, hint);
                     return Ok(());
                 }
             },
@@ -178,7 +182,7 @@ impl Run<'_> {
             _ if frame == Frame::IDENTITY => true,
             _ => {
                 let hint = "the moves that follow are those without it";
-                self.not_applied(&format!("${name}="), at, hint);
+                self.core.not_applied(&format!("${name}="), at, hint);
                 true
             }
         };
@@ -194,7 +198,7 @@ impl Run<'_> {
         let frame = self.chain.settable;
         let rotation_deg = frame.linear[1][0].atan2(frame.linear[0][0]).to_degrees();
         let (index, offset) = (self.chain.active, frame.shift);
-        self.emit(Event::WorkOffset { index, offset, rotation_deg });
+        self.core.emit(Event::WorkOffset { index, offset, rotation_deg });
     }
 
     /// $TC_DP3[t,d] and its like.
@@ -221,12 +225,12 @@ impl Run<'_> {
             "TC_DP4" => Axis::Y,
             "TC_DP5" => Axis::X,
             _ => {
-                self.not_applied(&format!("${name}="), at, "only the lengths of tools are");
+                self.core.not_applied(&format!("${name}="), at, "only the lengths of tools are");
                 return Ok(());
             }
         };
         if edge != 1.0 {
-            self.not_applied("a cutting edge other than 1", at, "D1 is");
+            self.core.not_applied("a cutting edge other than 1", at, "D1 is");
             return Ok(());
         }
         if self.chain.tools.len() < 100_000 {

@@ -17,12 +17,12 @@ impl Run<'_> {
                 ToolCall::Number(number) => number,
                 ToolCall::Name(name) => {
                     let number = self.tool_named(&name, at)?;
-                    self.emit(Event::ToolName(name));
+                    self.core.emit(Event::ToolName(name));
                     number
                 }
             };
             self.modes.selected = number;
-            self.emit(Event::ToolSelect(number));
+            self.core.emit(Event::ToolSelect(number));
         }
         let changes = words.m.iter().any(|(m, _)| *m == 6);
         if let Some((edge, at)) = words.edge
@@ -35,7 +35,7 @@ impl Run<'_> {
     }
 
     fn tool_named(&mut self, name: &str, at: usize) -> Result<u32, Fault> {
-        let known = &self.settings.tool_names;
+        let known = &self.core.settings.tool_names;
         let same =
             |(other, number): (&String, &u32)| other.eq_ignore_ascii_case(name).then_some(*number);
         if let Some(number) = known.get(name).copied().or_else(|| known.iter().find_map(same)) {
@@ -49,7 +49,7 @@ impl Run<'_> {
             return Ok(*number);
         }
         let mut number = FIRST_NAMED + self.names.len() as u32;
-        while self.settings.tool_names.values().any(|n| *n == number) {
+        while self.core.settings.tool_names.values().any(|n| *n == number) {
             number += 1;
         }
         if self.names.len() >= 100_000 {
@@ -58,7 +58,7 @@ impl Run<'_> {
         }
         let message =
             format!("the tool {name} is not in the tool table: it gets the number {number}");
-        self.warn_once("unknown-tool", name, at, message, "give a tool table");
+        self.core.warn("unknown-tool", name, at, message, "give a tool table");
         self.names.insert(name.to_owned(), number);
         Ok(number)
     }
@@ -68,7 +68,7 @@ impl Run<'_> {
         self.modes.tool = self.modes.selected;
         self.modes.turning = Turning::Stopped;
         self.modes.edge = edge.unwrap_or(1);
-        self.emit(Event::ToolChange(self.modes.tool));
+        self.core.emit(Event::ToolChange(self.modes.tool));
         self.apply_length(at);
     }
 
@@ -76,7 +76,7 @@ impl Run<'_> {
         if self.modes.edge > 1 {
             let message = format!("D{} has the length of D1 here", self.modes.edge);
             let hint = "the tool table knows one length for each tool";
-            self.warn_once("unknown-cutting-edge", &self.modes.edge.to_string(), at, message, hint);
+            self.core.warn("unknown-cutting-edge", &self.modes.edge.to_string(), at, message, hint);
         }
         self.apply_length(at);
         Ok(())
@@ -90,7 +90,7 @@ impl Run<'_> {
             if !self.chain.tools.contains_key(&tool) {
                 let message = format!("the length of tool {tool} is not known: 0 is taken");
                 let subject = tool.to_string();
-                self.warn_once("unknown-tool-length", &subject, at, message, "give a tool table");
+                self.core.warn("unknown-tool-length", &subject, at, message, "give a tool table");
             }
             length = self.chain.tool_length(tool, plane);
         }
@@ -98,10 +98,10 @@ impl Run<'_> {
             return;
         }
         if self.chain.change(|c| c.tool = length) {
-            self.emit(Event::ToolLength(length));
+            self.core.emit(Event::ToolLength(length));
         } else {
             let fault = flat(at);
-            self.report(fault);
+            self.core.report(fault);
         }
     }
 }

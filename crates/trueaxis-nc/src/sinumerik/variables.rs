@@ -56,7 +56,7 @@ impl Run<'_> {
         }
         let message = format!("R{index} is read before it is set: 0 is taken");
         let hint = "the control takes what an earlier program left there";
-        self.warn_once("unset-parameter", &format!("R{index}"), at, message, hint);
+        self.core.warn("unset-parameter", &format!("R{index}"), at, message, hint);
         0.0
     }
 
@@ -94,7 +94,7 @@ impl Run<'_> {
             let slot = self.slot(reader)?;
             return self.read(&slot, at);
         }
-        if let Some(value) = self.settings.constants.get(&word.to_ascii_lowercase()) {
+        if let Some(value) = self.core.settings.constants.get(&word.to_ascii_lowercase()) {
             reader.advance();
             return Ok(Value::Number(*value));
         }
@@ -344,9 +344,9 @@ impl Run<'_> {
     ) -> Result<(), Fault> {
         let count = sizes.iter().fold(1_usize, |a, b| a.saturating_mul(*b));
         if self.cells.saturating_add(count) > MOST_CELLS {
-            self.stop_for_good();
             let message = format!("more than {MOST_CELLS} values are declared");
-            return Err(fault("too-many-variables", at, message, "declare smaller arrays"));
+            let fault = fault("too-many-variables", at, message, "declare smaller arrays");
+            return Err(self.core.for_good(fault));
         }
         self.cells += count;
         let freed = self.variables().and_then(|variables| {

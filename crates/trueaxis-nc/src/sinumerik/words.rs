@@ -145,7 +145,7 @@ impl Run<'_> {
                 return Err(fault("missing-equals", reader.here(), message, "write R1=2"));
             }
             self.assignment(&slot, reader)?;
-            self.tell_steering(at..reader.here());
+            self.core.tell_steering(at..reader.here());
             return Ok(None);
         }
         if letter == b'L'
@@ -241,9 +241,9 @@ impl Run<'_> {
         let plain = reader.at == first + 1 + usize::from(signed);
         let begins = reader.source.get(from + usize::from(signed));
         let is_digit = begins.is_some_and(|b| b.is_ascii_digit() || *b == b'.');
-        if self.settings.tell_blocks && !(plain && is_digit) {
+        if self.core.settings.tell_blocks && !(plain && is_digit) {
             let text = from..reader.here();
-            self.emit(crate::moves::Event::Computed { text, value: Some(value) });
+            self.core.emit(crate::moves::Event::Computed { text, value: Some(value) });
         }
         Ok(value)
     }
@@ -258,7 +258,7 @@ impl Run<'_> {
     ) -> Result<(), Fault> {
         let (value, mode) = match letter {
             b'T' => {
-                self.not_applied("the tool of another spindle", at, "T alone is");
+                self.core.not_applied("the tool of another spindle", at, "T alone is");
                 self.expression(reader)?;
                 return Ok(());
             }
@@ -280,11 +280,11 @@ impl Run<'_> {
             (b'M', 1) => return self.put(b'M', (value, mode), at),
             (b'S' | b'M', _) => {
                 let subject = format!("{}{digits}= of another spindle", char::from(letter));
-                self.not_applied(&subject, at, "the main spindle's is");
+                self.core.not_applied(&subject, at, "the main spindle's is");
             }
             (b'F' | b'G', _) => {
                 let subject = format!("{}[{digits}]=", char::from(letter));
-                self.not_applied(&subject, at, "write the code or the feed itself");
+                self.core.not_applied(&subject, at, "write the code or the feed itself");
             }
             (b'H', _) => self.words.codes.push((Code::Note("an H function"), at)),
             _ if axis_of(letter).is_some() => {
@@ -362,7 +362,7 @@ impl Run<'_> {
                 return Err(fault("missing-equals", reader.here(), message, "write NAME=2"));
             }
             self.assignment(&slot, reader)?;
-            self.tell_steering(at..reader.here());
+            self.core.tell_steering(at..reader.here());
             return Ok(());
         }
         reader.advance();
@@ -380,7 +380,7 @@ impl Run<'_> {
         if word == "MSG" {
             let values = self.arguments(reader)?;
             let text = values.first().and_then(Option::as_ref).map(super::functions::message);
-            self.emit(crate::moves::Event::Message(text.unwrap_or_default()));
+            self.core.emit(crate::moves::Event::Message(text.unwrap_or_default()));
             return Ok(());
         }
         if let Some(code) = tables::code(&word) {
@@ -423,7 +423,7 @@ impl Run<'_> {
         }
         reader.advance();
         if let Name::NotApplied(subject) = name {
-            self.not_applied(subject, at, "the moves that follow are those without it");
+            self.core.not_applied(subject, at, "the moves that follow are those without it");
             if reader.symbol() == Some(b'(') {
                 return skip_brackets(reader);
             }
@@ -431,7 +431,7 @@ impl Run<'_> {
         let (value, mode) = self.moded_value(reader)?;
         if let Some(axis) = axis {
             let hint = "it moves with the other axes of its block here";
-            self.not_applied("the own motion of POS axes", at, hint);
+            self.core.not_applied("the own motion of POS axes", at, hint);
             return self.words.put_axis(axis, (value, mode), at);
         }
         if value.is_nan() || value.abs() > LARGEST {

@@ -136,7 +136,7 @@ impl Run<'_> {
         let repeats = self.words.take(b'L').unwrap_or(1.0);
         let locals = locals_of(&std::mem::take(&mut self.words.arguments), at)?;
         let depth = self.stack.len();
-        if self.modes.macros.len() > self.settings.deepest_call {
+        if self.modes.macros.len() > self.core.settings.deepest_call {
             let message = "too many modal macros within each other".to_owned();
             return Err(fault("calls-too-deep", at, message, "end them by G67"));
         }
@@ -227,8 +227,8 @@ impl Run<'_> {
                 return self.jump_to_number(number, at);
             }
             let message = "M99 in the main program repeats it: taken as its end".to_owned();
-            self.warn_once("endless-main", 0, at, message, "write M30");
-            self.emit(crate::moves::Event::End);
+            self.core.warn("endless-main", 0, at, message, "write M30");
+            self.core.emit(crate::moves::Event::End);
             return Ok(Next::Finished);
         };
         frame.repeats = frame.repeats.saturating_sub(1);
@@ -238,7 +238,7 @@ impl Run<'_> {
                 named => show(named),
             };
             let program = self.current();
-            self.count(at)?;
+            self.core.count(at)?;
             let (_, start, line) = self.find_sub(&program, &label, &name, at)?;
             let frame = self.frame();
             (frame.at, frame.line, frame.named) = (start, line, start > 0);
@@ -259,9 +259,9 @@ impl Run<'_> {
 
     /// P of M99: to a block of the program that is now on top.
     fn jump_to_number(&mut self, number: f64, at: usize) -> Result<Next, Fault> {
-        self.count(at)?;
+        self.core.count(at)?;
         let (program, from) = (self.frame().program, self.frame().at);
-        let caller = Rc::clone(&self.programs[program]);
+        let caller = Rc::clone(&self.core.programs[program]);
         // The caller goes on behind its block: that byte less one lies within the same program.
         let found = caller.structure().block_number(number as u64, from.saturating_sub(1));
         let Some((start, line)) = found.filter(|_| number >= 0.0) else {

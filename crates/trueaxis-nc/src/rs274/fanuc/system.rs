@@ -1,8 +1,9 @@
 //! The system variables of FANUC.
 
+use crate::execution::mistakes;
 use crate::moves::{Axis, CompensationSide, Event, FeedMode, PathControl, Plane, Position};
+use crate::rs274::Run;
 use crate::rs274::code::{Cycle, Motion};
-use crate::rs274::{Run, fault};
 use crate::text::program::{Fault, Item, Program};
 
 /// A table of positions that FANUC variables stand for.
@@ -185,19 +186,17 @@ impl Run<'_> {
         }
         match number {
             3000 => {
-                let text = format!("alarm {value} {}", self.remark);
-                // The control stops for good.
-                self.errors = usize::MAX / 2;
-                Err(fault("program-alarm", offset, text.trim_end(), "the program asked for it"))
+                let text = format!("{value} {}", self.remark);
+                Err(self.core.for_good(mistakes::alarm(&text, offset)))
             }
             3006 => {
                 let text = self.remark.clone();
-                self.emit(Event::Message(text));
-                self.emit(Event::Stop { optional: false });
+                self.core.emit(Event::Message(text));
+                self.core.emit(Event::Stop { optional: false });
                 Ok(true)
             }
             3001..=3005 | 3007..=3008 | 1100..=1135 => {
-                self.emit(Event::Note("a system variable without effect on the path"));
+                self.core.emit(Event::Note("a system variable without effect on the path"));
                 Ok(true)
             }
             _ => Ok(false),
@@ -209,7 +208,7 @@ impl Run<'_> {
         if let Some(number) = self.guessed.take() {
             let message = format!("only the running control knows #{number}: 0 is taken");
             let hint = "times and signals are not simulated";
-            self.warn_once("unknown-at-runtime", number, at, message, hint);
+            self.core.warn("unknown-at-runtime", number, at, message, hint);
         }
     }
 

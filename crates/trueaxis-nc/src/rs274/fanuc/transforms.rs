@@ -8,7 +8,7 @@
 
 use crate::moves::{Axis, Branch, Event, Frame, MoveKind, Plane, Position};
 use crate::rs274::code::Action;
-use crate::rs274::{Run, fault};
+use crate::rs274::{Language, Run, fault};
 use crate::text::program::Fault;
 
 /// The frames that a program sets up, from the outside to the inside.
@@ -167,7 +167,7 @@ impl Run<'_> {
                 (transforms.tilt, transforms.rotation, transforms.nested) = (None, None, 0);
                 (transforms.pieces, transforms.extra) = ([None; 4], None);
                 if was {
-                    self.emit(Event::TiltedPlane(false));
+                    self.core.emit(Event::TiltedPlane(false));
                 }
                 self.apply_transforms();
             }
@@ -295,7 +295,7 @@ impl Run<'_> {
         if self.frames.tool != Position::default() {
             let message = "the tool length is left along the axes of the machine".to_owned();
             let hint = "use G68.2 with G53.1 where the tool is swivelled";
-            self.warn_once("length-not-rotated", 0, at, message, hint);
+            self.core.warn("length-not-rotated", 0, at, message, hint);
         }
         self.apply_transforms();
         Ok(())
@@ -320,7 +320,7 @@ impl Run<'_> {
                 let _ = self.words.take_all();
                 let message = format!("G68.2 P{kind} is not applied");
                 let hint = "P0 to P3 are; the moves that follow are those without it";
-                self.warn_once("not-applied", 682, at, message, hint);
+                self.core.warn("not-applied", 682, at, message, hint);
                 return Ok(());
             }
         };
@@ -330,7 +330,7 @@ impl Run<'_> {
         let outer = transforms.tilt.filter(|_| further && transforms.tilted);
         transforms.tilt = Some(outer.map_or(frame, |outer| outer.after(&frame)));
         if !std::mem::replace(&mut transforms.tilted, true) {
-            self.emit(Event::TiltedPlane(true));
+            self.core.emit(Event::TiltedPlane(true));
         }
         self.apply_transforms();
         Ok(())
@@ -428,7 +428,7 @@ impl Run<'_> {
         if scale.linear[axis][axis] != 1.0 {
             let message = "Q and the clearances of the cycle are scaled with its axis".to_owned();
             let hint = "FANUC leaves them as they are: scale the plane alone, by I and J";
-            self.warn_once("cycle-scaled", 0, at, message, hint);
+            self.core.warn("cycle-scaled", 0, at, message, hint);
         }
     }
 
@@ -439,7 +439,7 @@ impl Run<'_> {
         if (a - b).abs() > 1e-9 * a.max(b) {
             let message = "different scales make an ellipse of this circle".to_owned();
             let hint = "FANUC moves a circle there: scale both axes of the plane alike";
-            self.warn_once("circle-not-round", 0, at, message, hint);
+            self.core.warn("circle-not-round", 0, at, message, hint);
         }
     }
 }

@@ -1,8 +1,9 @@
 //! Comments that do something: MSG, DEBUG, PRINT, LOG, ABORT.
 
+use crate::execution::mistakes;
 use crate::moves::Event;
+use crate::rs274::Run;
 use crate::rs274::parameters::Parameter;
-use crate::rs274::{Run, fault};
 use crate::text::program::{Block, Fault, Item, Program};
 
 impl Run<'_> {
@@ -31,20 +32,18 @@ impl Run<'_> {
                 .to_ascii_lowercase();
             let rest = String::from_utf8_lossy(&inner[comma + 1..]).into_owned();
             match key.as_str() {
-                "msg" => self.emit(Event::Message(rest)),
+                "msg" => self.core.emit(Event::Message(rest)),
                 "debug" => {
                     let text = self.filled(&rest);
-                    self.emit(Event::Message(text));
+                    self.core.emit(Event::Message(text));
                 }
                 "print" | "log" => {
                     let text = self.filled(&rest);
-                    self.emit(Event::Log(text));
+                    self.core.emit(Event::Log(text));
                 }
                 "abort" => {
                     let text = self.filled(&rest);
-                    let hint = "the program asked for it";
-                    self.errors = usize::MAX / 2;
-                    return Err(fault("abort", span.start, text.trim(), hint));
+                    return Err(self.core.for_good(mistakes::alarm(&text, span.start)));
                 }
                 _ => {}
             }
