@@ -2,8 +2,10 @@
 
 pub(crate) mod arcs;
 mod core;
+pub(crate) mod frames;
 mod library;
 pub(crate) mod mistakes;
+mod modes;
 mod stop;
 
 use std::collections::BTreeMap;
@@ -16,6 +18,7 @@ use crate::text::program::Program;
 use crate::{heidenhain, rs274, sinumerik};
 pub(crate) use core::{Core, Language, Next};
 pub use library::{Library, NoLibrary};
+pub(crate) use modes::Modes;
 pub use stop::Stop;
 
 /// What the control is set to before the program begins.

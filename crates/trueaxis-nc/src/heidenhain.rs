@@ -36,8 +36,8 @@ use std::rc::Rc;
 
 use crate::execution::{Core, Language, Library, Next, Outcome, Settings};
 use crate::moves::{
-    Axis, CompensationSide, Coordinates, Event, Feed, FeedMode, Move, MoveKind, OrientationPath,
-    Plane, Position, Step, Turning, Way,
+    Axis, CompensationSide, Coordinates, Event, Move, MoveKind, OrientationPath, Position, Step,
+    Way,
 };
 use crate::text::program::{Fault, Program, fault};
 use cycles::Cycle;
@@ -58,18 +58,12 @@ pub(crate) fn interpret(
 
 /// What lasts from block to block.
 struct Modes {
-    inches: bool,
-    plane: Plane,
-    feed: Feed,
     /// F of the tool call, for FAUTO.
     feed_of_tool: f64,
     side: CompensationSide,
-    turning: Turning,
     coolant: bool,
     /// M126: rotary axes take the shortest way.
     shortest: bool,
-    /// The tip of the tool is programmed.
-    tool_centre: bool,
     /// How the tool axis turns, as the receiver was told last.
     orientation: OrientationPath,
     /// FUNCTION TCPM AXIS SPAT: A B C are space angles.
@@ -78,7 +72,6 @@ struct Modes {
     per_revolution: bool,
     /// M89: the cycle is called at each place.
     cycle_everywhere: bool,
-    tool: u32,
     tool_axis: Option<Axis>,
     tool_length_mm: f64,
     tool_radius_mm: Option<f64>,
@@ -145,20 +138,14 @@ impl<'r> Run<'r> {
     fn new(core: Core<'r>) -> Self {
         let settings = core.settings;
         let modes = Modes {
-            inches: settings.inches,
-            plane: settings.plane,
-            feed: Feed { mode: FeedMode::PerMinute, value: 0.0 },
             feed_of_tool: 0.0,
             side: CompensationSide::Off,
-            turning: Turning::Stopped,
             coolant: false,
             shortest: false,
-            tool_centre: false,
             orientation: OrientationPath::Axes,
             space_angles: false,
             per_revolution: false,
             cycle_everywhere: false,
-            tool: 0,
             tool_axis: None,
             tool_length_mm: 0.0,
             tool_radius_mm: None,
@@ -185,7 +172,7 @@ impl<'r> Run<'r> {
 
     fn block(&mut self, program: &Program, line: &Line) -> Result<Next, Fault> {
         if line.too_long {
-            let message = "more than 10000 words in one block".to_owned();
+            let message = "more than 10000 words in one block";
             return Err(fault("too-many-words", line.start, message, "is this an NC program?"));
         }
         if line.skip && !self.core.settings.skipped_blocks_too {
@@ -212,7 +199,7 @@ impl<'r> Run<'r> {
     fn emit_move(&mut self, mut step: Move, at: usize) -> Result<(), Fault> {
         let numbers = step.target.0.iter().chain(step.direction.iter().flatten());
         if !numbers.chain([&step.feed.value]).all(|v| v.abs() < 1e9) {
-            let message = "a coordinate, direction or feed is too large".to_owned();
+            let message = "a coordinate, direction or feed is too large";
             return Err(fault("too-large", at, message, "check the numbers of the block"));
         }
         if step.coordinates == Coordinates::Program {
@@ -242,15 +229,11 @@ impl<'r> Run<'r> {
         for axis in Axis::ALL.into_iter().filter(|a| before[*a] != target[*a]) {
             named = named.with(axis);
         }
-        let mut step = Move::plain(kind, target, named, self.modes.feed, self.core.origin);
+        let mut step = self.core.plain_move(kind, target, named);
         if self.modes.shortest {
             step.ways = [Way::Shortest; 3];
         }
         self.emit_move(step, at)
-    }
-
-    fn unit_mm(&self) -> f64 {
-        if self.modes.inches { 25.4 } else { 1.0 }
     }
 }
 

@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use trueaxis_input::{Diagnostics, Place};
 
-use super::{Library, Outcome, Settings, mistakes};
+use super::{Library, Modes, Outcome, Settings, mistakes};
 use crate::moves::{Event, Frame, Move, Origin, Step};
 use crate::text::program::{Fault, Places, Program};
 
@@ -82,6 +82,7 @@ pub(crate) struct Core<'r> {
     pub origin: Origin,
     /// Where the block begins that is being executed.
     pub start: usize,
+    pub modes: Modes,
     /// Backward jumps and calls.
     jumps: u64,
     /// The frame as it was told last.
@@ -108,6 +109,7 @@ impl<'r> Core<'r> {
             loaded: HashMap::new(),
             origin: Origin { program: 0, line: 1 },
             start: 0,
+            modes: Modes::new(settings),
             jumps: 0,
             told: Frame::IDENTITY,
             problems: Diagnostics::new(),

@@ -1,5 +1,6 @@
 //! Mistakes that programs of every language can have: one code and one wording for each.
 
+use crate::moves::FeedMode;
 use crate::text::program::{Fault, fault};
 
 pub(crate) fn endless_loop(most: u64, at: usize) -> Fault {
@@ -21,4 +22,26 @@ pub(crate) fn missing_program(name: &str, why: &str, at: usize) -> Fault {
 pub(crate) fn alarm(text: &str, at: usize) -> Fault {
     let message = format!("the program sets off the alarm {}", text.trim());
     fault("program-alarm", at, message, "the program asked for it")
+}
+
+pub(crate) fn arc_without_centre(hint: &'static str, at: usize) -> Fault {
+    let message = "neither the centre nor the radius of the arc is given";
+    fault("arc-without-centre", at, message, hint)
+}
+
+pub(crate) fn bad_turns(turns: f64, at: usize) -> Fault {
+    let message = format!("{turns} is not a number of turns");
+    fault("bad-turns", at, message, "write a whole number")
+}
+
+pub(crate) fn negative_feed(feed: f64, at: usize) -> Fault {
+    fault("negative-feed", at, format!("{feed} is not a feed"), "write F100")
+}
+
+pub(crate) fn zero_feed(mode: FeedMode, at: usize) -> Fault {
+    let (message, hint) = match mode {
+        FeedMode::InverseTime => ("with G93 each feed move needs its own F", "write F"),
+        _ => ("a feed move without feed", "write F before the first feed move"),
+    };
+    fault("zero-feed", at, message, hint)
 }

@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use super::frames::{Transformation, turn_about};
+use super::frames::Transformation;
 use super::line::Cursor;
 use super::variables::{Stored, Variable};
 use super::words::Words;
 use super::{Language, Run, fault};
-use crate::execution::Next;
+use crate::execution::{Next, frames};
 use crate::moves::{Axis, Event, Frame, MoveKind, PathControl};
 use crate::text::program::Fault;
 
@@ -37,7 +37,7 @@ impl Run<'_> {
     fn define_cycle(&mut self, c: &mut Cursor<'_>) -> Result<(), Fault> {
         let at = c.offset();
         let Some(written) = c.number()? else {
-            let message = "the number of the cycle is missing".to_owned();
+            let message = "the number of the cycle is missing";
             return Err(fault("missing-value", at, message, "write CYCL DEF 200"));
         };
         let number = written as u32;
@@ -107,7 +107,7 @@ impl Run<'_> {
         let tilted = self.frames.is_tilted();
         let set = self.frames.set(new, neutral);
         if set.is_none() || !self.frames.position.0.iter().all(|v| v.abs() < 1e9) {
-            let message = "this transformation leaves no space to move in".to_owned();
+            let message = "this transformation leaves no space to move in";
             return Err(fault("bad-transformation", at, message, "check its numbers"));
         }
         if tilted {
@@ -130,14 +130,14 @@ impl Run<'_> {
     /// CYCL DEF 10.1 ROT+30 or IROT+30: about the axis of the tool.
     fn rotation(&mut self, c: &mut Cursor<'_>) -> Result<(), Fault> {
         let at = c.offset();
-        let [first, second, third] = self.modes.plane.axes();
+        let [first, second, third] = self.core.modes.plane.axes();
         let before = self.frames.rotation_deg(first as usize, second as usize);
         let angle = match c.accept_any(&["ROT", "IROT"]) {
             Some(0) => self.value(c)?,
             Some(_) => before + self.value(c)?,
             None => return Err(c.unknown()),
         };
-        let turn = Transformation::Rotation(turn_about(third as usize, angle));
+        let turn = Transformation::Rotation(frames::about(third as usize, angle));
         self.transform(turn, angle == 0.0, at)
     }
 
@@ -150,7 +150,7 @@ impl Run<'_> {
         }
         while !c.done() {
             if let Some(index) = c.accept_any(&["CCX", "CCY", "CCZ"]) {
-                fixed[index] = self.value(c)? * self.unit_mm();
+                fixed[index] = self.value(c)? * self.core.modes.unit_mm();
             } else if let Some(index) = c.accept_any(&["X", "Y", "Z"]) {
                 factors[index] = self.value(c)?;
             } else {
@@ -158,7 +158,7 @@ impl Run<'_> {
             }
         }
         if !factors.iter().all(|f| (1e-6..=1e6).contains(f)) {
-            let message = "a scale is not a positive factor".to_owned();
+            let message = "a scale is not a positive factor";
             return Err(fault("bad-transformation", at, message, "write SCL0.99"));
         }
         self.transform(Transformation::Scale(factors, fixed), factors == [1.0; 3], at)
@@ -174,7 +174,7 @@ impl Run<'_> {
             let like = match kind {
                 0 => Transformation::Shift(Default::default()),
                 1 => Transformation::Mirror([false; 3]),
-                2 => Transformation::Rotation([[0.0; 3]; 3]),
+                2 => Transformation::Rotation(Frame::IDENTITY),
                 _ => Transformation::Scale([1.0; 3], [0.0; 3]),
             };
             let _ = self.frames.forget(&like);
@@ -198,7 +198,8 @@ impl Run<'_> {
     /// CYCL DEF 32.1 T0.05; 32.2 HSC-MODE:1 TA5.
     fn tolerance(&mut self, part: u32, c: &mut Cursor<'_>) -> Result<(), Fault> {
         if part == 1 {
-            let tolerance_mm = if c.accept("T") { self.value(c)? * self.unit_mm() } else { 0.0 };
+            let tolerance_mm =
+                if c.accept("T") { self.value(c)? * self.core.modes.unit_mm() } else { 0.0 };
             let control =
                 if tolerance_mm > 0.0 { PathControl::Continuous } else { PathControl::ExactPath };
             self.core.emit(Event::Path { control, tolerance_mm });
@@ -280,7 +281,7 @@ impl Run<'_> {
     /// Cycle 247: preset n is the work offset n of the settings.
     fn preset(&mut self, number: Option<f64>, at: usize) -> Result<(), Fault> {
         let Some(number) = number.filter(|n| (0.0..1e6).contains(n)) else {
-            let message = "cycle 247 needs Q339, the number of the preset".to_owned();
+            let message = "cycle 247 needs Q339, the number of the preset";
             return Err(fault("bad-work-offset", at, message, "write Q339=+1"));
         };
         let index = number as u32;
@@ -290,7 +291,7 @@ impl Run<'_> {
             let message = format!("preset {index} leaves no space to move in");
             return Err(fault("bad-transformation", at, message, "check the table of presets"));
         }
-        let rotation_deg = frame.linear[1][0].atan2(frame.linear[0][0]).to_degrees();
+        let rotation_deg = frames::rotation_deg(&frame);
         self.core.emit(Event::WorkOffset { index, offset: frame.shift, rotation_deg });
         self.emit_frame();
         Ok(())
@@ -317,11 +318,11 @@ impl Run<'_> {
             let target = words.target(&self.frames.position);
             let kind = if rapid { MoveKind::Rapid } else { MoveKind::Linear };
             if !rapid {
-                self.check_feed(at)?;
+                self.core.modes.check_feed(at)?;
             }
             self.step(kind, target, at)?;
         } else if words.has_axis() {
-            let message = "axis words need CYCL CALL POS".to_owned();
+            let message = "axis words need CYCL CALL POS";
             return Err(fault("unexpected-sign", words.at, message, "write CYCL CALL POS X… Y…"));
         }
         let next = self.execute_cycle(at)?;
@@ -350,7 +351,7 @@ impl Run<'_> {
             Some(Cycle::Program(name)) => self.call_program(&name, at),
             Some(Cycle::Missing) => Ok(Next::Following),
             None => {
-                let message = "no cycle is defined".to_owned();
+                let message = "no cycle is defined";
                 Err(fault("missing-cycle", at, message, "write CYCL DEF before the call"))
             }
         }

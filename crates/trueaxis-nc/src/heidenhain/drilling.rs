@@ -93,13 +93,13 @@ impl Run<'_> {
     }
 
     fn per_minute(&self, value: f64) -> Feed {
-        let scale = if self.modes.inches { 2.54 } else { 1.0 };
+        let scale = if self.core.modes.inches { 2.54 } else { 1.0 };
         Feed { mode: FeedMode::PerMinute, value: value * scale }
     }
 
     /// Cycles 1, 2 and 17 begin where the tool stands: the clearance above the surface.
     fn old_hole(&self, number: u32, values: &BTreeMap<u32, f64>) -> Hole {
-        let mm = self.unit_mm();
+        let mm = self.core.modes.unit_mm();
         let value = |n: u32| values.get(&n).copied().unwrap_or(0.0);
         let start = self.frames.position[self.along()];
         let depth = value(2) * mm;
@@ -133,7 +133,7 @@ impl Run<'_> {
     }
 
     fn new_hole(&mut self, number: u32, values: &BTreeMap<u32, f64>) -> Hole {
-        let mm = self.unit_mm();
+        let mm = self.core.modes.unit_mm();
         let value = |q: u32| values.get(&q).copied().unwrap_or(0.0);
         let (surface, clearance) = (value(203) * mm, value(200).abs() * mm);
         let feed = self.per_minute(value(206));
@@ -163,9 +163,9 @@ impl Run<'_> {
     fn go(&mut self, kind: MoveKind, depth: f64, feed: Feed, at: usize) -> Result<(), Fault> {
         let mut target = self.frames.position;
         target[self.along()] = depth;
-        let before = std::mem::replace(&mut self.modes.feed, feed);
+        let before = std::mem::replace(&mut self.core.modes.feed, feed);
         let done = self.step(kind, target, at);
-        self.modes.feed = before;
+        self.core.modes.feed = before;
         done
     }
 
@@ -220,17 +220,17 @@ impl Run<'_> {
 
     /// Tapping with a floating chuck: the spindle turns round at the bottom.
     fn tap(&mut self, hole: &Hole, at: usize) -> Result<(), Fault> {
-        let turning = self.modes.turning;
+        let turning = self.core.modes.turning;
         let back = match turning {
             Turning::Clockwise => Turning::CounterClockwise,
             Turning::CounterClockwise => Turning::Clockwise,
             Turning::Stopped => Turning::Stopped,
         };
         self.go(MoveKind::Linear, hole.bottom, hole.feed, at)?;
-        self.spindle(back);
+        self.core.turn_spindle(back);
         self.wait(hole.dwell_bottom, at)?;
         self.go(MoveKind::Linear, hole.start, hole.feed, at)?;
-        self.spindle(turning);
+        self.core.turn_spindle(turning);
         Ok(())
     }
 }

@@ -68,7 +68,7 @@ impl Run<'_> {
             self.core.warn("no-unit", "begin", at, message, "write BEGIN PGM name MM");
         }
         self.active().begun = true;
-        self.modes.inches = inches;
+        self.core.modes.inches = inches;
         Ok(Next::Following)
     }
 
@@ -96,7 +96,7 @@ impl Run<'_> {
         let at = program.source().len();
         let begun = self.stack.iter().rev().take_while(|a| a.begun).count() > 0;
         if begun && !matches!(self.active().reason, Reason::Label(_)) {
-            let message = "END PGM is missing".to_owned();
+            let message = "END PGM is missing";
             return Err(fault("truncated-program", at, message, "was the file cut off?"));
         }
         self.end(at)
@@ -139,7 +139,7 @@ impl Run<'_> {
         if c.accept("LBL") {
             let label = self.label_name(c)?;
             if label == Label::Number(0) {
-                let message = "LBL 0 is the end of subprograms".to_owned();
+                let message = "LBL 0 is the end of subprograms";
                 return Err(fault("bad-label", at, message, "call LBL 1 to LBL 65535"));
             }
             if c.accept("REP") {
@@ -156,7 +156,7 @@ impl Run<'_> {
             return match self.selected.clone() {
                 Some(name) => self.call_program(&name, at),
                 None => {
-                    let message = "no program is selected".to_owned();
+                    let message = "no program is selected";
                     Err(fault("missing-subprogram", at, message, "write SEL PGM before it"))
                 }
             };

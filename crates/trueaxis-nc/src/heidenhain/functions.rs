@@ -2,9 +2,8 @@
 
 use super::words::{Called, Words};
 use super::{Run, fault};
-use crate::moves::{
-    Axis, Coolant, Event, Feed, FeedMode, Move, MoveKind, OrientationPath, Turning,
-};
+use crate::execution::frames::unit;
+use crate::moves::{Axis, Coolant, Event, Feed, FeedMode, MoveKind, OrientationPath, Turning};
 use crate::text::program::Fault;
 
 /// What an M function does.
@@ -106,10 +105,7 @@ impl Run<'_> {
             let known = FUNCTIONS.iter().find(|(number, ..)| *number == called.number);
             let Some((_, at_end, effect)) = known else {
                 if !late {
-                    let message = format!("M{} is not known", called.number);
-                    let hint = "a function of the machine builder? its moves are missing";
-                    let subject = called.number.to_string();
-                    self.core.warn("unknown-m-code", &subject, called.at, &message, hint);
+                    self.core.unknown_m_code(f64::from(called.number), called.at);
                 }
                 continue;
             };
@@ -127,10 +123,10 @@ impl Run<'_> {
                 self.core.emit(Event::End);
                 return Ok(true);
             }
-            Effect::Spindle(turning) => self.spindle(turning),
+            Effect::Spindle(turning) => self.core.turn_spindle(turning),
             Effect::Coolant(coolant) => self.coolant(coolant),
             Effect::SpindleAndCoolant(turning) => {
-                self.spindle(turning);
+                self.core.turn_spindle(turning);
                 self.coolant(Coolant::Flood);
             }
             Effect::ReduceRotary => self.reduce_rotary(called),
@@ -146,11 +142,6 @@ impl Run<'_> {
         Ok(false)
     }
 
-    pub(super) fn spindle(&mut self, turning: Turning) {
-        self.modes.turning = turning;
-        self.core.emit(Event::Spindle(turning));
-    }
-
     fn coolant(&mut self, coolant: Coolant) {
         self.modes.coolant = coolant != Coolant::Off;
         self.core.emit(Event::Coolant(coolant));
@@ -158,13 +149,12 @@ impl Run<'_> {
 
     /// M128, FUNCTION TCPM, and their ends; TCPM also says how the tool turns.
     pub(super) fn tool_centre(&mut self, on: bool, path: Option<OrientationPath>) {
-        self.modes.tool_centre = on;
         self.tangent = None;
         if !on {
             self.modes.space_angles = false;
             self.direction = None;
         }
-        self.core.emit(Event::ToolCentre(on));
+        self.core.tool_centre(on);
         let path = path.unwrap_or(OrientationPath::Axes);
         if on && path != self.modes.orientation {
             self.modes.orientation = path;
@@ -175,16 +165,18 @@ impl Run<'_> {
     fn per_revolution(&mut self, on: bool, words: &Words) {
         self.modes.per_revolution = on;
         let mode = if on { FeedMode::PerRevolution } else { FeedMode::PerMinute };
-        if mode == self.modes.feed.mode {
+        if mode == self.core.modes.feed.mode {
             return;
         }
         // F of this block was read before M136 was known.
         let value = match (on, words.feed) {
-            (true, Some(super::words::FeedWord::PerMinute(f))) if self.modes.inches => f * 10.0,
+            (true, Some(super::words::FeedWord::PerMinute(f))) if self.core.modes.inches => {
+                f * 10.0
+            }
             (true, Some(super::words::FeedWord::PerMinute(f))) => f,
             _ => 0.0,
         };
-        self.modes.feed = Feed { mode, value };
+        self.core.modes.feed = Feed { mode, value };
     }
 
     /// M94: the display of rotary axes is brought below a full turn; nothing moves.
@@ -210,7 +202,7 @@ impl Run<'_> {
         };
         let rotary = self.frames.position.0[3..6].iter().any(|v| *v != 0.0);
         let along = match self.direction {
-            Some(direction) if self.modes.tool_centre => unit(direction).unwrap_or([0.0; 3]),
+            Some(direction) if self.core.modes.tool_centre => unit(direction).unwrap_or([0.0; 3]),
             _ if rotary && !self.frames.is_tilted() => {
                 let message = "M140 with turned axes: the tool axis is not known here";
                 let hint = "the retraction is missing";
@@ -219,7 +211,7 @@ impl Run<'_> {
             }
             _ => {
                 let mut along = [0.0; 3];
-                along[self.modes.plane.axes()[2] as usize] = 1.0;
+                along[self.core.modes.plane.axes()[2] as usize] = 1.0;
                 along
             }
         };
@@ -229,25 +221,14 @@ impl Run<'_> {
         }
         let kind = if called.feed.is_some() { MoveKind::Linear } else { MoveKind::Rapid };
         let named = crate::moves::AxisSet::XYZ;
-        let mut step = Move::plain(kind, target, named, self.modes.feed, self.core.origin);
+        let mut step = self.core.plain_move(kind, target, named);
         if let Some(value) = called.feed {
             if value <= 0.0 {
                 return Err(fault("zero-feed", called.at, "a feed of zero", "write F100"));
             }
-            let scale = if self.modes.inches { 2.54 } else { 1.0 };
+            let scale = if self.core.modes.inches { 2.54 } else { 1.0 };
             step.feed = Feed { mode: FeedMode::PerMinute, value: value * scale };
         }
         self.emit_move(step, called.at)
     }
-}
-
-/// The vector with length one; `None` if it has no length.
-pub(super) fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
-    let largest = v.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    if largest == 0.0 || !largest.is_finite() {
-        return None;
-    }
-    let scaled = v.map(|x| x / largest);
-    let length = scaled.iter().map(|x| x * x).sum::<f64>().sqrt();
-    Some(scaled.map(|x| x / length))
 }

@@ -238,7 +238,7 @@ impl<'s> Cursor<'s> {
             return Ok(None);
         };
         let Some(value) = number_value(&self.source[token.start..token.end]) else {
-            let message = "this is not a number".to_owned();
+            let message = "this is not a number";
             return Err(fault("bad-number", token.start, message, "write digits, such as 1.5"));
         };
         self.advance();

@@ -1,14 +1,13 @@
 //! Path blocks: L, LP, LN, CC and what all of them have in common.
 
-use super::functions::unit;
 use super::line::Cursor;
 use super::plane::spatial;
 use super::words::{FeedWord, Words};
 use super::{Run, fault};
 use crate::execution::Next;
+use crate::execution::frames::unit;
 use crate::moves::{
-    Axis, AxisSet, CompensationSide, Coordinates, Event, Feed, FeedMode, Move, MoveKind, Position,
-    Way,
+    Axis, AxisSet, CompensationSide, Coordinates, Event, Feed, FeedMode, MoveKind, Position, Way,
 };
 use crate::text::program::Fault;
 
@@ -130,18 +129,13 @@ impl Run<'_> {
     fn compensation(&mut self, words: &Words) {
         let Some(side) = words.side.filter(|s| *s != self.modes.side) else { return };
         self.modes.side = side;
-        self.core.emit(Event::Compensation(side));
-        if side != CompensationSide::Off {
-            let message = "radius compensation is noted, not applied";
-            let hint = "the moves are those of the program; let the CAM system compensate";
-            self.core.warn("compensation-not-applied", "", words.at, message, hint);
-        }
+        self.core.compensate(side, words.at);
     }
 
     /// Sets the feed; `true` if this block is rapid.
     pub(super) fn feed(&mut self, words: &Words) -> bool {
         let per_minute = FeedMode::PerMinute;
-        self.modes.feed = match words.feed {
+        self.core.modes.feed = match words.feed {
             None => return false,
             Some(FeedWord::Rapid) => return true,
             Some(FeedWord::OfTool) => Feed { mode: per_minute, value: self.modes.feed_of_tool },
@@ -154,14 +148,6 @@ impl Run<'_> {
             }
         };
         false
-    }
-
-    pub(super) fn check_feed(&self, at: usize) -> Result<(), Fault> {
-        if self.modes.feed.value > 0.0 {
-            return Ok(());
-        }
-        let message = "a feed move without feed".to_owned();
-        Err(fault("zero-feed", at, message, "write F or FMAX in this block or F before it"))
     }
 
     fn line(&mut self, words: &Words, rapid: bool) -> Result<(), Fault> {
@@ -188,11 +174,11 @@ impl Run<'_> {
         mut direction: Option<[f64; 3]>,
     ) -> Result<(), Fault> {
         if !rapid {
-            self.check_feed(words.at)?;
+            self.core.modes.check_feed(words.at)?;
         }
         let mut named = words.named();
         if words.radius.or(words.angle).is_some() {
-            let [first, second, _] = self.modes.plane.axes();
+            let [first, second, _] = self.core.modes.plane.axes();
             named = named.with(first).with(second);
         }
         if words.calls(130) {
@@ -204,11 +190,11 @@ impl Run<'_> {
         if self.modes.space_angles && turns {
             let angles = rotary.map(|a| target[a]);
             let turn = spatial(angles[0], angles[1], angles[2]);
-            direction = Some([turn[0][2], turn[1][2], turn[2][2]]);
+            direction = Some(turn.linear.map(|row| row[2]));
             named.0 &= !0b11_1000;
         }
         let kind = if rapid { MoveKind::Rapid } else { MoveKind::Linear };
-        let mut step = Move::plain(kind, target, named, self.modes.feed, self.core.origin);
+        let mut step = self.core.plain_move(kind, target, named);
         step.direction = direction;
         for (i, axis) in rotary.into_iter().enumerate() {
             let increment = words.axes[axis as usize].is_some_and(|w| w.incremental);
@@ -230,7 +216,7 @@ impl Run<'_> {
     /// Where the axes stand in the machine, as long as neither tilt nor TCP is on.
     pub(super) fn machine_place(&self) -> Position {
         let mut machine = self.frames.frame().place(&self.frames.position);
-        machine[self.modes.plane.axes()[2]] += self.modes.tool_length_mm;
+        machine[self.core.modes.plane.axes()[2]] += self.modes.tool_length_mm;
         machine
     }
 
@@ -241,16 +227,16 @@ impl Run<'_> {
             self.core.warn("not-applied", "M92", words.at, message, "check where the tool goes");
         }
         if !rapid {
-            self.check_feed(words.at)?;
+            self.core.modes.check_feed(words.at)?;
         }
         let machine = words.target(&self.machine_place());
         let named = words.named();
         let kind = if rapid { MoveKind::Rapid } else { MoveKind::Linear };
-        let mut step = Move::plain(kind, machine, named, self.modes.feed, self.core.origin);
+        let mut step = self.core.plain_move(kind, machine, named);
         step.coordinates = Coordinates::Machine;
         self.emit_move(step, words.at)?;
         let mut place = machine;
-        place[self.modes.plane.axes()[2]] -= self.modes.tool_length_mm;
+        place[self.core.modes.plane.axes()[2]] -= self.modes.tool_length_mm;
         if let Some(position) = self.frames.frame().inverse_place(&place) {
             self.frames.position = position;
         }
@@ -266,7 +252,7 @@ impl Run<'_> {
         let (normal, tool) = (vector(words.normal), vector(words.tool));
         for given in normal.iter().chain(&tool) {
             if unit(*given).is_none() {
-                let message = "the vector has no length".to_owned();
+                let message = "the vector has no length";
                 return Err(fault("zero-direction", words.at, message, "write all three parts"));
             }
         }
@@ -275,7 +261,7 @@ impl Run<'_> {
             let hint = "the moves are those of the program";
             self.core.warn("not-applied", "LN normal", words.at, message, hint);
         }
-        if tool.is_some() && !self.modes.tool_centre {
+        if tool.is_some() && !self.core.modes.tool_centre {
             let message = "LN with a tool direction, but M128 or FUNCTION TCPM is not on";
             self.core.warn(
                 "direction-without-tcp",
@@ -291,7 +277,7 @@ impl Run<'_> {
 
     /// CC: the centre of circles and polar coordinates; without words the present place.
     fn pole_statement(&mut self, words: &Words) -> Result<(), Fault> {
-        let [first, second, _] = self.modes.plane.axes();
+        let [first, second, _] = self.core.modes.plane.axes();
         words.only_axes(&[first, second])?;
         let now = self.frames.position;
         let old = self.pole.unwrap_or([now[first], now[second]]);
@@ -312,14 +298,13 @@ impl Run<'_> {
     /// The pole, which must be there.
     pub(super) fn pole(&self, at: usize) -> Result<[f64; 2], Fault> {
         self.pole.ok_or_else(|| {
-            let message = "the centre is missing".to_owned();
-            fault("missing-pole", at, message, "write CC before this block")
+            fault("missing-pole", at, "the centre is missing", "write CC before this block")
         })
     }
 
     /// Radius and angle of the present place about the pole.
     pub(super) fn polar_place(&self, pole: [f64; 2]) -> (f64, f64) {
-        let [first, second, _] = self.modes.plane.axes();
+        let [first, second, _] = self.core.modes.plane.axes();
         let now = self.frames.position;
         let (dx, dy) = (now[first] - pole[0], now[second] - pole[1]);
         (dx.hypot(dy), dy.atan2(dx).to_degrees())
@@ -331,7 +316,7 @@ impl Run<'_> {
         let (radius, angle) = self.polar_place(pole);
         let radius = words.radius.map_or(radius, |w| w.from(radius));
         let angle = words.angle.map_or(angle, |w| w.from(angle));
-        let [first, second, _] = self.modes.plane.axes();
+        let [first, second, _] = self.core.modes.plane.axes();
         let mut target = words.target(&self.frames.position);
         let (sin, cos) = angle.to_radians().sin_cos();
         target[first] = pole[0] + radius * cos;

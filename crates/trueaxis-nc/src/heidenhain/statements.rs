@@ -98,11 +98,11 @@ impl Run<'_> {
             return self.control_function(c);
         }
         if c.accept_any(&FREE_CONTOUR).is_some() {
-            let message = "free contour programming and splines are not interpreted".to_owned();
+            let message = "free contour programming and splines are not interpreted";
             return Err(fault("not-interpreted", at, message, "write L, C, CR or CT blocks"));
         }
         if c.accept_any(&["ELSE", "FOR", "WHILE", "IF"]).is_some() {
-            let message = "structured control statements are not interpreted".to_owned();
+            let message = "structured control statements are not interpreted";
             return Err(fault("not-interpreted", at, message, "write FN 9 to FN 12 with labels"));
         }
         if NOTED.iter().any(|word| c.is(word)) {
@@ -164,7 +164,7 @@ impl Run<'_> {
         let at = c.offset();
         let Some(target) = self.variable(c)? else { return Err(super::values::missing(c)) };
         if number == 0 && matches!(target, Variable::Text(_)) || !c.accept_symbol(b'=') {
-            let message = "a parameter is followed by =".to_owned();
+            let message = "a parameter is followed by =";
             return Err(fault("missing-equals", c.offset(), message, "write FN 0: Q1 = 5"));
         }
         if c.accept("SET") && c.accept("UNDEFINED") {
@@ -192,7 +192,7 @@ impl Run<'_> {
             4 => {
                 let divisor = second(self, 0, "DIV")?;
                 if divisor == 0.0 {
-                    let message = "division by zero".to_owned();
+                    let message = "division by zero";
                     return Err(fault("division-by-zero", at, message, "check the divisor"));
                 }
                 a / divisor
@@ -209,8 +209,7 @@ impl Run<'_> {
             _ => a,
         };
         if !value.is_finite() {
-            let message = "the result is not finite".to_owned();
-            return Err(fault("not-finite", at, message, "check its numbers"));
+            return Err(fault("not-finite", at, "the result is not finite", "check its numbers"));
         }
         self.variables.store(target, Stored::Number(value));
         Ok(())
@@ -234,7 +233,7 @@ impl Run<'_> {
         let axis = Axis::ALL.get((detail[1] as usize).wrapping_sub(1)).copied();
         let place = match (id as u32, detail[0] as u32) {
             (220, 2) => Some(self.frames.shift()),
-            (240, 1) if !self.modes.tool_centre && !self.frames.is_tilted() => {
+            (240, 1) if !self.core.modes.tool_centre && !self.frames.is_tilted() => {
                 Some(self.machine_place())
             }
             (270, 1) => Some(self.frames.position),
@@ -242,7 +241,7 @@ impl Run<'_> {
         };
         let stored = match place.zip(axis) {
             Some((place, axis)) => {
-                let scale = if axis.is_rotary() { 1.0 } else { self.unit_mm() };
+                let scale = if axis.is_rotary() { 1.0 } else { self.core.modes.unit_mm() };
                 Stored::Number(place[axis] / scale)
             }
             None => Stored::Unknown("FN 18 asks the machine for it"),

@@ -63,10 +63,10 @@ impl Run<'_> {
             match split_address(c) {
                 Some("S") => speed = Some(self.value(c)?),
                 Some("F") => feed = Some(self.feed_word(c, Some("F"))?),
-                Some("DL") => excess[0] = self.value(c)? * self.unit_mm(),
+                Some("DL") => excess[0] = self.value(c)? * self.core.modes.unit_mm(),
                 Some("DR") => {
                     let corner = c.is_number() && c.whole()?.is_some();
-                    let value = self.value(c)? * self.unit_mm();
+                    let value = self.value(c)? * self.core.modes.unit_mm();
                     if !corner {
                         excess[1] = value;
                     }
@@ -81,12 +81,10 @@ impl Run<'_> {
         if let Some(number) = number {
             self.change_tool(number, excess, at, axis_given)?;
         }
-        if let Some(speed) = speed {
-            self.core.emit(Event::SpindleSpeed(speed));
-        }
+        self.core.set_speed(speed);
         if let Some(super::words::FeedWord::PerMinute(value)) = feed {
             self.modes.feed_of_tool = value;
-            self.modes.feed.value = value;
+            self.core.modes.feed.value = value;
         }
         if !c.done() {
             let words = self.words(c)?;
@@ -104,10 +102,9 @@ impl Run<'_> {
             _ => Plane::Xy,
         };
         self.modes.tool_axis = Some(axis);
-        if plane != self.modes.plane {
-            self.modes.plane = plane;
+        if plane != self.core.modes.plane {
             self.pole = None;
-            self.core.emit(Event::Plane(plane));
+            self.core.select_plane(plane);
         }
     }
 
@@ -119,20 +116,18 @@ impl Run<'_> {
         with_axis: bool,
     ) -> Result<(), Fault> {
         if self.modes.tool_axis.is_none() && number != 0 && !with_axis {
-            self.modes.tool_axis = Some(self.modes.plane.axes()[2]);
+            self.modes.tool_axis = Some(self.core.modes.plane.axes()[2]);
         }
         let entry = self.tools.get(&number).copied();
         if entry.is_none() && number != 0 {
-            let message = format!("the length of tool {number} is not known: 0 is taken");
-            let hint = "give a tool table, or write TOOL DEF with L and R";
-            self.core.warn("unknown-tool-length", &number.to_string(), at, &message, hint);
+            self.core.unknown_length(number, at);
         }
         let (length, radius) = entry.unwrap_or((0.0, None));
-        self.modes.tool = number;
+        self.core.modes.tool = number;
         self.modes.tool_radius_mm = radius.map(|r| r + excess[1]);
         let length_mm = if number == 0 { 0.0 } else { length + excess[0] };
         // The axes stay where they are, so a longer tool stands lower in the program.
-        let along = self.modes.plane.axes()[2];
+        let along = self.core.modes.plane.axes()[2];
         self.frames.position[along] += self.modes.tool_length_mm - length_mm;
         self.modes.tool_length_mm = length_mm;
         self.tangent = None;
@@ -147,7 +142,7 @@ impl Run<'_> {
     fn tool_definition(&mut self, c: &mut Cursor<'_>) -> Result<(), Fault> {
         let at = c.offset();
         let Some(number) = self.tool_number(c)? else {
-            let message = "the number of the tool is missing".to_owned();
+            let message = "the number of the tool is missing";
             return Err(fault("bad-tool", at, message, "write TOOL DEF 1 L+0 R+5"));
         };
         if c.done() {
@@ -157,8 +152,8 @@ impl Run<'_> {
         let (mut length, mut radius) = (0.0, None);
         while !c.done() {
             match split_address(c) {
-                Some("L") => length = self.value(c)? * self.unit_mm(),
-                Some("R") => radius = Some(self.value(c)? * self.unit_mm()),
+                Some("L") => length = self.value(c)? * self.core.modes.unit_mm(),
+                Some("R") => radius = Some(self.value(c)? * self.core.modes.unit_mm()),
                 _ => return Err(c.unknown()),
             }
         }
@@ -215,7 +210,7 @@ impl Run<'_> {
         }
         self.blank = None;
         if !place.iter().chain(&first).all(|v| v.abs() < 1e9) {
-            let message = "a corner of the blank is too far away".to_owned();
+            let message = "a corner of the blank is too far away";
             return Err(fault("too-large", at, message, "check the numbers of the block"));
         }
         let min_mm = std::array::from_fn(|i| first[i].min(place[i]));

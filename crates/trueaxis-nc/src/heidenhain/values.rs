@@ -55,8 +55,12 @@ impl Run<'_> {
     pub(super) fn assign(&mut self, target: Variable, c: &mut Cursor<'_>) -> Result<(), Fault> {
         let at = c.offset();
         if !c.accept_symbol(b'=') {
-            let message = "a parameter is followed by =".to_owned();
-            return Err(fault("missing-equals", at, message, "write Q1 = 5"));
+            return Err(fault(
+                "missing-equals",
+                at,
+                "a parameter is followed by =",
+                "write Q1 = 5",
+            ));
         }
         if let Variable::Text(number) = target {
             let text = self.text(c)?;
@@ -81,8 +85,7 @@ impl Run<'_> {
         if value.is_finite() {
             return Ok(value);
         }
-        let message = "the formula has no finite value".to_owned();
-        Err(fault("not-finite", at, message, "check its numbers"))
+        Err(fault("not-finite", at, "the formula has no finite value", "check its numbers"))
     }
 
     fn sum(&mut self, c: &mut Cursor<'_>) -> Result<f64, Fault> {
@@ -133,7 +136,7 @@ impl Run<'_> {
             let exponent = sign * self.primary(c)?;
             value = value.powf(exponent);
             if value.is_nan() {
-                let message = "this power has no real value".to_owned();
+                let message = "this power has no real value";
                 return Err(fault("out-of-domain", at, message, "check base and exponent"));
             }
         }
@@ -148,7 +151,7 @@ impl Run<'_> {
         if c.accept_symbol(b'(') {
             let value = self.sum(c)?;
             if !c.accept_symbol(b')') {
-                let message = "a bracket is not closed".to_owned();
+                let message = "a bracket is not closed";
                 return Err(fault("unbalanced-brackets", at, message, "one ) for each ("));
             }
             return Ok(value);
@@ -162,7 +165,7 @@ impl Run<'_> {
         if let Some(index) = c.accept_any(&FUNCTIONS) {
             c.depth += 1;
             if c.depth > DEEPEST {
-                let message = "too many functions within each other".to_owned();
+                let message = "too many functions within each other";
                 return Err(fault("too-deep", at, message, "use parameters in between"));
             }
             let negative = c.accept_symbol(b'-');
@@ -196,7 +199,7 @@ impl Run<'_> {
             }
         };
         if !open || !c.accept_symbol(b')') {
-            let message = "a bracket is not closed".to_owned();
+            let message = "a bracket is not closed";
             return Err(fault("unbalanced-brackets", at, message, "one ) for each ("));
         }
         value.ok_or_else(|| {
@@ -244,13 +247,13 @@ impl Run<'_> {
             c.accept_symbol(b'(');
             let text = if kind == 0 { self.number_as_text(c)? } else { self.part_of_text(c)? };
             if !c.accept_symbol(b')') {
-                let message = "a bracket is not closed".to_owned();
+                let message = "a bracket is not closed";
                 return Err(fault("unbalanced-brackets", at, message, "one ) for each ("));
             }
             return Ok(text);
         }
         if c.accept_any(&["SYSSTR", "CFGREAD", "FGREAD"]).is_some() {
-            let message = "this text is known to the machine only".to_owned();
+            let message = "this text is known to the machine only";
             return Err(fault("unknown-value", at, message, "write the text into the program"));
         }
         let message = "a text is missing".to_owned();

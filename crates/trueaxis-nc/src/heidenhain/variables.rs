@@ -75,7 +75,7 @@ impl Run<'_> {
         let at = c.offset();
         let Some(kind) = c.accept_any(&["Q", "QL", "QR", "QS"]) else { return Ok(None) };
         let Some(number) = c.whole()? else {
-            let message = "the number of the parameter is missing".to_owned();
+            let message = "the number of the parameter is missing";
             return Err(fault("missing-value", c.offset(), message, "write Q1"));
         };
         let most = if matches!(kind, 1 | 2) { 499 } else { 1999 };
@@ -139,10 +139,10 @@ impl Run<'_> {
         };
         let Variable::Global(number) = variable else { return Err(undefined()) };
         let length = |mm: f64, inches: bool| if inches { mm / 25.4 } else { mm };
-        let inches = self.modes.inches;
+        let inches = self.core.modes.inches;
         match number {
             108 => self.modes.tool_radius_mm.map(|r| length(r, inches)).ok_or_else(|| {
-                let message = "Q108: the radius of the tool is not known".to_owned();
+                let message = "Q108: the radius of the tool is not known";
                 fault("unknown-value", at, message, "write TOOL DEF with R before TOOL CALL")
             }),
             109 => Ok(match self.modes.tool_axis {
@@ -152,7 +152,7 @@ impl Run<'_> {
                 Some(Axis::W) => 8.0,
                 Some(axis) => f64::from(axis as u8),
             }),
-            110 => Ok(match self.modes.turning {
+            110 => Ok(match self.core.modes.turning {
                 Turning::Stopped => -1.0,
                 Turning::Clockwise => 0.0,
                 Turning::CounterClockwise => 1.0,

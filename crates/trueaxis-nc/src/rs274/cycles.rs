@@ -38,11 +38,11 @@ impl Run<'_> {
     pub(super) fn cycle(&mut self, cycle: Cycle, at: usize) -> Result<(), Fault> {
         for letter in *b"ABC" {
             if self.words.look(letter).is_some() {
-                let message = "rotary axes do not move in a drilling cycle".to_owned();
+                let message = "rotary axes do not move in a drilling cycle";
                 return Err(fault("rotary-in-cycle", at, message, "turn them in a block before"));
             }
         }
-        self.check_feed(at)?;
+        self.core.modes.check_feed(at)?;
         let hole = self.hole(cycle, at)?;
         self.check_depth(hole.axis, at);
         let repeats = self.words.take(b'L').or_else(|| {
@@ -60,7 +60,7 @@ impl Run<'_> {
             return Err(fault("too-many-pecks", at, message, "check Q and L"));
         }
         let polar = self.modes.transforms.polar.is_some();
-        let axes = self.modes.plane.axes();
+        let axes = self.core.modes.plane.axes();
         let steps = if polar { [None; 2] } else { [axes[0], axes[1]].map(|a| self.axis_word(a)) };
         if self.frames.position.0[hole.axis] < hole.r && cycle != Cycle::BackBore {
             let mut up = self.frames.position;
@@ -70,7 +70,7 @@ impl Run<'_> {
         for _ in 0..repeats as u32 {
             let mut over = self.frames.position;
             for (axis, step) in axes.iter().zip(steps) {
-                let base = if self.modes.incremental { over[*axis] } else { 0.0 };
+                let base = if self.core.modes.incremental { over[*axis] } else { 0.0 };
                 over[*axis] = step.map_or(over[*axis], |s| base + s);
             }
             if let Some(place) = self.polar_place() {
@@ -91,19 +91,19 @@ impl Run<'_> {
     }
 
     fn hole(&mut self, cycle: Cycle, at: usize) -> Result<Hole, Fault> {
-        let axis = self.modes.plane.axes()[2];
+        let axis = self.core.modes.plane.axes()[2];
         let now = self.frames.position[axis];
         if self.modes.cycle.initial_mm.is_none() {
             self.modes.cycle.initial_mm = Some(now);
         }
-        let incremental = self.modes.incremental;
+        let incremental = self.core.modes.incremental;
         let fanuc = self.is_fanuc();
         // FANUC counts R from where the cycles began, LinuxCNC from where the drill is.
         let base = self.modes.cycle.initial_mm.filter(|_| fanuc).unwrap_or(now);
         let r_word = self.length(b'R').map(|r| if incremental { r + base } else { r });
         let r = r_word.or(self.modes.cycle.r_mm);
         let Some(r) = r else {
-            let message = "the cycle has no R".to_owned();
+            let message = "the cycle has no R";
             return Err(fault("cycle-without-r", at, message, "write R, the plane of retraction"));
         };
         let depth = self.axis_word(axis).map(|z| if incremental { z + r } else { z });
@@ -112,13 +112,13 @@ impl Run<'_> {
             return Err(fault("cycle-without-depth", at, message, "write the depth of the hole"));
         };
         if (r < bottom) != (cycle == Cycle::BackBore) {
-            let message = "the plane of retraction R lies below the bottom of the hole".to_owned();
+            let message = "the plane of retraction R lies below the bottom of the hole";
             return Err(fault("cycle-r-below-bottom", at, message, "check R and the depth"));
         }
         let peck = self.length(b'Q').or(self.modes.cycle.peck_mm);
         let pecks = matches!(cycle, Cycle::Peck | Cycle::ChipBreaking);
         if pecks && !peck.is_some_and(|q| q > 0.0) {
-            let message = "the cycle needs Q, the depth of each peck, above 0".to_owned();
+            let message = "the cycle needs Q, the depth of each peck, above 0";
             return Err(fault("cycle-without-q", at, message, "write Q2"));
         }
         // FANUC counts P in milliseconds.
@@ -145,7 +145,7 @@ impl Run<'_> {
             Cycle::Peck | Cycle::ChipBreaking => self.peck(cycle, hole, place),
             _ => self.along(MoveKind::Linear, place, hole, hole.bottom),
         }
-        let turning = self.modes.turning;
+        let turning = self.core.modes.turning;
         match cycle {
             Cycle::TapLeft | Cycle::TapRight => {
                 let back = match turning {
@@ -195,8 +195,8 @@ impl Run<'_> {
     /// with feed, and out the same way.
     fn bore_back(&mut self, hole: &Hole, place: Position) {
         let mut beside = place;
-        beside[self.modes.plane.axes()[0]] += hole.peck;
-        let turning = self.modes.turning;
+        beside[self.core.modes.plane.axes()[0]] += hole.peck;
+        let turning = self.core.modes.turning;
         self.core.emit(Event::SpindleOrient { angle_deg: 0.0 });
         self.step(MoveKind::Rapid, beside);
         self.along(MoveKind::Rapid, beside, hole, hole.r);

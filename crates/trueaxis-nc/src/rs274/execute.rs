@@ -1,7 +1,6 @@
 use super::{Next, Run, fault};
-use crate::moves::{
-    Axis, CompensationSide, Event, FeedMode, Move, MoveKind, PathControl, Position, Turning,
-};
+use crate::execution::mistakes;
+use crate::moves::{Axis, CompensationSide, Event, Move, MoveKind, PathControl, Position};
 use crate::rs274::code::{Action, Motion};
 use crate::text::program::{Block, Fault, Item, Keyword, Label, Program};
 
@@ -85,7 +84,7 @@ impl Run<'_> {
         }
         self.report_unused()?;
         if self.called.take().is_some() {
-            let message = "no code of this block calls the program it names".to_owned();
+            let message = "no code of this block calls the program it names";
             let hint = "write M98 or G65 before the name";
             return Err(fault("unexpected-sign", block.span.start, message, hint));
         }
@@ -192,12 +191,12 @@ impl Run<'_> {
     /// A FANUC block has its units before it has its feed, a LinuxCNC block afterwards.
     fn units_before_feed(&mut self, actions: &[(Action, usize)]) {
         let units = actions.iter().find_map(|(action, at)| match action {
-            Action::Inches(inches) if *inches != self.modes.inches => Some((*inches, *at)),
+            Action::Inches(inches) if *inches != self.core.modes.inches => Some((*inches, *at)),
             _ => None,
         });
         let Some((inches, at)) = units else { return };
         if self.is_fanuc() {
-            self.modes.inches = inches;
+            self.core.modes.inches = inches;
         } else if self.words.look(b'F').is_some() {
             let message = "F counts in the units before this block".to_owned();
             let hint = "write G20 or G21 in a block before F";
@@ -218,35 +217,28 @@ impl Run<'_> {
         match self.modes.motion {
             Some(motion) if motion != Motion::Cancelled => self.motion(motion, machine, at),
             _ => {
-                let message = "axis words without a motion code".to_owned();
+                let message = "axis words without a motion code";
                 Err(fault("no-motion-code", at, message, "write G0, G1, G2 or G3 before them"))
             }
         }
     }
 
     fn feed_speed_tool(&mut self, block: &Block) -> Result<(), Fault> {
-        let at = self.words.place(b'F');
-        if let Some(feed) = self.words.take(b'F') {
-            if feed < 0.0 {
-                return Err(fault("negative-feed", at, "a feed is not negative", "write F100"));
-            }
-            let inverse = self.modes.feed_mode == FeedMode::InverseTime;
-            self.modes.feed = if inverse { feed } else { feed * self.modes.unit_mm() };
-        } else if self.modes.feed_mode == FeedMode::InverseTime {
-            self.modes.feed = 0.0;
+        let (at, feed) = (self.words.place(b'F'), self.words.take(b'F'));
+        if let Some(negative) = feed.filter(|feed| *feed < 0.0) {
+            return Err(mistakes::negative_feed(negative, at));
         }
-        if let Some(speed) = self.words.take(b'S') {
-            self.modes.speed = speed;
-            self.core.emit(Event::SpindleSpeed(speed));
-        }
+        let unit_mm = self.core.modes.unit_mm();
+        self.core.modes.set_feed(feed, unit_mm);
+        let speed = self.words.take(b'S');
+        self.core.set_speed(speed);
         let at = self.words.place(b'T');
         if let Some(tool) = self.words.take(b'T') {
             if !(0.0..1e9).contains(&tool) {
                 let message = format!("T{tool} is not the number of a tool");
                 return Err(fault("bad-tool", at.max(block.span.start), message, "write T1"));
             }
-            self.modes.selected = tool as u32;
-            self.core.emit(Event::ToolSelect(tool as u32));
+            self.core.select_tool(tool as u32);
         }
         Ok(())
     }
@@ -254,22 +246,14 @@ impl Run<'_> {
     /// Everything but motions and calls; `true` at the end of the program.
     pub(super) fn act(&mut self, action: Action, at: usize) -> Result<bool, Fault> {
         match action {
-            Action::Feed(mode) => {
-                if mode != self.modes.feed_mode {
-                    self.modes.feed = 0.0;
-                }
-                self.modes.feed_mode = mode;
-            }
+            Action::Feed(mode) => self.core.modes.change_feed_mode(mode),
             Action::Dwell => self.dwell(at)?,
-            Action::Plane(plane) => {
-                self.modes.plane = plane;
-                self.core.emit(Event::Plane(plane));
-            }
-            Action::Inches(inches) => self.modes.inches = inches,
-            Action::Diameter(diameter) => self.modes.diameter = diameter,
+            Action::Plane(plane) => self.core.select_plane(plane),
+            Action::Inches(inches) => self.core.modes.inches = inches,
+            Action::Diameter(diameter) => self.core.modes.diameter = diameter,
             Action::Compensation(side) => self.compensation(side, at),
             Action::Path(control) => self.path(control),
-            Action::Incremental(incremental) => self.modes.incremental = incremental,
+            Action::Incremental(incremental) => self.core.modes.incremental = incremental,
             Action::ArcAbsolute(absolute) => self.modes.arc_absolute = absolute,
             Action::RetractToR(to_r) => self.modes.retract_to_r = to_r,
             Action::MachineCoordinates => {}
@@ -328,9 +312,8 @@ impl Run<'_> {
     fn spindle(&mut self, action: Action) {
         match action {
             Action::Spindle(turning) => {
-                self.modes.turning = turning;
                 self.words.take(b'P');
-                self.core.emit(Event::Spindle(turning));
+                self.core.turn_spindle(turning);
             }
             Action::Orient => {
                 let angle_deg = self.words.take(b'R').unwrap_or(0.0);
@@ -338,16 +321,10 @@ impl Run<'_> {
                 self.words.take(b'Q');
                 self.core.emit(Event::SpindleOrient { angle_deg });
             }
-            Action::ToolChange => {
-                self.modes.tool = self.modes.selected;
-                self.modes.turning = Turning::Stopped;
-                self.core.emit(Event::ToolChange(self.modes.tool));
-            }
+            Action::ToolChange => self.core.change_tool(),
             Action::SurfaceSpeed(on) => {
                 self.words.take(b'D');
-                let name =
-                    if on { "G96 constant surface speed" } else { "G97 revolutions per minute" };
-                self.core.emit(Event::Note(name));
+                self.core.surface_speed(on);
             }
             _ => {}
         }
@@ -365,7 +342,7 @@ impl Run<'_> {
             None => None,
         };
         let Some(seconds) = seconds.filter(|s| *s >= 0.0) else {
-            let message = "the time of the dwell is missing or negative".to_owned();
+            let message = "the time of the dwell is missing or negative";
             return Err(fault("bad-dwell", at, message, "write G4 P0.5"));
         };
         self.step(MoveKind::Dwell { seconds }, self.frames.position);
@@ -378,12 +355,7 @@ impl Run<'_> {
         }
         self.words.take(b'L');
         self.modes.compensation = side;
-        self.core.emit(Event::Compensation(side));
-        if side != CompensationSide::Off {
-            let message = "radius compensation is noted, not applied".to_owned();
-            let hint = "the moves are those of the program; let the CAM system compensate";
-            self.core.warn("compensation-not-applied", 0, at, message, hint);
-        }
+        self.core.compensate(side, at);
     }
 
     fn path(&mut self, control: PathControl) {
@@ -398,7 +370,7 @@ impl Run<'_> {
     }
 
     pub(super) fn step(&mut self, kind: MoveKind, target: Position) {
-        let (feed, origin) = (self.modes.feed(), self.core.origin);
+        let (feed, origin) = (self.core.modes.feed, self.core.origin);
         self.emit_move(Move::plain(kind, target, self.words.axes(), feed, origin));
     }
 
@@ -415,7 +387,7 @@ impl Run<'_> {
         let arc = matches!(motion, Motion::ArcClockwise | Motion::ArcCounterClockwise);
         if !moves && !arc {
             if motion == Motion::Probe {
-                let message = "a probing move needs an axis word".to_owned();
+                let message = "a probing move needs an axis word";
                 return Err(fault("no-axis-words", at, message, "write G38.2 Z-10"));
             }
             return Ok(());
@@ -429,12 +401,12 @@ impl Run<'_> {
         }
         let target = if machine { self.machine_target() } else { self.target() };
         if !matches!(motion, Motion::Rapid | Motion::Thread | Motion::RigidTap) {
-            self.check_feed(at)?;
+            self.core.modes.check_feed(at)?;
         }
         match motion {
             Motion::Rapid | Motion::Linear => {
                 let direction = self.take_direction(at)?;
-                let (feed, origin) = (self.modes.feed(), self.core.origin);
+                let (feed, origin) = (self.core.modes.feed, self.core.origin);
                 let named = self.words.axes();
                 let rapid = motion == Motion::Rapid;
                 let kind = if rapid { MoveKind::Rapid } else { MoveKind::Linear };
@@ -448,7 +420,7 @@ impl Run<'_> {
             Motion::Thread | Motion::RigidTap => {
                 let pitch_mm = match self.length(b'K') {
                     Some(pitch) => pitch,
-                    None => self.modes.feed,
+                    None => self.core.modes.feed.value,
                 };
                 self.words.take(b'I');
                 if motion == Motion::Thread {
@@ -476,21 +448,10 @@ impl Run<'_> {
         }
         let direction = b"IJK".map(|l| self.words.take(l).unwrap_or(0.0));
         if direction == [0.0; 3] {
-            let message = "the direction of the tool has no length".to_owned();
+            let message = "the direction of the tool has no length";
             return Err(fault("zero-direction", at, message, "write I, J and K"));
         }
         Ok(Some(direction))
-    }
-
-    pub(super) fn check_feed(&self, at: usize) -> Result<(), Fault> {
-        if self.modes.feed > 0.0 {
-            return Ok(());
-        }
-        let (message, hint) = match self.modes.feed_mode {
-            FeedMode::InverseTime => ("with G93 each feed move needs its own F", "write F"),
-            _ => ("a feed move without feed", "write F before the first feed move"),
-        };
-        Err(fault("zero-feed", at, message, hint))
     }
 
     /// The program coordinates of a place given in machine coordinates.

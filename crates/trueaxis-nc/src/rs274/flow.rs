@@ -289,7 +289,7 @@ impl Run<'_> {
             Keyword::Call => {
                 let mut locals = Locals::default();
                 if statement.arguments.len() > 30 {
-                    let message = "a call has 30 arguments at the most".to_owned();
+                    let message = "a call has 30 arguments at the most";
                     return Err(fault("too-many-arguments", at, message, "use global parameters"));
                 }
                 for number in &mut locals.numbers[1..=30] {
@@ -302,7 +302,7 @@ impl Run<'_> {
                 self.enter(program, &statement.label, &name, locals, block, 1, at)
             }
             Keyword::Sub if self.frame().sub.is_some() => {
-                let message = "a sub is defined within a sub".to_owned();
+                let message = "a sub is defined within a sub";
                 Err(fault("nested-sub", at, message, "define subs one after the other"))
             }
             Keyword::Sub => {
@@ -312,7 +312,7 @@ impl Run<'_> {
                         m.keyword == Keyword::Sub && m.start > at && m.start < mark.start
                     });
                 if let Some(nested) = nested {
-                    let message = "a sub is defined within a sub".to_owned();
+                    let message = "a sub is defined within a sub";
                     let hint = "define subs one after the other";
                     return Err(fault("nested-sub", nested.start, message, hint));
                 }

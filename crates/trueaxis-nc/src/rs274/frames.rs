@@ -1,5 +1,6 @@
 use std::collections::BTreeMap;
 
+use crate::execution::frames::rotation_deg;
 use crate::moves::{Axis, Frame, Position};
 
 /// One work offset: origin and turn, as a rule about Z.
@@ -13,7 +14,7 @@ pub(super) struct WorkOffset {
 
 impl WorkOffset {
     fn of(frame: &Frame) -> Self {
-        let rotation_deg = frame.linear[1][0].atan2(frame.linear[0][0]).to_degrees();
+        let rotation_deg = rotation_deg(frame);
         let flat = Self { offset: frame.shift, rotation_deg, linear: None };
         let about_z = flat.frame().linear;
         let near = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-9;

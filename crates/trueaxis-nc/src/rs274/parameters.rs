@@ -97,11 +97,11 @@ impl Run<'_> {
                 let (index, axis) = ((number - 5221) / 20, (number - 5221) % 20);
                 match axis {
                     9 => frames.offsets.get(index as usize).map(|o| o.rotation_deg),
-                    _ if number == 5400 => Some(f64::from(self.modes.tool)),
+                    _ if number == 5400 => Some(f64::from(self.core.modes.tool)),
                     _ => self.shown(&frames.offsets.get(index as usize)?.offset, axis as usize),
                 }
             }
-            5401..=5409 => of(&frames.tool_length(self.modes.tool), 5401),
+            5401..=5409 => of(&frames.tool_length(self.core.modes.tool), 5401),
             5420..=5428 => of(&frames.position, 5420),
             _ => None,
         }
@@ -110,7 +110,7 @@ impl Run<'_> {
     /// An axis value in the units of the program.
     pub(super) fn shown(&self, position: &Position, axis: usize) -> Option<f64> {
         let value = position.0.get(axis)?;
-        Some(if Axis::ALL[axis].is_rotary() { *value } else { *value / self.modes.unit_mm() })
+        Some(if Axis::ALL[axis].is_rotary() { *value } else { *value / self.core.modes.unit_mm() })
     }
 
     fn read_name(&self, name: &str) -> Option<f64> {
@@ -126,15 +126,15 @@ impl Run<'_> {
             "_line" => Some(f64::from(self.core.origin.line)),
             "_value" => Some(self.returned.unwrap_or(0.0)),
             "_value_returned" => yes(self.returned.is_some()),
-            "_metric" => yes(!self.modes.inches),
-            "_imperial" => yes(self.modes.inches),
-            "_absolute" => yes(!self.modes.incremental),
-            "_incremental" => yes(self.modes.incremental),
-            "_current_tool" => Some(f64::from(self.modes.tool)),
-            "_selected_tool" => Some(f64::from(self.modes.selected)),
+            "_metric" => yes(!self.core.modes.inches),
+            "_imperial" => yes(self.core.modes.inches),
+            "_absolute" => yes(!self.core.modes.incremental),
+            "_incremental" => yes(self.core.modes.incremental),
+            "_current_tool" => Some(f64::from(self.core.modes.tool)),
+            "_selected_tool" => Some(f64::from(self.core.modes.selected)),
             "_coord_system" => Some(540.0 + 10.0 * self.frames.active as f64),
-            "_feed" => Some(self.modes.feed / self.modes.unit_mm()),
-            "_rpm" => Some(self.modes.speed),
+            "_feed" => Some(self.core.modes.feed.value / self.core.modes.unit_mm()),
+            "_rpm" => Some(self.core.modes.speed),
             "_call_level" => Some(self.stack.len() as f64 - 1.0),
             _ => match name.strip_prefix("_abs_") {
                 Some(letter) => axis(letter, &self.frames.machine()),

@@ -152,13 +152,13 @@ impl Run<'_> {
             || modes.data_input
             || !modes.macros.is_empty()
             || modes.transforms.polar.is_some()
-            || modes.feed_mode == FeedMode::InverseTime;
+            || self.core.modes.feed.mode == FeedMode::InverseTime;
         if !lasting || special {
             return;
         }
-        let unit_mm = modes.unit_mm();
-        let x_mm = if modes.diameter { unit_mm / 2.0 } else { unit_mm };
-        let common = Straight { unit_mm, x_mm, incremental: modes.incremental };
+        let unit_mm = self.core.modes.unit_mm();
+        let x_mm = if self.core.modes.diameter { unit_mm / 2.0 } else { unit_mm };
+        let common = Straight { unit_mm, x_mm, incremental: self.core.modes.incremental };
         let mut origin = Origin { program: program as u32, line };
         while !self.core.settings.stop.is_asked()
             && let Some(next) = self.straight_line(&common, source, at, origin)
@@ -184,12 +184,12 @@ impl Run<'_> {
     ) -> Option<usize> {
         let line = read_line(common, source, start, &self.frames.position)?;
         let motion = line.motion.or(self.modes.motion)?;
-        let feed = line.feed.unwrap_or(self.modes.feed);
+        let feed = line.feed.unwrap_or(self.core.modes.feed.value);
         let linear = motion == Motion::Linear;
         if linear && line.named != 0 && feed <= 0.0 {
             return None;
         }
-        self.modes.feed = feed;
+        self.core.modes.feed.value = feed;
         if line.motion.is_some() {
             (self.modes.motion, self.modes.base) = (Some(motion), motion);
         }
@@ -201,7 +201,7 @@ impl Run<'_> {
             let target = Position(line.target);
             self.frames.position = target;
             let named = AxisSet(line.named);
-            let step = Move::plain(kind, target, named, self.modes.feed(), origin);
+            let step = Move::plain(kind, target, named, self.core.modes.feed, origin);
             self.core.emit_move(step);
         }
         Some(line.end)

@@ -144,8 +144,8 @@ impl Run<'_> {
                 let message = format!("H{h} is not the number of a tool length");
                 return Err(fault("bad-tool", at, message, "write H1"));
             }
-            None if self.is_fanuc() => self.modes.length_number.unwrap_or(self.modes.tool),
-            None => self.modes.tool,
+            None if self.is_fanuc() => self.modes.length_number.unwrap_or(self.core.modes.tool),
+            None => self.core.modes.tool,
         };
         let mut length = self.frames.tool;
         match action {
@@ -160,9 +160,7 @@ impl Run<'_> {
             Action::ToolLengthAdd => length = length.plus(&self.frames.tool_length(number)),
             _ => {
                 if number != 0 && !self.frames.tools.contains_key(&number) {
-                    let message = format!("the length of tool {number} is not known: 0 is taken");
-                    let hint = "give a tool table";
-                    self.core.warn("unknown-tool-length", number, at, message, hint);
+                    self.core.unknown_length(number, at);
                 }
                 length = self.frames.tool_length(number);
                 if action == Action::ToolLengthNegative {
@@ -183,8 +181,8 @@ impl Run<'_> {
             _ => None,
         };
         if let Some((on, vectors)) = centre {
-            (self.modes.tool_centre, self.modes.vectors) = (on, vectors);
-            self.core.emit(Event::ToolCentre(on));
+            self.modes.vectors = vectors;
+            self.core.tool_centre(on);
         }
         Ok(())
     }
@@ -246,7 +244,7 @@ impl Run<'_> {
     /// A rapid of the named axes in machine coordinates, whatever the frames are. Where that is in
     /// the program frame only the machine knows; here it is as if all rotary axes stood at zero.
     pub(super) fn machine_move(&mut self, machine: Position) {
-        let (feed, origin) = (self.modes.feed(), self.core.origin);
+        let (feed, origin) = (self.core.modes.feed, self.core.origin);
         let coordinates = Coordinates::Machine;
         let rapid = Move::plain(MoveKind::Rapid, machine, self.words.axes(), feed, origin);
         self.emit_move(Move { coordinates, ..rapid });
@@ -292,7 +290,7 @@ impl Run<'_> {
         let number = match number {
             Some(p) if (0.0..1000.0).contains(&p) && p.fract() == 0.0 => p as u32,
             _ => {
-                let message = "G10 needs P, the number of the entry".to_owned();
+                let message = "G10 needs P, the number of the entry";
                 return Err(fault("bad-g10", at, message, "write G10 L2 P1 X0"));
             }
         };
@@ -335,7 +333,7 @@ impl Run<'_> {
         }
         let words = Axis::ALL.map(|a| self.axis_word(a));
         let rotation = self.words.take(b'R');
-        let incremental = self.modes.incremental && self.is_fanuc();
+        let incremental = self.core.modes.incremental && self.is_fanuc();
         self.check_turn(index, at);
         let before = self.frames.clone();
         let mut work = self.frames.offsets[index];
@@ -373,7 +371,7 @@ impl Run<'_> {
         let mut external = self.frames.external;
         for axis in Axis::ALL {
             if let Some(value) = self.axis_word(axis) {
-                let base = if self.modes.incremental { external[axis] } else { 0.0 };
+                let base = if self.core.modes.incremental { external[axis] } else { 0.0 };
                 external[axis] = base + value;
             }
         }
@@ -405,7 +403,7 @@ impl Run<'_> {
             12 | 13 => 0.0,
             _ => length[Axis::Z],
         };
-        let value = if self.modes.incremental { old + value } else { value };
+        let value = if self.core.modes.incremental { old + value } else { value };
         match level {
             11 => {
                 self.frames.wear.insert(number, value);

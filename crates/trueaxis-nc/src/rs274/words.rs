@@ -2,9 +2,7 @@ use super::cycles::CycleMemory;
 use super::fanuc::macros::ModalMacro;
 use super::fanuc::transforms::Transforms;
 use super::{Run, Settings, fault};
-use crate::moves::{
-    Axis, AxisSet, CompensationSide, Feed, FeedMode, PathControl, Plane, Position, Turning,
-};
+use crate::moves::{Axis, AxisSet, CompensationSide, PathControl, Position};
 use crate::rs274::code::{Action, Motion};
 use crate::text::program::{Block, Fault, Item, Program};
 
@@ -24,27 +22,14 @@ const AXIS_BITS: u32 = {
 /// What lasts from block to block.
 #[derive(Debug, Clone)]
 pub(super) struct Modes {
-    pub inches: bool,
-    pub diameter: bool,
-    pub incremental: bool,
     pub arc_absolute: bool,
     pub retract_to_r: bool,
-    pub plane: Plane,
     pub motion: Option<Motion>,
     /// The motion before drilling cycles.
     pub base: Motion,
-    pub feed_mode: FeedMode,
-    /// mm/min, 1/min or mm/revolution.
-    pub feed: f64,
-    pub turning: Turning,
-    pub speed: f64,
-    pub selected: u32,
-    pub tool: u32,
     pub cycle: CycleMemory,
     /// G43.5: I J K of a line are a tool direction.
     pub vectors: bool,
-    /// The tip of the tool is programmed.
-    pub tool_centre: bool,
     /// The G code of the tool length that is on, 49 if none is.
     pub length_code: f64,
     /// The number of that length: H.
@@ -69,23 +54,12 @@ pub(super) struct Modes {
 impl Modes {
     pub fn new(settings: &Settings, rapid_at_first: bool) -> Self {
         Self {
-            inches: settings.inches,
-            diameter: settings.diameters,
-            incremental: false,
             arc_absolute: settings.absolute_centers,
             retract_to_r: false,
-            plane: settings.plane,
             motion: rapid_at_first.then_some(Motion::Rapid),
             base: Motion::Rapid,
-            feed_mode: FeedMode::PerMinute,
-            feed: 0.0,
-            turning: Turning::Stopped,
-            speed: 0.0,
-            selected: 0,
-            tool: 0,
             cycle: CycleMemory::default(),
             vectors: false,
-            tool_centre: false,
             length_code: 49.0,
             length_number: None,
             compensation: CompensationSide::Off,
@@ -98,14 +72,6 @@ impl Modes {
             skip: Position::default(),
             last: [0.0; 4],
         }
-    }
-
-    pub fn unit_mm(&self) -> f64 {
-        if self.inches { 25.4 } else { 1.0 }
-    }
-
-    pub fn feed(&self) -> Feed {
-        Feed { mode: self.feed_mode, value: self.feed }
     }
 }
 
@@ -245,9 +211,7 @@ impl Run<'_> {
                     self.modes.last[0] = value;
                     let known = whole(value).and_then(|n| program.dialect().m_code(n));
                     let Some(action) = known else {
-                        let message = format!("M{value} is not known to this control");
-                        let hint = "if the machine builder defined it, it has no effect here";
-                        self.core.warn("unknown-m-code", value as u32, *offset, message, hint);
+                        self.core.unknown_m_code(value, *offset);
                         continue;
                     };
                     words.actions.push((action, *offset));
@@ -287,25 +251,21 @@ impl Run<'_> {
 
     /// A length word in mm.
     pub(super) fn length(&mut self, letter: u8) -> Option<f64> {
-        let unit = self.modes.unit_mm();
+        let unit = self.core.modes.unit_mm();
         self.words.take(letter).map(|v| v * unit)
     }
 
     /// An axis word in mm or degrees.
     pub(super) fn axis_word(&mut self, axis: Axis) -> Option<f64> {
         let value = self.words.take(axis.letter())?;
-        let scale = match axis {
-            _ if axis.is_rotary() => 1.0,
-            Axis::X if self.modes.diameter => self.modes.unit_mm() / 2.0,
-            _ => self.modes.unit_mm(),
-        };
+        let scale = self.core.modes.scale(axis);
         Some(value * scale)
     }
 
     /// Where the axis words lead, by G90 or G91, in polar coordinates if they are on.
     pub(super) fn target(&mut self) -> Position {
         let polar = self.polar_place();
-        let [a, b, _] = self.modes.plane.axes();
+        let [a, b, _] = self.core.modes.plane.axes();
         let mut target = self.frames.position;
         if let Some(place) = polar {
             (target[a], target[b]) = (place[0], place[1]);
@@ -314,7 +274,7 @@ impl Run<'_> {
         }
         for axis in Axis::ALL {
             if let Some(value) = self.axis_word(axis) {
-                let base = if self.modes.incremental { target[axis] } else { 0.0 };
+                let base = if self.core.modes.incremental { target[axis] } else { 0.0 };
                 target[axis] = base + value;
             }
         }
@@ -328,7 +288,7 @@ impl Run<'_> {
     ) -> Position {
         for axis in axes {
             if let Some(value) = self.axis_word(axis) {
-                let base = if self.modes.incremental { target[axis] } else { 0.0 };
+                let base = if self.core.modes.incremental { target[axis] } else { 0.0 };
                 target[axis] = base + value;
             }
         }
@@ -373,7 +333,7 @@ pub(super) fn check_groups(words: &Words) -> Result<(), Fault> {
             if other == action {
                 continue;
             }
-            let message = "two codes of this block contradict each other".to_owned();
+            let message = "two codes of this block contradict each other";
             return Err(fault("conflicting-codes", *offset, message, "write them in two blocks"));
         }
     }

@@ -11,7 +11,7 @@ use super::tables;
 use super::values::{Kind, Value, Variable};
 use super::variables::Slot;
 use super::{Language, Next, Run, fault, functions};
-use crate::execution::mistakes;
+use crate::execution::{Modes as CommonModes, mistakes};
 use crate::moves::Event;
 use crate::text::program::Fault;
 
@@ -41,7 +41,7 @@ pub(super) struct Activation {
     /// Parameters by reference: the name here, the place at the caller.
     references: Vec<(String, Slot)>,
     /// What SAVE brings back.
-    saved: Option<Box<Modes>>,
+    saved: Option<Box<(CommonModes, Modes)>>,
 }
 
 impl Activation {
@@ -407,7 +407,7 @@ impl Run<'_> {
         while let Some(word) = reader.word() {
             reader.advance();
             if word == "SAVE" {
-                let modes = Box::new(self.modes.clone());
+                let modes = Box::new((self.core.modes.clone(), self.modes.clone()));
                 if let Some(top) = self.stack.last_mut() {
                     top.saved = Some(modes);
                 }

@@ -53,8 +53,8 @@ impl Run<'_> {
     /// a sign. With units of _AMODE at 1, DP counts from RFP as well.
     fn hole(&self, parameters: &Parameters<'_>, mode: usize) -> Result<Hole, Fault> {
         let at = parameters.at;
-        let unit = self.modes.unit_mm();
-        let axis = self.modes.plane.axes()[2];
+        let unit = self.core.modes.unit_mm();
+        let axis = self.core.modes.plane.axes()[2];
         let surface = parameters.or_zero(1)? * unit;
         let retract = parameters.number(0)?.map_or(self.chain.position[axis], |r| r * unit);
         let relative = parameters.or_zero(mode)?.abs() as u64 % 10 == 1;
@@ -73,7 +73,7 @@ impl Run<'_> {
             let message = "the bottom lies above the surface, or the retraction below it";
             return Err(fault("cycle-heights", at, message, "check RTP, RFP, DP and DPR"));
         }
-        self.check_feed(at)?;
+        self.core.modes.check_feed(at)?;
         Ok(Hole { axis, retract, safe, surface, bottom })
     }
 
@@ -91,7 +91,7 @@ impl Run<'_> {
     /// A dwell of a cycle: seconds, or turns of the spindle where it is negative.
     fn wait(&mut self, time: f64) {
         let seconds = match time {
-            t if t < 0.0 && self.modes.speed > 0.0 => -t * 60.0 / self.modes.speed,
+            t if t < 0.0 && self.core.modes.speed > 0.0 => -t * 60.0 / self.core.modes.speed,
             t => t.max(0.0),
         }
         .min(1e9);
@@ -120,7 +120,7 @@ impl Run<'_> {
     fn drill_deep(&mut self, parameters: &Parameters<'_>) -> Result<(), Fault> {
         let at = parameters.at;
         let hole = self.hole(parameters, 19)?;
-        let unit = self.modes.unit_mm();
+        let unit = self.core.modes.unit_mm();
         let first = match (parameters.number(5)?, parameters.number(6)?.filter(|d| *d != 0.0)) {
             (_, Some(deep)) => deep.abs() * unit,
             (Some(depth), None) => hole.surface - depth * unit,
@@ -145,13 +145,13 @@ impl Run<'_> {
         let deep = hole.surface - hole.bottom;
         let distance = if deep <= 30.0 { 0.6 } else { (deep / 50.0).min(7.0) };
         self.along(MoveKind::Rapid, hole.axis, hole.safe);
-        let feed = self.modes.feed;
-        self.modes.feed = feed * first_feed(parameters.number(10)?);
+        let feed = self.core.modes.feed.value;
+        self.core.modes.feed.value = feed * first_feed(parameters.number(10)?);
         let mut depth = hole.surface;
         while depth > hole.bottom {
             depth = (depth - first).max(hole.bottom);
             self.along(MoveKind::Linear, hole.axis, depth);
-            self.modes.feed = feed;
+            self.core.modes.feed.value = feed;
             self.wait(bottom_time);
             if depth > hole.bottom && out {
                 self.along(MoveKind::Rapid, hole.axis, hole.safe);
@@ -168,15 +168,15 @@ impl Run<'_> {
 
     /// CYCLE85: RTP, RFP, SDIS, DP, DPR, DTB, FFR, RFF: in and out with feeds of its own.
     fn bore(&mut self, parameters: &Parameters<'_>) -> Result<(), Fault> {
-        let modal = self.modes.feed;
+        let modal = self.core.modes.feed.value;
         let own = |value: Option<f64>| value.filter(|f| *f > 0.0);
         let (inwards, outwards) = (own(parameters.number(6)?), own(parameters.number(7)?));
-        self.modes.feed = inwards.unwrap_or(modal);
+        self.core.modes.feed.value = inwards.unwrap_or(modal);
         let result = self.hole(parameters, 10);
         let hole = match result {
             Ok(hole) => hole,
             Err(fault) => {
-                self.modes.feed = modal;
+                self.core.modes.feed.value = modal;
                 return Err(fault);
             }
         };
@@ -184,9 +184,9 @@ impl Run<'_> {
         self.along(MoveKind::Linear, hole.axis, hole.bottom);
         let dwell = parameters.or_zero(5);
         self.wait(dwell.unwrap_or(0.0));
-        self.modes.feed = outwards.unwrap_or(self.modes.feed);
+        self.core.modes.feed.value = outwards.unwrap_or(self.core.modes.feed.value);
         self.along(MoveKind::Linear, hole.axis, hole.safe);
-        self.modes.feed = modal;
+        self.core.modes.feed.value = modal;
         self.along(MoveKind::Rapid, hole.axis, hole.retract);
         self.modes.tangent = None;
         Ok(())
@@ -197,14 +197,15 @@ impl Run<'_> {
         let at = parameters.at;
         let size = parameters.or_zero(7)?.abs();
         let pitch = parameters.number(8)?.filter(|p| *p != 0.0);
-        let pitch = pitch.map(|p| p.abs() * self.modes.unit_mm()).or_else(|| coarse_pitch(size));
+        let pitch =
+            pitch.map(|p| p.abs() * self.core.modes.unit_mm()).or_else(|| coarse_pitch(size));
         let Some(pitch_mm) = pitch else {
             let message = "the cycle has no pitch";
             return Err(fault("cycle-without-pitch", at, message, "write PIT or MPIT"));
         };
-        let feed = std::mem::replace(&mut self.modes.feed, 1.0);
+        let feed = std::mem::replace(&mut self.core.modes.feed.value, 1.0);
         let hole = self.hole(parameters, 15);
-        self.modes.feed = feed;
+        self.core.modes.feed.value = feed;
         let hole = hole?;
         self.along(MoveKind::Rapid, hole.axis, hole.safe);
         self.core.emit(Event::SpindleOrient { angle_deg: parameters.or_zero(9)? });

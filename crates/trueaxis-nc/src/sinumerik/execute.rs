@@ -4,30 +4,18 @@ use super::system::flat;
 use super::tables::{Angles, Code, Motion, Name, Turning as Way};
 use super::words::Words;
 use super::{Language, Next, Run, fault, transform};
-use crate::execution::Settings;
+use crate::execution::{Modes as CommonModes, Settings, mistakes};
 use crate::moves::{
-    Axis, CompensationSide, Cone, Coolant, Event, Feed, FeedMode, MoveKind, OrientationPath,
-    PathControl, Plane, Position, Turning,
+    Axis, Cone, Coolant, Event, MoveKind, OrientationPath, PathControl, Position, Turning,
 };
 use crate::text::program::Fault;
 
 /// What lasts from block to block.
 #[derive(Debug, Clone)]
 pub(super) struct Modes {
-    pub inches: bool,
     /// Feeds count in inches as well (G700).
     pub feed_inches: bool,
-    pub diameter: bool,
-    pub incremental: bool,
-    pub plane: Plane,
     pub motion: Motion,
-    pub feed_mode: FeedMode,
-    /// mm/min, 1/min or mm/revolution.
-    pub feed: f64,
-    pub speed: f64,
-    pub turning: Turning,
-    pub selected: u32,
-    pub tool: u32,
     /// D.
     pub edge: u32,
     pub path: (PathControl, f64),
@@ -38,7 +26,6 @@ pub(super) struct Modes {
     pub cone: Option<Way>,
     /// Words of a cone that wait for a move.
     pub next_cone: Cone,
-    pub tool_centre: bool,
     /// The pole of polar coordinates, in the program frame.
     pub pole: Position,
     pub polar: (f64, f64),
@@ -49,45 +36,17 @@ pub(super) struct Modes {
 impl Modes {
     pub fn new(settings: &Settings) -> Self {
         Self {
-            inches: settings.inches,
             feed_inches: settings.inches,
-            diameter: settings.diameters,
-            incremental: false,
-            plane: settings.plane,
             motion: Motion::Linear,
-            feed_mode: FeedMode::PerMinute,
-            feed: 0.0,
-            speed: 0.0,
-            turning: Turning::Stopped,
-            selected: 0,
-            tool: 0,
             edge: 1,
             path: (PathControl::ExactStop, 0.0),
             angles: Angles::Euler,
             turns: None,
             cone: None,
             next_cone: Cone::default(),
-            tool_centre: false,
             pole: Position::default(),
             polar: (0.0, 0.0),
             tangent: None,
-        }
-    }
-
-    pub fn unit_mm(&self) -> f64 {
-        if self.inches { 25.4 } else { 1.0 }
-    }
-
-    pub fn feed(&self) -> Feed {
-        Feed { mode: self.feed_mode, value: self.feed }
-    }
-
-    /// The factor of a word of an axis to mm or degrees.
-    pub fn scale(&self, axis: Axis) -> f64 {
-        match axis {
-            _ if axis.is_rotary() => 1.0,
-            Axis::X if self.diameter => self.unit_mm() / 2.0,
-            _ => self.unit_mm(),
         }
     }
 }
@@ -127,8 +86,7 @@ impl Run<'_> {
         let ends = words.m.iter().find(|(m, _)| matches!(m, 0 | 1 | 2 | 17 | 30)).copied();
         if let Some((_, at)) = words.numbered.first().filter(|_| !taken) {
             let message = "this axis is not known here";
-            let hint = "the axes are X Y Z A B C U V W";
-            return Err(fault("unknown-axis", *at, message, hint));
+            return Err(fault("unknown-axis", *at, message, "the axes are X Y Z A B C U V W"));
         }
         let first = codes.first().map_or(self.core.start, |(_, at)| *at);
         words.codes = codes;
@@ -195,20 +153,13 @@ impl Run<'_> {
     }
 
     fn feed_and_speed(&mut self, words: &mut Words) -> Result<(), Fault> {
-        if let Some((feed, at)) = words.feed.take() {
-            if !(0.0..1e12).contains(&feed) {
-                let message = format!("{feed} is not a feed");
-                return Err(fault("negative-feed", at, message, "write F100"));
-            }
-            let scaled = self.modes.feed_inches && self.modes.feed_mode != FeedMode::InverseTime;
-            self.modes.feed = if scaled { feed * 25.4 } else { feed };
-        } else if self.modes.feed_mode == FeedMode::InverseTime {
-            self.modes.feed = 0.0;
+        let feed = words.feed.take();
+        if let Some((wrong, at)) = feed.filter(|(feed, _)| !(0.0..1e12).contains(feed)) {
+            return Err(mistakes::negative_feed(wrong, at));
         }
-        if let Some(speed) = words.speed.take() {
-            self.modes.speed = speed;
-            self.core.emit(Event::SpindleSpeed(speed));
-        }
+        let unit_mm = if self.modes.feed_inches { 25.4 } else { 1.0 };
+        self.core.modes.set_feed(feed.map(|(feed, _)| feed), unit_mm);
+        self.core.set_speed(words.speed.take());
         Ok(())
     }
 
@@ -216,9 +167,9 @@ impl Run<'_> {
         for (m, at) in &words.m {
             match m {
                 0 | 1 | 2 | 17 | 30 => {}
-                3 => self.spindle(Turning::Clockwise),
-                4 => self.spindle(Turning::CounterClockwise),
-                5 => self.spindle(Turning::Stopped),
+                3 => self.core.turn_spindle(Turning::Clockwise),
+                4 => self.core.turn_spindle(Turning::CounterClockwise),
+                5 => self.core.turn_spindle(Turning::Stopped),
                 6 => self.change_tool(words.edge.map(|(edge, _)| edge), *at),
                 7 => self.core.emit(Event::Coolant(Coolant::Mist)),
                 8 => self.core.emit(Event::Coolant(Coolant::Flood)),
@@ -227,18 +178,11 @@ impl Run<'_> {
                 40..=45 => self.core.emit(Event::Note("a gear stage of the spindle")),
                 70 => self.core.emit(Event::Note("M70 spindle as an axis")),
                 _ => {
-                    let message = format!("M{m} is not known to this control");
-                    let hint = "if the machine builder defined it, it has no effect here";
-                    self.core.warn("unknown-m-code", &m.to_string(), *at, message, hint);
+                    self.core.unknown_m_code(f64::from(*m), *at);
                 }
             }
         }
         Ok(())
-    }
-
-    fn spindle(&mut self, turning: Turning) {
-        self.modes.turning = turning;
-        self.core.emit(Event::Spindle(turning));
     }
 
     /// Named words that are no part of a move.
@@ -254,7 +198,7 @@ impl Run<'_> {
                 PathControl::ExactStop => PathControl::Continuous,
                 other => other,
             };
-            self.tell_path(control, tolerance * self.modes.unit_mm());
+            self.tell_path(control, tolerance * self.core.modes.unit_mm());
         }
         let mut noted = Vec::new();
         words.named.retain(|(name, ..)| match name {
@@ -277,45 +221,37 @@ impl Run<'_> {
     fn act(&mut self, code: Code, words: &mut Words, at: usize) -> Result<(), Fault> {
         match code {
             Code::Plane(plane) => {
-                self.modes.plane = plane;
-                self.core.emit(Event::Plane(plane));
+                self.core.select_plane(plane);
                 self.apply_length(at);
             }
             Code::Inches { inches, feed } => {
-                self.modes.inches = inches;
+                self.core.modes.inches = inches;
                 if feed {
                     self.modes.feed_inches = inches;
                 }
             }
-            Code::Incremental(incremental) => self.modes.incremental = incremental,
-            Code::Diameter(diameter) => self.modes.diameter = diameter,
-            Code::Feed(mode) => self.change_feed(mode),
+            Code::Incremental(incremental) => self.core.modes.incremental = incremental,
+            Code::Diameter(diameter) => self.core.modes.diameter = diameter,
+            Code::Feed(mode) => self.core.modes.change_feed_mode(mode),
             Code::SurfaceSpeed(on, mode) => {
-                self.change_feed(mode);
-                let name =
-                    if on { "G96 constant surface speed" } else { "G97 revolutions per minute" };
-                self.core.emit(Event::Note(name));
+                self.core.modes.change_feed_mode(mode);
+                self.core.surface_speed(on);
             }
             Code::Offset(number) => self.select_offset(number, at)?,
             Code::Frame(word) => self.program_frame(word, words, at)?,
             Code::Shift { fine } => self.shift_frame(fine, words, at)?,
             Code::ToolCentre(on) => {
-                self.modes.tool_centre = on;
-                self.core.emit(Event::ToolCentre(on));
+                self.core.tool_centre(on);
             }
             Code::Angles(angles) => self.modes.angles = angles,
             Code::Turning(way) => self.turn_by(way),
-            Code::Compensation(side) => {
-                self.core.emit(Event::Compensation(side));
-                if side != CompensationSide::Off {
-                    let message = "radius compensation is noted, not applied".to_owned();
-                    let hint = "the moves are those of the program; let the CAM system compensate";
-                    self.core.warn("compensation-not-applied", "", at, message, hint);
-                }
-            }
+            Code::Compensation(side) => self.core.compensate(side, at),
             Code::Path(control, with_distance) => {
                 let distance = if with_distance { words.take(Name::Tolerance) } else { None };
-                self.tell_path(control, distance.map_or(0.0, |(d, ..)| d * self.modes.unit_mm()));
+                self.tell_path(
+                    control,
+                    distance.map_or(0.0, |(d, ..)| d * self.core.modes.unit_mm()),
+                );
             }
             Code::ExactOnce => {
                 self.core.emit(Event::Path { control: PathControl::ExactStop, tolerance_mm: 0.0 });
@@ -331,13 +267,6 @@ impl Run<'_> {
             Code::Motion(_) | Code::Machine => {}
         }
         Ok(())
-    }
-
-    fn change_feed(&mut self, mode: FeedMode) {
-        if mode != self.modes.feed_mode {
-            self.modes.feed = 0.0;
-        }
-        self.modes.feed_mode = mode;
     }
 
     fn select_offset(&mut self, number: u32, at: usize) -> Result<(), Fault> {
@@ -360,7 +289,7 @@ impl Run<'_> {
     ) -> Result<(), Fault> {
         let additive = word.starts_with('A');
         let plain = word.trim_start_matches('A');
-        let scaled = |axis: Axis, modes: &Modes| match plain {
+        let scaled = |axis: Axis, modes: &CommonModes| match plain {
             "TRANS" if axis.is_rotary() => 1.0,
             "TRANS" => modes.unit_mm(),
             _ => 1.0,
@@ -369,12 +298,12 @@ impl Run<'_> {
         for axis in Axis::ALL {
             if words.axes.contains(axis) {
                 let index = axis as usize;
-                entries.push((axis, words.values[index] * scaled(axis, &self.modes)));
+                entries.push((axis, words.values[index] * scaled(axis, &self.core.modes)));
             }
         }
         let mut frame = transform::from_entries(plain, &entries, at)?;
         if let Some((angle, ..)) = words.take(Name::PlaneAngle) {
-            frame = transform::turned(self.modes.plane.axes()[2], angle);
+            frame = transform::turned(self.core.modes.plane.axes()[2], angle);
         }
         let kept = self.chain.change(|c| {
             c.programmable = if additive { c.programmable.after(&frame) } else { frame };
@@ -391,7 +320,7 @@ impl Run<'_> {
 
     /// G58 replaces the shift of the named axes, G59 its fine part.
     fn shift_frame(&mut self, fine: bool, words: &Words, at: usize) -> Result<(), Fault> {
-        let unit = self.modes.unit_mm();
+        let unit = self.core.modes.unit_mm();
         let kept = self.chain.change(|c| {
             for axis in Axis::ALL {
                 if words.axes.contains(axis) {
@@ -414,7 +343,7 @@ impl Run<'_> {
     }
 
     fn dwell(&mut self, words: &mut Words, at: usize) -> Result<(), Fault> {
-        let turns = words.speed.take().map(|turns| (turns, self.modes.speed));
+        let turns = words.speed.take().map(|turns| (turns, self.core.modes.speed));
         let seconds = match (words.feed.take(), turns) {
             (Some((seconds, _)), _) => seconds,
             (None, Some((turns, speed))) if speed > 0.0 => turns * 60.0 / speed,
@@ -443,14 +372,14 @@ impl Run<'_> {
         let mut pole = base;
         for axis in [Axis::X, Axis::Y, Axis::Z] {
             if words.axes.contains(axis) {
-                pole[axis] = base[axis] + words.values[axis as usize] * self.modes.scale(axis);
+                pole[axis] = base[axis] + words.values[axis as usize] * self.core.modes.scale(axis);
             }
         }
         if let Some((radius, ..)) = words.take(Name::PolarRadius) {
             let (angle, ..) = words.take(Name::PolarAngle).unwrap_or_default();
-            let [first, second, _] = self.modes.plane.axes();
+            let [first, second, _] = self.core.modes.plane.axes();
             let (sin, cos) = angle.to_radians().sin_cos();
-            let radius = radius * self.modes.unit_mm();
+            let radius = radius * self.core.modes.unit_mm();
             pole[first] = base[first] + radius * cos;
             pole[second] = base[second] + radius * sin;
         }
@@ -481,22 +410,22 @@ impl Run<'_> {
     }
 
     /// SAVE: the modes are back as they were at the call.
-    pub(super) fn restore(&mut self, saved: Modes) {
-        let now = std::mem::replace(&mut self.modes, saved);
-        self.modes.tool = now.tool;
-        self.modes.selected = now.selected;
-        (self.modes.edge, self.modes.speed, self.modes.turning) =
-            (now.edge, now.speed, now.turning);
-        self.modes.tangent = now.tangent;
-        if now.plane != self.modes.plane {
-            self.core.emit(Event::Plane(self.modes.plane));
+    pub(super) fn restore(&mut self, saved: (CommonModes, Modes)) {
+        let now = std::mem::replace(&mut self.core.modes, saved.0);
+        let own = std::mem::replace(&mut self.modes, saved.1);
+        let modes = &mut self.core.modes;
+        (modes.tool, modes.selected) = (now.tool, now.selected);
+        (modes.speed, modes.turning) = (now.speed, now.turning);
+        (self.modes.edge, self.modes.tangent) = (own.edge, own.tangent);
+        if now.plane != self.core.modes.plane {
+            self.core.emit(Event::Plane(self.core.modes.plane));
         }
-        if now.path != self.modes.path {
+        if own.path != self.modes.path {
             let (control, tolerance_mm) = self.modes.path;
             self.core.emit(Event::Path { control, tolerance_mm });
         }
-        if now.tool_centre != self.modes.tool_centre {
-            self.core.emit(Event::ToolCentre(self.modes.tool_centre));
+        if now.tool_centre != self.core.modes.tool_centre {
+            self.core.emit(Event::ToolCentre(self.core.modes.tool_centre));
         }
     }
 

@@ -101,7 +101,7 @@ impl Run<'_> {
                 1 => Axis::Z,
                 2 => Axis::Y,
                 3 => Axis::X,
-                _ => self.modes.plane.axes()[2],
+                _ => self.core.modes.plane.axes()[2],
             };
             return Ok(transform::turned(axis, arguments.number(1)?));
         }
@@ -214,8 +214,7 @@ fn text_function(word: &str, arguments: &Arguments<'_>) -> Result<Option<Value>,
             let text = arguments.text(0)?;
             let number = text.trim().parse().ok().filter(|v: &f64| v.is_finite());
             let number = number.ok_or_else(|| {
-                let message = format!("`{text}` is not a number");
-                fault("bad-number", at, message, "ask ISNUMBER before")
+                fault("bad-number", at, format!("`{text}` is not a number"), "ask ISNUMBER before")
             })?;
             Value::Number(number)
         }

@@ -2,7 +2,8 @@
 
 use super::tables::{Angles, Name, Turning};
 use super::words::Words;
-use super::{Run, fault, transform};
+use super::{Run, fault};
+use crate::execution::frames::turns;
 use crate::moves::{Axis, Cone, Event, OrientationPath};
 use crate::text::program::Fault;
 
@@ -25,7 +26,7 @@ impl Run<'_> {
             (None, Some(angles)) => Some(self.by_angles(angles.map(|a| a.unwrap_or(0.0)))),
             _ => None,
         };
-        if direction.is_some() && !self.modes.tool_centre {
+        if direction.is_some() && !self.core.modes.tool_centre {
             let message = "a direction of the tool without TRAORI".to_owned();
             let hint = "write TRAORI before it";
             self.core.warn("direction-without-traori", "", at, message, hint);
@@ -53,13 +54,12 @@ impl Run<'_> {
     /// Y', C2 about Z'') is taken from its name in the list of G codes; no figure was found.
     fn by_angles(&self, angles_deg: [f64; 3]) -> [f64; 3] {
         let [a, b, c] = angles_deg;
-        let turns = match self.modes.angles {
+        let turned = match self.modes.angles {
             Angles::Euler => [(Axis::Z, a), (Axis::X, b), (Axis::Z, c)],
             Angles::Rpy => [(Axis::Z, c), (Axis::Y, b), (Axis::X, a)],
             Angles::RpyReversed => [(Axis::X, a), (Axis::Y, b), (Axis::Z, c)],
         };
-        let [first, second, third] = turns.map(|(axis, angle)| transform::turned(axis, angle));
-        first.after(&second).after(&third).vector([0.0, 0.0, 1.0])
+        turns(turned).vector([0.0, 0.0, 1.0])
     }
 
     /// Tells the cone of a block in which the tool axis moves.

@@ -57,7 +57,7 @@ impl Run<'_> {
             self.core.not_applied("CYCLE800 by angles of the rotary axes", at, hint);
             return Ok(());
         };
-        let unit = self.modes.unit_mm();
+        let unit = self.core.modes.unit_mm();
         let shift = |from: usize| -> Result<Frame, Fault> {
             let mut shift = Position::default();
             for i in 0..3 {
@@ -106,7 +106,7 @@ impl Run<'_> {
     fn align(&mut self, keep_tip: bool, branch: Branch) {
         let position = self.chain.position;
         let kind = MoveKind::Align { keep_tip, branch };
-        let (feed, origin) = (self.modes.feed(), self.core.origin);
+        let (feed, origin) = (self.core.modes.feed, self.core.origin);
         self.core.emit_move(Move::plain(kind, position, Default::default(), feed, origin));
         let direction = self.chain.frame().vector([0.0, 0.0, 1.0]);
         let machine = self.chain.machine();
@@ -127,7 +127,7 @@ impl Run<'_> {
     pub(super) fn cycle_832(&mut self, parameters: &Parameters<'_>) -> Result<(), Fault> {
         let off = parameters.number(1)?.is_some_and(|m| (m.abs() as u64).is_multiple_of(10));
         let tolerance = if off { 0.0 } else { parameters.or_zero(0)?.max(0.0) };
-        self.tell_path(PathControl::Continuous, tolerance * self.modes.unit_mm());
+        self.tell_path(PathControl::Continuous, tolerance * self.core.modes.unit_mm());
         Ok(())
     }
 }

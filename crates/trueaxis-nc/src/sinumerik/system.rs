@@ -6,6 +6,7 @@ use super::expression::finite;
 use super::reader::Reader;
 use super::values::Value;
 use super::{Language, Run, fault};
+use crate::execution::frames;
 use crate::moves::{Axis, Event, Frame};
 use crate::text::program::Fault;
 
@@ -80,19 +81,20 @@ impl Run<'_> {
             "PI" => std::f64::consts::PI,
             "P_EP" | "P_EPM" | "AA_IW" | "P_APR" => self.chain.position[axis],
             "AA_IM" | "AA_MM" | "AA_MW" | "AA_IB" => self.chain.machine()[axis],
-            "P_TOOLNO" => f64::from(self.modes.tool),
-            "P_TOOLP" => f64::from(self.modes.selected),
+            "P_TOOLNO" => f64::from(self.core.modes.tool),
+            "P_TOOLP" => f64::from(self.core.modes.selected),
             "P_TOOL" => f64::from(self.modes.edge),
             "P_TOOLL" => {
-                let stored = self.chain.tools.get(&self.modes.tool).copied().unwrap_or_default();
+                let stored =
+                    self.chain.tools.get(&self.core.modes.tool).copied().unwrap_or_default();
                 match number as i64 {
                     2 => stored[Axis::Y],
                     3 => stored[Axis::X],
                     _ => stored[Axis::Z],
                 }
             }
-            "P_F" => self.modes.feed,
-            "P_S" => self.modes.speed,
+            "P_F" => self.core.modes.feed.value,
+            "P_S" => self.core.modes.speed,
             "P_UIFRNUM" => f64::from(self.chain.active),
             // A run of this program is a run on the machine.
             "P_SEARCH" | "P_ISTEST" | "P_SIM" | "P_DRYRUN" | "P_PROG_EVENT" => 0.0,
@@ -196,7 +198,7 @@ impl Run<'_> {
     /// Tells the work offset that is active now.
     pub(super) fn emit_offset(&mut self) {
         let frame = self.chain.settable;
-        let rotation_deg = frame.linear[1][0].atan2(frame.linear[0][0]).to_degrees();
+        let rotation_deg = frames::rotation_deg(&frame);
         let (index, offset) = (self.chain.active, frame.shift);
         self.core.emit(Event::WorkOffset { index, offset, rotation_deg });
     }

@@ -3,7 +3,7 @@
 use super::system::flat;
 use super::words::{ToolCall, Words};
 use super::{Run, fault};
-use crate::moves::{Event, Turning};
+use crate::moves::Event;
 use crate::text::program::Fault;
 
 /// Tools that only have a name here are numbered from this.
@@ -21,8 +21,7 @@ impl Run<'_> {
                     number
                 }
             };
-            self.modes.selected = number;
-            self.core.emit(Event::ToolSelect(number));
+            self.core.select_tool(number);
         }
         let changes = words.m.iter().any(|(m, _)| *m == 6);
         if let Some((edge, at)) = words.edge
@@ -65,10 +64,8 @@ impl Run<'_> {
 
     /// M6: the selected tool comes into the spindle; its first cutting edge is active.
     pub(super) fn change_tool(&mut self, edge: Option<u32>, at: usize) {
-        self.modes.tool = self.modes.selected;
-        self.modes.turning = Turning::Stopped;
         self.modes.edge = edge.unwrap_or(1);
-        self.core.emit(Event::ToolChange(self.modes.tool));
+        self.core.change_tool();
         self.apply_length(at);
     }
 
@@ -84,13 +81,11 @@ impl Run<'_> {
 
     /// Makes the length of the tool in the spindle valid along the normal of the plane.
     pub(super) fn apply_length(&mut self, at: usize) {
-        let (tool, edge, plane) = (self.modes.tool, self.modes.edge, self.modes.plane);
+        let (tool, edge, plane) = (self.core.modes.tool, self.modes.edge, self.core.modes.plane);
         let mut length = crate::moves::Position::default();
         if edge > 0 && tool > 0 {
             if !self.chain.tools.contains_key(&tool) {
-                let message = format!("the length of tool {tool} is not known: 0 is taken");
-                let subject = tool.to_string();
-                self.core.warn("unknown-tool-length", &subject, at, message, "give a tool table");
+                self.core.unknown_length(tool, at);
             }
             length = self.chain.tool_length(tool, plane);
         }

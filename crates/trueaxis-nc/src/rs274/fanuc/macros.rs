@@ -64,7 +64,7 @@ fn locals_of(arguments: &[(u8, f64)], at: usize) -> Result<Locals, Fault> {
             number = 4 + 3 * set + place;
         }
         if number > 33 {
-            let message = "more than ten sets of I J K".to_owned();
+            let message = "more than ten sets of I J K";
             return Err(fault("too-many-arguments", at, message, "use common variables (#100)"));
         }
         locals.numbers[number] = Some(*value);
@@ -137,7 +137,7 @@ impl Run<'_> {
         let locals = locals_of(&std::mem::take(&mut self.words.arguments), at)?;
         let depth = self.stack.len();
         if self.modes.macros.len() > self.core.settings.deepest_call {
-            let message = "too many modal macros within each other".to_owned();
+            let message = "too many modal macros within each other";
             return Err(fault("calls-too-deep", at, message, "end them by G67"));
         }
         self.modes.macros.push(ModalMacro { each_block, depth, label, repeats, locals });
@@ -191,7 +191,7 @@ impl Run<'_> {
                 Ok((Label::Number(number), digits))
             }
             _ => {
-                let message = "the number of the subprogram is missing".to_owned();
+                let message = "the number of the subprogram is missing";
                 Err(fault("missing-subprogram", at, message, "write M98 P1000"))
             }
         }

@@ -57,7 +57,7 @@ impl Run<'_> {
                     self.shown(&work.offset, axis)
                 }
                 Table::Length(entry) => self.shown(&length(entry), axis),
-                Table::Wear(entry) => Some(wear(entry) / self.modes.unit_mm()),
+                Table::Wear(entry) => Some(wear(entry) / self.core.modes.unit_mm()),
                 Table::Radius => Some(self.globals.get(&number).copied().unwrap_or(0.0)),
             };
         }
@@ -82,7 +82,7 @@ impl Run<'_> {
 
     /// The code of a modal group.
     fn modal_code(&self, group: u32) -> Option<f64> {
-        let modes = &self.modes;
+        let (modes, common) = (&self.modes, &self.core.modes);
         let [scale, rotation, polar, mirror] = modes.transforms.codes();
         let cycle = match modes.motion {
             Some(Motion::Cycle(cycle)) => cycle_code(cycle),
@@ -97,18 +97,18 @@ impl Run<'_> {
                 Motion::Thread => 33.0,
                 _ => 1.0,
             },
-            2 => match modes.plane {
+            2 => match common.plane {
                 Plane::Xy => 17.0,
                 Plane::Zx => 18.0,
                 Plane::Yz => 19.0,
             },
-            3 => either(modes.incremental, 91.0, 90.0),
-            5 => match modes.feed_mode {
+            3 => either(common.incremental, 91.0, 90.0),
+            5 => match common.feed.mode {
                 FeedMode::InverseTime => 93.0,
                 FeedMode::PerMinute => 94.0,
                 FeedMode::PerRevolution => 95.0,
             },
-            6 => either(modes.inches, 20.0, 21.0),
+            6 => either(common.inches, 20.0, 21.0),
             7 => match modes.compensation {
                 CompensationSide::Off => 40.0,
                 CompensationSide::Left => 41.0,
@@ -133,17 +133,17 @@ impl Run<'_> {
 
     /// The last value of a modal word.
     fn modal_word(&self, which: u32) -> Option<f64> {
-        let modes = &self.modes;
+        let (modes, common) = (&self.modes, &self.core.modes);
         let [m, n, d, o] = modes.last;
         Some(match which {
             7 => d,
-            9 => modes.feed / modes.unit_mm(),
+            9 => common.feed.value / common.unit_mm(),
             11 => f64::from(modes.length_number.unwrap_or(0)),
             13 => m,
             14 => n,
             15 => o,
-            19 => modes.speed,
-            20 => f64::from(modes.selected),
+            19 => common.speed,
+            20 => f64::from(common.selected),
             30 => self.frames.active.saturating_sub(8) as f64,
             _ => return None,
         })
@@ -159,7 +159,7 @@ impl Run<'_> {
         let value = if value.is_nan() { 0.0 } else { value };
         if let Some((table, axis)) = table(number) {
             let rotary = Axis::ALL[axis].is_rotary();
-            let value = if rotary { value } else { value * self.modes.unit_mm() };
+            let value = if rotary { value } else { value * self.core.modes.unit_mm() };
             match table {
                 Table::External => {
                     let mut external = self.frames.external;

@@ -6,6 +6,7 @@
 //! "Functions to simplify programming": mirror is applied to the written place first, then scale,
 //! then rotation; the tilted plane holds all of them.
 
+use crate::execution::frames::{about, cross, from_axes, point, turns};
 use crate::moves::{Axis, Branch, Event, Frame, MoveKind, Plane, Position};
 use crate::rs274::code::Action;
 use crate::rs274::{Language, Run, fault};
@@ -73,37 +74,10 @@ impl Transforms {
     }
 }
 
-/// Turns about X, Y or Z (0, 1, 2); right-handed.
-fn about(axis: usize, angle_deg: f64) -> Frame {
-    let (sin, cos) = match angle_deg.rem_euclid(360.0) {
-        // Quarter turns are exact.
-        0.0 => (0.0, 1.0),
-        90.0 => (1.0, 0.0),
-        180.0 => (0.0, -1.0),
-        270.0 => (-1.0, 0.0),
-        _ => angle_deg.to_radians().sin_cos(),
-    };
-    let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
-    let mut frame = Frame::IDENTITY;
-    (frame.linear[i][i], frame.linear[j][j]) = (cos, cos);
-    (frame.linear[i][j], frame.linear[j][i]) = (-sin, sin);
-    frame
-}
-
-fn point(values: [f64; 3]) -> Position {
-    let mut position = Position::default();
-    position.0[..3].copy_from_slice(&values);
-    position
-}
-
 /// A frame applied about a centre.
 fn centred(frame: &Frame, center: [f64; 3]) -> Frame {
     let back = Frame::shifted(point(center.map(|c| -c)));
     Frame::shifted(point(center)).after(&frame.after(&back))
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
@@ -129,13 +103,6 @@ fn about_vector(axis: [f64; 3], angle_deg: f64) -> Frame {
     frame
 }
 
-/// The frame with given X axis and a vector on the positive side of Y (or along Z).
-fn from_axes(x: [f64; 3], z: [f64; 3], origin: [f64; 3]) -> Frame {
-    let y = cross(z, x);
-    let linear = [0, 1, 2].map(|row| [x[row], y[row], z[row]]);
-    Frame { linear, shift: point(origin) }
-}
-
 impl Run<'_> {
     /// Puts the frames together; the machine stays where it is.
     fn apply_transforms(&mut self) {
@@ -146,7 +113,7 @@ impl Run<'_> {
 
     /// Whether the tool stands in the workpiece whatever the rotary axes do.
     pub(in crate::rs274) fn follows_workpiece(&self) -> bool {
-        self.modes.tool_centre || self.modes.transforms.tilted
+        self.core.modes.tool_centre || self.modes.transforms.tilted
     }
 
     /// G15 to G69: true if the action was one of these.
@@ -178,7 +145,7 @@ impl Run<'_> {
     }
 
     fn polar_mode(&mut self, on: bool) {
-        let [a, b, _] = self.modes.plane.axes();
+        let [a, b, _] = self.core.modes.plane.axes();
         let place = [self.frames.position[a], self.frames.position[b]];
         self.modes.transforms.polar = on.then(|| Polar {
             center_mm: [0.0; 2],
@@ -192,20 +159,20 @@ impl Run<'_> {
     /// With G91 a radius counts from the present place, an angle from the angle before.
     pub(in crate::rs274) fn polar_place(&mut self) -> Option<[f64; 2]> {
         let mut polar = self.modes.transforms.polar?;
-        let [a, b, _] = self.modes.plane.axes();
+        let [a, b, _] = self.core.modes.plane.axes();
         let (radius, angle) = (self.axis_word(a), self.words.take(b.letter()));
         if radius.is_none() && angle.is_none() {
             return None;
         }
         if let Some(radius) = radius {
-            polar.center_mm = match self.modes.incremental {
+            polar.center_mm = match self.core.modes.incremental {
                 true => [self.frames.position[a], self.frames.position[b]],
                 false => [0.0; 2],
             };
             polar.radius_mm = radius;
         }
         if let Some(angle) = angle {
-            let base = if self.modes.incremental { polar.angle_deg } else { 0.0 };
+            let base = if self.core.modes.incremental { polar.angle_deg } else { 0.0 };
             polar.angle_deg = base + angle;
         }
         self.modes.transforms.polar = Some(polar);
@@ -273,7 +240,7 @@ impl Run<'_> {
         let center = self.center();
         let angle_deg = self.words.take(b'R').unwrap_or(0.0);
         if !spatial {
-            let normal = self.modes.plane.axes()[2] as usize;
+            let normal = self.core.modes.plane.axes()[2] as usize;
             let mut center = center;
             center[normal] = 0.0;
             self.modes.transforms.rotation = Some(centred(&about(normal, angle_deg), center));
@@ -281,11 +248,11 @@ impl Run<'_> {
             return Ok(());
         }
         let Some(axis) = unit(b"IJK".map(|l| self.words.take(l).unwrap_or(0.0))) else {
-            let message = "the axis of the rotation has no length".to_owned();
+            let message = "the axis of the rotation has no length";
             return Err(fault("zero-direction", at, message, "write I, J and K"));
         };
         if self.modes.transforms.nested >= 2 {
-            let message = "more than two rotations in space within each other".to_owned();
+            let message = "more than two rotations in space within each other";
             return Err(fault("too-many-rotations", at, message, "end them by G69"));
         }
         let turn = Frame::shifted(point(center)).after(&about_vector(axis, angle_deg));
@@ -311,7 +278,7 @@ impl Run<'_> {
             0.0 => {
                 let [i, j, k] = b"IJK".map(|l| self.words.take(l).unwrap_or(0.0));
                 // Z, then the new X, then the new Z.
-                let turned = about(2, i).after(&about(0, j)).after(&about(2, k));
+                let turned = turns([(Axis::Z, i), (Axis::X, j), (Axis::Z, k)]);
                 Some(Frame { shift: point(origin), ..turned })
             }
             1.0 => Some(self.plane_by_turns(origin, at)?),
@@ -387,18 +354,18 @@ impl Run<'_> {
             let [Some(origin), Some(x), Some(z), _] = pieces else { return Ok(None) };
             let x = unit(x);
             let z = x.and_then(|x| unit(cross(cross(x, z), x)).filter(|_| unit(z).is_some()));
-            x.zip(z).map(|(x, z)| from_axes(x, z, origin))
+            x.zip(z).map(|(x, z)| from_axes([x, cross(z, x), z], origin))
         } else {
             let [_, Some(origin), Some(on_x), Some(on_y)] = pieces else { return Ok(None) };
             let to = |p: [f64; 3]| [0, 1, 2].map(|i| p[i] - origin[i]);
             let x = unit(to(on_x));
             let z = x.and_then(|x| unit(cross(x, to(on_y))));
-            x.zip(z).map(|(x, z)| from_axes(x, z, origin))
+            x.zip(z).map(|(x, z)| from_axes([x, cross(z, x), z], origin))
         };
         let extra = transforms.extra.take().filter(|_| !vectors);
         transforms.pieces = [None; 4];
         let Some(mut frame) = frame else {
-            let message = "the points or vectors of the plane lie on one line".to_owned();
+            let message = "the points or vectors of the plane lie on one line";
             return Err(fault("bad-tilted-plane", at, message, "give three corners of a triangle"));
         };
         if let Some((shift, turn_deg)) = extra {
@@ -410,7 +377,7 @@ impl Run<'_> {
     /// G53.1 and G53.6.
     fn align(&mut self, keep_tip: bool, at: usize) -> Result<(), Fault> {
         if !self.modes.transforms.tilted {
-            let message = "G53.1 without a tilted plane".to_owned();
+            let message = "G53.1 without a tilted plane";
             return Err(fault("no-tilted-plane", at, message, "write G68.2 before it"));
         }
         let branch = match self.words.take(b'P') {
@@ -447,13 +414,6 @@ impl Run<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn quarter_turns_lead_from_axis_to_axis() {
-        assert_eq!(about(2, 90.0).vector([1.0, 0.0, 0.0]), [0.0, 1.0, 0.0]);
-        assert_eq!(about(0, 90.0).vector([0.0, 1.0, 0.0]), [0.0, 0.0, 1.0]);
-        assert_eq!(about(1, -90.0).vector([1.0, 0.0, 0.0]), [0.0, 0.0, 1.0]);
-    }
 
     #[test]
     fn a_third_turn_about_the_diagonal_leads_from_x_to_y() {
