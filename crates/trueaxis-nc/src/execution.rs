@@ -7,6 +7,7 @@ mod library;
 pub(crate) mod mistakes;
 mod modes;
 mod stop;
+pub(crate) mod values;
 
 use std::collections::BTreeMap;
 

@@ -5,6 +5,7 @@
 
 mod arc;
 pub mod code;
+mod common_codes;
 mod cycles;
 mod execute;
 pub(crate) mod fanuc;
@@ -61,6 +62,13 @@ struct Activation {
     named: bool,
     /// Its `#1` … are those of its caller: M98.
     shares_locals: bool,
+}
+
+/// A block and the program that it stands in.
+#[derive(Debug, Clone, Copy)]
+struct Passage<'b> {
+    program: &'b Program,
+    block: &'b Block,
 }
 
 /// One execution.
@@ -171,7 +179,7 @@ impl<'r> Run<'r> {
             }
             None => {
                 program.read_block(at, line, block);
-                self.block(program, block)
+                self.block(Passage { program, block })
             }
         }
     }

@@ -7,6 +7,7 @@ use super::line::Cursor;
 use super::variables::{Stored, Variable};
 use super::words::Words;
 use super::{Language, Run, fault};
+use crate::execution::mistakes;
 use crate::execution::{Next, frames};
 use crate::moves::{Axis, Event, Frame, MoveKind, PathControl};
 use crate::text::program::Fault;
@@ -107,8 +108,7 @@ impl Run<'_> {
         let tilted = self.frames.is_tilted();
         let set = self.frames.set(new, neutral);
         if set.is_none() || !self.frames.position.0.iter().all(|v| v.abs() < 1e9) {
-            let message = "this transformation leaves no space to move in";
-            return Err(fault("bad-transformation", at, message, "check its numbers"));
+            return Err(mistakes::flat_frame(at));
         }
         if tilted {
             self.core.emit(Event::Note("transformation within the tilted plane"));
@@ -158,8 +158,7 @@ impl Run<'_> {
             }
         }
         if !factors.iter().all(|f| (1e-6..=1e6).contains(f)) {
-            let message = "a scale is not a positive factor";
-            return Err(fault("bad-transformation", at, message, "write SCL0.99"));
+            return Err(mistakes::bad_scale(at));
         }
         self.transform(Transformation::Scale(factors, fixed), factors == [1.0; 3], at)
     }
@@ -288,8 +287,7 @@ impl Run<'_> {
         let frame = self.core.settings.work_offsets.get(&index).copied();
         let frame = frame.unwrap_or(Frame::IDENTITY);
         if self.frames.set_preset(frame).is_none() {
-            let message = format!("preset {index} leaves no space to move in");
-            return Err(fault("bad-transformation", at, message, "check the table of presets"));
+            return Err(mistakes::flat_frame(at));
         }
         let rotation_deg = frames::rotation_deg(&frame);
         self.core.emit(Event::WorkOffset { index, offset: frame.shift, rotation_deg });

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{Run, fault};
+use crate::execution::mistakes;
 use crate::moves::{Event, Feed, FeedMode, MoveKind, Turning};
 use crate::text::program::Fault;
 
@@ -56,8 +57,7 @@ impl Run<'_> {
         let old = number < 100;
         let hole = if old { self.old_hole(number, values) } else { self.new_hole(number, values) };
         if hole.bottom >= hole.start {
-            let message = format!("cycle {number} has no depth below its clearance");
-            return Err(fault("cycle-without-depth", at, message, "the depth is negative"));
+            return Err(mistakes::missing_depth(at));
         }
         for (q, what) in LEFT_OUT {
             if values.get(&q).is_some_and(|v| *v != 0.0) && !old {

@@ -6,6 +6,7 @@ use std::rc::Rc;
 use super::line::{Cursor, Line};
 use super::variables::Variable;
 use super::{Next, Run, fault};
+use crate::execution::mistakes;
 use crate::moves::Event;
 use crate::text::program::{Fault, Program};
 
@@ -216,10 +217,7 @@ impl Run<'_> {
                 labels
             }
         };
-        labels.get(label).copied().ok_or_else(|| {
-            let message = format!("there is no label {}", show(label));
-            fault("missing-label", at, message, "write LBL with this number or name")
-        })
+        labels.get(label).copied().ok_or_else(|| mistakes::missing_label(show(label), at))
     }
 
     /// Enters another program: by its name, with .H, or the last part of its path.

@@ -2,6 +2,7 @@
 
 use super::fault;
 use crate::dialect::Dialect;
+use crate::execution::mistakes;
 use crate::moves::Axis;
 use crate::text::lexer::{Lexer, Token, TokenKind, number_value};
 use crate::text::program::{Fault, is_trivia};
@@ -226,6 +227,11 @@ impl<'s> Cursor<'s> {
             self.advance();
         }
         found
+    }
+
+    /// Takes the bracket that closes the one at `open`.
+    pub fn close(&mut self, open: usize) -> Result<(), Fault> {
+        if self.accept_symbol(b')') { Ok(()) } else { Err(mistakes::unclosed_bracket(open)) }
     }
 
     pub fn is_number(&self) -> bool {

@@ -6,6 +6,7 @@ use super::words::{FeedWord, Words};
 use super::{Run, fault};
 use crate::execution::Next;
 use crate::execution::frames::unit;
+use crate::execution::mistakes;
 use crate::moves::{
     Axis, AxisSet, CompensationSide, Coordinates, Event, Feed, FeedMode, MoveKind, Position, Way,
 };
@@ -252,8 +253,7 @@ impl Run<'_> {
         let (normal, tool) = (vector(words.normal), vector(words.tool));
         for given in normal.iter().chain(&tool) {
             if unit(*given).is_none() {
-                let message = "the vector has no length";
-                return Err(fault("zero-direction", words.at, message, "write all three parts"));
+                return Err(mistakes::zero_direction(words.at));
             }
         }
         if normal.is_some() {

@@ -4,6 +4,7 @@ use super::line::Cursor;
 use super::variables::{Stored, Variable};
 use super::words::{Words, split_address};
 use super::{Run, fault};
+use crate::execution::values::{self, finite, not_zero};
 use crate::execution::{Next, mistakes};
 use crate::moves::{Axis, Event, MoveKind, OrientationPath};
 use crate::text::program::Fault;
@@ -164,8 +165,7 @@ impl Run<'_> {
         let at = c.offset();
         let Some(target) = self.variable(c)? else { return Err(super::values::missing(c)) };
         if number == 0 && matches!(target, Variable::Text(_)) || !c.accept_symbol(b'=') {
-            let message = "a parameter is followed by =";
-            return Err(fault("missing-equals", c.offset(), message, "write FN 0: Q1 = 5"));
+            return Err(mistakes::missing_equals("a parameter", "write FN 0: Q1 = 5", c.offset()));
         }
         if c.accept("SET") && c.accept("UNDEFINED") {
             self.undefine(target);
@@ -189,29 +189,16 @@ impl Run<'_> {
             1 => a + second(self, b'+', "")?,
             2 => a - second(self, b'-', "")?,
             3 => a * second(self, b'*', "")?,
-            4 => {
-                let divisor = second(self, 0, "DIV")?;
-                if divisor == 0.0 {
-                    let message = "division by zero";
-                    return Err(fault("division-by-zero", at, message, "check the divisor"));
-                }
-                a / divisor
+            4 => a / not_zero(second(self, 0, "DIV")?, at)?,
+            5..=7 => {
+                let name = ["SQRT", "SIN", "COS"][number as usize - 5];
+                values::function(name, a, at)?.unwrap_or(a)
             }
-            5 if a < 0.0 => {
-                let message = format!("SQRT of {a} has no value");
-                return Err(fault("out-of-domain", at, message, "check the argument"));
-            }
-            5 => a.sqrt(),
-            6 => a.to_radians().sin(),
-            7 => a.to_radians().cos(),
             8 => a.hypot(second(self, 0, "LEN")?),
             13 => a.atan2(second(self, 0, "ANG")?).to_degrees().rem_euclid(360.0),
             _ => a,
         };
-        if !value.is_finite() {
-            return Err(fault("not-finite", at, "the result is not finite", "check its numbers"));
-        }
-        self.variables.store(target, Stored::Number(value));
+        self.variables.store(target, Stored::Number(finite(value, at)?));
         Ok(())
     }
 
@@ -321,8 +308,7 @@ impl Run<'_> {
 
     pub(super) fn dwell(&mut self, seconds: f64, at: usize) -> Result<(), Fault> {
         if !(0.0..1e6).contains(&seconds) {
-            let message = format!("{seconds} s is not a time to wait");
-            return Err(fault("bad-dwell", at, message, "write the time in seconds"));
+            return Err(mistakes::bad_dwell(at));
         }
         self.step(MoveKind::Dwell { seconds }, self.frames.position, at)
     }

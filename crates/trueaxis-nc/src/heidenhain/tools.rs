@@ -3,6 +3,7 @@
 use super::line::Cursor;
 use super::words::split_address;
 use super::{Run, fault};
+use crate::execution::mistakes;
 use crate::moves::{Axis, Event, Plane, Position};
 use crate::text::program::Fault;
 
@@ -42,10 +43,7 @@ impl Run<'_> {
             None => Ok(None),
             // 5.2 is the second edge of tool 5.
             Some(n) if (0.0..1e9).contains(&n) => Ok(Some(n as u32)),
-            Some(n) => {
-                let message = format!("{n} is not the number of a tool");
-                Err(fault("bad-tool", at, message, "write TOOL CALL 1 Z S1000"))
-            }
+            Some(n) => Err(mistakes::bad_tool(n, at)),
         }
     }
 

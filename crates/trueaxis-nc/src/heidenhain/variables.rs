@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use super::line::Cursor;
 use super::{Run, fault};
+use crate::execution::mistakes;
 use crate::moves::{Axis, Turning};
 use crate::text::program::Fault;
 
@@ -60,8 +61,7 @@ impl Variables {
 
     pub fn store_text(&mut self, number: u32, mut text: String, at: usize) -> Result<(), Fault> {
         if text.chars().count() > LONGEST_TEXT {
-            let message = format!("the text has more than {LONGEST_TEXT} characters");
-            return Err(fault("text-too-long", at, message, "shorten it"));
+            return Err(mistakes::text_too_long(LONGEST_TEXT, at));
         }
         text.shrink_to_fit();
         self.texts.insert(number, text);
@@ -80,9 +80,8 @@ impl Run<'_> {
         };
         let most = if matches!(kind, 1 | 2) { 499 } else { 1999 };
         if number > most {
-            let message = format!("there is no parameter {number} of this kind");
             let hint = "Q0 to Q1999, QS0 to QS1999, QL0 to QL499, QR0 to QR499";
-            return Err(fault("parameter-out-of-range", at, message, hint));
+            return Err(mistakes::no_parameter(number, hint, at));
         }
         Ok(Some(match kind {
             0 => Variable::Global(number),
@@ -125,18 +124,16 @@ impl Run<'_> {
     }
 
     pub(super) fn read_text(&self, number: u32, at: usize) -> Result<String, Fault> {
-        self.variables.texts.get(&number).cloned().ok_or_else(|| {
-            let message = format!("QS{number} has no text yet");
-            fault("undefined-parameter", at, message, "assign it before it is used")
-        })
+        self.variables
+            .texts
+            .get(&number)
+            .cloned()
+            .ok_or_else(|| mistakes::no_value_yet(format_args!("QS{number}"), at))
     }
 
     /// Q108 to Q122, as far as they follow from the program.
     fn assigned_by_control(&mut self, variable: Variable, at: usize) -> Result<f64, Fault> {
-        let undefined = || {
-            let message = format!("{} has no value yet", show(variable));
-            fault("undefined-parameter", at, message, "assign it before it is used")
-        };
+        let undefined = || mistakes::no_value_yet(show(variable), at);
         let Variable::Global(number) = variable else { return Err(undefined()) };
         let length = |mm: f64, inches: bool| if inches { mm / 25.4 } else { mm };
         let inches = self.core.modes.inches;

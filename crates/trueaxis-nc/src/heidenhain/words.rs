@@ -349,7 +349,7 @@ fn direction_sign(c: &mut Cursor<'_>) -> Result<bool, Fault> {
 }
 
 fn repeated(name: impl std::fmt::Display, at: usize) -> Fault {
-    fault("repeated-word", at, format!("{name} stands twice in the block"), "write it once")
+    mistakes::repeated_word(name, at)
 }
 
 fn unexpected(name: &str, c: &Cursor<'_>) -> Fault {

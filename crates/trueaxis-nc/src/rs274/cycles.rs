@@ -1,4 +1,5 @@
 use super::{Run, fault};
+use crate::execution::mistakes;
 use crate::moves::{Event, MoveKind, Position, Turning};
 use crate::rs274::code::Cycle;
 use crate::text::program::Fault;
@@ -108,8 +109,7 @@ impl Run<'_> {
         };
         let depth = self.axis_word(axis).map(|z| if incremental { z + r } else { z });
         let Some(bottom) = depth.or(self.modes.cycle.bottom_mm) else {
-            let message = format!("the cycle has no {axis}");
-            return Err(fault("cycle-without-depth", at, message, "write the depth of the hole"));
+            return Err(mistakes::missing_depth(at));
         };
         if (r < bottom) != (cycle == Cycle::BackBore) {
             let message = "the plane of retraction R lies below the bottom of the hole";

@@ -1,4 +1,4 @@
-use super::{Next, Run, fault};
+use super::{Next, Passage, Run, fault};
 use crate::execution::mistakes;
 use crate::moves::{Axis, CompensationSide, Event, Move, MoveKind, PathControl, Position};
 use crate::rs274::code::{Action, Motion};
@@ -6,60 +6,60 @@ use crate::text::program::{Block, Fault, Item, Keyword, Label, Program};
 
 impl Run<'_> {
     /// Executes one block.
-    pub(super) fn block(&mut self, program: &Program, block: &Block) -> Result<Next, Fault> {
-        if block.skip.is_some() && !self.core.settings.skipped_blocks_too {
+    pub(super) fn block(&mut self, passage: Passage<'_>) -> Result<Next, Fault> {
+        if passage.block.skip.is_some() && !self.core.settings.skipped_blocks_too {
             return Ok(Next::Following);
         }
-        if let Some(first) = block.faults.first() {
-            for later in &block.faults[1..] {
+        if let Some(first) = passage.block.faults.first() {
+            for later in &passage.block.faults[1..] {
                 self.core.report(later.clone());
             }
             return Err(first.clone());
         }
         if self.core.settings.tell_blocks {
-            return self.told_block(program, block);
+            return self.told_block(passage);
         }
-        self.sound_block(program, block)
+        self.sound_block(passage)
     }
 
-    pub(super) fn sound_block(&mut self, program: &Program, block: &Block) -> Result<Next, Fault> {
-        self.comments(program, block)?;
-        let mut rest = &block.items[..];
+    pub(super) fn sound_block(&mut self, passage: Passage<'_>) -> Result<Next, Fault> {
+        self.comments(passage)?;
+        let mut rest = &passage.block.items[..];
         self.called = None;
-        if let Some((name, _)) = called_name(program, &block.items) {
+        if let Some((name, _)) = called_name(passage.program, &passage.block.items) {
             self.called = Some(name.clone());
-        } else if let Some(index) = block.items.iter().position(is_control) {
-            match self.control(program, block, &block.items[index])? {
+        } else if let Some(index) = passage.block.items.iter().position(is_control) {
+            match self.control(passage, &passage.block.items[index])? {
                 Some(next) => return Ok(next),
-                None => rest = &block.items[index + 1..],
+                None => rest = &passage.block.items[index + 1..],
             }
         }
-        if block.items.iter().any(|i| matches!(i, Item::Mark(_))) {
+        if passage.block.items.iter().any(|i| matches!(i, Item::Mark(_))) {
             return Ok(self.tape_mark());
         }
         if rest.is_empty() {
             return Ok(Next::Following);
         }
-        if program.dialect().macro_words
-            && block.items.iter().any(|i| matches!(i, Item::Assign { .. }))
+        if passage.program.dialect().macro_words
+            && passage.block.items.iter().any(|i| matches!(i, Item::Assign { .. }))
         {
-            self.keep_remark(program, &block.items);
+            self.keep_remark(passage.program, &passage.block.items);
         }
-        self.gather(program, block, rest)?;
-        if let Some(next) = self.call_modal(block, true)? {
+        self.gather(passage, rest)?;
+        if let Some(next) = self.call_modal(passage.block, true)? {
             return Ok(next);
         }
-        self.assign(program, block, rest)?;
-        self.system_reads(block.span.start);
-        self.perform(block)
+        self.assign(passage, rest)?;
+        self.system_reads(passage.block.span.start);
+        self.perform(passage.block)
     }
 
-    fn assign(&mut self, program: &Program, block: &Block, items: &[Item]) -> Result<(), Fault> {
+    fn assign(&mut self, passage: Passage<'_>, items: &[Item]) -> Result<(), Fault> {
         let mut values = Vec::new();
         for item in items {
             if let Item::Assign { target, value, offset } = item {
-                let value = self.value(program, block, *value)?;
-                values.push((self.parameter(program, block, *target)?, value, *offset));
+                let value = self.value(passage, *value)?;
+                values.push((self.parameter(passage, *target)?, value, *offset));
             }
         }
         values.into_iter().try_for_each(|(target, value, at)| self.write(target, value, at))
@@ -235,8 +235,8 @@ impl Run<'_> {
         let at = self.words.place(b'T');
         if let Some(tool) = self.words.take(b'T') {
             if !(0.0..1e9).contains(&tool) {
-                let message = format!("T{tool} is not the number of a tool");
-                return Err(fault("bad-tool", at.max(block.span.start), message, "write T1"));
+                let at = at.max(block.span.start);
+                return Err(mistakes::bad_tool(format_args!("T{tool}"), at));
             }
             self.core.select_tool(tool as u32);
         }
@@ -342,8 +342,7 @@ impl Run<'_> {
             None => None,
         };
         let Some(seconds) = seconds.filter(|s| *s >= 0.0) else {
-            let message = "the time of the dwell is missing or negative";
-            return Err(fault("bad-dwell", at, message, "write G4 P0.5"));
+            return Err(mistakes::bad_dwell(at));
         };
         self.step(MoveKind::Dwell { seconds }, self.frames.position);
         Ok(())
@@ -448,8 +447,7 @@ impl Run<'_> {
         }
         let direction = b"IJK".map(|l| self.words.take(l).unwrap_or(0.0));
         if direction == [0.0; 3] {
-            let message = "the direction of the tool has no length";
-            return Err(fault("zero-direction", at, message, "write I, J and K"));
+            return Err(mistakes::zero_direction(at));
         }
         Ok(Some(direction))
     }

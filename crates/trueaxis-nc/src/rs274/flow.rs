@@ -1,9 +1,10 @@
 use std::collections::HashMap;
 
 use super::parameters::Locals;
-use super::{Activation, Next, Run, fault};
+use super::{Activation, Next, Passage, Run, fault};
+use crate::execution::mistakes;
 use crate::moves::Event;
-use crate::text::program::{Block, Fault, Item, Keyword, Label, Mark, NodeId, Program};
+use crate::text::program::{Fault, Item, Keyword, Label, Mark, NodeId, Program};
 
 impl Activation {
     pub(super) fn new(program: usize, at: usize, line: u32) -> Self {
@@ -24,6 +25,7 @@ impl Activation {
 
 /// A control statement that is being executed.
 struct Statement<'b> {
+    passage: Passage<'b>,
     keyword: Keyword,
     label: Label,
     arguments: &'b [NodeId],
@@ -54,14 +56,13 @@ impl Run<'_> {
     /// Executes a control statement; `None` if the rest of the block is to be executed.
     pub(super) fn control(
         &mut self,
-        program: &Program,
-        block: &Block,
+        passage: Passage<'_>,
         item: &Item,
     ) -> Result<Option<Next>, Fault> {
         let Item::Control { keyword, label, arguments, offset } = item else { return Ok(None) };
         let label = match label {
             Some(Label::Computed(node)) => {
-                let value = self.value(program, block, *node)?;
+                let value = self.value(passage, *node)?;
                 if !(0.0..1e15).contains(&value) {
                     let message = format!("{value} is not a label");
                     return Err(fault("bad-label", *offset, message, "labels are whole numbers"));
@@ -71,26 +72,26 @@ impl Run<'_> {
             Some(label) => label.clone(),
             None => Label::Number(0),
         };
-        let statement = Statement { keyword: *keyword, label, arguments, offset: *offset };
+        let statement = Statement { passage, keyword: *keyword, label, arguments, offset: *offset };
         match keyword {
             Keyword::ProgramNumber => self.program_begins(&statement),
             Keyword::IfThen => {
-                let holds = self.condition(program, block, arguments)?;
+                let holds = self.condition(passage, arguments)?;
                 Ok(if holds { None } else { Some(Next::Following) })
             }
-            Keyword::Goto => self.go_to(program, &statement).map(Some),
+            Keyword::Goto => self.go_to(&statement).map(Some),
             Keyword::IfGoto => {
-                let holds = self.condition(program, block, arguments)?;
-                let next = if holds { self.go_to(program, &statement)? } else { Next::Following };
+                let holds = self.condition(passage, arguments)?;
+                let next = if holds { self.go_to(&statement)? } else { Next::Following };
                 Ok(Some(next))
             }
             Keyword::Sub | Keyword::EndSub | Keyword::Call | Keyword::Return => {
-                self.sub_statement(program, block, &statement).map(Some)
+                self.sub_statement(&statement).map(Some)
             }
             Keyword::If | Keyword::ElseIf | Keyword::Else | Keyword::EndIf => {
-                self.branch(program, block, &statement).map(Some)
+                self.branch(&statement).map(Some)
             }
-            _ => self.repetition(program, block, &statement).map(Some),
+            _ => self.repetition(&statement).map(Some),
         }
     }
 
@@ -113,23 +114,23 @@ impl Run<'_> {
         Ok(Some(Next::Finished))
     }
 
-    fn condition(
-        &self,
-        program: &Program,
-        block: &Block,
-        arguments: &[NodeId],
-    ) -> Result<bool, Fault> {
+    fn condition(&self, passage: Passage<'_>, arguments: &[NodeId]) -> Result<bool, Fault> {
         match arguments.first() {
-            Some(node) => Ok(self.value(program, block, *node)?.abs() > 1e-20),
+            Some(node) => Ok(self.value(passage, *node)?.abs() > 1e-20),
             None => Ok(true),
         }
     }
 
-    fn go_to(&mut self, program: &Program, statement: &Statement<'_>) -> Result<Next, Fault> {
+    fn holds(&self, statement: &Statement<'_>) -> Result<bool, Fault> {
+        self.condition(statement.passage, statement.arguments)
+    }
+
+    fn go_to(&mut self, statement: &Statement<'_>) -> Result<Next, Fault> {
         let Label::Number(wanted) = statement.label else { return Ok(Next::Following) };
-        let Some((start, line)) = program.structure().block_number(wanted, statement.offset) else {
-            let message = format!("there is no block N{wanted}");
-            return Err(fault("missing-label", statement.offset, message, "check the number"));
+        let Some((start, line)) =
+            statement.passage.program.structure().block_number(wanted, statement.offset)
+        else {
+            return Err(mistakes::missing_label(format_args!("N{wanted}"), statement.offset));
         };
         self.jump(start, line, statement.offset)
     }
@@ -147,12 +148,11 @@ impl Run<'_> {
     /// The next mark behind a byte that fits.
     fn ahead(
         &self,
-        program: &Program,
         statement: &Statement<'_>,
         wanted: &[Keyword],
         code: &'static str,
     ) -> Result<Mark, Fault> {
-        let marks = &program.structure().marks;
+        let marks = &statement.passage.program.structure().marks;
         let from = marks.partition_point(|m| m.start <= statement.offset);
         let fits = |m: &&Mark| m.label == statement.label && wanted.contains(&m.keyword);
         marks[from..].iter().find(fits).cloned().ok_or_else(|| {
@@ -174,60 +174,57 @@ impl Run<'_> {
         marks[..until].iter().rev().find(fits).cloned()
     }
 
-    fn branch(
-        &mut self,
-        program: &Program,
-        block: &Block,
-        statement: &Statement<'_>,
-    ) -> Result<Next, Fault> {
+    fn branch(&mut self, statement: &Statement<'_>) -> Result<Next, Fault> {
         let seeking = std::mem::take(&mut self.frame().seeking);
         let begins = statement.keyword == Keyword::If;
         match statement.keyword {
             Keyword::EndIf => return Ok(Next::Following),
             Keyword::Else if seeking => return Ok(Next::Following),
             Keyword::If | Keyword::ElseIf if seeking || begins => {
-                if self.condition(program, block, statement.arguments)? {
+                if self.holds(statement)? {
                     return Ok(Next::Following);
                 }
                 let branches = [Keyword::ElseIf, Keyword::Else, Keyword::EndIf];
-                let mark = self.ahead(program, statement, &branches, "missing-endif")?;
+                let mark = self.ahead(statement, &branches, "missing-endif")?;
                 self.frame().seeking = mark.keyword != Keyword::EndIf;
                 return self.jump(mark.start, mark.line, statement.offset);
             }
             _ => {}
         }
         // The branch before this one was executed.
-        let mark = self.ahead(program, statement, &[Keyword::EndIf], "missing-endif")?;
+        let mark = self.ahead(statement, &[Keyword::EndIf], "missing-endif")?;
         self.jump(mark.next, mark.line + 1, statement.offset)
     }
 
-    fn repetition(
-        &mut self,
-        program: &Program,
-        block: &Block,
-        statement: &Statement<'_>,
-    ) -> Result<Next, Fault> {
+    fn repetition(&mut self, statement: &Statement<'_>) -> Result<Next, Fault> {
         let at = statement.offset;
         let label = &statement.label;
         match statement.keyword {
-            Keyword::While => self.while_statement(program, block, statement),
+            Keyword::While => self.while_statement(statement),
             Keyword::EndWhile => {
-                match self.behind(program, at, label, &[Keyword::While, Keyword::Do]) {
+                match self.behind(
+                    statement.passage.program,
+                    at,
+                    label,
+                    &[Keyword::While, Keyword::Do],
+                ) {
                     Some(open) => self.jump(open.start, open.line, at),
                     None => Err(unopened(statement)),
                 }
             }
             Keyword::Repeat => {
-                let count = statement.arguments.first().map(|n| self.value(program, block, *n));
+                let count = statement.arguments.first().map(|n| self.value(statement.passage, *n));
                 let count = count.transpose()?.unwrap_or(0.0).round().clamp(0.0, 1e15) as u64;
                 if count == 0 {
-                    return self.leave(program, statement);
+                    return self.leave(statement);
                 }
-                self.frame().rounds.insert(block.span.start, count);
+                self.frame().rounds.insert(statement.passage.block.span.start, count);
                 Ok(Next::Following)
             }
             Keyword::EndRepeat => {
-                let Some(open) = self.behind(program, at, label, &[Keyword::Repeat]) else {
+                let Some(open) =
+                    self.behind(statement.passage.program, at, label, &[Keyword::Repeat])
+                else {
                     return Err(unopened(statement));
                 };
                 let rounds = self.frame().rounds.entry(open.start).or_insert(1);
@@ -238,52 +235,44 @@ impl Run<'_> {
                     self.jump(open.next, open.line + 1, at)
                 }
             }
-            Keyword::Break => self.leave(program, statement),
+            Keyword::Break => self.leave(statement),
             Keyword::Continue => {
                 let ends = [Keyword::EndWhile, Keyword::EndRepeat, Keyword::While];
-                let mark = self.ahead(program, statement, &ends, "missing-endwhile")?;
+                let mark = self.ahead(statement, &ends, "missing-endwhile")?;
                 self.jump(mark.start, mark.line, at)
             }
             _ => Ok(Next::Following),
         }
     }
 
-    fn while_statement(
-        &mut self,
-        program: &Program,
-        block: &Block,
-        statement: &Statement<'_>,
-    ) -> Result<Next, Fault> {
-        let (start, at) = (block.span.start, statement.offset);
-        let holds = self.condition(program, block, statement.arguments)?;
+    fn while_statement(&mut self, statement: &Statement<'_>) -> Result<Next, Fault> {
+        let (start, at) = (statement.passage.block.span.start, statement.offset);
+        let holds = self.holds(statement)?;
         let loops = [Keyword::While, Keyword::Do, Keyword::Repeat];
-        let open = self.behind(program, start, &statement.label, &loops);
-        match open.filter(|o| o.keyword == Keyword::Do && program.dialect().o_words) {
+        let open = self.behind(statement.passage.program, start, &statement.label, &loops);
+        match open
+            .filter(|o| o.keyword == Keyword::Do && statement.passage.program.dialect().o_words)
+        {
             // It ends a `do`.
             Some(open) if holds => self.jump(open.next, open.line + 1, at),
             Some(_) => Ok(Next::Following),
             None if holds => Ok(Next::Following),
-            None => self.leave(program, statement),
+            None => self.leave(statement),
         }
     }
 
     /// Goes behind the end of the loop.
-    fn leave(&mut self, program: &Program, statement: &Statement<'_>) -> Result<Next, Fault> {
+    fn leave(&mut self, statement: &Statement<'_>) -> Result<Next, Fault> {
         let closing_while = statement.keyword == Keyword::Break;
         let mut ends = vec![Keyword::EndWhile, Keyword::EndRepeat];
         if closing_while {
             ends.push(Keyword::While);
         }
-        let mark = self.ahead(program, statement, &ends, "missing-endwhile")?;
+        let mark = self.ahead(statement, &ends, "missing-endwhile")?;
         self.jump(mark.next, mark.line + 1, statement.offset)
     }
 
-    fn sub_statement(
-        &mut self,
-        program: &Program,
-        block: &Block,
-        statement: &Statement<'_>,
-    ) -> Result<Next, Fault> {
+    fn sub_statement(&mut self, statement: &Statement<'_>) -> Result<Next, Fault> {
         let at = statement.offset;
         match statement.keyword {
             Keyword::Call => {
@@ -296,19 +285,19 @@ impl Run<'_> {
                     *number = Some(0.0);
                 }
                 for (index, node) in statement.arguments.iter().enumerate() {
-                    locals.numbers[index + 1] = Some(self.value(program, block, *node)?);
+                    locals.numbers[index + 1] = Some(self.value(statement.passage, *node)?);
                 }
                 let name = show(&statement.label);
-                self.enter(program, &statement.label, &name, locals, block, 1, at)
+                self.enter(statement.passage, &statement.label, &name, locals, 1, at)
             }
             Keyword::Sub if self.frame().sub.is_some() => {
                 let message = "a sub is defined within a sub";
                 Err(fault("nested-sub", at, message, "define subs one after the other"))
             }
             Keyword::Sub => {
-                let mark = self.ahead(program, statement, &[Keyword::EndSub], "missing-endsub")?;
+                let mark = self.ahead(statement, &[Keyword::EndSub], "missing-endsub")?;
                 let nested =
-                    program.structure().marks.iter().find(|m| {
+                    statement.passage.program.structure().marks.iter().find(|m| {
                         m.keyword == Keyword::Sub && m.start > at && m.start < mark.start
                     });
                 if let Some(nested) = nested {
@@ -320,7 +309,7 @@ impl Run<'_> {
             }
             _ => {
                 let value = match statement.arguments.first() {
-                    Some(node) => Some(self.value(program, block, *node)?),
+                    Some(node) => Some(self.value(statement.passage, *node)?),
                     None => None,
                 };
                 if self.frame().sub.is_none() {
@@ -334,21 +323,19 @@ impl Run<'_> {
     }
 
     /// Enters a subprogram of this text or of the library; the caller goes on behind `block`.
-    #[expect(clippy::too_many_arguments, reason = "who calls whom with what: all are different")]
     pub(super) fn enter(
         &mut self,
-        program: &Program,
+        passage: Passage<'_>,
         label: &Label,
         name: &str,
         locals: Locals,
-        block: &Block,
         repeats: u64,
         at: usize,
     ) -> Result<Next, Fault> {
         self.core.count(at)?;
         self.core.check_depth(self.stack.len(), at)?;
-        let (number, start, line) = self.find_sub(program, label, name, at)?;
-        self.follow(block);
+        let (number, start, line) = self.find_sub(passage.program, label, name, at)?;
+        self.follow(passage.block);
         let mut frame = Activation::new(number, start, line);
         (frame.sub, frame.locals, frame.repeats) = (Some(label.clone()), locals, repeats);
         frame.named = start > 0;

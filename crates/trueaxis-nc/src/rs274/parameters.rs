@@ -1,8 +1,9 @@
 use std::rc::Rc;
 
-use super::{Run, fault};
+use super::values::out_of_range;
+use super::{Passage, Run, fault};
 use crate::moves::{Axis, Position};
-use crate::text::program::{Block, Fault, Node, NodeId, Program};
+use crate::text::program::{Fault, Node, NodeId, Program};
 
 /// The parameters of one call: `#1` to `#30` (`#33` on FANUC) and its own names.
 #[derive(Debug, Clone)]
@@ -26,29 +27,24 @@ pub(super) enum Parameter {
 
 impl Run<'_> {
     /// Which parameter a node means.
-    pub(super) fn parameter(
-        &self,
-        program: &Program,
-        block: &Block,
-        node: NodeId,
-    ) -> Result<Parameter, Fault> {
-        match &block.nodes[node as usize] {
+    pub(super) fn parameter(&self, passage: Passage<'_>, node: NodeId) -> Result<Parameter, Fault> {
+        match &passage.block.nodes[node as usize] {
             Node::Named(span) => {
-                let name = String::from_utf8_lossy(&program.source()[span.clone()]);
+                let name = String::from_utf8_lossy(&passage.program.source()[span.clone()]);
                 let plain = name.chars().filter(|c| !c.is_whitespace());
                 Ok(Parameter::Name(plain.collect::<String>().to_ascii_lowercase()))
             }
             Node::Parameter(number) => {
-                let value = self.value(program, block, *number)?;
+                let value = self.value(passage, *number)?;
                 let number = value.round();
                 if (value - number).abs() > 1e-4 || !(0.0..1e9).contains(&number) {
                     let message = format!("{value} is not the number of a parameter");
                     let hint = "parameters have whole numbers from 1 on";
-                    return Err(fault("bad-parameter", block.span.start, message, hint));
+                    return Err(fault("bad-parameter", passage.block.span.start, message, hint));
                 }
                 Ok(Parameter::Number(number as u32))
             }
-            _ => Err(fault("bad-parameter", block.span.start, "no parameter", "write #1")),
+            _ => Err(fault("bad-parameter", passage.block.span.start, "no parameter", "write #1")),
         }
     }
 
@@ -157,9 +153,7 @@ impl Run<'_> {
             Parameter::Number(number) => {
                 let own = if self.is_fanuc() { 33 } else { 30 };
                 if number == 0 || !self.is_in_range(number) {
-                    let message = format!("there is no parameter #{number} to be set");
-                    let hint = "see the manual of the control for the range of parameters";
-                    return Err(fault("parameter-out-of-range", offset, message, hint));
+                    return Err(out_of_range(number, offset));
                 }
                 if own == 33 && number > own && self.write_system(number, value, offset)? {
                     return Ok(());

@@ -1,5 +1,6 @@
 use super::{Language, Run, fault};
-use crate::moves::{Axis, Coordinates, Event, Move, MoveKind, Position};
+use crate::execution::mistakes;
+use crate::moves::{Axis, AxisSet, Coordinates, Event, Move, MoveKind, Position};
 use crate::rs274::code::Action;
 use crate::text::program::Fault;
 
@@ -17,8 +18,8 @@ impl Run<'_> {
             Action::WorkOffsetFurther => {
                 let number = self.words.take(b'P').unwrap_or(1.0);
                 if !(1.0..=300.0).contains(&number) {
-                    let message = format!("there is no further work offset P{number}");
-                    return Err(fault("bad-work-offset", at, message, "write G54.1 P1"));
+                    let number = format_args!("P{number}");
+                    return Err(mistakes::bad_work_offset(number, "write G54.1 P1", at));
                 }
                 // The six of G54 to G59 come first, three places are LinuxCNC's.
                 self.select_offset(8 + number as usize, at);
@@ -26,12 +27,7 @@ impl Run<'_> {
             Action::SetTable => self.set_table(at)?,
             Action::Shift => self.shift_here(),
             Action::LocalShift => {
-                let mut shift = self.frames.shift;
-                for axis in Axis::ALL {
-                    if let Some(value) = self.axis_word(axis) {
-                        shift[axis] = value;
-                    }
-                }
+                let shift = self.by_words(self.frames.shift, Axis::ALL, false);
                 self.change_shift(shift, true);
             }
             Action::ShiftCancel => self.change_shift(Position::default(), false),
@@ -57,20 +53,9 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// The axis words as they stand, the present place for the other axes.
-    fn target_absolute(&mut self) -> Position {
-        let mut target = self.frames.position;
-        for axis in Axis::ALL {
-            if let Some(value) = self.axis_word(axis) {
-                target[axis] = value;
-            }
-        }
-        target
-    }
-
     /// G92: the present place gets the written coordinates.
     fn shift_here(&mut self) {
-        let target = self.target_absolute();
+        let target = self.by_words(self.frames.position, Axis::ALL, false);
         self.frames.change(|f| {
             let mut moved = f.position.minus(&target);
             if let Some(program) = &f.program {
@@ -140,23 +125,14 @@ impl Run<'_> {
                 self.modes.length_number = Some(h as u32);
                 h as u32
             }
-            Some(h) => {
-                let message = format!("H{h} is not the number of a tool length");
-                return Err(fault("bad-tool", at, message, "write H1"));
-            }
+            Some(h) => return Err(mistakes::bad_tool(format_args!("H{h}"), at)),
             None if self.is_fanuc() => self.modes.length_number.unwrap_or(self.core.modes.tool),
             None => self.core.modes.tool,
         };
         let mut length = self.frames.tool;
         match action {
             Action::ToolLengthOff => length = Position::default(),
-            Action::ToolLengthDirect => {
-                for axis in Axis::ALL {
-                    if let Some(value) = self.axis_word(axis) {
-                        length[axis] = value;
-                    }
-                }
-            }
+            Action::ToolLengthDirect => length = self.by_words(length, Axis::ALL, false),
             Action::ToolLengthAdd => length = length.plus(&self.frames.tool_length(number)),
             _ => {
                 if number != 0 && !self.frames.tools.contains_key(&number) {
@@ -223,8 +199,8 @@ impl Run<'_> {
 
     /// G28, G30: by way of the axis words to a reference point; only the named axes go there.
     fn reference(&mut self, index: usize) {
-        let named = Axis::ALL.map(|a| self.words.look(a.letter()).is_some());
-        let all = !named.contains(&true);
+        let named = self.words.axes();
+        let all = named == AxisSet::default();
         let between = self.target();
         self.step(MoveKind::Rapid, between);
         self.modes.via = Some(between);
@@ -233,7 +209,7 @@ impl Run<'_> {
         }
         let mut machine = self.frames.machine();
         for axis in Axis::ALL {
-            if all || named[axis as usize] {
+            if all || named.contains(axis) {
                 machine[axis] = self.frames.references[index][axis];
             }
         }
@@ -253,12 +229,12 @@ impl Run<'_> {
 
     /// G27: goes there, and it should be a reference point.
     fn check_reference(&mut self, at: usize) {
-        let named = Axis::ALL.map(|a| self.words.look(a.letter()).is_some());
+        let named = self.words.axes();
         let target = self.target();
         self.step(MoveKind::Rapid, target);
         let machine = self.frames.machine();
-        let away = |i: usize| (machine.0[i] - self.frames.references[0].0[i]).abs() > 1e-3;
-        if (0..9).any(|i| named[i] && away(i)) {
+        let away = |a: Axis| (machine[a] - self.frames.references[0][a]).abs() > 1e-3;
+        if Axis::ALL.into_iter().any(|a| named.contains(a) && away(a)) {
             let message = "G27: this is not the reference point".to_owned();
             self.core.warn("not-at-reference", 0, at, message, "the control stops here");
         }
@@ -266,10 +242,10 @@ impl Run<'_> {
 
     /// G29: the named axes go by way of the place of the last G28.
     fn leave_reference(&mut self) {
-        let named = Axis::ALL.map(|a| self.words.look(a.letter()).is_some());
+        let named = self.words.axes();
         if let Some(via) = self.modes.via {
-            let now = self.frames.position.0;
-            let between = std::array::from_fn(|i| if named[i] { via.0[i] } else { now[i] });
+            let now = self.frames.position;
+            let between = Axis::ALL.map(|a| if named.contains(a) { via[a] } else { now[a] });
             self.step(MoveKind::Rapid, Position(between));
         }
         let target = self.target();
@@ -328,8 +304,7 @@ impl Run<'_> {
             self.frames.offsets.resize(index + 1, Default::default());
         }
         if index >= self.frames.offsets.len() {
-            let message = format!("there is no work offset {number}");
-            return Err(fault("bad-work-offset", at, message, "P1 is G54, P6 is G59"));
+            return Err(mistakes::bad_work_offset(number, "P1 is G54, P6 is G59", at));
         }
         let words = Axis::ALL.map(|a| self.axis_word(a));
         let rotation = self.words.take(b'R');
@@ -368,13 +343,8 @@ impl Run<'_> {
 
     /// FANUC G10 L2 P0: what is added to all work offsets.
     fn set_external(&mut self) {
-        let mut external = self.frames.external;
-        for axis in Axis::ALL {
-            if let Some(value) = self.axis_word(axis) {
-                let base = if self.core.modes.incremental { external[axis] } else { 0.0 };
-                external[axis] = base + value;
-            }
-        }
+        let incremental = self.core.modes.incremental;
+        let external = self.by_words(self.frames.external, Axis::ALL, incremental);
         self.change_external(external);
     }
 
@@ -454,6 +424,6 @@ impl Run<'_> {
 }
 
 fn no_offset(number: u32, at: usize) -> Fault {
-    let message = format!("there is no work offset P{number}");
-    fault("bad-work-offset", at, message, "write G10 L2 P1 to P6, or G10 L20 P1 to P300")
+    let hint = "write G10 L2 P1 to P6, or G10 L20 P1 to P300";
+    mistakes::bad_work_offset(format_args!("P{number}"), hint, at)
 }

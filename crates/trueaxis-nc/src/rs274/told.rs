@@ -1,20 +1,20 @@
 //! Blocks as they are executed, for who unrolls the program.
 
 use super::execute::is_control;
-use super::{Next, Run};
+use super::{Next, Passage, Run};
 use crate::moves::Event;
-use crate::text::program::{Block, Fault, Item, Keyword, Node, NodeId, Program};
+use crate::text::program::{Block, Fault, Item, Keyword, Node, NodeId};
 
 impl Run<'_> {
     /// The same, with what a flat program of the same path would have to say instead.
-    pub(super) fn told_block(&mut self, program: &Program, block: &Block) -> Result<Next, Fault> {
-        self.core.emit(Event::Block { text: block.span.clone() });
-        for item in &block.items {
-            let end = end_of(item, block);
+    pub(super) fn told_block(&mut self, passage: Passage<'_>) -> Result<Next, Fault> {
+        self.core.emit(Event::Block { text: passage.block.span.clone() });
+        for item in &passage.block.items {
+            let end = end_of(item, passage.block);
             match item {
-                Item::Word { value, offset, .. } if !is_number(block, *value) => {
+                Item::Word { value, offset, .. } if !is_number(passage.block, *value) => {
                     // Not yet executed: a block that assigns reads the values before it.
-                    let value = self.value(program, block, *value)?;
+                    let value = self.value(passage, *value)?;
                     // A word of FANUC without a value is none.
                     let (from, value) = match value.is_nan() {
                         true => (*offset, None),
@@ -28,37 +28,37 @@ impl Run<'_> {
                 _ => {}
             }
         }
-        let next = self.sound_block(program, block)?;
-        let steers = block.items.iter().any(|item| {
+        let next = self.sound_block(passage)?;
+        let steers = passage.block.items.iter().any(|item| {
             let begins = matches!(item, Item::Control { keyword: Keyword::ProgramNumber, .. });
             is_control(item) && !begins
         });
         if steers || next == Next::Jumped {
-            self.tell_steering(program, block, steers);
+            self.tell_steering(passage, steers);
         }
         Ok(next)
     }
 
     /// M98 and M99 go with their words and leave the others of their block; all else goes as a whole.
-    fn tell_steering(&mut self, program: &Program, block: &Block, whole: bool) {
+    fn tell_steering(&mut self, passage: Passage<'_>, whole: bool) {
         let letter = |item: &Item, letters: &[u8]| match item {
             Item::Word { letter, .. } => letters.contains(letter),
             _ => false,
         };
-        let calls = block.items.iter().any(|item| match item {
+        let calls = passage.block.items.iter().any(|item| match item {
             Item::Word { letter: b'M', value, .. } => {
-                let value = self.value(program, block, *value);
+                let value = self.value(passage, *value);
                 value.is_ok_and(|m| [98.0, 99.0, 198.0].contains(&m))
             }
             _ => false,
         });
         if whole || !calls {
-            self.core.emit(Event::Computed { text: block.span.clone(), value: None });
+            self.core.emit(Event::Computed { text: passage.block.span.clone(), value: None });
             return;
         }
         // The M function of the call stands alone: others share no block with it.
-        for item in block.items.iter().filter(|item| letter(item, b"MPLQ")) {
-            let text = offset_of(item)..end_of(item, block);
+        for item in passage.block.items.iter().filter(|item| letter(item, b"MPLQ")) {
+            let text = offset_of(item)..end_of(item, passage.block);
             self.core.emit(Event::Computed { text, value: None });
         }
     }

@@ -1,27 +1,24 @@
 use super::parameters::Parameter;
-use super::{Run, fault};
-use crate::text::program::{Block, Fault, Function, Node, NodeId, Operator, Program};
+use super::{Passage, Run};
+use crate::execution::mistakes;
+use crate::execution::values::{self, finite};
+use crate::text::program::{Fault, Function, Node, NodeId, Operator, Program};
 
 impl Run<'_> {
     /// The value of an expression. A FANUC parameter without a value is NaN in here; it counts as
     /// 0 in sums and as itself in comparisons, and never leaves the interpreter.
-    pub(super) fn value(
-        &self,
-        program: &Program,
-        block: &Block,
-        node: NodeId,
-    ) -> Result<f64, Fault> {
-        let of = |node: NodeId| self.value(program, block, node);
-        match &block.nodes[node as usize] {
+    pub(super) fn value(&self, passage: Passage<'_>, node: NodeId) -> Result<f64, Fault> {
+        let of = |node: NodeId| self.value(passage, node);
+        match &passage.block.nodes[node as usize] {
             Node::Number(value) => Ok(*value),
-            Node::Parameter(_) | Node::Named(_) => self.parameter_value(program, block, node),
+            Node::Parameter(_) | Node::Named(_) => self.parameter_value(passage, node),
             Node::Negative(x) => Ok(-of(*x)?),
             Node::Function(function, x, at) => {
-                self.function(program, *function, vacant(of(*x)?), *at)
+                self.function(passage.program, *function, vacant(of(*x)?), *at)
             }
             Node::ArcTangent(y, x) => Ok(vacant(of(*y)?).atan2(vacant(of(*x)?)).to_degrees()),
             Node::Exists(parameter) => {
-                let found = match self.parameter(program, block, *parameter)? {
+                let found = match self.parameter(passage, *parameter)? {
                     Parameter::Number(n) => n > 0 && self.is_in_range(n),
                     name => self.read(&name).is_some(),
                 };
@@ -29,7 +26,7 @@ impl Run<'_> {
             }
             Node::Binary(operator, a, b, at) => {
                 let (a, b) = (of(*a)?, of(*b)?);
-                if program.dialect().macro_words
+                if passage.program.dialect().macro_words
                     && let Some(value) = whole_numbers(*operator, vacant(a), vacant(b))
                 {
                     return Ok(value);
@@ -39,30 +36,17 @@ impl Run<'_> {
         }
     }
 
-    fn parameter_value(
-        &self,
-        program: &Program,
-        block: &Block,
-        node: NodeId,
-    ) -> Result<f64, Fault> {
-        let parameter = self.parameter(program, block, node)?;
+    fn parameter_value(&self, passage: Passage<'_>, node: NodeId) -> Result<f64, Fault> {
+        let parameter = self.parameter(passage, node)?;
         if let Some(value) = self.read(&parameter) {
             return Ok(value);
         }
-        let at = block.span.start;
+        let at = passage.block.span.start;
         match parameter {
-            Parameter::Number(_) if program.dialect().macro_words => Ok(f64::NAN),
+            Parameter::Number(_) if passage.program.dialect().macro_words => Ok(f64::NAN),
             Parameter::Number(number) if number > 0 && self.is_in_range(number) => Ok(0.0),
-            Parameter::Number(number) => {
-                let message = format!("there is no parameter #{number}");
-                let hint = "see the manual of the control for the range of parameters";
-                Err(fault("parameter-out-of-range", at, message, hint))
-            }
-            Parameter::Name(name) => {
-                let message = format!("#<{name}> never got a value");
-                let hint = "names that begin with _ are global, others belong to their sub";
-                Err(fault("undefined-parameter", at, message, hint))
-            }
+            Parameter::Number(number) => Err(out_of_range(number, at)),
+            Parameter::Name(name) => Err(mistakes::no_value_yet(format_args!("#<{name}>"), at)),
         }
     }
 
@@ -74,35 +58,25 @@ impl Run<'_> {
         at: usize,
     ) -> Result<f64, Fault> {
         let towards_zero = program.dialect().fix_towards_zero;
-        let domain = |allowed: bool, value: f64| {
-            if allowed {
-                return Ok(value);
-            }
-            let name = format!("{function:?}").to_uppercase();
-            Err(fault(
-                "out-of-domain",
-                at,
-                format!("{name} has no value at {x}"),
-                "check the argument",
-            ))
-        };
+        let coded = |from, to| coded(x, from, to);
+        let of = |name| values::function(name, x, at).map(|value| value.unwrap_or(x));
         let result = match function {
-            Function::Abs => x.abs(),
-            Function::Bcd => coded(x, 10, 16).map_or_else(|| domain(false, x), Ok)?,
-            Function::Bin => coded(x, 16, 10).map_or_else(|| domain(false, x), Ok)?,
-            Function::Acos => domain(x.abs() <= 1.0, x.acos())?.to_degrees(),
-            Function::Asin => domain(x.abs() <= 1.0, x.asin())?.to_degrees(),
-            Function::Cos => x.to_radians().cos(),
-            Function::Exp => x.exp(),
+            Function::Abs => return of("ABS"),
+            Function::Bcd => coded(10, 16).ok_or_else(|| values::out_of_domain("BCD", x, at))?,
+            Function::Bin => coded(16, 10).ok_or_else(|| values::out_of_domain("BIN", x, at))?,
+            Function::Acos => return of("ACOS"),
+            Function::Asin => return of("ASIN"),
+            Function::Cos => return of("COS"),
+            Function::Exp => return of("EXP"),
             Function::Fix if towards_zero => x.trunc(),
             Function::Fix => x.floor(),
             Function::Fup if towards_zero => x.abs().ceil().copysign(x),
             Function::Fup => x.ceil(),
-            Function::Ln => domain(x > 0.0, x.ln())?,
+            Function::Ln => return of("LN"),
             Function::Round => x.round(),
-            Function::Sin => x.to_radians().sin(),
-            Function::Sqrt => domain(x >= 0.0, x.sqrt())?,
-            Function::Tan => x.to_radians().tan(),
+            Function::Sin => return of("SIN"),
+            Function::Sqrt => return of("SQRT"),
+            Function::Tan => return of("TAN"),
         };
         finite(result, at)
     }
@@ -143,23 +117,11 @@ fn vacant(value: f64) -> f64 {
     if value.is_nan() { 0.0 } else { value }
 }
 
-fn finite(value: f64, at: usize) -> Result<f64, Fault> {
-    if value.is_finite() {
-        return Ok(value);
-    }
-    Err(fault("not-finite", at, "the result is too large for a number", "check the operands"))
-}
-
 fn binary(operator: Operator, a: f64, b: f64, at: usize) -> Result<f64, Fault> {
     let same = |x: f64, y: f64| x.is_nan() == y.is_nan() && (x.is_nan() || (x - y).abs() < 1e-6);
     let (x, y) = (vacant(a), vacant(b));
     let truth = |condition: bool| Ok(f64::from(u8::from(condition)));
-    let divisor = || {
-        if y == 0.0 {
-            return Err(fault("division-by-zero", at, "division by zero", "check the divisor"));
-        }
-        Ok(y)
-    };
+    let divisor = || values::not_zero(y, at);
     match operator {
         Operator::Power => finite(x.powf(y), at),
         Operator::Times => finite(x * y, at),
@@ -177,4 +139,9 @@ fn binary(operator: Operator, a: f64, b: f64, at: usize) -> Result<f64, Fault> {
         Operator::Or => truth(x != 0.0 || y != 0.0),
         Operator::Xor => truth((x != 0.0) != (y != 0.0)),
     }
+}
+
+pub(super) fn out_of_range(number: u32, at: usize) -> Fault {
+    let hint = "see the manual of the control for the range of parameters";
+    mistakes::no_parameter(format_args!("#{number}"), hint, at)
 }

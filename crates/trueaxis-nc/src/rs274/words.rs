@@ -1,13 +1,12 @@
 use super::cycles::CycleMemory;
 use super::fanuc::macros::ModalMacro;
 use super::fanuc::transforms::Transforms;
-use super::{Run, Settings, fault};
+use super::{Passage, Run, Settings};
+use crate::execution::mistakes;
+use crate::execution::values::LARGEST;
 use crate::moves::{Axis, AxisSet, CompensationSide, PathControl, Position};
 use crate::rs274::code::{Action, Motion};
-use crate::text::program::{Block, Fault, Item, Program};
-
-/// No word is larger, so that no sum of words leaves the range of numbers.
-const LARGEST: f64 = 1e12;
+use crate::text::program::{Fault, Item, Program};
 
 /// One bit for each letter that names an axis.
 const AXIS_BITS: u32 = {
@@ -137,13 +136,10 @@ impl Words {
     pub fn put(&mut self, letter: u8, value: f64, offset: usize) -> Result<(), Fault> {
         let index = usize::from(letter - b'A');
         if self.present & (1 << index) != 0 {
-            let letter = char::from(letter);
-            let message = format!("the word {letter} stands twice in this block");
-            return Err(fault("repeated-word", offset, message, "write it once"));
+            return Err(mistakes::repeated_word(char::from(letter), offset));
         }
         if value.abs() > LARGEST {
-            let message = format!("{value} is too large for the word {}", char::from(letter));
-            return Err(fault("too-large", offset, message, "no machine goes that far"));
+            return Err(mistakes::too_large(value, char::from(letter), offset));
         }
         self.present |= 1 << index;
         (self.values[index], self.places[index]) = (value, offset);
@@ -174,15 +170,10 @@ impl Words {
 
 impl Run<'_> {
     /// Evaluates the words of a block and sorts its codes into the order of execution.
-    pub(super) fn gather(
-        &mut self,
-        program: &Program,
-        block: &Block,
-        items: &[Item],
-    ) -> Result<(), Fault> {
+    pub(super) fn gather(&mut self, passage: Passage<'_>, items: &[Item]) -> Result<(), Fault> {
         let mut words = std::mem::take(&mut self.words);
         words.clear();
-        let result = self.gather_into(program, block, items, &mut words);
+        let result = self.gather_into(passage, items, &mut words);
         words.actions.sort_by_key(|(action, _)| action.rank());
         self.words = words;
         result
@@ -190,26 +181,25 @@ impl Run<'_> {
 
     fn gather_into(
         &mut self,
-        program: &Program,
-        block: &Block,
+        passage: Passage<'_>,
         items: &[Item],
         words: &mut Words,
     ) -> Result<(), Fault> {
-        let gathering = self.gathering(program, block, items);
+        let gathering = self.gathering(passage, items);
         for item in items {
             let Item::Word { letter, value, offset } = item else { continue };
-            let value = self.value(program, block, *value)?;
+            let value = self.value(passage, *value)?;
             match letter {
                 _ if value.is_nan() => {}
                 _ if gathering.is_argument(*letter) => words.arguments.push((*letter, value)),
                 b'N' => self.modes.last[1] = value,
                 b'G' => {
-                    let action = self.g_code(program, value, *offset)?;
+                    let action = self.g_code(passage.program, value, *offset)?;
                     words.actions.push((action, *offset));
                 }
                 b'M' => {
                     self.modes.last[0] = value;
-                    let known = whole(value).and_then(|n| program.dialect().m_code(n));
+                    let known = whole(value).and_then(|n| passage.program.dialect().m_code(n));
                     let Some(action) = known else {
                         self.core.unknown_m_code(value, *offset);
                         continue;
@@ -223,10 +213,9 @@ impl Run<'_> {
     }
 
     fn g_code(&mut self, program: &Program, value: f64, offset: usize) -> Result<Action, Fault> {
-        whole(value * 10.0).and_then(|tenths| program.dialect().g_code(tenths)).ok_or_else(|| {
-            let message = format!("G{value} is not known to this control");
-            fault("unknown-g-code", offset, message, "is the program written for another control?")
-        })
+        whole(value * 10.0)
+            .and_then(|tenths| program.dialect().g_code(tenths))
+            .ok_or_else(|| mistakes::unknown_g_code(value, offset))
     }
 
     /// Reports what no code of the block used.
@@ -235,10 +224,8 @@ impl Run<'_> {
         for (letter, offset) in left {
             let name = char::from(letter);
             if letter == b'E' || letter == b'O' {
-                let message = format!("the word {name} is not known to this control");
-                let hint = "is the program written for another control or a printer?";
                 if self.core.is_new("unknown-word", u32::from(letter)) {
-                    return Err(fault("unknown-word", offset, message, hint));
+                    return Err(mistakes::unknown_word(name, offset));
                 }
                 continue;
             }
@@ -266,33 +253,29 @@ impl Run<'_> {
     pub(super) fn target(&mut self) -> Position {
         let polar = self.polar_place();
         let [a, b, _] = self.core.modes.plane.axes();
-        let mut target = self.frames.position;
+        let (mut target, incremental) = (self.frames.position, self.core.modes.incremental);
         if let Some(place) = polar {
+            // Their words are used up.
             (target[a], target[b]) = (place[0], place[1]);
             let rest = Axis::ALL.into_iter().filter(|axis| *axis != a && *axis != b);
-            return self.place_by_words(target, rest);
+            return self.by_words(target, rest, incremental);
         }
-        for axis in Axis::ALL {
-            if let Some(value) = self.axis_word(axis) {
-                let base = if self.core.modes.incremental { target[axis] } else { 0.0 };
-                target[axis] = base + value;
-            }
-        }
-        target
+        self.by_words(target, Axis::ALL, incremental)
     }
 
-    fn place_by_words(
+    /// The values of the axis words in the place of others, or added to them.
+    pub(super) fn by_words(
         &mut self,
-        mut target: Position,
-        axes: impl Iterator<Item = Axis>,
+        mut values: Position,
+        axes: impl IntoIterator<Item = Axis>,
+        incremental: bool,
     ) -> Position {
         for axis in axes {
             if let Some(value) = self.axis_word(axis) {
-                let base = if self.core.modes.incremental { target[axis] } else { 0.0 };
-                target[axis] = base + value;
+                values[axis] = if incremental { values[axis] } else { 0.0 } + value;
             }
         }
-        target
+        values
     }
 }
 
@@ -325,17 +308,5 @@ pub(super) fn check_groups(words: &Words) -> Result<(), Fault> {
         | Action::Orient => None,
         _ => Some(a.rank()),
     };
-    for (index, (action, offset)) in words.actions.iter().enumerate() {
-        let Some(rank) = group(*action) else { continue };
-        if let Some((other, _)) =
-            words.actions[..index].iter().find(|(a, _)| group(*a) == Some(rank))
-        {
-            if other == action {
-                continue;
-            }
-            let message = "two codes of this block contradict each other";
-            return Err(fault("conflicting-codes", *offset, message, "write them in two blocks"));
-        }
-    }
-    Ok(())
+    mistakes::check_groups(&words.actions, group)
 }

@@ -193,8 +193,7 @@ impl Run<'_> {
                 return Ok((name, arguments));
             }
             if !reader.accept(b',') {
-                let message = "this bracket is not closed";
-                return Err(fault("unbalanced-brackets", open, message, "one ) for each ("));
+                return Err(mistakes::unclosed_bracket(open));
             }
         }
     }
@@ -392,8 +391,7 @@ impl Run<'_> {
         if reader.accept(b'(') {
             while !reader.accept(b')') {
                 if reader.is_empty() {
-                    let message = "the bracket of PROC is not closed";
-                    return Err(fault("unbalanced-brackets", at, message, "one ) for each ("));
+                    return Err(mistakes::unclosed_bracket(at));
                 }
                 self.parameter(reader, arguments.get(index), at)?;
                 index += 1;

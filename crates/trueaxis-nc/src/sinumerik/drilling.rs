@@ -4,6 +4,7 @@ use super::swivel::Parameters;
 use super::values::Value;
 use super::words::Words;
 use super::{Run, fault};
+use crate::execution::mistakes;
 use crate::moves::{Axis, Event, MoveKind};
 use crate::text::program::Fault;
 
@@ -64,8 +65,7 @@ impl Run<'_> {
             (Some(depth), None) if relative => surface - depth.abs() * unit,
             (Some(depth), None) => depth * unit,
             (None, None) => {
-                let message = "the cycle has no depth";
-                return Err(fault("cycle-without-depth", at, message, "write DP or DPR"));
+                return Err(mistakes::missing_depth(at));
             }
         };
         let safe = surface + parameters.or_zero(2)?.abs() * unit;

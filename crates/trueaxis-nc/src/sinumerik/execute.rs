@@ -1,9 +1,8 @@
 //! Executes the words of a block: modes, tool, spindle, frames, then the move.
 
-use super::system::flat;
 use super::tables::{Angles, Code, Motion, Name, Turning as Way};
 use super::words::Words;
-use super::{Language, Next, Run, fault, transform};
+use super::{Language, Next, Run, transform};
 use crate::execution::{Modes as CommonModes, Settings, mistakes};
 use crate::moves::{
     Axis, Cone, Coolant, Event, MoveKind, OrientationPath, PathControl, Position, Turning,
@@ -85,8 +84,7 @@ impl Run<'_> {
         let exact = codes.iter().any(|(c, _)| *c == Code::ExactOnce);
         let ends = words.m.iter().find(|(m, _)| matches!(m, 0 | 1 | 2 | 17 | 30)).copied();
         if let Some((_, at)) = words.numbered.first().filter(|_| !taken) {
-            let message = "this axis is not known here";
-            return Err(fault("unknown-axis", *at, message, "the axes are X Y Z A B C U V W"));
+            return Err(mistakes::unknown_axis(*at));
         }
         let first = codes.first().map_or(self.core.start, |(_, at)| *at);
         words.codes = codes;
@@ -272,7 +270,7 @@ impl Run<'_> {
     fn select_offset(&mut self, number: u32, at: usize) -> Result<(), Fault> {
         let frame = self.chain.offset(number);
         if !self.chain.change(|c| c.settable = frame) {
-            return Err(flat(at));
+            return Err(mistakes::flat_frame(at));
         }
         self.chain.active = number;
         self.emit_offset();
@@ -312,7 +310,7 @@ impl Run<'_> {
             }
         });
         if !kept {
-            return Err(flat(at));
+            return Err(mistakes::flat_frame(at));
         }
         self.emit_frame();
         Ok(())
@@ -336,7 +334,7 @@ impl Run<'_> {
             }
         });
         if !kept {
-            return Err(flat(at));
+            return Err(mistakes::flat_frame(at));
         }
         self.emit_frame();
         Ok(())
@@ -355,8 +353,7 @@ impl Run<'_> {
             _ => -1.0,
         };
         if !(0.0..1e12).contains(&seconds) {
-            let message = "the time of the dwell is missing or negative";
-            return Err(fault("bad-dwell", at, message, "write G4 F0.5"));
+            return Err(mistakes::bad_dwell(at));
         }
         self.step(MoveKind::Dwell { seconds }, self.chain.position, words);
         Ok(())
@@ -466,13 +463,5 @@ fn check_groups(words: &Words) -> Result<(), Fault> {
         Code::Dwell | Code::Pole(_) | Code::Reference | Code::Limits => Some(15),
         Code::Motion(_) => Some(16),
     };
-    for (index, (code, at)) in words.codes.iter().enumerate() {
-        let Some(number) = group(*code) else { continue };
-        let earlier = &words.codes[..index];
-        if earlier.iter().any(|(c, _)| group(*c) == Some(number) && c != code) {
-            let message = "two codes of this block contradict each other";
-            return Err(fault("conflicting-codes", *at, message, "write them in two blocks"));
-        }
-    }
-    Ok(())
+    mistakes::check_groups(&words.codes, group)
 }

@@ -7,6 +7,7 @@ use super::reader::Reader;
 use super::structure::{Keyword, Mark, Structure};
 use super::values::Value;
 use super::{Next, Run, fault};
+use crate::execution::mistakes;
 use crate::text::program::Fault;
 
 /// Where the search for a label goes.
@@ -326,9 +327,7 @@ impl Run<'_> {
             if direction == Direction::Quiet {
                 return Ok(Next::Following);
             }
-            let message = format!("there is no block {target} in that direction");
-            let hint = "GOTOF looks towards the end, GOTOB towards the beginning";
-            return Err(fault("missing-label", at, message, hint));
+            return Err(mistakes::missing_label(target, at));
         };
         if start <= self.core.start {
             self.core.count(at)?;
@@ -381,10 +380,7 @@ impl Run<'_> {
             rounds = self.number(reader)?;
         }
         self.nothing_more(reader)?;
-        let missing = |name: &str| {
-            let message = format!("there is no block {name}");
-            fault("missing-label", at, message, "check the name of the label")
-        };
+        let missing = |name: &str| mistakes::missing_label(name, at);
         let begin = self.find(&first, Direction::Both).ok_or_else(|| missing(&first))?;
         let end = match &last {
             _ if one_block => self.block_end(begin.0),

@@ -1,10 +1,11 @@
 //! The functions of expressions; angles are degrees.
 
-use super::expression::finite;
 use super::reader::Reader;
 use super::transform;
 use super::values::{LONGEST_TEXT, Value, shown};
 use super::{Run, fault};
+use crate::execution::mistakes;
+use crate::execution::values::{self, finite};
 use crate::moves::{Axis, Frame};
 use crate::text::program::Fault;
 
@@ -66,15 +67,14 @@ impl Run<'_> {
         match word {
             "INVFRAME" => {
                 let frame = arguments.value(0)?.as_frame(at)?;
-                let flat = || fault("flat-frame", at, "the frame has no inverse", "check CSCALE");
+                let flat = || mistakes::flat_frame(at);
                 transform::inverse(&frame).map(Value::frame).ok_or_else(flat)
             }
             "AXNAME" => {
                 let name = arguments.text(0)?;
-                super::variables::axis_named(&name).map(Value::Axis).ok_or_else(|| {
-                    let message = format!("there is no axis {name}");
-                    fault("unknown-axis", at, message, "the axes are X Y Z A B C U V W")
-                })
+                super::variables::axis_named(&name)
+                    .map(Value::Axis)
+                    .ok_or_else(|| mistakes::unknown_axis(at))
             }
             "AXSTRING" => Ok(Value::Text(arguments.text(0)?)),
             "ISFILE" => Ok(Value::truth(self.core.library.text(&arguments.text(0)?).is_ok())),
@@ -125,8 +125,7 @@ impl Run<'_> {
                 }
             }
             if reader.is_empty() {
-                let message = "this bracket is not closed";
-                return Err(fault("unbalanced-brackets", at, message, "one ) for each ("));
+                return Err(mistakes::unclosed_bracket(at));
             }
         }
         transform::from_entries(word.trim_start_matches('C'), &entries, at)
@@ -136,41 +135,16 @@ impl Run<'_> {
 /// Functions of numbers; `None` for others.
 fn number_function(word: &str, arguments: &Arguments<'_>) -> Result<Option<f64>, Fault> {
     let at = arguments.at;
-    let domain = |message: String| fault("out-of-domain", at, message, "check the argument");
     let x = || arguments.number(0);
+    if let "SIN" | "COS" | "TAN" | "ASIN" | "ACOS" | "SQRT" | "ABS" | "LN" | "EXP" = word {
+        return values::function(word, x()?, at);
+    }
     Ok(Some(match word {
-        "SIN" => x()?.to_radians().sin(),
-        "COS" => x()?.to_radians().cos(),
-        "TAN" => x()?.to_radians().tan(),
-        "ASIN" | "ACOS" => {
-            let x = x()?;
-            if !(-1.0..=1.0).contains(&x) {
-                return Err(domain(format!("{word} of {x} does not exist")));
-            }
-            let angle = if word == "ASIN" { x.asin() } else { x.acos() };
-            angle.to_degrees()
-        }
         "ATAN2" => x()?.atan2(arguments.number(1)?).to_degrees(),
-        "SQRT" => {
-            let x = x()?;
-            if x < 0.0 {
-                return Err(domain(format!("there is no square root of {x}")));
-            }
-            x.sqrt()
-        }
-        "ABS" => x()?.abs(),
         "POT" => x()?.powi(2),
         "TRUNC" => x()?.trunc(),
         "ROUND" => x()?.round(),
         "ROUNDUP" => x()?.ceil(),
-        "LN" => {
-            let x = x()?;
-            if x <= 0.0 {
-                return Err(domain(format!("there is no logarithm of {x}")));
-            }
-            x.ln()
-        }
-        "EXP" => x()?.exp(),
         "MINVAL" => x()?.min(arguments.number(1)?),
         "MAXVAL" => x()?.max(arguments.number(1)?),
         "BOUND" => arguments.number(2)?.min(arguments.number(1)?).max(x()?),

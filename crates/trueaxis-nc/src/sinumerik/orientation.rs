@@ -1,9 +1,10 @@
 //! Directions of the tool axis and how it gets there.
 
+use super::Run;
 use super::tables::{Angles, Name, Turning};
 use super::words::Words;
-use super::{Run, fault};
 use crate::execution::frames::turns;
+use crate::execution::mistakes;
 use crate::moves::{Axis, Cone, Event, OrientationPath};
 use crate::text::program::Fault;
 
@@ -40,8 +41,7 @@ impl Run<'_> {
         let vector = vector.map(|v| v.unwrap_or(0.0));
         let length = vector.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
         if !(1e-12..1e12).contains(&length) {
-            let message = "the direction has no length";
-            return Err(fault("zero-direction", at, message, "write A3=0 B3=0 C3=1"));
+            return Err(mistakes::zero_direction(at));
         }
         Ok(vector)
     }

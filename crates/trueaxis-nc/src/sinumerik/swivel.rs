@@ -1,8 +1,8 @@
 //! CYCLE800 and CYCLE832.
 
-use super::system::flat;
 use super::values::Value;
 use super::{Language, Run, fault, transform};
+use crate::execution::mistakes;
 use crate::moves::{Axis, Branch, Event, Frame, Move, MoveKind, PathControl, Position};
 use crate::text::program::Fault;
 
@@ -18,8 +18,7 @@ impl Parameters<'_> {
         let Some(Some(value)) = self.values.get(index) else { return Ok(None) };
         let number = value.number(self.at)?;
         if number.abs() > 1e12 {
-            let message = format!("{number} is too large for a cycle");
-            return Err(fault("too-large", self.at, message, "no machine goes that far"));
+            return Err(mistakes::too_large(number, "a cycle", self.at));
         }
         Ok(Some(number))
     }
@@ -75,7 +74,7 @@ impl Run<'_> {
             }
         });
         if !kept {
-            return Err(flat(at));
+            return Err(mistakes::flat_frame(at));
         }
         if parameters.or_zero(0)? != 0.0 {
             let hint = "write the retraction as a move before the cycle";
@@ -96,7 +95,7 @@ impl Run<'_> {
 
     fn reset_swivel(&mut self, at: usize) -> Result<(), Fault> {
         if !self.chain.change(|c| c.swivel = Frame::IDENTITY) {
-            return Err(flat(at));
+            return Err(mistakes::flat_frame(at));
         }
         self.core.emit(Event::TiltedPlane(false));
         self.emit_frame();

@@ -2,11 +2,12 @@
 
 use super::archive;
 use super::chain::Part;
-use super::expression::finite;
 use super::reader::Reader;
 use super::values::Value;
 use super::{Language, Run, fault};
 use crate::execution::frames;
+use crate::execution::mistakes;
+use crate::execution::values::finite;
 use crate::moves::{Axis, Event, Frame};
 use crate::text::program::Fault;
 
@@ -165,8 +166,7 @@ impl Run<'_> {
         let kept = match name {
             "P_UIFR" => {
                 if number > 999 {
-                    let message = format!("there is no work offset {number}");
-                    return Err(fault("bad-work-offset", at, message, "1 is G54, 5 is G505"));
+                    return Err(mistakes::bad_work_offset(number, "1 is G54, 5 is G505", at));
                 }
                 self.chain.offsets.insert(number, frame);
                 if let Some(archive) = &mut self.archive {
@@ -189,7 +189,7 @@ impl Run<'_> {
             }
         };
         if !kept {
-            return Err(flat(at));
+            return Err(mistakes::flat_frame(at));
         }
         self.emit_frame();
         Ok(())
@@ -240,9 +240,4 @@ impl Run<'_> {
         }
         Ok(())
     }
-}
-
-pub(super) fn flat(at: usize) -> Fault {
-    let message = "the frame squeezes space flat or leaves the range of numbers";
-    fault("flat-frame", at, message, "check the scales and shifts")
 }

@@ -1,8 +1,8 @@
 //! Tools by number and by name, and their lengths.
 
-use super::system::flat;
 use super::words::{ToolCall, Words};
 use super::{Run, fault};
+use crate::execution::mistakes;
 use crate::moves::Event;
 use crate::text::program::Fault;
 
@@ -95,7 +95,7 @@ impl Run<'_> {
         if self.chain.change(|c| c.tool = length) {
             self.core.emit(Event::ToolLength(length));
         } else {
-            let fault = flat(at);
+            let fault = mistakes::flat_frame(at);
             self.core.report(fault);
         }
     }

@@ -1,6 +1,7 @@
 //! Turns, scales and mirrors as frames.
 
 use crate::execution::frames::{about, cross, turns};
+use crate::execution::mistakes;
 use crate::moves::{Axis, Frame, Position};
 use crate::text::program::Fault;
 
@@ -105,8 +106,7 @@ pub(super) fn from_entries(word: &str, entries: &[(Axis, f64)], at: usize) -> Re
     let value = |axis: Axis| entries.iter().find(|(a, _)| *a == axis).map(|(_, v)| *v);
     let spatial = [Axis::X, Axis::Y, Axis::Z].map(value);
     if let Some((_, bad)) = entries.iter().find(|(_, v)| v.is_nan() || v.abs() >= 1e12) {
-        let message = format!("{bad} is too large for a frame");
-        return Err(fault("too-large", at, message, "no machine goes that far"));
+        return Err(mistakes::too_large(*bad, "a frame", at));
     }
     match word {
         "TRANS" | "FINE" => {
@@ -125,8 +125,7 @@ pub(super) fn from_entries(word: &str, entries: &[(Axis, f64)], at: usize) -> Re
             for (i, factor) in spatial.into_iter().enumerate() {
                 frame.linear[i][i] = factor.unwrap_or(1.0);
                 if frame.linear[i][i].abs() < 1e-6 {
-                    let message = "a scale of zero squeezes the part flat";
-                    return Err(fault("flat-frame", at, message, "write a factor such as 0.5"));
+                    return Err(mistakes::bad_scale(at));
                 }
             }
         }

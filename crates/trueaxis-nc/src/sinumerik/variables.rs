@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use super::reader::Reader;
 use super::values::{Kind, LONGEST_TEXT, Value, Variable};
 use super::{Run, fault};
+use crate::execution::mistakes;
 use crate::moves::Axis;
 use crate::text::lexer::TokenKind;
 use crate::text::program::Fault;
@@ -44,8 +45,8 @@ impl Run<'_> {
             reader.number().unwrap_or_else(|| Err(super::expression::missing_value(reader)))?
         };
         if index.fract() != 0.0 || !(0.0..=LAST_R as f64).contains(&index) {
-            let message = format!("there is no R{index}");
-            return Err(fault("parameter-out-of-range", at, message, "R0 to R32767 are there"));
+            let name = format_args!("R{index}");
+            return Err(mistakes::no_parameter(name, "R0 to R32767 are there", at));
         }
         Ok(index as usize)
     }
@@ -104,9 +105,7 @@ impl Run<'_> {
                         BOUND and functions of texts and frames are";
             return Err(fault("function-not-known", at, message, hint));
         }
-        let message = format!("the variable {word} is not declared");
-        let hint = "declare it with DEF, or give it as a constant of the machine";
-        Err(fault("undefined-parameter", at, message, hint))
+        Err(undeclared(word, at))
     }
 
     /// The place that a name with its indices means: `R5`, `R[1]`, `NAME`, `NAME[1,2]`.
@@ -155,10 +154,7 @@ impl Run<'_> {
             Slot::Cell(name, cell) => {
                 let found = self.variables().and_then(|v| v.get(name));
                 let value = found.and_then(|v| v.values.get(*cell)).cloned();
-                value.ok_or_else(|| {
-                    let message = format!("the variable {name} is not declared");
-                    fault("undefined-parameter", at, message, "declare it with DEF")
-                })
+                value.ok_or_else(|| undeclared(name, at))
             }
         }
     }
@@ -174,8 +170,7 @@ impl Run<'_> {
             }
             Slot::Cell(name, cell) => {
                 let Some(variable) = self.variables().and_then(|v| v.get_mut(name)) else {
-                    let message = format!("the variable {name} is not declared");
-                    return Err(fault("undefined-parameter", at, message, "declare it with DEF"));
+                    return Err(undeclared(name, at));
                 };
                 let converted = variable.kind.convert(value, at)?;
                 if let Some(place) = variable.values.get_mut(*cell) {
@@ -328,8 +323,7 @@ impl Run<'_> {
             }
             sizes.push(size as usize);
             if !matches!(reader.symbol(), Some(b',' | b']')) {
-                let message = "this bracket is not closed";
-                return Err(fault("unbalanced-brackets", at, message, "one ] for each ["));
+                return Err(mistakes::unclosed_bracket(at));
             }
         }
         Ok(sizes)
@@ -375,18 +369,18 @@ impl Run<'_> {
         match self.expression(reader)? {
             Value::Axis(axis) => Ok(Some(axis)),
             Value::Text(name) => Ok(axis_named(&name)),
-            _ => {
-                let hint = "the axes are X Y Z A B C U V W";
-                Err(fault("unknown-axis", at, "the name of an axis is due here", hint))
-            }
+            _ => Err(mistakes::unknown_axis(at)),
         }
     }
 
     pub(super) fn axis(&mut self, reader: &mut Reader<'_>) -> Result<Axis, Fault> {
         let at = reader.here();
-        self.axis_or_other(reader)?.ok_or_else(|| {
-            let hint = "the axes are X Y Z A B C U V W";
-            fault("unknown-axis", at, "this axis is not known here", hint)
-        })
+        self.axis_or_other(reader)?.ok_or_else(|| mistakes::unknown_axis(at))
     }
+}
+
+fn undeclared(name: &str, at: usize) -> Fault {
+    let message = format!("the variable {name} is not declared");
+    let hint = "declare it with DEF, or give it as a constant of the machine";
+    fault("undefined-parameter", at, message, hint)
 }

@@ -2,11 +2,12 @@
 
 use std::rc::Rc;
 
+use crate::execution::mistakes;
 use crate::rs274::code::Action;
 use crate::rs274::flow::show;
 use crate::rs274::parameters::Locals;
-use crate::rs274::{Next, Run, fault};
-use crate::text::program::{Block, Fault, Item, Label, Node, Program};
+use crate::rs274::{Next, Passage, Run, fault};
+use crate::text::program::{Block, Fault, Item, Label, Node};
 
 /// The local parameter of each letter, A to Z.
 const NUMBERS: [usize; 26] =
@@ -74,19 +75,14 @@ fn locals_of(arguments: &[(u8, f64)], at: usize) -> Result<Locals, Fault> {
 
 impl Run<'_> {
     /// Whether a block calls a macro with its letters.
-    pub(in crate::rs274) fn gathering(
-        &self,
-        program: &Program,
-        block: &Block,
-        items: &[Item],
-    ) -> Gathering {
-        if !program.dialect().macro_words {
+    pub(in crate::rs274) fn gathering(&self, passage: Passage<'_>, items: &[Item]) -> Gathering {
+        if !passage.program.dialect().macro_words {
             return Gathering::Words;
         }
         let has = |codes: &[f64]| {
             items.iter().any(|item| match item {
                 Item::Word { letter: b'G', value, .. } => {
-                    matches!(block.nodes.get(*value as usize), Some(Node::Number(n)) if codes.contains(n))
+                    matches!(passage.block.nodes.get(*value as usize), Some(Node::Number(n)) if codes.contains(n))
                 }
                 _ => false,
             })
@@ -213,7 +209,8 @@ impl Run<'_> {
             Label::Number(number) => format!("O{number:04}"),
             named => show(named),
         };
-        self.enter(&program, label, &name, locals, block, repeats as u64, at)
+        let passage = Passage { program: &program, block };
+        self.enter(passage, label, &name, locals, repeats as u64, at)
     }
 
     /// M99: back to the caller, or once more; in the main program back to its beginning, which is
@@ -265,8 +262,7 @@ impl Run<'_> {
         // The caller goes on behind its block: that byte less one lies within the same program.
         let found = caller.structure().block_number(number as u64, from.saturating_sub(1));
         let Some((start, line)) = found.filter(|_| number >= 0.0) else {
-            let message = format!("the caller has no block N{number}");
-            return Err(fault("missing-label", at, message, "check P of M99"));
+            return Err(mistakes::missing_label(format_args!("N{number}"), at));
         };
         let frame = self.frame();
         (frame.at, frame.line) = (start, line);

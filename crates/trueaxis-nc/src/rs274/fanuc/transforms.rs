@@ -7,6 +7,7 @@
 //! then rotation; the tilted plane holds all of them.
 
 use crate::execution::frames::{about, cross, from_axes, point, turns};
+use crate::execution::mistakes;
 use crate::moves::{Axis, Branch, Event, Frame, MoveKind, Plane, Position};
 use crate::rs274::code::Action;
 use crate::rs274::{Language, Run, fault};
@@ -196,8 +197,7 @@ impl Run<'_> {
         for (i, own) in each.iter().enumerate() {
             let factor = own.or(all).unwrap_or(1.0);
             if !(1e-3..=1e3).contains(&factor.abs()) {
-                let message = format!("{factor} is not a scale");
-                return Err(fault("bad-scale", at, message, "write P2000 or P2.0 for twice"));
+                return Err(mistakes::bad_scale(at));
             }
             frame.linear[i][i] = factor;
         }
@@ -248,8 +248,7 @@ impl Run<'_> {
             return Ok(());
         }
         let Some(axis) = unit(b"IJK".map(|l| self.words.take(l).unwrap_or(0.0))) else {
-            let message = "the axis of the rotation has no length";
-            return Err(fault("zero-direction", at, message, "write I, J and K"));
+            return Err(mistakes::zero_direction(at));
         };
         if self.modes.transforms.nested >= 2 {
             let message = "more than two rotations in space within each other";

@@ -2,23 +2,19 @@
 
 use crate::execution::mistakes;
 use crate::moves::Event;
-use crate::rs274::Run;
 use crate::rs274::parameters::Parameter;
-use crate::text::program::{Block, Fault, Item, Program};
+use crate::rs274::{Passage, Run};
+use crate::text::program::{Fault, Item};
 
 impl Run<'_> {
     /// Comments that do something: MSG, DEBUG, PRINT, LOG, ABORT.
-    pub(in crate::rs274) fn comments(
-        &mut self,
-        program: &Program,
-        block: &Block,
-    ) -> Result<(), Fault> {
-        if !program.dialect().o_words {
+    pub(in crate::rs274) fn comments(&mut self, passage: Passage<'_>) -> Result<(), Fault> {
+        if !passage.program.dialect().o_words {
             return Ok(());
         }
-        for item in &block.items {
+        for item in &passage.block.items {
             let Item::Comment(span) = item else { continue };
-            let text = &program.source()[span.clone()];
+            let text = &passage.program.source()[span.clone()];
             let inner = match text {
                 [b'(', inner @ .., b')'] => inner,
                 [b';', inner @ ..] => inner,
