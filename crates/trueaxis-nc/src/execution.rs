@@ -2,6 +2,7 @@
 
 pub(crate) mod arcs;
 mod core;
+pub(crate) mod drilling;
 pub(crate) mod frames;
 mod library;
 pub(crate) mod mistakes;

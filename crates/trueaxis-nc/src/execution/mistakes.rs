@@ -166,3 +166,8 @@ pub(crate) fn check_groups<C: Copy + PartialEq>(
     }
     Ok(())
 }
+
+pub(crate) fn too_many_pecks(most: f64, at: usize) -> Fault {
+    let message = format!("the block drills more than {most} times");
+    fault("too-many-pecks", at, message, "check the depth of a peck and the number of holes")
+}

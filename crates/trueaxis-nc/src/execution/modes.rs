@@ -72,7 +72,14 @@ impl Modes {
     }
 
     pub fn check_feed(&self, at: usize) -> Result<(), Fault> {
-        if self.feed.value > 0.0 { Ok(()) } else { Err(mistakes::zero_feed(self.feed.mode, at)) }
+        self.feed.check(at)
+    }
+}
+
+impl Feed {
+    /// A move needs a feed.
+    pub(crate) fn check(&self, at: usize) -> Result<(), Fault> {
+        if self.value > 0.0 { Ok(()) } else { Err(mistakes::zero_feed(self.mode, at)) }
     }
 }
 

@@ -153,7 +153,7 @@ impl Run<'_> {
         };
         let message = format!("APPR {name} is moved as a line to its point");
         let hint = "the tangential part of the approach is missing";
-        self.core.warn("not-applied", &format!("APPR {name}"), words.at, &message, hint);
+        self.core.warn("not-applied", format!("APPR {name}"), words.at, &message, hint);
         if !rapid {
             self.core.modes.check_feed(words.at)?;
         }

@@ -257,7 +257,7 @@ impl Run<'_> {
         }
         let message = format!("cycle {number} is not executed: its moves are missing");
         let hint = "let the CAM system write its moves out";
-        self.core.warn("cycle-not-executed", &number.to_string(), at, &message, hint);
+        self.core.warn("cycle-not-executed", number, at, &message, hint);
         if !matches!(number, 14 | 20 | 220 | 221 | 392 | 400..=499) {
             self.cycle = Some(Cycle::Missing);
         }
@@ -343,7 +343,7 @@ impl Run<'_> {
     fn execute_cycle(&mut self, at: usize) -> Result<Next, Fault> {
         match self.cycle.clone() {
             Some(Cycle::Drilling(number, values)) => {
-                self.drill(number, &values, at)?;
+                self.drill_hole(number, &values, at)?;
                 Ok(Next::Following)
             }
             Some(Cycle::Program(name)) => self.call_program(&name, at),

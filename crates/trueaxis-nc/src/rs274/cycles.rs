@@ -1,11 +1,9 @@
 use super::{Run, fault};
+use crate::execution::drilling::{Drill, MOST_PECKS, Stroke, check_pecks, pecks, reversed};
 use crate::execution::mistakes;
 use crate::moves::{Event, MoveKind, Position, Turning};
 use crate::rs274::code::Cycle;
 use crate::text::program::Fault;
-
-/// Pecks and holes of one block: more than any program means.
-const MOST_PECKS: f64 = 1e6;
 
 /// What drilling cycles keep from block to block.
 #[derive(Debug, Clone, Default)]
@@ -56,10 +54,7 @@ impl Run<'_> {
             return Err(fault("bad-repeats", at, message, "write L2"));
         }
         let pecks = if hole.peck > 0.0 { (hole.r - hole.bottom) / hole.peck } else { 1.0 };
-        if pecks.max(1.0) * repeats > MOST_PECKS {
-            let message = format!("the block drills more than {MOST_PECKS} times");
-            return Err(fault("too-many-pecks", at, message, "check Q and L"));
-        }
+        check_pecks(pecks.max(1.0) * repeats, MOST_PECKS, at)?;
         let polar = self.modes.transforms.polar.is_some();
         let axes = self.core.modes.plane.axes();
         let steps = if polar { [None; 2] } else { [axes[0], axes[1]].map(|a| self.axis_word(a)) };
@@ -86,7 +81,8 @@ impl Run<'_> {
                 over.0[hole.axis] = hole.r;
                 self.step(MoveKind::Rapid, over);
             }
-            self.drill(cycle, &hole, over);
+            let strokes = self.strokes(cycle, &hole);
+            self.drill(strokes, at)?;
         }
         Ok(())
     }
@@ -134,104 +130,79 @@ impl Run<'_> {
         Ok(Hole { axis: axis as usize, r, bottom, clear, peck: peck.unwrap_or(0.0), dwell_s })
     }
 
-    fn along(&mut self, kind: MoveKind, place: Position, hole: &Hole, depth: f64) {
-        let mut target = place;
-        target.0[hole.axis] = depth;
-        self.step(kind, target);
-    }
-
-    fn drill(&mut self, cycle: Cycle, hole: &Hole, place: Position) {
-        match cycle {
-            Cycle::Peck | Cycle::ChipBreaking => self.peck(cycle, hole, place),
-            _ => self.along(MoveKind::Linear, place, hole, hole.bottom),
-        }
+    /// What the drill does from R on.
+    fn strokes(&self, cycle: Cycle, hole: &Hole) -> Vec<Stroke> {
+        const CLEARANCE_MM: f64 = 0.254;
         let turning = self.core.modes.turning;
+        let turn = |turning| Stroke::Event(Event::Spindle(turning));
+        let (wait, out) = (Stroke::Dwell(hole.dwell_s), Stroke::Rapid(hole.clear));
+        let mut strokes = match cycle {
+            // By Q at a time; a chip is broken by 0.010 inch, a deep hole is left to R each time.
+            Cycle::Peck | Cycle::ChipBreaking => {
+                let depths = (1..).map(|n| hole.r - f64::from(n) * hole.peck);
+                let depths = depths.take_while(|depth| *depth > hole.bottom);
+                pecks(depths.chain([hole.bottom]), |depth, strokes| {
+                    strokes.extend((cycle == Cycle::Peck).then_some(Stroke::Rapid(hole.r)));
+                    strokes.push(Stroke::Rapid(depth + CLEARANCE_MM));
+                })
+            }
+            _ => vec![Stroke::Linear(hole.bottom)],
+        };
         match cycle {
             Cycle::TapLeft | Cycle::TapRight => {
-                let back = match turning {
-                    Turning::Clockwise => Turning::CounterClockwise,
-                    Turning::CounterClockwise => Turning::Clockwise,
-                    Turning::Stopped => Turning::Stopped,
-                };
-                self.core.emit(Event::Spindle(Turning::Stopped));
-                self.core.emit(Event::Spindle(back));
-                self.wait(hole);
-                self.along(MoveKind::Linear, place, hole, hole.clear);
-                self.core.emit(Event::Spindle(Turning::Stopped));
-                self.core.emit(Event::Spindle(turning));
+                strokes.extend([turn(Turning::Stopped), turn(reversed(turning)), wait]);
+                strokes.extend([Stroke::Linear(hole.clear), turn(Turning::Stopped), turn(turning)]);
             }
             Cycle::Bore | Cycle::BoreDwell => {
-                if cycle == Cycle::BoreDwell {
-                    self.wait(hole);
-                }
-                self.along(MoveKind::Linear, place, hole, hole.r);
-                if hole.clear != hole.r {
-                    self.along(MoveKind::Rapid, place, hole, hole.clear);
-                }
+                strokes.extend((cycle == Cycle::BoreDwell).then_some(wait));
+                strokes.push(Stroke::Linear(hole.r));
+                strokes.extend((hole.clear != hole.r).then_some(out));
             }
             Cycle::BoreManual => {
-                self.wait(hole);
-                self.core.emit(Event::Spindle(Turning::Stopped));
-                self.core.emit(Event::Stop { optional: false });
-                self.along(MoveKind::Rapid, place, hole, hole.clear);
-                self.core.emit(Event::Spindle(turning));
+                let stop = Stroke::Event(Event::Stop { optional: false });
+                strokes.extend([wait, turn(Turning::Stopped), stop, out, turn(turning)]);
             }
             Cycle::BoreStop | Cycle::FineBore => {
-                self.wait(hole);
-                self.core.emit(Event::Spindle(Turning::Stopped));
-                self.along(MoveKind::Rapid, place, hole, hole.clear);
-                self.core.emit(Event::Spindle(turning));
+                strokes.extend([wait, turn(Turning::Stopped), out, turn(turning)]);
             }
-            _ => {
-                if cycle == Cycle::DrillDwell {
-                    self.wait(hole);
-                }
-                self.along(MoveKind::Rapid, place, hole, hole.clear);
-            }
+            Cycle::DrillDwell => strokes.extend([wait, out]),
+            _ => strokes.push(out),
         }
+        strokes
     }
 
     /// G87: beside the hole by Q along the first axis of the plane, down to R, over the hole, up to Z
     /// with feed, and out the same way.
-    fn bore_back(&mut self, hole: &Hole, place: Position) {
-        let mut beside = place;
+    fn bore_back(&mut self, hole: &Hole, over: Position) {
+        let turn = Event::Spindle(self.core.modes.turning);
+        let at_height = |mut place: Position, height| {
+            place.0[hole.axis] = height;
+            place
+        };
+        let mut beside = over;
         beside[self.core.modes.plane.axes()[0]] += hole.peck;
-        let turning = self.core.modes.turning;
         self.core.emit(Event::SpindleOrient { angle_deg: 0.0 });
         self.step(MoveKind::Rapid, beside);
-        self.along(MoveKind::Rapid, beside, hole, hole.r);
-        self.along(MoveKind::Rapid, place, hole, hole.r);
-        self.core.emit(Event::Spindle(turning));
-        self.along(MoveKind::Linear, place, hole, hole.bottom);
-        self.wait(hole);
+        self.step(MoveKind::Rapid, at_height(beside, hole.r));
+        self.step(MoveKind::Rapid, at_height(over, hole.r));
+        self.core.emit(turn.clone());
+        self.step(MoveKind::Linear, at_height(over, hole.bottom));
+        self.step(MoveKind::Dwell { seconds: hole.dwell_s }, self.frames.position);
         self.core.emit(Event::SpindleOrient { angle_deg: 0.0 });
-        self.along(MoveKind::Rapid, beside, hole, hole.bottom);
+        self.step(MoveKind::Rapid, at_height(beside, hole.bottom));
         self.step(MoveKind::Rapid, beside);
-        self.step(MoveKind::Rapid, place);
-        self.core.emit(Event::Spindle(turning));
+        self.step(MoveKind::Rapid, over);
+        self.core.emit(turn);
+    }
+}
+
+impl<'r> Drill<'r> for Run<'r> {
+    fn place(&mut self) -> &mut Position {
+        &mut self.frames.position
     }
 
-    fn wait(&mut self, hole: &Hole) {
-        let place = self.frames.position;
-        self.step(MoveKind::Dwell { seconds: hole.dwell_s }, place);
-    }
-
-    /// Down by Q at a time; a chip is broken by 0.010 inch, a deep hole is left to R each time.
-    fn peck(&mut self, cycle: Cycle, hole: &Hole, place: Position) {
-        const CLEARANCE_MM: f64 = 0.254;
-        let mut count = 1.0;
-        loop {
-            let depth = hole.r - count * hole.peck;
-            if depth <= hole.bottom {
-                break;
-            }
-            self.along(MoveKind::Linear, place, hole, depth);
-            if cycle == Cycle::Peck {
-                self.along(MoveKind::Rapid, place, hole, hole.r);
-            }
-            self.along(MoveKind::Rapid, place, hole, depth + CLEARANCE_MM);
-            count += 1.0;
-        }
-        self.along(MoveKind::Linear, place, hole, hole.bottom);
+    fn move_drill(&mut self, kind: MoveKind, to: Position, _at: usize) -> Result<(), Fault> {
+        self.step(kind, to);
+        Ok(())
     }
 }

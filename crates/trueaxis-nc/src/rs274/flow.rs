@@ -287,8 +287,7 @@ impl Run<'_> {
                 for (index, node) in statement.arguments.iter().enumerate() {
                     locals.numbers[index + 1] = Some(self.value(statement.passage, *node)?);
                 }
-                let name = show(&statement.label);
-                self.enter(statement.passage, &statement.label, &name, locals, 1, at)
+                self.enter(statement.passage, &statement.label, locals, 1, at)
             }
             Keyword::Sub if self.frame().sub.is_some() => {
                 let message = "a sub is defined within a sub";
@@ -327,14 +326,13 @@ impl Run<'_> {
         &mut self,
         passage: Passage<'_>,
         label: &Label,
-        name: &str,
         locals: Locals,
         repeats: u64,
         at: usize,
     ) -> Result<Next, Fault> {
         self.core.count(at)?;
         self.core.check_depth(self.stack.len(), at)?;
-        let (number, start, line) = self.find_sub(passage.program, label, name, at)?;
+        let (number, start, line) = self.find_sub(passage.program, label, at)?;
         self.follow(passage.block);
         let mut frame = Activation::new(number, start, line);
         (frame.sub, frame.locals, frame.repeats) = (Some(label.clone()), locals, repeats);
@@ -344,11 +342,18 @@ impl Run<'_> {
         Ok(Next::Jumped)
     }
 
+    /// The name by which the library knows a subprogram.
+    fn name_of(&self, label: &Label) -> String {
+        match label {
+            Label::Number(number) if self.is_fanuc() => format!("O{number:04}"),
+            named => show(named),
+        }
+    }
+
     pub(super) fn find_sub(
         &mut self,
         program: &Program,
         label: &Label,
-        name: &str,
         at: usize,
     ) -> Result<(usize, usize, u32), Fault> {
         let place = |program: &Program| {
@@ -360,7 +365,8 @@ impl Run<'_> {
         if let Some((start, line)) = place(program) {
             return Ok((here, start, line));
         }
-        let number = self.core.load(name, [name.to_owned()], at)?;
+        let name = self.name_of(label);
+        let number = self.core.load(&name, [name.clone()], at)?;
         match place(&self.core.programs[number]) {
             Some((start, line)) => Ok((number, start, line)),
             None if program.dialect().macro_words => Ok((number, 0, 1)),

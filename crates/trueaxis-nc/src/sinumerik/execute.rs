@@ -437,7 +437,7 @@ impl Run<'_> {
         for (name, _, _, at) in &words.named {
             let message = format!("no code of this block uses this word ({name:?})");
             let hint = "it has no effect; later ones are not listed";
-            self.core.warn("unused-word", &format!("{name:?}"), *at, message, hint);
+            self.core.warn("unused-word", format!("{name:?}"), *at, message, hint);
         }
     }
 }

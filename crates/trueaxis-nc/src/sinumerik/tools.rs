@@ -73,7 +73,7 @@ impl Run<'_> {
         if self.modes.edge > 1 {
             let message = format!("D{} has the length of D1 here", self.modes.edge);
             let hint = "the tool table knows one length for each tool";
-            self.core.warn("unknown-cutting-edge", &self.modes.edge.to_string(), at, message, hint);
+            self.core.warn("unknown-cutting-edge", self.modes.edge, at, message, hint);
         }
         self.apply_length(at);
         Ok(())

@@ -57,7 +57,7 @@ impl Run<'_> {
         }
         let message = format!("R{index} is read before it is set: 0 is taken");
         let hint = "the control takes what an earlier program left there";
-        self.core.warn("unset-parameter", &format!("R{index}"), at, message, hint);
+        self.core.warn("unset-parameter", format!("R{index}"), at, message, hint);
         0.0
     }
 

@@ -4,7 +4,6 @@ use std::rc::Rc;
 
 use crate::execution::mistakes;
 use crate::rs274::code::Action;
-use crate::rs274::flow::show;
 use crate::rs274::parameters::Locals;
 use crate::rs274::{Next, Passage, Run, fault};
 use crate::text::program::{Block, Fault, Item, Label, Node};
@@ -205,12 +204,8 @@ impl Run<'_> {
         if repeats < 1.0 {
             return Ok(Next::Following);
         }
-        let name = match label {
-            Label::Number(number) => format!("O{number:04}"),
-            named => show(named),
-        };
         let passage = Passage { program: &program, block };
-        self.enter(passage, label, &name, locals, repeats as u64, at)
+        self.enter(passage, label, locals, repeats as u64, at)
     }
 
     /// M99: back to the caller, or once more; in the main program back to its beginning, which is
@@ -230,13 +225,9 @@ impl Run<'_> {
         };
         frame.repeats = frame.repeats.saturating_sub(1);
         if frame.repeats > 0 {
-            let name = match &label {
-                Label::Number(number) => format!("O{number:04}"),
-                named => show(named),
-            };
             let program = self.current();
             self.core.count(at)?;
-            let (_, start, line) = self.find_sub(&program, &label, &name, at)?;
+            let (_, start, line) = self.find_sub(&program, &label, at)?;
             let frame = self.frame();
             (frame.at, frame.line, frame.named) = (start, line, start > 0);
             return Ok(Next::Jumped);
