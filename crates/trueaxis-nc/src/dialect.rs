@@ -51,6 +51,24 @@ pub struct Dialect {
 }
 
 impl Dialect {
+    /// Letters, numbers and `;` comments, nothing else: what each control adds to.
+    pub(crate) const BARE: Self = Self {
+        control: Control::LinuxCnc,
+        paren_comments: false,
+        semicolon_comments: true,
+        header_lines: false,
+        words: false,
+        angle_names: false,
+        quoted_texts: false,
+        decimal_comma: false,
+        o_words: false,
+        macro_words: false,
+        fix_towards_zero: false,
+        parameters: 0,
+        g_codes: &[],
+        m_codes: &[],
+    };
+
     /// The table of a control.
     pub fn of(control: Control) -> &'static Self {
         match control {

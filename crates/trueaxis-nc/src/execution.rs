@@ -109,9 +109,10 @@ pub fn interpret(
     settings: &Settings,
     take: &mut dyn FnMut(Step),
 ) -> Outcome {
+    let core = Core::new(program, library, settings, take);
     match program.dialect().control {
-        Control::Fanuc | Control::LinuxCnc => rs274::interpret(program, library, settings, take),
-        Control::Sinumerik840d => sinumerik::interpret(program, library, settings, take),
-        Control::Heidenhain => heidenhain::interpret(program, library, settings, take),
+        Control::Fanuc | Control::LinuxCnc => rs274::interpret(program, core),
+        Control::Sinumerik840d => sinumerik::interpret(program, core),
+        Control::Heidenhain => heidenhain::interpret(core),
     }
 }

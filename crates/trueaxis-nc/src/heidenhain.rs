@@ -34,10 +34,9 @@ mod words;
 use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
-use crate::execution::{Core, Language, Library, Next, Outcome, Settings};
+use crate::execution::{Core, Language, Next, Outcome};
 use crate::moves::{
-    Axis, CompensationSide, Coordinates, Event, Move, MoveKind, OrientationPath, Position, Step,
-    Way,
+    Axis, CompensationSide, Coordinates, Event, Move, MoveKind, OrientationPath, Position, Way,
 };
 use crate::text::program::{Fault, Program, fault};
 use cycles::Cycle;
@@ -47,13 +46,8 @@ use line::{Cursor, Line};
 use variables::Variables;
 
 /// Executes a program of Klartext.
-pub(crate) fn interpret(
-    program: &Program,
-    library: &dyn Library,
-    settings: &Settings,
-    take: &mut dyn FnMut(Step),
-) -> Outcome {
-    Run::new(Core::new(program, library, settings, take)).outcome()
+pub(crate) fn interpret(core: Core<'_>) -> Outcome {
+    Run::new(core).outcome()
 }
 
 /// What lasts from block to block.
@@ -98,16 +92,16 @@ struct Run<'r> {
     /// The first corner of the blank.
     blank: Option<[f64; 3]>,
     tools: BTreeMap<u32, (f64, Option<f64>)>,
-    /// The block that is being executed.
-    line: Line,
 }
 
 impl<'r> Language<'r> for Run<'r> {
+    type Room = Line;
+
     fn core(&mut self) -> &mut Core<'r> {
         &mut self.core
     }
 
-    fn advance(&mut self) -> Result<Next, Fault> {
+    fn advance(&mut self, line: &mut Line) -> Result<Next, Fault> {
         let Some(active) = self.stack.last_mut() else { return Ok(Next::Finished) };
         let (number, at) = (active.program, active.at);
         let program = Rc::clone(&self.core.programs[number]);
@@ -115,17 +109,14 @@ impl<'r> Language<'r> for Run<'r> {
         if at >= program.source().len() {
             return self.end_of_text(&program).map_err(|fault| self.core.for_good(fault));
         }
-        let mut line = std::mem::take(&mut self.line);
         line.read(program.source(), program.dialect(), at);
         active.at = line.end;
         active.line = active.line.saturating_add(line.lines);
-        let next = self.block(&program, &line);
-        self.line = line;
-        next
+        self.block(&program, line)
     }
 
     /// The block was left before it was executed.
-    fn pass_over(&mut self) {}
+    fn pass_over(&mut self, _line: &Line) {}
 
     fn emit_frame(&mut self) {
         if self.core.emit_frame(self.frames.frame()) {
@@ -165,7 +156,6 @@ impl<'r> Run<'r> {
             cycle: None,
             blank: None,
             tools,
-            line: Line::default(),
             core,
         }
     }

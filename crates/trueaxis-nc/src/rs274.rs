@@ -24,8 +24,8 @@ use std::cell::Cell;
 use std::collections::HashMap;
 use std::rc::Rc;
 
-use crate::execution::{Core, Language, Library, Next, Outcome, Settings};
-use crate::moves::{Move, Step};
+use crate::execution::{Core, Language, Next, Outcome};
+use crate::moves::Move;
 use crate::text::program::{Block, Fault, Label, Program, fault};
 use frames::Frames;
 use parameters::Locals;
@@ -33,13 +33,8 @@ use quick::CodeTable;
 use words::{Modes, Words};
 
 /// Executes a program of FANUC or LinuxCNC.
-pub(crate) fn interpret(
-    program: &Program,
-    library: &dyn Library,
-    settings: &Settings,
-    take: &mut dyn FnMut(Step),
-) -> Outcome {
-    let mut run = Run::new(program, Core::new(program, library, settings, take));
+pub(crate) fn interpret(program: &Program, core: Core<'_>) -> Outcome {
+    let mut run = Run::new(program, core);
     run.check_turn(run.frames.active, 0);
     run.outcome()
 }
@@ -82,8 +77,6 @@ struct Run<'r> {
     modes: Modes,
     words: Words,
     codes: CodeTable,
-    /// The block that is being executed.
-    block: Block,
     /// A tape mark opened the program: the next one closes it.
     opened: bool,
     /// A variable that only the running control knows was read: it counted as 0.
@@ -95,11 +88,13 @@ struct Run<'r> {
 }
 
 impl<'r> Language<'r> for Run<'r> {
+    type Room = Block;
+
     fn core(&mut self) -> &mut Core<'r> {
         &mut self.core
     }
 
-    fn advance(&mut self) -> Result<Next, Fault> {
+    fn advance(&mut self, block: &mut Block) -> Result<Next, Fault> {
         let Some(top) = self.stack.last() else { return Ok(Next::Finished) };
         let program = Rc::clone(&self.core.programs[top.program]);
         if !self.core.settings.tell_blocks {
@@ -111,19 +106,15 @@ impl<'r> Language<'r> for Run<'r> {
             return self.end_of_text().map_err(|fault| self.core.for_good(fault));
         }
         self.core.begin(number, at, line);
-        let mut block = std::mem::take(&mut self.block);
-        let next = self.quick_or_block(&program, at, line, &mut block);
+        let next = self.quick_or_block(&program, at, line, block);
         if let Ok(Next::Following) = next {
-            self.follow(&block);
+            self.follow(block);
         }
-        self.block = block;
         next
     }
 
-    fn pass_over(&mut self) {
-        let block = std::mem::take(&mut self.block);
-        self.follow(&block);
-        self.block = block;
+    fn pass_over(&mut self, block: &Block) {
+        self.follow(block);
         if self.core.program().dialect().o_words {
             // LinuxCNC leaves all subs and goes on in the main program.
             self.stack.truncate(1);
@@ -147,7 +138,6 @@ impl<'r> Run<'r> {
             modes: Modes::new(settings, program.dialect().macro_words),
             words: Words::default(),
             codes: quick::code_table(program.dialect()),
-            block: Block::default(),
             opened: false,
             guessed: Cell::new(None),
             called: None,

@@ -39,8 +39,8 @@ use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 use std::rc::Rc;
 
-use crate::execution::{Core, Language, Library, Next, Outcome, Settings};
-use crate::moves::{Event, Step};
+use crate::execution::{Core, Language, Next, Outcome};
+use crate::moves::Event;
 use crate::text::lexer::Token;
 use crate::text::program::{Fault, Program, fault};
 pub use archive::{Archive, ArchivedTool, read_archive};
@@ -52,13 +52,8 @@ use structure::Structure;
 use words::Words;
 
 /// Executes a program of SINUMERIK.
-pub(crate) fn interpret(
-    program: &Program,
-    library: &dyn Library,
-    settings: &Settings,
-    take: &mut dyn FnMut(Step),
-) -> Outcome {
-    Run::new(program, Core::new(program, library, settings, take)).outcome()
+pub(crate) fn interpret(program: &Program, core: Core<'_>) -> Outcome {
+    Run::new(program, core).outcome()
 }
 
 /// The state of the control while it executes.
@@ -73,8 +68,6 @@ struct Run<'r> {
     words: Box<Words>,
     /// Room for the words of the next block while those of this one are executed.
     spare: Option<Box<Words>>,
-    /// Room for the tokens of a block.
-    tokens: Vec<Token>,
     /// R parameters; what was never set is `None`.
     r: Vec<Option<f64>>,
     modal_call: Option<ModalCall>,
@@ -90,11 +83,13 @@ struct Run<'r> {
 }
 
 impl<'r> Language<'r> for Run<'r> {
+    type Room = Vec<Token>;
+
     fn core(&mut self) -> &mut Core<'r> {
         &mut self.core
     }
 
-    fn advance(&mut self) -> Result<Next, Fault> {
+    fn advance(&mut self, tokens: &mut Vec<Token>) -> Result<Next, Fault> {
         let Some(top) = self.stack.last_mut() else { return Ok(Next::Finished) };
         if top.at >= top.span.end || top.leaves_section() {
             return self.end_of_section().map_err(|fault| self.core.for_good(fault));
@@ -102,20 +97,15 @@ impl<'r> Language<'r> for Run<'r> {
         let (number, at, line) = (top.program, top.at, top.line);
         let program = Rc::clone(&self.core.programs[number]);
         self.core.begin(number, at, line);
-        let mut tokens = std::mem::take(&mut self.tokens);
-        let next = self.one_block(&program, at, &mut tokens);
-        self.tokens = tokens;
+        let next = self.one_block(&program, at, tokens);
         if let Ok(Next::Following) = next {
-            self.pass_over();
+            self.follow();
         }
         next
     }
 
-    fn pass_over(&mut self) {
-        if let Some(top) = self.stack.last_mut() {
-            top.at = self.end;
-            top.line = self.core.origin.line + 1;
-        }
+    fn pass_over(&mut self, _tokens: &Vec<Token>) {
+        self.follow();
     }
 
     fn emit_frame(&mut self) {
@@ -134,7 +124,6 @@ impl<'r> Run<'r> {
             modes: Modes::new(core.settings),
             words: Box::default(),
             spare: None,
-            tokens: Vec::new(),
             r: Vec::new(),
             modal_call: None,
             names: BTreeMap::new(),
@@ -143,6 +132,13 @@ impl<'r> Run<'r> {
             archive: None,
             end: 0,
             core,
+        }
+    }
+
+    fn follow(&mut self) {
+        if let Some(top) = self.stack.last_mut() {
+            top.at = self.end;
+            top.line = self.core.origin.line + 1;
         }
     }
 

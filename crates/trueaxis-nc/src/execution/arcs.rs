@@ -12,7 +12,7 @@ pub(crate) fn by_radius(
     rounding_mm: f64,
     at: usize,
 ) -> Result<[f64; 2], Fault> {
-    let half = (end[0] - start[0]).hypot(end[1] - start[1]) / 2.0;
+    let half = half_chord([start, end]);
     if half > radius.abs() + rounding_mm {
         let message = format!(
             "the arc does not fit: its ends are {:.4} mm apart, more than twice the radius {:.4} mm",
@@ -22,7 +22,7 @@ pub(crate) fn by_radius(
         return Err(fault("arc-does-not-fit", at, message, "check the radius and the target"));
     }
     let height = (radius * radius - half * half).max(0.0).sqrt();
-    on_bisector([start, end], if ccw == (radius > 0.0) { height } else { -height }, at)
+    on_bisector([start, end], half, if ccw == (radius > 0.0) { height } else { -height }, at)
 }
 
 /// By how much half a chord may be longer than a radius of three decimals.
@@ -36,21 +36,27 @@ pub(crate) fn by_opening(
     angle_deg: f64,
     at: usize,
 ) -> Result<[f64; 2], Fault> {
-    let [start, end] = ends;
-    let half = (end[0] - start[0]).hypot(end[1] - start[1]) / 2.0;
+    let half = half_chord(ends);
     // The height of the triangle of chord and centre: h = (chord / 2) / tan(angle / 2).
-    on_bisector(ends, half / (angle_deg.to_radians() / 2.0).tan(), at)
+    on_bisector(ends, half, half / (angle_deg.to_radians() / 2.0).tan(), at)
+}
+
+fn half_chord([start, end]: [[f64; 2]; 2]) -> f64 {
+    (end[0] - start[0]).hypot(end[1] - start[1]) / 2.0
 }
 
 /// The point that lies left of the middle of a chord.
-fn on_bisector([start, end]: [[f64; 2]; 2], left: f64, at: usize) -> Result<[f64; 2], Fault> {
-    let chord = [end[0] - start[0], end[1] - start[1]];
-    let half = chord[0].hypot(chord[1]) / 2.0;
+fn on_bisector(
+    [start, end]: [[f64; 2]; 2],
+    half: f64,
+    left: f64,
+    at: usize,
+) -> Result<[f64; 2], Fault> {
     if half == 0.0 {
         let message = "an arc without a centre must end elsewhere than it begins";
         return Err(fault("arc-does-not-fit", at, message, "a full circle needs its centre"));
     }
-    let along = [chord[0] / (2.0 * half), chord[1] / (2.0 * half)];
+    let along = [(end[0] - start[0]) / (2.0 * half), (end[1] - start[1]) / (2.0 * half)];
     let middle = [0, 1].map(|i| f64::midpoint(start[i], end[i]));
     Ok([middle[0] - along[1] * left, middle[1] + along[0] * left])
 }

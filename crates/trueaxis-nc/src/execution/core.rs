@@ -30,30 +30,34 @@ pub(crate) enum Next {
 
 /// A language of NC programs in execution.
 pub(crate) trait Language<'r> {
+    /// A block taken apart; its room is used again.
+    type Room: Default;
+
     /// What it shares with the others.
     fn core(&mut self) -> &mut Core<'r>;
 
     /// Executes what comes next: a block, some plain ones, or the end of a text.
-    fn advance(&mut self) -> Result<Next, Fault>;
+    fn advance(&mut self, room: &mut Self::Room) -> Result<Next, Fault>;
 
     /// Goes on behind a block that had an error.
-    fn pass_over(&mut self);
+    fn pass_over(&mut self, room: &Self::Room);
 
     /// Tells the frame if it has changed.
     fn emit_frame(&mut self);
 
     /// Executes the program; `false` if an error, or somebody, stopped it.
     fn run(&mut self) -> bool {
+        let mut room = Self::Room::default();
         self.emit_frame();
         while !self.core().settings.stop.is_asked() {
-            match self.advance() {
+            match self.advance(&mut room) {
                 Ok(Next::Finished) => return true,
                 Ok(Next::Following | Next::Jumped) => {}
                 Err(fault) => {
                     if !self.core().goes_on_after(fault) {
                         return false;
                     }
-                    self.pass_over();
+                    self.pass_over(&room);
                 }
             }
         }
@@ -120,20 +124,24 @@ impl<'r> Core<'r> {
     }
 
     /// The program that is being executed.
+    #[inline]
     pub fn program(&self) -> &Rc<Program> {
         &self.programs[self.origin.program as usize]
     }
 
     /// A block of a program begins.
+    #[inline]
     pub fn begin(&mut self, program: usize, start: usize, line: u32) {
         self.start = start;
         self.origin = Origin { program: program as u32, line };
     }
 
+    #[inline]
     pub fn emit(&mut self, event: Event) {
         (self.take)(Step::Event(event, self.origin));
     }
 
+    #[inline]
     pub fn emit_move(&mut self, step: Move) {
         (self.take)(Step::Move(step));
     }

@@ -41,11 +41,13 @@ impl Modes {
         }
     }
 
+    #[inline]
     pub fn unit_mm(&self) -> f64 {
         if self.inches { 25.4 } else { 1.0 }
     }
 
     /// The factor of a word of an axis to mm or degrees.
+    #[inline]
     pub fn scale(&self, axis: Axis) -> f64 {
         match axis {
             _ if axis.is_rotary() => 1.0,
@@ -62,6 +64,7 @@ impl Modes {
     }
 
     /// The feed of a block: F if it has one. Inverse time lasts for its block only.
+    #[inline]
     pub fn set_feed(&mut self, word: Option<f64>, unit_mm: f64) {
         let inverse = self.feed.mode == FeedMode::InverseTime;
         match word {
@@ -71,6 +74,7 @@ impl Modes {
         }
     }
 
+    #[inline]
     pub fn check_feed(&self, at: usize) -> Result<(), Fault> {
         self.feed.check(at)
     }
@@ -78,6 +82,7 @@ impl Modes {
 
 impl Feed {
     /// A move needs a feed.
+    #[inline]
     pub(crate) fn check(&self, at: usize) -> Result<(), Fault> {
         if self.value > 0.0 { Ok(()) } else { Err(mistakes::zero_feed(self.mode, at)) }
     }
@@ -85,6 +90,7 @@ impl Feed {
 
 impl Core<'_> {
     /// A move with the feed that is on.
+    #[inline]
     pub fn plain_move(&self, kind: MoveKind, target: Position, named: AxisSet) -> Move {
         Move::plain(kind, target, named, self.modes.feed, self.origin)
     }
@@ -99,6 +105,7 @@ impl Core<'_> {
         self.emit(Event::Spindle(turning));
     }
 
+    #[inline]
     pub fn set_speed(&mut self, speed: Option<f64>) {
         if let Some(speed) = speed {
             self.modes.speed = speed;

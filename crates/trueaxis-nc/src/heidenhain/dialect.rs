@@ -6,17 +6,10 @@ use crate::dialect::{Control, Dialect};
 /// here many have words of their own and some take effect at the end of their block.
 pub(crate) static DIALECT: Dialect = Dialect {
     control: Control::Heidenhain,
-    paren_comments: false,
-    semicolon_comments: true,
-    header_lines: false,
     words: true,
-    angle_names: false,
     quoted_texts: true,
     decimal_comma: true,
-    o_words: false,
-    macro_words: false,
     fix_towards_zero: true,
     parameters: 1999,
-    g_codes: &[],
-    m_codes: &[],
+    ..Dialect::BARE
 };

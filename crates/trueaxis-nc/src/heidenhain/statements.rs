@@ -39,35 +39,24 @@ impl Run<'_> {
             return Ok(next);
         }
         let at = c.offset();
-        if c.accept("BEGIN") {
-            return self.begin(c);
-        }
-        if c.accept("END") {
-            if c.accept("PGM") {
+        match c.accept_any(&["BEGIN", "END", "LBL", "CALL", "SEL", "FN", "CYCL", "CYCLE", "STOP"]) {
+            Some(0) => return self.begin(c),
+            Some(1) if c.accept("PGM") => {
                 c.leave();
                 return self.end(at);
             }
-            return Err(c.unknown());
-        }
-        if c.accept("LBL") {
-            return self.label(c);
-        }
-        if c.accept("CALL") {
-            return self.call(c);
-        }
-        if c.accept("SEL") {
-            return self.select(c);
-        }
-        if c.accept("FN") {
-            return self.fn_statement(c);
-        }
-        if c.accept_any(&["CYCL", "CYCLE"]).is_some() {
-            return self.cycle_statement(c);
-        }
-        if c.accept("STOP") {
-            self.core.emit(Event::Stop { optional: false });
-            let words = self.words(c)?;
-            return self.block_without_move(&words);
+            Some(1) => return Err(c.unknown()),
+            Some(2) => return self.label(c),
+            Some(3) => return self.call(c),
+            Some(4) => return self.select(c),
+            Some(5) => return self.fn_statement(c),
+            Some(6 | 7) => return self.cycle_statement(c),
+            Some(_) => {
+                self.core.emit(Event::Stop { optional: false });
+                let words = self.words(c)?;
+                return self.block_without_move(&words);
+            }
+            None => {}
         }
         if c.accept("DECLARE") {
             c.accept("STRING");
@@ -83,20 +72,13 @@ impl Run<'_> {
     /// Statements that set something; an unknown one is an error.
     fn setting(&mut self, c: &mut Cursor<'_>) -> Result<(), Fault> {
         let at = c.offset();
-        if c.accept("TOOL") {
-            return self.tool_statement(c);
-        }
-        if c.accept("BLK") {
-            return self.blank_form(c);
-        }
-        if c.accept("PLANE") {
-            return self.plane(c);
-        }
-        if c.accept("TRANS") {
-            return self.transformation(c);
-        }
-        if c.accept("FUNCTION") {
-            return self.control_function(c);
+        match c.accept_any(&["TOOL", "BLK", "PLANE", "TRANS", "FUNCTION"]) {
+            Some(0) => return self.tool_statement(c),
+            Some(1) => return self.blank_form(c),
+            Some(2) => return self.plane(c),
+            Some(3) => return self.transformation(c),
+            Some(_) => return self.control_function(c),
+            None => {}
         }
         if c.accept_any(&FREE_CONTOUR).is_some() {
             let message = "free contour programming and splines are not interpreted";

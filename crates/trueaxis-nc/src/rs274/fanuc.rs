@@ -13,18 +13,13 @@ use crate::rs274::common_codes::{RS274_G_CODES, RS274_M_CODES, joined};
 pub(crate) static DIALECT: Dialect = Dialect {
     control: Control::Fanuc,
     paren_comments: true,
-    semicolon_comments: true,
-    header_lines: false,
-    words: false,
     angle_names: true,
-    quoted_texts: false,
-    decimal_comma: false,
-    o_words: false,
     macro_words: true,
     fix_towards_zero: true,
     parameters: 99_999,
     g_codes: &joined::<47, 62, 109>(RS274_G_CODES, G_CODES),
     m_codes: &joined::<14, 8, 22>(RS274_M_CODES, M_CODES),
+    ..Dialect::BARE
 };
 
 const G_CODES: [(u16, A); 62] = [

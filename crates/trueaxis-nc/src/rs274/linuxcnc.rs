@@ -14,18 +14,12 @@ use crate::rs274::common_codes::{RS274_G_CODES, RS274_M_CODES, joined};
 pub(crate) static DIALECT: Dialect = Dialect {
     control: Control::LinuxCnc,
     paren_comments: true,
-    semicolon_comments: true,
-    header_lines: false,
-    words: false,
     angle_names: true,
-    quoted_texts: false,
-    decimal_comma: false,
     o_words: true,
-    macro_words: false,
-    fix_towards_zero: false,
     parameters: 5602,
     g_codes: &joined::<47, 39, 86>(RS274_G_CODES, G_CODES),
     m_codes: &joined::<14, 22, 36>(RS274_M_CODES, M_CODES),
+    ..Dialect::BARE
 };
 
 const G_CODES: [(u16, A); 39] = [

@@ -1,7 +1,8 @@
 use super::cycles::CycleMemory;
 use super::fanuc::macros::ModalMacro;
 use super::fanuc::transforms::Transforms;
-use super::{Passage, Run, Settings};
+use super::{Passage, Run};
+use crate::execution::Settings;
 use crate::execution::mistakes;
 use crate::execution::values::LARGEST;
 use crate::moves::{Axis, AxisSet, CompensationSide, PathControl, Position};

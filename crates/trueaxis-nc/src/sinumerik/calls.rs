@@ -10,7 +10,7 @@ use super::structure::{main_section, plain_name};
 use super::tables;
 use super::values::{Kind, Value, Variable};
 use super::variables::Slot;
-use super::{Language, Next, Run, fault, functions};
+use super::{Next, Run, fault, functions};
 use crate::execution::{Modes as CommonModes, mistakes};
 use crate::moves::Event;
 use crate::text::program::Fault;
@@ -305,7 +305,7 @@ impl Run<'_> {
         }
         self.core.count(at)?;
         self.core.check_depth(self.stack.len(), at)?;
-        self.pass_over();
+        self.follow();
         self.enter(found, arguments, rounds, at)?;
         Ok(Next::Jumped)
     }
