@@ -160,7 +160,8 @@ impl Run<'_> {
         let x_mm = if self.core.modes.diameter { unit_mm / 2.0 } else { unit_mm };
         let common = Straight { unit_mm, x_mm, incremental: self.core.modes.incremental };
         let mut origin = Origin { program: program as u32, line };
-        while !self.core.settings.stop.is_asked()
+        let stop = &self.core.settings.stop;
+        while !stop.is_asked()
             && let Some(next) = self.straight_line(&common, source, at, origin)
         {
             // What comes may have to tell where this line was.

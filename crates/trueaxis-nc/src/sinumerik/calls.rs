@@ -221,15 +221,7 @@ impl Run<'_> {
             reader.accept(b'=');
             return Ok(self.number(reader)?.clamp(0.0, 1e9) as u64);
         }
-        if reader.is_empty() {
-            return Ok(1);
-        }
-        let message = "nothing else can stand behind a call";
-        let code = match reader.symbol() {
-            Some(b')' | b']') => "unbalanced-brackets",
-            _ => "unexpected-sign",
-        };
-        Err(fault(code, reader.here(), message, "write it in a line of its own"))
+        self.nothing_more(reader).map(|()| 1)
     }
 
     /// CALL "NAME", CALL NAME, PCALL path(arguments), EXTCALL "NAME".

@@ -178,7 +178,7 @@ impl Run<'_> {
         Next::Jumped
     }
 
-    fn nothing_more(&self, reader: &Reader<'_>) -> Result<(), Fault> {
+    pub(super) fn nothing_more(&self, reader: &Reader<'_>) -> Result<(), Fault> {
         if reader.is_empty() {
             return Ok(());
         }

@@ -29,6 +29,7 @@ impl Run<'_> {
         }
     }
 
+    #[inline]
     fn quick_word(&mut self, source: &[u8], letter: u8, at: usize, first: bool) -> Option<usize> {
         let (value, after) = plain_number(source, at + 1)?;
         // A3=0.5: a number behind the letter, then = and the value.

@@ -23,6 +23,7 @@ pub(super) enum Slot {
     Cell(String, usize),
 }
 
+#[inline]
 pub(super) fn axis_of(letter: u8) -> Option<Axis> {
     Axis::ALL.into_iter().find(|a| a.letter() == letter)
 }

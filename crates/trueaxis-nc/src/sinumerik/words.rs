@@ -73,6 +73,7 @@ impl Words {
         self.numbered.clear();
     }
 
+    #[inline]
     pub fn put_axis(&mut self, axis: Axis, value: (f64, Mode), at: usize) -> Result<(), Fault> {
         if self.axes.contains(axis) {
             return Err(mistakes::repeated_word(axis, at));
