@@ -1,9 +1,9 @@
 //! What the three languages share while they execute a program.
 
 pub(crate) mod arcs;
-mod core;
 pub(crate) mod drilling;
 pub(crate) mod frames;
+mod language;
 mod library;
 pub(crate) mod mistakes;
 mod modes;
@@ -18,7 +18,7 @@ use crate::dialect::Control;
 use crate::moves::{Frame, Plane, Position, Step};
 use crate::text::program::Program;
 use crate::{heidenhain, rs274, sinumerik};
-pub(crate) use core::{Core, Language, Next};
+pub(crate) use language::{Core, Language, Next};
 pub use library::{Library, NoLibrary};
 pub(crate) use modes::Modes;
 pub use stop::Stop;

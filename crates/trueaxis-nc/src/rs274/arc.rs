@@ -1,3 +1,5 @@
+//! Circles and helices: G2 and G3.
+
 use super::Run;
 use crate::execution::{arcs, mistakes};
 use crate::moves::{Arc, MoveKind, Position};

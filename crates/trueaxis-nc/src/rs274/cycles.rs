@@ -1,3 +1,5 @@
+//! Drilling cycles: G73 to G89.
+
 use super::{Run, fault};
 use crate::execution::drilling::{Drill, MOST_PECKS, Stroke, check_pecks, pecks, reversed};
 use crate::execution::mistakes;

@@ -1,3 +1,5 @@
+//! Executes the words of a block in the order of RS274/NGC.
+
 use super::{Next, Passage, Run, fault};
 use crate::execution::mistakes;
 use crate::moves::{Axis, CompensationSide, Event, Move, MoveKind, PathControl, Position};

@@ -1,3 +1,5 @@
+//! Control statements: subs, calls, loops, branches, jumps.
+
 use std::collections::HashMap;
 
 use super::parameters::Locals;

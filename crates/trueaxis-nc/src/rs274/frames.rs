@@ -1,3 +1,5 @@
+//! Where the program frame lies: work offsets, shift, tool length, frames of the program.
+
 use std::collections::BTreeMap;
 
 use crate::execution::frames::rotation_deg;

@@ -1,3 +1,5 @@
+//! Parameters by number and by name, those of the control among them.
+
 use std::rc::Rc;
 
 use super::values::out_of_range;

@@ -1,3 +1,5 @@
+//! A short cut for lines of plain words.
+
 use super::Run;
 use super::words::check_groups;
 use crate::dialect::Dialect;

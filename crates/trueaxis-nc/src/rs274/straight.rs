@@ -1,3 +1,5 @@
+//! A shorter cut for lines of straight moves, which most lines of long programs are.
+
 use super::{Activation, Run};
 use crate::moves::{Axis, AxisSet, FeedMode, Move, MoveKind, Origin, Position};
 use crate::rs274::code::Motion;

@@ -1,3 +1,5 @@
+//! Tool lengths, work offsets, shifts and reference points.
+
 use super::{Language, Run, fault};
 use crate::execution::mistakes;
 use crate::moves::{Axis, AxisSet, Coordinates, Event, Move, MoveKind, Position};

@@ -1,3 +1,5 @@
+//! Values of expressions.
+
 use super::parameters::Parameter;
 use super::{Passage, Run};
 use crate::execution::mistakes;

@@ -1,3 +1,5 @@
+//! The words of a block with their values, and what lasts from block to block.
+
 use super::cycles::CycleMemory;
 use super::fanuc::macros::ModalMacro;
 use super::fanuc::transforms::Transforms;

@@ -1,3 +1,5 @@
+//! Control statements of LinuxCNC and FANUC.
+
 use super::Parser;
 use crate::text::lexer::{TokenKind, number_value};
 use crate::text::program::{Item, Keyword, Label};

@@ -1,3 +1,5 @@
+//! Expressions in brackets.
+
 use super::{DEEPEST, Parser};
 use crate::text::lexer::{Token, TokenKind, number_value};
 use crate::text::program::{Function, Node, NodeId, Operator};

@@ -1,3 +1,5 @@
+//! Lines of plain words.
+
 use super::{MOST_ITEMS, Parser};
 use crate::text::lexer::TokenKind;
 use crate::text::program::{Item, Node};
