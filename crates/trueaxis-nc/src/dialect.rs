@@ -1,11 +1,8 @@
 //! What differs between the controls, as tables.
 
-mod fanuc;
-mod heidenhain;
-mod linuxcnc;
-mod sinumerik;
-
-use crate::code::Action;
+use crate::rs274::code::Action;
+use crate::rs274::{fanuc, linuxcnc};
+use crate::{heidenhain, sinumerik};
 
 /// The controls whose programs are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -54,13 +51,31 @@ pub struct Dialect {
 }
 
 impl Dialect {
+    /// Letters, numbers and `;` comments, nothing else: what each control adds to.
+    pub(crate) const BARE: Self = Self {
+        control: Control::LinuxCnc,
+        paren_comments: false,
+        semicolon_comments: true,
+        header_lines: false,
+        words: false,
+        angle_names: false,
+        quoted_texts: false,
+        decimal_comma: false,
+        o_words: false,
+        macro_words: false,
+        fix_towards_zero: false,
+        parameters: 0,
+        g_codes: &[],
+        m_codes: &[],
+    };
+
     /// The table of a control.
     pub fn of(control: Control) -> &'static Self {
         match control {
-            Control::Sinumerik840d => &sinumerik::DIALECT,
+            Control::Sinumerik840d => &sinumerik::dialect::DIALECT,
             Control::Fanuc => &fanuc::DIALECT,
             Control::LinuxCnc => &linuxcnc::DIALECT,
-            Control::Heidenhain => &heidenhain::DIALECT,
+            Control::Heidenhain => &heidenhain::dialect::DIALECT,
         }
     }
 

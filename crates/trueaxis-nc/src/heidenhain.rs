@@ -17,6 +17,7 @@
 
 mod arcs;
 mod cycles;
+pub(crate) mod dialect;
 mod drilling;
 mod flow;
 mod frames;
@@ -30,53 +31,33 @@ mod values;
 mod variables;
 mod words;
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
-use trueaxis_input::{Diagnostics, Place};
-
-use crate::interpreter::{Outcome, Settings};
-use crate::library::Library;
+use crate::execution::{Core, Language, Next, Outcome};
 use crate::moves::{
-    Axis, CompensationSide, Coordinates, Event, Feed, FeedMode, Frame, Move, MoveKind,
-    OrientationPath, Origin, Plane, Position, Step, Turning, Way,
+    Axis, CompensationSide, Coordinates, Event, Move, MoveKind, OrientationPath, Position, Way,
 };
-use crate::program::{Fault, Places, Program, fault};
+use crate::text::program::{Fault, Program, fault};
 use cycles::Cycle;
-use flow::{Activation, Labels, Next};
+use flow::{Activation, Labels};
 use frames::Frames;
 use line::{Cursor, Line};
 use variables::Variables;
 
-pub(crate) fn interpret(
-    program: &Program,
-    library: &dyn Library,
-    settings: &Settings,
-    take: &mut dyn FnMut(Step),
-) -> Outcome {
-    let mut run = Run::new(program, library, settings, take);
-    let finished = run.run();
-    let programs = run.programs.iter().map(|p| p.file().to_owned()).collect();
-    Outcome { problems: run.problems, finished, programs }
+/// Executes a program of Klartext.
+pub(crate) fn interpret(core: Core<'_>) -> Outcome {
+    Run::new(core).outcome()
 }
-
-/// Warnings of one run: more than anybody reads.
-const MOST_WARNINGS: usize = 1000;
 
 /// What lasts from block to block.
 struct Modes {
-    inches: bool,
-    plane: Plane,
-    feed: Feed,
     /// F of the tool call, for FAUTO.
     feed_of_tool: f64,
     side: CompensationSide,
-    turning: Turning,
     coolant: bool,
     /// M126: rotary axes take the shortest way.
     shortest: bool,
-    /// The tip of the tool is programmed.
-    tool_centre: bool,
     /// How the tool axis turns, as the receiver was told last.
     orientation: OrientationPath,
     /// FUNCTION TCPM AXIS SPAT: A B C are space angles.
@@ -85,7 +66,6 @@ struct Modes {
     per_revolution: bool,
     /// M89: the cycle is called at each place.
     cycle_everywhere: bool,
-    tool: u32,
     tool_axis: Option<Axis>,
     tool_length_mm: f64,
     tool_radius_mm: Option<f64>,
@@ -93,19 +73,12 @@ struct Modes {
 
 /// One execution.
 struct Run<'r> {
-    library: &'r dyn Library,
-    settings: &'r Settings,
-    take: &'r mut dyn FnMut(Step),
-    programs: Vec<Rc<Program>>,
-    loaded: HashMap<String, usize>,
+    core: Core<'r>,
     labels: HashMap<usize, Rc<Labels>>,
     stack: Vec<Activation>,
     selected: Option<String>,
     variables: Variables,
-    jumps: u64,
     frames: Frames,
-    /// What the receiver was told last.
-    told: Frame,
     modes: Modes,
     /// Full turns of A, B and C that the display does not show (M94, M126), degrees.
     turned: [f64; 3],
@@ -119,54 +92,62 @@ struct Run<'r> {
     /// The first corner of the blank.
     blank: Option<[f64; 3]>,
     tools: BTreeMap<u32, (f64, Option<f64>)>,
-    problems: Diagnostics,
-    errors: usize,
-    reported: HashSet<(&'static str, String)>,
-    origin: Origin,
-    /// Where the block begins that is being executed.
-    start: usize,
+}
+
+impl<'r> Language<'r> for Run<'r> {
+    type Room = Line;
+
+    fn core(&mut self) -> &mut Core<'r> {
+        &mut self.core
+    }
+
+    fn advance(&mut self, line: &mut Line) -> Result<Next, Fault> {
+        let Some(active) = self.stack.last_mut() else { return Ok(Next::Finished) };
+        let (number, at) = (active.program, active.at);
+        let program = Rc::clone(&self.core.programs[number]);
+        self.core.begin(number, at, active.line);
+        if at >= program.source().len() {
+            return self.end_of_text(&program).map_err(|fault| self.core.for_good(fault));
+        }
+        line.read(program.source(), program.dialect(), at);
+        active.at = line.end;
+        active.line = active.line.saturating_add(line.lines);
+        self.block(&program, line)
+    }
+
+    /// The block was left before it was executed.
+    fn pass_over(&mut self, _line: &Line) {}
+
+    fn emit_frame(&mut self) {
+        if self.core.emit_frame(self.frames.frame()) {
+            self.tangent = None;
+        }
+    }
 }
 
 impl<'r> Run<'r> {
-    fn new(
-        program: &Program,
-        library: &'r dyn Library,
-        settings: &'r Settings,
-        take: &'r mut dyn FnMut(Step),
-    ) -> Self {
+    fn new(core: Core<'r>) -> Self {
+        let settings = core.settings;
         let modes = Modes {
-            inches: settings.inches,
-            plane: settings.plane,
-            feed: Feed { mode: FeedMode::PerMinute, value: 0.0 },
             feed_of_tool: 0.0,
             side: CompensationSide::Off,
-            turning: Turning::Stopped,
             coolant: false,
             shortest: false,
-            tool_centre: false,
             orientation: OrientationPath::Axes,
             space_angles: false,
             per_revolution: false,
             cycle_everywhere: false,
-            tool: 0,
             tool_axis: None,
             tool_length_mm: 0.0,
             tool_radius_mm: None,
         };
         let tools = settings.tools.iter().map(|(n, p)| (*n, (p[Axis::Z], None))).collect();
         Self {
-            library,
-            settings,
-            take,
-            programs: vec![Rc::new(program.clone())],
-            loaded: HashMap::new(),
             labels: HashMap::new(),
             stack: vec![Activation::main()],
             selected: None,
             variables: Variables::default(),
-            jumps: 0,
             frames: Frames::new(settings.work_offsets.get(&1)),
-            told: Frame::IDENTITY,
             modes,
             turned: [0.0; 3],
             pole: None,
@@ -175,58 +156,21 @@ impl<'r> Run<'r> {
             cycle: None,
             blank: None,
             tools,
-            problems: Diagnostics::new(),
-            errors: 0,
-            reported: HashSet::new(),
-            origin: Origin { program: 0, line: 1 },
-            start: 0,
+            core,
         }
-    }
-
-    fn run(&mut self) -> bool {
-        self.emit_frame();
-        let mut line = Line::default();
-        while !self.settings.stop.is_asked() {
-            let Some(active) = self.stack.last() else { return true };
-            let (number, at) = (active.program, active.at);
-            let program = Rc::clone(&self.programs[number]);
-            self.origin = Origin { program: number as u32, line: active.line };
-            self.start = at;
-            let next = if at >= program.source().len() {
-                self.end_of_text(&program)
-            } else {
-                line.read(program.source(), program.dialect(), at);
-                if let Some(active) = self.stack.last_mut() {
-                    active.at = line.end;
-                    active.line = active.line.saturating_add(line.lines);
-                }
-                self.block(&program, &line)
-            };
-            match next {
-                Ok(Next::Finished) => return true,
-                Ok(_) => {}
-                Err(fault) => {
-                    self.report(fault);
-                    if !self.settings.keep_going || self.errors >= 100 || at >= line.end {
-                        return false;
-                    }
-                }
-            }
-        }
-        false
     }
 
     fn block(&mut self, program: &Program, line: &Line) -> Result<Next, Fault> {
         if line.too_long {
-            let message = "more than 10000 words in one block".to_owned();
+            let message = "more than 10000 words in one block";
             return Err(fault("too-many-words", line.start, message, "is this an NC program?"));
         }
-        if line.skip && !self.settings.skipped_blocks_too {
+        if line.skip && !self.core.settings.skipped_blocks_too {
             return Ok(Next::Following);
         }
-        let told = self.settings.tell_blocks;
+        let told = self.core.settings.tell_blocks;
         if told {
-            self.emit(Event::Block { text: line.start..line.end });
+            self.core.emit(Event::Block { text: line.start..line.end });
         }
         if line.tokens.is_empty() {
             return Ok(Next::Following);
@@ -236,62 +180,16 @@ impl<'r> Run<'r> {
         let next = self.statement(&mut cursor)?;
         cursor.finish()?;
         if steers {
-            self.emit(Event::Computed { text: line.start..line.end, value: None });
+            self.core.emit(Event::Computed { text: line.start..line.end, value: None });
         }
         Ok(next)
-    }
-
-    /// Reports a fault of the program that is being executed.
-    fn report(&mut self, fault: Fault) {
-        let place = self.place(fault.offset);
-        self.problems.error(fault.code, place, fault.message, fault.hint);
-        self.errors += 1;
-    }
-
-    fn place(&self, offset: usize) -> Place {
-        let program = &self.programs[self.origin.program as usize];
-        let mut places = Places::new(program);
-        if offset >= self.start {
-            places = Places::beginning(program, self.start, self.origin.line);
-        }
-        places.of(offset)
-    }
-
-    /// Warns once about each subject.
-    fn warn(&mut self, code: &'static str, subject: &str, at: usize, message: &str, hint: &str) {
-        // Hostile programs could fill the memory with warnings about ever new numbers.
-        if self.reported.len() < MOST_WARNINGS && self.reported.insert((code, subject.to_owned())) {
-            let place = self.place(at);
-            self.problems.warn(code, place, message.to_owned(), hint);
-        }
-    }
-
-    /// Warns once that something known is left out.
-    fn not_applied(&mut self, name: &str, at: usize) {
-        let message = format!("{name} is not applied");
-        let hint = "the moves that follow are those without it";
-        self.warn("not-applied", name, at, &message, hint);
-    }
-
-    fn emit(&mut self, event: Event) {
-        (self.take)(Step::Event(event, self.origin));
-    }
-
-    /// Tells the frame if it has changed.
-    fn emit_frame(&mut self) {
-        let frame = self.frames.frame();
-        if frame != self.told {
-            self.told = frame;
-            self.tangent = None;
-            self.emit(Event::Frame(frame));
-        }
     }
 
     /// A move of which every value is told; the place is kept.
     fn emit_move(&mut self, mut step: Move, at: usize) -> Result<(), Fault> {
         let numbers = step.target.0.iter().chain(step.direction.iter().flatten());
         if !numbers.chain([&step.feed.value]).all(|v| v.abs() < 1e9) {
-            let message = "a coordinate, direction or feed is too large".to_owned();
+            let message = "a coordinate, direction or feed is too large";
             return Err(fault("too-large", at, message, "check the numbers of the block"));
         }
         if step.coordinates == Coordinates::Program {
@@ -310,7 +208,7 @@ impl<'r> Run<'r> {
                 self.frames.position.0[i] = *value;
             }
         }
-        (self.take)(Step::Move(step));
+        self.core.emit_move(step);
         Ok(())
     }
 
@@ -321,15 +219,11 @@ impl<'r> Run<'r> {
         for axis in Axis::ALL.into_iter().filter(|a| before[*a] != target[*a]) {
             named = named.with(axis);
         }
-        let mut step = Move::plain(kind, target, named, self.modes.feed, self.origin);
+        let mut step = self.core.plain_move(kind, target, named);
         if self.modes.shortest {
             step.ways = [Way::Shortest; 3];
         }
         self.emit_move(step, at)
-    }
-
-    fn unit_mm(&self) -> f64 {
-        if self.modes.inches { 25.4 } else { 1.0 }
     }
 }
 

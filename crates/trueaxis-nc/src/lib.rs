@@ -1,14 +1,22 @@
-//! What was programmed?
+//! What was programmed? NC programs of four controls, read without loss and executed into moves.
 //!
 //! ```text
-//!     bytes ──Lexer──> tokens ──Program::blocks──> words, expressions ──interpret──> moves, events
-//!              Dialect: what the four controls write differently, as tables
+//!     bytes ──text──> blocks ──rs274, sinumerik, heidenhain──> moves, events ──> Step by Step
+//!                              └── execution: what the three languages share
 //! ```
 //!
-//! A [`Program`] keeps its text as it is: [`Program::print`] gives every byte back. [`interpret`]
-//! executes it by the rules of its [`Control`] and hands out [`Step`]s: moves with targets in the
-//! program frame (mm, degrees), and events such as work offsets and tool changes. Whatever is not
-//! understood is a diagnostic with code, place and hint.
+//! # The three things to know
+//!
+//! 1. A [`Program`] is a text with its [`Control`]. It is kept as it is: [`Program::print`] gives
+//!    every byte back, [`Program::check`] lists what is wrong with the text as such.
+//! 2. [`interpret`] executes a program by the rules of its control, with [`Settings`] for what the
+//!    control knows beforehand (tool lengths, work offsets) and a [`Library`] for subprograms.
+//! 3. What comes out is a [`Step`] at a time: a [`Move`] with its target in the program frame (mm,
+//!    degrees), or an [`Event`] such as a work offset, a tool change, a frame. The [`Outcome`] has
+//!    the problems: each with a code, a place, a message and a hint. The same mistake has the same
+//!    code and message in every language.
+//!
+//! # A first program
 //!
 //! ```
 //! use trueaxis_nc::{Control, NoLibrary, Program, Settings, Step, interpret};
@@ -25,26 +33,43 @@
 //! assert_eq!(moves[1].feed.value, 254.0);
 //! ```
 //!
-//! It knows no machine: where the axes really go, and how fast, is asked elsewhere. It opens no
-//! file: subprograms come through a [`Library`].
+//! The same in the words of another control gives the same moves, and a mistake is told with its
+//! place:
+//!
+//! ```
+//! use trueaxis_nc::{Control, NoLibrary, Program, Settings, interpret};
+//! let text = b"G1 F100 X=10/0\nM30\n".to_vec();
+//! let program = Program::new("part.mpf", text, Control::Sinumerik840d);
+//! let outcome = interpret(&program, &NoLibrary, &Settings::default(), &mut |_| ());
+//! let problem = outcome.problems.iter().next().unwrap();
+//! assert_eq!((problem.code, problem.place.line), ("division-by-zero", 1));
+//! assert!(!outcome.finished);
+//! ```
+//!
+//! `cargo run -p trueaxis-nc --example moves -- FILE` prints the moves of a program.
+//!
+//! # Further parts
+//!
+//! - [`writer`] writes programs for the same four controls; [`cl`] reads cutter-location files.
+//! - [`moves`] holds the vocabulary of what comes out, [`code`] and [`dialect`] what the controls
+//!   write differently, [`lexer`] and [`program`] the text; [`sinumerik`] reads dumps of a set-up.
+//!
+//! The crate knows no machine: where the axes really go, and how fast, is asked elsewhere. It opens
+//! no file: subprograms come through a [`Library`].
 
 pub mod cl;
-pub mod code;
 pub mod dialect;
+mod execution;
 mod heidenhain;
-mod interpreter;
-pub mod lexer;
-mod library;
 pub mod moves;
-mod parser;
-pub mod program;
+mod rs274;
 pub mod sinumerik;
-mod stop;
+mod text;
 pub mod writer;
 
 pub use dialect::{Control, Dialect};
-pub use interpreter::{Outcome, Settings, interpret};
-pub use library::{Library, NoLibrary};
+pub use execution::{Library, NoLibrary, Outcome, Settings, Stop, interpret};
 pub use moves::{Event, Move, MoveKind, Step};
-pub use program::Program;
-pub use stop::Stop;
+pub use rs274::code;
+pub use text::program::Program;
+pub use text::{lexer, program};

@@ -43,6 +43,9 @@ use crate::dialect::Control;
 use crate::moves::{Axis, AxisSet, Coolant, Coordinates, Feed, FeedMode, Position, Turning};
 use number::Form;
 
+/// A block was written, or why not.
+type Written = Result<(), WriteError>;
+
 /// One block of a program, in words that all controls share.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Block<'a> {

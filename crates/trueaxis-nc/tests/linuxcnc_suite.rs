@@ -35,7 +35,7 @@ const PYTHON: [&str; 2] = ["python-self", "value-returned"];
 
 /// Tests that end with an error, and our code for it.
 const ERRORS: [(&str, &str); 5] = [
-    ("abort-hot-comment", "abort"),
+    ("abort-hot-comment", "program-alarm"),
     ("iniparam", "undefined-parameter"),
     ("iniparam-failassign", "read-only-parameter"),
     ("nested-sub-error", "nested-sub"),

@@ -2,8 +2,10 @@
 
 use super::words::Words;
 use super::{Run, fault};
-use crate::moves::{Arc, Axis, CompensationSide, Move, MoveKind, Position};
-use crate::program::Fault;
+use crate::execution::frames::unit;
+use crate::execution::{arcs, mistakes};
+use crate::moves::{Arc, Axis, CompensationSide, MoveKind, Position};
+use crate::text::program::Fault;
 
 /// How far the radius at the end may differ from that at the start: the tolerance that the manual
 /// names for C blocks (iTNC 530, "Circular path C around circle center CC").
@@ -25,9 +27,9 @@ impl Run<'_> {
     pub(super) fn circle(&mut self, kind: usize, words: &Words, rapid: bool) -> Result<(), Fault> {
         if rapid {
             let message = "a circle with FMAX: its feed is that before it";
-            self.warn("rapid-circle", "", words.at, message, "write F");
+            self.core.warn("rapid-circle", "", words.at, message, "write F");
         }
-        self.check_feed(words.at)?;
+        self.core.modes.check_feed(words.at)?;
         let circle = match kind {
             3 => self.circle_about_pole(words)?,
             4 => self.polar_circle(words)?,
@@ -48,30 +50,25 @@ impl Run<'_> {
     }
 
     fn turn_along(&mut self, circle: Circle, words: &Words) -> Result<(), Fault> {
-        let plane = self.modes.plane;
+        let plane = self.core.modes.plane;
         let [first, second, _] = plane.axes();
         let arc = Arc { plane, center_mm: circle.center, turns: circle.turns, ccw: circle.ccw };
         let named = words.named().with(first).with(second);
         let target = circle.target;
         let kind = MoveKind::Arc(arc);
-        self.emit_move(Move::plain(kind, target, named, self.modes.feed, self.origin), words.at)?;
-        let radial = [target[first] - circle.center[0], target[second] - circle.center[1]];
-        let sign = if circle.ccw { 1.0 } else { -1.0 };
-        let mut tangent = [0.0; 3];
-        tangent[first as usize] = -sign * radial[1];
-        tangent[second as usize] = sign * radial[0];
-        self.tangent = super::functions::unit(tangent);
+        self.emit_move(self.core.plain_move(kind, target, named), words.at)?;
+        self.tangent = unit(arcs::end_tangent(&arc, &target));
         Ok(())
     }
 
     fn in_plane(&self, place: &Position) -> [f64; 2] {
-        let [first, second, _] = self.modes.plane.axes();
+        let [first, second, _] = self.core.modes.plane.axes();
         [place[first], place[second]]
     }
 
     fn sense(words: &Words) -> Result<bool, Fault> {
         words.ccw.ok_or_else(|| {
-            let message = "the sense of the circle is missing".to_owned();
+            let message = "the sense of the circle is missing";
             fault("missing-direction", words.at, message, "write DR+ or DR-")
         })
     }
@@ -81,20 +78,8 @@ impl Run<'_> {
         let ccw = Self::sense(words)?;
         let center = self.pole(words.at)?;
         let target = words.target(&self.frames.position);
-        let radius = |p: [f64; 2]| (p[0] - center[0]).hypot(p[1] - center[1]);
-        let (from, to) =
-            (radius(self.in_plane(&self.frames.position)), radius(self.in_plane(&target)));
-        if from <= 0.0 || to <= 0.0 {
-            let message = "the radius of the circle is zero".to_owned();
-            return Err(fault("arc-does-not-fit", words.at, message, "check CC"));
-        }
-        if (from - to).abs() > TOLERANCE_MM {
-            let message = format!(
-                "the circle does not fit: radius {from:.4} mm at its start, {to:.4} mm at its end"
-            );
-            let hint = "check CC and the target: the radii may differ by 0.016 mm";
-            return Err(fault("arc-does-not-fit", words.at, message, hint));
-        }
+        let ends = [self.in_plane(&self.frames.position), self.in_plane(&target)];
+        arcs::check_radii(ends, center, |_| TOLERANCE_MM, words.at)?;
         Ok(Circle { center, ccw, turns: 1, target })
     }
 
@@ -104,7 +89,7 @@ impl Run<'_> {
         let center = self.pole(words.at)?;
         let (radius, angle) = self.polar_place(center);
         if radius <= 0.0 {
-            let message = "the radius of the circle is zero".to_owned();
+            let message = "the radius of the circle is zero";
             return Err(fault("arc-does-not-fit", words.at, message, "check CC"));
         }
         let target = self.polar_target(words)?;
@@ -113,13 +98,12 @@ impl Run<'_> {
             let swept = if sweep.incremental { sweep.value } else { sweep.value - angle };
             if sweep.incremental && swept != 0.0 && (swept > 0.0) != ccw {
                 let message = "IPA and DR have different signs: DR counts";
-                self.warn("contrary-signs", "IPA", words.at, message, "write the same sign");
+                self.core.warn("contrary-signs", "IPA", words.at, message, "write the same sign");
             }
             if sweep.incremental {
                 let count = (swept.abs() / 360.0 - 1e-9).ceil().max(1.0);
                 if count > MOST_TURNS {
-                    let message = format!("{count} turns are too many");
-                    return Err(fault("bad-turns", words.at, message, "check IPA"));
+                    return Err(mistakes::bad_turns(count, words.at));
                 }
                 turns = count as u32;
             }
@@ -131,57 +115,27 @@ impl Run<'_> {
     fn circle_by_radius(&mut self, words: &Words) -> Result<Circle, Fault> {
         let ccw = Self::sense(words)?;
         let Some(radius) = words.arc_radius else {
-            let message = "CR needs its radius".to_owned();
-            return Err(fault("arc-without-centre", words.at, message, "write R+10 or R-10"));
+            return Err(mistakes::arc_without_centre("write R+10 or R-10", words.at));
         };
         let target = words.target(&self.frames.position);
-        let (start, end) = (self.in_plane(&self.frames.position), self.in_plane(&target));
-        let chord = [end[0] - start[0], end[1] - start[1]];
-        let half = chord[0].hypot(chord[1]) / 2.0;
-        if half == 0.0 || half > radius.abs() + TOLERANCE_MM {
-            let message = format!(
-                "the circle does not fit: its ends are {:.4} mm apart, its radius is {:.4} mm",
-                2.0 * half,
-                radius.abs()
-            );
-            let hint = "check R and the target; a full circle needs CC and C";
-            return Err(fault("arc-does-not-fit", words.at, message, hint));
-        }
-        let height = (radius * radius - half * half).max(0.0).sqrt();
-        // Counter-clockwise and less than half a turn: the centre lies left of the chord.
-        let side = if ccw == (radius > 0.0) { height } else { -height };
-        let left = [-chord[1] / (2.0 * half), chord[0] / (2.0 * half)];
-        let center = [0, 1].map(|i| f64::midpoint(start[i], end[i]) + left[i] * side);
+        let ends = [self.in_plane(&self.frames.position), self.in_plane(&target)];
+        let center = arcs::by_radius(ends, radius, ccw, TOLERANCE_MM, words.at)?;
         Ok(Circle { center, ccw, turns: 1, target })
     }
 
     /// CT: the circle that leaves the last element without a corner; `None` if it is a line.
-    ///
-    /// With the left normal n of the path and the chord d the radius is ρ = d² / (2 n·d), from
-    /// |d − ρ n| = |ρ| (derived here).
     fn tangential(&mut self, target: Position, at: usize) -> Result<Option<Circle>, Fault> {
-        let [first, second, _] = self.modes.plane.axes();
-        let flat = self.tangent.map(|t| [t[first as usize], t[second as usize]]);
-        let Some(along) = flat.filter(|t| t[0].hypot(t[1]) > 1e-9) else {
-            let message = "there is no element before it that it could continue".to_owned();
-            let hint = "write a line or circle in the plane before CT";
-            return Err(fault("missing-tangent", at, message, hint));
-        };
-        let length = along[0].hypot(along[1]);
+        let [first, second, _] = self.core.modes.plane.axes();
+        let along = arcs::direction_before(self.tangent, [first as usize, second as usize], at)?;
         let (start, end) = (self.in_plane(&self.frames.position), self.in_plane(&target));
-        let d = [end[0] - start[0], end[1] - start[1]];
-        let normal = [-along[1] / length, along[0] / length];
-        let (square, across) = (d[0] * d[0] + d[1] * d[1], normal[0] * d[0] + normal[1] * d[1]);
-        if across.abs() <= 1e-9 * square.sqrt() {
-            if d[0] * along[0] + d[1] * along[1] > 0.0 {
+        let Some((center, ccw)) = arcs::tangential([start, end], along) else {
+            if (end[0] - start[0]) * along[0] + (end[1] - start[1]) * along[1] > 0.0 {
                 return Ok(None);
             }
-            let message = "the target lies straight behind: no circle leads there".to_owned();
+            let message = "the target lies straight behind: no circle leads there";
             return Err(fault("arc-does-not-fit", at, message, "check the target"));
-        }
-        let radius = square / (2.0 * across);
-        let center = [start[0] + normal[0] * radius, start[1] + normal[1] * radius];
-        Ok(Some(Circle { center, ccw: radius > 0.0, turns: 1, target }))
+        };
+        Ok(Some(Circle { center, ccw, turns: 1, target }))
     }
 
     /// APPR: how the contour is reached depends on what follows; a line is moved instead.
@@ -199,26 +153,26 @@ impl Run<'_> {
         };
         let message = format!("APPR {name} is moved as a line to its point");
         let hint = "the tangential part of the approach is missing";
-        self.warn("not-applied", &format!("APPR {name}"), words.at, &message, hint);
+        self.core.warn("not-applied", format!("APPR {name}"), words.at, &message, hint);
         if !rapid {
-            self.check_feed(words.at)?;
+            self.core.modes.check_feed(words.at)?;
         }
         let before = self.frames.position;
         let kind = if rapid { MoveKind::Rapid } else { MoveKind::Linear };
         self.step(kind, target, words.at)?;
         let now = self.frames.position;
-        self.tangent = super::functions::unit(std::array::from_fn(|i| now.0[i] - before.0[i]));
+        self.tangent = unit(std::array::from_fn(|i| now.0[i] - before.0[i]));
         Ok(())
     }
 
     /// DEP LT LEN, LN LEN, CT CCA R and LCT X Y R go on from the last element.
     pub(super) fn depart(&mut self, form: usize, words: &Words, rapid: bool) -> Result<(), Fault> {
         if !rapid {
-            self.check_feed(words.at)?;
+            self.core.modes.check_feed(words.at)?;
         }
-        let [first, second, _] = self.modes.plane.axes();
+        let [first, second, _] = self.core.modes.plane.axes();
         let flat = self.tangent.map(|t| [t[first as usize], t[second as usize]]);
-        let along = flat.and_then(|t| super::functions::unit([t[0], t[1], 0.0]));
+        let along = flat.and_then(|t| unit([t[0], t[1], 0.0]));
         // Away from the workpiece: to the left with RL.
         let left = if self.modes.side == CompensationSide::Right { -1.0 } else { 1.0 };
         let now = self.frames.position;
@@ -232,7 +186,7 @@ impl Run<'_> {
                 self.step(kind, target, words.at)
             }
             (2, Some(t), _, Some((sweep, radius))) if radius != 0.0 => {
-                self.check_feed(words.at)?;
+                self.core.modes.check_feed(words.at)?;
                 let side = left * radius.signum();
                 let r = radius.abs();
                 let center = [now[first] - side * t[1] * r, now[second] + side * t[0] * r];
@@ -250,7 +204,7 @@ impl Run<'_> {
                 self.depart_by_circle_and_line(t, target, words)
             }
             _ => {
-                let message = "DEP needs an element before it, and LEN, or CCA and R".to_owned();
+                let message = "DEP needs an element before it, and LEN, or CCA and R";
                 let hint = "write DEP LT LEN5, DEP LN LEN5, DEP CT CCA90 R5 or DEP LCT X… Y… R5";
                 Err(fault("missing-value", words.at, message, hint))
             }
@@ -267,8 +221,8 @@ impl Run<'_> {
         target: Position,
         words: &Words,
     ) -> Result<(), Fault> {
-        self.check_feed(words.at)?;
-        let [first, second, _] = self.modes.plane.axes();
+        self.core.modes.check_feed(words.at)?;
+        let [first, second, _] = self.core.modes.plane.axes();
         let radius = words.arc_radius.unwrap_or(0.0);
         let (start, end) = (self.in_plane(&self.frames.position), self.in_plane(&target));
         let side = along[0] * (end[1] - start[1]) - along[1] * (end[0] - start[0]);
@@ -277,7 +231,7 @@ impl Run<'_> {
         let d = [end[0] - center[0], end[1] - center[1]];
         let distance = d[0].hypot(d[1]);
         if distance <= radius {
-            let message = "the target of DEP LCT lies within its circle".to_owned();
+            let message = "the target of DEP LCT lies within its circle";
             return Err(fault("arc-does-not-fit", words.at, message, "check R and the target"));
         }
         let angle = d[1].atan2(d[0]) - sense * (radius / distance).acos();
@@ -291,6 +245,6 @@ impl Run<'_> {
 
     /// The axis along which the tool stands.
     pub(super) fn along(&self) -> Axis {
-        self.modes.plane.axes()[2]
+        self.core.modes.plane.axes()[2]
     }
 }

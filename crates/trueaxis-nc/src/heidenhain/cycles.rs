@@ -2,14 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use super::flow::Next;
-use super::frames::{Transformation, turn_about};
+use super::frames::Transformation;
 use super::line::Cursor;
 use super::variables::{Stored, Variable};
 use super::words::Words;
-use super::{Run, fault};
+use super::{Language, Run, fault};
+use crate::execution::mistakes;
+use crate::execution::{Next, frames};
 use crate::moves::{Axis, Event, Frame, MoveKind, PathControl};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 /// The machining cycle that a call executes.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,7 +38,7 @@ impl Run<'_> {
     fn define_cycle(&mut self, c: &mut Cursor<'_>) -> Result<(), Fault> {
         let at = c.offset();
         let Some(written) = c.number()? else {
-            let message = "the number of the cycle is missing".to_owned();
+            let message = "the number of the cycle is missing";
             return Err(fault("missing-value", at, message, "write CYCL DEF 200"));
         };
         let number = written as u32;
@@ -62,7 +63,7 @@ impl Run<'_> {
             }
             13 => {
                 let angle_deg = self.labelled_value(c)?;
-                self.emit(Event::SpindleOrient { angle_deg });
+                self.core.emit(Event::SpindleOrient { angle_deg });
                 Ok(())
             }
             19 => self.cycle_19(c),
@@ -88,7 +89,7 @@ impl Run<'_> {
             self.value(c)?;
             let message = "the datum comes from a table that is not read here";
             let hint = "write its values into the program";
-            self.warn("not-applied", "datum table", at, message, hint);
+            self.core.warn("not-applied", "datum table", at, message, hint);
             return Ok(());
         }
         let words = self.words(c)?;
@@ -107,11 +108,10 @@ impl Run<'_> {
         let tilted = self.frames.is_tilted();
         let set = self.frames.set(new, neutral);
         if set.is_none() || !self.frames.position.0.iter().all(|v| v.abs() < 1e9) {
-            let message = "this transformation leaves no space to move in".to_owned();
-            return Err(fault("bad-transformation", at, message, "check its numbers"));
+            return Err(mistakes::flat_frame(at));
         }
         if tilted {
-            self.emit(Event::Note("transformation within the tilted plane"));
+            self.core.emit(Event::Note("transformation within the tilted plane"));
         }
         self.emit_frame();
         Ok(())
@@ -130,14 +130,14 @@ impl Run<'_> {
     /// CYCL DEF 10.1 ROT+30 or IROT+30: about the axis of the tool.
     fn rotation(&mut self, c: &mut Cursor<'_>) -> Result<(), Fault> {
         let at = c.offset();
-        let [first, second, third] = self.modes.plane.axes();
+        let [first, second, third] = self.core.modes.plane.axes();
         let before = self.frames.rotation_deg(first as usize, second as usize);
         let angle = match c.accept_any(&["ROT", "IROT"]) {
             Some(0) => self.value(c)?,
             Some(_) => before + self.value(c)?,
             None => return Err(c.unknown()),
         };
-        let turn = Transformation::Rotation(turn_about(third as usize, angle));
+        let turn = Transformation::Rotation(frames::about(third as usize, angle));
         self.transform(turn, angle == 0.0, at)
     }
 
@@ -150,7 +150,7 @@ impl Run<'_> {
         }
         while !c.done() {
             if let Some(index) = c.accept_any(&["CCX", "CCY", "CCZ"]) {
-                fixed[index] = self.value(c)? * self.unit_mm();
+                fixed[index] = self.value(c)? * self.core.modes.unit_mm();
             } else if let Some(index) = c.accept_any(&["X", "Y", "Z"]) {
                 factors[index] = self.value(c)?;
             } else {
@@ -158,8 +158,7 @@ impl Run<'_> {
             }
         }
         if !factors.iter().all(|f| (1e-6..=1e6).contains(f)) {
-            let message = "a scale is not a positive factor".to_owned();
-            return Err(fault("bad-transformation", at, message, "write SCL0.99"));
+            return Err(mistakes::bad_scale(at));
         }
         self.transform(Transformation::Scale(factors, fixed), factors == [1.0; 3], at)
     }
@@ -174,7 +173,7 @@ impl Run<'_> {
             let like = match kind {
                 0 => Transformation::Shift(Default::default()),
                 1 => Transformation::Mirror([false; 3]),
-                2 => Transformation::Rotation([[0.0; 3]; 3]),
+                2 => Transformation::Rotation(Frame::IDENTITY),
                 _ => Transformation::Scale([1.0; 3], [0.0; 3]),
             };
             let _ = self.frames.forget(&like);
@@ -183,7 +182,7 @@ impl Run<'_> {
         }
         if c.accept("TABLE") {
             c.leave();
-            self.not_applied("TRANS DATUM TABLE", at);
+            self.core.left_out("TRANS DATUM TABLE", at);
             return Ok(());
         }
         c.accept("AXIS");
@@ -198,14 +197,15 @@ impl Run<'_> {
     /// CYCL DEF 32.1 T0.05; 32.2 HSC-MODE:1 TA5.
     fn tolerance(&mut self, part: u32, c: &mut Cursor<'_>) -> Result<(), Fault> {
         if part == 1 {
-            let tolerance_mm = if c.accept("T") { self.value(c)? * self.unit_mm() } else { 0.0 };
+            let tolerance_mm =
+                if c.accept("T") { self.value(c)? * self.core.modes.unit_mm() } else { 0.0 };
             let control =
                 if tolerance_mm > 0.0 { PathControl::Continuous } else { PathControl::ExactPath };
-            self.emit(Event::Path { control, tolerance_mm });
+            self.core.emit(Event::Path { control, tolerance_mm });
             return Ok(());
         }
         c.leave();
-        self.emit(Event::Note("cycle 32: HSC mode and angular tolerance"));
+        self.core.emit(Event::Note("cycle 32: HSC mode and angular tolerance"));
         Ok(())
     }
 
@@ -257,7 +257,7 @@ impl Run<'_> {
         }
         let message = format!("cycle {number} is not executed: its moves are missing");
         let hint = "let the CAM system write its moves out";
-        self.warn("cycle-not-executed", &number.to_string(), at, &message, hint);
+        self.core.warn("cycle-not-executed", number, at, &message, hint);
         if !matches!(number, 14 | 20 | 220 | 221 | 392 | 400..=499) {
             self.cycle = Some(Cycle::Missing);
         }
@@ -280,18 +280,17 @@ impl Run<'_> {
     /// Cycle 247: preset n is the work offset n of the settings.
     fn preset(&mut self, number: Option<f64>, at: usize) -> Result<(), Fault> {
         let Some(number) = number.filter(|n| (0.0..1e6).contains(n)) else {
-            let message = "cycle 247 needs Q339, the number of the preset".to_owned();
+            let message = "cycle 247 needs Q339, the number of the preset";
             return Err(fault("bad-work-offset", at, message, "write Q339=+1"));
         };
         let index = number as u32;
-        let frame = self.settings.work_offsets.get(&index).copied();
+        let frame = self.core.settings.work_offsets.get(&index).copied();
         let frame = frame.unwrap_or(Frame::IDENTITY);
         if self.frames.set_preset(frame).is_none() {
-            let message = format!("preset {index} leaves no space to move in");
-            return Err(fault("bad-transformation", at, message, "check the table of presets"));
+            return Err(mistakes::flat_frame(at));
         }
-        let rotation_deg = frame.linear[1][0].atan2(frame.linear[0][0]).to_degrees();
-        self.emit(Event::WorkOffset { index, offset: frame.shift, rotation_deg });
+        let rotation_deg = frames::rotation_deg(&frame);
+        self.core.emit(Event::WorkOffset { index, offset: frame.shift, rotation_deg });
         self.emit_frame();
         Ok(())
     }
@@ -306,22 +305,22 @@ impl Run<'_> {
             return Ok(Next::Finished);
         }
         if kind == Some(1) {
-            self.not_applied("CYCL CALL PAT: holes of a pattern", at);
+            self.core.left_out("CYCL CALL PAT: holes of a pattern", at);
             return Ok(Next::Following);
         }
         if kind == Some(0) {
             let along = self.along();
             if words.axes[along as usize].take().is_some_and(|w| w.value != 0.0) {
-                self.not_applied("the height in CYCL CALL POS", at);
+                self.core.left_out("the height in CYCL CALL POS", at);
             }
             let target = words.target(&self.frames.position);
             let kind = if rapid { MoveKind::Rapid } else { MoveKind::Linear };
             if !rapid {
-                self.check_feed(at)?;
+                self.core.modes.check_feed(at)?;
             }
             self.step(kind, target, at)?;
         } else if words.has_axis() {
-            let message = "axis words need CYCL CALL POS".to_owned();
+            let message = "axis words need CYCL CALL POS";
             return Err(fault("unexpected-sign", words.at, message, "write CYCL CALL POS X… Y…"));
         }
         let next = self.execute_cycle(at)?;
@@ -344,13 +343,13 @@ impl Run<'_> {
     fn execute_cycle(&mut self, at: usize) -> Result<Next, Fault> {
         match self.cycle.clone() {
             Some(Cycle::Drilling(number, values)) => {
-                self.drill(number, &values, at)?;
+                self.drill_hole(number, &values, at)?;
                 Ok(Next::Following)
             }
             Some(Cycle::Program(name)) => self.call_program(&name, at),
             Some(Cycle::Missing) => Ok(Next::Following),
             None => {
-                let message = "no cycle is defined".to_owned();
+                let message = "no cycle is defined";
                 Err(fault("missing-cycle", at, message, "write CYCL DEF before the call"))
             }
         }

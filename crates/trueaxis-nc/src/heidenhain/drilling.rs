@@ -3,11 +3,13 @@
 use std::collections::BTreeMap;
 
 use super::{Run, fault};
-use crate::moves::{Event, Feed, FeedMode, MoveKind, Turning};
-use crate::program::Fault;
+use crate::execution::drilling::{Drill, Stroke, dwell, pecks, reversed, stop_above};
+use crate::execution::mistakes;
+use crate::moves::{Event, Feed, FeedMode, MoveKind, Position};
+use crate::text::program::Fault;
 
 /// Pecks of one hole: more than any program means.
-const MOST_PECKS: u32 = 100_000;
+const MOST_PECKS: usize = 100_000;
 
 /// Parameters of these cycles that are not moved.
 const LEFT_OUT: [(u32, &str); 4] = [
@@ -28,6 +30,8 @@ struct Hole {
     /// Where the tool is left.
     clear: f64,
     feed: Feed,
+    /// The feed of the program, which a wait keeps.
+    modal: Feed,
     /// Feed on the way out; the same as in where none is given.
     feed_out: Feed,
     peck: f64,
@@ -47,7 +51,7 @@ struct Hole {
 
 impl Run<'_> {
     /// Drills where the tool stands.
-    pub(super) fn drill(
+    pub(super) fn drill_hole(
         &mut self,
         number: u32,
         values: &BTreeMap<u32, f64>,
@@ -56,12 +60,11 @@ impl Run<'_> {
         let old = number < 100;
         let hole = if old { self.old_hole(number, values) } else { self.new_hole(number, values) };
         if hole.bottom >= hole.start {
-            let message = format!("cycle {number} has no depth below its clearance");
-            return Err(fault("cycle-without-depth", at, message, "the depth is negative"));
+            return Err(mistakes::missing_depth(at));
         }
         for (q, what) in LEFT_OUT {
             if values.get(&q).is_some_and(|v| *v != 0.0) && !old {
-                self.not_applied(&format!("Q{q} of cycle {number}: {what}"), at);
+                self.core.left_out(&format!("Q{q} of cycle {number}: {what}"), at);
             }
         }
         let rigid = matches!(number, 17 | 207 | 209);
@@ -69,37 +72,46 @@ impl Run<'_> {
             let message = format!("cycle {number} has no feed or pitch");
             return Err(fault("zero-feed", at, message, "give the feed or pitch of the cycle"));
         }
-        if self.frames.position[self.along()] != hole.start {
-            self.go(MoveKind::Rapid, hole.start, hole.feed, at)?;
-        }
+        let height = self.frames.position[self.along()];
+        let mut strokes = vec![Stroke::Feed(hole.feed)];
+        strokes.extend((height != hole.start).then_some(Stroke::Rapid(hole.start)));
         match number {
-            201 | 202 => self.bore(&hole, at)?,
-            2 | 206 => self.tap(&hole, at)?,
+            201 | 202 => strokes.extend(self.bore(&hole, at)),
+            2 | 206 => strokes.extend(self.tap(&hole)),
             17 | 207 | 209 => {
-                let kind = MoveKind::RigidTap { pitch_mm: hole.pitch };
                 let feed = Feed { mode: FeedMode::PerRevolution, value: hole.pitch.abs() };
-                self.go(kind, hole.bottom, feed, at)?;
-                // The tool comes back by itself.
-                let along = self.along();
-                self.frames.position[along] = hole.start;
+                let tap = Stroke::Tap { pitch_mm: hole.pitch, bottom: hole.bottom };
+                strokes.extend([Stroke::Feed(feed), tap, Stroke::Feed(hole.feed)]);
             }
-            _ => self.peck(&hole, at)?,
+            _ => {
+                let depths = hole.depths();
+                strokes.extend(hole.pecks(&depths));
+                if depths.last() != Some(&hole.bottom) {
+                    self.drill(strokes, at)?;
+                    return Err(mistakes::too_many_pecks(MOST_PECKS as f64, at));
+                }
+                strokes.extend(hole.wait(hole.dwell_bottom));
+            }
         }
-        if self.frames.position[self.along()] != hole.clear {
-            self.go(MoveKind::Rapid, hole.clear, hole.feed, at)?;
-        }
+        let end = if matches!(number, 201 | 202 | 2 | 206 | 17 | 207 | 209) {
+            hole.start
+        } else {
+            hole.bottom
+        };
+        strokes.extend((end != hole.clear).then_some(Stroke::Rapid(hole.clear)));
+        self.drill(strokes, at)?;
         self.tangent = None;
         Ok(())
     }
 
     fn per_minute(&self, value: f64) -> Feed {
-        let scale = if self.modes.inches { 2.54 } else { 1.0 };
+        let scale = if self.core.modes.inches { 2.54 } else { 1.0 };
         Feed { mode: FeedMode::PerMinute, value: value * scale }
     }
 
     /// Cycles 1, 2 and 17 begin where the tool stands: the clearance above the surface.
     fn old_hole(&self, number: u32, values: &BTreeMap<u32, f64>) -> Hole {
-        let mm = self.unit_mm();
+        let mm = self.core.modes.unit_mm();
         let value = |n: u32| values.get(&n).copied().unwrap_or(0.0);
         let start = self.frames.position[self.along()];
         let depth = value(2) * mm;
@@ -108,7 +120,6 @@ impl Run<'_> {
             2 => (0.0, value(3), value(4), 0.0),
             _ => (0.0, 0.0, 0.0, value(3) * mm),
         };
-        let total = depth.abs();
         let surface = start - value(1).abs() * mm;
         Hole {
             number,
@@ -118,11 +129,11 @@ impl Run<'_> {
             clear: start,
             feed: self.per_minute(feed),
             feed_out: self.per_minute(feed),
+            modal: self.core.modes.feed,
             peck,
             decrement: 0.0,
             least_peck: peck,
-            // The stop of cycle 1 as its manual gives it: 0.6 mm, depth/50 beyond 30 mm, up to 7 mm.
-            stop_above: if total <= 30.0 { 0.6 } else { (total / 50.0).min(7.0) },
+            stop_above: stop_above(depth.abs()),
             chips: 0,
             chip: 0.0,
             dwell_top: 0.0,
@@ -133,7 +144,7 @@ impl Run<'_> {
     }
 
     fn new_hole(&mut self, number: u32, values: &BTreeMap<u32, f64>) -> Hole {
-        let mm = self.unit_mm();
+        let mm = self.core.modes.unit_mm();
         let value = |q: u32| values.get(&q).copied().unwrap_or(0.0);
         let (surface, clearance) = (value(203) * mm, value(200).abs() * mm);
         let feed = self.per_minute(value(206));
@@ -147,6 +158,7 @@ impl Run<'_> {
             clear: surface + clearance.max(value(204) * mm),
             feed,
             feed_out: out,
+            modal: self.core.modes.feed,
             peck,
             decrement: if number == 200 { 0.0 } else { value(212).abs() * mm },
             least_peck: value(205).abs() * mm,
@@ -160,77 +172,82 @@ impl Run<'_> {
         }
     }
 
-    fn go(&mut self, kind: MoveKind, depth: f64, feed: Feed, at: usize) -> Result<(), Fault> {
-        let mut target = self.frames.position;
-        target[self.along()] = depth;
-        let before = std::mem::replace(&mut self.modes.feed, feed);
-        let done = self.step(kind, target, at);
-        self.modes.feed = before;
-        done
+    /// Reaming and boring: in and out with feed; the lift-off of 202 is not moved.
+    fn bore(&mut self, hole: &Hole, at: usize) -> Vec<Stroke> {
+        let mut strokes = vec![Stroke::Linear(hole.bottom)];
+        strokes.extend(hole.wait(hole.dwell_bottom));
+        if hole.number == 202 {
+            let angle_deg = hole.angle_deg;
+            strokes.push(Stroke::Event(Event::SpindleOrient { angle_deg }));
+            self.core.left_out("the lift-off from the wall in cycle 202", at);
+        }
+        strokes.extend([Stroke::Feed(hole.feed_out), Stroke::Linear(hole.start)]);
+        strokes.push(Stroke::Feed(hole.feed));
+        strokes
     }
 
-    fn wait(&mut self, seconds: f64, at: usize) -> Result<(), Fault> {
-        if seconds > 0.0 { self.dwell(seconds, at) } else { Ok(()) }
+    /// Tapping with a floating chuck: the spindle turns round at the bottom.
+    fn tap(&self, hole: &Hole) -> Vec<Stroke> {
+        let turning = self.core.modes.turning;
+        let mut strokes = vec![Stroke::Linear(hole.bottom), Stroke::Turn(reversed(turning))];
+        strokes.extend(hole.wait(hole.dwell_bottom));
+        strokes.extend([Stroke::Linear(hole.start), Stroke::Turn(turning)]);
+        strokes
+    }
+}
+
+impl Hole {
+    fn wait(&self, seconds: f64) -> impl Iterator<Item = Stroke> + use<> {
+        let (modal, feed) = (Stroke::Feed(self.modal), Stroke::Feed(self.feed));
+        dwell(seconds).into_iter().flat_map(move |wait| [modal.clone(), wait, feed.clone()])
     }
 
-    /// Down by pecks; between them out to the clearance, or back a little to break the chip.
-    fn peck(&mut self, hole: &Hole, at: usize) -> Result<(), Fault> {
-        let top = hole.start;
-        let mut depth = if hole.peck > 0.0 { hole.surface - hole.peck } else { hole.bottom };
-        let mut step = hole.peck;
-        let mut broken = 0;
-        for _ in 0..MOST_PECKS {
-            if depth <= hole.bottom + 1e-9 {
-                self.go(MoveKind::Linear, hole.bottom, hole.feed, at)?;
-                return self.wait(hole.dwell_bottom, at);
+    /// The depths of the pecks; without the bottom where they would never reach it.
+    fn depths(&self) -> Vec<f64> {
+        let mut depth = if self.peck > 0.0 { self.surface - self.peck } else { self.bottom };
+        let (mut step, mut depths) = (self.peck, Vec::new());
+        while depths.len() < MOST_PECKS {
+            if depth <= self.bottom + 1e-9 {
+                depths.push(self.bottom);
+                break;
             }
-            self.go(MoveKind::Linear, depth, hole.feed, at)?;
-            if broken < hole.chips && hole.chip > 0.0 {
-                broken += 1;
-                self.go(MoveKind::Linear, depth + hole.chip, hole.feed, at)?;
-            } else {
-                broken = 0;
-                self.go(MoveKind::Rapid, top, hole.feed, at)?;
-                self.wait(hole.dwell_top, at)?;
-                let above = (depth + hole.stop_above).min(top);
-                if above != top {
-                    self.go(MoveKind::Rapid, above, hole.feed, at)?;
-                }
-            }
-            step = (step - hole.decrement).max(hole.least_peck);
+            depths.push(depth);
+            step = (step - self.decrement).max(self.least_peck);
             if step <= 0.0 {
                 break;
             }
             depth -= step;
         }
-        let message = format!("the hole takes more than {MOST_PECKS} pecks");
-        Err(fault("too-many-pecks", at, message, "check the plunging depth"))
+        depths
     }
 
-    /// Reaming and boring: in and out with feed; the lift-off of 202 is not moved.
-    fn bore(&mut self, hole: &Hole, at: usize) -> Result<(), Fault> {
-        self.go(MoveKind::Linear, hole.bottom, hole.feed, at)?;
-        self.wait(hole.dwell_bottom, at)?;
-        if hole.number == 202 {
-            self.emit(Event::SpindleOrient { angle_deg: hole.angle_deg });
-            self.not_applied("the lift-off from the wall in cycle 202", at);
+    /// Between the pecks out to the clearance, or back a little to break the chip.
+    fn pecks(&self, depths: &[f64]) -> Vec<Stroke> {
+        let mut broken = 0;
+        pecks(depths.iter().copied(), |depth, strokes| {
+            if broken < self.chips && self.chip > 0.0 {
+                broken += 1;
+                strokes.push(Stroke::Linear(depth + self.chip));
+                return;
+            }
+            broken = 0;
+            strokes.push(Stroke::Rapid(self.start));
+            strokes.extend(self.wait(self.dwell_top));
+            let above = (depth + self.stop_above).min(self.start);
+            strokes.extend((above != self.start).then_some(Stroke::Rapid(above)));
+        })
+    }
+}
+
+impl<'r> Drill<'r> for Run<'r> {
+    fn place(&mut self) -> &mut Position {
+        &mut self.frames.position
+    }
+
+    fn move_drill(&mut self, kind: MoveKind, to: Position, at: usize) -> Result<(), Fault> {
+        match kind {
+            MoveKind::Dwell { seconds } => self.dwell(seconds, at),
+            _ => self.step(kind, to, at),
         }
-        self.go(MoveKind::Linear, hole.start, hole.feed_out, at)
-    }
-
-    /// Tapping with a floating chuck: the spindle turns round at the bottom.
-    fn tap(&mut self, hole: &Hole, at: usize) -> Result<(), Fault> {
-        let turning = self.modes.turning;
-        let back = match turning {
-            Turning::Clockwise => Turning::CounterClockwise,
-            Turning::CounterClockwise => Turning::Clockwise,
-            Turning::Stopped => Turning::Stopped,
-        };
-        self.go(MoveKind::Linear, hole.bottom, hole.feed, at)?;
-        self.spindle(back);
-        self.wait(hole.dwell_bottom, at)?;
-        self.go(MoveKind::Linear, hole.start, hole.feed, at)?;
-        self.spindle(turning);
-        Ok(())
     }
 }

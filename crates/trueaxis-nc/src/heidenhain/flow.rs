@@ -5,9 +5,10 @@ use std::rc::Rc;
 
 use super::line::{Cursor, Line};
 use super::variables::Variable;
-use super::{Run, fault};
+use super::{Next, Run, fault};
+use crate::execution::mistakes;
 use crate::moves::Event;
-use crate::program::{Fault, Program};
+use crate::text::program::{Fault, Program};
 
 /// `LBL 5` or `LBL "UP"`.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
@@ -18,17 +19,6 @@ pub(super) enum Label {
 
 /// Labels with the byte and line of their blocks.
 pub(super) type Labels = HashMap<Label, (usize, u32)>;
-
-/// What the next block is, after one was executed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Next {
-    /// The one that follows.
-    Following,
-    /// Wherever the activation was sent.
-    Jumped,
-    /// None.
-    Finished,
-}
 
 /// Why something is executed.
 #[derive(Debug, Clone, PartialEq)]
@@ -76,10 +66,10 @@ impl Run<'_> {
         let inches = rest.split_whitespace().last() == Some("INCH");
         if !inches && rest.split_whitespace().last() != Some("MM") {
             let message = "BEGIN PGM does not say MM or INCH: MM is taken";
-            self.warn("no-unit", "begin", at, message, "write BEGIN PGM name MM");
+            self.core.warn("no-unit", "begin", at, message, "write BEGIN PGM name MM");
         }
         self.active().begun = true;
-        self.modes.inches = inches;
+        self.core.modes.inches = inches;
         Ok(Next::Following)
     }
 
@@ -88,7 +78,7 @@ impl Run<'_> {
         let reason = self.active().reason.clone();
         match reason {
             Reason::Main => {
-                self.emit(Event::End);
+                self.core.emit(Event::End);
                 Ok(Next::Finished)
             }
             Reason::Program => {
@@ -97,9 +87,8 @@ impl Run<'_> {
                 Ok(Next::Jumped)
             }
             Reason::Label(label) => {
-                self.stop_for_good();
-                let message = format!("the subprogram {} has no LBL 0", show(&label));
-                Err(fault("missing-end", at, message, "end it with LBL 0"))
+                let message = format!("the subprogram {} has no end", show(&label));
+                Err(self.core.for_good(fault("missing-end", at, message, "end it with LBL 0")))
             }
         }
     }
@@ -108,16 +97,10 @@ impl Run<'_> {
         let at = program.source().len();
         let begun = self.stack.iter().rev().take_while(|a| a.begun).count() > 0;
         if begun && !matches!(self.active().reason, Reason::Label(_)) {
-            self.stop_for_good();
-            let message = "END PGM is missing".to_owned();
+            let message = "END PGM is missing";
             return Err(fault("truncated-program", at, message, "was the file cut off?"));
         }
         self.end(at)
-    }
-
-    /// Nothing can go on from here, whatever the settings say.
-    fn stop_for_good(&mut self) {
-        self.errors = usize::MAX / 2;
     }
 
     /// LBL: a place to go to; LBL 0 ends a subprogram.
@@ -157,7 +140,7 @@ impl Run<'_> {
         if c.accept("LBL") {
             let label = self.label_name(c)?;
             if label == Label::Number(0) {
-                let message = "LBL 0 is the end of subprograms".to_owned();
+                let message = "LBL 0 is the end of subprograms";
                 return Err(fault("bad-label", at, message, "call LBL 1 to LBL 65535"));
             }
             if c.accept("REP") {
@@ -174,7 +157,7 @@ impl Run<'_> {
             return match self.selected.clone() {
                 Some(name) => self.call_program(&name, at),
                 None => {
-                    let message = "no program is selected".to_owned();
+                    let message = "no program is selected";
                     Err(fault("missing-subprogram", at, message, "write SEL PGM before it"))
                 }
             };
@@ -183,8 +166,8 @@ impl Run<'_> {
     }
 
     fn call_label(&mut self, label: Label, at: usize) -> Result<Next, Fault> {
-        self.count(at)?;
-        self.check_depth(at)?;
+        self.core.count(at)?;
+        self.core.check_depth(self.stack.len(), at)?;
         let (start, line) = self.find_label(&label, at)?;
         let program = self.active().program;
         self.stack.push(Activation::new(program, start, line, Reason::Label(label)));
@@ -216,30 +199,11 @@ impl Run<'_> {
     fn jump(&mut self, label: &Label, at: usize) -> Result<Next, Fault> {
         let (start, line) = self.find_label(label, at)?;
         if start <= at {
-            self.count(at)?;
+            self.core.count(at)?;
         }
         let active = self.active();
         (active.at, active.line) = (start, line);
         Ok(Next::Jumped)
-    }
-
-    fn count(&mut self, at: usize) -> Result<(), Fault> {
-        self.jumps += 1;
-        if self.jumps <= self.settings.most_jumps {
-            return Ok(());
-        }
-        let message = format!("more than {} jumps and calls: an endless loop?", self.jumps - 1);
-        self.stop_for_good();
-        Err(fault("endless-loop", at, message, "check its condition, or raise the limit"))
-    }
-
-    fn check_depth(&mut self, at: usize) -> Result<(), Fault> {
-        if self.stack.len() <= self.settings.deepest_call {
-            return Ok(());
-        }
-        let message = format!("more than {} calls within each other", self.stack.len() - 1);
-        self.stop_for_good();
-        Err(fault("calls-too-deep", at, message, "does it call itself for ever?"))
     }
 
     /// Where a label of the present program stands.
@@ -248,54 +212,26 @@ impl Run<'_> {
         let labels = match self.labels.get(&number) {
             Some(labels) => Rc::clone(labels),
             None => {
-                let labels = Rc::new(find_labels(&self.programs[number]));
+                let labels = Rc::new(find_labels(&self.core.programs[number]));
                 self.labels.insert(number, Rc::clone(&labels));
                 labels
             }
         };
-        labels.get(label).copied().ok_or_else(|| {
-            let message = format!("there is no label {}", show(label));
-            fault("missing-label", at, message, "write LBL with this number or name")
-        })
+        labels.get(label).copied().ok_or_else(|| mistakes::missing_label(show(label), at))
     }
 
     /// Enters another program: by its name, with .H, or the last part of its path.
     pub(super) fn call_program(&mut self, name: &str, at: usize) -> Result<Next, Fault> {
-        self.count(at)?;
-        self.check_depth(at)?;
+        self.core.count(at)?;
+        self.core.check_depth(self.stack.len(), at)?;
         let name = name.trim().trim_matches('"').trim();
-        let number = match self.loaded.get(name) {
-            Some(number) => *number,
-            None => self.load(name, at)?,
-        };
+        let last = name.rsplit(['\\', '/', ':']).next().unwrap_or(name);
+        let known = [name, last].into_iter().filter(|base| !base.is_empty());
+        let names = known.flat_map(|base| ["", ".H", ".h"].map(|ending| format!("{base}{ending}")));
+        let number = self.core.load(name, names, at)?;
         self.variables.enter();
         self.stack.push(Activation::new(number, 0, 1, Reason::Program));
         Ok(Next::Jumped)
-    }
-
-    fn load(&mut self, name: &str, at: usize) -> Result<usize, Fault> {
-        let last = name.rsplit(['\\', '/', ':']).next().unwrap_or(name);
-        let mut why = "it has no name".to_owned();
-        for base in [name, last] {
-            for ending in ["", ".H", ".h"] {
-                let full = format!("{base}{ending}");
-                if full.is_empty() {
-                    continue;
-                }
-                match self.library.text(&full) {
-                    Ok(text) => {
-                        let control = self.programs[0].dialect().control;
-                        let file = self.library.display(&full);
-                        self.programs.push(Rc::new(Program::new(&file, text, control)));
-                        self.loaded.insert(name.to_owned(), self.programs.len() - 1);
-                        return Ok(self.programs.len() - 1);
-                    }
-                    Err(reason) => why = reason,
-                }
-            }
-        }
-        let message = format!("the program {name} is missing: {why}");
-        Err(fault("missing-subprogram", at, message, "put it where subprograms are found"))
     }
 
     /// SEL PGM; SEL TABLE and the like only choose what is not read here.
@@ -307,7 +243,7 @@ impl Run<'_> {
         }
         if c.accept_any(&["TABLE", "PATTERN", "CONTOUR", "CORR", "CYCLE"]).is_some() {
             c.leave();
-            self.not_applied("SEL of a table, pattern or contour", at);
+            self.core.left_out("SEL of a table, pattern or contour", at);
             return Ok(Next::Following);
         }
         Err(c.unknown())

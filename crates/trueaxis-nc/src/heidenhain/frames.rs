@@ -9,12 +9,12 @@ pub(super) enum Transformation {
     Shift(Position),
     /// Cycle 8, TRANS MIRROR: which axes.
     Mirror([bool; 3]),
-    /// Cycle 10, TRANS ROTATION: a turn matrix in the plane.
-    Rotation([[f64; 3]; 3]),
+    /// Cycle 10, TRANS ROTATION: a turn in the plane.
+    Rotation(Frame),
     /// Cycles 11 and 26, TRANS SCALE: factors and the point that stays.
     Scale([f64; 3], [f64; 3]),
     /// PLANE, cycle 19.
-    Tilt([[f64; 3]; 3]),
+    Tilt(Frame),
 }
 
 impl Transformation {
@@ -27,7 +27,7 @@ impl Transformation {
                     frame.linear[i][i] = if *mirrored { -1.0 } else { 1.0 };
                 }
             }
-            Self::Rotation(turn) | Self::Tilt(turn) => frame.linear = *turn,
+            Self::Rotation(turn) | Self::Tilt(turn) => frame = *turn,
             Self::Scale(factors, fixed) => {
                 for i in 0..3 {
                     frame.linear[i][i] = factors[i];
@@ -85,12 +85,11 @@ impl Frames {
         self.chain.iter().any(|t| matches!(t, Transformation::Tilt(_)))
     }
 
-    /// The matrix of the tilted plane.
-    pub fn tilt(&self) -> [[f64; 3]; 3] {
-        self.chain
-            .iter()
-            .find_map(|t| if let Transformation::Tilt(m) = t { Some(*m) } else { None })
-            .unwrap_or(Frame::IDENTITY.linear)
+    /// The turn of the tilted plane.
+    pub fn tilt(&self) -> Frame {
+        let tilt =
+            |t: &Transformation| if let Transformation::Tilt(m) = t { Some(*m) } else { None };
+        self.chain.iter().find_map(tilt).unwrap_or(Frame::IDENTITY)
     }
 
     /// The shift of cycle 7 that a new cycle 7 would change.
@@ -104,11 +103,11 @@ impl Frames {
 
     /// The turn of cycle 10 in the plane of the first two given axes, degrees.
     pub fn rotation_deg(&self, first: usize, second: usize) -> f64 {
-        self.found(&Transformation::Rotation([[0.0; 3]; 3]))
+        self.found(&Transformation::Rotation(Frame::IDENTITY))
             .and_then(
                 |i| if let Transformation::Rotation(m) = self.chain[i] { Some(m) } else { None },
             )
-            .map_or(0.0, |m| m[second][first].atan2(m[first][first]).to_degrees())
+            .map_or(0.0, |m| m.linear[second][first].atan2(m.linear[first][first]).to_degrees())
     }
 
     /// From where on transformations can be changed: those before the tilt belong to it.
@@ -183,43 +182,16 @@ impl Frames {
     }
 }
 
-/// A turn about one axis (0 is X), by the right-hand rule.
-pub(super) fn turn_about(axis: usize, angle_deg: f64) -> [[f64; 3]; 3] {
-    let (sin, cos) = match angle_deg.rem_euclid(360.0) {
-        // Right angles without the rounding of π.
-        0.0 => (0.0, 1.0),
-        90.0 => (1.0, 0.0),
-        180.0 => (0.0, -1.0),
-        270.0 => (-1.0, 0.0),
-        _ => angle_deg.to_radians().sin_cos(),
-    };
-    let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
-    let mut m = [[0.0; 3]; 3];
-    m[axis][axis] = 1.0;
-    (m[j][j], m[j][k], m[k][j], m[k][k]) = (cos, -sin, sin, cos);
-    m
-}
-
-/// The product of two matrices.
-pub(super) fn product(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
-    let mut out = [[0.0; 3]; 3];
-    for (row, left) in out.iter_mut().zip(a) {
-        for (j, entry) in row.iter_mut().enumerate() {
-            *entry = (0..3).map(|k| left[k] * b[k][j]).sum();
-        }
-    }
-    out
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::execution::frames::about;
 
     #[test]
     fn what_is_programmed_first_lies_outside() {
         let mut shift = Position::default();
         shift.0[0] = 10.0;
-        let turn = Transformation::Rotation(turn_about(2, 90.0));
+        let turn = Transformation::Rotation(about(2, 90.0));
         let mut frames = Frames::new(None);
         frames.set(Transformation::Shift(shift), false).unwrap();
         frames.set(turn.clone(), false).unwrap();
@@ -238,7 +210,7 @@ mod tests {
     fn the_axes_stay_when_frames_change() {
         let mut frames = Frames::new(None);
         frames.position.0[..3].copy_from_slice(&[3.0, 4.0, 5.0]);
-        frames.set(Transformation::Tilt(turn_about(0, 90.0)), false).unwrap();
+        frames.set(Transformation::Tilt(about(0, 90.0)), false).unwrap();
         // Rx(90)·p = (3, 4, 5): p = (3, 5, -4).
         assert_eq!(frames.position.0[..3], [3.0, 5.0, -4.0]);
     }

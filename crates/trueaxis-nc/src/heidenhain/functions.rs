@@ -2,10 +2,9 @@
 
 use super::words::{Called, Words};
 use super::{Run, fault};
-use crate::moves::{
-    Axis, Coolant, Event, Feed, FeedMode, Move, MoveKind, OrientationPath, Turning,
-};
-use crate::program::Fault;
+use crate::execution::frames::unit;
+use crate::moves::{Axis, Coolant, Event, Feed, FeedMode, MoveKind, OrientationPath, Turning};
+use crate::text::program::Fault;
 
 /// What an M function does.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -106,10 +105,7 @@ impl Run<'_> {
             let known = FUNCTIONS.iter().find(|(number, ..)| *number == called.number);
             let Some((_, at_end, effect)) = known else {
                 if !late {
-                    let message = format!("M{} is not known", called.number);
-                    let hint = "a function of the machine builder? its moves are missing";
-                    let subject = called.number.to_string();
-                    self.warn("unknown-m-code", &subject, called.at, &message, hint);
+                    self.core.unknown_m_code(f64::from(called.number), called.at);
                 }
                 continue;
             };
@@ -122,15 +118,15 @@ impl Run<'_> {
 
     fn effect(&mut self, effect: Effect, called: &Called, words: &Words) -> Result<bool, Fault> {
         match effect {
-            Effect::Stop(optional) => self.emit(Event::Stop { optional }),
+            Effect::Stop(optional) => self.core.emit(Event::Stop { optional }),
             Effect::End => {
-                self.emit(Event::End);
+                self.core.emit(Event::End);
                 return Ok(true);
             }
-            Effect::Spindle(turning) => self.spindle(turning),
+            Effect::Spindle(turning) => self.core.turn_spindle(turning),
             Effect::Coolant(coolant) => self.coolant(coolant),
             Effect::SpindleAndCoolant(turning) => {
-                self.spindle(turning);
+                self.core.turn_spindle(turning);
                 self.coolant(Coolant::Flood);
             }
             Effect::ReduceRotary => self.reduce_rotary(called),
@@ -139,52 +135,48 @@ impl Run<'_> {
             Effect::PerRevolution(on) => self.per_revolution(on, words),
             Effect::Retract => self.retract(called)?,
             Effect::CycleEverywhere => self.modes.cycle_everywhere = true,
-            Effect::Note(name) => self.emit(Event::Note(name)),
-            Effect::NotApplied(name) => self.not_applied(name, called.at),
+            Effect::Note(name) => self.core.emit(Event::Note(name)),
+            Effect::NotApplied(name) => self.core.left_out(name, called.at),
             Effect::WithBlock => {}
         }
         Ok(false)
     }
 
-    pub(super) fn spindle(&mut self, turning: Turning) {
-        self.modes.turning = turning;
-        self.emit(Event::Spindle(turning));
-    }
-
     fn coolant(&mut self, coolant: Coolant) {
         self.modes.coolant = coolant != Coolant::Off;
-        self.emit(Event::Coolant(coolant));
+        self.core.emit(Event::Coolant(coolant));
     }
 
     /// M128, FUNCTION TCPM, and their ends; TCPM also says how the tool turns.
     pub(super) fn tool_centre(&mut self, on: bool, path: Option<OrientationPath>) {
-        self.modes.tool_centre = on;
         self.tangent = None;
         if !on {
             self.modes.space_angles = false;
             self.direction = None;
         }
-        self.emit(Event::ToolCentre(on));
+        self.core.tool_centre(on);
         let path = path.unwrap_or(OrientationPath::Axes);
         if on && path != self.modes.orientation {
             self.modes.orientation = path;
-            self.emit(Event::Orientation(path));
+            self.core.emit(Event::Orientation(path));
         }
     }
 
     fn per_revolution(&mut self, on: bool, words: &Words) {
         self.modes.per_revolution = on;
         let mode = if on { FeedMode::PerRevolution } else { FeedMode::PerMinute };
-        if mode == self.modes.feed.mode {
+        if mode == self.core.modes.feed.mode {
             return;
         }
         // F of this block was read before M136 was known.
         let value = match (on, words.feed) {
-            (true, Some(super::words::FeedWord::PerMinute(f))) if self.modes.inches => f * 10.0,
+            (true, Some(super::words::FeedWord::PerMinute(f))) if self.core.modes.inches => {
+                f * 10.0
+            }
             (true, Some(super::words::FeedWord::PerMinute(f))) => f,
             _ => 0.0,
         };
-        self.modes.feed = Feed { mode, value };
+        self.core.modes.feed = Feed { mode, value };
     }
 
     /// M94: the display of rotary axes is brought below a full turn; nothing moves.
@@ -205,21 +197,21 @@ impl Run<'_> {
         let Some(length_mm) = called.value.filter(|v| v.is_finite()) else {
             let message = "M140 MB MAX goes to the end of the travel, which is not known here";
             let hint = "the retraction is missing; write MB with a length";
-            self.warn("not-applied", "M140", called.at, message, hint);
+            self.core.warn("not-applied", "M140", called.at, message, hint);
             return Ok(());
         };
         let rotary = self.frames.position.0[3..6].iter().any(|v| *v != 0.0);
         let along = match self.direction {
-            Some(direction) if self.modes.tool_centre => unit(direction).unwrap_or([0.0; 3]),
+            Some(direction) if self.core.modes.tool_centre => unit(direction).unwrap_or([0.0; 3]),
             _ if rotary && !self.frames.is_tilted() => {
                 let message = "M140 with turned axes: the tool axis is not known here";
                 let hint = "the retraction is missing";
-                self.warn("not-applied", "M140 turned", called.at, message, hint);
+                self.core.warn("not-applied", "M140 turned", called.at, message, hint);
                 return Ok(());
             }
             _ => {
                 let mut along = [0.0; 3];
-                along[self.modes.plane.axes()[2] as usize] = 1.0;
+                along[self.core.modes.plane.axes()[2] as usize] = 1.0;
                 along
             }
         };
@@ -229,25 +221,14 @@ impl Run<'_> {
         }
         let kind = if called.feed.is_some() { MoveKind::Linear } else { MoveKind::Rapid };
         let named = crate::moves::AxisSet::XYZ;
-        let mut step = Move::plain(kind, target, named, self.modes.feed, self.origin);
+        let mut step = self.core.plain_move(kind, target, named);
         if let Some(value) = called.feed {
             if value <= 0.0 {
                 return Err(fault("zero-feed", called.at, "a feed of zero", "write F100"));
             }
-            let scale = if self.modes.inches { 2.54 } else { 1.0 };
+            let scale = if self.core.modes.inches { 2.54 } else { 1.0 };
             step.feed = Feed { mode: FeedMode::PerMinute, value: value * scale };
         }
         self.emit_move(step, called.at)
     }
-}
-
-/// The vector with length one; `None` if it has no length.
-pub(super) fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
-    let largest = v.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    if largest == 0.0 || !largest.is_finite() {
-        return None;
-    }
-    let scaled = v.map(|x| x / largest);
-    let length = scaled.iter().map(|x| x * x).sum::<f64>().sqrt();
-    Some(scaled.map(|x| x / length))
 }

@@ -2,9 +2,10 @@
 
 use super::fault;
 use crate::dialect::Dialect;
-use crate::lexer::{Lexer, Token, TokenKind, number_value};
+use crate::execution::mistakes;
 use crate::moves::Axis;
-use crate::program::{Fault, is_trivia};
+use crate::text::lexer::{Lexer, Token, TokenKind, number_value};
+use crate::text::program::{Fault, is_trivia};
 
 /// Words of one block: more than any control takes, little for the memory.
 const MOST_TOKENS: usize = 10_000;
@@ -228,6 +229,11 @@ impl<'s> Cursor<'s> {
         found
     }
 
+    /// Takes the bracket that closes the one at `open`.
+    pub fn close(&mut self, open: usize) -> Result<(), Fault> {
+        if self.accept_symbol(b')') { Ok(()) } else { Err(mistakes::unclosed_bracket(open)) }
+    }
+
     pub fn is_number(&self) -> bool {
         self.token().is_some_and(|t| t.kind == TokenKind::Number)
     }
@@ -238,7 +244,7 @@ impl<'s> Cursor<'s> {
             return Ok(None);
         };
         let Some(value) = number_value(&self.source[token.start..token.end]) else {
-            let message = "this is not a number".to_owned();
+            let message = "this is not a number";
             return Err(fault("bad-number", token.start, message, "write digits, such as 1.5"));
         };
         self.advance();

@@ -1,16 +1,16 @@
 //! Path blocks: L, LP, LN, CC and what all of them have in common.
 
-use super::flow::Next;
-use super::functions::unit;
 use super::line::Cursor;
 use super::plane::spatial;
 use super::words::{FeedWord, Words};
 use super::{Run, fault};
+use crate::execution::Next;
+use crate::execution::frames::unit;
+use crate::execution::mistakes;
 use crate::moves::{
-    Axis, AxisSet, CompensationSide, Coordinates, Event, Feed, FeedMode, Move, MoveKind, Position,
-    Way,
+    Axis, AxisSet, CompensationSide, Coordinates, Event, Feed, FeedMode, MoveKind, Position, Way,
 };
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 impl Run<'_> {
     /// Executes a path block; `None` if the block is none.
@@ -56,7 +56,13 @@ impl Run<'_> {
                     return Err(fault("missing-value", words.at, message, "write RND R5 or CHF 2"));
                 }
                 let message = format!("{name} is not applied: the corner is kept");
-                self.warn("not-applied", name, words.at, &message, "the path has a sharp corner");
+                self.core.warn(
+                    "not-applied",
+                    name,
+                    words.at,
+                    &message,
+                    "the path has a sharp corner",
+                );
             }
             _ => return self.travel(kind, form, &words).map(Some),
         }
@@ -117,25 +123,20 @@ impl Run<'_> {
     fn end_compensation(&mut self) {
         if self.modes.side != CompensationSide::Off {
             self.modes.side = CompensationSide::Off;
-            self.emit(Event::Compensation(CompensationSide::Off));
+            self.core.emit(Event::Compensation(CompensationSide::Off));
         }
     }
 
     fn compensation(&mut self, words: &Words) {
         let Some(side) = words.side.filter(|s| *s != self.modes.side) else { return };
         self.modes.side = side;
-        self.emit(Event::Compensation(side));
-        if side != CompensationSide::Off {
-            let message = "radius compensation is noted, not applied";
-            let hint = "the moves are those of the program; let the CAM system compensate";
-            self.warn("compensation-not-applied", "", words.at, message, hint);
-        }
+        self.core.compensate(side, words.at);
     }
 
     /// Sets the feed; `true` if this block is rapid.
     pub(super) fn feed(&mut self, words: &Words) -> bool {
         let per_minute = FeedMode::PerMinute;
-        self.modes.feed = match words.feed {
+        self.core.modes.feed = match words.feed {
             None => return false,
             Some(FeedWord::Rapid) => return true,
             Some(FeedWord::OfTool) => Feed { mode: per_minute, value: self.modes.feed_of_tool },
@@ -143,19 +144,11 @@ impl Run<'_> {
             Some(FeedWord::PerRevolution(value)) => Feed { mode: FeedMode::PerRevolution, value },
             Some(FeedWord::PerTooth(value)) => {
                 let message = "FZ: the number of teeth is not known, one is taken";
-                self.warn("feed-per-tooth", "", words.at, message, "write FU or F instead");
+                self.core.warn("feed-per-tooth", "", words.at, message, "write FU or F instead");
                 Feed { mode: FeedMode::PerRevolution, value }
             }
         };
         false
-    }
-
-    pub(super) fn check_feed(&self, at: usize) -> Result<(), Fault> {
-        if self.modes.feed.value > 0.0 {
-            return Ok(());
-        }
-        let message = "a feed move without feed".to_owned();
-        Err(fault("zero-feed", at, message, "write F or FMAX in this block or F before it"))
     }
 
     fn line(&mut self, words: &Words, rapid: bool) -> Result<(), Fault> {
@@ -182,11 +175,11 @@ impl Run<'_> {
         mut direction: Option<[f64; 3]>,
     ) -> Result<(), Fault> {
         if !rapid {
-            self.check_feed(words.at)?;
+            self.core.modes.check_feed(words.at)?;
         }
         let mut named = words.named();
         if words.radius.or(words.angle).is_some() {
-            let [first, second, _] = self.modes.plane.axes();
+            let [first, second, _] = self.core.modes.plane.axes();
             named = named.with(first).with(second);
         }
         if words.calls(130) {
@@ -198,11 +191,11 @@ impl Run<'_> {
         if self.modes.space_angles && turns {
             let angles = rotary.map(|a| target[a]);
             let turn = spatial(angles[0], angles[1], angles[2]);
-            direction = Some([turn[0][2], turn[1][2], turn[2][2]]);
+            direction = Some(turn.linear.map(|row| row[2]));
             named.0 &= !0b11_1000;
         }
         let kind = if rapid { MoveKind::Rapid } else { MoveKind::Linear };
-        let mut step = Move::plain(kind, target, named, self.modes.feed, self.origin);
+        let mut step = self.core.plain_move(kind, target, named);
         step.direction = direction;
         for (i, axis) in rotary.into_iter().enumerate() {
             let increment = words.axes[axis as usize].is_some_and(|w| w.incremental);
@@ -224,7 +217,7 @@ impl Run<'_> {
     /// Where the axes stand in the machine, as long as neither tilt nor TCP is on.
     pub(super) fn machine_place(&self) -> Position {
         let mut machine = self.frames.frame().place(&self.frames.position);
-        machine[self.modes.plane.axes()[2]] += self.modes.tool_length_mm;
+        machine[self.core.modes.plane.axes()[2]] += self.modes.tool_length_mm;
         machine
     }
 
@@ -232,19 +225,19 @@ impl Run<'_> {
     fn machine_line(&mut self, words: &Words, rapid: bool) -> Result<(), Fault> {
         if words.calls(92) {
             let message = "M92 is read as M91: its datum is known to the machine only";
-            self.warn("not-applied", "M92", words.at, message, "check where the tool goes");
+            self.core.warn("not-applied", "M92", words.at, message, "check where the tool goes");
         }
         if !rapid {
-            self.check_feed(words.at)?;
+            self.core.modes.check_feed(words.at)?;
         }
         let machine = words.target(&self.machine_place());
         let named = words.named();
         let kind = if rapid { MoveKind::Rapid } else { MoveKind::Linear };
-        let mut step = Move::plain(kind, machine, named, self.modes.feed, self.origin);
+        let mut step = self.core.plain_move(kind, machine, named);
         step.coordinates = Coordinates::Machine;
         self.emit_move(step, words.at)?;
         let mut place = machine;
-        place[self.modes.plane.axes()[2]] -= self.modes.tool_length_mm;
+        place[self.core.modes.plane.axes()[2]] -= self.modes.tool_length_mm;
         if let Some(position) = self.frames.frame().inverse_place(&place) {
             self.frames.position = position;
         }
@@ -260,18 +253,23 @@ impl Run<'_> {
         let (normal, tool) = (vector(words.normal), vector(words.tool));
         for given in normal.iter().chain(&tool) {
             if unit(*given).is_none() {
-                let message = "the vector has no length".to_owned();
-                return Err(fault("zero-direction", words.at, message, "write all three parts"));
+                return Err(mistakes::zero_direction(words.at));
             }
         }
         if normal.is_some() {
             let message = "LN: the normal is noted, 3D compensation is not applied";
             let hint = "the moves are those of the program";
-            self.warn("not-applied", "LN normal", words.at, message, hint);
+            self.core.warn("not-applied", "LN normal", words.at, message, hint);
         }
-        if tool.is_some() && !self.modes.tool_centre {
+        if tool.is_some() && !self.core.modes.tool_centre {
             let message = "LN with a tool direction, but M128 or FUNCTION TCPM is not on";
-            self.warn("direction-without-tcp", "", words.at, message, "write FUNCTION TCPM before");
+            self.core.warn(
+                "direction-without-tcp",
+                "",
+                words.at,
+                message,
+                "write FUNCTION TCPM before",
+            );
         }
         let target = words.target(&self.frames.position);
         self.line_to(target, words, rapid, tool)
@@ -279,7 +277,7 @@ impl Run<'_> {
 
     /// CC: the centre of circles and polar coordinates; without words the present place.
     fn pole_statement(&mut self, words: &Words) -> Result<(), Fault> {
-        let [first, second, _] = self.modes.plane.axes();
+        let [first, second, _] = self.core.modes.plane.axes();
         words.only_axes(&[first, second])?;
         let now = self.frames.position;
         let old = self.pole.unwrap_or([now[first], now[second]]);
@@ -300,14 +298,13 @@ impl Run<'_> {
     /// The pole, which must be there.
     pub(super) fn pole(&self, at: usize) -> Result<[f64; 2], Fault> {
         self.pole.ok_or_else(|| {
-            let message = "the centre is missing".to_owned();
-            fault("missing-pole", at, message, "write CC before this block")
+            fault("missing-pole", at, "the centre is missing", "write CC before this block")
         })
     }
 
     /// Radius and angle of the present place about the pole.
     pub(super) fn polar_place(&self, pole: [f64; 2]) -> (f64, f64) {
-        let [first, second, _] = self.modes.plane.axes();
+        let [first, second, _] = self.core.modes.plane.axes();
         let now = self.frames.position;
         let (dx, dy) = (now[first] - pole[0], now[second] - pole[1]);
         (dx.hypot(dy), dy.atan2(dx).to_degrees())
@@ -319,7 +316,7 @@ impl Run<'_> {
         let (radius, angle) = self.polar_place(pole);
         let radius = words.radius.map_or(radius, |w| w.from(radius));
         let angle = words.angle.map_or(angle, |w| w.from(angle));
-        let [first, second, _] = self.modes.plane.axes();
+        let [first, second, _] = self.core.modes.plane.axes();
         let mut target = words.target(&self.frames.position);
         let (sin, cos) = angle.to_radians().sin_cos();
         target[first] = pole[0] + radius * cos;

@@ -1,48 +1,41 @@
 //! PLANE and cycle 19: the tilted working plane.
 
-use super::frames::{Transformation, product, turn_about};
-use super::functions::unit;
+use super::frames::Transformation;
 use super::line::Cursor;
 use super::variables::{Stored, Variable};
 use super::words::{FeedWord, split_address};
-use super::{Run, fault};
-use crate::moves::{Axis, Branch, Event, MoveKind};
-use crate::program::Fault;
+use super::{Language, Run, fault};
+use crate::execution::frames::{about, cross, dot, from_axes, minus, unit};
+use crate::moves::{Axis, Branch, Event, Frame, MoveKind};
+use crate::text::program::Fault;
 
-/// The matrix of space angles: R = Rz(SPC) · Ry(SPB) · Rx(SPA).
+/// The turn of space angles: R = Rz(SPC) · Ry(SPB) · Rx(SPA).
 ///
 /// The manuals say it in two ways that are the same matrix: "rotations around the fixed machine
 /// coordinate system, first around the A axis, then B, and then C" (iTNC 530, PLANE SPATIAL), where
 /// each later turn about a fixed axis stands further left; and the sequence C-B-A about the axes
 /// that turn along (TNC 620). A+90 C+180 puts the tool along +Y, so A−90 C0 of a table machine
 /// reaches it; the opposite order would give −Y.
-pub(super) fn spatial(a_deg: f64, b_deg: f64, c_deg: f64) -> [[f64; 3]; 3] {
-    let inner = product(&turn_about(1, b_deg), &turn_about(0, a_deg));
-    product(&turn_about(2, c_deg), &inner)
+pub(super) fn spatial(a_deg: f64, b_deg: f64, c_deg: f64) -> Frame {
+    about(2, c_deg).after(&about(1, b_deg).after(&about(0, a_deg)))
 }
 
 /// Euler angles about the axes that turn along: Rz(precession) · Rx(nutation) · Rz(rotation).
-fn euler(precession_deg: f64, nutation_deg: f64, rotation_deg: f64) -> [[f64; 3]; 3] {
-    let inner = product(&turn_about(0, nutation_deg), &turn_about(2, rotation_deg));
-    product(&turn_about(2, precession_deg), &inner)
+fn euler(precession_deg: f64, nutation_deg: f64, rotation_deg: f64) -> Frame {
+    about(2, precession_deg).after(&about(0, nutation_deg).after(&about(2, rotation_deg)))
 }
 
 /// The frame with Z along `normal` and X in the plane of `base` and Z.
-fn from_vectors(base: [f64; 3], normal: [f64; 3]) -> Option<[[f64; 3]; 3]> {
+fn from_vectors(base: [f64; 3], normal: [f64; 3]) -> Option<Frame> {
     let z = unit(normal)?;
     let base = unit(base)?;
-    let along: f64 = base.iter().zip(z).map(|(b, n)| b * n).sum();
+    let along = dot(base, z);
     let across: [f64; 3] = std::array::from_fn(|i| base[i] - along * z[i]);
     if across.iter().all(|v| v.abs() < 1e-9) {
         return None;
     }
     let x = unit(across)?;
-    let y = cross(z, x);
-    Some(std::array::from_fn(|i| [x[i], y[i], z[i]]))
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    Some(from_axes([x, cross(z, x), z], [0.0; 3]))
 }
 
 /// What the rotary axes do once the plane is tilted.
@@ -85,7 +78,7 @@ impl Run<'_> {
             3 => Some(self.points(c, at)?),
             4 | 5 => {
                 let [a, b, s] = self.named_values(c, ["SPA", "SPB", "SPC"])?;
-                Some(product(&self.frames.tilt(), &spatial(a, b, s)))
+                Some(self.frames.tilt().after(&spatial(a, b, s)))
             }
             6 => None,
             _ => {
@@ -117,7 +110,7 @@ impl Run<'_> {
     }
 
     /// P1 and P2 give the direction of X, P3 lies on the side of positive Y.
-    fn points(&mut self, c: &mut Cursor<'_>, at: usize) -> Result<[[f64; 3]; 3], Fault> {
+    fn points(&mut self, c: &mut Cursor<'_>, at: usize) -> Result<Frame, Fault> {
         let mut points = [[0.0; 3]; 3];
         while c.accept("P") {
             let number = c.whole()?.unwrap_or(0) as usize;
@@ -127,8 +120,8 @@ impl Run<'_> {
             };
             point[axis] = self.value(c)?;
         }
-        let along: [f64; 3] = std::array::from_fn(|i| points[1][i] - points[0][i]);
-        let across: [f64; 3] = std::array::from_fn(|i| points[2][i] - points[0][i]);
+        let along = minus(points[1], points[0]);
+        let across = minus(points[2], points[0]);
         from_vectors(along, cross(along, across)).ok_or_else(|| no_plane(at))
     }
 
@@ -151,16 +144,16 @@ impl Run<'_> {
                 if !c.accept("ROT") {
                     return Err(c.unknown());
                 }
-                self.emit(Event::Note("choice of TABLE ROT or COORD ROT"));
+                self.core.emit(Event::Note("choice of TABLE ROT or COORD ROT"));
             } else if c.accept_any(&["DIST", "ABST"]).is_some() {
                 if self.value(c)? != 0.0 {
-                    self.not_applied("DIST of PLANE", at);
+                    self.core.left_out("DIST of PLANE", at);
                 }
             } else if c.accept("MB") {
                 if !c.accept("MAX") {
                     self.value(c)?;
                 }
-                self.not_applied("MB (retraction before the turn) of PLANE", at);
+                self.core.left_out("MB (retraction before the turn) of PLANE", at);
             } else if c.accept_any(&["FMAX", "FAUTO"]).is_none() {
                 match split_address(c) {
                     Some("F") => {
@@ -174,25 +167,20 @@ impl Run<'_> {
     }
 
     /// Tilts the plane (`None` ends it), tells it, and lets the rotary axes follow.
-    fn tilt(
-        &mut self,
-        turn: Option<[[f64; 3]; 3]>,
-        behaviour: Behaviour,
-        at: usize,
-    ) -> Result<(), Fault> {
+    fn tilt(&mut self, turn: Option<Frame>, behaviour: Behaviour, at: usize) -> Result<(), Fault> {
         let set = match turn {
             Some(turn) => self.frames.set(Transformation::Tilt(turn), false),
             None => self.frames.untilt(),
         };
         set.ok_or_else(|| no_plane(at))?;
         self.tangent = None;
-        self.emit(Event::TiltedPlane(turn.is_some()));
+        self.core.emit(Event::TiltedPlane(turn.is_some()));
         self.emit_frame();
         let frame = self.frames.frame();
         let axis = frame.vector([0.0, 0.0, 1.0]);
         let now = frame.place(&self.frames.position);
         let angles = match unit(axis) {
-            Some(axis) => self.library.rotary_angles(axis, behaviour.branch, &now),
+            Some(axis) => self.core.library.rotary_angles(axis, behaviour.branch, &now),
             None => None,
         };
         let angles = if turn.is_none() { angles.or(Some([0.0; 3])) } else { angles };
@@ -228,7 +216,7 @@ impl Run<'_> {
 }
 
 fn no_plane(at: usize) -> Fault {
-    let message = "the vectors or points give no plane".to_owned();
+    let message = "the vectors or points give no plane";
     fault("zero-direction", at, message, "they must have a length and not lie on one line")
 }
 
@@ -239,7 +227,7 @@ mod tests {
     #[test]
     fn space_angles_turn_about_fixed_axes_in_the_order_a_b_c() {
         // Z turned by A+90 about X is -Y; by C+180 about the fixed Z it is +Y.
-        let m = spatial(90.0, 0.0, 180.0);
+        let m = spatial(90.0, 0.0, 180.0).linear;
         assert_eq!([m[0][2], m[1][2], m[2][2]], [0.0, 1.0, 0.0]);
         // X keeps to A, and C turns it over.
         assert_eq!([m[0][0], m[1][0], m[2][0]], [-1.0, 0.0, 0.0]);
@@ -248,14 +236,14 @@ mod tests {
     #[test]
     fn euler_angles_turn_about_axes_that_turn_along() {
         // Precession 90 puts X along Y; nutation 90 about it puts Z along X.
-        let m = euler(90.0, 90.0, 0.0);
+        let m = euler(90.0, 90.0, 0.0).linear;
         assert_eq!([m[0][2], m[1][2], m[2][2]], [1.0, 0.0, 0.0]);
     }
 
     #[test]
     fn a_base_vector_is_made_square_to_the_normal() {
         let m = from_vectors([1.0, 0.0, 5.0], [0.0, 0.0, 2.0]).unwrap();
-        assert_eq!(m, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+        assert_eq!(m.linear, Frame::IDENTITY.linear);
         assert!(from_vectors([0.0, 0.0, 1.0], [0.0, 0.0, 2.0]).is_none());
     }
 }

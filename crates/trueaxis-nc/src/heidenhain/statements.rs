@@ -1,12 +1,13 @@
 //! What a block begins with, and the statements that move nothing.
 
-use super::flow::Next;
 use super::line::Cursor;
 use super::variables::{Stored, Variable};
 use super::words::{Words, split_address};
 use super::{Run, fault};
+use crate::execution::values::{self, finite, not_zero};
+use crate::execution::{Next, mistakes};
 use crate::moves::{Axis, Event, MoveKind, OrientationPath};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 /// Functions of contours without dimensions: their path is not computed.
 const FREE_CONTOUR: [&str; 9] =
@@ -38,35 +39,24 @@ impl Run<'_> {
             return Ok(next);
         }
         let at = c.offset();
-        if c.accept("BEGIN") {
-            return self.begin(c);
-        }
-        if c.accept("END") {
-            if c.accept("PGM") {
+        match c.accept_any(&["BEGIN", "END", "LBL", "CALL", "SEL", "FN", "CYCL", "CYCLE", "STOP"]) {
+            Some(0) => return self.begin(c),
+            Some(1) if c.accept("PGM") => {
                 c.leave();
                 return self.end(at);
             }
-            return Err(c.unknown());
-        }
-        if c.accept("LBL") {
-            return self.label(c);
-        }
-        if c.accept("CALL") {
-            return self.call(c);
-        }
-        if c.accept("SEL") {
-            return self.select(c);
-        }
-        if c.accept("FN") {
-            return self.fn_statement(c);
-        }
-        if c.accept_any(&["CYCL", "CYCLE"]).is_some() {
-            return self.cycle_statement(c);
-        }
-        if c.accept("STOP") {
-            self.emit(Event::Stop { optional: false });
-            let words = self.words(c)?;
-            return self.block_without_move(&words);
+            Some(1) => return Err(c.unknown()),
+            Some(2) => return self.label(c),
+            Some(3) => return self.call(c),
+            Some(4) => return self.select(c),
+            Some(5) => return self.fn_statement(c),
+            Some(6 | 7) => return self.cycle_statement(c),
+            Some(_) => {
+                self.core.emit(Event::Stop { optional: false });
+                let words = self.words(c)?;
+                return self.block_without_move(&words);
+            }
+            None => {}
         }
         if c.accept("DECLARE") {
             c.accept("STRING");
@@ -82,33 +72,26 @@ impl Run<'_> {
     /// Statements that set something; an unknown one is an error.
     fn setting(&mut self, c: &mut Cursor<'_>) -> Result<(), Fault> {
         let at = c.offset();
-        if c.accept("TOOL") {
-            return self.tool_statement(c);
-        }
-        if c.accept("BLK") {
-            return self.blank_form(c);
-        }
-        if c.accept("PLANE") {
-            return self.plane(c);
-        }
-        if c.accept("TRANS") {
-            return self.transformation(c);
-        }
-        if c.accept("FUNCTION") {
-            return self.control_function(c);
+        match c.accept_any(&["TOOL", "BLK", "PLANE", "TRANS", "FUNCTION"]) {
+            Some(0) => return self.tool_statement(c),
+            Some(1) => return self.blank_form(c),
+            Some(2) => return self.plane(c),
+            Some(3) => return self.transformation(c),
+            Some(_) => return self.control_function(c),
+            None => {}
         }
         if c.accept_any(&FREE_CONTOUR).is_some() {
-            let message = "free contour programming and splines are not interpreted".to_owned();
+            let message = "free contour programming and splines are not interpreted";
             return Err(fault("not-interpreted", at, message, "write L, C, CR or CT blocks"));
         }
         if c.accept_any(&["ELSE", "FOR", "WHILE", "IF"]).is_some() {
-            let message = "structured control statements are not interpreted".to_owned();
+            let message = "structured control statements are not interpreted";
             return Err(fault("not-interpreted", at, message, "write FN 9 to FN 12 with labels"));
         }
         if NOTED.iter().any(|word| c.is(word)) {
             let name = c.shown().to_ascii_uppercase();
             c.leave();
-            self.not_applied(&name, at);
+            self.core.left_out(&name, at);
             return Ok(());
         }
         Err(c.unknown())
@@ -127,12 +110,11 @@ impl Run<'_> {
             9..=12 => self.branch(c),
             14 => {
                 let shown = c.rest();
-                let message = format!("the program ends itself: FN 14 {shown}");
-                Err(fault("program-error", at, message, "see the condition before it"))
+                Err(mistakes::alarm(&shown, at))
             }
             15 | 16 => {
                 let text = c.rest();
-                self.emit(Event::Log(text));
+                self.core.emit(Event::Log(text));
                 Ok(Next::Following)
             }
             18 => {
@@ -150,7 +132,7 @@ impl Run<'_> {
             }
             17 | 19 | 20 | 26 | 27 | 29 | 32 | 37 | 38 => {
                 c.leave();
-                self.not_applied(&format!("FN {number}"), at);
+                self.core.left_out(&format!("FN {number}"), at);
                 Ok(Next::Following)
             }
             _ => {
@@ -165,8 +147,7 @@ impl Run<'_> {
         let at = c.offset();
         let Some(target) = self.variable(c)? else { return Err(super::values::missing(c)) };
         if number == 0 && matches!(target, Variable::Text(_)) || !c.accept_symbol(b'=') {
-            let message = "a parameter is followed by =".to_owned();
-            return Err(fault("missing-equals", c.offset(), message, "write FN 0: Q1 = 5"));
+            return Err(mistakes::missing_equals("a parameter", "write FN 0: Q1 = 5", c.offset()));
         }
         if c.accept("SET") && c.accept("UNDEFINED") {
             self.undefine(target);
@@ -190,30 +171,16 @@ impl Run<'_> {
             1 => a + second(self, b'+', "")?,
             2 => a - second(self, b'-', "")?,
             3 => a * second(self, b'*', "")?,
-            4 => {
-                let divisor = second(self, 0, "DIV")?;
-                if divisor == 0.0 {
-                    let message = "division by zero".to_owned();
-                    return Err(fault("division-by-zero", at, message, "check the divisor"));
-                }
-                a / divisor
+            4 => a / not_zero(second(self, 0, "DIV")?, at)?,
+            5..=7 => {
+                let name = ["SQRT", "SIN", "COS"][number as usize - 5];
+                values::function(name, a, at)?.unwrap_or(a)
             }
-            5 if a < 0.0 => {
-                let message = format!("SQRT of {a} has no value");
-                return Err(fault("out-of-domain", at, message, "check the argument"));
-            }
-            5 => a.sqrt(),
-            6 => a.to_radians().sin(),
-            7 => a.to_radians().cos(),
             8 => a.hypot(second(self, 0, "LEN")?),
             13 => a.atan2(second(self, 0, "ANG")?).to_degrees().rem_euclid(360.0),
             _ => a,
         };
-        if !value.is_finite() {
-            let message = "the result is not finite".to_owned();
-            return Err(fault("not-finite", at, message, "check its numbers"));
-        }
-        self.variables.store(target, Stored::Number(value));
+        self.variables.store(target, Stored::Number(finite(value, at)?));
         Ok(())
     }
 
@@ -235,7 +202,7 @@ impl Run<'_> {
         let axis = Axis::ALL.get((detail[1] as usize).wrapping_sub(1)).copied();
         let place = match (id as u32, detail[0] as u32) {
             (220, 2) => Some(self.frames.shift()),
-            (240, 1) if !self.modes.tool_centre && !self.frames.is_tilted() => {
+            (240, 1) if !self.core.modes.tool_centre && !self.frames.is_tilted() => {
                 Some(self.machine_place())
             }
             (270, 1) => Some(self.frames.position),
@@ -243,7 +210,7 @@ impl Run<'_> {
         };
         let stored = match place.zip(axis) {
             Some((place, axis)) => {
-                let scale = if axis.is_rotary() { 1.0 } else { self.unit_mm() };
+                let scale = if axis.is_rotary() { 1.0 } else { self.core.modes.unit_mm() };
                 Stored::Number(place[axis] / scale)
             }
             None => Stored::Unknown("FN 18 asks the machine for it"),
@@ -260,7 +227,7 @@ impl Run<'_> {
                 self.tool_centre(false, None);
             } else {
                 let name = format!("FUNCTION RESET {}", c.rest());
-                self.not_applied(&name, at);
+                self.core.left_out(&name, at);
             }
             return Ok(());
         }
@@ -273,11 +240,11 @@ impl Run<'_> {
         }
         if c.accept("MODE") && c.accept("MILL") {
             c.leave();
-            self.emit(Event::Note("FUNCTION MODE MILL"));
+            self.core.emit(Event::Note("FUNCTION MODE MILL"));
             return Ok(());
         }
         let name = format!("FUNCTION {}", c.rest());
-        self.not_applied(&name, at);
+        self.core.left_out(&name, at);
         Ok(())
     }
 
@@ -304,7 +271,7 @@ impl Run<'_> {
                 c.take_letters(6);
                 c.accept_symbol(b'-');
                 if !tip && !centre || c.accept_any(&["TIP", "CENTER"]) != Some(0) {
-                    self.not_applied("REFPNT CENTER-CENTER", at);
+                    self.core.left_out("REFPNT CENTER-CENTER", at);
                     c.leave();
                 }
             } else if split_address(c) == Some("F") {
@@ -323,8 +290,7 @@ impl Run<'_> {
 
     pub(super) fn dwell(&mut self, seconds: f64, at: usize) -> Result<(), Fault> {
         if !(0.0..1e6).contains(&seconds) {
-            let message = format!("{seconds} s is not a time to wait");
-            return Err(fault("bad-dwell", at, message, "write the time in seconds"));
+            return Err(mistakes::bad_dwell(at));
         }
         self.step(MoveKind::Dwell { seconds }, self.frames.position, at)
     }

@@ -3,8 +3,9 @@
 use super::line::Cursor;
 use super::words::split_address;
 use super::{Run, fault};
+use crate::execution::mistakes;
 use crate::moves::{Axis, Event, Plane, Position};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 impl Run<'_> {
     pub(super) fn tool_statement(&mut self, c: &mut Cursor<'_>) -> Result<(), Fault> {
@@ -24,22 +25,25 @@ impl Run<'_> {
             None => None,
         };
         if let Some(name) = name {
-            let number = self.settings.tool_names.get(&name).copied();
+            let number = self.core.settings.tool_names.get(&name).copied();
             if number.is_none() {
                 let message = format!("the tool `{name}` is not known: number 0 is taken");
-                self.warn("unknown-tool-name", &name, at, &message, "give a tool table with names");
+                self.core.warn(
+                    "unknown-tool-name",
+                    &name,
+                    at,
+                    &message,
+                    "give a tool table with names",
+                );
             }
-            self.emit(Event::ToolName(name));
+            self.core.emit(Event::ToolName(name));
             return Ok(Some(number.unwrap_or(0)));
         }
         match self.operand(c)? {
             None => Ok(None),
             // 5.2 is the second edge of tool 5.
             Some(n) if (0.0..1e9).contains(&n) => Ok(Some(n as u32)),
-            Some(n) => {
-                let message = format!("{n} is not the number of a tool");
-                Err(fault("bad-tool", at, message, "write TOOL CALL 1 Z S1000"))
-            }
+            Some(n) => Err(mistakes::bad_tool(n, at)),
         }
     }
 
@@ -57,10 +61,10 @@ impl Run<'_> {
             match split_address(c) {
                 Some("S") => speed = Some(self.value(c)?),
                 Some("F") => feed = Some(self.feed_word(c, Some("F"))?),
-                Some("DL") => excess[0] = self.value(c)? * self.unit_mm(),
+                Some("DL") => excess[0] = self.value(c)? * self.core.modes.unit_mm(),
                 Some("DR") => {
                     let corner = c.is_number() && c.whole()?.is_some();
-                    let value = self.value(c)? * self.unit_mm();
+                    let value = self.value(c)? * self.core.modes.unit_mm();
                     if !corner {
                         excess[1] = value;
                     }
@@ -75,12 +79,10 @@ impl Run<'_> {
         if let Some(number) = number {
             self.change_tool(number, excess, at, axis_given)?;
         }
-        if let Some(speed) = speed {
-            self.emit(Event::SpindleSpeed(speed));
-        }
+        self.core.set_speed(speed);
         if let Some(super::words::FeedWord::PerMinute(value)) = feed {
             self.modes.feed_of_tool = value;
-            self.modes.feed.value = value;
+            self.core.modes.feed.value = value;
         }
         if !c.done() {
             let words = self.words(c)?;
@@ -98,10 +100,9 @@ impl Run<'_> {
             _ => Plane::Xy,
         };
         self.modes.tool_axis = Some(axis);
-        if plane != self.modes.plane {
-            self.modes.plane = plane;
+        if plane != self.core.modes.plane {
             self.pole = None;
-            self.emit(Event::Plane(plane));
+            self.core.select_plane(plane);
         }
     }
 
@@ -113,27 +114,25 @@ impl Run<'_> {
         with_axis: bool,
     ) -> Result<(), Fault> {
         if self.modes.tool_axis.is_none() && number != 0 && !with_axis {
-            self.modes.tool_axis = Some(self.modes.plane.axes()[2]);
+            self.modes.tool_axis = Some(self.core.modes.plane.axes()[2]);
         }
         let entry = self.tools.get(&number).copied();
         if entry.is_none() && number != 0 {
-            let message = format!("the length of tool {number} is not known: 0 is taken");
-            let hint = "give a tool table, or write TOOL DEF with L and R";
-            self.warn("unknown-tool-length", &number.to_string(), at, &message, hint);
+            self.core.unknown_length(number, at);
         }
         let (length, radius) = entry.unwrap_or((0.0, None));
-        self.modes.tool = number;
+        self.core.modes.tool = number;
         self.modes.tool_radius_mm = radius.map(|r| r + excess[1]);
         let length_mm = if number == 0 { 0.0 } else { length + excess[0] };
         // The axes stay where they are, so a longer tool stands lower in the program.
-        let along = self.modes.plane.axes()[2];
+        let along = self.core.modes.plane.axes()[2];
         self.frames.position[along] += self.modes.tool_length_mm - length_mm;
         self.modes.tool_length_mm = length_mm;
         self.tangent = None;
-        self.emit(Event::ToolChange(number));
+        self.core.emit(Event::ToolChange(number));
         let mut length = Position::default();
         length[along] = length_mm;
-        self.emit(Event::ToolLength(length));
+        self.core.emit(Event::ToolLength(length));
         Ok(())
     }
 
@@ -141,18 +140,18 @@ impl Run<'_> {
     fn tool_definition(&mut self, c: &mut Cursor<'_>) -> Result<(), Fault> {
         let at = c.offset();
         let Some(number) = self.tool_number(c)? else {
-            let message = "the number of the tool is missing".to_owned();
+            let message = "the number of the tool is missing";
             return Err(fault("bad-tool", at, message, "write TOOL DEF 1 L+0 R+5"));
         };
         if c.done() {
-            self.emit(Event::ToolSelect(number));
+            self.core.emit(Event::ToolSelect(number));
             return Ok(());
         }
         let (mut length, mut radius) = (0.0, None);
         while !c.done() {
             match split_address(c) {
-                Some("L") => length = self.value(c)? * self.unit_mm(),
-                Some("R") => radius = Some(self.value(c)? * self.unit_mm()),
+                Some("L") => length = self.value(c)? * self.core.modes.unit_mm(),
+                Some("R") => radius = Some(self.value(c)? * self.core.modes.unit_mm()),
                 _ => return Err(c.unknown()),
             }
         }
@@ -172,7 +171,7 @@ impl Run<'_> {
             _ => {
                 let name = c.shown().to_ascii_uppercase();
                 c.leave();
-                self.not_applied(&format!("BLK FORM {name}"), at);
+                self.core.left_out(&format!("BLK FORM {name}"), at);
                 return Ok(());
             }
         };
@@ -199,16 +198,22 @@ impl Run<'_> {
         }
         if self.blank.is_none() {
             let message = "BLK FORM 0.2 without 0.1: the other corner is taken as zero";
-            self.warn("blank-without-corner", "blank", at, message, "write BLK FORM 0.1 before it");
+            self.core.warn(
+                "blank-without-corner",
+                "blank",
+                at,
+                message,
+                "write BLK FORM 0.1 before it",
+            );
         }
         self.blank = None;
         if !place.iter().chain(&first).all(|v| v.abs() < 1e9) {
-            let message = "a corner of the blank is too far away".to_owned();
+            let message = "a corner of the blank is too far away";
             return Err(fault("too-large", at, message, "check the numbers of the block"));
         }
         let min_mm = std::array::from_fn(|i| first[i].min(place[i]));
         let max_mm = std::array::from_fn(|i| first[i].max(place[i]));
-        self.emit(Event::Stock { min_mm, max_mm });
+        self.core.emit(Event::Stock { min_mm, max_mm });
         Ok(())
     }
 }

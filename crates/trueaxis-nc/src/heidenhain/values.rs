@@ -3,8 +3,10 @@
 use super::line::Cursor;
 use super::variables::{Stored, Variable};
 use super::{Run, fault};
+use crate::execution::mistakes;
+use crate::execution::values::{self, finite, not_zero};
 use crate::moves::Event;
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 /// Brackets and functions within each other: enough for people, little for the stack.
 const DEEPEST: usize = 60;
@@ -30,9 +32,9 @@ impl Run<'_> {
             None => match self.variable(c)? {
                 Some(variable) => {
                     let read = self.read(variable, at)?;
-                    if self.settings.tell_blocks {
+                    if self.core.settings.tell_blocks {
                         let value = Some(if negative { -read } else { read });
-                        self.emit(Event::Computed { text: at..c.offset(), value });
+                        self.core.emit(Event::Computed { text: at..c.offset(), value });
                     }
                     Some(read)
                 }
@@ -55,8 +57,7 @@ impl Run<'_> {
     pub(super) fn assign(&mut self, target: Variable, c: &mut Cursor<'_>) -> Result<(), Fault> {
         let at = c.offset();
         if !c.accept_symbol(b'=') {
-            let message = "a parameter is followed by =".to_owned();
-            return Err(fault("missing-equals", at, message, "write Q1 = 5"));
+            return Err(mistakes::missing_equals("a parameter", "write Q1 = 5", at));
         }
         if let Variable::Text(number) = target {
             let text = self.text(c)?;
@@ -78,18 +79,13 @@ impl Run<'_> {
     pub(super) fn formula(&mut self, c: &mut Cursor<'_>) -> Result<f64, Fault> {
         let at = c.offset();
         let value = self.sum(c)?;
-        if value.is_finite() {
-            return Ok(value);
-        }
-        let message = "the formula has no finite value".to_owned();
-        Err(fault("not-finite", at, message, "check its numbers"))
+        finite(value, at)
     }
 
     fn sum(&mut self, c: &mut Cursor<'_>) -> Result<f64, Fault> {
         c.depth += 1;
         if c.depth > DEEPEST {
-            let message = format!("more than {DEEPEST} brackets and functions within each other");
-            return Err(fault("too-deep", c.offset(), message, "use parameters in between"));
+            return Err(mistakes::too_deep(c.offset()));
         }
         let mut left = self.product(c)?;
         loop {
@@ -133,7 +129,7 @@ impl Run<'_> {
             let exponent = sign * self.primary(c)?;
             value = value.powf(exponent);
             if value.is_nan() {
-                let message = "this power has no real value".to_owned();
+                let message = "this power has no real value";
                 return Err(fault("out-of-domain", at, message, "check base and exponent"));
             }
         }
@@ -147,10 +143,7 @@ impl Run<'_> {
         }
         if c.accept_symbol(b'(') {
             let value = self.sum(c)?;
-            if !c.accept_symbol(b')') {
-                let message = "a bracket is not closed".to_owned();
-                return Err(fault("unbalanced-brackets", at, message, "one ) for each ("));
-            }
+            c.close(at)?;
             return Ok(value);
         }
         if let Some(variable) = self.variable(c)? {
@@ -162,8 +155,7 @@ impl Run<'_> {
         if let Some(index) = c.accept_any(&FUNCTIONS) {
             c.depth += 1;
             if c.depth > DEEPEST {
-                let message = "too many functions within each other".to_owned();
-                return Err(fault("too-deep", at, message, "use parameters in between"));
+                return Err(mistakes::too_deep(at));
             }
             let negative = c.accept_symbol(b'-');
             let _ = !negative && c.accept_symbol(b'+');
@@ -196,8 +188,7 @@ impl Run<'_> {
             }
         };
         if !open || !c.accept_symbol(b')') {
-            let message = "a bracket is not closed".to_owned();
-            return Err(fault("unbalanced-brackets", at, message, "one ) for each ("));
+            return Err(mistakes::unclosed_bracket(at));
         }
         value.ok_or_else(|| {
             let message = format!("the text `{first}` is not a number");
@@ -243,14 +234,11 @@ impl Run<'_> {
         if let Some(kind) = c.accept_any(&["TOCHAR", "SUBSTR"]) {
             c.accept_symbol(b'(');
             let text = if kind == 0 { self.number_as_text(c)? } else { self.part_of_text(c)? };
-            if !c.accept_symbol(b')') {
-                let message = "a bracket is not closed".to_owned();
-                return Err(fault("unbalanced-brackets", at, message, "one ) for each ("));
-            }
+            c.close(at)?;
             return Ok(text);
         }
         if c.accept_any(&["SYSSTR", "CFGREAD", "FGREAD"]).is_some() {
-            let message = "this text is known to the machine only".to_owned();
+            let message = "this text is known to the machine only";
             return Err(fault("unknown-value", at, message, "write the text into the program"));
         }
         let message = "a text is missing".to_owned();
@@ -275,39 +263,20 @@ impl Run<'_> {
     }
 }
 
-fn not_zero(value: f64, at: usize) -> Result<f64, Fault> {
-    if value != 0.0 {
-        return Ok(value);
-    }
-    Err(fault("division-by-zero", at, "division by zero", "check the divisor"))
-}
-
 fn function(index: usize, x: f64, at: usize) -> Result<f64, Fault> {
-    let value = match FUNCTIONS[index] {
-        "SIN" => x.to_radians().sin(),
-        "COS" => x.to_radians().cos(),
-        "TAN" => x.to_radians().tan(),
-        "ASIN" => x.asin().to_degrees(),
-        "ACOS" => x.acos().to_degrees(),
+    let name = FUNCTIONS[index];
+    let value = match name {
         "ATAN" => x.atan().to_degrees(),
-        "SQRT" => x.sqrt(),
         "SQ" => x * x,
-        "ABS" => x.abs(),
         "INT" => x.trunc(),
         "FRAC" => x.fract(),
         "NEG" => -x,
-        "LN" if x > 0.0 => x.ln(),
         "LOG" if x > 0.0 => x.log10(),
-        "EXP" => x.exp(),
         "SGN" if x == 0.0 => 0.0,
         "SGN" => x.signum(),
-        _ => f64::NAN,
+        _ => values::function(name, x, at)?.unwrap_or(f64::NAN),
     };
-    if value.is_finite() {
-        return Ok(value);
-    }
-    let message = format!("{} of {x} has no value", FUNCTIONS[index]);
-    Err(fault("out-of-domain", at, message, "check the argument"))
+    if value.is_finite() { Ok(value) } else { Err(values::out_of_domain(name, x, at)) }
 }
 
 pub(super) fn missing(c: &Cursor<'_>) -> Fault {

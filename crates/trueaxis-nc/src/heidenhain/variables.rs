@@ -4,8 +4,9 @@ use std::collections::HashMap;
 
 use super::line::Cursor;
 use super::{Run, fault};
+use crate::execution::mistakes;
 use crate::moves::{Axis, Turning};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 /// Characters of a text parameter.
 const LONGEST_TEXT: usize = 255;
@@ -60,8 +61,7 @@ impl Variables {
 
     pub fn store_text(&mut self, number: u32, mut text: String, at: usize) -> Result<(), Fault> {
         if text.chars().count() > LONGEST_TEXT {
-            let message = format!("the text has more than {LONGEST_TEXT} characters");
-            return Err(fault("text-too-long", at, message, "shorten it"));
+            return Err(mistakes::text_too_long(LONGEST_TEXT, at));
         }
         text.shrink_to_fit();
         self.texts.insert(number, text);
@@ -75,14 +75,13 @@ impl Run<'_> {
         let at = c.offset();
         let Some(kind) = c.accept_any(&["Q", "QL", "QR", "QS"]) else { return Ok(None) };
         let Some(number) = c.whole()? else {
-            let message = "the number of the parameter is missing".to_owned();
+            let message = "the number of the parameter is missing";
             return Err(fault("missing-value", c.offset(), message, "write Q1"));
         };
         let most = if matches!(kind, 1 | 2) { 499 } else { 1999 };
         if number > most {
-            let message = format!("there is no parameter {number} of this kind");
             let hint = "Q0 to Q1999, QS0 to QS1999, QL0 to QL499, QR0 to QR499";
-            return Err(fault("parameter-out-of-range", at, message, hint));
+            return Err(mistakes::no_parameter(number, hint, at));
         }
         Ok(Some(match kind {
             0 => Variable::Global(number),
@@ -125,24 +124,22 @@ impl Run<'_> {
     }
 
     pub(super) fn read_text(&self, number: u32, at: usize) -> Result<String, Fault> {
-        self.variables.texts.get(&number).cloned().ok_or_else(|| {
-            let message = format!("QS{number} has no text yet");
-            fault("undefined-parameter", at, message, "assign it before it is used")
-        })
+        self.variables
+            .texts
+            .get(&number)
+            .cloned()
+            .ok_or_else(|| mistakes::no_value_yet(format_args!("QS{number}"), at))
     }
 
     /// Q108 to Q122, as far as they follow from the program.
     fn assigned_by_control(&mut self, variable: Variable, at: usize) -> Result<f64, Fault> {
-        let undefined = || {
-            let message = format!("{} has no value yet", show(variable));
-            fault("undefined-parameter", at, message, "assign it before it is used")
-        };
+        let undefined = || mistakes::no_value_yet(show(variable), at);
         let Variable::Global(number) = variable else { return Err(undefined()) };
         let length = |mm: f64, inches: bool| if inches { mm / 25.4 } else { mm };
-        let inches = self.modes.inches;
+        let inches = self.core.modes.inches;
         match number {
             108 => self.modes.tool_radius_mm.map(|r| length(r, inches)).ok_or_else(|| {
-                let message = "Q108: the radius of the tool is not known".to_owned();
+                let message = "Q108: the radius of the tool is not known";
                 fault("unknown-value", at, message, "write TOOL DEF with R before TOOL CALL")
             }),
             109 => Ok(match self.modes.tool_axis {
@@ -152,7 +149,7 @@ impl Run<'_> {
                 Some(Axis::W) => 8.0,
                 Some(axis) => f64::from(axis as u8),
             }),
-            110 => Ok(match self.modes.turning {
+            110 => Ok(match self.core.modes.turning {
                 Turning::Stopped => -1.0,
                 Turning::Clockwise => 0.0,
                 Turning::CounterClockwise => 1.0,

@@ -2,8 +2,9 @@
 
 use super::line::Cursor;
 use super::{Run, fault};
+use crate::execution::mistakes;
 use crate::moves::{Axis, AxisSet, CompensationSide, Position};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 /// Addresses that may touch what follows, as in `FQ1` or `Xnan`; longer ones first.
 const ADDRESSES: [&str; 38] = [
@@ -86,7 +87,7 @@ impl Words {
         if !foreign && *self == axes {
             return Ok(());
         }
-        let message = "a word of this block has no use in it".to_owned();
+        let message = "a word of this block has no use in it";
         Err(fault("unused-word", self.at, message, "only axis words stand here"))
     }
 
@@ -96,7 +97,7 @@ impl Words {
         if *self == (Self { functions, at: self.at, ..Self::default() }) {
             return Ok(());
         }
-        let message = "a word of this block has no use in it".to_owned();
+        let message = "a word of this block has no use in it";
         Err(fault("unused-word", self.at, message, "only M functions stand here"))
     }
 
@@ -160,7 +161,7 @@ impl Run<'_> {
         let at = c.offset();
         if let Some(axis) = c.axis_letter() {
             let value = self.value(c)?;
-            let value = if axis.is_rotary() { value } else { value * self.unit_mm() };
+            let value = if axis.is_rotary() { value } else { value * self.core.modes.unit_mm() };
             let new = Coordinate { value, incremental: false };
             return match words.axes[axis as usize].replace(new) {
                 Some(_) => Err(repeated(axis, at)),
@@ -204,7 +205,7 @@ impl Run<'_> {
         words: &mut Words,
     ) -> Result<bool, Fault> {
         let value = self.value(c)?;
-        let mm = value * self.unit_mm();
+        let mm = value * self.core.modes.unit_mm();
         let place = match name {
             "LEN" => return Ok(words.length.replace(mm).is_some()),
             "CCA" => return Ok(words.sweep.replace(value).is_some()),
@@ -252,7 +253,7 @@ impl Run<'_> {
         if value == 0.0 && sign.is_none() {
             words.side = Some(CompensationSide::Off);
         } else {
-            words.arc_radius = Some(value * self.unit_mm());
+            words.arc_radius = Some(value * self.core.modes.unit_mm());
         }
         Ok(())
     }
@@ -274,13 +275,15 @@ impl Run<'_> {
         let at = c.offset();
         let value = self.value(c)?;
         if value < 0.0 {
-            return Err(fault("negative-feed", at, "a feed is not negative", "write F100"));
+            return Err(mistakes::negative_feed(value, at));
         }
         Ok(match address {
-            Some("FU") => FeedWord::PerRevolution(value * self.unit_mm()),
-            Some("FZ") => FeedWord::PerTooth(value * self.unit_mm()),
-            _ if self.modes.per_revolution => FeedWord::PerRevolution(value * self.unit_mm()),
-            _ => FeedWord::PerMinute(value * if self.modes.inches { 2.54 } else { 1.0 }),
+            Some("FU") => FeedWord::PerRevolution(value * self.core.modes.unit_mm()),
+            Some("FZ") => FeedWord::PerTooth(value * self.core.modes.unit_mm()),
+            _ if self.modes.per_revolution => {
+                FeedWord::PerRevolution(value * self.core.modes.unit_mm())
+            }
+            _ => FeedWord::PerMinute(value * if self.core.modes.inches { 2.54 } else { 1.0 }),
         })
     }
 
@@ -289,7 +292,7 @@ impl Run<'_> {
         let number = match self.operand(c)? {
             Some(n) if (0.0..1e6).contains(&n) && n.fract() == 0.0 => n as u32,
             _ => {
-                let message = "the number of the M function is missing".to_owned();
+                let message = "the number of the M function is missing";
                 return Err(fault("missing-value", at, message, "write M3"));
             }
         };
@@ -320,7 +323,7 @@ impl Run<'_> {
                     if c.accept("MAX") {
                         called.value = Some(f64::INFINITY);
                     } else {
-                        called.value = Some(self.value(c)? * self.unit_mm());
+                        called.value = Some(self.value(c)? * self.core.modes.unit_mm());
                     }
                 }
                 if c.is("F") || c.is("FQ") {
@@ -342,12 +345,11 @@ fn direction_sign(c: &mut Cursor<'_>) -> Result<bool, Fault> {
     if c.accept_symbol(b'-') {
         return Ok(false);
     }
-    let message = "the sign of DR is missing".to_owned();
-    Err(fault("missing-direction", c.offset(), message, "write DR+ or DR-"))
+    Err(fault("missing-direction", c.offset(), "the sign of DR is missing", "write DR+ or DR-"))
 }
 
 fn repeated(name: impl std::fmt::Display, at: usize) -> Fault {
-    fault("repeated-word", at, format!("{name} stands twice in the block"), "write it once")
+    mistakes::repeated_word(name, at)
 }
 
 fn unexpected(name: &str, c: &Cursor<'_>) -> Fault {

@@ -3,9 +3,11 @@
 use super::tables::{Motion, Name};
 use super::words::{Mode, Words};
 use super::{Run, fault};
-use crate::interpreter::by_radius;
+use crate::execution::arcs::{self, end_tangent};
+use crate::execution::frames::{cross, dot, minus, xyz};
+use crate::execution::mistakes;
 use crate::moves::{Arc, MoveKind, Position, SpatialArc};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 /// How far the radii at both ends may differ: machine data 21000 and 21010 as delivered.
 const GAP_MM: f64 = 0.01;
@@ -28,7 +30,7 @@ impl Run<'_> {
                 let ccw = motion == Motion::Arc { ccw: true };
                 let (target, arc) = self.plane_arc(words, target, ccw, at)?;
                 let arc = Arc { turns, ..arc };
-                let tangent = arc_tangent(&arc, &target);
+                let tangent = end_tangent(&arc, &target);
                 self.modes.tangent = Some(tangent);
                 self.send_move(MoveKind::Arc(arc), target, direction, words);
                 return Ok(());
@@ -46,10 +48,7 @@ impl Run<'_> {
             Some((turn, ..)) if (0.0..1e6).contains(&turn) && turn.fract() == 0.0 => {
                 Ok(turn as u32 + 1)
             }
-            Some((turn, _, at)) => {
-                let message = format!("TURN={turn} is not a number of turns");
-                Err(fault("bad-turns", at, message, "write a whole number from 0 on"))
-            }
+            Some((turn, _, at)) => Err(mistakes::bad_turns(turn, at)),
         }
     }
 
@@ -60,9 +59,9 @@ impl Run<'_> {
         ccw: bool,
         at: usize,
     ) -> Result<(Position, Arc), Fault> {
-        let plane = self.modes.plane;
+        let plane = self.core.modes.plane;
         let [first, second, _] = plane.axes();
-        let unit = self.modes.unit_mm();
+        let unit = self.core.modes.unit_mm();
         let start = [self.chain.position[first], self.chain.position[second]];
         let letters = [first, second].map(|a| words.centers[a as usize]);
         let polar = [first, second].into_iter().all(|a| !words.axes.contains(a))
@@ -82,7 +81,13 @@ impl Run<'_> {
         let opening = words.take(Name::Opening);
         let radius = words.take(Name::Radius);
         let center_mm = if let Some((radius, _, place)) = radius {
-            by_radius(start, end, radius * unit, ccw, place)?
+            arcs::by_radius(
+                [start, end],
+                radius * unit,
+                ccw,
+                arcs::rounding_mm(radius * unit),
+                place,
+            )?
         } else if let Some((angle, _, place)) = opening {
             if !(angle > 0.0 && angle < 360.0) {
                 let message = format!("AR={angle} is not between 0 and 360 degrees");
@@ -94,20 +99,19 @@ impl Run<'_> {
                 (target[first], target[second]) = (turned[0], turned[1]);
                 center
             } else {
-                by_opening(start, end, if ccw { angle } else { -angle }, place)?
+                arcs::by_opening([start, end], if ccw { angle } else { -angle }, place)?
             }
         } else if given {
             let center = by_letters();
-            check_radii(start, end, center, at)?;
+            check_radii([start, end], center, at)?;
             center
         } else if polar {
             let pole = [self.modes.pole[first], self.modes.pole[second]];
-            check_radii(start, end, pole, at)?;
+            check_radii([start, end], pole, at)?;
             pole
         } else {
-            let message = "neither the centre nor the radius of the circle is given";
             let hint = "write I J K of the plane, CR= or AR=";
-            return Err(fault("arc-without-centre", at, message, hint));
+            return Err(mistakes::arc_without_centre(hint, at));
         };
         Ok((target, Arc { plane, center_mm, turns: 1, ccw }))
     }
@@ -120,7 +124,7 @@ impl Run<'_> {
         turns: u32,
         at: usize,
     ) -> Result<(MoveKind, [f64; 3]), Fault> {
-        let unit = self.modes.unit_mm();
+        let unit = self.core.modes.unit_mm();
         let p = xyz(&self.chain.position);
         let r = xyz(&target);
         let mut q = p;
@@ -131,7 +135,7 @@ impl Run<'_> {
         for (i, word) in words.through.iter_mut().enumerate() {
             if let Some((value, mode)) = word.take() {
                 let added =
-                    mode == Mode::Increment || mode == Mode::Modal && self.modes.incremental;
+                    mode == Mode::Increment || mode == Mode::Modal && self.core.modes.incremental;
                 q[i] = if added { p[i] + value * unit } else { value * unit };
             }
         }
@@ -161,29 +165,19 @@ impl Run<'_> {
         turns: u32,
         at: usize,
     ) -> Result<(MoveKind, [f64; 3]), Fault> {
-        let plane = self.modes.plane;
+        let plane = self.core.modes.plane;
         let [first, second, _] = plane.axes();
-        let along = self.modes.tangent.map(|t| [t[first as usize], t[second as usize]]);
-        let Some(along) = along.filter(|t| t[0].hypot(t[1]) > 1e-9) else {
-            let message = "CT has no move before it in this plane";
-            return Err(fault("arc-does-not-fit", at, message, "write a G1, G2 or G3 before CT"));
-        };
+        let axes = [first as usize, second as usize];
+        let along = arcs::direction_before(self.modes.tangent, axes, at)?;
         let start = [self.chain.position[first], self.chain.position[second]];
-        let chord = [target[first] - start[0], target[second] - start[1]];
-        let length = along[0].hypot(along[1]);
-        let left = [-along[1] / length, along[0] / length];
-        let side = left[0] * chord[0] + left[1] * chord[1];
-        let chord2 = chord[0] * chord[0] + chord[1] * chord[1];
-        if side.abs() < 1e-9 * chord2.sqrt().max(1e-9) {
+        let end = [target[first], target[second]];
+        let Some((center_mm, ccw)) = arcs::tangential([start, end], along) else {
             self.straight_tangent(target);
             let tangent = self.modes.tangent.unwrap_or([along[0], along[1], 0.0]);
             return Ok((MoveKind::Linear, tangent));
-        }
-        // The centre lies on the normal of the tangent: |start + s·left − target| = |s|.
-        let s = chord2 / (2.0 * side);
-        let center_mm = [start[0] + s * left[0], start[1] + s * left[1]];
-        let arc = Arc { plane, center_mm, turns, ccw: s > 0.0 };
-        Ok((MoveKind::Arc(arc), arc_tangent(&arc, &target)))
+        };
+        let arc = Arc { plane, center_mm, turns, ccw };
+        Ok((MoveKind::Arc(arc), end_tangent(&arc, &target)))
     }
 }
 
@@ -195,71 +189,12 @@ impl super::execute::Modes {
     }
 }
 
-fn arc_tangent(arc: &Arc, target: &Position) -> [f64; 3] {
-    let [first, second, _] = arc.plane.axes();
-    let out = [target[first] - arc.center_mm[0], target[second] - arc.center_mm[1]];
-    let sign = if arc.ccw { 1.0 } else { -1.0 };
-    let mut tangent = [0.0; 3];
-    tangent[first as usize] = -out[1] * sign;
-    tangent[second as usize] = out[0] * sign;
-    tangent
-}
-
-fn check_radii(start: [f64; 2], end: [f64; 2], center: [f64; 2], at: usize) -> Result<(), Fault> {
-    let radius = |p: [f64; 2]| (p[0] - center[0]).hypot(p[1] - center[1]);
-    let (from, to) = (radius(start), radius(end));
-    if from <= 0.0 || to <= 0.0 {
-        let message = "the radius of the circle is zero";
-        return Err(fault("arc-does-not-fit", at, message, "check I, J and K"));
-    }
-    if (from - to).abs() > GAP_MM.max(GAP_FACTOR * from.max(to)) {
-        let message = format!(
-            "the circle does not fit: radius {from:.4} mm at its start, {to:.4} mm at its end"
-        );
-        let hint = "check I, J, K: they count from the start unless in AC( )";
-        return Err(fault("arc-does-not-fit", at, message, hint));
-    }
-    Ok(())
+fn check_radii(ends: [[f64; 2]; 2], center: [f64; 2], at: usize) -> Result<(), Fault> {
+    arcs::check_radii(ends, center, |radius| GAP_MM.max(GAP_FACTOR * radius), at)
 }
 
 fn turned_about(center: [f64; 2], p: [f64; 2], angle_deg: f64) -> [f64; 2] {
     let (sin, cos) = angle_deg.to_radians().sin_cos();
     let d = [p[0] - center[0], p[1] - center[1]];
     [center[0] + d[0] * cos - d[1] * sin, center[1] + d[0] * sin + d[1] * cos]
-}
-
-/// The centre of a circle that sweeps a signed angle between two points.
-fn by_opening(
-    start: [f64; 2],
-    end: [f64; 2],
-    angle_deg: f64,
-    at: usize,
-) -> Result<[f64; 2], Fault> {
-    let chord = [end[0] - start[0], end[1] - start[1]];
-    let half = chord[0].hypot(chord[1]) / 2.0;
-    if half == 0.0 {
-        let message = "a circle by AR must end elsewhere than it begins";
-        return Err(fault("arc-does-not-fit", at, message, "a full circle needs I J K"));
-    }
-    // The height of the triangle of chord and centre: h = (chord / 2) / tan(angle / 2).
-    let height = half / (angle_deg.to_radians() / 2.0).tan();
-    let along = [chord[0] / (2.0 * half), chord[1] / (2.0 * half)];
-    let middle = [0, 1].map(|i| f64::midpoint(start[i], end[i]));
-    Ok([middle[0] - along[1] * height, middle[1] + along[0] * height])
-}
-
-fn xyz(p: &Position) -> [f64; 3] {
-    [p.0[0], p.0[1], p.0[2]]
-}
-
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|i| a[i] - b[i])
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

@@ -7,10 +7,9 @@ use trueaxis_input::Diagnostics;
 use super::Run;
 use super::values::Value;
 use crate::dialect::Control;
-use crate::interpreter::Settings;
-use crate::library::NoLibrary;
+use crate::execution::{Core, Language, NoLibrary, Settings};
 use crate::moves::{Frame, Position};
-use crate::program::{Fault, Program};
+use crate::text::program::{Fault, Program};
 
 /// A tool of a dump.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -73,10 +72,11 @@ pub fn read_archive(file: &str, text: &[u8]) -> (Archive, Diagnostics) {
     // A dump has no loops.
     let settings = Settings { keep_going: true, most_jumps: 1000, ..Settings::default() };
     let mut ignore = |_| {};
-    let mut run = Run::new(&program, &NoLibrary, &settings, &mut ignore);
+    let core = Core::new(&program, &NoLibrary, &settings, &mut ignore);
+    let mut run = Run::new(&program, core);
     run.archive = Some(Box::default());
-    run.run();
-    (run.archive.map(|a| *a).unwrap_or_default(), run.problems)
+    let problems = run.outcome().problems;
+    (run.archive.map(|a| *a).unwrap_or_default(), problems)
 }
 
 /// Keeps one datum of a tool; `place` is the tool and its cutting edge.

@@ -11,9 +11,9 @@ use super::tables;
 use super::values::{Kind, Value, Variable};
 use super::variables::Slot;
 use super::{Next, Run, fault, functions};
-use crate::dialect::Control;
+use crate::execution::{Modes as CommonModes, mistakes};
 use crate::moves::Event;
-use crate::program::{Fault, Program};
+use crate::text::program::Fault;
 
 /// A part of a program that is executed again.
 #[derive(Debug, Clone)]
@@ -41,7 +41,7 @@ pub(super) struct Activation {
     /// Parameters by reference: the name here, the place at the caller.
     references: Vec<(String, Slot)>,
     /// What SAVE brings back.
-    saved: Option<Box<Modes>>,
+    saved: Option<Box<(CommonModes, Modes)>>,
 }
 
 impl Activation {
@@ -103,13 +103,13 @@ impl Run<'_> {
                 reader.advance();
                 let values = self.arguments(reader)?;
                 let text = values.first().and_then(Option::as_ref).map(functions::message);
-                self.emit(Event::Message(text.unwrap_or_default()));
+                self.core.emit(Event::Message(text.unwrap_or_default()));
                 return Ok(reader.is_empty().then_some(Next::Following));
             }
             "RET" => {
                 reader.advance();
                 if !self.arguments(reader)?.is_empty() {
-                    self.not_applied("RET with a target", at, "it returns behind the call");
+                    self.core.not_applied("RET with a target", at, "it returns behind the call");
                 }
                 return self.return_from(1).map(Some);
             }
@@ -117,9 +117,7 @@ impl Run<'_> {
                 reader.advance();
                 let values = self.arguments(reader)?;
                 let texts: Vec<_> = values.iter().flatten().map(functions::message).collect();
-                let message = format!("the program sets off the alarm {}", texts.join(": "));
-                self.stop_for_good();
-                return Err(fault("abort", at, message, "the program asked for it"));
+                return Err(self.core.for_good(mistakes::alarm(&texts.join(": "), at)));
             }
             "CALL" | "PCALL" | "EXTCALL" | "ISOCALL" => {
                 return self.call_by_text(word, reader, at).map(Some);
@@ -136,12 +134,12 @@ impl Run<'_> {
             }
             "DEFINE" => {
                 let hint = "write out what the macro stands for";
-                self.not_applied("DEFINE", at, hint);
+                self.core.not_applied("DEFINE", at, hint);
                 return Ok(Some(Next::Following));
             }
             _ if tables::takes_block(word) => {
                 let hint = "the moves that follow are those without it";
-                self.not_applied(word, at, hint);
+                self.core.not_applied(word, at, hint);
                 return Ok(Some(Next::Following));
             }
             _ => {}
@@ -165,7 +163,7 @@ impl Run<'_> {
             return Ok(None);
         }
         if tables::parameter(word).is_some()
-            || self.settings.constants.contains_key(&word.to_ascii_lowercase())
+            || self.core.settings.constants.contains_key(&word.to_ascii_lowercase())
         {
             return Ok(None);
         }
@@ -195,8 +193,7 @@ impl Run<'_> {
                 return Ok((name, arguments));
             }
             if !reader.accept(b',') {
-                let message = "this bracket is not closed";
-                return Err(fault("unbalanced-brackets", open, message, "one ) for each ("));
+                return Err(mistakes::unclosed_bracket(open));
             }
         }
     }
@@ -224,15 +221,7 @@ impl Run<'_> {
             reader.accept(b'=');
             return Ok(self.number(reader)?.clamp(0.0, 1e9) as u64);
         }
-        if reader.is_empty() {
-            return Ok(1);
-        }
-        let message = "nothing else can stand behind a call";
-        let code = match reader.symbol() {
-            Some(b')' | b']') => "unbalanced-brackets",
-            _ => "unexpected-sign",
-        };
-        Err(fault(code, reader.here(), message, "write it in a line of its own"))
+        self.nothing_more(reader).map(|()| 1)
     }
 
     /// CALL "NAME", CALL NAME, PCALL path(arguments), EXTCALL "NAME".
@@ -245,7 +234,7 @@ impl Run<'_> {
         reader.advance();
         if word == "ISOCALL" || reader.accept_word("BLOCK") {
             let subject = format!("{word} of blocks or ISO programs");
-            self.not_applied(&subject, at, "write the blocks here");
+            self.core.not_applied(&subject, at, "write the blocks here");
             return Ok(Next::Following);
         }
         let bracket = word == "EXTCALL" && reader.accept(b'(');
@@ -270,7 +259,7 @@ impl Run<'_> {
             let message =
                 format!("the program {name} of EXTCALL is not here: its moves are missing");
             let hint = "put it beside the program";
-            self.warn_once("not-executed", &name, at, message, hint);
+            self.core.warn("not-executed", &name, at, message, hint);
             return Ok(Next::Following);
         }
         self.call(&name, arguments, rounds, at)
@@ -297,7 +286,7 @@ impl Run<'_> {
                 let message = format!("{name} is not executed: the moves inside it are missing");
                 let hint = "the other moves are those of the program";
                 if self.archive.is_none() {
-                    self.warn_once("not-executed", name, at, message, hint);
+                    self.core.warn("not-executed", name, at, message, hint);
                 }
                 return Ok(Next::Following);
             }
@@ -306,13 +295,8 @@ impl Run<'_> {
         if rounds == 0 {
             return Ok(Next::Following);
         }
-        self.count(at)?;
-        if self.stack.len() > self.settings.deepest_call {
-            self.stop_for_good();
-            let message =
-                format!("more than {} calls within each other", self.settings.deepest_call);
-            return Err(fault("calls-too-deep", at, message, "does a program call itself?"));
-        }
+        self.core.count(at)?;
+        self.core.check_depth(self.stack.len(), at)?;
         self.follow();
         self.enter(found, arguments, rounds, at)?;
         Ok(Next::Jumped)
@@ -321,7 +305,7 @@ impl Run<'_> {
     /// A program by its name: beside the running one in its file, or from the library.
     fn find_program(&mut self, name: &str, at: usize) -> Result<(usize, Range<usize>, u32), Fault> {
         let plain = plain_name(name);
-        let program = self.origin.program as usize;
+        let program = self.core.origin.program as usize;
         let structure = self.structure_of(program);
         if let Some(section) = structure.sections.iter().find(|s| s.name == plain) {
             return Ok((program, section.span.clone(), section.line));
@@ -336,16 +320,8 @@ impl Run<'_> {
             names.push(format!("{plain}.{end}"));
             names.push(format!("{}.{end}", plain.to_ascii_lowercase()));
         }
-        let text = names.iter().find_map(|n| Some((n, self.library.text(n).ok()?)));
-        let Some((shown, text)) = text else {
-            let message = format!("there is no program {name}, and it is no word of this control");
-            let hint = "put the subprogram beside the program, or check the spelling";
-            return Err(fault("missing-subprogram", at, message, hint));
-        };
-        let program = Program::new(&self.library.display(shown), text, Control::Sinumerik840d);
-        let (start, line, end) = main_section(program.source());
-        self.programs.push(Rc::new(program));
-        let number = self.programs.len() - 1;
+        let number = self.core.load(name, names, at)?;
+        let (start, line, end) = main_section(self.core.programs[number].source());
         let found = (number, start..end, line);
         self.loaded.insert(plain, found.clone());
         Ok(found)
@@ -359,7 +335,7 @@ impl Run<'_> {
         at: usize,
     ) -> Result<(), Fault> {
         let (number, span, line) = place;
-        let program = Rc::clone(&self.programs[number]);
+        let program = Rc::clone(&self.core.programs[number]);
         let mut activation = Activation::new(number, span.clone(), line);
         let mut tokens = Vec::new();
         let (mut start, mut here) = (span.start, line);
@@ -386,7 +362,7 @@ impl Run<'_> {
         if !bound && arguments.iter().any(|a| a.value.is_some()) {
             let message = "the program has no PROC for these arguments";
             let hint = "begin it with PROC NAME(REAL A)";
-            self.warn_once("unused-arguments", &number.to_string(), at, message.into(), hint);
+            self.core.warn("unused-arguments", number, at, message, hint);
         }
         (activation.at, activation.line) = (start, here);
         activation.rounds = (rounds - 1, start, here);
@@ -407,8 +383,7 @@ impl Run<'_> {
         if reader.accept(b'(') {
             while !reader.accept(b')') {
                 if reader.is_empty() {
-                    let message = "the bracket of PROC is not closed";
-                    return Err(fault("unbalanced-brackets", at, message, "one ) for each ("));
+                    return Err(mistakes::unclosed_bracket(at));
                 }
                 self.parameter(reader, arguments.get(index), at)?;
                 index += 1;
@@ -422,7 +397,7 @@ impl Run<'_> {
         while let Some(word) = reader.word() {
             reader.advance();
             if word == "SAVE" {
-                let modes = Box::new(self.modes.clone());
+                let modes = Box::new((self.core.modes.clone(), self.modes.clone()));
                 if let Some(top) = self.stack.last_mut() {
                     top.saved = Some(modes);
                 }
@@ -470,7 +445,7 @@ impl Run<'_> {
     pub(super) fn return_from(&mut self, levels: usize) -> Result<Next, Fault> {
         for _ in 0..levels {
             if self.stack.len() <= 1 {
-                self.emit(Event::End);
+                self.core.emit(Event::End);
                 return Ok(Next::Finished);
             }
             let Some(top) = self.stack.last_mut() else { return Ok(Next::Finished) };
@@ -479,7 +454,7 @@ impl Run<'_> {
                 top.rounds.0 -= 1;
                 top.sections.clear();
                 (top.at, top.line) = (at, line);
-                self.count(at)?;
+                self.core.count(at)?;
                 return Ok(Next::Jumped);
             }
             let Some(done) = self.stack.pop() else { return Ok(Next::Finished) };
@@ -490,7 +465,7 @@ impl Run<'_> {
                 }
             }
             self.forget(&done.variables);
-            let here = self.block.start;
+            let here = self.core.start;
             for (slot, value) in results {
                 self.write(&slot, value, here)?;
             }

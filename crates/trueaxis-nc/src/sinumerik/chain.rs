@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::transform;
-use crate::interpreter::Settings;
+use crate::execution::Settings;
 use crate::moves::{Axis, Frame, Plane, Position};
 
 /// The chain of frames and the place of the tool.

@@ -2,17 +2,17 @@
 
 use super::swivel::Parameters;
 use super::values::Value;
-use super::words::Words;
 use super::{Run, fault};
-use crate::moves::{Axis, Event, MoveKind};
-use crate::program::Fault;
+use crate::execution::drilling::{Drill, Stroke, dwell, pecks, stop_above};
+use crate::execution::mistakes;
+use crate::moves::{AxisSet, Event, Feed, MoveKind, Position};
+use crate::text::program::Fault;
 
 /// Pecks of one hole: more than any program means.
 const MOST_PECKS: f64 = 1e5;
 
 /// The heights of a hole.
 struct Hole {
-    axis: Axis,
     /// RTP.
     retract: f64,
     /// RFP and SDIS.
@@ -32,11 +32,11 @@ impl Run<'_> {
     ) -> Result<bool, Fault> {
         let parameters = Parameters { values, at };
         match name.to_ascii_uppercase().as_str() {
-            "WORKPIECE" => self.emit(Event::Note("WORKPIECE blank of the simulation")),
+            "WORKPIECE" => self.core.emit(Event::Note("WORKPIECE blank of the simulation")),
             "CYCLE800" => self.cycle_800(&parameters)?,
             "CYCLE832" => self.cycle_832(&parameters)?,
-            "CYCLE81" => self.drill(&parameters, None)?,
-            "CYCLE82" => self.drill(&parameters, Some(5))?,
+            "CYCLE81" => self.plain_hole(&parameters)?,
+            "CYCLE82" => self.plain_hole(&parameters)?,
             "CYCLE83" => self.drill_deep(&parameters)?,
             "CYCLE84" => return self.tap(&parameters),
             "CYCLE85" => self.bore(&parameters)?,
@@ -51,10 +51,20 @@ impl Run<'_> {
     /// # Source
     /// Programming Manual "Cycles", CYCLE81 to CYCLE89: DP is absolute, DPR counts from RFP without
     /// a sign. With units of _AMODE at 1, DP counts from RFP as well.
-    fn hole(&self, parameters: &Parameters<'_>, mode: usize) -> Result<Hole, Fault> {
+    fn hole(&mut self, parameters: &Parameters<'_>, mode: usize) -> Result<Hole, Fault> {
+        self.hole_with_feed(parameters, mode, self.core.modes.feed)
+    }
+
+    /// The same for a cycle with a feed of its own.
+    fn hole_with_feed(
+        &self,
+        parameters: &Parameters<'_>,
+        mode: usize,
+        feed: Feed,
+    ) -> Result<Hole, Fault> {
         let at = parameters.at;
-        let unit = self.modes.unit_mm();
-        let axis = self.modes.plane.axes()[2];
+        let unit = self.core.modes.unit_mm();
+        let axis = self.core.modes.plane.axes()[2];
         let surface = parameters.or_zero(1)? * unit;
         let retract = parameters.number(0)?.map_or(self.chain.position[axis], |r| r * unit);
         let relative = parameters.or_zero(mode)?.abs() as u64 % 10 == 1;
@@ -64,8 +74,7 @@ impl Run<'_> {
             (Some(depth), None) if relative => surface - depth.abs() * unit,
             (Some(depth), None) => depth * unit,
             (None, None) => {
-                let message = "the cycle has no depth";
-                return Err(fault("cycle-without-depth", at, message, "write DP or DPR"));
+                return Err(mistakes::missing_depth(at));
             }
         };
         let safe = surface + parameters.or_zero(2)?.abs() * unit;
@@ -73,44 +82,31 @@ impl Run<'_> {
             let message = "the bottom lies above the surface, or the retraction below it";
             return Err(fault("cycle-heights", at, message, "check RTP, RFP, DP and DPR"));
         }
-        self.check_feed(at)?;
-        Ok(Hole { axis, retract, safe, surface, bottom })
-    }
-
-    fn along(&mut self, kind: MoveKind, axis: Axis, depth: f64) {
-        let mut target = self.chain.position;
-        if target[axis] == depth {
-            return;
-        }
-        target[axis] = depth;
-        let mut words = Words::default();
-        words.axes = words.axes.with(axis);
-        self.step(kind, target, &words);
+        feed.check(at)?;
+        Ok(Hole { retract, safe, surface, bottom })
     }
 
     /// A dwell of a cycle: seconds, or turns of the spindle where it is negative.
-    fn wait(&mut self, time: f64) {
-        let seconds = match time {
-            t if t < 0.0 && self.modes.speed > 0.0 => -t * 60.0 / self.modes.speed,
-            t => t.max(0.0),
-        }
-        .min(1e9);
-        if seconds > 0.0 {
-            let place = self.chain.position;
-            self.step(MoveKind::Dwell { seconds }, place, &Words::default());
-        }
+    fn wait(&self, time: f64) -> Option<Stroke> {
+        let speed = self.core.modes.speed;
+        let seconds = if time < 0.0 && speed > 0.0 { -time * 60.0 / speed } else { time };
+        dwell(seconds.min(1e9))
     }
 
-    /// CYCLE81, and CYCLE82 with a dwell at the bottom.
-    fn drill(&mut self, parameters: &Parameters<'_>, dwell: Option<usize>) -> Result<(), Fault> {
-        let hole = self.hole(parameters, 8)?;
-        let dwell = parameters.or_zero(dwell.unwrap_or(5))?;
-        self.along(MoveKind::Rapid, hole.axis, hole.safe);
-        self.along(MoveKind::Linear, hole.axis, hole.bottom);
-        self.wait(dwell);
-        self.along(MoveKind::Rapid, hole.axis, hole.retract);
+    /// The drill does its strokes; then the path begins anew.
+    fn done(&mut self, strokes: Vec<Stroke>, at: usize) -> Result<(), Fault> {
+        self.drill(strokes, at)?;
         self.modes.tangent = None;
         Ok(())
+    }
+
+    /// CYCLE81 and, with a dwell at the bottom, CYCLE82.
+    fn plain_hole(&mut self, parameters: &Parameters<'_>) -> Result<(), Fault> {
+        let hole = self.hole(parameters, 8)?;
+        let mut strokes = hole.down();
+        strokes.extend(self.wait(parameters.or_zero(5)?));
+        strokes.push(Stroke::Rapid(hole.retract));
+        self.done(strokes, parameters.at)
     }
 
     /// CYCLE83: RTP, RFP, SDIS, DP, DPR, FDEP, FDPR, DAM, DTB, DTS, FRF, VARI.
@@ -120,7 +116,7 @@ impl Run<'_> {
     fn drill_deep(&mut self, parameters: &Parameters<'_>) -> Result<(), Fault> {
         let at = parameters.at;
         let hole = self.hole(parameters, 19)?;
-        let unit = self.modes.unit_mm();
+        let unit = self.core.modes.unit_mm();
         let first = match (parameters.number(5)?, parameters.number(6)?.filter(|d| *d != 0.0)) {
             (_, Some(deep)) => deep.abs() * unit,
             (Some(depth), None) => hole.surface - depth * unit,
@@ -133,7 +129,7 @@ impl Run<'_> {
         let degression = parameters.or_zero(7)?;
         let percent = parameters.number(19)?.is_some();
         if degression != 0.0 && !(percent && degression == 100.0) {
-            self.not_applied(
+            self.core.not_applied(
                 "the degression DAM of CYCLE83",
                 at,
                 "all pecks are as deep as the first",
@@ -141,55 +137,46 @@ impl Run<'_> {
         }
         let (bottom_time, top_time) = (parameters.or_zero(8)?, parameters.or_zero(9)?);
         let out = parameters.or_zero(11)? != 0.0;
-        // The control keeps 0.6 mm from the last depth for holes up to 30 mm, else a fiftieth.
-        let deep = hole.surface - hole.bottom;
-        let distance = if deep <= 30.0 { 0.6 } else { (deep / 50.0).min(7.0) };
-        self.along(MoveKind::Rapid, hole.axis, hole.safe);
-        let feed = self.modes.feed;
-        self.modes.feed = feed * first_feed(parameters.number(10)?);
-        let mut depth = hole.surface;
-        while depth > hole.bottom {
-            depth = (depth - first).max(hole.bottom);
-            self.along(MoveKind::Linear, hole.axis, depth);
-            self.modes.feed = feed;
-            self.wait(bottom_time);
-            if depth > hole.bottom && out {
-                self.along(MoveKind::Rapid, hole.axis, hole.safe);
-                self.wait(top_time);
-                self.along(MoveKind::Rapid, hole.axis, depth + distance);
-            } else if depth > hole.bottom {
-                self.along(MoveKind::Linear, hole.axis, depth + 1.0);
+        let distance = stop_above(hole.surface - hole.bottom);
+        let feed = self.core.modes.feed;
+        let slow = Feed { value: feed.value * first_feed(parameters.number(10)?), ..feed };
+        let depth_below = |depth: &f64| (*depth - first).max(hole.bottom);
+        let depths = std::iter::successors(Some(depth_below(&hole.surface)), |depth| {
+            (*depth > hole.bottom).then(|| depth_below(depth))
+        });
+        let (bottom_wait, top_wait) = (self.wait(bottom_time), self.wait(top_time));
+        let mut down = pecks(depths, |depth, strokes| {
+            strokes.extend(bottom_wait.clone());
+            if out {
+                strokes.push(Stroke::Rapid(hole.safe));
+                strokes.extend(top_wait.clone());
+                strokes.push(Stroke::Rapid(depth + distance));
+            } else {
+                strokes.push(Stroke::Linear(depth + 1.0));
             }
-        }
-        self.along(MoveKind::Rapid, hole.axis, hole.retract);
-        self.modes.tangent = None;
-        Ok(())
+        });
+        down.insert(1, Stroke::Feed(feed));
+        let mut strokes = vec![Stroke::Rapid(hole.safe), Stroke::Feed(slow)];
+        strokes.extend(down);
+        strokes.extend(bottom_wait);
+        strokes.push(Stroke::Rapid(hole.retract));
+        self.done(strokes, at)
     }
 
     /// CYCLE85: RTP, RFP, SDIS, DP, DPR, DTB, FFR, RFF: in and out with feeds of its own.
     fn bore(&mut self, parameters: &Parameters<'_>) -> Result<(), Fault> {
-        let modal = self.modes.feed;
+        let modal = self.core.modes.feed;
         let own = |value: Option<f64>| value.filter(|f| *f > 0.0);
         let (inwards, outwards) = (own(parameters.number(6)?), own(parameters.number(7)?));
-        self.modes.feed = inwards.unwrap_or(modal);
-        let result = self.hole(parameters, 10);
-        let hole = match result {
-            Ok(hole) => hole,
-            Err(fault) => {
-                self.modes.feed = modal;
-                return Err(fault);
-            }
-        };
-        self.along(MoveKind::Rapid, hole.axis, hole.safe);
-        self.along(MoveKind::Linear, hole.axis, hole.bottom);
-        let dwell = parameters.or_zero(5);
-        self.wait(dwell.unwrap_or(0.0));
-        self.modes.feed = outwards.unwrap_or(self.modes.feed);
-        self.along(MoveKind::Linear, hole.axis, hole.safe);
-        self.modes.feed = modal;
-        self.along(MoveKind::Rapid, hole.axis, hole.retract);
-        self.modes.tangent = None;
-        Ok(())
+        let inwards = Feed { value: inwards.unwrap_or(modal.value), ..modal };
+        let outwards = Feed { value: outwards.unwrap_or(inwards.value), ..modal };
+        let hole = self.hole_with_feed(parameters, 10, inwards)?;
+        let mut strokes = vec![Stroke::Feed(inwards)];
+        strokes.extend(hole.down());
+        strokes.extend(self.wait(parameters.or_zero(5).unwrap_or(0.0)));
+        strokes.extend([Stroke::Feed(outwards), Stroke::Linear(hole.safe)]);
+        strokes.extend([Stroke::Feed(modal), Stroke::Rapid(hole.retract)]);
+        self.done(strokes, parameters.at)
     }
 
     /// CYCLE84: RTP, RFP, SDIS, DP, DPR, DTB, SDAC, MPIT, PIT, POSS: tapping in step with the spindle.
@@ -197,22 +184,20 @@ impl Run<'_> {
         let at = parameters.at;
         let size = parameters.or_zero(7)?.abs();
         let pitch = parameters.number(8)?.filter(|p| *p != 0.0);
-        let pitch = pitch.map(|p| p.abs() * self.modes.unit_mm()).or_else(|| coarse_pitch(size));
+        let pitch =
+            pitch.map(|p| p.abs() * self.core.modes.unit_mm()).or_else(|| coarse_pitch(size));
         let Some(pitch_mm) = pitch else {
             let message = "the cycle has no pitch";
             return Err(fault("cycle-without-pitch", at, message, "write PIT or MPIT"));
         };
-        let feed = std::mem::replace(&mut self.modes.feed, 1.0);
-        let hole = self.hole(parameters, 15);
-        self.modes.feed = feed;
-        let hole = hole?;
-        self.along(MoveKind::Rapid, hole.axis, hole.safe);
-        self.emit(Event::SpindleOrient { angle_deg: parameters.or_zero(9)? });
-        self.along(MoveKind::RigidTap { pitch_mm }, hole.axis, hole.bottom);
-        // The tap is back where it began.
-        self.chain.position[hole.axis] = hole.safe;
-        self.along(MoveKind::Rapid, hole.axis, hole.retract);
-        self.modes.tangent = None;
+        // No F is needed: the spindle sets the feed.
+        let any = Feed { value: 1.0, ..self.core.modes.feed };
+        let hole = self.hole_with_feed(parameters, 15, any)?;
+        let orient = Event::SpindleOrient { angle_deg: parameters.or_zero(9)? };
+        let mut strokes = vec![Stroke::Rapid(hole.safe), Stroke::Event(orient)];
+        strokes.push(Stroke::Tap { pitch_mm, bottom: hole.bottom });
+        strokes.push(Stroke::Rapid(hole.retract));
+        self.done(strokes, at)?;
         Ok(true)
     }
 
@@ -220,19 +205,46 @@ impl Run<'_> {
     fn bore_oriented(&mut self, parameters: &Parameters<'_>) -> Result<(), Fault> {
         let at = parameters.at;
         let hole = self.hole(parameters, 13)?;
-        let dwell = parameters.or_zero(5)?;
+        let mut strokes = hole.down();
+        strokes.extend(self.wait(parameters.or_zero(5)?));
         let angle_deg = parameters.or_zero(10)?;
-        self.along(MoveKind::Rapid, hole.axis, hole.safe);
-        self.along(MoveKind::Linear, hole.axis, hole.bottom);
-        self.wait(dwell);
-        self.emit(Event::SpindleOrient { angle_deg });
+        strokes.push(Stroke::Event(Event::SpindleOrient { angle_deg }));
+        strokes.push(Stroke::Rapid(hole.retract));
         for place in [7, 8, 9] {
             if parameters.or_zero(place)? != 0.0 {
-                self.not_applied("the lift-off of CYCLE86", at, "the tool goes straight out here");
+                self.core.not_applied(
+                    "the lift-off of CYCLE86",
+                    at,
+                    "the tool goes straight out here",
+                );
             }
         }
-        self.along(MoveKind::Rapid, hole.axis, hole.retract);
-        self.modes.tangent = None;
+        self.done(strokes, at)
+    }
+}
+
+impl Hole {
+    /// To the safety distance, then to the bottom with feed.
+    fn down(&self) -> Vec<Stroke> {
+        vec![Stroke::Rapid(self.safe), Stroke::Linear(self.bottom)]
+    }
+}
+
+impl<'r> Drill<'r> for Run<'r> {
+    fn place(&mut self) -> &mut Position {
+        &mut self.chain.position
+    }
+
+    fn move_drill(&mut self, kind: MoveKind, to: Position, _at: usize) -> Result<(), Fault> {
+        let axis = self.core.modes.plane.axes()[2];
+        let waits = matches!(kind, MoveKind::Dwell { .. });
+        if waits || to[axis] != self.chain.position[axis] {
+            let named = AxisSet::default();
+            let named = if waits { named } else { named.with(axis) };
+            let step = self.core.plain_move(kind, to, named);
+            self.core.emit_move(step);
+            self.chain.position = to;
+        }
         Ok(())
     }
 }

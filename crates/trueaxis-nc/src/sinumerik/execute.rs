@@ -1,33 +1,20 @@
 //! Executes the words of a block: modes, tool, spindle, frames, then the move.
 
-use super::system::flat;
 use super::tables::{Angles, Code, Motion, Name, Turning as Way};
 use super::words::Words;
-use super::{Next, Run, fault, transform};
-use crate::interpreter::Settings;
+use super::{Language, Next, Run, transform};
+use crate::execution::{Modes as CommonModes, Settings, mistakes};
 use crate::moves::{
-    Axis, CompensationSide, Cone, Coolant, Event, Feed, FeedMode, MoveKind, OrientationPath,
-    PathControl, Plane, Position, Turning,
+    Axis, Cone, Coolant, Event, MoveKind, OrientationPath, PathControl, Position, Turning,
 };
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 /// What lasts from block to block.
 #[derive(Debug, Clone)]
 pub(super) struct Modes {
-    pub inches: bool,
     /// Feeds count in inches as well (G700).
     pub feed_inches: bool,
-    pub diameter: bool,
-    pub incremental: bool,
-    pub plane: Plane,
     pub motion: Motion,
-    pub feed_mode: FeedMode,
-    /// mm/min, 1/min or mm/revolution.
-    pub feed: f64,
-    pub speed: f64,
-    pub turning: Turning,
-    pub selected: u32,
-    pub tool: u32,
     /// D.
     pub edge: u32,
     pub path: (PathControl, f64),
@@ -38,7 +25,6 @@ pub(super) struct Modes {
     pub cone: Option<Way>,
     /// Words of a cone that wait for a move.
     pub next_cone: Cone,
-    pub tool_centre: bool,
     /// The pole of polar coordinates, in the program frame.
     pub pole: Position,
     pub polar: (f64, f64),
@@ -49,45 +35,17 @@ pub(super) struct Modes {
 impl Modes {
     pub fn new(settings: &Settings) -> Self {
         Self {
-            inches: settings.inches,
             feed_inches: settings.inches,
-            diameter: settings.diameters,
-            incremental: false,
-            plane: settings.plane,
             motion: Motion::Linear,
-            feed_mode: FeedMode::PerMinute,
-            feed: 0.0,
-            speed: 0.0,
-            turning: Turning::Stopped,
-            selected: 0,
-            tool: 0,
             edge: 1,
             path: (PathControl::ExactStop, 0.0),
             angles: Angles::Euler,
             turns: None,
             cone: None,
             next_cone: Cone::default(),
-            tool_centre: false,
             pole: Position::default(),
             polar: (0.0, 0.0),
             tangent: None,
-        }
-    }
-
-    pub fn unit_mm(&self) -> f64 {
-        if self.inches { 25.4 } else { 1.0 }
-    }
-
-    pub fn feed(&self) -> Feed {
-        Feed { mode: self.feed_mode, value: self.feed }
-    }
-
-    /// The factor of a word of an axis to mm or degrees.
-    pub fn scale(&self, axis: Axis) -> f64 {
-        match axis {
-            _ if axis.is_rotary() => 1.0,
-            Axis::X if self.diameter => self.unit_mm() / 2.0,
-            _ => self.unit_mm(),
         }
     }
 }
@@ -126,11 +84,9 @@ impl Run<'_> {
         let exact = codes.iter().any(|(c, _)| *c == Code::ExactOnce);
         let ends = words.m.iter().find(|(m, _)| matches!(m, 0 | 1 | 2 | 17 | 30)).copied();
         if let Some((_, at)) = words.numbered.first().filter(|_| !taken) {
-            let message = "this axis is not known here";
-            let hint = "the axes are X Y Z A B C U V W";
-            return Err(fault("unknown-axis", *at, message, hint));
+            return Err(mistakes::unknown_axis(*at));
         }
-        let first = codes.first().map_or(self.block.start, |(_, at)| *at);
+        let first = codes.first().map_or(self.core.start, |(_, at)| *at);
         words.codes = codes;
         self.other_words(words);
         let mut moved = false;
@@ -142,7 +98,7 @@ impl Run<'_> {
         }
         if exact {
             let (control, tolerance_mm) = self.modes.path;
-            self.emit(Event::Path { control, tolerance_mm });
+            self.core.emit(Event::Path { control, tolerance_mm });
         }
         self.report_unused(words);
         // What the called program moves does not call it again.
@@ -186,7 +142,7 @@ impl Run<'_> {
     fn end_function(&mut self, m: u32) -> Result<Next, Fault> {
         match m {
             0 | 1 => {
-                self.emit(Event::Stop { optional: m == 1 });
+                self.core.emit(Event::Stop { optional: m == 1 });
                 Ok(Next::Following)
             }
             // M17, M2 and M30 end a subprogram alike.
@@ -195,20 +151,13 @@ impl Run<'_> {
     }
 
     fn feed_and_speed(&mut self, words: &mut Words) -> Result<(), Fault> {
-        if let Some((feed, at)) = words.feed.take() {
-            if !(0.0..1e12).contains(&feed) {
-                let message = format!("{feed} is not a feed");
-                return Err(fault("negative-feed", at, message, "write F100"));
-            }
-            let scaled = self.modes.feed_inches && self.modes.feed_mode != FeedMode::InverseTime;
-            self.modes.feed = if scaled { feed * 25.4 } else { feed };
-        } else if self.modes.feed_mode == FeedMode::InverseTime {
-            self.modes.feed = 0.0;
+        let feed = words.feed.take();
+        if let Some((wrong, at)) = feed.filter(|(feed, _)| !(0.0..1e12).contains(feed)) {
+            return Err(mistakes::negative_feed(wrong, at));
         }
-        if let Some(speed) = words.speed.take() {
-            self.modes.speed = speed;
-            self.emit(Event::SpindleSpeed(speed));
-        }
+        let unit_mm = if self.modes.feed_inches { 25.4 } else { 1.0 };
+        self.core.modes.set_feed(feed.map(|(feed, _)| feed), unit_mm);
+        self.core.set_speed(words.speed.take());
         Ok(())
     }
 
@@ -216,29 +165,22 @@ impl Run<'_> {
         for (m, at) in &words.m {
             match m {
                 0 | 1 | 2 | 17 | 30 => {}
-                3 => self.spindle(Turning::Clockwise),
-                4 => self.spindle(Turning::CounterClockwise),
-                5 => self.spindle(Turning::Stopped),
+                3 => self.core.turn_spindle(Turning::Clockwise),
+                4 => self.core.turn_spindle(Turning::CounterClockwise),
+                5 => self.core.turn_spindle(Turning::Stopped),
                 6 => self.change_tool(words.edge.map(|(edge, _)| edge), *at),
-                7 => self.emit(Event::Coolant(Coolant::Mist)),
-                8 => self.emit(Event::Coolant(Coolant::Flood)),
-                9 => self.emit(Event::Coolant(Coolant::Off)),
-                19 => self.emit(Event::SpindleOrient { angle_deg: 0.0 }),
-                40..=45 => self.emit(Event::Note("a gear stage of the spindle")),
-                70 => self.emit(Event::Note("M70 spindle as an axis")),
+                7 => self.core.emit(Event::Coolant(Coolant::Mist)),
+                8 => self.core.emit(Event::Coolant(Coolant::Flood)),
+                9 => self.core.emit(Event::Coolant(Coolant::Off)),
+                19 => self.core.emit(Event::SpindleOrient { angle_deg: 0.0 }),
+                40..=45 => self.core.emit(Event::Note("a gear stage of the spindle")),
+                70 => self.core.emit(Event::Note("M70 spindle as an axis")),
                 _ => {
-                    let message = format!("M{m} is not known to this control");
-                    let hint = "if the machine builder defined it, it has no effect here";
-                    self.warn_once("unknown-m-code", &m.to_string(), *at, message, hint);
+                    self.core.unknown_m_code(f64::from(*m), *at);
                 }
             }
         }
         Ok(())
-    }
-
-    fn spindle(&mut self, turning: Turning) {
-        self.modes.turning = turning;
-        self.emit(Event::Spindle(turning));
     }
 
     /// Named words that are no part of a move.
@@ -247,14 +189,14 @@ impl Run<'_> {
             return;
         }
         if let Some((angle, ..)) = words.take(Name::SpindlePlace) {
-            self.emit(Event::SpindleOrient { angle_deg: angle });
+            self.core.emit(Event::SpindleOrient { angle_deg: angle });
         }
         if let Some((tolerance, ..)) = words.take(Name::Tolerance) {
             let control = match self.modes.path.0 {
                 PathControl::ExactStop => PathControl::Continuous,
                 other => other,
             };
-            self.tell_path(control, tolerance * self.modes.unit_mm());
+            self.tell_path(control, tolerance * self.core.modes.unit_mm());
         }
         let mut noted = Vec::new();
         words.named.retain(|(name, ..)| match name {
@@ -265,85 +207,70 @@ impl Run<'_> {
             _ => true,
         });
         for text in noted {
-            self.emit(Event::Note(text));
+            self.core.emit(Event::Note(text));
         }
     }
 
     pub(super) fn tell_path(&mut self, control: PathControl, tolerance_mm: f64) {
         self.modes.path = (control, tolerance_mm);
-        self.emit(Event::Path { control, tolerance_mm });
+        self.core.emit(Event::Path { control, tolerance_mm });
     }
 
     fn act(&mut self, code: Code, words: &mut Words, at: usize) -> Result<(), Fault> {
         match code {
             Code::Plane(plane) => {
-                self.modes.plane = plane;
-                self.emit(Event::Plane(plane));
+                self.core.select_plane(plane);
                 self.apply_length(at);
             }
             Code::Inches { inches, feed } => {
-                self.modes.inches = inches;
+                self.core.modes.inches = inches;
                 if feed {
                     self.modes.feed_inches = inches;
                 }
             }
-            Code::Incremental(incremental) => self.modes.incremental = incremental,
-            Code::Diameter(diameter) => self.modes.diameter = diameter,
-            Code::Feed(mode) => self.change_feed(mode),
+            Code::Incremental(incremental) => self.core.modes.incremental = incremental,
+            Code::Diameter(diameter) => self.core.modes.diameter = diameter,
+            Code::Feed(mode) => self.core.modes.change_feed_mode(mode),
             Code::SurfaceSpeed(on, mode) => {
-                self.change_feed(mode);
-                let name =
-                    if on { "G96 constant surface speed" } else { "G97 revolutions per minute" };
-                self.emit(Event::Note(name));
+                self.core.modes.change_feed_mode(mode);
+                self.core.surface_speed(on);
             }
             Code::Offset(number) => self.select_offset(number, at)?,
             Code::Frame(word) => self.program_frame(word, words, at)?,
             Code::Shift { fine } => self.shift_frame(fine, words, at)?,
             Code::ToolCentre(on) => {
-                self.modes.tool_centre = on;
-                self.emit(Event::ToolCentre(on));
+                self.core.tool_centre(on);
             }
             Code::Angles(angles) => self.modes.angles = angles,
             Code::Turning(way) => self.turn_by(way),
-            Code::Compensation(side) => {
-                self.emit(Event::Compensation(side));
-                if side != CompensationSide::Off {
-                    let message = "radius compensation is noted, not applied".to_owned();
-                    let hint = "the moves are those of the program; let the CAM system compensate";
-                    self.warn_once("compensation-not-applied", "", at, message, hint);
-                }
-            }
+            Code::Compensation(side) => self.core.compensate(side, at),
             Code::Path(control, with_distance) => {
                 let distance = if with_distance { words.take(Name::Tolerance) } else { None };
-                self.tell_path(control, distance.map_or(0.0, |(d, ..)| d * self.modes.unit_mm()));
+                self.tell_path(
+                    control,
+                    distance.map_or(0.0, |(d, ..)| d * self.core.modes.unit_mm()),
+                );
             }
             Code::ExactOnce => {
-                self.emit(Event::Path { control: PathControl::ExactStop, tolerance_mm: 0.0 });
+                self.core.emit(Event::Path { control: PathControl::ExactStop, tolerance_mm: 0.0 });
             }
             Code::Dwell => self.dwell(words, at)?,
             Code::Pole(kind) => self.set_pole(kind, words),
             Code::Reference => self.reference(words, at),
-            Code::Limits => self.emit(Event::Note("G25, G26 limits of the working area")),
-            Code::Note(name) => self.emit(Event::Note(name)),
+            Code::Limits => self.core.emit(Event::Note("G25, G26 limits of the working area")),
+            Code::Note(name) => self.core.emit(Event::Note(name)),
             Code::NotApplied(name) => {
-                self.not_applied(name, at, "the moves that follow are those without it");
+                self.core.not_applied(name, at, "the moves that follow are those without it");
             }
             Code::Motion(_) | Code::Machine => {}
         }
         Ok(())
     }
 
-    fn change_feed(&mut self, mode: FeedMode) {
-        if mode != self.modes.feed_mode {
-            self.modes.feed = 0.0;
-        }
-        self.modes.feed_mode = mode;
-    }
-
     fn select_offset(&mut self, number: u32, at: usize) -> Result<(), Fault> {
         let frame = self.chain.offset(number);
         if !self.chain.change(|c| c.settable = frame) {
-            return Err(flat(at));
+            return Err(mistakes::flat_frame(at));
         }
         self.chain.active = number;
         self.emit_offset();
@@ -360,7 +287,7 @@ impl Run<'_> {
     ) -> Result<(), Fault> {
         let additive = word.starts_with('A');
         let plain = word.trim_start_matches('A');
-        let scaled = |axis: Axis, modes: &Modes| match plain {
+        let scaled = |axis: Axis, modes: &CommonModes| match plain {
             "TRANS" if axis.is_rotary() => 1.0,
             "TRANS" => modes.unit_mm(),
             _ => 1.0,
@@ -369,12 +296,12 @@ impl Run<'_> {
         for axis in Axis::ALL {
             if words.axes.contains(axis) {
                 let index = axis as usize;
-                entries.push((axis, words.values[index] * scaled(axis, &self.modes)));
+                entries.push((axis, words.values[index] * scaled(axis, &self.core.modes)));
             }
         }
         let mut frame = transform::from_entries(plain, &entries, at)?;
         if let Some((angle, ..)) = words.take(Name::PlaneAngle) {
-            frame = transform::turned(self.modes.plane.axes()[2], angle);
+            frame = transform::turned(self.core.modes.plane.axes()[2], angle);
         }
         let kept = self.chain.change(|c| {
             c.programmable = if additive { c.programmable.after(&frame) } else { frame };
@@ -383,7 +310,7 @@ impl Run<'_> {
             }
         });
         if !kept {
-            return Err(flat(at));
+            return Err(mistakes::flat_frame(at));
         }
         self.emit_frame();
         Ok(())
@@ -391,7 +318,7 @@ impl Run<'_> {
 
     /// G58 replaces the shift of the named axes, G59 its fine part.
     fn shift_frame(&mut self, fine: bool, words: &Words, at: usize) -> Result<(), Fault> {
-        let unit = self.modes.unit_mm();
+        let unit = self.core.modes.unit_mm();
         let kept = self.chain.change(|c| {
             for axis in Axis::ALL {
                 if words.axes.contains(axis) {
@@ -407,27 +334,26 @@ impl Run<'_> {
             }
         });
         if !kept {
-            return Err(flat(at));
+            return Err(mistakes::flat_frame(at));
         }
         self.emit_frame();
         Ok(())
     }
 
     fn dwell(&mut self, words: &mut Words, at: usize) -> Result<(), Fault> {
-        let turns = words.speed.take().map(|turns| (turns, self.modes.speed));
+        let turns = words.speed.take().map(|turns| (turns, self.core.modes.speed));
         let seconds = match (words.feed.take(), turns) {
             (Some((seconds, _)), _) => seconds,
             (None, Some((turns, speed))) if speed > 0.0 => turns * 60.0 / speed,
             (None, Some(_)) => {
                 let message = "the dwell counts turns of a spindle that has no speed".to_owned();
-                self.warn_once("dwell-without-speed", "", at, message, "write S in a block before");
+                self.core.warn("dwell-without-speed", "", at, message, "write S in a block before");
                 0.0
             }
             _ => -1.0,
         };
         if !(0.0..1e12).contains(&seconds) {
-            let message = "the time of the dwell is missing or negative";
-            return Err(fault("bad-dwell", at, message, "write G4 F0.5"));
+            return Err(mistakes::bad_dwell(at));
         }
         self.step(MoveKind::Dwell { seconds }, self.chain.position, words);
         Ok(())
@@ -443,14 +369,14 @@ impl Run<'_> {
         let mut pole = base;
         for axis in [Axis::X, Axis::Y, Axis::Z] {
             if words.axes.contains(axis) {
-                pole[axis] = base[axis] + words.values[axis as usize] * self.modes.scale(axis);
+                pole[axis] = base[axis] + words.values[axis as usize] * self.core.modes.scale(axis);
             }
         }
         if let Some((radius, ..)) = words.take(Name::PolarRadius) {
             let (angle, ..) = words.take(Name::PolarAngle).unwrap_or_default();
-            let [first, second, _] = self.modes.plane.axes();
+            let [first, second, _] = self.core.modes.plane.axes();
             let (sin, cos) = angle.to_radians().sin_cos();
-            let radius = radius * self.modes.unit_mm();
+            let radius = radius * self.core.modes.unit_mm();
             pole[first] = base[first] + radius * cos;
             pole[second] = base[second] + radius * sin;
         }
@@ -477,41 +403,41 @@ impl Run<'_> {
         if !matches!(way, Way::Machine | Way::Workpiece) {
             self.modes.turns = Some(way);
         }
-        self.emit(Event::Orientation(path));
+        self.core.emit(Event::Orientation(path));
     }
 
     /// SAVE: the modes are back as they were at the call.
-    pub(super) fn restore(&mut self, saved: Modes) {
-        let now = std::mem::replace(&mut self.modes, saved);
-        self.modes.tool = now.tool;
-        self.modes.selected = now.selected;
-        (self.modes.edge, self.modes.speed, self.modes.turning) =
-            (now.edge, now.speed, now.turning);
-        self.modes.tangent = now.tangent;
-        if now.plane != self.modes.plane {
-            self.emit(Event::Plane(self.modes.plane));
+    pub(super) fn restore(&mut self, saved: (CommonModes, Modes)) {
+        let now = std::mem::replace(&mut self.core.modes, saved.0);
+        let own = std::mem::replace(&mut self.modes, saved.1);
+        let modes = &mut self.core.modes;
+        (modes.tool, modes.selected) = (now.tool, now.selected);
+        (modes.speed, modes.turning) = (now.speed, now.turning);
+        (self.modes.edge, self.modes.tangent) = (own.edge, own.tangent);
+        if now.plane != self.core.modes.plane {
+            self.core.emit(Event::Plane(self.core.modes.plane));
         }
-        if now.path != self.modes.path {
+        if own.path != self.modes.path {
             let (control, tolerance_mm) = self.modes.path;
-            self.emit(Event::Path { control, tolerance_mm });
+            self.core.emit(Event::Path { control, tolerance_mm });
         }
-        if now.tool_centre != self.modes.tool_centre {
-            self.emit(Event::ToolCentre(self.modes.tool_centre));
+        if now.tool_centre != self.core.modes.tool_centre {
+            self.core.emit(Event::ToolCentre(self.core.modes.tool_centre));
         }
     }
 
     /// Warns of words that no code used.
     fn report_unused(&mut self, words: &Words) {
         let left = words.centers.iter().chain(&words.through).flatten().count();
-        let at = self.block.start;
+        let at = self.core.start;
         if left > 0 {
             let message = "no code of this block uses I, J or K".to_owned();
-            self.warn_once("unused-word", "IJK", at, message, "circles and threads do");
+            self.core.warn("unused-word", "IJK", at, message, "circles and threads do");
         }
         for (name, _, _, at) in &words.named {
             let message = format!("no code of this block uses this word ({name:?})");
             let hint = "it has no effect; later ones are not listed";
-            self.warn_once("unused-word", &format!("{name:?}"), *at, message, hint);
+            self.core.warn("unused-word", format!("{name:?}"), *at, message, hint);
         }
     }
 }
@@ -537,13 +463,5 @@ fn check_groups(words: &Words) -> Result<(), Fault> {
         Code::Dwell | Code::Pole(_) | Code::Reference | Code::Limits => Some(15),
         Code::Motion(_) => Some(16),
     };
-    for (index, (code, at)) in words.codes.iter().enumerate() {
-        let Some(number) = group(*code) else { continue };
-        let earlier = &words.codes[..index];
-        if earlier.iter().any(|(c, _)| group(*c) == Some(number) && c != code) {
-            let message = "two codes of this block contradict each other";
-            return Err(fault("conflicting-codes", *at, message, "write them in two blocks"));
-        }
-    }
-    Ok(())
+    mistakes::check_groups(&words.codes, group)
 }

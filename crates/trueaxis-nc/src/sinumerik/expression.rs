@@ -3,8 +3,10 @@
 use super::reader::Reader;
 use super::values::{LONGEST_TEXT, Value};
 use super::{Run, fault};
-use crate::lexer::TokenKind;
-use crate::program::Fault;
+use crate::execution::mistakes;
+use crate::execution::values::{finite, not_zero};
+use crate::text::lexer::TokenKind;
+use crate::text::program::Fault;
 
 /// Brackets, functions and signs within each other: enough for people, little for the stack.
 const DEEPEST: usize = 60;
@@ -131,8 +133,7 @@ impl Run<'_> {
     fn signed(&mut self, reader: &mut Reader<'_>) -> Result<Value, Fault> {
         let at = reader.here();
         if self.depth >= DEEPEST {
-            let message = "too many brackets, functions or signs within each other";
-            return Err(fault("too-deep", at, message, "use parameters for parts of it"));
+            return Err(mistakes::too_deep(at));
         }
         self.depth += 1;
         let value = if reader.accept(b'-') {
@@ -164,11 +165,7 @@ impl Run<'_> {
                 b'(' => {
                     reader.advance();
                     let value = self.expression(reader)?;
-                    if !reader.accept(b')') {
-                        let message = "this bracket is not closed";
-                        let hint = "one ) for each (";
-                        return Err(fault("unbalanced-brackets", token.start, message, hint));
-                    }
+                    reader.close(token.start)?;
                     Ok(value)
                 }
                 b'$' => self.system_value(reader),
@@ -234,8 +231,7 @@ impl Run<'_> {
                 return Ok(found);
             }
             if !reader.accept(b',') {
-                let message = "this bracket is not closed";
-                return Err(fault("unbalanced-brackets", open, message, "one ) for each ("));
+                return Err(mistakes::unclosed_bracket(open));
             }
         }
     }
@@ -291,13 +287,12 @@ fn combine(
                 return Ok(Value::frame(a.after(b)));
             }
             let (x, y) = (left.number(start)?, right.number(at)?);
-            return divide(x, y, at).map(Value::Number);
+            return finite(x / not_zero(y, at)?, at).map(Value::Number);
         }
         O::Join => {
             let text = left.text(start)? + &right.text(at)?;
             if text.len() > LONGEST_TEXT {
-                let message = format!("the text is longer than {LONGEST_TEXT} characters");
-                return Err(fault("too-long", at, message, "join fewer texts"));
+                return Err(mistakes::text_too_long(LONGEST_TEXT, at));
             }
             return Ok(Value::Text(text));
         }
@@ -318,12 +313,9 @@ fn combine(
     let (x, y) = (left.number(start)?, right.number(at)?);
     let value = match operator {
         O::Times => x * y,
-        O::Divide => divide(x, y, at)?,
-        O::WholeDivide => divide(x, y, at)?.trunc(),
-        O::Modulo => {
-            divide(x, y, at)?;
-            x % y
-        }
+        O::Divide => x / not_zero(y, at)?,
+        O::WholeDivide => finite(x / not_zero(y, at)?, at)?.trunc(),
+        O::Modulo => x % not_zero(y, at)?,
         O::Plus => x + y,
         O::Minus => x - y,
         O::BitAnd => (bits(x, start)? & bits(y, at)?) as f64,
@@ -355,19 +347,4 @@ fn compare(
         Operator::Less => order.is_lt(),
         _ => order.is_le(),
     }))
-}
-
-fn divide(x: f64, y: f64, at: usize) -> Result<f64, Fault> {
-    if y == 0.0 {
-        return Err(fault("division-by-zero", at, "division by zero", "check the divisor"));
-    }
-    finite(x / y, at)
-}
-
-/// No number that is not finite goes on.
-pub(super) fn finite(value: f64, at: usize) -> Result<f64, Fault> {
-    if value.is_finite() {
-        return Ok(value);
-    }
-    Err(fault("not-finite", at, "the result is not a finite number", "check the values"))
 }

@@ -7,7 +7,8 @@ use super::reader::Reader;
 use super::structure::{Keyword, Mark, Structure};
 use super::values::Value;
 use super::{Next, Run, fault};
-use crate::program::Fault;
+use crate::execution::mistakes;
+use crate::text::program::Fault;
 
 /// Where the search for a label goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,14 +40,14 @@ impl Run<'_> {
         }
         let at = reader.here();
         if at > labels {
-            self.tell_steering(labels..at);
+            self.core.tell_steering(labels..at);
         }
         if let Some(word) = reader.word()
             && !self.has_variable(&word)
             && let Some(next) = self.control(&word, reader, at)?
         {
             if STEERING.contains(&word.as_str()) {
-                self.tell_steering(self.block.clone());
+                self.core.tell_steering(self.core.start..self.end);
             }
             return Ok(next);
         }
@@ -93,7 +94,7 @@ impl Run<'_> {
                 if done {
                     Next::Following
                 } else {
-                    self.count(at)?;
+                    self.core.count(at)?;
                     self.jump_behind(begin, at)?
                 }
             }
@@ -116,11 +117,11 @@ impl Run<'_> {
     }
 
     fn structure(&mut self) -> Rc<Structure> {
-        let number = self.origin.program as usize;
+        let number = self.core.origin.program as usize;
         if let Some(Some(found)) = self.structures.get(number) {
             return Rc::clone(found);
         }
-        let found = Rc::new(Structure::of(&self.programs[number]));
+        let found = Rc::new(Structure::of(&self.core.programs[number]));
         if self.structures.len() <= number {
             self.structures.resize(number + 1, None);
         }
@@ -129,16 +130,16 @@ impl Run<'_> {
     }
 
     pub(super) fn structure_of(&mut self, program: usize) -> Rc<Structure> {
-        let before = std::mem::replace(&mut self.origin.program, program as u32);
+        let before = std::mem::replace(&mut self.core.origin.program, program as u32);
         let found = self.structure();
-        self.origin.program = before;
+        self.core.origin.program = before;
         found
     }
 
     /// The structure that stands in this block.
     fn mark(&mut self, at: usize) -> Result<Mark, Fault> {
         let structure = self.structure();
-        let index = structure.by_start.get(&self.block.start);
+        let index = structure.by_start.get(&self.core.start);
         let mark = index.map(|i| structure.marks[*i].clone());
         match mark {
             Some(mark) if mark.partner.is_some() || mark.keyword == Keyword::EndLabel => Ok(mark),
@@ -177,18 +178,7 @@ impl Run<'_> {
         Next::Jumped
     }
 
-    pub(super) fn count(&mut self, at: usize) -> Result<(), Fault> {
-        self.jumps += 1;
-        if self.jumps <= self.settings.most_jumps {
-            return Ok(());
-        }
-        let message = format!("more than {} jumps and calls: an endless loop?", self.jumps - 1);
-        // Nothing can go on from here.
-        self.stop_for_good();
-        Err(fault("endless-loop", at, message, "check its condition, or raise the limit"))
-    }
-
-    fn nothing_more(&self, reader: &Reader<'_>) -> Result<(), Fault> {
+    pub(super) fn nothing_more(&self, reader: &Reader<'_>) -> Result<(), Fault> {
         if reader.is_empty() {
             return Ok(());
         }
@@ -219,7 +209,7 @@ impl Run<'_> {
 
     fn loop_end(&mut self, word: &str, at: usize) -> Result<Next, Fault> {
         let mark = self.mark(at)?;
-        self.count(at)?;
+        self.core.count(at)?;
         let structure = self.structure();
         let Some(begin) = mark.partner.and_then(|i| structure.marks.get(i)) else {
             return Ok(Next::Following);
@@ -237,7 +227,7 @@ impl Run<'_> {
     fn count_loop(&mut self, reader: &mut Reader<'_>, at: usize) -> Result<Next, Fault> {
         reader.advance();
         let mark = self.mark(at)?;
-        let start = self.block.start;
+        let start = self.core.start;
         let top = self.stack.last_mut().and_then(|t| t.continuing.take());
         let place = reader.here();
         let slot = self.slot(reader)?;
@@ -325,7 +315,7 @@ impl Run<'_> {
             "GOTOB" => Direction::Backward,
             "GOTOC" => Direction::Quiet,
             "GOTOS" => {
-                self.count(at)?;
+                self.core.count(at)?;
                 let begin = self.stack.last().map(|t| (t.span.start, t.first_line));
                 let (start, line) = begin.unwrap_or((0, 1));
                 return Ok(self.send(start, line));
@@ -337,12 +327,10 @@ impl Run<'_> {
             if direction == Direction::Quiet {
                 return Ok(Next::Following);
             }
-            let message = format!("there is no block {target} in that direction");
-            let hint = "GOTOF looks towards the end, GOTOB towards the beginning";
-            return Err(fault("missing-label", at, message, hint));
+            return Err(mistakes::missing_label(target, at));
         };
-        if start <= self.block.start {
-            self.count(at)?;
+        if start <= self.core.start {
+            self.core.count(at)?;
         }
         Ok(self.send(start, line))
     }
@@ -350,7 +338,7 @@ impl Run<'_> {
     /// A block of the running program by its name.
     fn find(&mut self, target: &str, direction: Direction) -> Option<(usize, u32)> {
         let structure = self.structure();
-        let here = self.block.start;
+        let here = self.core.start;
         let span = self.stack.last().map(|t| t.span.clone())?;
         let number = target.strip_prefix('N').and_then(|n| n.parse::<u64>().ok());
         let mut places: Vec<(usize, u32)> = match number {
@@ -392,10 +380,7 @@ impl Run<'_> {
             rounds = self.number(reader)?;
         }
         self.nothing_more(reader)?;
-        let missing = |name: &str| {
-            let message = format!("there is no block {name}");
-            fault("missing-label", at, message, "check the name of the label")
-        };
+        let missing = |name: &str| mistakes::missing_label(name, at);
         let begin = self.find(&first, Direction::Both).ok_or_else(|| missing(&first))?;
         let end = match &last {
             _ if one_block => self.block_end(begin.0),
@@ -408,16 +393,12 @@ impl Run<'_> {
         if rounds < 1.0 || end <= begin.0 {
             return Ok(Next::Following);
         }
-        self.count(at)?;
-        let deepest = self.settings.deepest_call;
-        let back = (self.block.end, self.origin.line + 1);
-        let Some(top) = self.stack.last_mut() else { return Ok(Next::Following) };
-        if top.sections.len() >= deepest {
-            self.stop_for_good();
-            let message = "repetitions within each other, too many";
-            return Err(fault("calls-too-deep", at, message, "does a part repeat itself?"));
-        }
+        self.core.count(at)?;
+        let repetitions = self.stack.last().map_or(0, |top| top.sections.len());
+        self.core.check_depth(repetitions + 1, at)?;
+        let back = (self.end, self.core.origin.line + 1);
         let left = rounds.min(1e9) as u64 - 1;
+        let Some(top) = self.stack.last_mut() else { return Ok(Next::Following) };
         top.sections.push(Repetition { span: begin.0..end, line: begin.1, left, back });
         (top.at, top.line) = begin;
         Ok(Next::Jumped)
@@ -425,7 +406,7 @@ impl Run<'_> {
 
     /// The byte behind the block that begins at one.
     fn block_end(&self, start: usize) -> usize {
-        let source = self.programs[self.origin.program as usize].source();
+        let source = self.core.programs[self.core.origin.program as usize].source();
         let found = source[start..].iter().position(|b| *b == b'\n');
         found.map_or(source.len(), |i| start + i + 1)
     }
@@ -434,7 +415,7 @@ impl Run<'_> {
     /// behind it, or with the program.
     fn part_end(&mut self, begin: usize) -> usize {
         let structure = self.structure();
-        let here = self.block.start;
+        let here = self.core.start;
         let from = structure.marks.partition_point(|m| m.start < begin);
         let label = structure.marks[from..].iter().find(|m| m.keyword == Keyword::EndLabel);
         match label {
@@ -452,7 +433,7 @@ impl Run<'_> {
             part.left -= 1;
             let (at, line) = (part.span.start, part.line);
             (top.at, top.line) = (at, line);
-            self.count(at)?;
+            self.core.count(at)?;
         } else {
             let back = part.back;
             top.sections.pop();

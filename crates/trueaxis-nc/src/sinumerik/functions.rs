@@ -1,12 +1,13 @@
 //! The functions of expressions; angles are degrees.
 
-use super::expression::finite;
 use super::reader::Reader;
 use super::transform;
 use super::values::{LONGEST_TEXT, Value, shown};
 use super::{Run, fault};
+use crate::execution::mistakes;
+use crate::execution::values::{self, finite};
 use crate::moves::{Axis, Frame};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 const FUNCTIONS: [&str; 43] = [
     "SIN", "COS", "TAN", "ASIN", "ACOS", "ATAN2", "SQRT", "ABS", "POT", "TRUNC", "ROUND",
@@ -66,18 +67,17 @@ impl Run<'_> {
         match word {
             "INVFRAME" => {
                 let frame = arguments.value(0)?.as_frame(at)?;
-                let flat = || fault("flat-frame", at, "the frame has no inverse", "check CSCALE");
+                let flat = || mistakes::flat_frame(at);
                 transform::inverse(&frame).map(Value::frame).ok_or_else(flat)
             }
             "AXNAME" => {
                 let name = arguments.text(0)?;
-                super::variables::axis_named(&name).map(Value::Axis).ok_or_else(|| {
-                    let message = format!("there is no axis {name}");
-                    fault("unknown-axis", at, message, "the axes are X Y Z A B C U V W")
-                })
+                super::variables::axis_named(&name)
+                    .map(Value::Axis)
+                    .ok_or_else(|| mistakes::unknown_axis(at))
             }
             "AXSTRING" => Ok(Value::Text(arguments.text(0)?)),
-            "ISFILE" => Ok(Value::truth(self.library.text(&arguments.text(0)?).is_ok())),
+            "ISFILE" => Ok(Value::truth(self.core.library.text(&arguments.text(0)?).is_ok())),
             _ => text_function(word, &arguments)?.ok_or_else(|| {
                 let message = format!("{word} is not evaluated here");
                 fault("function-not-known", at, message, "set its value by hand")
@@ -101,7 +101,7 @@ impl Run<'_> {
                 1 => Axis::Z,
                 2 => Axis::Y,
                 3 => Axis::X,
-                _ => self.modes.plane.axes()[2],
+                _ => self.core.modes.plane.axes()[2],
             };
             return Ok(transform::turned(axis, arguments.number(1)?));
         }
@@ -121,12 +121,11 @@ impl Run<'_> {
                 None if value.unwrap_or(neutral) == neutral => {}
                 None => {
                     let hint = "the axes are X Y Z A B C U V W";
-                    self.not_applied("the frame of an axis that is not known", place, hint);
+                    self.core.not_applied("the frame of an axis that is not known", place, hint);
                 }
             }
             if reader.is_empty() {
-                let message = "this bracket is not closed";
-                return Err(fault("unbalanced-brackets", at, message, "one ) for each ("));
+                return Err(mistakes::unclosed_bracket(at));
             }
         }
         transform::from_entries(word.trim_start_matches('C'), &entries, at)
@@ -136,41 +135,16 @@ impl Run<'_> {
 /// Functions of numbers; `None` for others.
 fn number_function(word: &str, arguments: &Arguments<'_>) -> Result<Option<f64>, Fault> {
     let at = arguments.at;
-    let domain = |message: String| fault("out-of-domain", at, message, "check the argument");
     let x = || arguments.number(0);
+    if let "SIN" | "COS" | "TAN" | "ASIN" | "ACOS" | "SQRT" | "ABS" | "LN" | "EXP" = word {
+        return values::function(word, x()?, at);
+    }
     Ok(Some(match word {
-        "SIN" => x()?.to_radians().sin(),
-        "COS" => x()?.to_radians().cos(),
-        "TAN" => x()?.to_radians().tan(),
-        "ASIN" | "ACOS" => {
-            let x = x()?;
-            if !(-1.0..=1.0).contains(&x) {
-                return Err(domain(format!("{word} of {x} does not exist")));
-            }
-            let angle = if word == "ASIN" { x.asin() } else { x.acos() };
-            angle.to_degrees()
-        }
         "ATAN2" => x()?.atan2(arguments.number(1)?).to_degrees(),
-        "SQRT" => {
-            let x = x()?;
-            if x < 0.0 {
-                return Err(domain(format!("there is no square root of {x}")));
-            }
-            x.sqrt()
-        }
-        "ABS" => x()?.abs(),
         "POT" => x()?.powi(2),
         "TRUNC" => x()?.trunc(),
         "ROUND" => x()?.round(),
         "ROUNDUP" => x()?.ceil(),
-        "LN" => {
-            let x = x()?;
-            if x <= 0.0 {
-                return Err(domain(format!("there is no logarithm of {x}")));
-            }
-            x.ln()
-        }
-        "EXP" => x()?.exp(),
         "MINVAL" => x()?.min(arguments.number(1)?),
         "MAXVAL" => x()?.max(arguments.number(1)?),
         "BOUND" => arguments.number(2)?.min(arguments.number(1)?).max(x()?),
@@ -214,8 +188,7 @@ fn text_function(word: &str, arguments: &Arguments<'_>) -> Result<Option<Value>,
             let text = arguments.text(0)?;
             let number = text.trim().parse().ok().filter(|v: &f64| v.is_finite());
             let number = number.ok_or_else(|| {
-                let message = format!("`{text}` is not a number");
-                fault("bad-number", at, message, "ask ISNUMBER before")
+                fault("bad-number", at, format!("`{text}` is not a number"), "ask ISNUMBER before")
             })?;
             Value::Number(number)
         }

@@ -3,8 +3,8 @@
 use super::tables::{Motion, Name};
 use super::words::{Mode, Words};
 use super::{Run, fault};
-use crate::moves::{Axis, AxisSet, Coordinates, FeedMode, Move, MoveKind, Position, Way};
-use crate::program::Fault;
+use crate::moves::{Axis, AxisSet, Coordinates, Move, MoveKind, Position, Way};
+use crate::text::program::Fault;
 
 impl Run<'_> {
     /// The move of a block; `false` if it has none.
@@ -37,12 +37,12 @@ impl Run<'_> {
             target = self.angle_target(words, target)?;
         }
         let block_feed = words.take(Name::BlockFeed).map(|(feed, ..)| feed);
-        let modal = self.modes.feed;
+        let modal = self.core.modes.feed.value;
         if let Some(feed) = block_feed.filter(|f| *f > 0.0) {
-            self.modes.feed = if self.modes.feed_inches { feed * 25.4 } else { feed };
+            self.core.modes.feed.value = if self.modes.feed_inches { feed * 25.4 } else { feed };
         }
         let result = self.path_move(words, target, direction, at);
-        self.modes.feed = modal;
+        self.core.modes.feed.value = modal;
         result.map(|()| true)
     }
 
@@ -55,7 +55,7 @@ impl Run<'_> {
     ) -> Result<(), Fault> {
         let motion = self.modes.motion;
         if !matches!(motion, Motion::Rapid | Motion::Thread) {
-            self.check_feed(at)?;
+            self.core.modes.check_feed(at)?;
         }
         let kind = match motion {
             Motion::Rapid => MoveKind::Rapid,
@@ -87,14 +87,18 @@ impl Run<'_> {
                 _ => Way::AsWritten,
             }
         });
-        let (feed, origin) = (self.modes.feed(), self.origin);
+        let (feed, origin) = (self.core.modes.feed, self.core.origin);
         let mut named = words.axes;
         for axis in [Axis::X, Axis::Y, Axis::Z] {
             if target[axis] != self.chain.position[axis] {
                 named = named.with(axis);
             }
         }
-        self.emit_move(Move { ways, direction, ..Move::plain(kind, target, named, feed, origin) });
+        self.core.emit_move(Move {
+            ways,
+            direction,
+            ..Move::plain(kind, target, named, feed, origin)
+        });
         self.chain.position = target;
     }
 
@@ -102,8 +106,8 @@ impl Run<'_> {
     pub(super) fn step(&mut self, kind: MoveKind, target: Position, words: &Words) {
         let named =
             if matches!(kind, MoveKind::Dwell { .. }) { AxisSet::default() } else { words.axes };
-        let (feed, origin) = (self.modes.feed(), self.origin);
-        self.emit_move(Move::plain(kind, target, named, feed, origin));
+        let (feed, origin) = (self.core.modes.feed, self.core.origin);
+        self.core.emit_move(Move::plain(kind, target, named, feed, origin));
         self.chain.position = target;
     }
 
@@ -114,23 +118,12 @@ impl Run<'_> {
         }
     }
 
-    pub(super) fn check_feed(&self, at: usize) -> Result<(), Fault> {
-        if self.modes.feed > 0.0 {
-            return Ok(());
-        }
-        let (message, hint) = match self.modes.feed_mode {
-            FeedMode::InverseTime => ("with G93 each feed move needs its own F", "write F"),
-            _ => ("a feed move without feed", "write F before the first feed move"),
-        };
-        Err(fault("zero-feed", at, message, hint))
-    }
-
     /// What a word of an axis leads to, from a base that increments count from.
     fn axis_value(&self, words: &Words, axis: Axis, base: f64) -> f64 {
         let index = axis as usize;
-        let value = words.values[index] * self.modes.scale(axis);
+        let value = words.values[index] * self.core.modes.scale(axis);
         match words.modes[index] {
-            Mode::Modal if self.modes.incremental => base + value,
+            Mode::Modal if self.core.modes.incremental => base + value,
             Mode::Increment => base + value,
             _ => value,
         }
@@ -149,7 +142,7 @@ impl Run<'_> {
 
     /// AP and RP about the pole.
     fn polar_target(&mut self, words: &mut Words, mut target: Position) -> Result<Position, Fault> {
-        let unit = self.modes.unit_mm();
+        let unit = self.core.modes.unit_mm();
         let (mut angle_deg, mut radius) = self.modes.polar;
         if let Some((value, mode, at)) = words.take(Name::PolarRadius) {
             radius = if mode == Mode::Increment { radius + value * unit } else { value * unit };
@@ -159,11 +152,12 @@ impl Run<'_> {
             }
         }
         if let Some((value, mode, _)) = words.take(Name::PolarAngle) {
-            let added = mode == Mode::Increment || mode == Mode::Modal && self.modes.incremental;
+            let added =
+                mode == Mode::Increment || mode == Mode::Modal && self.core.modes.incremental;
             angle_deg = if added { angle_deg + value } else { value };
         }
         self.modes.polar = (angle_deg, radius);
-        let [first, second, _] = self.modes.plane.axes();
+        let [first, second, _] = self.core.modes.plane.axes();
         let (sin, cos) = angle_deg.to_radians().sin_cos();
         target[first] = self.modes.pole[first] + radius * cos;
         target[second] = self.modes.pole[second] + radius * sin;
@@ -173,7 +167,7 @@ impl Run<'_> {
     /// ANG: a line by its angle in the plane and one coordinate of its end.
     fn angle_target(&mut self, words: &mut Words, mut target: Position) -> Result<Position, Fault> {
         let Some((angle_deg, _, at)) = words.take(Name::Angle) else { return Ok(target) };
-        let [first, second, _] = self.modes.plane.axes();
+        let [first, second, _] = self.core.modes.plane.axes();
         let (sin, cos) = angle_deg.to_radians().sin_cos();
         let start = self.chain.position;
         let given = [first, second].map(|a| words.axes.contains(a));
@@ -181,7 +175,11 @@ impl Run<'_> {
             [true, false] => (cos, sin),
             [false, true] => (sin, cos),
             _ => {
-                self.not_applied("ANG with two or no coordinates", at, "write the end of the line");
+                self.core.not_applied(
+                    "ANG with two or no coordinates",
+                    at,
+                    "write the end of the line",
+                );
                 return Ok(target);
             }
         };
@@ -196,7 +194,7 @@ impl Run<'_> {
 
     /// I, J or K of a thread along X, Y or Z.
     fn pitch(&mut self, words: &mut Words, at: usize) -> Result<f64, Fault> {
-        let unit = self.modes.unit_mm();
+        let unit = self.core.modes.unit_mm();
         let pitch = words.centers.iter_mut().rev().find_map(Option::take);
         words.centers = [None; 3];
         let (pitch, _) = pitch.ok_or_else(|| {
@@ -214,7 +212,7 @@ impl Run<'_> {
         let kind = match self.modes.motion {
             Motion::Rapid => MoveKind::Rapid,
             Motion::Linear => {
-                self.check_feed(at)?;
+                self.core.modes.check_feed(at)?;
                 MoveKind::Linear
             }
             _ => {
@@ -222,10 +220,10 @@ impl Run<'_> {
                 return Err(fault("bad-machine-move", at, message, "write G0 or G1"));
             }
         };
-        if self.modes.tool_centre {
+        if self.core.modes.tool_centre {
             let message = "machine coordinates while TRAORI is on: the axes are taken".to_owned();
             let hint = "write TRAFOOF before";
-            self.warn_once("machine-move-with-traori", "", at, message, hint);
+            self.core.warn("machine-move-with-traori", "", at, message, hint);
         }
         let now = self.chain.machine();
         let mut target = now;
@@ -240,9 +238,9 @@ impl Run<'_> {
     }
 
     fn go_to_machine(&mut self, kind: MoveKind, target: Position, words: &Words) {
-        let (feed, origin) = (self.modes.feed(), self.origin);
+        let (feed, origin) = (self.core.modes.feed, self.core.origin);
         let plain = Move::plain(kind, target, words.axes, feed, origin);
-        self.emit_move(Move { coordinates: Coordinates::Machine, ..plain });
+        self.core.emit_move(Move { coordinates: Coordinates::Machine, ..plain });
         let place = self.chain.program_at(&target);
         // Frames that are in force have an inverse.
         self.chain.position = place.unwrap_or(self.chain.position);
@@ -253,7 +251,7 @@ impl Run<'_> {
     pub(super) fn reference(&mut self, words: &mut Words, at: usize) {
         let message = "G74 and G75 go to the machine zero here".to_owned();
         let hint = "the machine data know the reference and fixed points";
-        self.warn_once("reference-point", "", at, message, hint);
+        self.core.warn("reference-point", "", at, message, hint);
         for (name, _) in &words.numbered {
             let letter = name.as_bytes().first().copied().unwrap_or(b' ');
             if let Some(axis) = super::variables::axis_of(letter) {

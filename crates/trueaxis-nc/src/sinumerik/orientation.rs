@@ -1,10 +1,12 @@
 //! Directions of the tool axis and how it gets there.
 
+use super::Run;
 use super::tables::{Angles, Name, Turning};
 use super::words::Words;
-use super::{Run, fault, transform};
+use crate::execution::frames::turns;
+use crate::execution::mistakes;
 use crate::moves::{Axis, Cone, Event, OrientationPath};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 impl Run<'_> {
     /// The direction that a block programs, in the program frame; a cone is told before it.
@@ -17,7 +19,7 @@ impl Run<'_> {
             [(4, "A4 B4 C4 normals of a surface"), (5, "A5 B5 C5 normals of a surface")]
         {
             if words.vector(number).is_some() {
-                self.not_applied(subject, at, "write the direction of the tool as A3 B3 C3");
+                self.core.not_applied(subject, at, "write the direction of the tool as A3 B3 C3");
             }
         }
         let direction = match (words.vector(3), words.vector(2)) {
@@ -25,10 +27,10 @@ impl Run<'_> {
             (None, Some(angles)) => Some(self.by_angles(angles.map(|a| a.unwrap_or(0.0)))),
             _ => None,
         };
-        if direction.is_some() && !self.modes.tool_centre {
+        if direction.is_some() && !self.core.modes.tool_centre {
             let message = "a direction of the tool without TRAORI".to_owned();
             let hint = "write TRAORI before it";
-            self.warn_once("direction-without-traori", "", at, message, hint);
+            self.core.warn("direction-without-traori", "", at, message, hint);
         }
         self.tell_cone(direction.is_some(), words, at)?;
         Ok(direction)
@@ -39,8 +41,7 @@ impl Run<'_> {
         let vector = vector.map(|v| v.unwrap_or(0.0));
         let length = vector.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
         if !(1e-12..1e12).contains(&length) {
-            let message = "the direction has no length";
-            return Err(fault("zero-direction", at, message, "write A3=0 B3=0 C3=1"));
+            return Err(mistakes::zero_direction(at));
         }
         Ok(vector)
     }
@@ -53,13 +54,12 @@ impl Run<'_> {
     /// Y', C2 about Z'') is taken from its name in the list of G codes; no figure was found.
     fn by_angles(&self, angles_deg: [f64; 3]) -> [f64; 3] {
         let [a, b, c] = angles_deg;
-        let turns = match self.modes.angles {
+        let turned = match self.modes.angles {
             Angles::Euler => [(Axis::Z, a), (Axis::X, b), (Axis::Z, c)],
             Angles::Rpy => [(Axis::Z, c), (Axis::Y, b), (Axis::X, a)],
             Angles::RpyReversed => [(Axis::X, a), (Axis::Y, b), (Axis::Z, c)],
         };
-        let [first, second, third] = turns.map(|(axis, angle)| transform::turned(axis, angle));
-        first.after(&second).after(&third).vector([0.0, 0.0, 1.0])
+        turns(turned).vector([0.0, 0.0, 1.0])
     }
 
     /// Tells the cone of a block in which the tool axis moves.
@@ -77,7 +77,7 @@ impl Run<'_> {
             if opening.is_some() || angle_deg.is_some() || axis.is_some() || through.is_some() {
                 let message = "words of a cone without ORICONCW, ORICONCCW, ORICONIO or ORICONTO";
                 let hint = "write the code before them";
-                self.warn_once("unused-word", "cone", at, message.into(), hint);
+                self.core.warn("unused-word", "cone", at, message, hint);
             }
             return Ok(());
         };
@@ -86,7 +86,7 @@ impl Run<'_> {
         let through = through.or(kept.through);
         let opening = opening.or(kept.half_opening_deg);
         if opening.is_some_and(|o| o < 0.0) {
-            self.not_applied("a negative NUT", at, "ORICONCW and ORICONCCW say which way");
+            self.core.not_applied("a negative NUT", at, "ORICONCW and ORICONCCW say which way");
         }
         let ccw = match way {
             // The manual's example turns from (0,1,1) to (1,0,1) about (0,0,1) by 270 deg: its
@@ -104,7 +104,7 @@ impl Run<'_> {
             tangential: way == Turning::ConeTangential,
         };
         if turns || angle_deg.is_some() {
-            self.emit(Event::Orientation(OrientationPath::Cone(cone)));
+            self.core.emit(Event::Orientation(OrientationPath::Cone(cone)));
         } else {
             // The words of a block in which the tool axis stands are for the next in which it turns.
             self.modes.next_cone = cone;

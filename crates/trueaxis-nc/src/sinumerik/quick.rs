@@ -4,7 +4,7 @@ use super::Run;
 use super::tables::{self, Code};
 use super::variables::axis_of;
 use super::words::Mode;
-use crate::lexer::plain_number;
+use crate::text::lexer::plain_number;
 
 impl Run<'_> {
     /// Reads a line that holds nothing but plain words straight into the words; its end.
@@ -29,6 +29,7 @@ impl Run<'_> {
         }
     }
 
+    #[inline]
     fn quick_word(&mut self, source: &[u8], letter: u8, at: usize, first: bool) -> Option<usize> {
         let (value, after) = plain_number(source, at + 1)?;
         // A3=0.5: a number behind the letter, then = and the value.

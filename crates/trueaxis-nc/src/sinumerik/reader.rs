@@ -1,7 +1,8 @@
 //! The tokens of one line, looked at one by one.
 
-use crate::lexer::{Lexer, Token, TokenKind, number_value};
-use crate::program::{Fault, Program};
+use crate::execution::mistakes;
+use crate::text::lexer::{Lexer, Token, TokenKind, number_value};
+use crate::text::program::{Fault, Program};
 
 use super::fault;
 
@@ -211,6 +212,11 @@ impl<'t> Reader<'t> {
         self.advance();
         let text = self.text(token);
         Some(String::from_utf8_lossy(&text[1..text.len() - 1]).into_owned())
+    }
+
+    /// Takes the bracket that closes the one at `open`.
+    pub fn close(&mut self, open: usize) -> Result<(), Fault> {
+        if self.accept(b')') { Ok(()) } else { Err(mistakes::unclosed_bracket(open)) }
     }
 
     /// Takes a sign that must be there.

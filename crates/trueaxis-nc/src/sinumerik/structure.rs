@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use super::reader::{self, Reader};
-use crate::program::Program;
+use crate::text::program::Program;
 
 /// The control structures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,10 +1,10 @@
 //! CYCLE800 and CYCLE832.
 
-use super::system::flat;
 use super::values::Value;
-use super::{Run, fault, transform};
+use super::{Language, Run, fault, transform};
+use crate::execution::mistakes;
 use crate::moves::{Axis, Branch, Event, Frame, Move, MoveKind, PathControl, Position};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 /// The parameters of a cycle by their place.
 pub(super) struct Parameters<'a> {
@@ -18,8 +18,7 @@ impl Parameters<'_> {
         let Some(Some(value)) = self.values.get(index) else { return Ok(None) };
         let number = value.number(self.at)?;
         if number.abs() > 1e12 {
-            let message = format!("{number} is too large for a cycle");
-            return Err(fault("too-large", self.at, message, "no machine goes that far"));
+            return Err(mistakes::too_large(number, "a cycle", self.at));
         }
         Ok(Some(number))
     }
@@ -54,10 +53,10 @@ impl Run<'_> {
         let [a, b, c] = angles;
         let Some(rotation) = swivel_rotation(mode, [a?, b?, c?], at)? else {
             let hint = "swivel by angles of the plane; only the machine knows the other";
-            self.not_applied("CYCLE800 by angles of the rotary axes", at, hint);
+            self.core.not_applied("CYCLE800 by angles of the rotary axes", at, hint);
             return Ok(());
         };
-        let unit = self.modes.unit_mm();
+        let unit = self.core.modes.unit_mm();
         let shift = |from: usize| -> Result<Frame, Fault> {
             let mut shift = Position::default();
             for i in 0..3 {
@@ -75,15 +74,15 @@ impl Run<'_> {
             }
         });
         if !kept {
-            return Err(flat(at));
+            return Err(mistakes::flat_frame(at));
         }
         if parameters.or_zero(0)? != 0.0 {
             let hint = "write the retraction as a move before the cycle";
-            self.not_applied("the retraction of CYCLE800", at, hint);
+            self.core.not_applied("the retraction of CYCLE800", at, hint);
         }
         // A plane that is not turned is no other than the axes'.
         let tilted = self.chain.swivel.linear != Frame::IDENTITY.linear;
-        self.emit(Event::TiltedPlane(tilted));
+        self.core.emit(Event::TiltedPlane(tilted));
         self.emit_frame();
         let branch = match parameters.or_zero(13)? {
             d if d > 0.0 => Branch::Positive,
@@ -96,9 +95,9 @@ impl Run<'_> {
 
     fn reset_swivel(&mut self, at: usize) -> Result<(), Fault> {
         if !self.chain.change(|c| c.swivel = Frame::IDENTITY) {
-            return Err(flat(at));
+            return Err(mistakes::flat_frame(at));
         }
-        self.emit(Event::TiltedPlane(false));
+        self.core.emit(Event::TiltedPlane(false));
         self.emit_frame();
         Ok(())
     }
@@ -106,11 +105,11 @@ impl Run<'_> {
     fn align(&mut self, keep_tip: bool, branch: Branch) {
         let position = self.chain.position;
         let kind = MoveKind::Align { keep_tip, branch };
-        let (feed, origin) = (self.modes.feed(), self.origin);
-        self.emit_move(Move::plain(kind, position, Default::default(), feed, origin));
+        let (feed, origin) = (self.core.modes.feed, self.core.origin);
+        self.core.emit_move(Move::plain(kind, position, Default::default(), feed, origin));
         let direction = self.chain.frame().vector([0.0, 0.0, 1.0]);
         let machine = self.chain.machine();
-        if let Some(angles) = self.library.rotary_angles(direction, branch, &machine) {
+        if let Some(angles) = self.core.library.rotary_angles(direction, branch, &machine) {
             let shift = self.chain.frame().shift;
             for (axis, angle) in [Axis::A, Axis::B, Axis::C].into_iter().zip(angles) {
                 self.chain.position[axis] = angle - shift[axis] - self.chain.tool[axis];
@@ -127,7 +126,7 @@ impl Run<'_> {
     pub(super) fn cycle_832(&mut self, parameters: &Parameters<'_>) -> Result<(), Fault> {
         let off = parameters.number(1)?.is_some_and(|m| (m.abs() as u64).is_multiple_of(10));
         let tolerance = if off { 0.0 } else { parameters.or_zero(0)?.max(0.0) };
-        self.tell_path(PathControl::Continuous, tolerance * self.modes.unit_mm());
+        self.tell_path(PathControl::Continuous, tolerance * self.core.modes.unit_mm());
         Ok(())
     }
 }

@@ -2,12 +2,14 @@
 
 use super::archive;
 use super::chain::Part;
-use super::expression::finite;
 use super::reader::Reader;
 use super::values::Value;
-use super::{Run, fault};
+use super::{Language, Run, fault};
+use crate::execution::frames;
+use crate::execution::mistakes;
+use crate::execution::values::finite;
 use crate::moves::{Axis, Event, Frame};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 /// What stands in the brackets of a system variable.
 #[derive(Debug, Clone, Default)]
@@ -80,19 +82,20 @@ impl Run<'_> {
             "PI" => std::f64::consts::PI,
             "P_EP" | "P_EPM" | "AA_IW" | "P_APR" => self.chain.position[axis],
             "AA_IM" | "AA_MM" | "AA_MW" | "AA_IB" => self.chain.machine()[axis],
-            "P_TOOLNO" => f64::from(self.modes.tool),
-            "P_TOOLP" => f64::from(self.modes.selected),
+            "P_TOOLNO" => f64::from(self.core.modes.tool),
+            "P_TOOLP" => f64::from(self.core.modes.selected),
             "P_TOOL" => f64::from(self.modes.edge),
             "P_TOOLL" => {
-                let stored = self.chain.tools.get(&self.modes.tool).copied().unwrap_or_default();
+                let stored =
+                    self.chain.tools.get(&self.core.modes.tool).copied().unwrap_or_default();
                 match number as i64 {
                     2 => stored[Axis::Y],
                     3 => stored[Axis::X],
                     _ => stored[Axis::Z],
                 }
             }
-            "P_F" => self.modes.feed,
-            "P_S" => self.modes.speed,
+            "P_F" => self.core.modes.feed.value,
+            "P_S" => self.core.modes.speed,
             "P_UIFRNUM" => f64::from(self.chain.active),
             // A run of this program is a run on the machine.
             "P_SEARCH" | "P_ISTEST" | "P_SIM" | "P_DRYRUN" | "P_PROG_EVENT" => 0.0,
@@ -133,7 +136,11 @@ impl Run<'_> {
                 let mut frame =
                     self.frame_variable(&name, f64::from(number)).unwrap_or(Frame::IDENTITY);
                 if !part.write(&mut frame, axis, value.number(at)?) {
-                    self.not_applied(&format!("this part of ${name}"), at, "assign a whole frame");
+                    self.core.not_applied(
+                        &format!("this part of ${name}"),
+                        at,
+                        "assign a whole frame",
+                    );
                 }
                 frame
             }
@@ -141,7 +148,7 @@ impl Run<'_> {
                 Value::Frame(frame) => **frame,
                 _ => {
                     let hint = "the moves that follow are those without it";
-                    self.not_applied(&format!("${name}="), at, hint);
+                    self.core.not_applied(&format!("${name}="), at, hint);
                     return Ok(());
                 }
             },
@@ -159,8 +166,7 @@ impl Run<'_> {
         let kept = match name {
             "P_UIFR" => {
                 if number > 999 {
-                    let message = format!("there is no work offset {number}");
-                    return Err(fault("bad-work-offset", at, message, "1 is G54, 5 is G505"));
+                    return Err(mistakes::bad_work_offset(number, "1 is G54, 5 is G505", at));
                 }
                 self.chain.offsets.insert(number, frame);
                 if let Some(archive) = &mut self.archive {
@@ -178,12 +184,12 @@ impl Run<'_> {
             _ if frame == Frame::IDENTITY => true,
             _ => {
                 let hint = "the moves that follow are those without it";
-                self.not_applied(&format!("${name}="), at, hint);
+                self.core.not_applied(&format!("${name}="), at, hint);
                 true
             }
         };
         if !kept {
-            return Err(flat(at));
+            return Err(mistakes::flat_frame(at));
         }
         self.emit_frame();
         Ok(())
@@ -192,9 +198,9 @@ impl Run<'_> {
     /// Tells the work offset that is active now.
     pub(super) fn emit_offset(&mut self) {
         let frame = self.chain.settable;
-        let rotation_deg = frame.linear[1][0].atan2(frame.linear[0][0]).to_degrees();
+        let rotation_deg = frames::rotation_deg(&frame);
         let (index, offset) = (self.chain.active, frame.shift);
-        self.emit(Event::WorkOffset { index, offset, rotation_deg });
+        self.core.emit(Event::WorkOffset { index, offset, rotation_deg });
     }
 
     /// $TC_DP3[t,d] and its like.
@@ -221,12 +227,12 @@ impl Run<'_> {
             "TC_DP4" => Axis::Y,
             "TC_DP5" => Axis::X,
             _ => {
-                self.not_applied(&format!("${name}="), at, "only the lengths of tools are");
+                self.core.not_applied(&format!("${name}="), at, "only the lengths of tools are");
                 return Ok(());
             }
         };
         if edge != 1.0 {
-            self.not_applied("a cutting edge other than 1", at, "D1 is");
+            self.core.not_applied("a cutting edge other than 1", at, "D1 is");
             return Ok(());
         }
         if self.chain.tools.len() < 100_000 {
@@ -234,9 +240,4 @@ impl Run<'_> {
         }
         Ok(())
     }
-}
-
-pub(super) fn flat(at: usize) -> Fault {
-    let message = "the frame squeezes space flat or leaves the range of numbers";
-    fault("flat-frame", at, message, "check the scales and shifts")
 }

@@ -1,10 +1,10 @@
 //! Tools by number and by name, and their lengths.
 
-use super::system::flat;
 use super::words::{ToolCall, Words};
 use super::{Run, fault};
-use crate::moves::{Event, Turning};
-use crate::program::Fault;
+use crate::execution::mistakes;
+use crate::moves::Event;
+use crate::text::program::Fault;
 
 /// Tools that only have a name here are numbered from this.
 const FIRST_NAMED: u32 = 10_001;
@@ -17,12 +17,11 @@ impl Run<'_> {
                 ToolCall::Number(number) => number,
                 ToolCall::Name(name) => {
                     let number = self.tool_named(&name, at)?;
-                    self.emit(Event::ToolName(name));
+                    self.core.emit(Event::ToolName(name));
                     number
                 }
             };
-            self.modes.selected = number;
-            self.emit(Event::ToolSelect(number));
+            self.core.select_tool(number);
         }
         let changes = words.m.iter().any(|(m, _)| *m == 6);
         if let Some((edge, at)) = words.edge
@@ -35,7 +34,7 @@ impl Run<'_> {
     }
 
     fn tool_named(&mut self, name: &str, at: usize) -> Result<u32, Fault> {
-        let known = &self.settings.tool_names;
+        let known = &self.core.settings.tool_names;
         let same =
             |(other, number): (&String, &u32)| other.eq_ignore_ascii_case(name).then_some(*number);
         if let Some(number) = known.get(name).copied().or_else(|| known.iter().find_map(same)) {
@@ -49,7 +48,7 @@ impl Run<'_> {
             return Ok(*number);
         }
         let mut number = FIRST_NAMED + self.names.len() as u32;
-        while self.settings.tool_names.values().any(|n| *n == number) {
+        while self.core.settings.tool_names.values().any(|n| *n == number) {
             number += 1;
         }
         if self.names.len() >= 100_000 {
@@ -58,17 +57,15 @@ impl Run<'_> {
         }
         let message =
             format!("the tool {name} is not in the tool table: it gets the number {number}");
-        self.warn_once("unknown-tool", name, at, message, "give a tool table");
+        self.core.warn("unknown-tool", name, at, message, "give a tool table");
         self.names.insert(name.to_owned(), number);
         Ok(number)
     }
 
     /// M6: the selected tool comes into the spindle; its first cutting edge is active.
     pub(super) fn change_tool(&mut self, edge: Option<u32>, at: usize) {
-        self.modes.tool = self.modes.selected;
-        self.modes.turning = Turning::Stopped;
         self.modes.edge = edge.unwrap_or(1);
-        self.emit(Event::ToolChange(self.modes.tool));
+        self.core.change_tool();
         self.apply_length(at);
     }
 
@@ -76,7 +73,7 @@ impl Run<'_> {
         if self.modes.edge > 1 {
             let message = format!("D{} has the length of D1 here", self.modes.edge);
             let hint = "the tool table knows one length for each tool";
-            self.warn_once("unknown-cutting-edge", &self.modes.edge.to_string(), at, message, hint);
+            self.core.warn("unknown-cutting-edge", self.modes.edge, at, message, hint);
         }
         self.apply_length(at);
         Ok(())
@@ -84,13 +81,11 @@ impl Run<'_> {
 
     /// Makes the length of the tool in the spindle valid along the normal of the plane.
     pub(super) fn apply_length(&mut self, at: usize) {
-        let (tool, edge, plane) = (self.modes.tool, self.modes.edge, self.modes.plane);
+        let (tool, edge, plane) = (self.core.modes.tool, self.modes.edge, self.core.modes.plane);
         let mut length = crate::moves::Position::default();
         if edge > 0 && tool > 0 {
             if !self.chain.tools.contains_key(&tool) {
-                let message = format!("the length of tool {tool} is not known: 0 is taken");
-                let subject = tool.to_string();
-                self.warn_once("unknown-tool-length", &subject, at, message, "give a tool table");
+                self.core.unknown_length(tool, at);
             }
             length = self.chain.tool_length(tool, plane);
         }
@@ -98,10 +93,10 @@ impl Run<'_> {
             return;
         }
         if self.chain.change(|c| c.tool = length) {
-            self.emit(Event::ToolLength(length));
+            self.core.emit(Event::ToolLength(length));
         } else {
-            let fault = flat(at);
-            self.report(fault);
+            let fault = mistakes::flat_frame(at);
+            self.core.report(fault);
         }
     }
 }

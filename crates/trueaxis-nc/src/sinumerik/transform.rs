@@ -1,33 +1,15 @@
 //! Turns, scales and mirrors as frames.
 
+use crate::execution::frames::{about, cross, turns};
+use crate::execution::mistakes;
 use crate::moves::{Axis, Frame, Position};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 use super::fault;
 
 /// A turn about one axis.
 pub(super) fn turned(axis: Axis, angle_deg: f64) -> Frame {
-    let (sin, cos) = exact_sin_cos(angle_deg);
-    let mut linear = Frame::IDENTITY.linear;
-    let (i, j) = match axis {
-        Axis::X => (1, 2),
-        Axis::Y => (2, 0),
-        _ => (0, 1),
-    };
-    (linear[i][i], linear[i][j]) = (cos, -sin);
-    (linear[j][i], linear[j][j]) = (sin, cos);
-    Frame { linear, ..Frame::IDENTITY }
-}
-
-/// Sine and cosine, without rounding at the quarters.
-fn exact_sin_cos(angle_deg: f64) -> (f64, f64) {
-    match angle_deg.rem_euclid(360.0) {
-        0.0 => (0.0, 1.0),
-        90.0 => (1.0, 0.0),
-        180.0 => (0.0, -1.0),
-        270.0 => (-1.0, 0.0),
-        _ => angle_deg.to_radians().sin_cos(),
-    }
+    about(axis as usize % 3, angle_deg)
 }
 
 /// Angles about X, Y and Z in the order of this control: Rz · Ry · Rx.
@@ -36,7 +18,7 @@ fn exact_sin_cos(angle_deg: f64) -> (f64, f64) {
 /// Function Manual "Axes, coordinate systems, frames (K2)": RPY angles turn in the order Z, Y', X''.
 pub(super) fn rpy(angles_deg: [f64; 3]) -> Frame {
     let [x, y, z] = angles_deg;
-    turned(Axis::Z, z).after(&turned(Axis::Y, y)).after(&turned(Axis::X, x))
+    turns([(Axis::Z, z), (Axis::Y, y), (Axis::X, x)])
 }
 
 /// The RPY angles of a pure turn.
@@ -118,18 +100,13 @@ pub(super) fn projected(angles_deg: [Option<f64>; 3]) -> Option<Frame> {
     Some(Frame { linear, ..Frame::IDENTITY })
 }
 
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
 /// The frame of CTRANS, CROT, CSCALE … or TRANS, ROT, SCALE … with its entries per axis.
 pub(super) fn from_entries(word: &str, entries: &[(Axis, f64)], at: usize) -> Result<Frame, Fault> {
     let mut frame = Frame::IDENTITY;
     let value = |axis: Axis| entries.iter().find(|(a, _)| *a == axis).map(|(_, v)| *v);
     let spatial = [Axis::X, Axis::Y, Axis::Z].map(value);
     if let Some((_, bad)) = entries.iter().find(|(_, v)| v.is_nan() || v.abs() >= 1e12) {
-        let message = format!("{bad} is too large for a frame");
-        return Err(fault("too-large", at, message, "no machine goes that far"));
+        return Err(mistakes::too_large(*bad, "a frame", at));
     }
     match word {
         "TRANS" | "FINE" => {
@@ -148,8 +125,7 @@ pub(super) fn from_entries(word: &str, entries: &[(Axis, f64)], at: usize) -> Re
             for (i, factor) in spatial.into_iter().enumerate() {
                 frame.linear[i][i] = factor.unwrap_or(1.0);
                 if frame.linear[i][i].abs() < 1e-6 {
-                    let message = "a scale of zero squeezes the part flat";
-                    return Err(fault("flat-frame", at, message, "write a factor such as 0.5"));
+                    return Err(mistakes::bad_scale(at));
                 }
             }
         }
@@ -168,13 +144,6 @@ mod tests {
 
     fn near(a: [f64; 3], b: [f64; 3]) -> bool {
         a.iter().zip(b).all(|(x, y)| (x - y).abs() < 1e-12)
-    }
-
-    #[test]
-    fn turns_follow_the_right_hand() {
-        assert_eq!(turned(Axis::Z, 90.0).vector([1.0, 0.0, 0.0]), [0.0, 1.0, 0.0]);
-        assert_eq!(turned(Axis::X, 90.0).vector([0.0, 1.0, 0.0]), [0.0, 0.0, 1.0]);
-        assert_eq!(turned(Axis::Y, 90.0).vector([0.0, 0.0, 1.0]), [1.0, 0.0, 0.0]);
     }
 
     #[test]

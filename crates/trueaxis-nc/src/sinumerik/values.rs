@@ -1,7 +1,8 @@
 //! What variables hold and expressions give.
 
+use crate::execution::mistakes;
 use crate::moves::{Axis, Frame};
-use crate::program::Fault;
+use crate::text::program::Fault;
 
 use super::fault;
 
@@ -108,8 +109,7 @@ impl Kind {
             (Self::Int, value) => {
                 let number = value.number(at)?.round();
                 if number.abs() > 2_147_483_648.0 {
-                    let message = format!("{number} is too large for INT");
-                    return Err(fault("too-large", at, message, "use REAL"));
+                    return Err(mistakes::too_large(number, "INT", at));
                 }
                 Value::Number(number)
             }
@@ -122,8 +122,7 @@ impl Kind {
             (Self::Text(longest), value) => {
                 let text = value.text(at)?;
                 if text.chars().count() > longest {
-                    let message = format!("the text is longer than {longest} characters");
-                    return Err(fault("too-long", at, message, "declare STRING[n] larger"));
+                    return Err(mistakes::text_too_long(longest, at));
                 }
                 Value::Text(text)
             }

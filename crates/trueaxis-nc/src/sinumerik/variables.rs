@@ -5,9 +5,10 @@ use std::collections::HashMap;
 use super::reader::Reader;
 use super::values::{Kind, LONGEST_TEXT, Value, Variable};
 use super::{Run, fault};
-use crate::lexer::TokenKind;
+use crate::execution::mistakes;
 use crate::moves::Axis;
-use crate::program::Fault;
+use crate::text::lexer::TokenKind;
+use crate::text::program::Fault;
 
 /// R0 to this.
 const LAST_R: usize = 32_767;
@@ -22,6 +23,7 @@ pub(super) enum Slot {
     Cell(String, usize),
 }
 
+#[inline]
 pub(super) fn axis_of(letter: u8) -> Option<Axis> {
     Axis::ALL.into_iter().find(|a| a.letter() == letter)
 }
@@ -44,8 +46,8 @@ impl Run<'_> {
             reader.number().unwrap_or_else(|| Err(super::expression::missing_value(reader)))?
         };
         if index.fract() != 0.0 || !(0.0..=LAST_R as f64).contains(&index) {
-            let message = format!("there is no R{index}");
-            return Err(fault("parameter-out-of-range", at, message, "R0 to R32767 are there"));
+            let name = format_args!("R{index}");
+            return Err(mistakes::no_parameter(name, "R0 to R32767 are there", at));
         }
         Ok(index as usize)
     }
@@ -56,7 +58,7 @@ impl Run<'_> {
         }
         let message = format!("R{index} is read before it is set: 0 is taken");
         let hint = "the control takes what an earlier program left there";
-        self.warn_once("unset-parameter", &format!("R{index}"), at, message, hint);
+        self.core.warn("unset-parameter", format!("R{index}"), at, message, hint);
         0.0
     }
 
@@ -94,7 +96,7 @@ impl Run<'_> {
             let slot = self.slot(reader)?;
             return self.read(&slot, at);
         }
-        if let Some(value) = self.settings.constants.get(&word.to_ascii_lowercase()) {
+        if let Some(value) = self.core.settings.constants.get(&word.to_ascii_lowercase()) {
             reader.advance();
             return Ok(Value::Number(*value));
         }
@@ -104,9 +106,7 @@ impl Run<'_> {
                         BOUND and functions of texts and frames are";
             return Err(fault("function-not-known", at, message, hint));
         }
-        let message = format!("the variable {word} is not declared");
-        let hint = "declare it with DEF, or give it as a constant of the machine";
-        Err(fault("undefined-parameter", at, message, hint))
+        Err(undeclared(word, at))
     }
 
     /// The place that a name with its indices means: `R5`, `R[1]`, `NAME`, `NAME[1,2]`.
@@ -155,10 +155,7 @@ impl Run<'_> {
             Slot::Cell(name, cell) => {
                 let found = self.variables().and_then(|v| v.get(name));
                 let value = found.and_then(|v| v.values.get(*cell)).cloned();
-                value.ok_or_else(|| {
-                    let message = format!("the variable {name} is not declared");
-                    fault("undefined-parameter", at, message, "declare it with DEF")
-                })
+                value.ok_or_else(|| undeclared(name, at))
             }
         }
     }
@@ -174,8 +171,7 @@ impl Run<'_> {
             }
             Slot::Cell(name, cell) => {
                 let Some(variable) = self.variables().and_then(|v| v.get_mut(name)) else {
-                    let message = format!("the variable {name} is not declared");
-                    return Err(fault("undefined-parameter", at, message, "declare it with DEF"));
+                    return Err(undeclared(name, at));
                 };
                 let converted = variable.kind.convert(value, at)?;
                 if let Some(place) = variable.values.get_mut(*cell) {
@@ -328,8 +324,7 @@ impl Run<'_> {
             }
             sizes.push(size as usize);
             if !matches!(reader.symbol(), Some(b',' | b']')) {
-                let message = "this bracket is not closed";
-                return Err(fault("unbalanced-brackets", at, message, "one ] for each ["));
+                return Err(mistakes::unclosed_bracket(at));
             }
         }
         Ok(sizes)
@@ -344,9 +339,9 @@ impl Run<'_> {
     ) -> Result<(), Fault> {
         let count = sizes.iter().fold(1_usize, |a, b| a.saturating_mul(*b));
         if self.cells.saturating_add(count) > MOST_CELLS {
-            self.stop_for_good();
             let message = format!("more than {MOST_CELLS} values are declared");
-            return Err(fault("too-many-variables", at, message, "declare smaller arrays"));
+            let fault = fault("too-many-variables", at, message, "declare smaller arrays");
+            return Err(self.core.for_good(fault));
         }
         self.cells += count;
         let freed = self.variables().and_then(|variables| {
@@ -375,18 +370,18 @@ impl Run<'_> {
         match self.expression(reader)? {
             Value::Axis(axis) => Ok(Some(axis)),
             Value::Text(name) => Ok(axis_named(&name)),
-            _ => {
-                let hint = "the axes are X Y Z A B C U V W";
-                Err(fault("unknown-axis", at, "the name of an axis is due here", hint))
-            }
+            _ => Err(mistakes::unknown_axis(at)),
         }
     }
 
     pub(super) fn axis(&mut self, reader: &mut Reader<'_>) -> Result<Axis, Fault> {
         let at = reader.here();
-        self.axis_or_other(reader)?.ok_or_else(|| {
-            let hint = "the axes are X Y Z A B C U V W";
-            fault("unknown-axis", at, "this axis is not known here", hint)
-        })
+        self.axis_or_other(reader)?.ok_or_else(|| mistakes::unknown_axis(at))
     }
+}
+
+fn undeclared(name: &str, at: usize) -> Fault {
+    let message = format!("the variable {name} is not declared");
+    let hint = "declare it with DEF, or give it as a constant of the machine";
+    fault("undefined-parameter", at, message, hint)
 }

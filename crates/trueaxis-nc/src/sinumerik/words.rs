@@ -4,12 +4,11 @@ use super::reader::Reader;
 use super::tables::{self, Code, Name};
 use super::variables::axis_of;
 use super::{Next, Run, fault};
-use crate::lexer::TokenKind;
+use crate::execution::mistakes;
+use crate::execution::values::LARGEST;
 use crate::moves::{Axis, AxisSet};
-use crate::program::Fault;
-
-/// No word is larger, so that no sum of words leaves the range of numbers.
-const LARGEST: f64 = 1e12;
+use crate::text::lexer::TokenKind;
+use crate::text::program::Fault;
 
 /// How a value is meant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -74,14 +73,13 @@ impl Words {
         self.numbered.clear();
     }
 
+    #[inline]
     pub fn put_axis(&mut self, axis: Axis, value: (f64, Mode), at: usize) -> Result<(), Fault> {
         if self.axes.contains(axis) {
-            let message = format!("the word {axis} stands twice in this block");
-            return Err(fault("repeated-word", at, message, "write it once"));
+            return Err(mistakes::repeated_word(axis, at));
         }
         if value.0.is_nan() || value.0.abs() > LARGEST {
-            let message = format!("{} is too large for the word {axis}", value.0);
-            return Err(fault("too-large", at, message, "no machine goes that far"));
+            return Err(mistakes::too_large(value.0, axis, at));
         }
         self.axes = self.axes.with(axis);
         let index = axis as usize;
@@ -141,11 +139,14 @@ impl Run<'_> {
         if letter == b'R' && (reader.symbol_ahead(1) == Some(b'[') || numbered.is_some()) {
             let slot = self.slot(reader)?;
             if !reader.equals_ahead(0) {
-                let message = "an R parameter at the beginning of a word is set by =";
-                return Err(fault("missing-equals", reader.here(), message, "write R1=2"));
+                return Err(mistakes::missing_equals(
+                    "an R parameter",
+                    "write R1=2",
+                    reader.here(),
+                ));
             }
             self.assignment(&slot, reader)?;
-            self.tell_steering(at..reader.here());
+            self.core.tell_steering(at..reader.here());
             return Ok(None);
         }
         if letter == b'L'
@@ -226,10 +227,7 @@ impl Run<'_> {
         reader.advance();
         reader.require(b'(', "write X=AC(10)")?;
         let value = self.told_number(reader)?;
-        if !reader.accept(b')') {
-            let message = "this bracket is not closed";
-            return Err(fault("unbalanced-brackets", open, message, "one ) for each ("));
-        }
+        reader.close(open)?;
         Ok((value, mode))
     }
 
@@ -241,9 +239,9 @@ impl Run<'_> {
         let plain = reader.at == first + 1 + usize::from(signed);
         let begins = reader.source.get(from + usize::from(signed));
         let is_digit = begins.is_some_and(|b| b.is_ascii_digit() || *b == b'.');
-        if self.settings.tell_blocks && !(plain && is_digit) {
+        if self.core.settings.tell_blocks && !(plain && is_digit) {
             let text = from..reader.here();
-            self.emit(crate::moves::Event::Computed { text, value: Some(value) });
+            self.core.emit(crate::moves::Event::Computed { text, value: Some(value) });
         }
         Ok(value)
     }
@@ -258,7 +256,7 @@ impl Run<'_> {
     ) -> Result<(), Fault> {
         let (value, mode) = match letter {
             b'T' => {
-                self.not_applied("the tool of another spindle", at, "T alone is");
+                self.core.not_applied("the tool of another spindle", at, "T alone is");
                 self.expression(reader)?;
                 return Ok(());
             }
@@ -271,8 +269,7 @@ impl Run<'_> {
             }
             (b'I'..=b'K', 1) => {
                 if value.abs() > LARGEST {
-                    let message = format!("{value} is too large");
-                    return Err(fault("too-large", at, message, "no machine goes that far"));
+                    return Err(mistakes::too_large(value, char::from(letter), at));
                 }
                 self.words.through[usize::from(letter - b'I')] = Some((value, mode));
             }
@@ -280,11 +277,11 @@ impl Run<'_> {
             (b'M', 1) => return self.put(b'M', (value, mode), at),
             (b'S' | b'M', _) => {
                 let subject = format!("{}{digits}= of another spindle", char::from(letter));
-                self.not_applied(&subject, at, "the main spindle's is");
+                self.core.not_applied(&subject, at, "the main spindle's is");
             }
             (b'F' | b'G', _) => {
                 let subject = format!("{}[{digits}]=", char::from(letter));
-                self.not_applied(&subject, at, "write the code or the feed itself");
+                self.core.not_applied(&subject, at, "write the code or the feed itself");
             }
             (b'H', _) => self.words.codes.push((Code::Note("an H function"), at)),
             _ if axis_of(letter).is_some() => {
@@ -293,8 +290,7 @@ impl Run<'_> {
             }
             _ => {
                 let name = format!("{}{digits}", char::from(letter));
-                let message = format!("the word {name} is not known to this control");
-                return Err(fault("unknown-word", at, message, "check the spelling"));
+                return Err(mistakes::unknown_word(name, at));
             }
         }
         Ok(())
@@ -310,9 +306,7 @@ impl Run<'_> {
             b'G' => {
                 let code = code_number(number).and_then(tables::g_code);
                 let Some(code) = code else {
-                    let message = format!("G{number} is not known to this control");
-                    let hint = "is the program written for another control?";
-                    return Err(fault("unknown-g-code", at, message, hint));
+                    return Err(mistakes::unknown_g_code(number, at));
                 };
                 self.words.codes.push((code, at));
             }
@@ -328,15 +322,13 @@ impl Run<'_> {
             b'T' => self.words.tool = Some((ToolCall::Number(tool_number(number, at)?), at)),
             b'D' => {
                 let Some(edge) = code_number(number) else {
-                    let message = format!("D{number} is not a cutting edge");
-                    return Err(fault("bad-tool", at, message, "write D1, or D0 for none"));
+                    return Err(mistakes::bad_tool(format_args!("D{number}"), at));
                 };
                 self.words.edge = Some((edge, at));
             }
             b'I'..=b'K' => {
                 if number.is_nan() || number.abs() > LARGEST {
-                    let message = format!("{number} is too large");
-                    return Err(fault("too-large", at, message, "no machine goes that far"));
+                    return Err(mistakes::too_large(number, char::from(letter), at));
                 }
                 self.words.centers[usize::from(letter - b'I')] = Some(value);
             }
@@ -344,9 +336,7 @@ impl Run<'_> {
             b'N' => {}
             _ => {
                 let name = char::from(letter);
-                let message = format!("the word {name} is not known to this control");
-                let hint = "is the program written for another control?";
-                return Err(fault("unknown-word", at, message, hint));
+                return Err(mistakes::unknown_word(name, at));
             }
         }
         Ok(())
@@ -358,11 +348,10 @@ impl Run<'_> {
         if self.has_variable(&word) {
             let slot = self.slot(reader)?;
             if !reader.equals_ahead(0) {
-                let message = format!("the variable {word} is set by =");
-                return Err(fault("missing-equals", reader.here(), message, "write NAME=2"));
+                return Err(mistakes::missing_equals(word, "write NAME=2", reader.here()));
             }
             self.assignment(&slot, reader)?;
-            self.tell_steering(at..reader.here());
+            self.core.tell_steering(at..reader.here());
             return Ok(());
         }
         reader.advance();
@@ -380,7 +369,7 @@ impl Run<'_> {
         if word == "MSG" {
             let values = self.arguments(reader)?;
             let text = values.first().and_then(Option::as_ref).map(super::functions::message);
-            self.emit(crate::moves::Event::Message(text.unwrap_or_default()));
+            self.core.emit(crate::moves::Event::Message(text.unwrap_or_default()));
             return Ok(());
         }
         if let Some(code) = tables::code(&word) {
@@ -412,18 +401,17 @@ impl Run<'_> {
             if name == Name::AxisPlace {
                 axis = Some(self.axis(reader)?);
             } else if self.axis_or_other(reader).is_err() {
-                return Err(fault("unknown-axis", place, "an axis is due here", "write FL[X]=100"));
+                return Err(mistakes::unknown_axis(place));
             }
             reader.require(b']', "one ] for each [")?;
         }
         if !reader.equals_ahead(0) {
             // FZ, MEAS … may stand as switches in other releases.
-            let message = format!("{word} needs = and a value");
-            return Err(fault("missing-equals", reader.here(), message, "write CR=5"));
+            return Err(mistakes::missing_equals(word, "write CR=5", reader.here()));
         }
         reader.advance();
         if let Name::NotApplied(subject) = name {
-            self.not_applied(subject, at, "the moves that follow are those without it");
+            self.core.not_applied(subject, at, "the moves that follow are those without it");
             if reader.symbol() == Some(b'(') {
                 return skip_brackets(reader);
             }
@@ -431,12 +419,11 @@ impl Run<'_> {
         let (value, mode) = self.moded_value(reader)?;
         if let Some(axis) = axis {
             let hint = "it moves with the other axes of its block here";
-            self.not_applied("the own motion of POS axes", at, hint);
+            self.core.not_applied("the own motion of POS axes", at, hint);
             return self.words.put_axis(axis, (value, mode), at);
         }
         if value.is_nan() || value.abs() > LARGEST {
-            let message = format!("{value} is too large for {word}");
-            return Err(fault("too-large", at, message, "no machine goes that far"));
+            return Err(mistakes::too_large(value, word, at));
         }
         if !matches!(name, Name::NotApplied(_)) {
             self.words.named.push((name, value, mode, at));
@@ -449,8 +436,7 @@ fn tool_number(value: f64, at: usize) -> Result<u32, Fault> {
     if (0.0..1e9).contains(&value) && value.fract() == 0.0 {
         return Ok(value as u32);
     }
-    let message = format!("T{value} is not the number of a tool");
-    Err(fault("bad-tool", at, message, "write T1 or T=\"NAME\""))
+    Err(mistakes::bad_tool(format_args!("T{value}"), at))
 }
 
 /// A code number, allowing for what arithmetic does to it.
@@ -477,7 +463,7 @@ fn skip_brackets(reader: &mut Reader<'_>) -> Result<(), Fault> {
             return Ok(());
         }
     }
-    Err(fault("unbalanced-brackets", open, "this bracket is not closed", "one ) for each ("))
+    Err(mistakes::unclosed_bracket(open))
 }
 
 fn foreign(reader: &Reader<'_>) -> Fault {

@@ -1,0 +1,275 @@
+//! What every run has, whatever the language of its program: where it is, what it reports, what it
+//! hands out and where its limits lie.
+
+use std::collections::{HashMap, HashSet};
+use std::rc::Rc;
+
+use trueaxis_input::{Diagnostics, Place};
+
+use super::{Library, Modes, Outcome, Settings, mistakes};
+use crate::moves::{Event, Frame, Move, Origin, Step};
+use crate::text::program::{Fault, Places, Program};
+
+/// Errors that a run lists before it stops.
+const MOST_ERRORS: usize = 100;
+
+/// Warnings that a run lists, with the note that the rest is left out: more than anybody reads.
+/// Hostile programs could fill the memory with warnings about ever new numbers.
+const MOST_WARNINGS: usize = 1000;
+
+/// What the next block is, after one was executed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Next {
+    /// The one that follows.
+    Following,
+    /// Wherever the program was sent.
+    Jumped,
+    /// None.
+    Finished,
+}
+
+/// A language of NC programs in execution.
+pub(crate) trait Language<'r> {
+    /// A block taken apart; its room is used again.
+    type Room: Default;
+
+    /// What it shares with the others.
+    fn core(&mut self) -> &mut Core<'r>;
+
+    /// Executes what comes next: a block, some plain ones, or the end of a text.
+    fn advance(&mut self, room: &mut Self::Room) -> Result<Next, Fault>;
+
+    /// Goes on behind a block that had an error.
+    fn pass_over(&mut self, room: &Self::Room);
+
+    /// Tells the frame if it has changed.
+    fn emit_frame(&mut self);
+
+    /// Executes the program; `false` if an error, or somebody, stopped it.
+    fn run(&mut self) -> bool {
+        let mut room = Self::Room::default();
+        self.emit_frame();
+        while !self.core().settings.stop.is_asked() {
+            match self.advance(&mut room) {
+                Ok(Next::Finished) => return true,
+                Ok(Next::Following | Next::Jumped) => {}
+                Err(fault) => {
+                    if !self.core().goes_on_after(fault) {
+                        return false;
+                    }
+                    self.pass_over(&room);
+                }
+            }
+        }
+        false
+    }
+
+    /// Executes the program to its end.
+    fn outcome(&mut self) -> Outcome {
+        let finished = self.run();
+        let core = self.core();
+        let programs = core.programs.iter().map(|p| p.file().to_owned()).collect();
+        Outcome { problems: std::mem::take(&mut core.problems), finished, programs }
+    }
+}
+
+/// The part of a run that is the same in all languages.
+pub(crate) struct Core<'r> {
+    pub library: &'r dyn Library,
+    pub settings: &'r Settings,
+    take: &'r mut dyn FnMut(Step),
+    /// The main program, then the others in the order of their first call.
+    pub programs: Vec<Rc<Program>>,
+    /// The programs of the library by the name they were asked for.
+    loaded: HashMap<String, usize>,
+    /// The program and line that are being executed.
+    pub origin: Origin,
+    /// Where the block begins that is being executed.
+    pub start: usize,
+    pub modes: Modes,
+    /// Backward jumps and calls.
+    jumps: u64,
+    /// The frame as it was told last.
+    told: Frame,
+    problems: Diagnostics,
+    errors: usize,
+    /// Nothing can go on, whatever the settings say.
+    stopped: bool,
+    reported: HashSet<(&'static str, String)>,
+}
+
+impl<'r> Core<'r> {
+    pub fn new(
+        program: &Program,
+        library: &'r dyn Library,
+        settings: &'r Settings,
+        take: &'r mut dyn FnMut(Step),
+    ) -> Self {
+        Self {
+            library,
+            settings,
+            take,
+            programs: vec![Rc::new(program.clone())],
+            loaded: HashMap::new(),
+            origin: Origin { program: 0, line: 1 },
+            start: 0,
+            modes: Modes::new(settings),
+            jumps: 0,
+            told: Frame::IDENTITY,
+            problems: Diagnostics::new(),
+            errors: 0,
+            stopped: false,
+            reported: HashSet::new(),
+        }
+    }
+
+    /// The program that is being executed.
+    #[inline]
+    pub fn program(&self) -> &Rc<Program> {
+        &self.programs[self.origin.program as usize]
+    }
+
+    /// A block of a program begins.
+    #[inline]
+    pub fn begin(&mut self, program: usize, start: usize, line: u32) {
+        self.start = start;
+        self.origin = Origin { program: program as u32, line };
+    }
+
+    #[inline]
+    pub fn emit(&mut self, event: Event) {
+        (self.take)(Step::Event(event, self.origin));
+    }
+
+    #[inline]
+    pub fn emit_move(&mut self, step: Move) {
+        (self.take)(Step::Move(step));
+    }
+
+    /// Tells the frame if it has changed, and whether it has.
+    pub fn emit_frame(&mut self, frame: Frame) -> bool {
+        let changed = frame != self.told;
+        if changed {
+            self.told = frame;
+            self.emit(Event::Frame(frame));
+        }
+        changed
+    }
+
+    /// A part of the block that only steers the execution, if anybody asks.
+    pub fn tell_steering(&mut self, text: std::ops::Range<usize>) {
+        if self.settings.tell_blocks {
+            self.emit(Event::Computed { text, value: None });
+        }
+    }
+
+    /// Reports a fault of the program that is being executed.
+    pub fn report(&mut self, fault: Fault) {
+        let place = self.place(fault.offset);
+        self.problems.error(fault.code, place, fault.message, fault.hint);
+        self.errors += 1;
+    }
+
+    /// Reports a fault; whether the run goes on behind its block.
+    fn goes_on_after(&mut self, fault: Fault) -> bool {
+        self.report(fault);
+        self.settings.keep_going && !self.stopped && self.errors < MOST_ERRORS
+    }
+
+    /// A fault after which nothing can go on.
+    pub fn for_good(&mut self, fault: Fault) -> Fault {
+        self.stopped = true;
+        fault
+    }
+
+    fn place(&self, offset: usize) -> Place {
+        let program = self.program();
+        let mut places = Places::new(program);
+        if offset >= self.start {
+            places = Places::beginning(program, self.start, self.origin.line);
+        }
+        places.of(offset)
+    }
+
+    /// Whether this is said about this subject for the first time.
+    pub fn is_new(&mut self, code: &'static str, subject: impl ToString) -> bool {
+        self.reported.len() < MOST_WARNINGS && self.reported.insert((code, subject.to_string()))
+    }
+
+    /// Warns once about each subject.
+    pub fn warn(
+        &mut self,
+        code: &'static str,
+        subject: impl ToString,
+        at: usize,
+        message: impl Into<String>,
+        hint: &str,
+    ) {
+        if !self.is_new(code, subject) {
+            return;
+        }
+        let place = self.place(at);
+        if self.reported.len() < MOST_WARNINGS {
+            self.problems.warn(code, place, message.into(), hint);
+        } else {
+            let message = format!("{MOST_WARNINGS} warnings and more: the rest is not listed");
+            self.problems.note("too-many-problems", place, message, "");
+        }
+    }
+
+    /// Warns once that something known to the control has no effect here.
+    pub fn not_applied(&mut self, subject: &str, at: usize, hint: &str) {
+        self.warn("not-applied", subject, at, format!("{subject} is not applied"), hint);
+    }
+
+    /// The same for what would change the moves.
+    pub fn left_out(&mut self, subject: &str, at: usize) {
+        self.not_applied(subject, at, "the moves that follow are those without it");
+    }
+
+    /// Counts a call or a jump backwards.
+    pub fn count(&mut self, at: usize) -> Result<(), Fault> {
+        self.jumps += 1;
+        let most = self.settings.most_jumps;
+        if self.jumps <= most {
+            return Ok(());
+        }
+        Err(self.for_good(mistakes::endless_loop(most, at)))
+    }
+
+    /// Looks whether one more call within the `depth` that are there goes too deep.
+    pub fn check_depth(&mut self, depth: usize, at: usize) -> Result<(), Fault> {
+        let deepest = self.settings.deepest_call;
+        if depth <= deepest {
+            return Ok(());
+        }
+        Err(self.for_good(mistakes::calls_too_deep(deepest, at)))
+    }
+
+    /// The number of a program of the library, which may have it under one of several names.
+    pub fn load(
+        &mut self,
+        name: &str,
+        names: impl IntoIterator<Item = String>,
+        at: usize,
+    ) -> Result<usize, Fault> {
+        if let Some(number) = self.loaded.get(name) {
+            return Ok(*number);
+        }
+        let mut why = "it has no name".to_owned();
+        for known in names {
+            match self.library.text(&known) {
+                Ok(text) => {
+                    let control = self.programs[0].dialect().control;
+                    let program = Program::new(&self.library.display(&known), text, control);
+                    self.programs.push(Rc::new(program));
+                    let number = self.programs.len() - 1;
+                    self.loaded.insert(name.to_owned(), number);
+                    return Ok(number);
+                }
+                Err(reason) => why = reason,
+            }
+        }
+        Err(mistakes::missing_program(name, &why, at))
+    }
+}

@@ -1,0 +1,161 @@
+//! What lasts from block to block in every language: units, plane, feed, spindle, tool.
+
+use super::{Core, Settings, mistakes};
+use crate::moves::{
+    Axis, AxisSet, CompensationSide, Event, Feed, FeedMode, Move, MoveKind, Plane, Position,
+    Turning,
+};
+use crate::text::program::Fault;
+
+#[derive(Debug, Clone)]
+pub(crate) struct Modes {
+    pub inches: bool,
+    /// X words are diameters.
+    pub diameter: bool,
+    pub incremental: bool,
+    pub plane: Plane,
+    pub feed: Feed,
+    pub speed: f64,
+    pub turning: Turning,
+    /// The tool that is prepared.
+    pub selected: u32,
+    /// The tool in the spindle.
+    pub tool: u32,
+    /// The tip of the tool is programmed.
+    pub tool_centre: bool,
+}
+
+impl Modes {
+    pub fn new(settings: &Settings) -> Self {
+        Self {
+            inches: settings.inches,
+            diameter: settings.diameters,
+            incremental: false,
+            plane: settings.plane,
+            feed: Feed { mode: FeedMode::PerMinute, value: 0.0 },
+            speed: 0.0,
+            turning: Turning::Stopped,
+            selected: 0,
+            tool: 0,
+            tool_centre: false,
+        }
+    }
+
+    #[inline]
+    pub fn unit_mm(&self) -> f64 {
+        if self.inches { 25.4 } else { 1.0 }
+    }
+
+    /// The factor of a word of an axis to mm or degrees.
+    #[inline]
+    pub fn scale(&self, axis: Axis) -> f64 {
+        match axis {
+            _ if axis.is_rotary() => 1.0,
+            Axis::X if self.diameter => self.unit_mm() / 2.0,
+            _ => self.unit_mm(),
+        }
+    }
+
+    /// A feed of another kind begins without a value.
+    pub fn change_feed_mode(&mut self, mode: FeedMode) {
+        if mode != self.feed.mode {
+            self.feed = Feed { mode, value: 0.0 };
+        }
+    }
+
+    /// The feed of a block: F if it has one. Inverse time lasts for its block only.
+    #[inline]
+    pub fn set_feed(&mut self, word: Option<f64>, unit_mm: f64) {
+        let inverse = self.feed.mode == FeedMode::InverseTime;
+        match word {
+            Some(feed) => self.feed.value = if inverse { feed } else { feed * unit_mm },
+            None if inverse => self.feed.value = 0.0,
+            None => {}
+        }
+    }
+
+    #[inline]
+    pub fn check_feed(&self, at: usize) -> Result<(), Fault> {
+        self.feed.check(at)
+    }
+}
+
+impl Feed {
+    /// A move needs a feed.
+    #[inline]
+    pub(crate) fn check(&self, at: usize) -> Result<(), Fault> {
+        if self.value > 0.0 { Ok(()) } else { Err(mistakes::zero_feed(self.mode, at)) }
+    }
+}
+
+impl Core<'_> {
+    /// A move with the feed that is on.
+    #[inline]
+    pub fn plain_move(&self, kind: MoveKind, target: Position, named: AxisSet) -> Move {
+        Move::plain(kind, target, named, self.modes.feed, self.origin)
+    }
+
+    pub fn select_plane(&mut self, plane: Plane) {
+        self.modes.plane = plane;
+        self.emit(Event::Plane(plane));
+    }
+
+    pub fn turn_spindle(&mut self, turning: Turning) {
+        self.modes.turning = turning;
+        self.emit(Event::Spindle(turning));
+    }
+
+    #[inline]
+    pub fn set_speed(&mut self, speed: Option<f64>) {
+        if let Some(speed) = speed {
+            self.modes.speed = speed;
+            self.emit(Event::SpindleSpeed(speed));
+        }
+    }
+
+    /// S is a surface speed, or no longer.
+    pub fn surface_speed(&mut self, on: bool) {
+        let name = if on { "G96 constant surface speed" } else { "G97 revolutions per minute" };
+        self.emit(Event::Note(name));
+    }
+
+    pub fn select_tool(&mut self, tool: u32) {
+        self.modes.selected = tool;
+        self.emit(Event::ToolSelect(tool));
+    }
+
+    /// The tool that is prepared comes into the spindle, which stops.
+    pub fn change_tool(&mut self) {
+        self.modes.tool = self.modes.selected;
+        self.modes.turning = Turning::Stopped;
+        self.emit(Event::ToolChange(self.modes.tool));
+    }
+
+    /// The tip of the tool is programmed, or the axes.
+    pub fn tool_centre(&mut self, on: bool) {
+        self.modes.tool_centre = on;
+        self.emit(Event::ToolCentre(on));
+    }
+
+    pub fn compensate(&mut self, side: CompensationSide, at: usize) {
+        self.emit(Event::Compensation(side));
+        if side != CompensationSide::Off {
+            let message = "radius compensation is noted, not applied";
+            let hint = "the moves are those of the program; let the CAM system compensate";
+            self.warn("compensation-not-applied", "", at, message, hint);
+        }
+    }
+
+    /// Warns that the tool table does not have a tool.
+    pub fn unknown_length(&mut self, tool: u32, at: usize) {
+        let message = format!("the length of tool {tool} is not known: 0 is taken");
+        self.warn("unknown-tool-length", tool, at, message, "give a tool table");
+    }
+
+    /// Warns of an M function that is not known.
+    pub fn unknown_m_code(&mut self, number: f64, at: usize) {
+        let message = format!("M{number} is not known to this control");
+        let hint = "if the machine builder defined it, it has no effect here";
+        self.warn("unknown-m-code", number, at, message, hint);
+    }
+}

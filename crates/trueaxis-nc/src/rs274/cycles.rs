@@ -1,0 +1,210 @@
+//! Drilling cycles: G73 to G89.
+
+use super::{Run, fault};
+use crate::execution::drilling::{Drill, MOST_PECKS, Stroke, check_pecks, pecks, reversed};
+use crate::execution::mistakes;
+use crate::moves::{Event, MoveKind, Position, Turning};
+use crate::rs274::code::Cycle;
+use crate::text::program::Fault;
+
+/// What drilling cycles keep from block to block.
+#[derive(Debug, Clone, Default)]
+pub(super) struct CycleMemory {
+    r_mm: Option<f64>,
+    bottom_mm: Option<f64>,
+    peck_mm: Option<f64>,
+    dwell_s: f64,
+    /// Where the drill stood when the cycles began.
+    initial_mm: Option<f64>,
+}
+
+impl CycleMemory {
+    pub fn forget(&mut self) {
+        *self = Self::default();
+    }
+}
+
+/// One hole along the axis that stands on the plane.
+struct Hole {
+    axis: usize,
+    r: f64,
+    bottom: f64,
+    clear: f64,
+    peck: f64,
+    dwell_s: f64,
+}
+
+impl Run<'_> {
+    /// A drilling cycle at the place of the axis words, once or L (K on FANUC) times.
+    pub(super) fn cycle(&mut self, cycle: Cycle, at: usize) -> Result<(), Fault> {
+        for letter in *b"ABC" {
+            if self.words.look(letter).is_some() {
+                let message = "rotary axes do not move in a drilling cycle";
+                return Err(fault("rotary-in-cycle", at, message, "turn them in a block before"));
+            }
+        }
+        self.core.modes.check_feed(at)?;
+        let hole = self.hole(cycle, at)?;
+        self.check_depth(hole.axis, at);
+        let repeats = self.words.take(b'L').or_else(|| {
+            let fanuc = self.is_fanuc();
+            if fanuc { self.words.take(b'K') } else { None }
+        });
+        let repeats = repeats.unwrap_or(1.0);
+        if !(0.0..1e5).contains(&repeats) {
+            let message = format!("{repeats} is not a number of holes");
+            return Err(fault("bad-repeats", at, message, "write L2"));
+        }
+        let pecks = if hole.peck > 0.0 { (hole.r - hole.bottom) / hole.peck } else { 1.0 };
+        check_pecks(pecks.max(1.0) * repeats, MOST_PECKS, at)?;
+        let polar = self.modes.transforms.polar.is_some();
+        let axes = self.core.modes.plane.axes();
+        let steps = if polar { [None; 2] } else { [axes[0], axes[1]].map(|a| self.axis_word(a)) };
+        if self.frames.position.0[hole.axis] < hole.r && cycle != Cycle::BackBore {
+            let mut up = self.frames.position;
+            up.0[hole.axis] = hole.r;
+            self.step(MoveKind::Rapid, up);
+        }
+        for _ in 0..repeats as u32 {
+            let mut over = self.frames.position;
+            for (axis, step) in axes.iter().zip(steps) {
+                let base = if self.core.modes.incremental { over[*axis] } else { 0.0 };
+                over[*axis] = step.map_or(over[*axis], |s| base + s);
+            }
+            if let Some(place) = self.polar_place() {
+                (over[axes[0]], over[axes[1]]) = (place[0], place[1]);
+            }
+            self.step(MoveKind::Rapid, over);
+            if cycle == Cycle::BackBore {
+                self.bore_back(&hole, over);
+                continue;
+            }
+            if over.0[hole.axis] != hole.r {
+                over.0[hole.axis] = hole.r;
+                self.step(MoveKind::Rapid, over);
+            }
+            let strokes = self.strokes(cycle, &hole);
+            self.drill(strokes, at)?;
+        }
+        Ok(())
+    }
+
+    fn hole(&mut self, cycle: Cycle, at: usize) -> Result<Hole, Fault> {
+        let axis = self.core.modes.plane.axes()[2];
+        let now = self.frames.position[axis];
+        if self.modes.cycle.initial_mm.is_none() {
+            self.modes.cycle.initial_mm = Some(now);
+        }
+        let incremental = self.core.modes.incremental;
+        let fanuc = self.is_fanuc();
+        // FANUC counts R from where the cycles began, LinuxCNC from where the drill is.
+        let base = self.modes.cycle.initial_mm.filter(|_| fanuc).unwrap_or(now);
+        let r_word = self.length(b'R').map(|r| if incremental { r + base } else { r });
+        let r = r_word.or(self.modes.cycle.r_mm);
+        let Some(r) = r else {
+            let message = "the cycle has no R";
+            return Err(fault("cycle-without-r", at, message, "write R, the plane of retraction"));
+        };
+        let depth = self.axis_word(axis).map(|z| if incremental { z + r } else { z });
+        let Some(bottom) = depth.or(self.modes.cycle.bottom_mm) else {
+            return Err(mistakes::missing_depth(at));
+        };
+        if (r < bottom) != (cycle == Cycle::BackBore) {
+            let message = "the plane of retraction R lies below the bottom of the hole";
+            return Err(fault("cycle-r-below-bottom", at, message, "check R and the depth"));
+        }
+        let peck = self.length(b'Q').or(self.modes.cycle.peck_mm);
+        let pecks = matches!(cycle, Cycle::Peck | Cycle::ChipBreaking);
+        if pecks && !peck.is_some_and(|q| q > 0.0) {
+            let message = "the cycle needs Q, the depth of each peck, above 0";
+            return Err(fault("cycle-without-q", at, message, "write Q2"));
+        }
+        // FANUC counts P in milliseconds.
+        let second = if fanuc { 1000.0 } else { 1.0 };
+        let dwell_s = self.words.take(b'P').map_or(self.modes.cycle.dwell_s, |p| p / second);
+        let memory = &mut self.modes.cycle;
+        memory.r_mm = Some(r);
+        memory.bottom_mm = Some(bottom);
+        (memory.peck_mm, memory.dwell_s) = (peck, dwell_s);
+        let initial = memory.initial_mm.unwrap_or(now);
+        let top = if fanuc { initial } else { now };
+        let clear = if self.modes.retract_to_r { r } else { r.max(top) };
+        Ok(Hole { axis: axis as usize, r, bottom, clear, peck: peck.unwrap_or(0.0), dwell_s })
+    }
+
+    /// What the drill does from R on.
+    fn strokes(&self, cycle: Cycle, hole: &Hole) -> Vec<Stroke> {
+        const CLEARANCE_MM: f64 = 0.254;
+        let turning = self.core.modes.turning;
+        let turn = |turning| Stroke::Event(Event::Spindle(turning));
+        let (wait, out) = (Stroke::Dwell(hole.dwell_s), Stroke::Rapid(hole.clear));
+        let mut strokes = match cycle {
+            // By Q at a time; a chip is broken by 0.010 inch, a deep hole is left to R each time.
+            Cycle::Peck | Cycle::ChipBreaking => {
+                let depths = (1..).map(|n| hole.r - f64::from(n) * hole.peck);
+                let depths = depths.take_while(|depth| *depth > hole.bottom);
+                pecks(depths.chain([hole.bottom]), |depth, strokes| {
+                    strokes.extend((cycle == Cycle::Peck).then_some(Stroke::Rapid(hole.r)));
+                    strokes.push(Stroke::Rapid(depth + CLEARANCE_MM));
+                })
+            }
+            _ => vec![Stroke::Linear(hole.bottom)],
+        };
+        match cycle {
+            Cycle::TapLeft | Cycle::TapRight => {
+                strokes.extend([turn(Turning::Stopped), turn(reversed(turning)), wait]);
+                strokes.extend([Stroke::Linear(hole.clear), turn(Turning::Stopped), turn(turning)]);
+            }
+            Cycle::Bore | Cycle::BoreDwell => {
+                strokes.extend((cycle == Cycle::BoreDwell).then_some(wait));
+                strokes.push(Stroke::Linear(hole.r));
+                strokes.extend((hole.clear != hole.r).then_some(out));
+            }
+            Cycle::BoreManual => {
+                let stop = Stroke::Event(Event::Stop { optional: false });
+                strokes.extend([wait, turn(Turning::Stopped), stop, out, turn(turning)]);
+            }
+            Cycle::BoreStop | Cycle::FineBore => {
+                strokes.extend([wait, turn(Turning::Stopped), out, turn(turning)]);
+            }
+            Cycle::DrillDwell => strokes.extend([wait, out]),
+            _ => strokes.push(out),
+        }
+        strokes
+    }
+
+    /// G87: beside the hole by Q along the first axis of the plane, down to R, over the hole, up to Z
+    /// with feed, and out the same way.
+    fn bore_back(&mut self, hole: &Hole, over: Position) {
+        let turn = Event::Spindle(self.core.modes.turning);
+        let at_height = |mut place: Position, height| {
+            place.0[hole.axis] = height;
+            place
+        };
+        let mut beside = over;
+        beside[self.core.modes.plane.axes()[0]] += hole.peck;
+        self.core.emit(Event::SpindleOrient { angle_deg: 0.0 });
+        self.step(MoveKind::Rapid, beside);
+        self.step(MoveKind::Rapid, at_height(beside, hole.r));
+        self.step(MoveKind::Rapid, at_height(over, hole.r));
+        self.core.emit(turn.clone());
+        self.step(MoveKind::Linear, at_height(over, hole.bottom));
+        self.step(MoveKind::Dwell { seconds: hole.dwell_s }, self.frames.position);
+        self.core.emit(Event::SpindleOrient { angle_deg: 0.0 });
+        self.step(MoveKind::Rapid, at_height(beside, hole.bottom));
+        self.step(MoveKind::Rapid, beside);
+        self.step(MoveKind::Rapid, over);
+        self.core.emit(turn);
+    }
+}
+
+impl<'r> Drill<'r> for Run<'r> {
+    fn place(&mut self) -> &mut Position {
+        &mut self.frames.position
+    }
+
+    fn move_drill(&mut self, kind: MoveKind, to: Position, _at: usize) -> Result<(), Fault> {
+        self.step(kind, to);
+        Ok(())
+    }
+}

@@ -1,0 +1,91 @@
+//! Blocks as they are executed, for who unrolls the program.
+
+use super::execute::is_control;
+use super::{Next, Passage, Run};
+use crate::moves::Event;
+use crate::text::program::{Block, Fault, Item, Keyword, Node, NodeId};
+
+impl Run<'_> {
+    /// The same, with what a flat program of the same path would have to say instead.
+    pub(super) fn told_block(&mut self, passage: Passage<'_>) -> Result<Next, Fault> {
+        self.core.emit(Event::Block { text: passage.block.span.clone() });
+        for item in &passage.block.items {
+            let end = end_of(item, passage.block);
+            match item {
+                Item::Word { value, offset, .. } if !is_number(passage.block, *value) => {
+                    // Not yet executed: a block that assigns reads the values before it.
+                    let value = self.value(passage, *value)?;
+                    // A word of FANUC without a value is none.
+                    let (from, value) = match value.is_nan() {
+                        true => (*offset, None),
+                        false => (offset + 1, Some(value)),
+                    };
+                    self.core.emit(Event::Computed { text: from..end, value });
+                }
+                Item::Assign { offset, .. } => {
+                    self.core.emit(Event::Computed { text: *offset..end, value: None });
+                }
+                _ => {}
+            }
+        }
+        let next = self.sound_block(passage)?;
+        let steers = passage.block.items.iter().any(|item| {
+            let begins = matches!(item, Item::Control { keyword: Keyword::ProgramNumber, .. });
+            is_control(item) && !begins
+        });
+        if steers || next == Next::Jumped {
+            self.tell_steering(passage, steers);
+        }
+        Ok(next)
+    }
+
+    /// M98 and M99 go with their words and leave the others of their block; all else goes as a whole.
+    fn tell_steering(&mut self, passage: Passage<'_>, whole: bool) {
+        let letter = |item: &Item, letters: &[u8]| match item {
+            Item::Word { letter, .. } => letters.contains(letter),
+            _ => false,
+        };
+        let calls = passage.block.items.iter().any(|item| match item {
+            Item::Word { letter: b'M', value, .. } => {
+                let value = self.value(passage, *value);
+                value.is_ok_and(|m| [98.0, 99.0, 198.0].contains(&m))
+            }
+            _ => false,
+        });
+        if whole || !calls {
+            self.core.emit(Event::Computed { text: passage.block.span.clone(), value: None });
+            return;
+        }
+        // The M function of the call stands alone: others share no block with it.
+        for item in passage.block.items.iter().filter(|item| letter(item, b"MPLQ")) {
+            let text = offset_of(item)..end_of(item, passage.block);
+            self.core.emit(Event::Computed { text, value: None });
+        }
+    }
+}
+
+/// Where an item begins.
+fn offset_of(item: &Item) -> usize {
+    match item {
+        Item::Word { offset, .. } | Item::Assign { offset, .. } | Item::Control { offset, .. } => {
+            *offset
+        }
+        Item::Comment(range) => range.start,
+        Item::Mark(at) => *at,
+    }
+}
+
+/// Where the next item begins; comments need not stand at their place among the items.
+fn end_of(item: &Item, block: &Block) -> usize {
+    let behind = block.items.iter().map(offset_of).filter(|at| *at > offset_of(item));
+    behind.min().unwrap_or(block.span.end)
+}
+
+/// A plain number, with or without a sign.
+fn is_number(block: &Block, node: NodeId) -> bool {
+    match block.nodes[node as usize] {
+        Node::Number(_) => true,
+        Node::Negative(inner) => is_number(block, inner),
+        _ => false,
+    }
+}

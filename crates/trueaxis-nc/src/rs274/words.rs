@@ -1,0 +1,315 @@
+//! The words of a block with their values, and what lasts from block to block.
+
+use super::cycles::CycleMemory;
+use super::fanuc::macros::ModalMacro;
+use super::fanuc::transforms::Transforms;
+use super::{Passage, Run};
+use crate::execution::Settings;
+use crate::execution::mistakes;
+use crate::execution::values::LARGEST;
+use crate::moves::{Axis, AxisSet, CompensationSide, PathControl, Position};
+use crate::rs274::code::{Action, Motion};
+use crate::text::program::{Fault, Item, Program};
+
+/// One bit for each letter that names an axis.
+const AXIS_BITS: u32 = {
+    let (mut bits, mut index) = (0, 0);
+    while index < Axis::ALL.len() {
+        bits |= 1 << (b"XYZABCUVW"[index] - b'A');
+        index += 1;
+    }
+    bits
+};
+
+/// What lasts from block to block.
+#[derive(Debug, Clone)]
+pub(super) struct Modes {
+    pub arc_absolute: bool,
+    pub retract_to_r: bool,
+    pub motion: Option<Motion>,
+    /// The motion before drilling cycles.
+    pub base: Motion,
+    pub cycle: CycleMemory,
+    /// G43.5: I J K of a line are a tool direction.
+    pub vectors: bool,
+    /// The G code of the tool length that is on, 49 if none is.
+    pub length_code: f64,
+    /// The number of that length: H.
+    pub length_number: Option<u32>,
+    pub compensation: CompensationSide,
+    pub path: PathControl,
+    pub transforms: Transforms,
+    /// Where G28 or G30 came through last.
+    pub via: Option<Position>,
+    /// What is left of G10 L50: blocks are data until G11.
+    pub data_input: bool,
+    /// G66 and G66.1, the innermost last.
+    pub macros: Vec<ModalMacro>,
+    /// The block just executed moved: a modal macro is due.
+    pub moved: bool,
+    /// The place of the last probing move.
+    pub skip: Position,
+    /// The last M, N, D and O for #4113 …
+    pub last: [f64; 4],
+}
+
+impl Modes {
+    pub fn new(settings: &Settings, rapid_at_first: bool) -> Self {
+        Self {
+            arc_absolute: settings.absolute_centers,
+            retract_to_r: false,
+            motion: rapid_at_first.then_some(Motion::Rapid),
+            base: Motion::Rapid,
+            cycle: CycleMemory::default(),
+            vectors: false,
+            length_code: 49.0,
+            length_number: None,
+            compensation: CompensationSide::Off,
+            path: PathControl::Continuous,
+            transforms: Transforms::default(),
+            via: None,
+            data_input: false,
+            macros: Vec::new(),
+            moved: false,
+            skip: Position::default(),
+            last: [0.0; 4],
+        }
+    }
+}
+
+/// The words of one block with their values.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Words {
+    values: [f64; 26],
+    places: [usize; 26],
+    /// One bit for each letter.
+    present: u32,
+    used: u32,
+    /// G and M codes in the order of execution.
+    pub actions: Vec<(Action, usize)>,
+    /// The arguments of a macro call, in the order of the block.
+    pub arguments: Vec<(u8, f64)>,
+}
+
+impl Words {
+    pub fn clear(&mut self) {
+        (self.present, self.used) = (0, 0);
+        self.actions.clear();
+        self.arguments.clear();
+    }
+
+    /// The value of a word; it counts as used.
+    pub fn take(&mut self, letter: u8) -> Option<f64> {
+        let index = usize::from(letter - b'A');
+        if self.present & (1 << index) == 0 {
+            return None;
+        }
+        self.used |= 1 << index;
+        Some(self.values[index])
+    }
+
+    /// Takes a word that is no axis here: nothing moves by it afterwards (X of a dwell).
+    pub fn take_away(&mut self, letter: u8) -> Option<f64> {
+        let value = self.take(letter);
+        self.present &= !(1 << usize::from(letter - b'A'));
+        value
+    }
+
+    /// The value of a word, without using it.
+    pub fn look(&self, letter: u8) -> Option<f64> {
+        let index = usize::from(letter - b'A');
+        (self.present & (1 << index) != 0).then_some(self.values[index])
+    }
+
+    pub fn place(&self, letter: u8) -> usize {
+        self.places[usize::from(letter - b'A')]
+    }
+
+    pub fn has_axis(&self) -> bool {
+        self.present & AXIS_BITS != 0
+    }
+
+    /// The axes that the block names.
+    pub fn axes(&self) -> AxisSet {
+        let bit = |letter: u8| (self.present >> (letter - b'A') & 1) as u16;
+        let letters = b"XYZABCUVW".iter().enumerate();
+        AxisSet(letters.fold(0, |set, (i, letter)| set | bit(*letter) << i))
+    }
+
+    pub fn put(&mut self, letter: u8, value: f64, offset: usize) -> Result<(), Fault> {
+        let index = usize::from(letter - b'A');
+        if self.present & (1 << index) != 0 {
+            return Err(mistakes::repeated_word(char::from(letter), offset));
+        }
+        if value.abs() > LARGEST {
+            return Err(mistakes::too_large(value, char::from(letter), offset));
+        }
+        self.present |= 1 << index;
+        (self.values[index], self.places[index]) = (value, offset);
+        Ok(())
+    }
+
+    /// The letters that nothing used, with their places.
+    pub fn unused(&self) -> impl Iterator<Item = (u8, usize)> + '_ {
+        let left = self.present & !self.used;
+        (0..26_u8)
+            .filter(move |i| left & (1 << i) != 0)
+            .map(|i| (b'A' + i, self.places[i as usize]))
+    }
+
+    /// The words that belong to a noted code: none of the axes.
+    pub fn take_parameters(&mut self) {
+        for letter in *b"PQRLDEH" {
+            self.take(letter);
+        }
+    }
+
+    /// Every letter that is there, used or not, with its value; all count as used.
+    pub fn take_all(&mut self) -> Vec<(u8, f64)> {
+        self.used = self.present;
+        (b'A'..=b'Z').filter_map(|l| self.look(l).map(|v| (l, v))).collect()
+    }
+}
+
+impl Run<'_> {
+    /// Evaluates the words of a block and sorts its codes into the order of execution.
+    pub(super) fn gather(&mut self, passage: Passage<'_>, items: &[Item]) -> Result<(), Fault> {
+        let mut words = std::mem::take(&mut self.words);
+        words.clear();
+        let result = self.gather_into(passage, items, &mut words);
+        words.actions.sort_by_key(|(action, _)| action.rank());
+        self.words = words;
+        result
+    }
+
+    fn gather_into(
+        &mut self,
+        passage: Passage<'_>,
+        items: &[Item],
+        words: &mut Words,
+    ) -> Result<(), Fault> {
+        let gathering = self.gathering(passage, items);
+        for item in items {
+            let Item::Word { letter, value, offset } = item else { continue };
+            let value = self.value(passage, *value)?;
+            match letter {
+                _ if value.is_nan() => {}
+                _ if gathering.is_argument(*letter) => words.arguments.push((*letter, value)),
+                b'N' => self.modes.last[1] = value,
+                b'G' => {
+                    let action = self.g_code(passage.program, value, *offset)?;
+                    words.actions.push((action, *offset));
+                }
+                b'M' => {
+                    self.modes.last[0] = value;
+                    let known = whole(value).and_then(|n| passage.program.dialect().m_code(n));
+                    let Some(action) = known else {
+                        self.core.unknown_m_code(value, *offset);
+                        continue;
+                    };
+                    words.actions.push((action, *offset));
+                }
+                _ => words.put(*letter, value, *offset)?,
+            }
+        }
+        check_groups(words)
+    }
+
+    fn g_code(&mut self, program: &Program, value: f64, offset: usize) -> Result<Action, Fault> {
+        whole(value * 10.0)
+            .and_then(|tenths| program.dialect().g_code(tenths))
+            .ok_or_else(|| mistakes::unknown_g_code(value, offset))
+    }
+
+    /// Reports what no code of the block used.
+    pub(super) fn report_unused(&mut self) -> Result<(), Fault> {
+        let left: Vec<_> = self.words.unused().collect();
+        for (letter, offset) in left {
+            let name = char::from(letter);
+            if letter == b'E' || letter == b'O' {
+                if self.core.is_new("unknown-word", u32::from(letter)) {
+                    return Err(mistakes::unknown_word(name, offset));
+                }
+                continue;
+            }
+            let message = format!("no code of this block uses the word {name}");
+            let hint = "it has no effect; later ones are not listed";
+            self.core.warn("unused-word", u32::from(letter), offset, message, hint);
+        }
+        Ok(())
+    }
+
+    /// A length word in mm.
+    pub(super) fn length(&mut self, letter: u8) -> Option<f64> {
+        let unit = self.core.modes.unit_mm();
+        self.words.take(letter).map(|v| v * unit)
+    }
+
+    /// An axis word in mm or degrees.
+    pub(super) fn axis_word(&mut self, axis: Axis) -> Option<f64> {
+        let value = self.words.take(axis.letter())?;
+        let scale = self.core.modes.scale(axis);
+        Some(value * scale)
+    }
+
+    /// Where the axis words lead, by G90 or G91, in polar coordinates if they are on.
+    pub(super) fn target(&mut self) -> Position {
+        let polar = self.polar_place();
+        let [a, b, _] = self.core.modes.plane.axes();
+        let (mut target, incremental) = (self.frames.position, self.core.modes.incremental);
+        if let Some(place) = polar {
+            // Their words are used up.
+            (target[a], target[b]) = (place[0], place[1]);
+            let rest = Axis::ALL.into_iter().filter(|axis| *axis != a && *axis != b);
+            return self.by_words(target, rest, incremental);
+        }
+        self.by_words(target, Axis::ALL, incremental)
+    }
+
+    /// The values of the axis words in the place of others, or added to them.
+    pub(super) fn by_words(
+        &mut self,
+        mut values: Position,
+        axes: impl IntoIterator<Item = Axis>,
+        incremental: bool,
+    ) -> Position {
+        for axis in axes {
+            if let Some(value) = self.axis_word(axis) {
+                values[axis] = if incremental { values[axis] } else { 0.0 } + value;
+            }
+        }
+        values
+    }
+}
+
+/// A code number, allowing for what arithmetic does to it.
+pub(super) fn whole(value: f64) -> Option<u16> {
+    let near = value.round();
+    ((value - near).abs() < 1e-3 && (0.0..65536.0).contains(&near)).then_some(near as u16)
+}
+
+/// Two codes of one group cannot stand in one block.
+pub(super) fn check_groups(words: &Words) -> Result<(), Fault> {
+    let group = |a: Action| match a {
+        Action::Note(_)
+        | Action::NoteWhole(_)
+        | Action::NotApplied(_)
+        | Action::NotAppliedAlone(_)
+        | Action::Kinematics(_)
+        | Action::ModalMacroOff
+        | Action::DataInputEnd
+        | Action::Polar(_)
+        | Action::Scale
+        | Action::ScaleOff
+        | Action::Mirror(_)
+        | Action::RotationOff
+        | Action::Coolant(_)
+        | Action::ToolCentre(_)
+        | Action::ArcAbsolute(_)
+        | Action::CancelCycle
+        | Action::Diameter(_)
+        | Action::Orient => None,
+        _ => Some(a.rank()),
+    };
+    mistakes::check_groups(&words.actions, group)
+}

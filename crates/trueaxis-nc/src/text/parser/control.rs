@@ -1,0 +1,173 @@
+//! Control statements of LinuxCNC and FANUC.
+
+use super::Parser;
+use crate::text::lexer::{TokenKind, number_value};
+use crate::text::program::{Item, Keyword, Label};
+
+/// The key words behind an O label; longer ones first where one begins another.
+const O_WORDS: [(&[u8], Keyword); 15] = [
+    (b"SUB", Keyword::Sub),
+    (b"ENDSUB", Keyword::EndSub),
+    (b"CALL", Keyword::Call),
+    (b"RETURN", Keyword::Return),
+    (b"IF", Keyword::If),
+    (b"ELSEIF", Keyword::ElseIf),
+    (b"ELSE", Keyword::Else),
+    (b"ENDIF", Keyword::EndIf),
+    (b"WHILE", Keyword::While),
+    (b"ENDWHILE", Keyword::EndWhile),
+    (b"DO", Keyword::Do),
+    (b"REPEAT", Keyword::Repeat),
+    (b"ENDREPEAT", Keyword::EndRepeat),
+    (b"BREAK", Keyword::Break),
+    (b"CONTINUE", Keyword::Continue),
+];
+
+impl Parser<'_, '_> {
+    /// A control statement, if one begins here; `Some(false)` if it is faulty.
+    pub(super) fn control(&mut self) -> Option<bool> {
+        match self.letter()? {
+            b'O' if self.dialect.o_words => Some(self.o_word()),
+            b'O' if self.dialect.macro_words => Some(self.program_number()),
+            b'I' | b'W' | b'E' | b'G' | b'D' if self.dialect.macro_words => self.macro_word(),
+            _ => None,
+        }
+    }
+
+    pub(super) fn program_number(&mut self) -> bool {
+        let offset = self.here();
+        self.advance();
+        let Some(label) = self.label() else { return false };
+        self.push(Keyword::ProgramNumber, Some(label), Vec::new(), offset);
+        true
+    }
+
+    /// `M98 <NAME>`: the program that the block calls.
+    pub(super) fn called_name(&mut self) -> bool {
+        let offset = self.here();
+        let Some(label) = self.label() else { return false };
+        self.push(Keyword::Call, Some(label), Vec::new(), offset);
+        true
+    }
+
+    fn push(&mut self, keyword: Keyword, label: Option<Label>, arguments: Vec<u32>, offset: usize) {
+        self.block.items.push(Item::Control { keyword, label, arguments, offset });
+    }
+
+    fn o_word(&mut self) -> bool {
+        let offset = self.here();
+        self.advance();
+        let Some(label) = self.label() else { return false };
+        let Some((_, keyword)) = O_WORDS.iter().find(|(word, _)| self.accept_word(word)) else {
+            let hint = "sub endsub call return if elseif else endif while endwhile do repeat \
+                        endrepeat break continue";
+            let message = "no key word behind the O label".to_owned();
+            self.fault("unknown-o-word", self.here(), message, hint);
+            return false;
+        };
+        if *keyword == Keyword::Sub {
+            // What follows `sub` in its line names its arguments for people.
+            self.give_up();
+        }
+        let mut arguments = Vec::new();
+        while self.symbol() == Some(b'[') {
+            let Some(argument) = self.bracket() else { return false };
+            arguments.push(argument);
+        }
+        if self.token.is_some() {
+            let message = "nothing else can stand behind an O word".to_owned();
+            self.fault("unexpected-sign", self.here(), message, "put it into a line of its own");
+            return false;
+        }
+        let conditional =
+            matches!(keyword, Keyword::If | Keyword::ElseIf | Keyword::While | Keyword::Repeat);
+        if conditional && arguments.len() != 1 {
+            let message = "one condition or count in brackets is due".to_owned();
+            self.fault("missing-value", self.here(), message, "write o1 if [#1 GT 0]");
+            return false;
+        }
+        self.push(*keyword, Some(label), arguments, offset);
+        true
+    }
+
+    fn label(&mut self) -> Option<Label> {
+        let Some(name) = self.token.filter(|t| t.kind == TokenKind::Name) else {
+            return self.number_label();
+        };
+        let text = &self.source[name.start + 1..name.end];
+        let Some(text) = text.strip_suffix(b">") else {
+            let message = "the name of the O word is not closed".to_owned();
+            self.fault("unclosed-name", name.start, message, "close it with >");
+            return None;
+        };
+        let name: String = String::from_utf8_lossy(text)
+            .chars()
+            .filter(|c| !c.is_whitespace())
+            .collect::<String>()
+            .to_ascii_lowercase();
+        self.advance();
+        Some(Label::Name(name))
+    }
+
+    fn number_label(&mut self) -> Option<Label> {
+        if let Some(token) = self.token.filter(|t| t.kind == TokenKind::Number) {
+            let value = number_value(&self.source[token.start..token.end]);
+            let Some(value) = value.filter(|v| v.fract() == 0.0 && *v < 1e15) else {
+                let message = "a label is a whole number".to_owned();
+                self.fault("bad-label", token.start, message, "write O100");
+                return None;
+            };
+            self.advance();
+            return Some(Label::Number(value as u64));
+        }
+        self.value().map(Label::Computed)
+    }
+
+    fn macro_word(&mut self) -> Option<bool> {
+        let offset = self.here();
+        let keyword = [
+            (&b"IF"[..], Keyword::If),
+            (b"WHILE", Keyword::While),
+            (b"END", Keyword::EndWhile),
+            (b"GOTO", Keyword::Goto),
+            (b"DO", Keyword::Do),
+        ]
+        .into_iter()
+        .find(|(word, _)| self.accept_word(word))?
+        .1;
+        Some(self.macro_statement(keyword, offset).is_some())
+    }
+
+    fn macro_statement(&mut self, keyword: Keyword, offset: usize) -> Option<()> {
+        match keyword {
+            Keyword::If => {
+                let condition = self.bracket()?;
+                if self.accept_word(b"GOTO") {
+                    let label = self.number_label()?;
+                    self.push(Keyword::IfGoto, Some(label), vec![condition], offset);
+                } else if self.accept_word(b"THEN") {
+                    self.push(Keyword::IfThen, None, vec![condition], offset);
+                } else {
+                    let message = "GOTO or THEN is due behind the condition".to_owned();
+                    self.fault("unknown-macro-word", self.here(), message, "IF [#1 GT 0] GOTO 10");
+                    return None;
+                }
+            }
+            Keyword::While => {
+                let condition = self.bracket()?;
+                if !self.accept_word(b"DO") {
+                    let message = "DO is due behind the condition".to_owned();
+                    self.fault("unknown-macro-word", self.here(), message, "WHILE [#1 GT 0] DO1");
+                    return None;
+                }
+                let label = self.number_label()?;
+                self.push(Keyword::While, Some(label), vec![condition], offset);
+            }
+            _ => {
+                let label = self.number_label()?;
+                self.push(keyword, Some(label), Vec::new(), offset);
+            }
+        }
+        Some(())
+    }
+}

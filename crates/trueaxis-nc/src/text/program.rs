@@ -1,0 +1,442 @@
+//! A program as text with structure: blocks, words, expressions, control statements.
+
+use std::collections::HashMap;
+use std::ops::Range;
+use std::sync::{Arc, OnceLock};
+
+use trueaxis_input::{Diagnostics, Place};
+
+use crate::dialect::{Control, Dialect};
+use crate::text::lexer::{Lexer, TokenKind};
+use crate::text::parser::parse_block;
+
+/// Something wrong with a piece of text; a [`Diagnostics`] entry once its place is known.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fault {
+    /// A stable name for programs.
+    pub code: &'static str,
+    /// The byte of the program.
+    pub offset: usize,
+    /// What is wrong.
+    pub message: String,
+    /// What to do.
+    pub hint: &'static str,
+}
+
+pub(crate) fn fault(
+    code: &'static str,
+    offset: usize,
+    message: impl Into<String>,
+    hint: &'static str,
+) -> Fault {
+    Fault { code, offset, message: message.into(), hint }
+}
+
+/// A node of the expressions of a block.
+pub type NodeId = u32;
+
+/// One node of an expression; nodes refer to earlier nodes of the same block.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Node {
+    /// A number.
+    Number(f64),
+    /// `#n` with n an expression.
+    Parameter(NodeId),
+    /// `#<name>`: the bytes between the brackets.
+    Named(Range<usize>),
+    /// `-x`.
+    Negative(NodeId),
+    /// A function of one argument.
+    Function(Function, NodeId, usize),
+    /// `ATAN[y]/[x]`, degrees.
+    ArcTangent(NodeId, NodeId),
+    /// `EXISTS[#n]`.
+    Exists(NodeId),
+    /// `a op b`, and where the operator stands.
+    Binary(Operator, NodeId, NodeId, usize),
+}
+
+/// Functions of one argument; angles are degrees.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[expect(missing_docs, reason = "named as in every control's manual")]
+pub enum Function {
+    Abs,
+    Acos,
+    Asin,
+    Bcd,
+    Bin,
+    Cos,
+    Exp,
+    Fix,
+    Fup,
+    Ln,
+    Round,
+    Sin,
+    Sqrt,
+    Tan,
+}
+
+/// Operators; comparisons and logic give 1 or 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[expect(missing_docs, reason = "named as in every control's manual")]
+pub enum Operator {
+    Power,
+    Times,
+    Divide,
+    Modulo,
+    Plus,
+    Minus,
+    Equal,
+    NotEqual,
+    Greater,
+    GreaterEqual,
+    Less,
+    LessEqual,
+    And,
+    Or,
+    Xor,
+}
+
+/// The name of a sub, a loop or a branch.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub enum Label {
+    /// `O100`, `DO1`, `GOTO 10`.
+    Number(u64),
+    /// `O<name>`, lower case.
+    Name(String),
+    /// `O#1`, `GOTO #1`: known when it is executed.
+    Computed(NodeId),
+}
+
+/// Control statements.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[expect(missing_docs, reason = "named as in every control's manual")]
+pub enum Keyword {
+    Sub,
+    EndSub,
+    Call,
+    Return,
+    If,
+    ElseIf,
+    Else,
+    EndIf,
+    While,
+    EndWhile,
+    Do,
+    Repeat,
+    EndRepeat,
+    Break,
+    Continue,
+    Goto,
+    /// `IF [ ] GOTO n`.
+    IfGoto,
+    /// `IF [ ] THEN`: the rest of the block is executed if it holds.
+    IfThen,
+    /// `O1234` at the beginning of a FANUC program.
+    ProgramNumber,
+}
+
+/// One part of a block.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Item {
+    /// A word such as `X1.5`; without a value where the control allows it.
+    Word {
+        /// Upper case.
+        letter: u8,
+        /// Its value.
+        value: NodeId,
+        /// Where the letter stands.
+        offset: usize,
+    },
+    /// `#n = x`: the target is a [`Node::Parameter`] or [`Node::Named`].
+    Assign {
+        /// What is set.
+        target: NodeId,
+        /// To what.
+        value: NodeId,
+        /// Where the assignment begins.
+        offset: usize,
+    },
+    /// A control statement.
+    Control {
+        /// Which.
+        keyword: Keyword,
+        /// Its label.
+        label: Option<Label>,
+        /// Its condition, count or arguments.
+        arguments: Vec<NodeId>,
+        /// Where it begins.
+        offset: usize,
+    },
+    /// A comment with its marks.
+    Comment(Range<usize>),
+    /// A tape mark.
+    Mark(usize),
+}
+
+/// One line of a program, taken apart.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Block {
+    /// Its bytes with the line end.
+    pub span: Range<usize>,
+    /// Its line, from 1.
+    pub line: u32,
+    /// The level of `/` before it.
+    pub skip: Option<u8>,
+    /// Its parts, in order.
+    pub items: Vec<Item>,
+    /// The nodes of all expressions in it.
+    pub nodes: Vec<Node>,
+    /// What is wrong with it; a block with faults must not be executed.
+    pub faults: Vec<Fault>,
+}
+
+/// A program: its text, read by the rules of its control.
+///
+/// The text is kept as it is and blocks are taken apart when they are needed, so the memory does
+/// not grow with the number of blocks beyond the text itself.
+///
+/// ```
+/// use trueaxis_nc::{Control, Program};
+/// let program = Program::new("demo.ngc", b"G0 X1\n(done)\nM2\n".to_vec(), Control::LinuxCnc);
+/// assert_eq!(program.blocks().count(), 3);
+/// assert_eq!(program.print(), program.source());
+/// assert!(!program.check().has_errors());
+/// ```
+#[derive(Debug, Clone)]
+pub struct Program {
+    file: String,
+    source: Arc<Vec<u8>>,
+    dialect: &'static Dialect,
+    structure: OnceLock<Structure>,
+}
+
+/// A control statement with its place, for jumps.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Mark {
+    pub keyword: Keyword,
+    pub label: Label,
+    /// The block that has it.
+    pub start: usize,
+    /// The block after it.
+    pub next: usize,
+    pub line: u32,
+}
+
+/// Where jumps can go.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Structure {
+    pub marks: Vec<Mark>,
+    /// The first `sub` of a label.
+    pub subs: HashMap<Label, usize>,
+    /// N words at block begin: number, block, line.
+    pub numbers: Vec<(u64, usize, u32)>,
+}
+
+impl Program {
+    /// Takes a text; nothing is read yet.
+    pub fn new(file: &str, source: Vec<u8>, control: Control) -> Self {
+        let dialect = Dialect::of(control);
+        Self {
+            file: file.to_owned(),
+            source: Arc::new(source),
+            dialect,
+            structure: OnceLock::new(),
+        }
+    }
+
+    /// The file as the user named it.
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// The text.
+    pub fn source(&self) -> &[u8] {
+        &self.source
+    }
+
+    /// The rules it is read by.
+    pub fn dialect(&self) -> &'static Dialect {
+        self.dialect
+    }
+
+    /// All blocks, one after the other.
+    pub fn blocks(&self) -> impl Iterator<Item = Block> + '_ {
+        let (mut at, mut line) = (0, 1);
+        std::iter::from_fn(move || {
+            if at >= self.source.len() {
+                return None;
+            }
+            let mut block = Block::default();
+            self.read_block(at, line, &mut block);
+            at = block.span.end;
+            line += 1;
+            Some(block)
+        })
+    }
+
+    /// Takes the block apart that begins at a byte, into room that is used again.
+    pub fn read_block(&self, start: usize, line: u32, block: &mut Block) {
+        parse_block(&self.source, self.dialect, start, block);
+        block.line = line;
+    }
+
+    /// The text put together from its tokens.
+    pub fn print(&self) -> Vec<u8> {
+        let mut text = Vec::with_capacity(self.source.len());
+        for token in Lexer::new(&self.source, self.dialect, 0) {
+            text.extend_from_slice(&self.source[token.start..token.end]);
+        }
+        text
+    }
+
+    /// Everything that is wrong with the text as such, up to 100 problems.
+    pub fn check(&self) -> Diagnostics {
+        let mut places = Places::new(self);
+        let mut problems = Diagnostics::new();
+        let mut count = 0;
+        let (mut at, mut line, mut block) = (0, 1, Block::default());
+        while at < self.source.len() {
+            self.read_block(at, line, &mut block);
+            at = block.span.end;
+            line += 1;
+            for fault in block.faults.drain(..) {
+                count += 1;
+                if count > 100 {
+                    let message = "more than 100 problems; the rest is not listed".to_owned();
+                    problems.note("too-many-problems", places.of(fault.offset), message, "");
+                    return problems;
+                }
+                let place = places.of(fault.offset);
+                problems.error(fault.code, place, fault.message, fault.hint);
+            }
+        }
+        problems
+    }
+
+    /// Where jumps can go; found at the first jump.
+    pub(crate) fn structure(&self) -> &Structure {
+        self.structure.get_or_init(|| self.find_structure())
+    }
+
+    fn find_structure(&self) -> Structure {
+        let mut found = Structure::default();
+        let (mut at, mut line, mut block) = (0, 1, Block::default());
+        while at < self.source.len() {
+            let (candidate, end) = self.may_have_control(at);
+            if candidate {
+                self.read_block(at, line, &mut block);
+                found.take(&block);
+            }
+            at = end;
+            line += 1;
+        }
+        found
+    }
+
+    /// Whether the line that begins here can hold a label or control statement, and where it ends.
+    fn may_have_control(&self, start: usize) -> (bool, usize) {
+        let mut first = None;
+        let mut end = start;
+        for byte in &self.source[start..] {
+            end += 1;
+            match byte {
+                b'\n' => break,
+                b'\r' if self.source.get(end) != Some(&b'\n') => break,
+                b' ' | b'\t' | b'/' | b'\r' => {}
+                _ if first.is_none() => first = Some(byte.to_ascii_lowercase()),
+                _ => {}
+            }
+        }
+        let letters: &[u8] = if self.dialect.o_words { b"on(" } else { b"noiweg(:" };
+        (first.is_some_and(|b| letters.contains(&b)), end)
+    }
+}
+
+impl Structure {
+    /// Where the block of a number begins: the next one behind a byte, else the first one, within
+    /// the program (O number) that the byte is in.
+    pub fn block_number(&self, wanted: u64, from: usize) -> Option<(usize, u32)> {
+        let mut programs = self.marks.iter().filter(|m| m.keyword == Keyword::ProgramNumber);
+        let end = programs.clone().find(|m| m.start > from).map_or(usize::MAX, |m| m.start);
+        let begin = programs.rfind(|m| m.start <= from).map_or(0, |m| m.start);
+        let place = |byte: usize| self.numbers.partition_point(|(_, start, _)| *start < byte);
+        let own = &self.numbers[place(begin)..place(end)];
+        let after = own.partition_point(|(_, start, _)| *start <= from);
+        let mut numbers = own[after..].iter().chain(&own[..after]);
+        numbers.find(|(number, ..)| *number == wanted).map(|(_, start, line)| (*start, *line))
+    }
+
+    fn take(&mut self, block: &Block) {
+        for item in &block.items {
+            match item {
+                Item::Control { keyword, label: Some(label), .. }
+                    if !matches!(label, Label::Computed(_)) =>
+                {
+                    if matches!(keyword, Keyword::Sub | Keyword::ProgramNumber) {
+                        self.subs.entry(label.clone()).or_insert(self.marks.len());
+                    }
+                    self.marks.push(Mark {
+                        keyword: *keyword,
+                        label: label.clone(),
+                        start: block.span.start,
+                        next: block.span.end,
+                        line: block.line,
+                    });
+                }
+                Item::Word { letter: b'N', value, .. } => {
+                    if let Some(Node::Number(number)) = block.nodes.get(*value as usize) {
+                        self.numbers.push((*number as u64, block.span.start, block.line));
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
+/// Turns byte offsets into lines and columns; quick for offsets that grow.
+#[derive(Debug, Clone)]
+pub(crate) struct Places<'p> {
+    program: &'p Program,
+    at: usize,
+    line: usize,
+    column: usize,
+}
+
+impl<'p> Places<'p> {
+    pub fn new(program: &'p Program) -> Self {
+        Self { program, at: 0, line: 1, column: 1 }
+    }
+
+    /// Begins at a byte that begins a line.
+    pub fn beginning(program: &'p Program, at: usize, line: u32) -> Self {
+        Self { program, at, line: line as usize, column: 1 }
+    }
+
+    pub fn of(&mut self, offset: usize) -> Place {
+        let source = &self.program.source;
+        let offset = offset.min(source.len());
+        if offset < self.at {
+            (self.at, self.line, self.column) = (0, 1, 1);
+        }
+        while self.at < offset {
+            match source[self.at] {
+                b'\n' => (self.line, self.column) = (self.line + 1, 1),
+                b'\r' if source.get(self.at + 1) != Some(&b'\n') => {
+                    (self.line, self.column) = (self.line + 1, 1);
+                }
+                // Continuation bytes of UTF-8 do not count: columns are characters.
+                0x80..=0xbf => {}
+                _ => self.column += 1,
+            }
+            self.at += 1;
+        }
+        Place { file: self.program.file.clone(), line: self.line, column: self.column }
+    }
+}
+
+/// Whether a token carries no meaning for the block.
+pub(crate) fn is_trivia(kind: TokenKind) -> bool {
+    matches!(kind, TokenKind::Space)
+}
