@@ -4,7 +4,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use trueaxis_nc::cl::{ClFile, Reading};
+use trueaxis_cl::{ClFile, Reading};
 
 fuzz_target!(|bytes: &[u8]| {
     let (file, _) = ClFile::read("fuzz.cls", bytes.to_vec(), &Reading::default());

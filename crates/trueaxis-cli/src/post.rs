@@ -5,6 +5,7 @@ use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use trueaxis::cl::{ClFile, Reading};
 use trueaxis::compensate::post::{
     FeedRule, Largest, PostOptions, Posted, Verification, post, verify,
 };
@@ -13,7 +14,6 @@ use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Dimension, Place, parse_quantity};
 use trueaxis::machine::Machine;
 use trueaxis::nc::Control;
-use trueaxis::nc::cl::{ClFile, Reading};
 use trueaxis::nc::writer::{Decimals, MOST_DECIMALS, Templates, TipWords};
 
 /// The cutter locations, the machine and the control.

@@ -21,6 +21,7 @@ mod kernel;
 mod lanes;
 mod motion;
 mod pieces;
+mod portable;
 mod steps;
 #[cfg(target_arch = "x86_64")]
 #[allow(unsafe_code, reason = "vector instructions that only some processors have")]
@@ -287,7 +288,7 @@ impl CompiledMachine {
             InstructionSet::Avx512 => x86::run_avx512(&job, out),
             #[cfg(target_arch = "x86_64")]
             InstructionSet::Avx2 => x86::run_avx2(&job, out),
-            _ => lanes::run_portable(&job, out),
+            _ => portable::run_portable(&job, out),
         }
     }
 

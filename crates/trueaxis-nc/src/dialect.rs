@@ -1,8 +1,9 @@
 //! What differs between the controls, as tables.
 
+use crate::heidenhain::dialect as heidenhain;
 use crate::rs274::code::Action;
 use crate::rs274::{fanuc, linuxcnc};
-use crate::{heidenhain, sinumerik};
+use crate::sinumerik::dialect as sinumerik;
 
 /// The controls whose programs are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -72,10 +73,10 @@ impl Dialect {
     /// The table of a control.
     pub fn of(control: Control) -> &'static Self {
         match control {
-            Control::Sinumerik840d => &sinumerik::dialect::DIALECT,
+            Control::Sinumerik840d => &sinumerik::DIALECT,
             Control::Fanuc => &fanuc::DIALECT,
             Control::LinuxCnc => &linuxcnc::DIALECT,
-            Control::Heidenhain => &heidenhain::dialect::DIALECT,
+            Control::Heidenhain => &heidenhain::DIALECT,
         }
     }
 

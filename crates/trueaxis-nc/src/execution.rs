@@ -14,10 +14,7 @@ use std::collections::BTreeMap;
 
 use trueaxis_input::Diagnostics;
 
-use crate::dialect::Control;
-use crate::moves::{Frame, Plane, Position, Step};
-use crate::text::program::Program;
-use crate::{heidenhain, rs274, sinumerik};
+use crate::moves::{Frame, Plane, Position};
 pub(crate) use language::{Core, Language, Next};
 pub use library::{Library, NoLibrary};
 pub(crate) use modes::Modes;
@@ -86,33 +83,4 @@ pub struct Outcome {
     pub finished: bool,
     /// The programs by the number in [`Origin::program`](crate::moves::Origin::program).
     pub programs: Vec<String>,
-}
-
-/// Executes a program; every move and event goes to `take` as soon as it is known.
-///
-/// ```
-/// use trueaxis_nc::{Control, NoLibrary, Program, Settings, Step, interpret};
-/// let text = b"G21 G90 F100\nG1 X10 Y#1\no1 repeat [2]\nG91 G1 X1\no1 endrepeat\nM2\n";
-/// let program = Program::new("demo.ngc", text.to_vec(), Control::LinuxCnc);
-/// let mut x_mm = Vec::new();
-/// let outcome = interpret(&program, &NoLibrary, &Settings::default(), &mut |step| {
-///     if let Step::Move(m) = step {
-///         x_mm.push(m.target.0[0]);
-///     }
-/// });
-/// assert!(outcome.finished);
-/// assert_eq!(x_mm, [10.0, 11.0, 12.0]);
-/// ```
-pub fn interpret(
-    program: &Program,
-    library: &dyn Library,
-    settings: &Settings,
-    take: &mut dyn FnMut(Step),
-) -> Outcome {
-    let core = Core::new(program, library, settings, take);
-    match program.dialect().control {
-        Control::Fanuc | Control::LinuxCnc => rs274::interpret(program, core),
-        Control::Sinumerik840d => sinumerik::interpret(program, core),
-        Control::Heidenhain => heidenhain::interpret(core),
-    }
 }

@@ -50,17 +50,17 @@
 //!
 //! # Further parts
 //!
-//! - [`writer`] writes programs for the same four controls; [`cl`] reads cutter-location files.
+//! - [`writer`] writes programs for the same four controls.
 //! - [`moves`] holds the vocabulary of what comes out, [`code`] and [`dialect`] what the controls
 //!   write differently, [`lexer`] and [`program`] the text; [`sinumerik`] reads dumps of a set-up.
 //!
 //! The crate knows no machine: where the axes really go, and how fast, is asked elsewhere. It opens
 //! no file: subprograms come through a [`Library`].
 
-pub mod cl;
 pub mod dialect;
 mod execution;
 mod heidenhain;
+mod interpret;
 pub mod moves;
 mod rs274;
 pub mod sinumerik;
@@ -68,7 +68,8 @@ mod text;
 pub mod writer;
 
 pub use dialect::{Control, Dialect};
-pub use execution::{Library, NoLibrary, Outcome, Settings, Stop, interpret};
+pub use execution::{Library, NoLibrary, Outcome, Settings, Stop};
+pub use interpret::interpret;
 pub use moves::{Event, Move, MoveKind, Step};
 pub use rs274::code;
 pub use text::program::Program;

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use trueaxis_nc::cl::{ClFile, Reading, Word};
+use trueaxis_cl::{ClFile, Reading, Word};
 use trueaxis_nc::moves::{Axis, Branch, Coordinates, Frame, Position, Way};
 use trueaxis_nc::{Control, Library, MoveKind, NoLibrary, Program, Settings, Step, interpret};
 

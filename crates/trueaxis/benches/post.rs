@@ -11,11 +11,11 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
+use trueaxis::cl::{ClFile, Reading};
 use trueaxis::compensate::post::{PostOptions, post};
 use trueaxis::files;
 use trueaxis::geometry::Vec3;
 use trueaxis::nc::Control;
-use trueaxis::nc::cl::{ClFile, Reading};
 use trueaxis::nc::moves::{Axis, Feed, FeedMode};
 use trueaxis::nc::writer::{Block, Heading, Target, Writer};
 

@@ -25,6 +25,7 @@ pub mod report;
 pub mod verify;
 
 pub use trueaxis_calibrate::{identify, instruments, measure, plan, unknowns};
+pub use trueaxis_cl as cl;
 pub use trueaxis_correct::{compensate, predict};
 pub use trueaxis_geometry as geometry;
 pub use trueaxis_input as input;

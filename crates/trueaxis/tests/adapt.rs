@@ -7,6 +7,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, Normal};
 use std::path::Path;
+use trueaxis::cl::{ClFile, Reading};
 use trueaxis::compensate::adapt::{
     AdaptStudy, Adaptation, Field, FieldOptions, Follow, NominalSurface, SurfacePoint, adapt,
     read_adapt_study, read_points, virtual_cut,
@@ -14,7 +15,6 @@ use trueaxis::compensate::adapt::{
 use trueaxis::files::disk;
 use trueaxis::geometry::Vec3;
 use trueaxis::input::Diagnostics;
-use trueaxis::nc::cl::{ClFile, Reading};
 
 fn example() -> AdaptStudy {
     let file = "../../examples/06_compensate/bangle-adapt.toml";

@@ -32,9 +32,9 @@ pub use study::{AdaptStudy, Bounds, Follow, Inner, PathAt, Wall, read_adapt_stud
 pub use surface::{Foot, NominalSurface};
 pub use table::{SurfacePoint, read_points};
 
+use trueaxis_cl::{ClFile, ClPoint};
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{Diagnostics, Place};
-use trueaxis_nc::cl::{ClFile, ClPoint};
 
 /// A place of the wall-thickness map.
 #[derive(Debug, Clone, Copy, PartialEq)]

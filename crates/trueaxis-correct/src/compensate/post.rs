@@ -18,12 +18,12 @@ mod write;
 
 pub use verify::{Largest, Verification, verify};
 
+use trueaxis_cl::ClFile;
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::Control;
-use trueaxis_nc::cl::ClFile;
 use trueaxis_nc::writer::{Decimals, Templates, TipWords};
 
 /// How feeds are written.

@@ -19,7 +19,7 @@ pub use columns::{CommandColumns, CommandTable};
 use super::steps::location_errors;
 #[cfg(target_arch = "x86_64")]
 use super::x86;
-use super::{BatchError, Commands, Inputs, InstructionSet, Plan, TASK_POSES, lanes};
+use super::{BatchError, Commands, Inputs, InstructionSet, Plan, TASK_POSES, portable};
 use crate::axis::{Approach, Command, MAX_AXES, Travel};
 use crate::chain::Machine;
 use crate::compensate::{Compensator, Fault, Scope};
@@ -269,7 +269,7 @@ impl CompiledCompensator {
             InstructionSet::Avx512 => x86::compensate_avx512(&job, out),
             #[cfg(target_arch = "x86_64")]
             InstructionSet::Avx2 => x86::compensate_avx2(&job, out),
-            _ => lanes::compensate_portable(&job, out),
+            _ => portable::compensate_portable(&job, out),
         }
     }
 }

@@ -1,7 +1,4 @@
-use super::columns::DeviationColumns;
-use super::compensated::{CommandColumns, CompensationError, CompensationJob, Effort, newton};
 use super::pieces::Row;
-use super::{BatchError, Job, kernel};
 use std::ops::{Add, Div, Mul, Sub};
 
 /// Added to a number below 2⁵¹ it leaves the nearest whole number in the low bits.
@@ -147,18 +144,4 @@ impl<const W: usize> Lanes<W> for Plain<W> {
         }
         errors.map(Self)
     }
-}
-
-pub(super) fn run_portable(
-    job: &Job<'_>,
-    out: &mut DeviationColumns<'_>,
-) -> Result<(), BatchError> {
-    kernel::run::<8, Plain<8>>(job, out)
-}
-
-pub(super) fn compensate_portable(
-    job: &CompensationJob<'_>,
-    out: &mut CommandColumns<'_>,
-) -> Result<Effort, CompensationError> {
-    newton::run::<8, Plain<8>>(job, out)
 }

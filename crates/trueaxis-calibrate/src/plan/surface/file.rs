@@ -2,6 +2,7 @@
 
 use super::points::Candidates;
 use std::path::{Path, PathBuf};
+use trueaxis_cl::{ClFile, Reading};
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{Diagnostics, Dimension, Files, Section, SourceText, Unit};
 use trueaxis_machine::Machine;
@@ -9,7 +10,6 @@ use trueaxis_machine::file::machine_of;
 use trueaxis_machine::file::{read_direction, read_tool_shape};
 use trueaxis_machine::models::ToolSegment;
 use trueaxis_motion::collide::{Mesh, load_stl};
-use trueaxis_nc::cl::{ClFile, Reading};
 
 /// More points than this are hours.
 const MOST_POINTS: usize = 5000;

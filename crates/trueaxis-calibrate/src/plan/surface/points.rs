@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
+use trueaxis_cl::ClFile;
 use trueaxis_geometry::Vec3;
 use trueaxis_motion::collide::Triangle;
-use trueaxis_nc::cl::ClFile;
 
 /// Points around one that tell its normal.
 const NEIGHBOURS: usize = 16;

@@ -6,8 +6,8 @@ use super::near::{Stand, Stands};
 use super::study::{Inner, Wall};
 use super::table::SurfacePoint;
 use rayon::prelude::*;
+use trueaxis_cl::ClFile;
 use trueaxis_geometry::Vec3;
-use trueaxis_nc::cl::ClFile;
 
 /// Between two places of the sweep so much of a ridge may stay, mm.
 const RIDGE_MM: f64 = 5e-5;
@@ -130,7 +130,7 @@ fn sweep(path: &ClFile, cutter: &Cutter) -> Stands {
 mod tests {
     use super::*;
     use crate::compensate::adapt::study::PathAt;
-    use trueaxis_nc::cl::Reading;
+    use trueaxis_cl::Reading;
 
     #[test]
     fn a_ball_leaves_a_round_groove() {

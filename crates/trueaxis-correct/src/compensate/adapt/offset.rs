@@ -4,9 +4,9 @@ use super::field::Field;
 use super::study::{AdaptStudy, Follow, PathAt};
 use super::surface::{Foot, NominalSurface, tangent};
 use rayon::prelude::*;
+use trueaxis_cl::{ClPoint, Word};
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{Diagnostics, Place};
-use trueaxis_nc::cl::{ClPoint, Word};
 
 /// For slopes of the field, mm.
 const STEP_MM: f64 = 0.05;

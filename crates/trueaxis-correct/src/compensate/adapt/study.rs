@@ -3,9 +3,9 @@
 use super::cutter::Cutter;
 use super::table::{SurfacePoint, read_points};
 use std::path::{Path, PathBuf};
+use trueaxis_cl::{ClFile, Reading};
 use trueaxis_input::{Diagnostics, Dimension, Files, Item, Measured, Place, Section, SourceText};
 use trueaxis_machine::Machine;
-use trueaxis_nc::cl::{ClFile, Reading};
 
 /// A longer path would take hours.
 const MOST_PLACES: usize = 200_000;
@@ -199,7 +199,7 @@ fn read_path(files: &Files, path: &Path, problems: &mut Diagnostics) -> Option<C
     let (file, found) = ClFile::read(&path.display().to_string(), text, &Reading::default());
     let sound = !found.has_errors();
     problems.append(found);
-    let ends = file.records().iter().any(|r| r.word == trueaxis_nc::cl::Word::End);
+    let ends = file.records().iter().any(|r| r.word == trueaxis_cl::Word::End);
     if sound && !ends && !file.is_table() {
         let place = Place::whole(file.name());
         let hint = "is the file whole? APT ends with FINI";

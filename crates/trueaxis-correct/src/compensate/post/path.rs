@@ -1,10 +1,10 @@
 //! The strokes of the tool: what the records of the file add up to.
 
 use super::{PostOptions, angle};
+use trueaxis_cl::{ClCircle, ClCycle, ClFile, ClPoint, Word};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::rotation;
 use trueaxis_input::{Diagnostics, Place};
-use trueaxis_nc::cl::{ClCircle, ClCycle, ClFile, ClPoint, Word};
 use trueaxis_nc::moves::{Coolant, Feed, FeedMode, Turning};
 
 /// Where the tool stands in the workpiece.

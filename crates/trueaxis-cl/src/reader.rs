@@ -3,9 +3,9 @@
 use super::scan::{Scanner, Statement};
 use super::words::{Major, major};
 use super::{ClCircle, ClCycle, ClPoint, Reading, Record, Word};
-use crate::moves::{Coolant, Feed, FeedMode, Turning};
 use std::collections::HashSet;
 use trueaxis_input::{Diagnostics, Place};
+use trueaxis_nc::moves::{Coolant, Feed, FeedMode, Turning};
 
 const INCH_MM: f64 = 25.4;
 

@@ -5,7 +5,7 @@
 //! [`Record`], words without effect are kept as such, unknown ones are told with their line.
 //!
 //! ```
-//! use trueaxis_nc::cl::{ClFile, Reading, Word};
+//! use trueaxis_cl::{ClFile, Reading, Word};
 //! let text = b"UNITS/INCHES\nMULTAX/ON\nFEDRAT/10,IPM\nGOTO/1,2,4, $\n 0,0.6,0.8\nFINI\n".to_vec();
 //! let (file, problems) = ClFile::read("demo.cls", text, &Reading::default());
 //! assert!(!problems.has_errors());
@@ -20,9 +20,9 @@ mod rewrite;
 mod scan;
 mod words;
 
-use crate::moves::{Coolant, Feed, Turning};
 use std::ops::Range;
 use trueaxis_input::Diagnostics;
+use trueaxis_nc::moves::{Coolant, Feed, Turning};
 
 /// One place of the tool.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,13 +2,21 @@
 
 #![allow(clippy::print_stdout, reason = "says what was read and what is not here")]
 
-mod support;
-
 use proptest::prelude::*;
 use std::collections::BTreeMap;
-use support::outside;
-use trueaxis_nc::cl::{ClCircle, ClFile, Reading, Word};
+use std::path::{Path, PathBuf};
+use trueaxis_cl::{ClCircle, ClFile, Reading, Word};
 use trueaxis_nc::moves::Turning;
+
+/// A folder or file of the outside data, or `None` with a message.
+fn outside(path: &str) -> Option<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(3)?;
+    let found = Some(root.join("shared/data/outside").join(path)).filter(|p| p.exists());
+    if found.is_none() {
+        println!("skipped: {path} of the outside data is not here");
+    }
+    found
+}
 
 fn read(text: &str) -> (ClFile, Vec<(usize, &'static str)>) {
     let (file, problems) = ClFile::read("a.cls", text.as_bytes().to_vec(), &Reading::default());

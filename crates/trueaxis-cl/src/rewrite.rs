@@ -38,7 +38,7 @@ impl ClFile {
     /// decimals; everything else byte for byte. GODLTA becomes GOTO.
     ///
     /// ```
-    /// use trueaxis_nc::cl::{ClFile, ClPoint, Reading};
+    /// use trueaxis_cl::{ClFile, ClPoint, Reading};
     /// let text = b"UNITS/MM\nMULTAX/ON\nFEDRAT/100\nGOTO/1,2,3, $\n0,0,1\nFINI\n".to_vec();
     /// let (file, _) = ClFile::read("a.cls", text, &Reading::default());
     /// let mut point = *file.points().next().unwrap().1;

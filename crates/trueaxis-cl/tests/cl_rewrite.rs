@@ -1,6 +1,6 @@
 //! A file with other points reads back as what it was made to be.
 
-use trueaxis_nc::cl::{ClFile, ClPoint, Reading};
+use trueaxis_cl::{ClFile, ClPoint, Reading};
 
 fn read(text: &[u8]) -> ClFile {
     let (file, problems) = ClFile::read("a.cls", text.to_vec(), &Reading::default());
