@@ -59,6 +59,12 @@ fn long_files() -> Vec<String> {
     sources().iter().filter(too_long).map(line).collect()
 }
 
+/// The first line of a source says what is in it.
+fn without_head() -> Vec<String> {
+    let bare = sources().into_iter().filter(|(_, text)| !text.starts_with("//! "));
+    bare.map(|(p, _)| format!("{}: begin with a line `//! What is in here.`", shown(&p))).collect()
+}
+
 fn vague_names() -> Vec<String> {
     let vague = ["utils", "util", "helpers", "helper", "common", "misc", "core"];
     let named = |p: &&PathBuf| p.file_stem().is_some_and(|s| vague.iter().any(|v| s == *v));
@@ -484,8 +490,9 @@ fn prose_is_parted_from_code() {
 
 #[test]
 fn house_rules() {
-    let rules: [(&str, Rule); 14] = [
+    let rules: [(&str, Rule); 15] = [
         ("files are short", long_files),
+        ("every source says what is in it", without_head),
         ("names say what is inside", vague_names),
         ("no panic without `// why:`", unexplained_panics),
         ("cited equations exist", lost_equations),

@@ -1,3 +1,5 @@
+//! `trueaxis check`: what a machine file says and what it lacks.
+
 use crate::output::{Answer, Format, Outcome, diagnostic_json, report, show};
 use clap::Args;
 use serde_json::Value;

@@ -1,3 +1,5 @@
+//! `trueaxis compensate`: values per axis; the other kinds have files of their own.
+
 mod adapt;
 mod program;
 mod tables;

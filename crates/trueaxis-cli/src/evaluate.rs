@@ -1,3 +1,5 @@
+//! `trueaxis evaluate`: readings by ISO 230 and its relatives.
+
 use crate::output::{Answer, Format, Outcome, diagnostic_json, report, show, tell};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};

@@ -1,3 +1,5 @@
+//! `trueaxis identify`: errors of a machine from readings.
+
 mod errors;
 mod probe;
 mod rtcp;

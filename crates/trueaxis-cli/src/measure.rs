@@ -1,3 +1,5 @@
+//! `trueaxis measure`: what the instruments of a campaign would read.
+
 use crate::output::{Answer, Format, Outcome, diagnostic_json, report, show, tell};
 use crate::report_file::{REPORT, Written, may_write, unusable, write_report};
 use clap::Args;

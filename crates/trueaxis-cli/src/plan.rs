@@ -1,3 +1,5 @@
+//! `trueaxis plan`: what a measurement will show, and its programs.
+
 mod surface;
 
 use crate::output::{Answer, Format, Outcome, report, show, tell};

@@ -1,3 +1,5 @@
+//! `trueaxis pose`: where the tool is, nominal and actual, one pose or a table of them.
+
 mod batch;
 
 use crate::arguments::{self, MachineArguments, argument};

@@ -1,3 +1,5 @@
+//! `trueaxis post`: cutter locations into an NC program.
+
 use crate::arguments::MachineArguments;
 use crate::output::{Answer, Format, Outcome, report, show, tell};
 use crate::report_file::unusable;

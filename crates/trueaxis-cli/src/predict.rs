@@ -1,3 +1,5 @@
+//! `trueaxis predict`: test pieces and holes before they are cut.
+
 use crate::output::{Answer, Format, Outcome, report, show};
 use crate::report_file::{REPORT, may_write, unusable, write_report};
 use clap::Args;

@@ -1,3 +1,5 @@
+//! `trueaxis serve`: the page on this computer.
+
 use crate::output::{Outcome, tell};
 use crate::report_file::unusable;
 use clap::Args;

@@ -1,3 +1,5 @@
+//! `trueaxis simulate`: an NC program on the actual machine.
+
 use crate::arguments::{LogStart, MachineArguments};
 use crate::output::{Answer, Format, Outcome, report, report_and, show, tell};
 use crate::path_file::{BODIES, PathTable, may_write_path};

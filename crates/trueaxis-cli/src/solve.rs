@@ -1,3 +1,5 @@
+//! `trueaxis solve`: axis positions for a tool pose.
+
 use crate::arguments::{self, MachineArguments, argument};
 use crate::output::{Answer, Format, Outcome, finish};
 use clap::Args;

@@ -1,3 +1,5 @@
+//! `trueaxis verify`: comparisons, calibrations and certificates.
+
 use crate::output::{Answer, Format, Outcome, diagnostic_json, report, show};
 use crate::report_file::{REPORT, may_write, unusable, write_report};
 use clap::Args;

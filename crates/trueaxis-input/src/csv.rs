@@ -1,3 +1,5 @@
+//! Tables of numbers whose headings carry the units.
+
 use crate::{Diagnostics, Place, Unit};
 
 /// One column of numbers with the name that stands above it.

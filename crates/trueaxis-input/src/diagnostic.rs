@@ -1,3 +1,5 @@
+//! Problems with code, place, message and hint.
+
 use std::fmt;
 
 /// How bad it is.

@@ -1,3 +1,5 @@
+//! Quantities with units in text: `"12 urad"`, `"10 ± 1 um"`.
+
 use std::f64::consts::PI;
 use std::fmt;
 

@@ -1,3 +1,5 @@
+//! TOML texts whose problems are all kept, each with its place.
+
 use crate::{
     Diagnostics, Dimension, Files, Measured, Place, QuantityError, Unit, parse_measured,
     parse_quantity,

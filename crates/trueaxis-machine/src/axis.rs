@@ -1,3 +1,5 @@
+//! Axes: kind, direction, travel, limits; the only place of the ISO 841 sign.
+
 use crate::errors::BodyName;
 pub use trueaxis_geometry::AxisKind;
 use trueaxis_geometry::Vec3;

@@ -1,3 +1,5 @@
+//! Tools and their holders.
+
 /// A tool with its holder, as the machine file lists it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ToolAssembly {

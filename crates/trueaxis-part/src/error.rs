@@ -1,3 +1,5 @@
+//! Why a part cannot be evaluated.
+
 use thiserror::Error;
 
 /// Why a part cannot be evaluated; each variant is something that the caller can change.

@@ -1,3 +1,5 @@
+//! `trueaxis compensate adapt`: a path moved onto the measured blank.
+
 use crate::output::{Answer, Format, Outcome, diagnostic_json, report, show, tell};
 use crate::post::{Dialect, OnOff};
 use crate::report_file::{REPORT, Written, may_write, unusable, write_report};

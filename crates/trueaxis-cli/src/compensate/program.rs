@@ -1,3 +1,5 @@
+//! `trueaxis compensate program`: an NC program rewritten for the actual machine.
+
 use crate::arguments::MachineArguments;
 use crate::output::{Answer, Format, Outcome, diagnostic_json, report, show};
 use crate::report_file::{REPORT, Written, may_write, unusable, write_report};

@@ -1,3 +1,5 @@
+//! `trueaxis compensate tables`: the tables of one control.
+
 use crate::arguments::{self, MachineArguments, argument};
 use crate::output::{Answer, Format, Outcome, report, show};
 use crate::report_file::unusable;

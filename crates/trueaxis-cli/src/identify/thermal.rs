@@ -1,3 +1,5 @@
+//! `trueaxis identify thermal`: linear thermal models from logs.
+
 use crate::output::{Answer, Format, Outcome, diagnostic_json, report, show};
 use crate::report_file::{REPORT, may_write, write_report};
 use clap::Args;

@@ -1,3 +1,5 @@
+//! Where a batch reads its commands and writes its deviations.
+
 use super::{BatchError, Inputs};
 use crate::Deviation;
 use crate::axis::MAX_AXES;

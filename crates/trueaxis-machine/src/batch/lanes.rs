@@ -1,3 +1,5 @@
+//! W numbers side by side: what a kernel asks of a processor, and the plain version.
+
 use super::pieces::Row;
 use std::ops::{Add, Div, Mul, Sub};
 

@@ -1,3 +1,5 @@
+//! Why a machine or a pose cannot be compensated.
+
 use crate::chain::CommandFault;
 use crate::errors::BodyName;
 

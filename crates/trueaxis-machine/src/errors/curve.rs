@@ -1,3 +1,5 @@
+//! Errors as functions of the position of their axis.
+
 use super::Spline;
 
 /// What an error table answers outside its first and last position; a periodic one repeats.

@@ -1,3 +1,5 @@
+//! Names of bodies and errors by ISO 230-1, with the forms that are accepted on input.
+
 use std::fmt;
 
 /// The name of a body of the chain: an axis by its ISO 841 letter, the workpiece `w`, the tool `t`.

@@ -1,3 +1,5 @@
+//! One error as a machine file states it: curve, reversal, uncertainty.
+
 use super::{Curve, OutsideTable, Spline};
 
 /// Where the numbers of an error came from.

@@ -1,3 +1,5 @@
+//! What one standard uncertainty of each stated quantity changes.
+
 use super::{ErrorIndex, ErrorValues};
 use trueaxis_geometry::Vec3;
 

@@ -1,3 +1,5 @@
+//! The errors of all bodies at one command, as one flat array.
+
 use super::Component;
 use trueaxis_geometry::{Mat3, Vec3};
 

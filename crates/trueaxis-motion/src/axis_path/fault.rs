@@ -1,3 +1,5 @@
+//! Why a move could not be made.
+
 use super::Node;
 use crate::densify::MOST_PIECES;
 use crate::timing::TimingError;

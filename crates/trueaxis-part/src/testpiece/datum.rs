@@ -1,3 +1,5 @@
+//! The datum axis that a coordinate measuring machine aligned to.
+
 use trueaxis_geometry::Vec3;
 
 /// What a coordinate measuring machine aligned to: the ideal axis, or a machined reference hole.

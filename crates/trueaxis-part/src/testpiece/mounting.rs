@@ -1,3 +1,5 @@
+//! How a test piece is mounted on the machine.
+
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Body, Pose, Workpiece};
 

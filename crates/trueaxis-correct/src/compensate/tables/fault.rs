@@ -1,3 +1,5 @@
+//! Why there are no tables.
+
 use super::control::ReadFault;
 use trueaxis_machine::chain::CommandFault;
 use trueaxis_machine::errors::{BodyName, ErrorName};

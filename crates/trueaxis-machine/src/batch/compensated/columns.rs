@@ -1,3 +1,5 @@
+//! Where a compensated batch writes.
+
 use crate::axis::{Command, MAX_AXES};
 
 /// Where a compensated batch writes: one column per axis, mm and rad.
