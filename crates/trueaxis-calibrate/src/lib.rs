@@ -1,11 +1,22 @@
-//! What is the machine like? What instruments read, what a measurement will tell before anybody measures,
+//! What is the machine like? What instruments read, what a measurement will show before anybody measures,
 //! and which errors readings show.
 //!
 //! ```text
 //!     instruments ──> unknowns ──> measure ──> plan ──> identify
 //!     what is read    what is      campaigns   before   after the
-//!                     sought                             measurement
+//!                     unknown                           measurement
 //! ```
+//!
+//! ```
+//! use trueaxis_calibrate::unknowns::minimal::minimal_location_errors;
+//! use trueaxis_machine::{Machine, file::NoTables};
+//! let text = "[machine]\nname = \"mill\"\nchain = \"w b X Y Z t\"\n";
+//! let mill = Machine::check("mill.toml", text, &NoTables).0.unwrap();
+//! // Three squarenesses say how three linear axes are arranged, two tilts how the spindle stands to them.
+//! assert_eq!(minimal_location_errors(&mill).len(), 5);
+//! ```
+//!
+//! It does not know what the errors do to a part, nor how they are compensated.
 
 pub mod identify;
 pub mod instruments;

@@ -1,7 +1,23 @@
-//! Text from people: quantities with units, TOML that reports every problem with its place.
+//! Text from users: quantities with units, TOML and CSV that report every problem with its place.
+//!
+//! - [`parse_quantity`], [`parse_measured`]: `"12 urad"`, `"10 ± 1 um"`, in the inner unit;
+//! - [`SourceText`], [`Section`], [`Item`]: TOML under reading; [`CsvTable`] and [`sheet`]: tables;
+//! - [`Diagnostic`]: code, place, message and hint of one problem; [`Diagnostics`] all of them;
+//! - [`Files`], [`Source`]: where files are read from.
+//!
+//! ```
+//! use trueaxis_input::{Dimension, SourceText};
+//! let text = SourceText::new("probe.toml", "stylus = '50 mm'\nball = 6");
+//! let read = text.read(|root| {
+//!     (root.quantity("stylus", Dimension::Length), root.quantity("ball", Dimension::Length))
+//! });
+//! assert_eq!(read, (Some(50.0), None)); // a length needs its unit
+//! let problems = text.finish();
+//! assert_eq!(problems.iter().next().unwrap().place.to_string(), "probe.toml:2:8");
+//! ```
 //!
 //! Nothing here repairs input in silence: a value without a unit, an unknown key, a NaN is a
-//! [`Diagnostic`] with file, line, column, what was expected and what to do.
+//! [`Diagnostic`]. It does not know what a machine, a program or a part is, and opens no file itself.
 
 mod csv;
 mod diagnostic;

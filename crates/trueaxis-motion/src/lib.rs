@@ -1,10 +1,26 @@
-//! Simulate: the NC program on the machine as it is.
+//! What does the machine do with an NC program? Path, times, nominal and actual tool, collisions.
 //!
 //! ```text
 //!     program ──interpret──> moves ──axis_path──> nodes ──clock──> times
 //!                                       nodes ──tool_path──> nominal and actual tool
-//!                                                 └──> summary, troubles, tables, plots
+//!                                                 └──> summary, issues, tables, plots
 //! ```
+//!
+//! ```
+//! use trueaxis_machine::{Machine, file::NoTables};
+//! use trueaxis_motion::{Options, SetUp, Summary, simulate};
+//! use trueaxis_nc::{Control, Program};
+//! let text = "[machine]\nname = \"mill\"\nchain = \"w b X Y Z t\"\n[location]\nEC0Y = \"10 urad\"\n";
+//! let machine = Machine::check("mill.toml", text, &NoTables).0.unwrap();
+//! let program = Program::new("line.ngc", b"G21 G90 G1 Y500 F3000\nM2\n".to_vec(), Control::LinuxCnc);
+//! let mut summary = Summary::of(&machine);
+//! let run = simulate(&machine, &program, &SetUp::default(), &Options::default(), &mut [&mut summary]);
+//! assert!(!run.problems.has_errors());
+//! assert!((summary.time_s - 10.0).abs() < 0.5); // 500 mm at 50 mm/s
+//! ```
+//!
+//! [`simulate()`] tells every [`Observer`] what happens, in constant memory; [`Job`] is the same from files;
+//! [`Recording`] keeps all of it to go back and forth in. It does not judge a part.
 
 pub mod axis_path;
 mod basic;

@@ -1,10 +1,21 @@
-//! Answers on paper: numbers, tables and pictures as text, HTML and SVG. It knows no word of the field.
+//! Answers on paper: numbers, tables and pictures as text, HTML and SVG.
 //!
 //! - [`numbers`]: numbers as they are printed everywhere;
 //! - [`Block`]: a table with a title, for the terminal ([`write_block`]) and for a page ([`section`]);
 //! - [`Picture`]: curves, bands, scatter and polar pictures as SVG;
 //! - [`page`]: one self-contained HTML page that opens offline; [`picture_page`](mod@picture_page) one of
 //!   tables and pictures.
+//!
+//! ```
+//! use trueaxis_report::{Block, write_block};
+//! let mut block = Block::new("Figures", "", &["", "µm"]);
+//! block.rows.push(vec!["reversal".into(), "2.50".into()]);
+//! let mut text = String::new();
+//! write_block(&mut text, &block).unwrap();
+//! assert_eq!(text, "\n  Figures\n               µm\n  reversal   2.50\n");
+//! ```
+//!
+//! It knows no word of the field: what a figure means stands with who has computed it.
 
 mod block;
 pub mod numbers;

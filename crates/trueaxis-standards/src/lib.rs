@@ -1,17 +1,39 @@
-//! Verify: how good is the machine by the standards? Readings of instruments to the figures of
-//! ISO 230, each with its clause; docs/model.md eq. 60 on.
+//! What do readings of instruments say? Their figures by ISO 230 and its relatives, each with its clause;
+//! docs/model.md eq. 60 on.
 //!
 //! - [`iso230_2`]: positioning of linear and rotary axes (also GB/T 17421.2, VDI/DGQ 3441 and the form
 //!   of ASME B5.54);
 //! - [`iso230_3`]: drift; [`iso230_4`]: circular tests; [`iso230_6`]: diagonals; [`iso230_7`]: error
-//!   motion of rotary axes.
+//!   motion of rotary axes;
+//! - [`import`]: files of others become our tables; [`report`]: an evaluation as text, JSON and a page.
 //!
-//! [`compare`](mod@compare) holds readings against a prediction, or against other readings;
-//! [`calibrations`](mod@calibrations) one machine file against a later one;
-//! [`certificate`](mod@certificate) what a compensation leaves, proved on poses that were not used.
+//! ```
+//! use trueaxis_input::Diagnostics;
+//! use trueaxis_standards::conditions::Conditions;
+//! use trueaxis_standards::{Evaluated, Request, Standard, evaluate};
+//! // Two targets, five runs up and five down; all readings are 0 up and 3 µm down.
+//! let mut text = "target_mm,run,direction,deviation_um\n".to_owned();
+//! for (run, target) in (1..=5).flat_map(|run| [0, 100, 200, 300, 400].map(|target| (run, target))) {
+//!     text += &format!("{target},{run},up,0\n{target},{run},down,3\n");
+//! }
+//! let conditions = Conditions::default();
+//! let request = Request {
+//!     standard: Standard::Iso230_2,
+//!     file: "x.csv",
+//!     text: &text,
+//!     conditions: &conditions,
+//!     conditions_file: "",
+//!     window_s: 900.0,
+//! };
+//! let evaluated = evaluate(&request, &mut Diagnostics::new());
+//! let Some(Evaluated::Positioning(_, figures)) = evaluated else { panic!() };
+//! let reversal_mm = figures.value(trueaxis_standards::iso230_2::Quantity::B).unwrap();
+//! assert!((reversal_mm - 0.003).abs() < 1e-12);
+//! ```
 //!
-//! Every standard reads a table of named columns ([`sheet`]) and what is known beside it
-//! ([`conditions`]); the forms of others become such tables in [`import`]. What a test lacks is a diagnostic with the clause; what can be evaluated is.
+//! Every standard reads a table of named columns ([`trueaxis_input::sheet`]) and what is known in addition
+//! ([`conditions`]). What a test lacks is a diagnostic with the clause; what can be evaluated is. It knows no
+//! machine file.
 
 pub mod conditions;
 pub mod import;

@@ -1,26 +1,35 @@
 //! The loop: describe · simulate · predict · plan (and measure) · identify · compensate · verify.
 //!
-//! One machine file goes through all of it. So far:
+//! One machine file goes through all of it:
 //!
 //! - *describe*: [`machine`] (a checked machine tool, its poses and errors), [`describe`](mod@describe)
 //!   (the machine as data, one error put into its file) and [`files`];
-//! - *simulate*: [`simulate`](mod@simulate): an NC program on the machine as it is: path, time, poses,
-//!   deviations, troubles;
+//! - *simulate*: [`simulate`](mod@simulate): an NC program on the actual machine: path, time, poses,
+//!   deviations, issues;
 //! - *predict*: [`predict`](mod@predict): is the test piece that this machine cuts within its
-//!   tolerances, how sure is that, and which error is to blame;
-//! - *plan*: [`plan`](mod@plan): what a measurement will tell, its programs, the poses that tell most;
+//!   tolerances, with what uncertainty, and what does each error contribute;
+//! - *plan*: [`plan`](mod@plan): what a measurement will show, its programs, the most informative poses;
 //! - *identify*: [`identify`]: errors of the machine from any mix of instruments, the expansion of
 //!   a scale, thermal models from logs; [`measure`]: what instruments read;
 //! - *compensate*: [`compensate`]: what the control has to add to its commands, and cutter
 //!   locations into programs for one machine;
-//! - *verify*: [`verify`]: readings of instruments evaluated by ISO 230;
+//! - *verify*: [`verify`]: readings of instruments evaluated by ISO 230, compared and certified;
 //! - [`report`]: all that as text, JSON and self-contained HTML pages.
 //!
-//! The nouns live in crates of their own and are handed on here: [`geometry`], [`machine`],
-//! [`part`].
+//! This crate reads and writes files ([`files`]); the others, which it hands on under the names of the verbs,
+//! do not.
+//!
+//! ```no_run
+//! use trueaxis::predict::{predict, read_study};
+//! let (study, problems) = read_study(&trueaxis::files::disk(), "nas979-on-xkas2525.toml".as_ref());
+//! assert!(!problems.has_errors());
+//! let prediction = predict(&study.unwrap(), &|_| {}).unwrap();
+//! for judgement in &prediction.verdict.judgements {
+//!     println!("{}: {} mm of {} mm", judgement.index.key, judgement.value_mm, judgement.limit_mm);
+//! }
+//! ```
 
 pub mod files;
-
 pub mod report;
 pub mod verify;
 

@@ -1,4 +1,4 @@
-//! The document `trueaxis/predict/1`; its keys are fixed in docs/conventions.md.
+//! The document `trueaxis/predict/1`; its keys are fixed in docs/reference/json.md.
 
 use crate::predict::{Correction, Index, Prediction, SectionResult, Sensitivity, Share, Study};
 use crate::report::family_key;

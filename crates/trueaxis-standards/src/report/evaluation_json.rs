@@ -1,4 +1,4 @@
-//! The document `trueaxis/evaluate/1`; its keys are fixed in docs/conventions.md.
+//! The document `trueaxis/evaluate/1`; its keys are fixed in docs/reference/json.md.
 
 use super::evaluation::Evaluation;
 use crate::Evaluated;
