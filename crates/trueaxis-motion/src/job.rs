@@ -77,9 +77,10 @@ impl Job {
     /// ```no_run
     /// use trueaxis_input::Diagnostics;
     /// use trueaxis_motion::{Job, Options, ProgramFiles};
-    /// let (machine, mut problems) = trueaxis::files::machine("mill.toml".as_ref());
+    /// # let files = trueaxis_input::Files::none();
+    /// let (machine, mut problems) = trueaxis_machine::Machine::read(&files, "mill.toml".as_ref());
     /// let program = "part.mpf".as_ref();
-    /// let files = ProgramFiles { files: &trueaxis::files::disk(), program, text: None, setup: None, control: None };
+    /// let files = ProgramFiles { files: &files, program, text: None, setup: None, control: None };
     /// let job = Job::read(machine.unwrap(), &files, Options::default(), &mut problems).unwrap();
     /// let found = job.run(job.collisions(), &mut []);
     /// assert!(!found.run.problems.has_errors() && !found.troubles.is_grave());

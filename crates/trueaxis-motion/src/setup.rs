@@ -85,9 +85,10 @@ pub struct SetUp {
 /// Reads a set-up file for a machine; all problems at once.
 ///
 /// ```no_run
-/// let (machine, _) = trueaxis::files::machine("machines/i5-engraver/machine.toml".as_ref());
+/// # let files = trueaxis_input::Files::none();
+/// let (machine, _) = trueaxis_machine::Machine::read(&files, "machines/i5-engraver/machine.toml".as_ref());
 /// let path = "examples/02_simulate/ring-fanuc.setup.toml".as_ref();
-/// let (setup, problems) = trueaxis_motion::read_setup(path, &machine.unwrap());
+/// let (setup, problems) = trueaxis_motion::read_setup(&files, path, &machine.unwrap());
 /// assert!(!problems.has_errors() && setup.unwrap().given);
 /// ```
 pub fn read_setup(files: &Files, path: &Path, machine: &Machine) -> (Option<SetUp>, Diagnostics) {

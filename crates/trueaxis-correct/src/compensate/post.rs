@@ -125,7 +125,8 @@ pub struct Posted {
 /// ```
 /// use trueaxis_correct::compensate::post::{PostOptions, post};
 /// use trueaxis_machine::{Machine, file::NoTables};
-/// use trueaxis_nc::{Control, cl::{ClFile, Reading}};
+/// use trueaxis_cl::{ClFile, Reading};
+/// use trueaxis_nc::Control;
 /// let text = "[machine]\nname = \"ac\"\nchain = \"w C' A' b X Y Z t\"";
 /// let machine = Machine::check("ac.toml", text, &NoTables).0.unwrap();
 /// let cl = b"UNITS/MM\nFEDRAT/500\nGOTO/10,0,0,0,0,1\nGOTO/10,5,0,0,-0.5,0.8660254\n".to_vec();

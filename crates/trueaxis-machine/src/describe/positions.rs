@@ -40,7 +40,8 @@ fn beyond_travel(machine: &Machine, command: &Command) -> Vec<BodyName> {
 ///
 /// ```no_run
 /// use trueaxis_input::{Diagnostics, Place};
-/// # let machine = trueaxis::files::machine("m.toml".as_ref()).0.unwrap();
+/// # let files = trueaxis_input::Files::none();
+/// # let machine = trueaxis_machine::Machine::read(&files, "m.toml".as_ref()).0.unwrap();
 /// let at = [("X", 3000.0), ("C", -90.0)];
 /// let command = trueaxis_machine::describe::command(&machine, at, &Place::whole("at"), &mut Diagnostics::new());
 /// ```

@@ -21,7 +21,7 @@ const LONGEST: usize = 10_000;
 /// table of its axis, with the name of the table.
 ///
 /// ```
-/// use trueaxis::{describe::set_error, machine::file::NoTables};
+/// use trueaxis_machine::{describe::set_error, file::NoTables};
 /// let old = "machine = { name = \"m\", chain = \"w b X Y Z t\" }\n[location]\nEC0Y = \"3 urad\" # square\n";
 /// let new = set_error(old, "m.toml", &NoTables, "EC0Y", "12 ± 1 urad").unwrap();
 /// assert_eq!(new, old.replace("3 urad", "12 ± 1 urad"));
