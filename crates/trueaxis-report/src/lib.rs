@@ -1,6 +1,7 @@
 //! Answers on paper: numbers, tables and pictures as text, HTML and SVG.
 //!
 //! - [`numbers`]: numbers as they are printed everywhere;
+//! - [`document`](fn@document), [`Keyed`]: an answer as one JSON document;
 //! - [`Block`]: a table with a title, for the terminal ([`write_block`]) and for a page ([`section`]);
 //! - [`Picture`]: curves, bands, scatter and polar pictures as SVG;
 //! - [`page`]: one self-contained HTML page that opens offline; [`picture_page`](mod@picture_page) one of
@@ -18,6 +19,7 @@
 //! It knows no word of the field: what a figure means stands with who has computed it.
 
 mod block;
+mod document;
 pub mod numbers;
 pub mod page;
 pub mod picture_page;
@@ -25,6 +27,7 @@ mod pictures;
 pub mod plots;
 
 pub use block::{Block, section, write_block};
+pub use document::{Keyed, document};
 pub use pictures::{Band, Picture, Polar, PolarLine, Scatter};
 pub use plots::DrawingError;
 

@@ -1,0 +1,44 @@
+//! An answer as one JSON document.
+
+use serde::ser::{Serialize, SerializeMap, Serializer};
+use serde_json::Value;
+
+/// The JSON of a document: its fields in their order, numbers in full double precision; a number that is not
+/// finite is null.
+pub fn document(answer: &impl Serialize) -> Value {
+    // why: the documents are structures with texts as keys, which always have a JSON form.
+    serde_json::to_value(answer).expect("a document of texts, numbers and lists")
+}
+
+/// An object whose keys come with the data, such as names of axes; it keeps their order.
+///
+/// ```
+/// use trueaxis_report::{Keyed, document};
+/// let at: Keyed<f64> = [("X", 100.0), ("C", -90.0)].into_iter().collect();
+/// assert_eq!(document(&at).to_string(), r#"{"X":100.0,"C":-90.0}"#);
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Keyed<T>(pub Vec<(String, T)>);
+
+impl<T> Keyed<T> {
+    /// Adds an entry at the end.
+    pub fn put(&mut self, key: impl Into<String>, value: T) {
+        self.0.push((key.into(), value));
+    }
+}
+
+impl<K: Into<String>, T> FromIterator<(K, T)> for Keyed<T> {
+    fn from_iter<I: IntoIterator<Item = (K, T)>>(entries: I) -> Self {
+        Self(entries.into_iter().map(|(key, value)| (key.into(), value)).collect())
+    }
+}
+
+impl<T: Serialize> Serialize for Keyed<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.0.len()))?;
+        for (key, value) in &self.0 {
+            map.serialize_entry(key, value)?;
+        }
+        map.end()
+    }
+}
