@@ -4,7 +4,7 @@ trueaxis=${TRUEAXIS:-target/release/trueaxis}
 out=${OUT:-.}
 $trueaxis plan examples/04_plan/probe-ball.toml -o "$out/probe-ball" --report "$out/probe-ball.html"
 $trueaxis plan examples/04_plan/ball-bar-10791-6.toml -o "$out/ball-bar"
-$trueaxis plan examples/04_plan/touch-probe-5-minutes.toml -o "$out/five-minutes" --dialect fanuc
+$trueaxis plan examples/04_plan/touch-probe-5-minutes.toml -o "$out/five-minutes" --control fanuc
 $trueaxis plan examples/04_plan/touch-probe-5-minutes.toml --format json
 # Touches on a whole free-form bangle, along its normals; `compensate adapt` reads the table.
-$trueaxis plan probe-surface examples/04_plan/probe-surface.toml -o "$out/probe-surface" --dialect fanuc
+$trueaxis plan probe-surface examples/04_plan/probe-surface.toml -o "$out/probe-surface" --control fanuc

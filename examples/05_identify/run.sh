@@ -15,7 +15,7 @@ $trueaxis identify examples/05_identify/mixed-instruments.toml --check-conventio
 # Where are the rotary centres, and what must be entered in the control? Zhang et al. 2023, steps 1 to 4.
 $trueaxis identify rtcp examples/05_identify/rtcp-engraver.toml
 $trueaxis identify rtcp examples/05_identify/rtcp-engraver.toml --format json
-$trueaxis identify rtcp examples/05_identify/rtcp-engraver.toml --programs "${TMPDIR:-/tmp}/rtcp-programs" --dialect fanuc
+$trueaxis identify rtcp examples/05_identify/rtcp-engraver.toml --programs "${TMPDIR:-/tmp}/rtcp-programs" --control fanuc
 # Touch probe: offset and pre-travel by direction; raw hits corrected; unknown centre; sphere with two styli.
 $trueaxis identify probe examples/05_identify/ring-60.toml --report "${TMPDIR:-/tmp}/ring-60.html" --table "${TMPDIR:-/tmp}/ring-60-table.csv"
 $trueaxis identify probe examples/05_identify/ring-60.toml --format json --correct examples/05_identify/ring-60-fresh.csv -o "${TMPDIR:-/tmp}/ring-60-corrected.csv"

@@ -13,10 +13,10 @@ $trueaxis compensate values $gantry --axis X --step 350 --temperature "scale_x=3
 $trueaxis compensate values machines/three-axis-mill/machine.toml --axis X --step 60
 $trueaxis compensate values machines/xkas2525/machine.toml --axis C --step 30 --format json
 # Cutter locations become programs for this machine, read back and simulated.
-$trueaxis post machines/i5-engraver/machine.toml examples/06_compensate/bangle.cls --dialect fanuc -o "$out/bangle.nc" --verify
-$trueaxis post machines/xkas2525/machine.toml examples/06_compensate/blade.cls --dialect sinumerik --tcp off -o "$out/blade.mpf" --verify
+$trueaxis post machines/i5-engraver/machine.toml examples/06_compensate/bangle.cls --control fanuc -o "$out/bangle.nc" --verify
+$trueaxis post machines/xkas2525/machine.toml examples/06_compensate/blade.cls --control sinumerik --tcp off -o "$out/blade.mpf" --verify
 # A blank as it was probed: the path is moved onto it, and the remaining wall (example made by oracles/bangle.py).
-$trueaxis compensate adapt examples/06_compensate/bangle-adapt.toml --report "$out/bangle-adapt.html" --dialect fanuc -o "$out/bangle-adapt.nc" --cl "$out/bangle-adapted.cls"
+$trueaxis compensate adapt examples/06_compensate/bangle-adapt.toml --report "$out/bangle-adapt.html" --control fanuc -o "$out/bangle-adapt.nc" --cl "$out/bangle-adapted.cls"
 # Tables of controls: files, the errors they represent, residual error of the tool and of a test piece.
 $trueaxis compensate tables machines/three-axis-mill/machine.toml --target linuxcnc -o "$out/mill-linuxcnc"
 $trueaxis compensate tables machines/xkas2525/machine.toml --target sinumerik -o "$out/xkas-sinumerik" --piece examples/03_predict/nas979-on-xkas2525.toml

@@ -45,7 +45,7 @@ Examples:
   trueaxis verify examples/07_verify/probe-ball.toml
   trueaxis plan examples/04_plan/probe-ball.toml
   trueaxis identify examples/05_identify/probe-ball.toml
-  trueaxis post machines/i5-engraver/machine.toml examples/06_compensate/bangle.cls --dialect fanuc -o bangle.nc --verify
+  trueaxis post machines/i5-engraver/machine.toml examples/06_compensate/bangle.cls --control fanuc -o bangle.nc --verify
   trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml
   trueaxis explain table-too-short
   trueaxis serve --open
@@ -97,7 +97,11 @@ fn main() -> ExitCode {
         trueaxis::files::remove_parts();
         std::process::exit(130);
     });
-    let outcome = match Command::parse().verb {
+    let command = Command::parse();
+    if std::env::args().any(|a| a == "--dialect" || a.starts_with("--dialect=")) {
+        output::tell("`--dialect` is now called `--control`; the old name still works");
+    }
+    let outcome = match command.verb {
         Verb::Check(arguments) => check::run(&arguments),
         Verb::Pose(arguments) => pose::run(&arguments),
         Verb::Solve(arguments) => solve::run(&arguments),

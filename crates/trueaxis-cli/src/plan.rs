@@ -2,17 +2,16 @@
 
 mod surface;
 
+use crate::arguments::control;
 use crate::output::{Answer, Format, Outcome, report, show, tell};
 use crate::report_file::{REPORT, may_write, unusable, write_report};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 use trueaxis::files::disk;
 use trueaxis::files::write_files;
-use trueaxis::input::Place;
 use trueaxis::nc::Control;
 use trueaxis::plan::{Chosen, Plan, chosen, planned, read_plan};
 use trueaxis::report::{plan_html, plan_json, plan_text};
-use trueaxis::simulate::{CONTROLS, control_named};
 
 /// What to plan.
 #[derive(Args)]
@@ -21,7 +20,7 @@ use trueaxis::simulate::{CONTROLS, control_named};
     after_help = "\
 Examples:
   trueaxis plan examples/04_plan/probe-ball.toml
-  trueaxis plan examples/04_plan/touch-probe-5-minutes.toml --dialect fanuc -o programs
+  trueaxis plan examples/04_plan/touch-probe-5-minutes.toml --control fanuc -o programs
   trueaxis plan CAMPAIGN.toml --format json
   trueaxis plan probe-surface examples/04_plan/probe-surface.toml -o programs
 
@@ -49,8 +48,8 @@ struct CampaignArguments {
     #[arg(value_name = "CAMPAIGN.toml", required = true)]
     file: Option<PathBuf>,
     /// Whose NC programs: sinumerik, fanuc, linuxcnc or heidenhain
-    #[arg(long, value_name = "NAME", default_value = "sinumerik")]
-    dialect: String,
+    #[arg(long, alias = "dialect", value_name = "NAME", default_value = "sinumerik")]
+    control: String,
     /// Write one program and one table of poses per path into this folder
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
@@ -72,11 +71,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 fn run_campaign(arguments: &CampaignArguments) -> Outcome {
     let Some(file) = &arguments.file else { return Outcome::Unusable };
     let (plan, mut problems) = read_plan(&disk(), file);
-    let control = control_named(&arguments.dialect);
-    if control.is_none() {
-        let message = format!("`{}` is no control that is known", arguments.dialect);
-        problems.error("unknown-control", Place::whole("--dialect"), message, CONTROLS);
-    }
+    let control = control(&arguments.control, &mut problems);
     if let Some(path) = &arguments.report {
         may_write(path, &REPORT, &mut problems);
     }

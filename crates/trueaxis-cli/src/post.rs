@@ -1,6 +1,6 @@
 //! `trueaxis post`: cutter locations into an NC program.
 
-use crate::arguments::MachineArguments;
+use crate::arguments::{MachineArguments, control};
 use crate::output::{Answer, Format, Outcome, report, show, tell};
 use crate::report_file::unusable;
 use clap::{Args, ValueEnum};
@@ -15,7 +15,6 @@ use trueaxis::files;
 use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Dimension, Place, parse_quantity};
 use trueaxis::machine::Machine;
-use trueaxis::nc::Control;
 use trueaxis::nc::writer::{Decimals, MOST_DECIMALS, Templates, TipWords};
 
 /// The cutter locations, the machine and the control.
@@ -23,9 +22,9 @@ use trueaxis::nc::writer::{Decimals, MOST_DECIMALS, Templates, TipWords};
 #[command(after_help = "\
 Examples:
   trueaxis post machines/i5-engraver/machine.toml examples/06_compensate/bangle.cls \\
-      --dialect fanuc -o bangle.nc --verify
+      --control fanuc -o bangle.nc --verify
   trueaxis post machines/xkas2525/machine.toml examples/06_compensate/blade.cls \\
-      --dialect sinumerik --tcp off -o blade.mpf --verify
+      --control sinumerik --tcp off -o blade.mpf --verify
 
 The points are taken in the workpiece frame of the machine file. With --tcp on the program has tips
 and tool axes, without it axis positions from the machine zero, tool length and workpiece included.
@@ -37,9 +36,9 @@ pub struct Arguments {
     /// The cutter-location file: APT of Creo, NCL, CATIA, SolidWorks CAM, or a table x y z i j k
     #[arg(value_name = "FILE.cls")]
     file: PathBuf,
-    /// For which control
-    #[arg(long, value_enum)]
-    dialect: Dialect,
+    /// For which control: sinumerik, fanuc, linuxcnc or heidenhain
+    #[arg(long, alias = "dialect", value_name = "NAME")]
+    control: String,
     /// Whether the control keeps the tip of the tool on the path
     #[arg(long, value_enum, default_value = "on")]
     tcp: OnOff,
@@ -91,18 +90,6 @@ pub struct Arguments {
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Dialect {
-    /// FANUC 30i and its relatives: G43.4, G43.5
-    Fanuc,
-    /// SINUMERIK 840D: TRAORI
-    Sinumerik,
-    /// HEIDENHAIN Klartext: FUNCTION TCPM, LN
-    Heidenhain,
-    /// LinuxCNC: switchable kinematics
-    Linuxcnc,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum OnOff {
     /// The program has tips
     On,
@@ -136,22 +123,14 @@ enum Units {
     Inch,
 }
 
-impl Dialect {
-    /// The control of that name.
-    pub fn control(self) -> Control {
-        match self {
-            Self::Fanuc => Control::Fanuc,
-            Self::Sinumerik => Control::Sinumerik840d,
-            Self::Heidenhain => Control::Heidenhain,
-            Self::Linuxcnc => Control::LinuxCnc,
-        }
-    }
-}
-
 pub fn run(arguments: &Arguments) -> Outcome {
     if arguments.show_template {
-        let control = arguments.dialect.control();
-        let text = trueaxis::nc::writer::BUILT_IN.iter().find(|(c, _)| *c == control);
+        let mut problems = Diagnostics::new();
+        let control = control(&arguments.control, &mut problems);
+        if report(problems) {
+            return Outcome::Unusable;
+        }
+        let text = trueaxis::nc::writer::BUILT_IN.iter().find(|(c, _)| Some(*c) == control);
         return show(&Answer::Text(text.map_or(String::new(), |(_, t)| (*t).to_owned())));
     }
     let mut problems = Diagnostics::new();
@@ -238,7 +217,7 @@ impl Arguments {
             templates,
             name: name.map_or_else(|| "PROGRAM".into(), |n| n.to_string_lossy().into_owned()),
             number: self.number,
-            ..PostOptions::of(self.dialect.control())
+            ..PostOptions::of(control(&self.control, problems)?)
         })
     }
 

@@ -1,6 +1,6 @@
 //! `trueaxis simulate`: an NC program on the actual machine.
 
-use crate::arguments::{LogStart, MachineArguments};
+use crate::arguments::{LogStart, MachineArguments, control};
 use crate::output::{Answer, Format, Outcome, report, report_and, show, tell};
 use crate::path_file::{BODIES, PathTable, may_write_path};
 use crate::report_file::{REPORT, may_write, unusable, write_report};
@@ -13,11 +13,11 @@ use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Dimension, Place, parse_quantity};
 use trueaxis::machine::Machine;
 use trueaxis::machine::heat::TemperatureRun;
-use trueaxis::nc::{Control, Program};
+use trueaxis::nc::Program;
 use trueaxis::report::{Simulation, simulation_html, simulation_json, simulation_text};
 use trueaxis::simulate::{
-    BodyTable, CONTROLS, Collisions, Densify, Findings, Job, Observer, Options, ProgramFiles,
-    Progress, Series, Timing, control_named,
+    BodyTable, Collisions, Densify, Findings, Job, Observer, Options, ProgramFiles, Progress,
+    Series, Timing,
 };
 
 /// The program to simulate.
@@ -122,7 +122,7 @@ impl ProgramArguments {
             control: None,
         };
         let control = match &self.control {
-            Some(name) => match named_control(name, problems) {
+            Some(name) => match control(name, problems) {
                 Some(control) => Some(control),
                 None => return files.setup(&machine, problems).and(None),
             },
@@ -165,15 +165,6 @@ impl ProgramArguments {
         let usual = Options::default();
         Some(Options { densify, rounding_mm, timing, most_jumps, keep_going, ..usual })
     }
-}
-
-fn named_control(name: &str, problems: &mut Diagnostics) -> Option<Control> {
-    let control = control_named(name);
-    if control.is_none() {
-        let message = format!("`{name}` is no control that is known");
-        problems.error("unknown-control", Place::whole("--control"), message, CONTROLS);
-    }
-    control
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {

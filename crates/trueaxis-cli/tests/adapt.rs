@@ -102,7 +102,7 @@ fn the_example_as_it_stands() {
         "examples/06_compensate/bangle-adapt.toml",
         "--report",
         &report,
-        "--dialect",
+        "--control",
         "fanuc",
         "-o",
         &program,
@@ -127,7 +127,7 @@ fn the_example_as_it_stands() {
     // The adapted path is a file that can be posted by itself.
     let again = folder.path("again.nc");
     let machine = "machines/i5-engraver/machine.toml";
-    let ran = trueaxis(&["post", machine, &cl, "--dialect", "fanuc", "--verify", "-o", &again]);
+    let ran = trueaxis(&["post", machine, &cl, "--control", "fanuc", "--verify", "-o", &again]);
     assert_eq!(ran.status, 0, "{}", ran.err);
 }
 
@@ -264,7 +264,7 @@ fn studies_with_slips() {
 #[test]
 fn nothing_is_written_where_the_wall_is_too_thin() {
     let thin = parts().with_study("least = \"0.05 mm\"", "least = \"0.085 mm\"");
-    let (folder, ran) = thin.run("thin", &["--format", "json", "--dialect", "fanuc", "-o", "p.nc"]);
+    let (folder, ran) = thin.run("thin", &["--format", "json", "--control", "fanuc", "-o", "p.nc"]);
     assert_eq!(ran.status, 1, "{}", ran.err);
     let found = ran.json();
     assert_eq!(found["findings"][0]["code"], "thin-wall");
@@ -295,7 +295,7 @@ fn nothing_leaves_the_travel() {
         "adapt",
         &study,
         "--no-report",
-        "--dialect",
+        "--control",
         "fanuc",
         "--tcp",
         "off",

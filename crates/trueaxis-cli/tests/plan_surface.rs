@@ -45,7 +45,7 @@ fn the_bangle_is_touched_along_its_normals() {
         "plan",
         "probe-surface",
         STUDY,
-        "--dialect",
+        "--control",
         "fanuc",
         "-o",
         &out,
@@ -104,8 +104,8 @@ fn a_box_is_touched_from_above_on_a_machine_without_rotary_axes() {
         (study(up).replace("5 mm", "0.00001 mm"), &[], "too-many-points"),
         (study(up).replace("0 0 1", "0 0 -1"), &[], "no-points"),
         (study(up).replace("100 mm", "1e9 mm"), &[], "unreachable-point"),
-        (study(up), &["--dialect", "heidenhain"], "no-program"),
-        (study(up), &["--dialect", "fidia"], "unknown-control"),
+        (study(up), &["--control", "heidenhain"], "no-program"),
+        (study(up), &["--control", "fidia"], "unknown-control"),
         (study("stl = 'part.stl'\nnormals = 'up'"), &[], "unknown-word"),
     ] {
         let ran = run(text.clone(), more);

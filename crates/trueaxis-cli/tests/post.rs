@@ -15,7 +15,7 @@ fn the_document_has_the_agreed_keys() {
         "post",
         ENGRAVER,
         BANGLE,
-        "--dialect",
+        "--control",
         "fanuc",
         "-o",
         &out,
@@ -49,7 +49,7 @@ fn a_written_program_is_simulated_like_any_other() {
         "post",
         machine,
         blade,
-        "--dialect",
+        "--control",
         "sinumerik",
         "--tcp",
         "off",
@@ -76,7 +76,7 @@ fn what_cannot_be_used_is_refused_with_its_line() {
         ("", "no-points", ""),
     ] {
         let file = folder.file("a.cls", text);
-        let ran = trueaxis(&["post", ENGRAVER, &file, "--dialect", "fanuc", "-o", &out]);
+        let ran = trueaxis(&["post", ENGRAVER, &file, "--control", "fanuc", "-o", &out]);
         assert_eq!(ran.status, 2, "{text}{}", ran.err);
         assert!(ran.err.contains(&format!("error[{code}]")), "{code}: {}", ran.err);
         assert!(ran.err.contains(&format!("a.cls{place}")), "{place}: {}", ran.err);
@@ -84,12 +84,12 @@ fn what_cannot_be_used_is_refused_with_its_line() {
     }
     let file = folder.file("a.cls", "UNITS/MM\nFEDRAT/9\nGOTO/0,0,0,0.6,0,0.8\n");
     let mill = "machines/three-axis-mill/machine.toml";
-    let ran = trueaxis(&["post", mill, &file, "--dialect", "linuxcnc", "-o", &out]);
+    let ran = trueaxis(&["post", mill, &file, "--control", "linuxcnc", "-o", &out]);
     assert!(ran.status == 2 && ran.err.contains("error[unreachable]"), "{}", ran.err);
     let bad = folder.file("bad.j2", "{% block start %}{{ nmae }}{% endblock %}");
     let template = ["--template", &bad];
     let ran = trueaxis(
-        &[&["post", ENGRAVER, BANGLE, "--dialect", "fanuc", "-o", &out][..], &template].concat(),
+        &[&["post", ENGRAVER, BANGLE, "--control", "fanuc", "-o", &out][..], &template].concat(),
     );
     assert!(ran.status == 2 && ran.err.contains("error[bad-template]"), "{}", ran.err);
 }
@@ -97,7 +97,7 @@ fn what_cannot_be_used_is_refused_with_its_line() {
 #[test]
 fn templates_are_shown_to_be_edited() {
     let folder = Folder::new("post-template");
-    let ran = trueaxis(&["post", ENGRAVER, BANGLE, "--dialect", "fanuc", "--show-template"]);
+    let ran = trueaxis(&["post", ENGRAVER, BANGLE, "--control", "fanuc", "--show-template"]);
     assert_eq!(ran.status, 0);
     let mine = folder.file("mine.j2", ran.out.replace("M30", "M99"));
     let out = folder.path("out.nc");
@@ -105,7 +105,7 @@ fn templates_are_shown_to_be_edited() {
         "post",
         ENGRAVER,
         BANGLE,
-        "--dialect",
+        "--control",
         "fanuc",
         "-o",
         &out,
@@ -115,4 +115,13 @@ fn templates_are_shown_to_be_edited() {
     assert_eq!(ran.status, 0, "{}", ran.err);
     let text = std::fs::read_to_string(&out).expect("a program");
     assert!(text.contains("\nM99\n") && !text.contains("M30"));
+}
+
+#[test]
+fn the_old_name_of_the_option_still_works_and_says_so() {
+    let options = |name| ["post", ENGRAVER, BANGLE, name, "heidenhain", "--show-template"];
+    let [old, new] = ["--dialect", "--control"].map(|name| trueaxis(&options(name)));
+    assert_eq!((old.status, &old.out), (0, &new.out));
+    assert!(old.err.contains("`--dialect` is now called `--control`"), "{}", old.err);
+    assert_eq!(new.err, "");
 }

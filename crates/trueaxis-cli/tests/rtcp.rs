@@ -80,7 +80,7 @@ fn machine_file_and_programs() {
     let programs = folder.path("nc");
     for dialect in ["fanuc", "sinumerik", "heidenhain", "linuxcnc"] {
         let arguments = ["identify", "rtcp", EXAMPLE, "--programs", &programs];
-        let ran = trueaxis(&[&arguments[..], &["--dialect", dialect, "--format", "json"]].concat());
+        let ran = trueaxis(&[&arguments[..], &["--control", dialect, "--format", "json"]].concat());
         assert_eq!(ran.status, 0, "{}", ran.err);
         let told = ran.json();
         for k in 0..4 {

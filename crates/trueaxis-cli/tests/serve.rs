@@ -259,7 +259,7 @@ fn answers_are_the_documents_of_the_command_line() {
         (
             "plan",
             json!({ "campaign": plan, "dialect": "fanuc" }),
-            &["plan", plan, "--dialect", "fanuc"],
+            &["plan", plan, "--control", "fanuc"],
         ),
         ("identify", json!({ "campaign": campaign }), &["identify", campaign]),
         (

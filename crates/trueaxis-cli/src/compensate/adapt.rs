@@ -1,7 +1,8 @@
 //! `trueaxis compensate adapt`: a path moved onto the measured blank.
 
+use crate::arguments::control;
 use crate::output::{Answer, Format, Outcome, diagnostic_json, report, show, tell};
-use crate::post::{Dialect, OnOff};
+use crate::post::OnOff;
 use crate::report_file::{REPORT, Written, may_write, unusable, write_report};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -18,7 +19,7 @@ use trueaxis::report::{AdaptReport, AdaptedProgram, adapt_html, adapt_json, adap
 #[command(after_help = "\
 Examples:
   trueaxis compensate adapt examples/06_compensate/bangle-adapt.toml
-  trueaxis compensate adapt examples/06_compensate/bangle-adapt.toml --dialect fanuc -o bangle.nc \\
+  trueaxis compensate adapt examples/06_compensate/bangle-adapt.toml --control fanuc -o bangle.nc \\
       --cl bangle-adapted.cls --format json
 
 The blank is registered, its form becomes a smooth field, the path is moved along its normals, and a
@@ -36,11 +37,11 @@ pub struct AdaptArguments {
     #[arg(long, conflicts_with = "report")]
     no_report: bool,
     /// Where the program of the adapted path goes
-    #[arg(short, long, value_name = "FILE", requires = "dialect")]
+    #[arg(short, long, value_name = "FILE", requires = "control")]
     output: Option<PathBuf>,
-    /// For which control
-    #[arg(long, value_enum, requires = "output")]
-    dialect: Option<Dialect>,
+    /// For which control: sinumerik, fanuc, linuxcnc or heidenhain
+    #[arg(long, alias = "dialect", value_name = "NAME", requires = "output")]
+    control: Option<String>,
     /// Whether the control keeps the tip of the tool on the path
     #[arg(long, value_enum, default_value = "on")]
     tcp: OnOff,
@@ -134,7 +135,7 @@ impl AdaptArguments {
             tip_words: (self.tcp == OnOff::On).then_some(TipWords::Angles),
             tolerance_mm,
             name: name.map_or_else(|| "PROGRAM".into(), |n| n.to_string_lossy().into_owned()),
-            ..PostOptions::of(self.dialect?.control())
+            ..PostOptions::of(control(self.control.as_ref()?, problems)?)
         })
     }
 

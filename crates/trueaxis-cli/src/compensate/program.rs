@@ -1,6 +1,6 @@
 //! `trueaxis compensate program`: an NC program rewritten for the actual machine.
 
-use crate::arguments::MachineArguments;
+use crate::arguments::{MachineArguments, control};
 use crate::output::{Answer, Format, Outcome, diagnostic_json, report, show};
 use crate::report_file::{REPORT, Written, may_write, unusable, write_report};
 use clap::Args;
@@ -13,7 +13,7 @@ use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Dimension, Place, parse_quantity};
 use trueaxis::machine::Machine;
 use trueaxis::report::{ProgramReport, program_html, program_json, program_text};
-use trueaxis::simulate::{CONTROLS, Job, Options, ProgramFiles, control_named};
+use trueaxis::simulate::{Job, Options, ProgramFiles};
 
 /// The machine, the program and what may be left.
 #[derive(Args)]
@@ -151,14 +151,7 @@ impl ProgramArguments {
     fn job(&self, machine: Machine, problems: &mut Diagnostics) -> Option<Job> {
         let control = match &self.control {
             None => None,
-            Some(name) => {
-                let control = control_named(name);
-                if control.is_none() {
-                    let message = format!("`{name}` is no control that is known");
-                    problems.error("unknown-control", Place::whole("--control"), message, CONTROLS);
-                }
-                Some(control?)
-            }
+            Some(name) => Some(control(name, problems)?),
         };
         let files = ProgramFiles {
             files: &disk(),

@@ -1,5 +1,6 @@
 //! `trueaxis identify rtcp FILE.toml`: the rotary centres.
 
+use crate::arguments::control;
 use crate::output::{Answer, Format, Outcome, diagnostic_json, report, show, tell};
 use crate::plan::written;
 use clap::Args;
@@ -15,7 +16,6 @@ use trueaxis::identify::rtcp::{
 use trueaxis::input::{Diagnostics, Place};
 use trueaxis::plan::{extension, file_name};
 use trueaxis::report::{RtcpReport, rtcp_json, rtcp_text};
-use trueaxis::simulate::{CONTROLS, control_named};
 use trueaxis::unknowns::fit::FitError;
 
 /// The readings.
@@ -24,7 +24,7 @@ use trueaxis::unknowns::fit::FitError;
 Examples:
   trueaxis identify rtcp examples/05_identify/rtcp-engraver.toml
   trueaxis identify rtcp examples/05_identify/rtcp-engraver.toml -o engraver.toml --format json
-  trueaxis identify rtcp examples/05_identify/rtcp-engraver.toml --programs nc --dialect fanuc
+  trueaxis identify rtcp examples/05_identify/rtcp-engraver.toml --programs nc --control fanuc
 
 Readings of an indicator or a probe at turned poses, with RTCP on or off, on machines with two rotary
 axes in table or head: the offsets of the rotary centres with their uncertainty, the new numbers of
@@ -39,8 +39,14 @@ pub struct Arguments {
     #[arg(long, value_name = "FOLDER")]
     programs: Option<PathBuf>,
     /// Whose programs: sinumerik, fanuc, linuxcnc or heidenhain
-    #[arg(long, value_name = "NAME", default_value = "sinumerik", requires = "programs")]
-    dialect: String,
+    #[arg(
+        long,
+        alias = "dialect",
+        value_name = "NAME",
+        default_value = "sinumerik",
+        requires = "programs"
+    )]
+    control: String,
     /// A machine file with the centres as they were found
     #[arg(short, long, value_name = "MACHINE.toml")]
     output: Option<PathBuf>,
@@ -85,11 +91,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 /// Programs for all sets, each read back through the simulation.
 fn programs(arguments: &Arguments, folder: &Path) -> Outcome {
     let (study, mut problems) = read_rtcp(&disk(), &arguments.file, Purpose::Programs);
-    let control = control_named(&arguments.dialect);
-    if control.is_none() {
-        let message = format!("`{}` is no control that is known", arguments.dialect);
-        problems.error("unknown-control", Place::whole("--dialect"), message, CONTROLS);
-    }
+    let control = control(&arguments.control, &mut problems);
     let mut files = Vec::new();
     let mut told = Vec::new();
     if let (Some(study), Some(control)) = (&study, control) {
@@ -103,13 +105,13 @@ fn programs(arguments: &Arguments, folder: &Path) -> Outcome {
                     }));
                     if !off.is_finite() {
                         let message = "the program does not reach its poses".to_owned();
-                        let hint = "another --dialect, or axes within their travel";
+                        let hint = "another --control, or axes within their travel";
                         problems.error("unsound-program", Place::whole(&name), message, hint);
                     }
                     files.push((name, text));
                 }
                 Err(why) => {
-                    let hint = "another --dialect";
+                    let hint = "another --control";
                     problems.error("no-program", Place::whole(&name), why.to_string(), hint);
                 }
             }

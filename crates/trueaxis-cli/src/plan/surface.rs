@@ -1,6 +1,7 @@
 //! `trueaxis plan probe-surface FILE.toml`: touch after touch over a surface.
 
 use super::written;
+use crate::arguments::control;
 use crate::output::{Answer, Format, Outcome, diagnostic_json, report, show};
 use clap::Args;
 use std::path::PathBuf;
@@ -14,13 +15,12 @@ use trueaxis::plan::surface::{
     surface_program,
 };
 use trueaxis::report::{surface_json, surface_text};
-use trueaxis::simulate::{CONTROLS, control_named};
 
 /// The surface.
 #[derive(Args)]
 #[command(after_help = "\
 Example:
-  trueaxis plan probe-surface examples/04_plan/probe-surface.toml --dialect fanuc -o programs
+  trueaxis plan probe-surface examples/04_plan/probe-surface.toml --control fanuc -o programs
 
 Writes the NC program of the touches along the normals, and surface.csv: point, x_mm .. z_mm, i, j, k,
 deviation_um (empty: what is measured goes there; um along the normal, positive outside).
@@ -30,8 +30,8 @@ pub struct Arguments {
     #[arg(value_name = "FILE.toml")]
     file: PathBuf,
     /// Whose NC program: sinumerik, fanuc or linuxcnc
-    #[arg(long, value_name = "NAME", default_value = "sinumerik")]
-    dialect: String,
+    #[arg(long, alias = "dialect", value_name = "NAME", default_value = "sinumerik")]
+    control: String,
     /// Write the program and the table of the points into this folder
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
@@ -50,11 +50,7 @@ struct Made {
 
 pub fn run(arguments: &Arguments) -> Outcome {
     let (study, mut problems) = read_surface(&disk(), &arguments.file);
-    let control = control_named(&arguments.dialect);
-    if control.is_none() {
-        let message = format!("`{}` is no control that is known", arguments.dialect);
-        problems.error("unknown-control", Place::whole("--dialect"), message, CONTROLS);
-    }
+    let control = control(&arguments.control, &mut problems);
     let ready = !problems.has_errors();
     let made = study.zip(control).filter(|_| ready);
     let made = made.and_then(|(study, control)| make(study, control, &mut problems));
@@ -117,8 +113,8 @@ fn make(study: SurfaceStudy, control: Control, problems: &mut Diagnostics) -> Op
     let program = match surface_program(&study, &poses, control) {
         Ok(program) => program,
         Err(error) => {
-            let hint = "choose another --dialect";
-            problems.error("no-program", Place::whole("--dialect"), error.to_string(), hint);
+            let hint = "choose another --control";
+            problems.error("no-program", Place::whole("--control"), error.to_string(), hint);
             return None;
         }
     };

@@ -38,7 +38,7 @@ pub(super) fn setting(body: &Body<'_>, key: &str) -> Result<Vec<(String, f64)>, 
     Ok(angles.map(|(letter, deg)| (letter.to_owned(), deg.to_radians())).collect())
 }
 
-/// `dialect`, as `--dialect` of the command line.
+/// `dialect`, as `--control` of the command line.
 pub(super) fn control(body: &Body<'_>) -> Result<Control, Refusal> {
     let name = body.optional_text("dialect")?.unwrap_or("sinumerik");
     control_named(name).ok_or_else(|| {
