@@ -21,7 +21,7 @@ fuzz_target!(|data: &[u8]| {
     let path = folder.join("campaign.toml");
     std::fs::write(&path, data).expect("written");
     let (read, problems) =
-        read_campaign(&disk(), &path, |root, campaign| read_virtual(&disk(), root, campaign, None));
+        read_campaign(&disk(), &path, |root, campaign| read_virtual(root, campaign, None));
     let Some((campaign, real)) = read else {
         assert!(problems.has_errors());
         return;
