@@ -9,7 +9,6 @@
 //! ```
 
 mod choose;
-mod exchange;
 mod expect;
 mod file;
 mod planned;
@@ -19,8 +18,8 @@ pub mod surface;
 mod trial;
 
 pub use choose::{Chosen, choose};
-pub use exchange::{Candidate, Criterion, Exchange, Selection};
 pub use expect::{Expectation, Expected, Seen, Unobservable, expect, seen};
 pub use file::{Candidates, Limit, Plan, Want, read_plan};
 pub use planned::{PlanReport, PlannedPath, chosen, extension, file_name, planned, tools};
 pub use remedy::remedies;
+pub use trueaxis_geometry::exchange::{Candidate, Criterion, Exchange, Selection};

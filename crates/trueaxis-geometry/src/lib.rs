@@ -17,6 +17,7 @@
 //!
 //! It does not know what a machine, a program or a part is.
 
+pub mod exchange;
 pub mod frame;
 pub mod statistics;
 

@@ -1,6 +1,5 @@
 //! From candidates to the poses that are measured, and a plain grid beside them.
 
-use super::exchange::{Candidate, Exchange, Selection, wanted_u};
 use super::expect::{Expectation, expect};
 use super::file::{Candidates, Plan};
 use super::program::{check, program};
@@ -10,6 +9,7 @@ use crate::unknowns::design::Design;
 use crate::unknowns::fit::{Observability, normal_matrix};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
+use trueaxis_geometry::exchange::{Candidate, Exchange, Selection};
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_nc::Control;
 
@@ -188,13 +188,6 @@ impl Candidates {
     /// The stations of some of the poses.
     pub fn stations_of(&self, numbers: &[usize]) -> Readings {
         stations_of(self, &poses_of(&self.stations), numbers)
-    }
-}
-
-impl Exchange {
-    /// The standard uncertainty of each wanted quantity, in units of what is allowed of it.
-    pub fn wanted_u(&self, poses: &[usize]) -> Vec<f64> {
-        wanted_u(self, poses).map_or_else(Vec::new, |u| u.as_slice().to_vec())
     }
 }
 

@@ -1,9 +1,9 @@
 //! The sections of a campaign file that plan: `[candidates]`, `[limit]`, `[want]`, `[program]`.
 
-use super::exchange::Criterion;
 use super::program::{ProgramSettings, read_program_settings};
 use crate::measure::path::Path;
 use crate::measure::{Campaign, Readings, path, read_campaign};
+use trueaxis_geometry::exchange::Criterion;
 use trueaxis_input::{Diagnostics, Dimension, Files, Item, Section};
 
 /// A campaign with all that is planned of it.

@@ -1,4 +1,4 @@
-//! The poses that tell most within a limit of time: exchange of one pose at a time.
+//! The most informative measurements within a limit of time: exchange of one candidate at a time.
 //!
 //! *Source:* Fedorov 1972 (exchange), Woodbury 1950 (what a pose changes).
 
@@ -163,8 +163,15 @@ impl Exchange {
     }
 }
 
+impl Exchange {
+    /// The standard uncertainty of each wanted quantity, in units of what is allowed of it.
+    pub fn wanted_u(&self, poses: &[usize]) -> Vec<f64> {
+        wanted_u(self, poses).map_or_else(Vec::new, |u| u.as_slice().to_vec())
+    }
+}
+
 /// The standard uncertainties of the wanted quantities.
-pub(super) fn wanted_u(exchange: &Exchange, poses: &[usize]) -> Option<DVector<f64>> {
+fn wanted_u(exchange: &Exchange, poses: &[usize]) -> Option<DVector<f64>> {
     let c = exchange.covariance(poses)?;
     let wanted = &exchange.wanted * c * exchange.wanted.transpose();
     Some(wanted.diagonal().map(|v| v.max(0.0).sqrt()))
