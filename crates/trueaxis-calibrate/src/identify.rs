@@ -4,9 +4,8 @@
 //! - [`thermal`]: linear models of errors that drift with temperatures;
 //! - [`rtcp`]: the rotary centres for the tool-centre-point control;
 //! - [`probe`]: the offset of a stylus ball and its pre-travel by direction;
-//! - the errors of the machine from any mix of instruments: [`term`] says what is sought, a
-//!   [`design`] how readings follow it, a [`fit`] finds it, [`confusion`] says what cannot be told
-//!   apart; [`errors`](mod@errors) is the whole way from readings to a verdict.
+//! - [`errors`](mod@errors): the errors of the machine from any mix of instruments, the whole way from
+//!   readings to a verdict; what is unknown and how readings follow it stands in [`crate::unknowns`].
 
 pub mod checks;
 pub mod conflict;
