@@ -2,7 +2,7 @@
 //!
 //! *Source:* Fedorov 1972 (exchange), Woodbury 1950 (what a pose changes).
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 /// A swap that gains less than this share is none: rounding must not go round in circles.
 const LEAST_GAIN: f64 = 1e-6;
@@ -166,15 +166,10 @@ impl Exchange {
 impl Exchange {
     /// The standard uncertainty of each wanted quantity, in units of what is allowed of it.
     pub fn wanted_u(&self, poses: &[usize]) -> Vec<f64> {
-        wanted_u(self, poses).map_or_else(Vec::new, |u| u.as_slice().to_vec())
+        let Some(c) = self.covariance(poses) else { return Vec::new() };
+        let wanted = &self.wanted * c * self.wanted.transpose();
+        wanted.diagonal().iter().map(|v| v.max(0.0).sqrt()).collect()
     }
-}
-
-/// The standard uncertainties of the wanted quantities.
-fn wanted_u(exchange: &Exchange, poses: &[usize]) -> Option<DVector<f64>> {
-    let c = exchange.covariance(poses)?;
-    let wanted = &exchange.wanted * c * exchange.wanted.transpose();
-    Some(wanted.diagonal().map(|v| v.max(0.0).sqrt()))
 }
 
 #[cfg(test)]

@@ -20,13 +20,6 @@ pub fn document(answer: &impl Serialize) -> Value {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Keyed<T>(pub Vec<(String, T)>);
 
-impl<T> Keyed<T> {
-    /// Adds an entry at the end.
-    pub fn put(&mut self, key: impl Into<String>, value: T) {
-        self.0.push((key.into(), value));
-    }
-}
-
 impl<K: Into<String>, T> FromIterator<(K, T)> for Keyed<T> {
     fn from_iter<I: IntoIterator<Item = (K, T)>>(entries: I) -> Self {
         Self(entries.into_iter().map(|(key, value)| (key.into(), value)).collect())
