@@ -1,13 +1,28 @@
 //! An answer as one JSON document.
 
+use schemars::generate::SchemaSettings;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::Value;
+use std::borrow::Cow;
+use std::collections::BTreeMap;
 
 /// The JSON of a document: its fields in their order, numbers in full double precision; a number that is not
 /// finite is null.
 pub fn document(answer: &impl Serialize) -> Value {
     // why: the documents are structures with texts as keys, which always have a JSON form.
     serde_json::to_value(answer).expect("a document of texts, numbers and lists")
+}
+
+/// A document's name with its JSON Schema: keys, types and, from the comments in the source, meanings and units.
+pub type NamedSchema = (&'static str, Schema);
+
+/// The JSON Schema of a document under its name, such as `predict`.
+pub fn named_schema<T: JsonSchema>(name: &'static str) -> NamedSchema {
+    (
+        name,
+        SchemaSettings::draft2020_12().for_serialize().into_generator().into_root_schema_for::<T>(),
+    )
 }
 
 /// An object whose keys come with the data, such as names of axes; it keeps their order.
@@ -33,5 +48,19 @@ impl<T: Serialize> Serialize for Keyed<T> {
             map.serialize_entry(key, value)?;
         }
         map.end()
+    }
+}
+
+impl<T: JsonSchema> JsonSchema for Keyed<T> {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        BTreeMap::<String, T>::schema_name()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        BTreeMap::<String, T>::json_schema(generator)
     }
 }

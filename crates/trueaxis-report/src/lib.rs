@@ -2,6 +2,7 @@
 //!
 //! - [`numbers`]: numbers as they are printed everywhere;
 //! - [`document`](fn@document), [`Keyed`]: an answer as one JSON document;
+//! - [`Report`]: an answer for people, described once: text, page, pictures;
 //! - [`Block`]: a table with a title, for the terminal ([`write_block`]) and for a page ([`section`]);
 //! - [`Picture`]: curves, bands, scatter and polar pictures as SVG;
 //! - [`page`]: one self-contained HTML page that opens offline; [`picture_page`](mod@picture_page) one of
@@ -25,11 +26,13 @@ pub mod page;
 pub mod picture_page;
 mod pictures;
 pub mod plots;
+mod report;
 
 pub use block::{Block, section, write_block};
-pub use document::{Keyed, document};
+pub use document::{Keyed, NamedSchema, document, named_schema};
 pub use pictures::{Band, Picture, Polar, PolarLine, Scatter};
 pub use plots::DrawingError;
+pub use report::{Columns, Figure, Item, Place, Report, Row, Section, Standing, Table, Verdict};
 
 /// The version that reports state.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -2,6 +2,7 @@
 
 use crate::identify::rtcp::forecast::{Forecast, Strays};
 use crate::identify::rtcp::{Calibration, NewSlot, Offset, RtcpStudy, Unseen, WorstReading};
+use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 use std::fmt::Write;
@@ -159,9 +160,10 @@ fn forecast(told: &RtcpReport<'_>) -> String {
 }
 
 /// For programs: `trueaxis/identify-rtcp/1`.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct RtcpDocument<'a> {
-    /// `trueaxis/identify-rtcp/1`.
+    /// Which document this is.
+    #[schemars(extend("const" = "trueaxis/identify-rtcp/1"))]
     pub schema: &'static str,
     /// The name of the study.
     pub name: &'a str,
@@ -200,7 +202,7 @@ pub struct RtcpDocument<'a> {
 }
 
 /// One offset of a rotary axis.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct OffsetEntry<'a> {
     /// Its ISO 230-1 name.
     pub name: &'a str,
@@ -213,7 +215,7 @@ pub struct OffsetEntry<'a> {
 }
 
 /// One number of the control.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct NumberEntry<'a> {
     /// Its name at the control.
     pub name: &'a str,
@@ -230,7 +232,7 @@ pub struct NumberEntry<'a> {
 }
 
 /// A combination of offsets that changes no reading.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct UnseenEntry<'a> {
     /// The sum.
     pub combination: &'a str,
@@ -239,7 +241,7 @@ pub struct UnseenEntry<'a> {
 }
 
 /// The reading that fits worst.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct WorstEntry<'a> {
     /// File of the reading.
     pub file: &'a str,
@@ -256,7 +258,7 @@ pub struct WorstEntry<'a> {
 }
 
 /// The tip over all poses, before and after.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct ForecastEntry {
     /// How many poses.
     pub poses: usize,
@@ -272,7 +274,7 @@ pub struct ForecastEntry {
 }
 
 /// How far the tip strays.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct StraysEntry {
     /// The longest deviation, µm.
     pub worst_um: f64,

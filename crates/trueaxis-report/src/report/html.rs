@@ -1,0 +1,112 @@
+//! A report as one self-contained page.
+
+use super::{Columns, Figure, Item, Report, Section, Standing, Table, Verdict};
+use crate::DrawingError;
+use crate::page::{THREE, document};
+use maud::{Markup, PreEscaped, html};
+
+/// Tables of more columns are printed smaller.
+const MANY_COLUMNS: usize = 6;
+/// A table of more rows may be broken between pages of paper.
+const LONG: usize = 20;
+
+pub(super) fn html(report: &Report<'_>) -> Result<String, DrawingError> {
+    let sections = report.sections.iter().filter(|s| s.shows(false));
+    let sections = sections.map(section).collect::<Result<Vec<_>, _>>()?;
+    let content = html! {
+        h1 { (report.title) }
+        @for line in &report.lines { p.soft { (line) } }
+        @if let Some(v) = &report.verdict { (verdict(v)) }
+        @for section in &sections { (section) }
+        p.soft { "made by trueaxis " (crate::VERSION) }
+    };
+    Ok(document(&report.title, &content))
+}
+
+fn verdict(verdict: &Verdict) -> Markup {
+    let class = match verdict.standing {
+        Standing::Good => "pass",
+        Standing::Bad => "fail",
+        Standing::Open => "undecided",
+    };
+    html! {
+        section class={ "verdict " (class) } {
+            strong { (verdict.word) }
+            span { (verdict.sentence) }
+        }
+    }
+}
+
+fn section(section: &Section<'_>) -> Result<Markup, DrawingError> {
+    let is_long = |item: &Item<'_>| match item {
+        Item::Table(table) => table.rows.len() > LONG,
+        Item::Figures(_, figures) => figures.len() > 4,
+        _ => false,
+    };
+    let class = if section.items.iter().any(is_long) { "long" } else { "" };
+    let items = section.items.iter().map(item).collect::<Result<Vec<_>, _>>()?;
+    Ok(html! {
+        section class=(class) {
+            @if !section.title.is_empty() { h2 { (section.title) } }
+            @for item in &items { (item) }
+        }
+    })
+}
+
+fn item(item: &Item<'_>) -> Result<Markup, DrawingError> {
+    Ok(match item {
+        Item::Paragraph(text) => html! { p { (text) } },
+        Item::Note(text) => html! { p.soft { (text) } },
+        Item::List(lines) => html! { ul { @for line in lines { li { (line) } } } },
+        Item::Code(lines) => html! { pre { code { (lines) } } },
+        Item::Table(table) => html! { (self::table(table)) },
+        Item::Figures(columns, figures) => self::figures(*columns, figures)?,
+    })
+}
+
+fn table(table: &Table) -> Markup {
+    let columns = table.columns();
+    let size = if columns > MANY_COLUMNS { "small" } else { "" };
+    let sides: Vec<&str> =
+        (0..columns).map(|i| if table.has_words(i) { "text-align:left" } else { "" }).collect();
+    let class = |cell: &str| match cell {
+        "pass" | "fail" | "undecided" => Some(cell.to_owned()),
+        _ => None,
+    };
+    html! {
+        div.scroll { table class=(size) {
+            @if !table.headings.is_empty() {
+                thead { tr { @for (h, side) in table.headings.iter().zip(&sides) {
+                    th style=(side) { (h) }
+                } } }
+            }
+            tbody { @for row in &table.rows { tr.decisive[row.bold] {
+                @for (cell, side) in row.cells.iter().zip(&sides) {
+                    td class=[class(cell)] style=(side) { (cell) }
+                }
+            } } }
+        } }
+        @if !table.note.is_empty() { p.soft { (table.note) } }
+    }
+}
+
+fn figures(columns: Columns, figures: &[Figure<'_>]) -> Result<Markup, DrawingError> {
+    let mut drawn = Vec::new();
+    for figure in figures {
+        drawn.push((figure, figure.svg()?));
+    }
+    let style = match columns {
+        Columns::One => "grid-template-columns:minmax(0, 1fr)",
+        Columns::AsFit => "",
+        Columns::Three => THREE,
+    };
+    let round = "max-width:640px;margin:0 auto;width:100%";
+    Ok(html! {
+        div.grid style=(style) { @for (figure, svg) in &drawn {
+            figure style=(if figure.round { round } else { "" }) {
+                (PreEscaped(svg))
+                @if !figure.caption.is_empty() { figcaption { (figure.caption) } }
+            }
+        } }
+    })
+}
