@@ -2,14 +2,14 @@
 
 use crate::{Diagnostics, Place, Unit};
 
-/// One column of numbers with the name that stands above it.
+/// One column of numbers with its heading.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CsvColumn {
     /// The heading, such as `EXX_um`.
     pub name: String,
     /// The place of the heading.
     pub place: Place,
-    /// The numbers, one a row.
+    /// The numbers, one for each row.
     pub values: Vec<f64>,
 }
 
@@ -35,8 +35,7 @@ pub struct CsvTable {
 impl CsvTable {
     /// Reads a text: `#` comments, one line of headings, rows of numbers.
     ///
-    /// Rows with problems are left out of the table *and* reported, so a table with errors must
-    /// not be used.
+    /// Rows with problems are reported and omitted; a table with errors must not be used.
     pub fn parse(file: &str, text: &str, problems: &mut Diagnostics) -> Self {
         let mut table = Self { file: file.to_owned(), ..Self::default() };
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
@@ -67,9 +66,9 @@ impl CsvTable {
         table
     }
 
-    /// From columns that are no text, such as those of a Parquet file: a row counts as a line.
+    /// A table from binary columns, such as those of a Parquet file; places count rows as lines.
     ///
-    /// Columns of different lengths and numbers that are not finite are problems; a table with
+    /// Columns of different lengths and numbers that are not finite are reported; a table with
     /// errors must not be used.
     pub fn from_columns(
         file: &str,
@@ -82,12 +81,17 @@ impl CsvTable {
         for (column, (name, values)) in columns.into_iter().enumerate() {
             let place = |line| Place { file: file.to_owned(), line, column: column + 1 };
             if let Some(row) = values.iter().position(|v| !v.is_finite()) {
-                let message = format!("`{name}` is {} in row {}", values[row], row + 1);
-                problems.error("not-a-number", place(row + 1), message, "every row has a number");
+                let message = format!("column `{name}`, row {}: found {}", row + 1, values[row]);
+                problems.error(
+                    "not-a-number",
+                    place(row + 1),
+                    message,
+                    "every row needs a finite number",
+                );
             }
             if values.len() != rows {
-                let message = format!("`{name}` has {} rows of {rows}", values.len());
-                problems.error("ragged-row", place(0), message, "one number in each row");
+                let message = format!("column `{name}` has {} rows, expected {rows}", values.len());
+                problems.error("ragged-row", place(0), message, "write one number in each row");
             }
             if table.column(&name).is_some() {
                 let message = format!("two columns are named `{name}`");
@@ -103,7 +107,7 @@ impl CsvTable {
         self.columns.iter().find(|c| c.name == name)
     }
 
-    /// How many rows of numbers.
+    /// The number of rows.
     pub fn rows(&self) -> usize {
         self.lines.len()
     }
@@ -113,8 +117,8 @@ impl CsvTable {
         Place { file: self.file.clone(), line: self.lines[row], column: 1 }
     }
 
-    /// The numbers of a column in the inner unit (mm, rad, s …), each checked against its bounds; a
-    /// problem with its line if one is beyond them.
+    /// The numbers of a column, given in `unit`, in the inner unit (mm, rad, s …). `None` and a
+    /// problem with its line if a number exceeds the largest accepted value.
     pub fn in_unit(
         &self,
         column: &CsvColumn,
@@ -166,8 +170,8 @@ impl CsvTable {
         if row.len() != self.columns.len() {
             let place = Place { file: self.file.clone(), line, column: 1 };
             let message =
-                format!("number of fields: {}, of headings: {}", row.len(), self.columns.len());
-            problems.error("ragged-row", place, message, "one number under each heading");
+                format!("fields in this row: {}, headings: {}", row.len(), self.columns.len());
+            problems.error("ragged-row", place, message, "write one number under each heading");
             return;
         }
         self.lines.push(line);
@@ -177,7 +181,7 @@ impl CsvTable {
     }
 }
 
-/// What stands between the headings, if it is not a comma.
+/// The separator of the headings, if it is not a comma.
 fn foreign_separator(headings: &str) -> Option<&'static str> {
     let separators = [(';', "semicolons"), ('\t', "tabs")];
     let found = separators.into_iter().find(|(c, _)| headings.trim().contains(*c))?;

@@ -2,12 +2,12 @@
 
 use std::fmt;
 
-/// How bad it is.
+/// Whether the input can be used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
-    /// Worth knowing; nothing to do.
+    /// Information; nothing to do.
     Note,
-    /// The result can be used, but somebody should look.
+    /// The result can be used, but the input should be checked.
     Warning,
     /// The input cannot be used.
     Error,
@@ -23,7 +23,7 @@ impl fmt::Display for Severity {
     }
 }
 
-/// Where in which file; line and column count from 1, 0 means "the file as a whole".
+/// A place in a file; line and column count from 1, line 0 is the file as a whole.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub struct Place {
     /// The file as the user named it, or `--at`, `--tip` … for an argument.
@@ -71,18 +71,18 @@ impl fmt::Display for Place {
     }
 }
 
-/// One problem in one place, with what to do about it.
+/// One problem at one place, with the action to take.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// A stable name for programs, such as `unknown-error-name`.
+    /// The code, stable for programs, such as `unknown-error-name`; `docs/diagnostics/` explains each.
     pub code: &'static str,
-    /// How bad it is.
+    /// Whether the input can be used.
     pub severity: Severity,
-    /// Where.
+    /// The place in the input.
     pub place: Place,
-    /// What is wrong, in one sentence.
+    /// The problem in one sentence: what was found, and what was expected.
     pub message: String,
-    /// What was expected or what to do; empty if the message says it.
+    /// The action to take; empty if it follows from the message.
     pub hint: String,
 }
 
@@ -96,12 +96,12 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// Everything that was found, so that all problems come at once.
+/// A collection of problems, so that all of them are reported in one run.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Diagnostics(Vec<Diagnostic>);
 
 impl Diagnostics {
-    /// None so far.
+    /// An empty collection.
     pub fn new() -> Self {
         Self::default()
     }
@@ -132,28 +132,28 @@ impl Diagnostics {
         self.0.push(Diagnostic { code, severity, place, message, hint: hint.to_owned() });
     }
 
-    /// Takes over what another stage found.
+    /// Appends the problems of another stage.
     pub fn append(&mut self, mut other: Self) {
         self.0.append(&mut other.0);
     }
 
-    /// Adds one that was made elsewhere.
+    /// Adds a diagnostic.
     pub fn add(&mut self, diagnostic: Diagnostic) {
         self.0.push(diagnostic);
     }
 
-    /// Whether the input cannot be used.
+    /// Whether one of them is an error, so that the input cannot be used.
     pub fn has_errors(&self) -> bool {
         self.0.iter().any(|d| d.severity == Severity::Error)
     }
 
-    /// In order of file, line and column.
+    /// The diagnostics in the order of file, line and column.
     pub fn sorted(mut self) -> Vec<Diagnostic> {
         self.0.sort_by(|a, b| a.place.cmp(&b.place));
         self.0
     }
 
-    /// As they came.
+    /// The diagnostics in the order in which they were added.
     pub fn iter(&self) -> impl Iterator<Item = &Diagnostic> {
         self.0.iter()
     }

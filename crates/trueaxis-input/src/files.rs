@@ -1,4 +1,5 @@
-//! Where files come from: the readers of this workspace open none themselves.
+//! Access to files. The readers of this workspace open no file themselves: the caller passes a
+//! [`Files`], which may be a disk, an upload or the memory of a test.
 
 use crate::{Diagnostics, Place};
 use std::fmt;
@@ -6,7 +7,7 @@ use std::io;
 use std::path::Path;
 use std::sync::Arc;
 
-/// A place that files are read from: a disk, a folder of a project, a test's memory.
+/// A provider of files: a disk, a folder of a project, the memory of a test.
 pub trait Source: Send + Sync {
     /// The content of a file.
     ///
@@ -14,11 +15,11 @@ pub trait Source: Send + Sync {
     /// Why it cannot be read.
     fn read(&self, path: &Path) -> io::Result<Vec<u8>>;
 
-    /// Whether an ordinary file stands there that may be read.
+    /// Whether the path names a regular file that may be read.
     fn is_file(&self, path: &Path) -> bool;
 }
 
-/// The files that a reader may open; a handle that is cheap to clone. [`Files::none`] is its default.
+/// The files that a reader may open. A handle, cheap to clone; its default is [`Files::none`].
 ///
 /// ```
 /// use trueaxis_input::{Diagnostics, Files};
@@ -37,31 +38,33 @@ impl Files {
 
     /// No files at all.
     pub fn none() -> Self {
-        Self::new(Nothing)
+        Self::new(NoFiles)
     }
 
-    /// A text file; if it cannot be read, says why.
+    /// The content of a UTF-8 file, or `None` and the problem `unreadable-file`. `what` names the
+    /// expected kind of file in the hint, such as "a study file (TOML)".
     pub fn text(&self, path: &Path, what: &str, problems: &mut Diagnostics) -> Option<String> {
         self.read_text(path).map_err(|error| unreadable(path, what, &error, problems)).ok()
     }
 
-    /// A file that need not be UTF-8, such as an NC program; if it cannot be read, says why.
+    /// The bytes of a file in any encoding, such as an NC program, or `None` and the problem
+    /// `unreadable-file`; `what` as for [`Files::text`].
     pub fn bytes(&self, path: &Path, what: &str, problems: &mut Diagnostics) -> Option<Vec<u8>> {
         self.read(path).map_err(|error| unreadable(path, what, &error, problems)).ok()
     }
 
-    /// A file that need not be UTF-8.
+    /// The bytes of a file in any encoding.
     ///
     /// # Errors
-    /// What the source says.
+    /// The error of the source.
     pub fn read(&self, path: &Path) -> io::Result<Vec<u8>> {
         self.0.read(path)
     }
 
-    /// A text file.
+    /// The content of a UTF-8 file.
     ///
     /// # Errors
-    /// What the source says; the first line that is not UTF-8.
+    /// The error of the source, or the first line that is not UTF-8.
     pub fn read_text(&self, path: &Path) -> io::Result<String> {
         String::from_utf8(self.read(path)?).map_err(|error| {
             let sound = &error.as_bytes()[..error.utf8_error().valid_up_to()];
@@ -71,7 +74,7 @@ impl Files {
         })
     }
 
-    /// Whether an ordinary file stands there that may be read.
+    /// Whether the path names a regular file that may be read.
     pub fn is_file(&self, path: &Path) -> bool {
         self.0.is_file(path)
     }
@@ -79,8 +82,8 @@ impl Files {
 
 fn unreadable(path: &Path, what: &str, error: &io::Error, problems: &mut Diagnostics) {
     let place = Place::whole(&path.display().to_string());
-    let message = format!("cannot be read: {error}");
-    problems.error("unreadable-file", place, message, &format!("{what} is due here"));
+    let message = format!("the file cannot be read: {error}");
+    problems.error("unreadable-file", place, message, &format!("expected {what} here"));
 }
 
 impl Default for Files {
@@ -95,18 +98,18 @@ impl fmt::Debug for Files {
     }
 }
 
-/// Where files come from is no part of what was read: all are equal.
+/// The origin of a file is not part of its content, so that all handles compare equal.
 impl PartialEq for Files {
     fn eq(&self, _: &Self) -> bool {
         true
     }
 }
 
-struct Nothing;
+struct NoFiles;
 
-impl Source for Nothing {
+impl Source for NoFiles {
     fn read(&self, _: &Path) -> io::Result<Vec<u8>> {
-        Err(io::Error::new(io::ErrorKind::NotFound, "no files are at hand here"))
+        Err(io::Error::new(io::ErrorKind::NotFound, "this reader has no access to files"))
     }
 
     fn is_file(&self, _: &Path) -> bool {

@@ -1,9 +1,9 @@
 //! Text from users: quantities with units, TOML and CSV that report every problem with its place.
 //!
 //! - [`parse_quantity`], [`parse_measured`]: `"12 urad"`, `"10 ± 1 um"`, in the inner unit;
-//! - [`SourceText`], [`Section`], [`Item`]: TOML under reading; [`CsvTable`] and [`sheet`]: tables;
-//! - [`Diagnostic`]: code, place, message and hint of one problem; [`Diagnostics`] all of them;
-//! - [`Files`], [`Source`]: where files are read from.
+//! - [`SourceText`], [`Section`], [`Item`]: reading of TOML; [`CsvTable`] and [`sheet`]: tables;
+//! - [`Diagnostic`]: code, place, message and hint of one problem; [`Diagnostics`]: all of them;
+//! - [`Files`], [`Source`]: access to files.
 //!
 //! ```
 //! use trueaxis_input::{Dimension, SourceText};
@@ -16,8 +16,10 @@
 //! assert_eq!(problems.iter().next().unwrap().place.to_string(), "probe.toml:2:8");
 //! ```
 //!
-//! Nothing here repairs input in silence: a value without a unit, an unknown key, a NaN is a
-//! [`Diagnostic`]. It does not know what a machine, a program or a part is, and opens no file itself.
+//! `examples/tool_file.rs` reads a length in inches with its uncertainty and a table of errors.
+//!
+//! Input is never repaired without notice: a value without a unit, an unknown key, a NaN is a
+//! [`Diagnostic`]. The crate knows nothing of machines, programs and parts, and opens no file itself.
 
 mod csv;
 mod diagnostic;
@@ -29,5 +31,5 @@ pub mod sheet;
 pub use csv::{CsvColumn, CsvTable};
 pub use diagnostic::{Diagnostic, Diagnostics, Place, Severity};
 pub use files::{Files, Source};
-pub use quantity::{Dimension, Measured, QuantityError, Unit, parse_measured, parse_quantity};
+pub use quantity::{Dimension, MeasuredValue, QuantityError, Unit, parse_measured, parse_quantity};
 pub use section::{Item, Section, SourceText};

@@ -3,7 +3,8 @@
 use std::f64::consts::PI;
 use std::fmt;
 
-/// What a quantity measures; the unit that programs hold it in stands in brackets.
+/// The dimension of a quantity, with the inner unit in brackets: the unit of all numbers in the
+/// program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dimension {
     /// \[mm\]
@@ -28,22 +29,22 @@ pub enum Dimension {
     AngularJerk,
     /// \[1/K\]
     Expansion,
-    /// Of a length with temperature \[mm/K\]
+    /// Change of a length with temperature \[mm/K\]
     LengthPerKelvin,
-    /// Of an angle with temperature \[rad/K\]
+    /// Change of an angle with temperature \[rad/K\]
     AnglePerKelvin,
     /// Thermal diffusivity \[mm²/s\]
     Diffusivity,
-    /// Of heat between a surface and the air \[W/(m²·K)\]
+    /// Heat transfer between a surface and the air \[W/(m²·K)\]
     FilmCoefficient,
-    /// Of a volume \[J/(m³·K)\]
+    /// Volumetric heat capacity \[J/(m³·K)\]
     HeatCapacity,
     /// A plain number \[1\]
     Ratio,
 }
 
-/// Every unit that is read: dimension, spellings, and value in the inner unit as a quotient, so
-/// that "12 um" is the double nearest to 0.012 and "30 m/min" is 500 mm/s exactly.
+/// All known units: dimension, spellings, and value in the inner unit as a quotient, so that
+/// "12 um" is the double nearest to 0.012 and "30 m/min" is 500 mm/s exactly.
 const UNITS: &[(Dimension, &[&str], (f64, f64))] = &[
     (Dimension::Length, &["mm"], (1.0, 1.0)),
     (Dimension::Length, &["um", "µm", "μm"], (1.0, 1e3)),
@@ -107,11 +108,11 @@ const UNITS: &[(Dimension, &[&str], (f64, f64))] = &[
     (Dimension::Ratio, &["%"], (1.0, 100.0)),
 ];
 
-/// No quantity of a machine, a part or a program is larger than this in its inner unit (mm, rad,
-/// mm/s³ …). Larger numbers are slips of the pen, and their products would end at infinity.
+/// Upper limit of a quantity in its inner unit (mm, rad, mm/s³ …). Larger numbers are typing
+/// errors, and products of them would overflow.
 const LARGEST: f64 = 1e12;
 
-/// A unit by name: what it measures and how to bring a number of it to the inner unit.
+/// A unit of measurement: the factor from a number in this unit to the inner unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {
     numerator: f64,
@@ -128,7 +129,7 @@ impl Unit {
     /// ```
     ///
     /// # Errors
-    /// No unit, an unknown one, or one of another dimension.
+    /// The name is empty, unknown, or a unit of another dimension.
     pub fn find(name: &str, dimension: Dimension) -> Result<Self, QuantityError> {
         let mut other = None;
         for &(found, names, (numerator, denominator)) in UNITS {
@@ -153,7 +154,7 @@ impl Unit {
         number * self.numerator / self.denominator
     }
 
-    /// A number from people in the inner unit.
+    /// A number from user input in the inner unit, checked against the largest accepted value.
     ///
     /// ```
     /// use trueaxis_input::{Dimension, Unit};
@@ -164,7 +165,7 @@ impl Unit {
     /// ```
     ///
     /// # Errors
-    /// Not finite, or beyond 10¹² of the inner unit: no length, angle or time of a machine is.
+    /// The number is not finite, or its absolute value exceeds 10¹² of the inner unit.
     pub fn checked(self, number: f64) -> Result<f64, QuantityError> {
         let inner = self.to_inner(number);
         if !number.is_finite() {
@@ -178,7 +179,7 @@ impl Unit {
 }
 
 impl Dimension {
-    /// The units that may be written, the inner one first: for hints.
+    /// The accepted units, the inner unit first, separated by commas: for hints.
     pub fn units(self) -> String {
         let names: Vec<_> =
             UNITS.iter().filter(|(d, ..)| *d == self).map(|(_, names, _)| names[0]).collect();
@@ -204,25 +205,25 @@ impl fmt::Display for Dimension {
             Self::AnglePerKelvin => "an angle per temperature",
             Self::Diffusivity => "a thermal diffusivity",
             Self::FilmCoefficient => "a film coefficient",
-            Self::HeatCapacity => "a heat capacity of a volume",
+            Self::HeatCapacity => "a volumetric heat capacity",
             Self::Ratio => "a plain number",
         })
     }
 }
 
-/// A value and, if one was written, its standard uncertainty, both in the inner unit.
+/// A value and, if stated, its standard uncertainty, both in the inner unit.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Measured {
+pub struct MeasuredValue {
     /// The value.
     pub value: f64,
     /// The standard uncertainty u (GUM), `None` if none was stated.
     pub u: Option<f64>,
 }
 
-/// Why a text is no quantity of the dimension that was asked for.
+/// The reason why a text is not a quantity of the expected dimension.
 #[derive(Debug, Clone, PartialEq)]
 pub enum QuantityError {
-    /// There is no number at the start.
+    /// The text does not begin with a number.
     NotANumber(String),
     /// NaN, infinite, or too large for a double.
     NotFinite(String),
@@ -230,15 +231,15 @@ pub enum QuantityError {
     TooLarge(String),
     /// A number without a unit.
     NoUnit(Dimension),
-    /// No unit of that name exists.
+    /// A unit of unknown name.
     UnknownUnit(String, Dimension),
-    /// A unit of something else: degrees where mm is due.
+    /// A unit of another dimension, such as degrees where a length is expected.
     WrongDimension {
         /// The unit as written.
         unit: String,
-        /// What it measures.
+        /// The dimension of that unit.
         found: Dimension,
-        /// What is due here.
+        /// The expected dimension.
         expected: Dimension,
     },
     /// An uncertainty below zero.
@@ -246,7 +247,7 @@ pub enum QuantityError {
 }
 
 impl QuantityError {
-    /// A stable name for programs.
+    /// The code of the diagnostic, stable for programs.
     pub fn code(&self) -> &'static str {
         match self {
             Self::NotANumber(_) => "not-a-number",
@@ -266,7 +267,7 @@ impl QuantityError {
                 "write a finite number and its unit, such as \"12.5 mm\"".to_owned()
             }
             Self::TooLarge(_) => "check the exponent and the unit".to_owned(),
-            // A temperature is no difference: 30 °C are not 30 K, and 86 °F are 30 °C.
+            // A temperature is not a difference: 30 °C is not 30 K, and 86 °F is 30 °C.
             Self::UnknownUnit(_, Dimension::Temperature) => {
                 "write °C (\"30.5 degC\"): °C = (°F − 32)/1.8 = K − 273.15".to_owned()
             }
@@ -285,12 +286,12 @@ impl fmt::Display for QuantityError {
             Self::NotANumber(text) => write!(f, "`{text}` is not a number"),
             Self::NotFinite(text) => write!(f, "`{text}` is not a finite number"),
             Self::TooLarge(text) => {
-                write!(f, "`{text}` is larger than any quantity of a machine")
+                write!(f, "`{text}` exceeds 10^12 mm, rad or s, the largest accepted value")
             }
             Self::NoUnit(d) => write!(f, "{d} needs a unit"),
-            Self::UnknownUnit(unit, d) => write!(f, "`{unit}` is no unit of {d}"),
+            Self::UnknownUnit(unit, d) => write!(f, "unknown unit `{unit}` for {d}"),
             Self::WrongDimension { unit, found, expected } => {
-                write!(f, "`{unit}` is a unit of {found}, but {expected} is due here")
+                write!(f, "`{unit}` is a unit of {found}, but {expected} is expected here")
             }
             Self::NegativeUncertainty => f.write_str("the uncertainty is negative"),
         }
@@ -309,7 +310,7 @@ impl std::error::Error for QuantityError {}
 /// ```
 ///
 /// # Errors
-/// Whatever is not one finite number followed by a unit of that dimension.
+/// The text is not one finite number followed by a unit of that dimension.
 pub fn parse_quantity(text: &str, dimension: Dimension) -> Result<f64, QuantityError> {
     let text = text.trim();
     let (number, unit) = split_number(text);
@@ -328,15 +329,15 @@ pub fn parse_quantity(text: &str, dimension: Dimension) -> Result<f64, QuantityE
 ///
 /// # Errors
 /// As [`parse_quantity`], and a negative uncertainty.
-pub fn parse_measured(text: &str, dimension: Dimension) -> Result<Measured, QuantityError> {
+pub fn parse_measured(text: &str, dimension: Dimension) -> Result<MeasuredValue, QuantityError> {
     let Some((left, right)) = text.split_once('±').or_else(|| text.split_once("+-")) else {
-        return Ok(Measured { value: parse_quantity(text, dimension)?, u: None });
+        return Ok(MeasuredValue { value: parse_quantity(text, dimension)?, u: None });
     };
     let u = parse_quantity(right, dimension)?;
     if u < 0.0 {
         return Err(QuantityError::NegativeUncertainty);
     }
-    // "12 ± 1 urad": the unit behind the uncertainty holds for both.
+    // "12 ± 1 urad": the unit after the uncertainty applies to both.
     let left = left.trim();
     let value = match split_number(left) {
         (number, "") => {
@@ -345,7 +346,7 @@ pub fn parse_measured(text: &str, dimension: Dimension) -> Result<Measured, Quan
         }
         _ => parse_quantity(left, dimension)?,
     };
-    Ok(Measured { value, u: Some(u) })
+    Ok(MeasuredValue { value, u: Some(u) })
 }
 
 /// The longest leading part that looks like a number, and the rest.

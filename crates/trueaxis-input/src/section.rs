@@ -1,7 +1,7 @@
-//! TOML texts whose problems are all kept, each with its place.
+//! Reading of TOML: every problem is collected with its place.
 
 use crate::{
-    Diagnostics, Dimension, Files, Measured, Place, QuantityError, Unit, parse_measured,
+    Diagnostics, Dimension, Files, MeasuredValue, Place, QuantityError, Unit, parse_measured,
     parse_quantity,
 };
 use std::cell::{Cell, RefCell};
@@ -10,7 +10,8 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// A TOML text under reading: every problem is kept, with its place, until [`SourceText::finish`].
+/// A TOML text that is being read. Problems are collected, each with its place, and returned by
+/// [`SourceText::finish`].
 ///
 /// ```
 /// use trueaxis_input::{Dimension, SourceText};
@@ -28,14 +29,14 @@ pub struct SourceText<'a> {
     files: Files,
     /// Byte offset where each line begins.
     line_starts: Vec<usize>,
-    /// The last place that was asked for, as byte offset and column: most questions come in the
-    /// order of the text, so that a file of one long line is not counted anew for every key.
+    /// The last place that was determined, as byte offset and column: most places are needed in
+    /// the order of the text, and a long line is then counted only once.
     last: Cell<(usize, usize)>,
     problems: RefCell<Diagnostics>,
 }
 
 impl<'a> SourceText<'a> {
-    /// A text and the name of its file; the files that it names cannot be had.
+    /// A text and the name of its file, without access to the files that it names.
     pub fn new(file: &'a str, text: &'a str) -> Self {
         Self::from(&Files::none(), file, text)
     }
@@ -48,7 +49,7 @@ impl<'a> SourceText<'a> {
         Self { file, text, files, line_starts, last, problems: RefCell::default() }
     }
 
-    /// As [`Place::of`], in a time that does not grow with the file.
+    /// As [`Place::of`], in a time that does not grow with the size of the file.
     fn place(&self, offset: usize) -> Place {
         let mut offset = offset.min(self.text.len());
         while !self.text.is_char_boundary(offset) {
@@ -75,7 +76,7 @@ impl<'a> SourceText<'a> {
                 "toml-syntax",
                 at,
                 message,
-                "the file is TOML 1.1, see the shipped machines",
+                "the file must be TOML 1.1, as the files in machines/",
             );
         }
         let section = Section::new(self, String::new(), root.span(), root.get_ref());
@@ -84,7 +85,7 @@ impl<'a> SourceText<'a> {
         result
     }
 
-    /// All that was found.
+    /// All problems found.
     pub fn finish(self) -> Diagnostics {
         self.problems.into_inner()
     }
@@ -108,22 +109,22 @@ impl<'s> Item<'s> {
         &self.source.files
     }
 
-    /// Where the value stands.
+    /// The place of the value in the file.
     pub fn place(&self) -> Place {
         self.source.place(self.value.span().start)
     }
 
-    /// Reports a problem with this value.
+    /// Adds an error about this value.
     pub fn error(&self, code: &'static str, message: String, hint: &str) {
         self.source.error(code, self.value.span(), message, hint);
     }
 
-    /// Reports something that somebody should look at.
+    /// Adds a warning about this value.
     pub fn warn(&self, code: &'static str, message: String, hint: &str) {
         self.source.problems.borrow_mut().warn(code, self.place(), message, hint);
     }
 
-    /// The string, or a problem.
+    /// The string; `None` and a problem if the value is of another type.
     pub fn text(&self) -> Option<&'s str> {
         let text = self.value.get_ref().as_str();
         if text.is_none() {
@@ -137,7 +138,7 @@ impl<'s> Item<'s> {
         self.value.get_ref().as_str()
     }
 
-    /// A quantity in its inner unit, or a problem.
+    /// A quantity in its inner unit; `None` and a problem if it is not one of this dimension.
     pub fn quantity(&self, dimension: Dimension) -> Option<f64> {
         match self.value.get_ref() {
             DeValue::String(text) => self.accept(parse_quantity(text, dimension)),
@@ -145,18 +146,19 @@ impl<'s> Item<'s> {
         }
     }
 
-    /// A quantity with an optional standard uncertainty, or a problem.
-    pub fn measured(&self, dimension: Dimension) -> Option<Measured> {
+    /// A quantity with an optional standard uncertainty, both in the inner unit; `None` and a
+    /// problem if it is not one of this dimension.
+    pub fn measured(&self, dimension: Dimension) -> Option<MeasuredValue> {
         match self.value.get_ref() {
             DeValue::String(text) => self.accept(parse_measured(text, dimension)),
-            _ => self.plain_number(dimension).map(|value| Measured { value, u: None }),
+            _ => self.plain_number(dimension).map(|value| MeasuredValue { value, u: None }),
         }
     }
 
-    /// A plain number (integer or float), or a problem.
+    /// A finite number (integer or float) without unit; `None` and a problem otherwise.
     pub fn number(&self) -> Option<f64> {
         let parsed = match self.value.get_ref() {
-            // Beyond 64 bits an integer is read as a float: too large for its place, yet finite.
+            // An integer of more than 64 bits is read as a float: finite, though too large.
             DeValue::Integer(i) => i64::from_str_radix(i.as_str(), i.radix())
                 .map_or_else(|_| i.as_str().parse::<f64>(), |v| Ok(v as f64))
                 .ok(),
@@ -179,19 +181,19 @@ impl<'s> Item<'s> {
         }
     }
 
-    /// A whole number of at least 0, or a problem.
+    /// A whole number from 0 to 10¹²; `None` and a problem otherwise.
     pub fn count(&self) -> Option<usize> {
         let value = self.number()?;
-        // Exact in a double and small enough that no loop over it is forever.
+        // Exact in a double, and small enough for a loop over it to end.
         if value.fract() == 0.0 && (0.0..=1e12).contains(&value) {
             return Some(value as usize);
         }
-        let message = format!("{value} is no whole number from 0 to 10^12");
+        let message = format!("expected a whole number from 0 to 10^12, found {value}");
         self.error("bad-count", message, "write a number such as 0 or 12");
         None
     }
 
-    /// `true` or `false`, or a problem.
+    /// `true` or `false`; `None` and a problem otherwise.
     pub fn flag(&self) -> Option<bool> {
         let flag = self.value.get_ref().as_bool();
         if flag.is_none() {
@@ -200,7 +202,7 @@ impl<'s> Item<'s> {
         flag
     }
 
-    /// The elements of an array, or a problem.
+    /// The elements of an array; `None` and a problem if the value is of another type.
     pub fn list(&self) -> Option<Vec<Item<'s>>> {
         let DeValue::Array(array) = self.value.get_ref() else {
             self.expected("a list in brackets", "write [\"…\", \"…\"]");
@@ -219,7 +221,7 @@ impl<'s> Item<'s> {
         self.value.get_ref().is_table()
     }
 
-    /// Reads the value as a table; afterwards its unknown keys are problems.
+    /// Reads the value as a table. Keys that `reader` did not ask for are reported as unknown.
     pub fn section<T>(&self, name: &str, reader: impl FnOnce(&Section<'s>) -> T) -> Option<T> {
         let DeValue::Table(table) = self.value.get_ref() else {
             self.expected(
@@ -237,11 +239,14 @@ impl<'s> Item<'s> {
     fn plain_number(&self, dimension: Dimension) -> Option<f64> {
         let is_number = matches!(self.value.get_ref(), DeValue::Integer(_) | DeValue::Float(_));
         if dimension != Dimension::Ratio && !is_number {
-            self.expected(&dimension.to_string(), "in quotes with its unit, such as \"10 ± 2 um\"");
+            self.expected(
+                &dimension.to_string(),
+                "write it in quotes with its unit, such as \"10 ± 2 um\"",
+            );
             return None;
         }
         let value = self.number()?;
-        // Plain numbers only stand for plain numbers: everything else needs its unit.
+        // Only a ratio may be a plain number: everything else needs its unit.
         self.accept(match dimension {
             Dimension::Ratio => Unit::find("", dimension).and_then(|one| one.checked(value)),
             _ => Err(QuantityError::NoUnit(dimension)),
@@ -261,7 +266,7 @@ impl<'s> Item<'s> {
             DeValue::Array(_) => "a list",
             DeValue::Table(_) => "a table",
         };
-        self.error("wrong-type", format!("{what} is due here, not {found}"), hint);
+        self.error("wrong-type", format!("expected {what} here, found {found}"), hint);
     }
 
     /// A date as it was written, or a text.
@@ -273,7 +278,7 @@ impl<'s> Item<'s> {
     }
 }
 
-/// A table of a TOML file; it remembers which keys were asked for and reports the others.
+/// A table of a TOML file. It records which keys were asked for and reports the others as unknown.
 #[derive(Debug)]
 pub struct Section<'s> {
     source: &'s SourceText<'s>,
@@ -303,22 +308,22 @@ impl<'s> Section<'s> {
         &self.name
     }
 
-    /// Where the section begins.
+    /// The place where the section begins.
     pub fn place(&self) -> Place {
         self.source.place(self.span.start)
     }
 
-    /// Reports a problem with the section as a whole.
+    /// Adds an error about the section as a whole.
     pub fn error(&self, code: &'static str, message: String, hint: &str) {
         self.source.error(code, self.span.clone(), message, hint);
     }
 
-    /// Reports something about the section that somebody should look at.
+    /// Adds a warning about the section as a whole.
     pub fn warn(&self, code: &'static str, message: String, hint: &str) {
         self.source.problems.borrow_mut().warn(code, self.place(), message, hint);
     }
 
-    /// Takes over problems that were found elsewhere (a CSV table named here).
+    /// Adds problems found elsewhere, such as in a CSV table that this section names.
     pub fn take_over(&self, problems: Diagnostics) {
         self.source.problems.borrow_mut().append(problems);
     }
@@ -329,12 +334,12 @@ impl<'s> Section<'s> {
         self.table.get(key).map(|value| Item { source: self.source, value })
     }
 
-    /// The value of a key; a problem if it is missing.
+    /// The value of a key; `None` and a problem with this hint if it is missing.
     pub fn require(&self, key: &str, hint: &str) -> Option<Item<'s>> {
         let item = self.get(key);
         if item.is_none() {
             let place = if self.name.is_empty() { "the file".into() } else { self.heading() };
-            self.error("missing-key", format!("{place} lacks `{key}`"), hint);
+            self.error("missing-key", format!("missing entry `{key}` in {place}"), hint);
         }
         item
     }
@@ -354,7 +359,7 @@ impl<'s> Section<'s> {
         self.get(key)?.section(&self.path(key), reader)
     }
 
-    /// Every key with its place and value, in the order of the file; all count as known.
+    /// All keys with their places and values, in the order of the file; none is reported as unknown.
     pub fn entries(&self) -> Vec<(&'s str, Place, Item<'s>)> {
         let mut entries: Vec<_> = self.table.iter().collect();
         entries.sort_by_key(|(key, _)| key.span().start);
@@ -369,7 +374,7 @@ impl<'s> Section<'s> {
             .collect()
     }
 
-    /// Reports a problem at a place that [`Section::entries`] gave.
+    /// Adds an error at a place from [`Section::entries`].
     pub fn error_at(&self, place: Place, code: &'static str, message: String, hint: &str) {
         self.source.problems.borrow_mut().error(code, place, message, hint);
     }
@@ -390,8 +395,8 @@ impl<'s> Section<'s> {
             self.source.error(
                 "unknown-key",
                 key.span(),
-                format!("`{}` is not known here", self.path(key.get_ref())),
-                &format!("known here: {known}"),
+                format!("unknown entry `{}`", self.path(key.get_ref())),
+                &format!("known entries: {known}"),
             );
         }
     }

@@ -1,23 +1,24 @@
-//! A table with numbers, gaps and words: what measuring instruments write.
+//! Tables of measuring instruments: numbers, empty cells and words.
 
 use crate::{Diagnostics, Dimension, Place, Unit};
 
-/// A file with more bad rows than this is not the file that was meant.
-const MOST_BAD_ROWS: usize = 100;
+/// Reading stops after this number of bad rows: it is probably the wrong file.
+const MAX_BAD_ROWS: usize = 100;
 
-/// Directions and diagonals are few; more different words are another column.
-const MOST_WORDS: usize = 100;
+/// A column of words names directions or diagonals, which are few; with more different words it is
+/// probably another column.
+const MAX_WORDS: usize = 100;
 
-/// What may stand under a heading.
+/// The content that is accepted below a heading.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cells {
     /// A finite number in every row.
     Numbers,
-    /// Finite numbers; a cell may be empty, which is NaN in [`Column::values`].
+    /// Finite numbers and empty cells; an empty cell is NaN in [`Column::values`].
     Gaps,
-    /// Few different words; [`Column::values`] holds their places in [`Sheet::words`].
+    /// Words; [`Column::values`] holds their indices in [`Sheet::words`].
     Words,
-    /// Anything; not looked at.
+    /// Any text; it is not read.
     Unused,
 }
 
@@ -28,14 +29,14 @@ pub struct Column {
     pub name: String,
     /// The place of the heading.
     pub place: Place,
-    /// What stands under it.
+    /// The accepted content.
     pub cells: Cells,
-    /// One a row.
+    /// One value for each row.
     pub values: Vec<f64>,
 }
 
 impl Column {
-    /// What the column is about: the heading without its unit.
+    /// The heading without its unit, such as `deviation`.
     pub fn role(&self) -> &str {
         heading(&self.name).0
     }
@@ -58,14 +59,14 @@ pub struct Sheet {
     lines: Vec<usize>,
 }
 
-/// `deviation_um` is `deviation` in `um`.
+/// Splits a heading into name and unit: `deviation_um` is `deviation` in `um`.
 pub fn heading(name: &str) -> (&str, &str) {
     name.rsplit_once('_').unwrap_or((name, ""))
 }
 
 impl Sheet {
-    /// Reads a text: `#` comments, one line of headings, rows. `None` if a row cannot be used: all
-    /// of them are reported, and nothing is dropped in silence.
+    /// Reads a text: `#` comments, one line of headings, rows. `None` if a row cannot be read; all
+    /// such rows are reported.
     pub fn parse(
         file: &str,
         text: &str,
@@ -84,9 +85,10 @@ impl Sheet {
                 sheet.read_headings(i + 1, line, &cells, problems)?;
             } else if sheet.read_row(i + 1, line, problems).is_none() {
                 bad += 1;
-                if bad == MOST_BAD_ROWS {
-                    let message = format!("{bad} rows cannot be read; the rest was not looked at");
-                    let hint = "is this the file that you meant?";
+                if bad == MAX_BAD_ROWS {
+                    let message =
+                        format!("{bad} rows cannot be read; the remaining rows were not checked");
+                    let hint = "check whether this is the intended file";
                     problems.error("too-many-bad-rows", sheet.place(i + 1, 1), message, hint);
                     return None;
                 }
@@ -101,7 +103,7 @@ impl Sheet {
         (bad == 0).then_some(sheet)
     }
 
-    /// How many rows.
+    /// The number of rows.
     pub fn rows(&self) -> usize {
         self.lines.len()
     }
@@ -116,12 +118,12 @@ impl Sheet {
         self.columns.first().map_or(Place::whole(&self.file), |c| c.place.clone())
     }
 
-    /// The column about something, whatever its unit.
+    /// The column of that name, with any unit.
     pub fn about(&self, role: &str) -> Option<&Column> {
         self.columns.iter().find(|c| c.role() == role || c.name == role)
     }
 
-    /// The rows that have one word in a column, as a table of their own.
+    /// The rows with one word (its index in [`Sheet::words`]) in a column, as a table.
     pub fn rows_with(&self, column: &Column, word: f64) -> Self {
         let kept = |values: &[f64]| {
             let pairs = values.iter().zip(&column.values);
@@ -137,7 +139,8 @@ impl Sheet {
         }
     }
 
-    /// The numbers of a column in the inner unit (mm, rad, s, °C).
+    /// The numbers of a column in the inner unit (mm, rad, s, °C), NaN for empty cells; `None` and a
+    /// problem if the heading does not name a unit of this dimension.
     pub fn inner(
         &self,
         column: &Column,
@@ -229,7 +232,7 @@ impl Sheet {
             self.lines.push(line);
             return Some(());
         }
-        // The row is not taken: no column may be longer than the others.
+        // The row is discarded: no column may be longer than the others.
         for column in &mut self.columns {
             column.values.truncate(self.lines.len());
         }
@@ -238,8 +241,9 @@ impl Sheet {
                 let number = fields(text).position(|(c, _)| c == at);
                 let number = number.and_then(|i| self.columns.get(i));
                 if number.is_some_and(|c| c.cells == Cells::Words) {
-                    let message = format!("`{field}` is one word too many: {MOST_WORDS} different");
-                    let hint = "is this the column that you meant?";
+                    let message =
+                        format!("`{field}`: more than {MAX_WORDS} different words in this column");
+                    let hint = "check whether this is the intended column";
                     problems.error("too-many-words", self.place(line, at), message, hint);
                     return None;
                 }
@@ -249,8 +253,9 @@ impl Sheet {
             }
             _ => {
                 let count = fields(text).count();
-                let message = format!("fields: {count}, headings: {}", self.columns.len());
-                let hint = "one field under each heading";
+                let message =
+                    format!("fields in this row: {count}, headings: {}", self.columns.len());
+                let hint = "write one field under each heading";
                 problems.error("ragged-row", self.place(line, 1), message, hint);
             }
         }
@@ -258,13 +263,13 @@ impl Sheet {
     }
 }
 
-/// The place of a word in the list.
+/// The index of a word in the list; a new word is appended, up to [`MAX_WORDS`].
 fn word(words: &mut Vec<String>, field: &str) -> Option<f64> {
     let at = words.iter().position(|w| w == field).or_else(|| {
         words.push(field.to_owned());
-        (words.len() <= MOST_WORDS).then(|| words.len() - 1)
+        (words.len() <= MAX_WORDS).then(|| words.len() - 1)
     });
-    words.truncate(MOST_WORDS);
+    words.truncate(MAX_WORDS);
     at.map(|at| at as f64)
 }
 
@@ -274,7 +279,7 @@ fn fields(text: &str) -> impl Iterator<Item = (usize, &str)> {
     text.trim_end_matches('\r').split(',').map(move |field| {
         let lead = field.chars().take_while(|c| c.is_whitespace()).count();
         let start = column + lead;
-        // Bytes would do for plain text; a µ in a note must not move the places behind it.
+        // Columns count characters, so that a µ in a remark does not shift the following places.
         column += if field.is_ascii() { field.len() } else { field.chars().count() } + 1;
         (start, field.trim())
     })
@@ -305,12 +310,12 @@ mod tests {
 
     #[test]
     fn too_many_words_are_refused() {
-        let rows: String = (0..=MOST_WORDS).map(|i| format!("w{i}\n")).collect();
+        let rows: String = (0..=MAX_WORDS).map(|i| format!("w{i}\n")).collect();
         let mut problems = Diagnostics::new();
         let text = format!("direction\n{rows}");
         assert!(Sheet::parse("t.csv", &text, cells, &mut problems).is_none());
         let found = problems.iter().next().unwrap();
-        assert_eq!((found.code, found.place.line), ("too-many-words", MOST_WORDS + 2));
+        assert_eq!((found.code, found.place.line), ("too-many-words", MAX_WORDS + 2));
     }
 
     #[test]

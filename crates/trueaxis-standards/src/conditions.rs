@@ -2,7 +2,7 @@
 
 use std::path::Path;
 use trueaxis_geometry::Vec3;
-use trueaxis_input::{Diagnostics, Dimension, Files, Item, Measured, Section, SourceText};
+use trueaxis_input::{Diagnostics, Dimension, Files, Item, MeasuredValue, Section, SourceText};
 
 /// Air and bodies of a machine are within these, °C; what lies outside is another unit.
 pub const SOUND_TEMPERATURES_C: std::ops::RangeInclusive<f64> = -10.0..=60.0;
@@ -24,7 +24,7 @@ pub struct Instrument {
     /// Range of the lateral offset of the beam over the measuring length, mm.
     pub misalignment_range_mm: Option<f64>,
     /// Coefficient of expansion that the correction used, 1/K, with its standard uncertainty.
-    pub expansion_per_k: Option<Measured>,
+    pub expansion_per_k: Option<MeasuredValue>,
     /// Range of the drift during a test: the environmental variation E_VE.
     pub eve_range: Option<Extent>,
 }
@@ -52,7 +52,7 @@ pub struct Conditions {
     /// With what.
     pub instrument_name: Option<String>,
     /// Temperature of the machine at the scale, °C, with its standard uncertainty.
-    pub temperature_c: Option<Measured>,
+    pub temperature_c: Option<MeasuredValue>,
     /// For the measuring uncertainty.
     pub instrument: Option<Instrument>,
     /// For circular tests.
@@ -118,7 +118,7 @@ fn read_instrument(section: &Section<'_>) -> Instrument {
     let extent = |key: &str| section.get(key).and_then(|item| extent(&item));
     let expansion = section.get("expansion");
     let expansion_per_k = expansion.and_then(|item| item.measured(Dimension::Expansion));
-    if let (Some(item), Some(Measured { u: None, .. })) = (expansion, expansion_per_k) {
+    if let (Some(item), Some(MeasuredValue { u: None, .. })) = (expansion, expansion_per_k) {
         let message = "the coefficient of expansion has no uncertainty".to_owned();
         let hint = "write \"11.5 ± 1 um/(m·K)\"; without it the coefficient counts as exact";
         item.warn("missing-uncertainty", message, hint);

@@ -8,7 +8,7 @@
 
 use std::path::Path;
 use trueaxis_input::{
-    CsvTable, Diagnostics, Dimension, Files, Measured, Section, SourceText, Unit,
+    CsvTable, Diagnostics, Dimension, Files, MeasuredValue, Section, SourceText, Unit,
 };
 
 /// Temperatures nearer than this say little about an expansion, K.
@@ -31,7 +31,7 @@ pub struct Run {
     /// Its name: the column of the table without its unit.
     pub name: String,
     /// The temperature of the scale, °C, with its standard uncertainty.
-    pub celsius: Measured,
+    pub celsius: MeasuredValue,
     /// The error at each position, mm.
     pub errors_mm: Vec<f64>,
 }
@@ -326,7 +326,7 @@ mod tests {
         let geometry = |p: f64| 0.1 * (p / 700.0).sin() + 8e-5 * p;
         let run = |(j, c): (usize, &f64)| Run {
             name: format!("run {j}"),
-            celsius: Measured { value: *c, u: Some(0.0) },
+            celsius: MeasuredValue { value: *c, u: Some(0.0) },
             errors_mm: positions_mm
                 .iter()
                 .enumerate()

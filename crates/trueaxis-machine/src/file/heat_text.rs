@@ -12,7 +12,7 @@ use crate::heat::{
     Workpiece, measured_celsius,
 };
 use trueaxis_geometry::Vec3;
-use trueaxis_input::{Dimension, Item, Measured, Section};
+use trueaxis_input::{Dimension, Item, MeasuredValue, Section};
 
 /// Nothing that holds a scale or a part grows by more, 1/K (zinc 30e-6, plastics 200e-6).
 const LARGE_EXPANSION: f64 = 300e-6;
@@ -58,7 +58,7 @@ pub fn read_heat(root: &Section<'_>, axes: &[Axis], bodies: &[ChainBody]) -> Hea
     model
 }
 
-fn expansion(item: &Item<'_>) -> Option<Measured> {
+fn expansion(item: &Item<'_>) -> Option<MeasuredValue> {
     let value = item.measured(Dimension::Expansion)?;
     if value.value.abs() > LARGE_EXPANSION {
         let message = "nothing that holds a scale or a part grows so much".to_owned();

@@ -6,7 +6,7 @@ use super::field::{ScaleField, Source};
 use super::{ErrorPart, Sensor, ThermalTerm, ThermalU, reach_of};
 use crate::axis::Axis;
 use crate::errors::{Component, Curve, ErrorIndex, ErrorKind};
-use trueaxis_input::{Diagnostics, Measured};
+use trueaxis_input::{Diagnostics, MeasuredValue};
 
 /// The work for a changing flux grows with the square of the rows of its log.
 const MOST_ROWS: usize = 5000;
@@ -72,7 +72,7 @@ pub struct Scale {
     /// Its axis in [`crate::Machine::axes`].
     pub axis: usize,
     /// α, 1/K.
-    pub expansion_per_k: Measured,
+    pub expansion_per_k: MeasuredValue,
     /// Where it is fixed, and the temperature of the error table of its axis.
     pub anchor: Anchor,
     /// Its sensors; with one it is uniform.
@@ -197,7 +197,7 @@ pub struct StructureModel {
     /// Its name, for messages.
     pub name: String,
     /// Sensors and coefficients, mm/K or rad/K.
-    pub coefficients: Vec<(String, Measured)>,
+    pub coefficients: Vec<(String, MeasuredValue)>,
     /// The temperature at which the stated error holds, °C.
     pub reference_celsius: f64,
 }

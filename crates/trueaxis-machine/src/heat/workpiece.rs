@@ -4,13 +4,13 @@ use super::conditions::Conditions;
 use super::expansion::Profile;
 use super::{REFERENCE_CELSIUS, Sensor};
 use trueaxis_geometry::Vec3;
-use trueaxis_input::{Diagnostics, Measured};
+use trueaxis_input::{Diagnostics, MeasuredValue};
 
 /// What is known of the growth of the workpiece.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Workpiece {
     /// α_w, 1/K.
-    pub expansion_per_k: Measured,
+    pub expansion_per_k: MeasuredValue,
     /// Where it is fixed, in the workpiece frame, mm.
     pub fixed_mm: Vec3,
     /// Unit vector along which the sensors are placed.
@@ -43,7 +43,7 @@ impl Workpiece {
 #[derive(Debug, Clone, PartialEq)]
 pub struct WorkpieceGrowth {
     /// α_w, 1/K.
-    pub expansion_per_k: Measured,
+    pub expansion_per_k: MeasuredValue,
     /// Where it is fixed, in the workpiece frame, mm.
     pub fixed_mm: Vec3,
     /// Unit vector along which the temperature changes.
@@ -134,7 +134,7 @@ mod tests {
     fn growth_along_and_across_sensors() {
         let profile = Profile::new(vec![(0.0, 20.0), (1000.0, 30.0)]).unwrap();
         let (fixed_mm, along) = (Vec3::zeros(), Vec3::x());
-        let expansion_per_k = Measured { value: 1e-5, u: Some(1e-6) };
+        let expansion_per_k = MeasuredValue { value: 1e-5, u: Some(1e-6) };
         let growth = WorkpieceGrowth { expansion_per_k, fixed_mm, along, profile };
         // along: 1e-5 · ½ · 10 K · 1000 mm = 0.05 mm; across: 1e-5 · 10 K · 200 mm = 0.02 mm
         let grown = growth.at(Vec3::new(1000.0, 200.0, 0.0));

@@ -21,7 +21,7 @@ const FLAT: f64 = 0.05;
 type Lined = Vec<(usize, Vec3)>;
 
 /// A circle with everything that the file says of it.
-struct Measured {
+struct MeasuredValue {
     name: String,
     points_mm: Lined,
     centre_mm: Option<Vec3>,
@@ -211,7 +211,7 @@ impl<'d, 't> Reader<'d, 't> {
         node: Node<'d, 't>,
         unit_mm: f64,
         problems: &mut Diagnostics,
-    ) -> Option<Measured> {
+    ) -> Option<MeasuredValue> {
         let item = self.follow(node, "FeatureItemId");
         let nominal = item.and_then(|n| self.follow(n, "FeatureNominalId"));
         let definition = nominal.and_then(|n| self.follow(n, "FeatureDefinitionId"));
@@ -231,7 +231,7 @@ impl<'d, 't> Reader<'d, 't> {
             problems.error("missing-normal", self.place(node), message, "<Normal>0 0 1</Normal>");
             return None;
         };
-        Some(Measured {
+        Some(MeasuredValue {
             name: self.name(node),
             points_mm: points.into_iter().map(|(line, p)| (line, p * unit_mm)).collect(),
             centre_mm: nominal.and_then(|n| vector(n, "Location")).map(|c| c * unit_mm),
@@ -343,7 +343,11 @@ fn vector(text: &str) -> Option<Vec3> {
 }
 
 /// The points in the plane of the circle, and its nominal circle.
-fn flatten(circle: &Measured, file: &str, problems: &mut Diagnostics) -> Option<Imported<'static>> {
+fn flatten(
+    circle: &MeasuredValue,
+    file: &str,
+    problems: &mut Diagnostics,
+) -> Option<Imported<'static>> {
     let place = Place::whole(file);
     let (across, up, names) = plane(circle.normal);
     let centre = circle.centre_mm.map(|c| [across.dot(&c), up.dot(&c)]);
@@ -393,7 +397,7 @@ fn flatten(circle: &Measured, file: &str, problems: &mut Diagnostics) -> Option<
 
 /// How far outward the touched points lie of those in the file, mm.
 fn probe_correction(
-    circle: &Measured,
+    circle: &MeasuredValue,
     radius_mm: f64,
     place: &Place,
     problems: &mut Diagnostics,

@@ -29,7 +29,7 @@ mod validation;
 pub use decide::{Agreement, Decision, Rule, e_n};
 pub use file::{Application, Circumstances, Study, read_certificate};
 pub use used::Used;
-pub use validation::{Measured, Validation};
+pub use validation::{MeasuredValue, Validation};
 
 use left::Left;
 use spread::{Lengths, lengths};
@@ -67,7 +67,7 @@ pub enum Determined {
 #[derive(Debug, Clone, PartialEq)]
 pub struct PoseResult {
     /// What was measured.
-    pub measured: Measured,
+    pub measured: MeasuredValue,
     /// What was predicted.
     pub predicted: Left,
     /// The length of what is left is below this in 95 % of the machines that the errors' uncertainties
@@ -182,7 +182,7 @@ fn judged(study: &Study, predicted: &[Left], lengths: &Lengths) -> Vec<PoseResul
 }
 
 /// Measured less predicted tip without and with the compensation, mm.
-fn differences(measured: &Measured, predicted: &Left) -> [Vec3; 2] {
+fn differences(measured: &MeasuredValue, predicted: &Left) -> [Vec3; 2] {
     let before = measured.before_mm - predicted.before.tip_mm;
     [before, measured.after_mm - predicted.after.tip_mm]
 }

@@ -1,7 +1,7 @@
 //! The steps before the direction table: eccentricity, Z datum, X and Y datum (document 003, 2.3.2).
 
 use nalgebra::{Matrix3, Vector3};
-use trueaxis_input::Measured;
+use trueaxis_input::MeasuredValue;
 
 /// A dial against the stylus ball while the spindle turns.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,11 +61,11 @@ pub fn eccentricity(turn: &DialTurn) -> Option<Eccentricity> {
 #[derive(Debug, Clone, PartialEq)]
 pub struct ZSteps {
     /// Length of the reference tool, mm.
-    pub reference_length_mm: Measured,
+    pub reference_length_mm: MeasuredValue,
     /// Height of the gauge block, mm.
-    pub block_mm: Measured,
+    pub block_mm: MeasuredValue,
     /// The spindle when the reference tool touches the block, mm.
-    pub reference_z_mm: Measured,
+    pub reference_z_mm: MeasuredValue,
     /// The spindle at each trigger on the top of the ring, mm.
     pub probe_z_mm: Vec<f64>,
 }
@@ -156,10 +156,10 @@ mod tests {
     #[test]
     fn a_probe_is_as_long_as_the_spindle_stands_above_the_ring() {
         // Tool 100 on block 50 at Z 200: the ring is at 50; the probe triggers at 170: 120 long.
-        let exact = |value| Measured { value, u: None };
+        let exact = |value| MeasuredValue { value, u: None };
         let found = z_datum(&ZSteps {
-            reference_length_mm: Measured { value: 100.0, u: Some(0.003) },
-            block_mm: Measured { value: 50.0, u: Some(0.004) },
+            reference_length_mm: MeasuredValue { value: 100.0, u: Some(0.003) },
+            block_mm: MeasuredValue { value: 50.0, u: Some(0.004) },
             reference_z_mm: exact(200.0),
             probe_z_mm: vec![170.0, 170.0],
         });

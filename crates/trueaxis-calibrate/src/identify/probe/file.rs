@@ -8,7 +8,7 @@ use std::path::Path;
 use trueaxis_geometry::Vec3;
 use trueaxis_input::sheet::{Cells, Sheet};
 use trueaxis_input::{
-    Diagnostics, Dimension, Files, Item, Measured, Section, SourceText, parse_quantity,
+    Diagnostics, Dimension, Files, Item, MeasuredValue, Section, SourceText, parse_quantity,
 };
 
 /// Harmonics that are tried unless the study says otherwise.
@@ -159,7 +159,7 @@ fn count(root: &Section<'_>, key: &str, default: usize, least: usize) -> usize {
     value.min(LARGEST_COUNT)
 }
 
-fn positive(section: &Section<'_>, key: &str, hint: &str) -> Option<Measured> {
+fn positive(section: &Section<'_>, key: &str, hint: &str) -> Option<MeasuredValue> {
     let item = section.require(key, hint)?;
     let found = item.measured(Dimension::Length)?;
     if found.value <= 0.0 {

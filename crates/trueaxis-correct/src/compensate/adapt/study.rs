@@ -4,7 +4,9 @@ use super::cutter::Cutter;
 use super::table::{SurfacePoint, read_points};
 use std::path::{Path, PathBuf};
 use trueaxis_cl::{ClFile, Reading};
-use trueaxis_input::{Diagnostics, Dimension, Files, Item, Measured, Place, Section, SourceText};
+use trueaxis_input::{
+    Diagnostics, Dimension, Files, Item, MeasuredValue, Place, Section, SourceText,
+};
 use trueaxis_machine::Machine;
 
 /// A longer path would take hours.
@@ -288,7 +290,7 @@ fn read_wall(root: &Section<'_>) -> Option<Wall> {
     Some(Wall { layer_mm, path_at, thickness_mm: thickness.value, u_thickness_mm, least_mm, inner })
 }
 
-fn checked_thickness(section: &Section<'_>, thickness: Measured) -> Option<Measured> {
+fn checked_thickness(section: &Section<'_>, thickness: MeasuredValue) -> Option<MeasuredValue> {
     if thickness.value > 0.0 {
         return Some(thickness);
     }

@@ -11,7 +11,7 @@ use super::{Determined, identified};
 use std::path::Path;
 use trueaxis_correct::compensate::not_twice;
 use trueaxis_correct::predict::Sampling;
-use trueaxis_input::{Diagnostics, Dimension, Files, Item, Measured, Section, SourceText};
+use trueaxis_input::{Diagnostics, Dimension, Files, Item, MeasuredValue, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Axis, AxisKind, Travel};
 use trueaxis_machine::describe::axis_index;
@@ -61,7 +61,7 @@ pub struct Circumstances {
     /// How that is traced to standards.
     pub calibration: String,
     /// °C, with its standard uncertainty if it is stated.
-    pub temperature_c: Measured,
+    pub temperature_c: MeasuredValue,
 }
 
 /// How the compensation was put into the control.

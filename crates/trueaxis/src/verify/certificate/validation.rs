@@ -24,12 +24,12 @@ pub struct Validation {
     /// Standard uncertainty of one coordinate of one reading, mm.
     pub u_mm: f64,
     /// The poses.
-    pub poses: Vec<Measured>,
+    pub poses: Vec<MeasuredValue>,
 }
 
 /// One pose that was measured twice.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Measured {
+pub struct MeasuredValue {
     /// What was programmed, mm and rad.
     pub command: Command,
     /// From which side each axis came.
@@ -148,7 +148,7 @@ fn is_same(a: &Readings, i: usize, b: &Readings, k: usize) -> bool {
 }
 
 /// Every pose of one table with that of the other.
-fn pairs(before: Rows, after: Rows, problems: &mut Diagnostics) -> Vec<Measured> {
+fn pairs(before: Rows, after: Rows, problems: &mut Diagnostics) -> Vec<MeasuredValue> {
     let hint = "measure the same poses before and after, each once";
     let mut poses = Vec::new();
     let mut taken = vec![false; before.readings.len()];
@@ -162,7 +162,7 @@ fn pairs(before: Rows, after: Rows, problems: &mut Diagnostics) -> Vec<Measured>
             continue;
         };
         taken[k] = true;
-        poses.push(Measured {
+        poses.push(MeasuredValue {
             command: after.readings.commands[i],
             approach: after.readings.approaches[i],
             before_mm: before.deviations_mm[k],
@@ -177,7 +177,12 @@ fn pairs(before: Rows, after: Rows, problems: &mut Diagnostics) -> Vec<Measured>
     poses
 }
 
-fn check_unused(machine: &Machine, used: &[Used], pose: &Measured, problems: &mut Diagnostics) {
+fn check_unused(
+    machine: &Machine,
+    used: &[Used],
+    pose: &MeasuredValue,
+    problems: &mut Diagnostics,
+) {
     let Some(twin) = twin(machine, used, &pose.command) else { return };
     let message = format!(
         "this pose was used for the identification ({}:{}): nearer than 1 mm and 0.1 deg in all axes",
@@ -187,7 +192,7 @@ fn check_unused(machine: &Machine, used: &[Used], pose: &Measured, problems: &mu
     problems.error("used-pose", pose.place.clone(), message, hint);
 }
 
-fn check_zone(zone: &[Axis], pose: &Measured, problems: &mut Diagnostics) {
+fn check_zone(zone: &[Axis], pose: &MeasuredValue, problems: &mut Diagnostics) {
     let outside = zone.iter().zip(&pose.command).filter(|(axis, q)| !axis.travel.contains(**q));
     let names: Vec<String> = outside.map(|(axis, _)| axis.name.to_string()).collect();
     if !names.is_empty() {
