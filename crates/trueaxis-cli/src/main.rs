@@ -7,6 +7,7 @@
 mod arguments;
 mod check;
 mod compensate;
+mod door;
 mod evaluate;
 mod explain;
 mod identify;

@@ -1,5 +1,6 @@
 //! Files in, files out: the only place of the loop that touches the disk.
 
+pub mod output;
 mod scope;
 
 pub use scope::within;

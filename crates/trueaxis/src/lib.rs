@@ -30,6 +30,7 @@
 //! ```
 
 pub mod files;
+pub mod questions;
 pub mod report;
 pub mod verify;
 

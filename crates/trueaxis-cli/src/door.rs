@@ -1,0 +1,80 @@
+//! A question of the library as a command: read, look at the outputs, compute, write, show.
+
+use crate::output::{Answer as Shown, Format, Outcome, report, show, tell};
+use crate::report_file::{unusable, write_report};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::path::Path;
+use trueaxis::files::output::{REPORT, may_write};
+use trueaxis::files::{self, disk};
+use trueaxis::input::Diagnostics;
+use trueaxis::questions::{Answer, NewFile, Question};
+
+/// In which form the answer leaves.
+pub struct Door<'a> {
+    /// On standard output.
+    pub format: Format,
+    /// Where an HTML report goes.
+    pub report: Option<&'a Path>,
+}
+
+impl Door<'_> {
+    /// Puts the question and shows the answer.
+    pub fn ask<Q: Question>(&self, question: &Q) -> Outcome {
+        self.try_ask(question).unwrap_or_else(|outcome| outcome)
+    }
+
+    fn try_ask<Q: Question>(&self, question: &Q) -> Result<Outcome, Outcome> {
+        let mut problems = Diagnostics::new();
+        let input = question.read(&disk(), &mut problems);
+        let outputs = question.outputs().into_iter().chain(self.report.map(|path| (path, &REPORT)));
+        outputs.for_each(|(path, kind)| may_write(path, kind, &mut problems));
+        let answer = match input.filter(|_| !problems.has_errors()) {
+            Some(input) => answer(question, input, &mut problems),
+            None => None,
+        };
+        let found = problems.clone();
+        let failed = report(problems);
+        let Some(answer) = answer.filter(|_| !failed) else { return Err(Outcome::Unusable) };
+        if let Some(path) = self.report {
+            write_report(path, answer.page())?;
+        }
+        answer.files().iter().try_for_each(write)?;
+        let shown = show(&match self.format {
+            Format::Json => Shown::Json(answer.document(&found)),
+            Format::Text => Shown::Text(answer.text()),
+        });
+        Ok(match shown {
+            Outcome::Done if !answer.is_yes() => Outcome::No,
+            shown => shown,
+        })
+    }
+}
+
+/// Computes behind a progress bar, where there is something to wait for.
+fn answer<Q: Question>(
+    question: &Q,
+    input: Q::Input,
+    problems: &mut Diagnostics,
+) -> Option<Q::Answer> {
+    const STEPS: f64 = 1000.0;
+    if Q::PROGRESS.is_empty() {
+        return question.answer(input, &|_| {}, problems);
+    }
+    let bar = ProgressBar::new(STEPS as u64).with_message(Q::PROGRESS);
+    if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {percent} %, {eta} left") {
+        bar.set_style(style);
+    }
+    let answer = question.answer(input, &|part| bar.set_position((part * STEPS) as u64), problems);
+    bar.finish_and_clear();
+    answer
+}
+
+fn write(file: &NewFile) -> Result<(), Outcome> {
+    let shown = file.path.display().to_string();
+    files::write(&file.path, &file.content).map_err(|e| {
+        let message = format!("cannot be written: {e}");
+        unusable("unwritable-file", &shown, &message, "name another file")
+    })?;
+    tell(&format!("{}: {shown}", file.name));
+    Ok(())
+}

@@ -1,0 +1,96 @@
+//! One question and one answer for each verb: what is read, with which options, how it is computed, and what
+//! is advised where that fails. The command line and the page are two doors to the same questions.
+//!
+//! ```no_run
+//! use trueaxis::files::disk;
+//! use trueaxis::input::Diagnostics;
+//! use trueaxis::questions::{Answer, Predict, ask};
+//! let question = Predict { study: "nas979-on-xkas2525.toml".into(), samples: None, seed: None };
+//! let mut problems = Diagnostics::new();
+//! let answer = ask(&question, &disk(), &|_| {}, &mut problems).unwrap();
+//! println!("{}", answer.text());
+//! ```
+
+mod predict;
+
+pub use predict::{Predict, PredictInput, Predicted};
+
+use crate::files::output::Kind;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use trueaxis_input::{Diagnostics, Files};
+use trueaxis_report::DrawingError;
+
+/// What a verb is asked.
+pub trait Question {
+    /// What stands in the files.
+    type Input;
+    /// What comes back.
+    type Answer: Answer;
+    /// What the progress counts, in words; empty where there is nothing to wait for.
+    const PROGRESS: &'static str = "";
+
+    /// Reads the files; what is wrong with them goes to `problems`.
+    fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input>;
+
+    /// Files that the answer will write: looked at before the work, not after it.
+    fn outputs(&self) -> Vec<(&Path, &'static Kind)> {
+        Vec::new()
+    }
+
+    /// Computes; `progress` is told the part that is done, 0 to 1.
+    fn answer(
+        &self,
+        input: Self::Input,
+        progress: &(dyn Fn(f64) + Sync),
+        problems: &mut Diagnostics,
+    ) -> Option<Self::Answer>;
+}
+
+/// What a verb answers.
+pub trait Answer {
+    /// As one JSON document.
+    fn document(&self, problems: &Diagnostics) -> Value;
+
+    /// For the terminal.
+    fn text(&self) -> String;
+
+    /// As a page that opens offline.
+    ///
+    /// # Errors
+    /// What the drawing library says.
+    fn page(&self) -> Result<String, DrawingError>;
+
+    /// Whether the verdict is "yes", where there is one.
+    fn is_yes(&self) -> bool {
+        true
+    }
+
+    /// Files that were asked for beside the report.
+    fn files(&self) -> Vec<NewFile> {
+        Vec::new()
+    }
+}
+
+/// A file that an answer brings.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NewFile {
+    /// What it is, in one word.
+    pub name: &'static str,
+    /// Where it goes.
+    pub path: PathBuf,
+    /// What stands in it.
+    pub content: Vec<u8>,
+}
+
+/// Reads and computes; none if there was an error, which then stands in `problems`.
+pub fn ask<Q: Question>(
+    question: &Q,
+    files: &Files,
+    progress: &(dyn Fn(f64) + Sync),
+    problems: &mut Diagnostics,
+) -> Option<Q::Answer> {
+    let input = question.read(files, problems).filter(|_| !problems.has_errors())?;
+    let answer = question.answer(input, progress, problems);
+    answer.filter(|_| !problems.has_errors())
+}

@@ -1,0 +1,167 @@
+//! Will the part be good?
+
+use super::{Answer, Question};
+use crate::report;
+use serde_json::Value;
+use std::path::PathBuf;
+use trueaxis_correct::predict::holes::{
+    HolePrediction, HoleStudy, is_hole_study, predict_holes, read_hole_study,
+};
+use trueaxis_correct::predict::{Error, Prediction, Study, predict, read_study};
+use trueaxis_input::{Diagnostics, Files, Place};
+use trueaxis_part::tolerance::Outcome;
+use trueaxis_report::DrawingError;
+
+/// A test piece or holes before they are cut.
+#[derive(Debug, Clone, Default)]
+pub struct Predict {
+    /// The study file: machine, part, setting point.
+    pub study: PathBuf,
+    /// Monte Carlo samples instead of the study's, as typed; 0 for none.
+    pub samples: Option<String>,
+    /// Random seed instead of the study's.
+    pub seed: Option<u64>,
+}
+
+/// A study that was read.
+#[derive(Debug)]
+pub enum PredictInput {
+    /// A test piece.
+    Part(Box<Study>),
+    /// Holes on a circle.
+    Holes(Box<HoleStudy>),
+}
+
+/// A study with its prediction.
+#[derive(Debug)]
+pub enum Predicted {
+    /// A test piece.
+    Part(Box<Study>, Box<Prediction>),
+    /// Holes on a circle.
+    Holes(Box<HoleStudy>, Box<HolePrediction>),
+}
+
+impl Predict {
+    fn place(&self) -> Place {
+        Place::whole(&self.study.display().to_string())
+    }
+
+    /// The sampling of the study, changed as asked.
+    fn choose_sampling(&self, study: &mut Study, samples: Option<usize>) {
+        let mut sampling = study.sampling.unwrap_or_default();
+        sampling.samples = samples.unwrap_or(study.sampling.map_or(0, |s| s.samples));
+        sampling.seed = self.seed.unwrap_or(sampling.seed);
+        study.sampling = Some(sampling).filter(|s| s.samples > 0);
+    }
+
+    fn samples(&self, problems: &mut Diagnostics) -> Option<usize> {
+        let text = self.samples.as_deref()?;
+        let samples = text.parse().ok().filter(|n| *n != 1 && *n <= Study::MOST_SAMPLES);
+        if samples.is_none() {
+            let message = format!("`{text}` is not a possible number of Monte Carlo samples");
+            let hint = format!("0 for no Monte Carlo run, or 2 to {}", Study::MOST_SAMPLES);
+            problems.error("bad-sampling", Place::whole("--samples"), message, &hint);
+        }
+        samples
+    }
+}
+
+impl Question for Predict {
+    type Input = PredictInput;
+    type Answer = Predicted;
+    const PROGRESS: &'static str = "Monte Carlo";
+
+    fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<PredictInput> {
+        let samples = self.samples(problems);
+        if is_hole_study(files, &self.study) {
+            let (study, found) = read_hole_study(files, &self.study);
+            problems.append(found);
+            return study.map(Box::new).map(PredictInput::Holes);
+        }
+        let (study, found) = read_study(files, &self.study);
+        problems.append(found);
+        let mut study = Box::new(study?);
+        self.choose_sampling(&mut study, samples);
+        Some(PredictInput::Part(study))
+    }
+
+    fn answer(
+        &self,
+        input: PredictInput,
+        progress: &(dyn Fn(f64) + Sync),
+        problems: &mut Diagnostics,
+    ) -> Option<Predicted> {
+        match input {
+            PredictInput::Part(study) => {
+                let samples = study.sampling.map_or(0, |s| s.samples).max(1) as f64;
+                match predict(&study, &|done| progress(done as f64 / samples)) {
+                    Ok(prediction) => Some(Predicted::Part(study, Box::new(prediction))),
+                    Err(error) => {
+                        refuse(&error, self.place(), problems);
+                        None
+                    }
+                }
+            }
+            PredictInput::Holes(study) => match predict_holes(&study) {
+                Ok(prediction) => {
+                    for warning in &prediction.warnings {
+                        let code = "machine-only-compensation";
+                        problems.warn(code, self.place(), warning.clone(), "");
+                    }
+                    Some(Predicted::Holes(study, Box::new(prediction)))
+                }
+                Err(found) => {
+                    problems.append(found);
+                    None
+                }
+            },
+        }
+    }
+}
+
+/// Says why there is no prediction, and what to change.
+pub fn refuse(error: &Error, place: Place, problems: &mut Diagnostics) {
+    let hint = match error {
+        Error::Setting(_) | Error::SettingOutOfTravel => {
+            "choose other rotary positions in [setting], or another fixture in [mounting]"
+        }
+        Error::Table { .. } => "cover the travel by the table, or say outside = \"clamp\" for it",
+        Error::TooFewSamples(_) => "0, or 2 and more",
+        Error::LogEnds { .. } => "take a longer log, or start earlier in it",
+        _ => "move the part on the machine, tilt it, or change the tool, and ask again",
+    };
+    problems.error(error.code(), place, error.to_string(), hint);
+}
+
+impl Answer for Predicted {
+    fn document(&self, _: &Diagnostics) -> Value {
+        match self {
+            Self::Part(study, prediction) => report::json(study, prediction),
+            Self::Holes(study, prediction) => report::holes_json(study, prediction),
+        }
+    }
+
+    fn text(&self) -> String {
+        match self {
+            Self::Part(study, prediction) => report::text(study, prediction),
+            Self::Holes(study, prediction) => report::holes_text(study, prediction),
+        }
+    }
+
+    fn page(&self) -> Result<String, DrawingError> {
+        match self {
+            Self::Part(study, prediction) => report::html(study, prediction),
+            Self::Holes(study, prediction) => report::holes_html(study, prediction),
+        }
+    }
+
+    fn is_yes(&self) -> bool {
+        match self {
+            Self::Part(_, prediction) => prediction.verdict.outcome == Outcome::Pass,
+            Self::Holes(study, prediction) => {
+                let applied = prediction.sets.iter().find(|s| s.compensation == study.applied);
+                applied.and_then(|s| s.in_tolerance) != Some(false)
+            }
+        }
+    }
+}
