@@ -1,8 +1,7 @@
 //! `trueaxis check`: what a machine file says and what it lacks.
 
-use crate::output::{Answer, Format, Outcome, diagnostic_json, report, show};
+use crate::output::{Answer, Format, Outcome, report, show};
 use clap::Args;
-use serde_json::Value;
 use std::path::{Path, PathBuf};
 use trueaxis::files;
 use trueaxis::input::{Diagnostics, Place};
@@ -36,10 +35,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
     if let (Some(folder), Some(machine)) = (&arguments.models, &machine) {
         write_models(machine, folder, &mut problems);
     }
-    let diagnostics: Vec<Value> = problems.iter().map(diagnostic_json).collect();
+    let found = problems.clone();
     let unusable = report(problems) || machine.is_none();
     let shown = match (arguments.format, &machine) {
-        (Format::Json, _) => show(&Answer::Json(check_json(machine.as_ref(), &diagnostics))),
+        (Format::Json, _) => show(&Answer::Json(check_json(machine.as_ref(), found.iter()))),
         (Format::Text, Some(machine)) => show(&Answer::Text(check_text(machine))),
         (Format::Text, None) => Outcome::Unusable,
     };

@@ -32,7 +32,10 @@
 pub mod files;
 pub mod questions;
 pub mod report;
+mod schemas;
 pub mod verify;
+
+pub use schemas::schemas;
 
 pub use trueaxis_calibrate::{identify, instruments, measure, plan, unknowns};
 pub use trueaxis_cl as cl;
@@ -45,7 +48,7 @@ pub use trueaxis_motion as simulate;
 pub use trueaxis_nc as nc;
 pub use trueaxis_part as part;
 
-pub use trueaxis_report::VERSION;
+pub use trueaxis_report::{NamedSchema, VERSION};
 
 /// The examples of the README are tests.
 #[cfg(doctest)]

@@ -6,6 +6,7 @@ mod certificate;
 mod certificate_blocks;
 mod certificate_page;
 mod check;
+mod check_document;
 mod comparison;
 mod description;
 mod diagnostic;
@@ -16,10 +17,11 @@ pub use calibrations::{
 };
 pub use certificate::{certificate_json, certificate_text};
 pub use certificate_page::certificate_html;
-pub use check::{check_json, check_text};
+pub use check::check_text;
+pub use check_document::{CheckDocument, check_json};
 pub use comparison::{comparison_html, comparison_json, comparison_text};
 pub use description::description_json;
-pub use diagnostic::{diagnostic_json, remarks};
+pub use diagnostic::{DiagnosticEntry, diagnostic_json, remarks};
 pub use pose::{
     Bodies, Budget, PoseReport, array, bodies, bodies_json, bodies_table, budget, budget_json,
     budget_table, deviation_json, pose_json, pose_text,

@@ -28,7 +28,7 @@ pub(super) fn describe(desk: &Desk, body: &Value, _: &Job) -> Result<Reply, Refu
     if let Some(machine) = &machine {
         document = description_json(&describe::describe(machine, Some(&text)));
     }
-    document["check"] = check_json(machine.as_ref(), &diagnostics_json(&problems));
+    document["check"] = check_json(machine.as_ref(), &problems.clone().sorted());
     document["version"] = json!(version(text.as_bytes()));
     document["text"] = json!(text);
     Ok(Reply::Json(document))

@@ -1,6 +1,5 @@
 //! A machine file, checked: what the machine is and what it lacks.
 
-use serde_json::{Value, json};
 use std::fmt::Write;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Axis, AxisKind, Carries, Travel};
@@ -56,14 +55,14 @@ fn errors_text(machine: &Machine) -> String {
     for axis in machine.axes() {
         text += &wrapped(&format!("    {}  ", axis.name), &motions_line(machine, axis));
     }
-    for (measurement, names) in provenance(machine) {
+    for (measurement, names) in measurements(machine) {
         text += &wrapped("    measured ", &format!("{measurement}: {}", names.join(" ")));
     }
     text
 }
 
 /// Instrument, date and temperature, each with the errors that they hold for.
-fn provenance(machine: &Machine) -> Vec<(String, Vec<String>)> {
+pub(super) fn measurements(machine: &Machine) -> Vec<(String, Vec<String>)> {
     let mut groups: Vec<(String, Vec<String>)> = Vec::new();
     for (index, name) in machine.stated_errors() {
         let body = &machine.bodies()[index.body];
@@ -125,7 +124,7 @@ fn axis_line(axis: &Axis) -> String {
     format!("  {:<5} {carries:<10} {direction:<23} {travel:<23} {fastest}", axis.name.to_string())
 }
 
-fn shown_unit(kind: AxisKind) -> (f64, &'static str) {
+pub(super) fn shown_unit(kind: AxisKind) -> (f64, &'static str) {
     match kind {
         AxisKind::Linear => (1.0, "mm"),
         AxisKind::Rotary => (180.0 / std::f64::consts::PI, "deg"),
@@ -157,7 +156,7 @@ fn motions_line(machine: &Machine, axis: &Axis) -> String {
 }
 
 /// What a prediction or a simulation would miss.
-fn lacks(machine: &Machine) -> Vec<String> {
+pub(super) fn lacks(machine: &Machine) -> Vec<String> {
     let mut lacking = Vec::new();
     let list = |wanted: &dyn Fn(&Axis) -> bool| {
         let names: Vec<_> =
@@ -219,49 +218,4 @@ fn missing_motions(machine: &Machine) -> Vec<String> {
         }
     }
     missing
-}
-
-/// The document `trueaxis/check/1`; without a machine only why there is none.
-pub fn check_json(machine: Option<&Machine>, diagnostics: &[Value]) -> Value {
-    let Some(machine) = machine else {
-        return json!({
-            "schema": "trueaxis/check/1", "usable": false, "diagnostics": diagnostics,
-        });
-    };
-    let axes: Vec<Value> = machine.axes().iter().map(axis_json).collect();
-    let tools: Vec<&str> = machine.tools().iter().map(|t| t.name.as_str()).collect();
-    let errors: Vec<String> = machine.stated_errors().iter().map(|(_, n)| n.to_string()).collect();
-    json!({
-        "schema": "trueaxis/check/1",
-        "usable": true,
-        "name": machine.name(),
-        "chain": machine.chain_text(),
-        "source": machine.source(),
-        "axes": axes,
-        "tools": tools,
-        "errors": errors,
-        "measured": provenance(machine)
-            .into_iter()
-            .map(|(measurement, errors)| json!({ "by": measurement, "errors": errors }))
-            .collect::<Vec<_>>(),
-        "lacks": lacks(machine),
-        "diagnostics": diagnostics,
-    })
-}
-
-fn axis_json(axis: &Axis) -> Value {
-    let (scale, unit) = shown_unit(axis.kind);
-    let travel = match axis.travel {
-        Travel::Between(from, to) => json!([rounded(from * scale), rounded(to * scale)]),
-        Travel::Unlimited => json!("unlimited"),
-        Travel::Unknown => Value::Null,
-    };
-    let carries = if axis.carries == Carries::Tool { "tool" } else { "workpiece" };
-    json!({
-        "name": axis.name.to_string(),
-        "carries": carries,
-        "direction": [axis.direction.x, axis.direction.y, axis.direction.z],
-        "sense": axis.sense,
-        format!("travel_{unit}"): travel,
-    })
 }

@@ -1,19 +1,47 @@
 //! Problems as JSON, the same in every document.
 
+use schemars::JsonSchema;
+use serde::Serialize;
 use serde_json::Value;
 use trueaxis_input::{Diagnostic, Diagnostics};
+use trueaxis_report::document;
+
+/// A problem found in the input.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct DiagnosticEntry<'a> {
+    /// The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+    pub code: &'a str,
+    /// `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+    pub severity: String,
+    /// The file as the user named it, or an argument such as `--at`.
+    pub file: &'a str,
+    /// The line, from 1; 0 for the file as a whole.
+    pub line: usize,
+    /// The column in characters, from 1; 0 for the file as a whole.
+    pub column: usize,
+    /// The problem in one sentence.
+    pub message: &'a str,
+    /// What to do; empty if it follows from the message.
+    pub hint: &'a str,
+}
+
+impl<'a> From<&'a Diagnostic> for DiagnosticEntry<'a> {
+    fn from(d: &'a Diagnostic) -> Self {
+        Self {
+            code: d.code,
+            severity: d.severity.to_string(),
+            file: &d.place.file,
+            line: d.place.line,
+            column: d.place.column,
+            message: &d.message,
+            hint: &d.hint,
+        }
+    }
+}
 
 /// A diagnostic as JSON.
 pub fn diagnostic_json(diagnostic: &Diagnostic) -> Value {
-    serde_json::json!({
-        "code": diagnostic.code,
-        "severity": diagnostic.severity.to_string(),
-        "file": diagnostic.place.file,
-        "line": diagnostic.place.line,
-        "column": diagnostic.place.column,
-        "message": diagnostic.message,
-        "hint": diagnostic.hint,
-    })
+    document(&DiagnosticEntry::from(diagnostic))
 }
 
 /// What was found, as the remarks of a report: the message, then what to do.
