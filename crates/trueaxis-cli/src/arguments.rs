@@ -11,8 +11,6 @@ use trueaxis::input::{CsvTable, Diagnostics, Dimension, Place, QuantityError, pa
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{Approach, Command};
 use trueaxis::machine::heat::{Conditions, TemperatureRun};
-use trueaxis::nc::Control;
-use trueaxis::simulate::{CONTROLS, control_named};
 
 /// The machine and the tool in it.
 #[derive(Args)]
@@ -305,15 +303,7 @@ pub fn vector(name: &str, text: &str, problems: &mut Diagnostics) -> Option<Vec3
     numbers(name, text, hint, problems).map(|v| Vec3::new(v[0], v[1], v[2]))
 }
 
-/// The control of a program by its name, as every command takes it.
-pub fn control(name: &str, problems: &mut Diagnostics) -> Option<Control> {
-    let control = control_named(name);
-    if control.is_none() {
-        let message = format!("`{name}` is no control that is known");
-        problems.error("unknown-control", Place::whole("--control"), message, CONTROLS);
-    }
-    control
-}
+pub use trueaxis::questions::named_control as control;
 
 #[cfg(test)]
 mod tests {

@@ -71,7 +71,9 @@ fn answer<Q: Question>(
 
 fn write(file: &NewFile) -> Result<(), Outcome> {
     let shown = file.path.display().to_string();
-    files::write(&file.path, &file.content).map_err(|e| {
+    let folder = file.path.parent().filter(|p| !p.as_os_str().is_empty());
+    let made = folder.map_or(Ok(()), std::fs::create_dir_all);
+    made.and_then(|()| files::write(&file.path, &file.content)).map_err(|e| {
         let message = format!("cannot be written: {e}");
         unusable("unwritable-file", &shown, &message, "name another file")
     })?;

@@ -2,16 +2,11 @@
 
 mod surface;
 
-use crate::arguments::control;
-use crate::output::{Answer, Format, Outcome, report, show, tell};
-use crate::report_file::{REPORT, may_write, unusable, write_report};
+use crate::door::Door;
+use crate::output::{Format, Outcome};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
-use trueaxis::files::disk;
-use trueaxis::files::write_files;
-use trueaxis::nc::Control;
-use trueaxis::plan::{Chosen, Plan, chosen, planned, read_plan};
-use trueaxis::report::{plan_html, plan_json, plan_text};
+use trueaxis::questions::PlanMeasurement;
 
 /// What to plan.
 #[derive(Args)]
@@ -70,53 +65,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
 
 fn run_campaign(arguments: &CampaignArguments) -> Outcome {
     let Some(file) = &arguments.file else { return Outcome::Unusable };
-    let (plan, mut problems) = read_plan(&disk(), file);
-    let control = control(&arguments.control, &mut problems);
-    if let Some(path) = &arguments.report {
-        may_write(path, &REPORT, &mut problems);
-    }
-    let chosen = plan.as_ref().and_then(|plan| chosen(plan, &mut problems));
-    if report(problems) {
-        return Outcome::Unusable;
-    }
-    let (Some(plan), Some(control)) = (plan, control) else { return Outcome::Unusable };
-    arguments.planned(&plan, chosen, control).unwrap_or_else(|outcome| outcome)
-}
-
-impl CampaignArguments {
-    fn planned(
-        &self,
-        plan: &Plan,
-        chosen: Option<Chosen>,
-        control: Control,
-    ) -> Result<Outcome, Outcome> {
-        let design = plan.campaign.design();
-        let report = planned(plan, &design, chosen, control);
-        if let Some(folder) = &self.output {
-            let files = report.paths.iter().flat_map(|path| path.files.iter().cloned());
-            written(folder, &files.collect::<Vec<_>>())?;
-        }
-        if let Some(path) = &self.report {
-            write_report(path, Ok(plan_html(&report)))?;
-        }
-        let outcome = show(&match self.format {
-            Format::Json => Answer::Json(plan_json(&report)),
-            Format::Text => Answer::Text(plan_text(&report)),
-        });
-        let sound = report.paths.iter().all(|p| p.check.as_ref().is_ok_and(|c| c.is_sound()));
-        Ok(if outcome == Outcome::Done && !sound { Outcome::No } else { outcome })
-    }
-}
-
-pub fn written(folder: &std::path::Path, files: &[(String, Vec<u8>)]) -> Result<(), Outcome> {
-    let shown = folder.display().to_string();
-    let refuse = |error: std::io::Error| {
-        let message = format!("cannot be written: {error}");
-        unusable("unwritable-file", &shown, &message, "name another folder with -o")
+    let question = PlanMeasurement {
+        campaign: file.clone(),
+        control: arguments.control.clone(),
+        output: arguments.output.clone(),
     };
-    std::fs::create_dir_all(folder).map_err(refuse)?;
-    for path in write_files(folder, files).map_err(refuse)? {
-        tell(&format!("written: {}", path.display()));
-    }
-    Ok(())
+    Door { format: arguments.format, report: arguments.report.as_deref() }.ask(&question)
 }

@@ -11,15 +11,31 @@
 //! println!("{}", answer.text());
 //! ```
 
+mod identify;
+mod plan;
 mod predict;
+mod probe;
+mod rtcp;
+mod rtcp_programs;
+mod surface;
+mod thermal;
 
+pub use identify::{DroppedTable, Identified, Identify};
+pub use plan::{PlanAnswer, PlanMeasurement};
 pub use predict::{Predict, PredictInput, Predicted};
+pub use probe::{IdentifyProbe, ProbeAnswer};
+pub use rtcp::{IdentifyRtcp, RtcpAnswer};
+pub use rtcp_programs::{RtcpPrograms, RtcpProgramsAnswer, RtcpProgramsDocument};
+pub use surface::{PlanSurface, SurfaceAnswer};
+pub use thermal::{IdentifyThermal, ThermalAnswer};
 
 use crate::files::output::Kind;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use trueaxis_input::{Diagnostics, Files};
-use trueaxis_report::DrawingError;
+use trueaxis_input::{Diagnostics, Files, Place};
+use trueaxis_motion::{CONTROLS, control_named};
+use trueaxis_nc::Control;
+use trueaxis_report::{DrawingError, Report, Section};
 
 /// What a verb is asked.
 pub trait Question {
@@ -59,7 +75,11 @@ pub trait Answer {
     ///
     /// # Errors
     /// What the drawing library says.
-    fn page(&self) -> Result<String, DrawingError>;
+    fn page(&self) -> Result<String, DrawingError> {
+        let text = self.text();
+        let (title, rest) = text.split_once('\n').unwrap_or((&text, ""));
+        Report::new(title).section(Section::new("").code(rest)).html()
+    }
 
     /// Whether the verdict is "yes", where there is one.
     fn is_yes(&self) -> bool {
@@ -93,4 +113,30 @@ pub fn ask<Q: Question>(
     let input = question.read(files, problems).filter(|_| !problems.has_errors())?;
     let answer = question.answer(input, progress, problems);
     answer.filter(|_| !problems.has_errors())
+}
+
+/// A document with what was found in the files, in the order in which it was found.
+fn with_diagnostics(mut document: Value, problems: &Diagnostics) -> Value {
+    document["diagnostics"] = problems.iter().map(crate::report::diagnostic_json).collect();
+    document
+}
+
+/// Files of a folder that was asked for; none if there is no folder.
+fn in_folder(
+    folder: Option<&Path>,
+    files: impl IntoIterator<Item = (String, Vec<u8>)>,
+) -> Vec<NewFile> {
+    let Some(folder) = folder else { return Vec::new() };
+    let file = |(name, content)| NewFile { name: "written", path: folder.join(name), content };
+    files.into_iter().map(file).collect()
+}
+
+/// The control by its name, as every verb takes it.
+pub fn named_control(name: &str, problems: &mut Diagnostics) -> Option<Control> {
+    let control = control_named(name);
+    if control.is_none() {
+        let message = format!("unknown control `{name}`");
+        problems.error("unknown-control", Place::whole("--control"), message, CONTROLS);
+    }
+    control
 }

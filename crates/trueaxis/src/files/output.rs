@@ -50,3 +50,26 @@ fn replaceable(path: &Path, begins: &[&[u8]]) -> bool {
     start.make_ascii_lowercase();
     read.is_ok() && (start.is_empty() || begins.iter().any(|b| start.starts_with(b)))
 }
+
+/// Whether two paths name one file.
+pub fn same_file(one: &Path, other: &Path) -> bool {
+    match (one.canonicalize(), other.canonicalize()) {
+        (Ok(one), Ok(other)) => one == other,
+        _ => one == other,
+    }
+}
+
+/// Whether a machine file may be put there: never over the files that were read, nor over anything that is
+/// not a machine file.
+pub fn may_write_machine(path: &Path, read: &[&Path], problems: &mut Diagnostics) {
+    let is_machine = |text: String| text.is_empty() || text.contains("[machine]");
+    let (message, hint) = if read.iter().any(|other| same_file(path, other)) {
+        ("is the input, which is not overwritten", "name another file: -o identified.toml")
+    } else if path.is_dir() || path.exists() && !fs::read_to_string(path).is_ok_and(is_machine) {
+        ("is there, and is not a machine file", "it is not overwritten; name another -o")
+    } else {
+        return;
+    };
+    let place = Place::whole(&path.display().to_string());
+    problems.error("unwritable-file", place, message.to_owned(), hint);
+}

@@ -1,0 +1,210 @@
+//! Which errors does the machine have?
+
+use super::{Answer, NewFile, Question, with_diagnostics};
+use crate::files::output::may_write_machine;
+use crate::report;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use trueaxis_calibrate::identify::convention::{ConventionCheck, check_conventions};
+use trueaxis_calibrate::identify::errors::{Identification, identify};
+use trueaxis_calibrate::identify::machine_file::machine_file;
+use trueaxis_calibrate::identify::records::{
+    Dropped, Options, Records, read_options, read_records_with,
+};
+use trueaxis_calibrate::measure::{Campaign, read_campaign};
+use trueaxis_calibrate::report::IdentificationReport;
+use trueaxis_input::{Diagnostics, Files, Place};
+use trueaxis_machine::file::Folder;
+use trueaxis_report::DrawingError;
+
+/// The errors of a machine from a campaign of measurements.
+#[derive(Debug, Clone, Default)]
+pub struct Identify {
+    /// The campaign: machine, instruments with their readings, what is sought.
+    pub campaign: PathBuf,
+    /// A table of readings in place of those of one instrument.
+    pub table: Option<DroppedTable>,
+    /// Where a machine file with the errors found goes.
+    pub output: Option<PathBuf>,
+    /// Whether sign, order, sense, side and unit of the readings are tried.
+    pub check_conventions: bool,
+}
+
+/// A table of readings that is not a file of the campaign.
+#[derive(Debug, Clone, Default)]
+pub struct DroppedTable {
+    /// Whose readings they are; may be left out where there is one instrument.
+    pub instrument: Option<String>,
+    /// Its name, for messages.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+}
+
+/// A campaign with its readings and what they show.
+#[derive(Debug)]
+pub struct Identified {
+    /// The campaign.
+    pub campaign: Campaign,
+    /// How it is evaluated.
+    pub options: Options,
+    /// Its readings.
+    pub records: Records,
+    /// What they show.
+    pub found: Identification,
+    conventions: Option<ConventionCheck>,
+    files: Vec<NewFile>,
+}
+
+impl Identified {
+    /// What a report shows.
+    pub fn shown(&self) -> IdentificationReport<'_> {
+        IdentificationReport {
+            campaign: &self.campaign,
+            options: &self.options,
+            records: &self.records,
+            found: &self.found,
+            conventions: self.conventions.as_ref().or(self.found.conventions.as_ref()),
+        }
+    }
+}
+
+impl Identify {
+    /// The instrument of the table in place of its own.
+    fn dropped<'a>(
+        &'a self,
+        campaign: &Campaign,
+        problems: &mut Diagnostics,
+    ) -> Option<Option<Dropped<'a>>> {
+        let Some(table) = &self.table else { return Some(None) };
+        let instrument = match (&table.instrument, campaign.instruments.len()) {
+            (None, 1) => Some(0),
+            (None, _) => None,
+            (Some(wanted), _) => campaign.instrument(wanted),
+        };
+        let Some(instrument) = instrument else {
+            let names: Vec<&str> = campaign.instruments.iter().map(|i| i.name.as_str()).collect();
+            let message = match &table.instrument {
+                None => "the instrument of these readings is not stated".to_owned(),
+                Some(wanted) => format!("the campaign has no instrument `{wanted}`"),
+            };
+            let hint = format!("one of {}", names.join(", "));
+            problems.error("unknown-instrument", Place::whole(&table.name), message, &hint);
+            return None;
+        };
+        Some(Some(Dropped { instrument, name: &table.name, text: &table.text }))
+    }
+}
+
+impl Question for Identify {
+    type Input = (Campaign, Options, Records);
+    type Answer = Identified;
+
+    fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
+        let (read, found) =
+            read_campaign(files, &self.campaign, |root, _| Some(read_options(root)));
+        problems.append(found);
+        let (campaign, options) = read?;
+        if let Some(output) = &self.output {
+            may_write_machine(output, &[&campaign.machine_path, &campaign.path], problems);
+        }
+        let dropped = self.dropped(&campaign, problems)?;
+        let records = read_records_with(&campaign, dropped, problems)?;
+        if self.check_conventions && problems.has_errors() {
+            // What does not fit may be a matter of signs: then the check is all that helps.
+            warn_of_conventions(&check(&campaign, &records), &self.campaign, problems);
+        }
+        Some((campaign, options, records))
+    }
+
+    fn answer(
+        &self,
+        (campaign, options, records): Self::Input,
+        progress: &(dyn Fn(f64) + Sync),
+        problems: &mut Diagnostics,
+    ) -> Option<Identified> {
+        progress(0.1);
+        let found = identify(&campaign, &options, &records, problems);
+        let asked = self.check_conventions && !records.readings.is_empty();
+        let conventions = asked.then(|| check(&campaign, &records));
+        let Some(found) = found.filter(|_| !problems.has_errors()) else {
+            if let Some(check) = &conventions {
+                warn_of_conventions(check, &self.campaign, problems);
+            }
+            return None;
+        };
+        let mut identified =
+            Identified { campaign, options, records, found, conventions, files: Vec::new() };
+        if let Some(output) = &self.output {
+            identified.files = machine_files(&identified, output, problems)?;
+        }
+        Some(identified)
+    }
+}
+
+fn check(campaign: &Campaign, records: &Records) -> ConventionCheck {
+    check_conventions(&campaign.design(), &records.readings)
+}
+
+/// What else the readings may mean, where they cannot be used as they stand.
+fn warn_of_conventions(check: &ConventionCheck, campaign: &Path, problems: &mut Diagnostics) {
+    let changes =
+        check.better.iter().map(trueaxis_calibrate::identify::convention::Convention::words);
+    for message in changes.chain(check.remarks.iter().cloned()) {
+        let place = Place::whole(&campaign.display().to_string());
+        problems.warn("other-convention", place, message, "is that how they were taken?");
+    }
+}
+
+/// The machine file with the errors found, and the tables that it names.
+fn machine_files(
+    identified: &Identified,
+    output: &Path,
+    problems: &mut Diagnostics,
+) -> Option<Vec<NewFile>> {
+    let Identified { campaign, options, found, .. } = identified;
+    let old = campaign.files.text(&campaign.machine_path, "the machine file", problems)?;
+    let beside = Folder::of(&campaign.files, output);
+    match machine_file(campaign, found, options.date.as_deref(), &old, &beside) {
+        Ok(made) => {
+            let table = |(name, text): &(String, String)| NewFile {
+                name: "table",
+                path: output.with_file_name(name),
+                content: text.clone().into_bytes(),
+            };
+            let mut files: Vec<NewFile> = made.tables.iter().map(table).collect();
+            let (name, path) = ("machine file", output.to_owned());
+            files.push(NewFile { name, path, content: made.text.into_bytes() });
+            Some(files)
+        }
+        Err(reason) => {
+            let message = format!("the machine file cannot be edited: {reason}");
+            let hint = "put it beside the machine file if that names tables";
+            let place = Place::whole(&output.display().to_string());
+            problems.error("unwritable-file", place, message, hint);
+            None
+        }
+    }
+}
+
+impl Answer for Identified {
+    fn document(&self, problems: &Diagnostics) -> Value {
+        with_diagnostics(report::identification_json(&self.shown()), problems)
+    }
+
+    fn text(&self) -> String {
+        report::identification_text(&self.shown())
+    }
+
+    fn page(&self) -> Result<String, DrawingError> {
+        Ok(report::identification_html(&self.shown()))
+    }
+
+    fn is_yes(&self) -> bool {
+        self.found.verdict.is_good()
+    }
+
+    fn files(&self) -> Vec<NewFile> {
+        self.files.clone()
+    }
+}

@@ -1,0 +1,101 @@
+//! What will a measurement show, and how is it run?
+
+use super::{Answer, NewFile, Question, in_folder, named_control};
+use crate::report;
+use serde_json::Value;
+use std::path::PathBuf;
+use trueaxis_calibrate::plan::{
+    Chosen, Expectation, Plan, PlanReport, PlannedPath, chosen, planned, read_plan,
+};
+use trueaxis_calibrate::unknowns::design::Design;
+use trueaxis_input::{Diagnostics, Files};
+use trueaxis_nc::Control;
+use trueaxis_report::DrawingError;
+
+/// What each path of a campaign shows, its programs, the most informative poses.
+#[derive(Debug, Clone)]
+pub struct PlanMeasurement {
+    /// The campaign: machine, unknowns, instruments, paths.
+    pub campaign: PathBuf,
+    /// The control of the programs, by its name.
+    pub control: String,
+    /// The folder for one program and one table of poses per path.
+    pub output: Option<PathBuf>,
+}
+
+/// A plan worked out.
+#[derive(Debug)]
+pub struct PlanAnswer {
+    plan: Plan,
+    design: Design,
+    expectation: Expectation,
+    paths: Vec<PlannedPath>,
+    chosen: Option<Chosen>,
+    output: Option<PathBuf>,
+}
+
+impl PlanAnswer {
+    /// What a report shows.
+    pub fn shown(&self) -> PlanReport<'_> {
+        PlanReport {
+            plan: &self.plan,
+            design: &self.design,
+            expectation: self.expectation.clone(),
+            paths: self.paths.clone(),
+            chosen: self.chosen.clone(),
+        }
+    }
+}
+
+impl Question for PlanMeasurement {
+    type Input = (Plan, Control);
+    type Answer = PlanAnswer;
+
+    fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
+        let (plan, found) = read_plan(files, &self.campaign);
+        problems.append(found);
+        let control = named_control(&self.control, problems);
+        plan.zip(control)
+    }
+
+    fn answer(
+        &self,
+        (plan, control): Self::Input,
+        progress: &(dyn Fn(f64) + Sync),
+        problems: &mut Diagnostics,
+    ) -> Option<PlanAnswer> {
+        progress(0.1);
+        let chosen = chosen(&plan, problems);
+        if problems.has_errors() {
+            return None;
+        }
+        let design = plan.campaign.design();
+        let PlanReport { expectation, paths, chosen, .. } =
+            planned(&plan, &design, chosen, control);
+        let output = self.output.clone();
+        Some(PlanAnswer { plan, design, expectation, paths, chosen, output })
+    }
+}
+
+impl Answer for PlanAnswer {
+    fn document(&self, _: &Diagnostics) -> Value {
+        report::plan_json(&self.shown())
+    }
+
+    fn text(&self) -> String {
+        report::plan_text(&self.shown())
+    }
+
+    fn page(&self) -> Result<String, DrawingError> {
+        Ok(report::plan_html(&self.shown()))
+    }
+
+    fn is_yes(&self) -> bool {
+        self.paths.iter().all(|p| p.check.as_ref().is_ok_and(|c| c.is_sound()))
+    }
+
+    fn files(&self) -> Vec<NewFile> {
+        let files = self.paths.iter().flat_map(|path| &path.files);
+        in_folder(self.output.as_deref(), files.cloned())
+    }
+}

@@ -1,0 +1,130 @@
+//! Where are the rotary centres?
+
+use super::{Answer, NewFile, Question, with_diagnostics};
+use crate::files::output::may_write_machine;
+use crate::report;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use trueaxis_calibrate::identify::rtcp::forecast::{Forecast, forecast};
+use trueaxis_calibrate::identify::rtcp::{
+    Calibration, Purpose, RtcpStudy, calibrate, machine_file, place_of, read_rtcp,
+};
+use trueaxis_calibrate::report::RtcpReport;
+use trueaxis_calibrate::unknowns::fit::FitError;
+use trueaxis_input::{Diagnostics, Files, Place};
+use trueaxis_machine::file::Folder;
+
+/// The rotary centres for RTCP, from indicator or probe readings at turned poses.
+#[derive(Debug, Clone, Default)]
+pub struct IdentifyRtcp {
+    /// The study: machine, control, readings.
+    pub study: PathBuf,
+    /// Where a machine file with the centres found goes.
+    pub output: Option<PathBuf>,
+}
+
+/// A study with the centres found.
+#[derive(Debug)]
+pub struct RtcpAnswer {
+    study: RtcpStudy,
+    found: Calibration,
+    forecast: Option<Forecast>,
+    files: Vec<NewFile>,
+}
+
+impl RtcpAnswer {
+    fn shown(&self) -> RtcpReport<'_> {
+        RtcpReport { study: &self.study, found: &self.found, forecast: self.forecast.as_ref() }
+    }
+}
+
+impl Question for IdentifyRtcp {
+    type Input = (RtcpStudy, Files);
+    type Answer = RtcpAnswer;
+
+    fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
+        let (study, found) = read_rtcp(files, &self.study, Purpose::Result);
+        problems.append(found);
+        let study = study?;
+        if let Some(output) = &self.output {
+            may_write_machine(output, &[&study.machine_path, &study.path], problems);
+        }
+        Some((study, files.clone()))
+    }
+
+    fn answer(
+        &self,
+        (study, files): Self::Input,
+        _: &(dyn Fn(f64) + Sync),
+        problems: &mut Diagnostics,
+    ) -> Option<RtcpAnswer> {
+        let found = match calibrate(&study) {
+            Ok(found) => found,
+            Err(error) => {
+                refuse(&study, &error, problems);
+                return None;
+            }
+        };
+        let files = match &self.output {
+            Some(output) => vec![changed_machine(&files, &study, &found, output, problems)?],
+            None => Vec::new(),
+        };
+        let forecast = forecast(&study, &found);
+        Some(RtcpAnswer { study, found, forecast, files })
+    }
+}
+
+fn refuse(study: &RtcpStudy, error: &FitError, problems: &mut Diagnostics) {
+    let (place, hint) = match error {
+        FitError::Outside { row, .. } => (
+            place_of(study, *row),
+            "errors = \"none\" leaves out what the machine file states besides the centres",
+        ),
+        _ => {
+            let file = study.path.display().to_string();
+            (Place::whole(&file), "readings at turned poses, with the right units")
+        }
+    };
+    problems.error("no-result", place, error.to_string(), hint);
+}
+
+/// The machine file with the centres that were found.
+fn changed_machine(
+    files: &Files,
+    study: &RtcpStudy,
+    found: &Calibration,
+    output: &Path,
+    problems: &mut Diagnostics,
+) -> Option<NewFile> {
+    let old = files.text(&study.machine_path, "the machine file", problems)?;
+    match machine_file(study, found, &old, &Folder::of(files, output)) {
+        Ok(text) => {
+            let (name, path) = ("machine file", output.to_owned());
+            Some(NewFile { name, path, content: text.into_bytes() })
+        }
+        Err(reason) => {
+            let hint = "put it beside the machine file if that names tables";
+            let place = Place::whole(&output.display().to_string());
+            problems.error("unwritable-file", place, reason, hint);
+            None
+        }
+    }
+}
+
+impl Answer for RtcpAnswer {
+    fn document(&self, problems: &Diagnostics) -> Value {
+        with_diagnostics(report::rtcp_json(&self.shown()), problems)
+    }
+
+    fn text(&self) -> String {
+        report::rtcp_text(&self.shown())
+    }
+
+    fn is_yes(&self) -> bool {
+        self.found.is_good()
+    }
+
+    fn files(&self) -> Vec<NewFile> {
+        self.files.clone()
+    }
+}

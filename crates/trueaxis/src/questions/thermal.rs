@@ -1,0 +1,68 @@
+//! How does an error follow temperatures?
+
+use super::{Answer, Question, with_diagnostics};
+use crate::report;
+use serde_json::Value;
+use std::path::PathBuf;
+use trueaxis_calibrate::identify::thermal::{Logs, ThermalModel, identify_thermal, read_logs};
+use trueaxis_input::{Diagnostics, Files, Place};
+use trueaxis_report::DrawingError;
+
+/// A linear model of an error that drifts with temperatures, from logs of whole cycles.
+#[derive(Debug, Clone, Default)]
+pub struct IdentifyThermal {
+    /// The study: logs, displacement, candidate sensors.
+    pub study: PathBuf,
+}
+
+/// The logs with their model.
+#[derive(Debug)]
+pub struct ThermalAnswer {
+    /// The logs.
+    pub logs: Logs,
+    /// The model, or why there is none.
+    pub model: ThermalModel,
+}
+
+impl Question for IdentifyThermal {
+    type Input = Logs;
+    type Answer = ThermalAnswer;
+
+    fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Logs> {
+        let (logs, found) = read_logs(files, &self.study);
+        problems.append(found);
+        logs
+    }
+
+    fn answer(
+        &self,
+        logs: Logs,
+        _: &(dyn Fn(f64) + Sync),
+        problems: &mut Diagnostics,
+    ) -> Option<ThermalAnswer> {
+        let model = identify_thermal(&logs);
+        for warning in &model.warnings {
+            let place = Place::whole(&self.study.display().to_string());
+            problems.warn("identification", place, warning.clone(), "");
+        }
+        Some(ThermalAnswer { logs, model })
+    }
+}
+
+impl Answer for ThermalAnswer {
+    fn document(&self, problems: &Diagnostics) -> Value {
+        with_diagnostics(report::thermal_json(&self.logs, &self.model), problems)
+    }
+
+    fn text(&self) -> String {
+        report::thermal_text(&self.logs, &self.model)
+    }
+
+    fn page(&self) -> Result<String, DrawingError> {
+        report::thermal_html(&self.logs, &self.model)
+    }
+
+    fn is_yes(&self) -> bool {
+        self.model.refusal.is_none()
+    }
+}
