@@ -1,4 +1,4 @@
-//! Errors that the control compensates already.
+//! Errors that are already compensated in the control.
 
 use crate::Machine;
 use crate::errors::ErrorName;
@@ -14,12 +14,12 @@ pub(crate) fn read_active(section: &Section<'_>) -> Vec<ErrorName> {
         match ErrorName::parse(text) {
             Some(name) if !names.contains(&name) => names.push(name),
             Some(name) => {
-                let message = format!("{name} is named twice");
+                let message = format!("{name} occurs twice in the list");
                 item.error("duplicate-error", message, "keep one of them");
             }
             None => {
-                let message = format!("`{text}` is no error of ISO 230-1");
-                item.error("unknown-error-name", message, "such as EXX, EAA, EC0Y");
+                let message = format!("`{text}` is not the name of an error of ISO 230-1");
+                item.error("unknown-error-name", message, "write a name such as EXX, EAA or EC0Y");
             }
         }
     }
@@ -27,12 +27,12 @@ pub(crate) fn read_active(section: &Section<'_>) -> Vec<ErrorName> {
 }
 
 impl Machine {
-    /// The errors that the control compensates already, by the machine file.
+    /// The errors that are already compensated in the control, as stated in the machine file.
     pub fn active_compensation(&self) -> &[ErrorName] {
         &self.active
     }
 
-    /// The machine as the programs meet it while these compensations are on: without their errors.
+    /// The machine while these compensations are switched on: without their errors.
     ///
     /// ```
     /// use trueaxis_machine::{Machine, file::NoTables};

@@ -11,24 +11,24 @@ pub const MAX_AXES: usize = 6;
 /// entries are 0.
 pub type Command = [f64; MAX_AXES];
 
-/// From which side each position is reached: +1 rising, −1 falling, 0 not known (mean of both).
+/// The side from which each position is approached: +1 rising, −1 falling, 0 unknown (mean of both).
 pub type Approach = [f64; MAX_AXES];
 
-/// What an axis carries on its side of the chain.
+/// The side of the chain on which an axis is, as seen from the bed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Carries {
-    /// The workpiece: written with a prime (`C'`).
+pub enum AxisSide {
+    /// It carries the workpiece; written with a prime (`C'`).
     Workpiece,
-    /// The tool.
+    /// It carries the tool.
     Tool,
 }
 
-/// How far an axis can go, mm or rad.
+/// The travel of an axis, mm or rad.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Travel {
-    /// Between two ends.
+    /// Between two ends, in rising order.
     Between(f64, f64),
-    /// Rotary without end.
+    /// A rotary axis without ends.
     Unlimited,
     /// Not stated in the machine file.
     Unknown,
@@ -47,7 +47,7 @@ impl Travel {
     }
 }
 
-/// The greatest velocity, acceleration and jerk, where stated; mm or rad, and s.
+/// Maximum velocity, acceleration and jerk, where stated; mm or rad, and s.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Limits {
     /// mm/s or rad/s.
@@ -63,17 +63,17 @@ pub struct Limits {
 pub struct Axis {
     /// Its ISO 841 letter.
     pub name: BodyName,
-    /// Straight or turning.
+    /// Linear or rotary.
     pub kind: AxisKind,
     /// Unit vector of the positive direction, in the frame of its body at zero.
     pub direction: Vec3,
-    /// What it carries.
-    pub carries: Carries,
+    /// Whether it carries the workpiece or the tool.
+    pub carries: AxisSide,
     /// +1 if a positive command moves the *body* in the positive direction, else −1.
     pub sense: f64,
-    /// How far it goes.
+    /// The range of its positions.
     pub travel: Travel,
-    /// How fast it goes.
+    /// Its dynamic limits.
     pub limits: Limits,
 }
 
@@ -81,10 +81,10 @@ pub struct Axis {
 /// positive direction, so an axis that carries the workpiece moves it the other way.
 ///
 /// This is the only place where that sign is made.
-pub fn iso_841_sense(carries: Carries) -> f64 {
+pub fn iso_841_sense(carries: AxisSide) -> f64 {
     match carries {
-        Carries::Tool => 1.0,
-        Carries::Workpiece => -1.0,
+        AxisSide::Tool => 1.0,
+        AxisSide::Workpiece => -1.0,
     }
 }
 

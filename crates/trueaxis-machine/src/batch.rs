@@ -6,11 +6,11 @@
 //! ```
 //!
 //! Same result as [`Machine::deviation`], to 1e-9 mm on nominal tips and 1e-12 mm on deviations:
-//! the differences travel beside the nominal vectors here too, and no order of smallness is
+//! the differences are propagated along with the nominal vectors, and no order of smallness is
 //! neglected. What the compiled form does not cover (small-angle model, squareness of the direction
 //! only, error motions above [`LARGEST_TURN_RAD`], commands beyond 10⁴ rad or beyond an extended
 //! table) is computed pose by pose with the machine itself, so every machine and every command has
-//! an answer.
+//! a result.
 //!
 //! A pose's numbers depend on nothing but its own command: not on its neighbours, not on the
 //! number of threads.
@@ -43,11 +43,11 @@ use trueaxis_geometry::Vec3;
 /// Poses that one task of a parallel batch computes at least.
 const TASK_POSES: usize = 8192;
 
-/// Why a batch has no result.
+/// The reason why a batch has no result.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum BatchError {
     /// Not one column of commands per axis.
-    #[error("the machine has {expected} axes, the batch {found} columns")]
+    #[error("the batch has {found} columns, but the machine has {expected} axes")]
     Columns {
         /// Axes of the machine.
         expected: usize,
@@ -55,7 +55,7 @@ pub enum BatchError {
         found: usize,
     },
     /// Columns of different lengths.
-    #[error("a batch of {expected} poses has a column of {found}")]
+    #[error("a column has {found} rows, but the batch has {expected} poses")]
     Lengths {
         /// Entries of the first column of commands.
         expected: usize,
@@ -73,11 +73,11 @@ pub enum BatchError {
     Refused {
         /// The first such pose, counted from 0.
         index: usize,
-        /// Why.
+        /// The reason.
         source: CommandFault,
     },
-    /// The processor lacks the instructions asked for.
-    #[error("this processor lacks {0:?}")]
+    /// The processor does not support the required instructions.
+    #[error("this processor does not support {0:?}")]
     Unavailable(InstructionSet),
 }
 
@@ -91,7 +91,7 @@ impl BatchError {
     }
 }
 
-/// Which vector instructions compute the batch.
+/// The vector instructions that compute the batch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum InstructionSet {
     /// Whatever the compiler makes of plain loops.
@@ -106,7 +106,7 @@ impl InstructionSet {
     /// All of them, slowest first.
     pub const ALL: [Self; 3] = [Self::Portable, Self::Avx2, Self::Avx512];
 
-    /// Whether this processor has it.
+    /// Whether this processor supports it.
     pub fn is_available(self) -> bool {
         match self {
             Self::Portable => true,
@@ -119,7 +119,7 @@ impl InstructionSet {
         }
     }
 
-    /// The fastest that this processor has.
+    /// The fastest that this processor supports.
     pub fn best() -> Self {
         Self::ALL.into_iter().rev().find(|set| set.is_available()).unwrap_or(Self::Portable)
     }
@@ -185,8 +185,8 @@ impl CompiledMachine {
 
     /// The deviation of every pose, on the calling thread.
     ///
-    /// Allocates nothing. After an error the columns hold the poses before the first bad one and
-    /// anything behind it.
+    /// Allocates nothing. After an error the columns hold the poses before the first bad one; the
+    /// rows after it are undefined.
     ///
     /// # Errors
     /// Columns that do not fit; the first pose outside an error table that has no value there, or
@@ -202,7 +202,7 @@ impl CompiledMachine {
     /// The same with given vector instructions, for tests and benches.
     ///
     /// # Errors
-    /// As [`CompiledMachine::deviations`]; instructions that this processor lacks.
+    /// As [`CompiledMachine::deviations`]; instructions that this processor does not support.
     pub fn deviations_by(
         &self,
         set: InstructionSet,

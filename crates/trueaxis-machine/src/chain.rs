@@ -1,4 +1,4 @@
-//! The chain: what stands on what, and the pose of the tool in the workpiece.
+//! The kinematic chain of bodies, and the pose of the tool in the workpiece frame.
 //!
 //! One link, the only place where errors enter (docs/model.md eq. 1):
 //!
@@ -7,9 +7,8 @@
 //!     parent_from_link = P · Λ · E(q) · J(q) · M         rotary in the fixed frame (ISO 230-7)
 //! ```
 //!
-//! P placement, Λ location errors, J nominal motion, E error motions, M mounting (fixed, behind
-//! the motion; identity for axes). The order of the steps between P and M stands in `chain/rule.rs`
-//! and nowhere else.
+//! P placement, Λ location errors, J nominal motion, E error motions, M mounting (fixed, after the
+//! motion; identity for axes). The order of the steps between P and M is defined in `chain/rule.rs`.
 
 mod rule;
 
@@ -18,13 +17,13 @@ pub(crate) use rule::Step;
 use crate::axis::{Approach, Axis, AxisKind, Command};
 use crate::errors::{
     BodyErrors, BodyName, Component, Curve, ErrorIndex, ErrorKind, ErrorName, ErrorValues,
-    OutsideTable, Rotation, Six, StatedError, Uncertainties,
+    OutsideTable, Rotation, SixErrors, StatedError, Uncertainties,
 };
 use crate::heat::{HeatModel, ThermalTerm, WorkpieceGrowth};
 use trueaxis_geometry::frame::{Bed, Body, Pose, Tool, Workpiece, rotation};
 use trueaxis_geometry::{Mat3, Vec3};
 
-/// A pose between two bodies of the chain; which two stands in the variable's name.
+/// A pose between two bodies of the chain; the name of the variable states which two.
 pub type Link = Pose<Body, Body>;
 
 /// In which frame the error motions of a rotary axis are stated.
@@ -37,22 +36,22 @@ pub enum ErrorFrame {
     Moving,
 }
 
-/// What the squareness of a linear axis turns.
+/// The bodies that the squareness of a linear axis rotates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Squareness {
-    /// Everything that the axis carries (document 000).
+    /// Everything that the axis carries (Wu et al. 2022).
     #[default]
     Carried,
     /// The direction of motion only.
     Direction,
 }
 
-/// How small errors enter the chain.
+/// The model by which errors enter the chain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ErrorModel {
     /// Exact rotations or the papers' small angles.
     pub rotation: Rotation,
-    /// What a squareness turns.
+    /// The bodies that a squareness rotates.
     pub squareness: Squareness,
 }
 
@@ -61,19 +60,19 @@ pub struct ErrorModel {
 pub struct ChainBody {
     /// Its name.
     pub name: BodyName,
-    /// P: its place on its predecessor (towards the bed) at zero, without errors.
+    /// P: its pose on its parent (towards the bed) at zero, without errors.
     pub placement: Link,
     /// Index of its axis in [`Machine::axes`]; `None` for the workpiece and the tool.
     pub axis: Option<usize>,
     /// Frame of its error motions.
     pub error_frame: ErrorFrame,
-    /// M: what stands on it fixed, behind motion and errors (fixture, part zero).
+    /// M: the fixed pose after motion and errors (fixture, part zero).
     pub mounting: Link,
     /// Stated location errors, X Y Z A B C.
     pub location: [Option<StatedError>; 6],
     /// Stated error motions, X Y Z A B C.
     pub motion: [Option<StatedError>; 6],
-    /// What the present temperatures add; empty without conditions ([`Machine::at`]).
+    /// The thermal parts of its errors; empty without conditions ([`Machine::at`]).
     pub thermal: Vec<ThermalTerm>,
 }
 
@@ -109,7 +108,7 @@ pub struct Machine {
     pub(crate) axes: Vec<Axis>,
     /// From the workpiece to the tool.
     pub(crate) bodies: Vec<ChainBody>,
-    /// How many of them stand between the workpiece and the bed, the workpiece included.
+    /// The number of bodies between workpiece and bed, the workpiece included.
     pub(crate) workpiece_side: usize,
     pub(crate) model: ErrorModel,
     /// The tip in the frame of the tool, mm.
@@ -117,7 +116,7 @@ pub struct Machine {
     pub(crate) tools: Vec<crate::tool::ToolAssembly>,
     pub(crate) models: Vec<crate::models::Model>,
     pub(crate) heat: HeatModel,
-    /// How the workpiece has grown, if it is not at 20 °C.
+    /// The thermal growth of the workpiece, if it is not at 20 °C.
     pub(crate) growth: Option<WorkpieceGrowth>,
     /// Errors that the control compensates.
     pub(crate) active: Vec<ErrorName>,
@@ -126,27 +125,27 @@ pub struct Machine {
 /// α_w among the uncertain quantities.
 const WORKPIECE_EXPANSION: &str = "expansion of the workpiece";
 
-/// Commands beyond 10¹² mm or rad are mistakes (as every quantity of a file is), and their powers
-/// no numbers.
+/// Commands beyond 10¹² mm or rad are mistakes, as for the quantities of a file, and powers of them
+/// overflow.
 const LARGEST_COMMAND: f64 = 1e12;
 
-/// Why a machine has no errors at a command.
+/// The reason why the errors of a machine are not defined at a command.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CommandFault {
-    /// The command is no number that an axis could take.
-    #[error("{axis} is commanded to {at}, which is no position")]
+    /// The command is not a finite number or exceeds 10¹² mm or rad.
+    #[error("the commanded position {at} of {axis} is not a finite number")]
     NotFinite {
         /// The axis.
         axis: BodyName,
         /// The command, mm or rad.
         at: f64,
     },
-    /// The command lies where an error table says nothing.
+    /// The command lies outside an error table that is not extended.
     #[error("{}", table_left(.name, .source))]
     TableLeft {
-        /// The error whose table ends.
+        /// The error of that table.
         name: ErrorName,
-        /// Where.
+        /// The position and the range of the table.
         source: OutsideTable,
     },
 }
@@ -168,7 +167,7 @@ impl Machine {
         &self.name
     }
 
-    /// Where its data come from.
+    /// The source of its data, as stated in the machine file.
     pub fn source(&self) -> &str {
         &self.source
     }
@@ -183,12 +182,12 @@ impl Machine {
         &self.bodies
     }
 
-    /// How many of [`Machine::bodies`] stand on the workpiece side of the bed.
+    /// The number of [`Machine::bodies`] on the workpiece side of the bed.
     pub fn workpiece_side(&self) -> usize {
         self.workpiece_side
     }
 
-    /// How errors enter.
+    /// The model by which errors enter.
     pub fn model(&self) -> ErrorModel {
         self.model
     }
@@ -203,7 +202,7 @@ impl Machine {
         &self.tools
     }
 
-    /// The models that stand on its nodes, in the order of the machine file.
+    /// The solid models of its bodies, in the order of the machine file.
     pub fn models(&self) -> &[crate::models::Model] {
         &self.models
     }
@@ -214,8 +213,8 @@ impl Machine {
         self
     }
 
-    /// The same machine with the workpiece elsewhere: its place on its parent, and the fixed pose
-    /// of the part zero behind the errors of the mounting.
+    /// The same machine with the workpiece elsewhere: its placement on its parent, and the fixed
+    /// pose of the part zero after the errors of the mounting.
     pub fn with_workpiece(mut self, placement: Link, mounting: Link) -> Self {
         self.bodies[0].placement = placement;
         self.bodies[0].mounting = mounting;
@@ -352,7 +351,7 @@ impl Machine {
         all
     }
 
-    /// What grows at the present temperatures though nobody says how well its coefficient is known.
+    /// Bodies that expand at the present temperatures and whose coefficient has no stated uncertainty.
     pub fn coefficients_without_u(&self) -> Vec<String> {
         let mut names = Vec::new();
         for body in &self.bodies {
@@ -458,7 +457,7 @@ impl Machine {
         let body = &self.bodies[i];
         let joint = body.axis.map(|axis| (&self.axes[axis], command[axis]));
         // Most errors of a machine are zero: then there is no product.
-        let displaced = |place: Link, six: &Six| match six.is_zero() {
+        let displaced = |place: Link, six: &SixErrors| match six.is_zero() {
             true => place,
             false => place * self.error_pose(six),
         };
@@ -477,7 +476,7 @@ impl Machine {
     }
 
     /// `shift(EX, EY, EZ) · turn(EA, EB, EC)`.
-    fn error_pose(&self, six: &Six) -> Link {
+    fn error_pose(&self, six: &SixErrors) -> Link {
         let linear = Mat3::identity() + six.rotation_minus_identity(self.model.rotation);
         Pose::new(linear, six.shift_mm())
     }

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! The errors are those at q_c, not at q, and J is the Jacobian of the machine *with* its errors and
-//! their slopes, so that each step squares what is left: about three evaluations of the chain.
+//! their slopes, so that each step squares the residual error: about three evaluations of the chain.
 //!
 //! The rotary axes take the smallest motion that turns the tool axis back, then the linear axes
 //! bring the tip to its place. It knows nothing of NC programs.
@@ -45,11 +45,11 @@ const MOST_EVALUATIONS: u32 = 12;
 /// than 1 m of an axis.
 pub(crate) const FLAT: f64 = 1e-3;
 
-/// No rotary axis moves by more than so many times the deviation of the tool axis, unless told
-/// otherwise: the tool axis is then at least 0.57° away from the rotary axis that would swing.
+/// Default limit for the motion of a rotary axis, in multiples of the deviation of the tool axis:
+/// the tool axis is then at least 0.57° away from the rotary axis that would move.
 pub const MOST_SWING: f64 = 100.0;
 
-/// Nobody can ask for more: nearer to the pole an angle has too few digits.
+/// Largest accepted limit: nearer to the pole an angle has too few digits.
 const LARGEST_SWING: f64 = 1e6;
 
 /// What of the pose is compensated.
@@ -62,19 +62,19 @@ pub enum Scope {
     Position,
 }
 
-/// Why the tool axis keeps (a part of) its deviation.
+/// The reason why (a part of) the deviation of the tool axis is not compensated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum AxisLeft {
-    /// [`Scope::Position`] asks for it.
+pub enum AxisLimitation {
+    /// Only the position is compensated ([`Scope::Position`]).
     PositionOnly,
     /// Fewer than two rotary axes cannot turn the tool axis in both directions; none is moved.
     FewRotaryAxes,
-    /// The tool axis is (nearly) along this rotary axis, which would have to swing far beyond the
-    /// size of the error.
+    /// The tool axis is (nearly) along this rotary axis, which would have to turn by a multiple of
+    /// the error.
     Pole(BodyName),
 }
 
-impl fmt::Display for AxisLeft {
+impl fmt::Display for AxisLimitation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::PositionOnly => write!(f, "only the position is compensated"),
@@ -83,7 +83,7 @@ impl fmt::Display for AxisLeft {
             }
             Self::Pole(axis) => write!(
                 f,
-                "the tool axis is along {axis}, which would swing far beyond the size of the error"
+                "the tool axis is along {axis}, which would have to turn by a multiple of the error"
             ),
         }
     }
@@ -91,20 +91,20 @@ impl fmt::Display for AxisLeft {
 
 /// A compensated pose.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Compensated {
-    /// The command to give to the machine; axes that are not needed keep theirs.
+pub struct CompensatedPose {
+    /// The compensated command; axes that are not needed keep their position.
     pub command: Command,
-    /// The programmed pose, and what the machine misses it by at the *programmed* command.
+    /// The programmed pose, and the deviation from it at the *programmed* command.
     pub before: Deviation,
-    /// The programmed pose, and what the machine misses it by at [`Compensated::command`].
-    pub left: Deviation,
-    /// Why the tool axis is not (fully) corrected; `None` if it is.
-    pub axis_left: Option<AxisLeft>,
-    /// How often the chain was evaluated, the first time at the programmed command.
+    /// The programmed pose, and the residual deviation from it at [`CompensatedPose::command`].
+    pub residual: Deviation,
+    /// The reason why the tool axis is not (fully) compensated; `None` if it is.
+    pub axis_limitation: Option<AxisLimitation>,
+    /// Number of evaluations of the chain, the first at the programmed command.
     pub evaluations: u32,
 }
 
-/// A machine made ready to be compensated, pose by pose.
+/// The compensation of a machine, pose by pose.
 ///
 /// # Example
 /// ```
@@ -121,7 +121,7 @@ pub struct Compensated {
 /// assert!((done.before.tip_mm.x + 0.005).abs() < 1e-9);
 /// assert!((done.command[0] - 0.005).abs() < 1e-9);
 /// assert!((done.command[1] - 500.0).abs() < 1e-7);
-/// assert!(done.left.tip_mm.norm() < 1e-9);
+/// assert!(done.residual.tip_mm.norm() < 1e-9);
 /// # Ok::<(), trueaxis_machine::compensate::Fault>(())
 /// ```
 #[derive(Debug, Clone)]
@@ -138,7 +138,7 @@ pub struct Compensator {
 struct Trial {
     command: Command,
     errors: ErrorValues,
-    left: Deviation,
+    residual: Deviation,
 }
 
 /// How the tool moves from there.
@@ -211,25 +211,31 @@ impl Compensator {
     ///
     /// `approach` says from which side each axis reaches its position (a correction of micrometres
     /// does not change that). The tip is exact to 1e-10 mm, the tool axis to 1e-13 unless
-    /// [`Compensated::axis_left`] says why it is not.
+    /// [`CompensatedPose::axis_limitation`] says why it is not.
     ///
     /// # Errors
     /// An axis that would pass its travel, a command outside an error table; see [`Fault`].
-    pub fn at(&self, command: &Command, approach: &Approach) -> Result<Compensated, Fault> {
+    pub fn at(&self, command: &Command, approach: &Approach) -> Result<CompensatedPose, Fault> {
         let errors = self.machine.errors_at(command, approach)?;
         let before = self.machine.deviation(command, &errors);
-        let mut now = Trial { command: *command, errors, left: before };
-        let (mut freedom, mut axis_left) = self.intent();
+        let mut now = Trial { command: *command, errors, residual: before };
+        let (mut freedom, mut axis_limitation) = self.intent();
         for evaluations in 1..=MOST_EVALUATIONS {
             if self.is_met(&now, &freedom) {
-                let (command, left) = (now.command, now.left);
+                let (command, residual) = (now.command, now.residual);
                 self.within_travel(&command)?;
-                let axis_left = axis_left.filter(|_| left.axis.norm() > MET_RAD);
-                return Ok(Compensated { command, before, left, axis_left, evaluations });
+                let axis_limitation = axis_limitation.filter(|_| residual.axis.norm() > MET_RAD);
+                return Ok(CompensatedPose {
+                    command,
+                    before,
+                    residual,
+                    axis_limitation,
+                    evaluations,
+                });
             }
             let view = self.view(&now, approach)?;
             if let (1, Freedom::Both) = (evaluations, &freedom) {
-                (freedom, axis_left) = self.freedom(&view);
+                (freedom, axis_limitation) = self.freedom(&view);
             }
             let next = self.step(&now, &view, &freedom, evaluations == 1);
             now = self.trial(next, approach, &before).map_err(|fault| match fault {
@@ -244,19 +250,19 @@ impl Compensator {
     }
 
     /// How the rotary axes shall serve wherever they can, and why not.
-    fn intent(&self) -> (Freedom, Option<AxisLeft>) {
+    fn intent(&self) -> (Freedom, Option<AxisLimitation>) {
         match (self.scope, self.rotary.len()) {
-            (Scope::Position, _) => (Freedom::None, Some(AxisLeft::PositionOnly)),
-            (Scope::Pose, 0 | 1) => (Freedom::None, Some(AxisLeft::FewRotaryAxes)),
+            (Scope::Position, _) => (Freedom::None, Some(AxisLimitation::PositionOnly)),
+            (Scope::Pose, 0 | 1) => (Freedom::None, Some(AxisLimitation::FewRotaryAxes)),
             (Scope::Pose, _) => (Freedom::Both, None),
         }
     }
 
     /// How they can here, and why not fully.
-    fn freedom(&self, view: &View) -> (Freedom, Option<AxisLeft>) {
+    fn freedom(&self, view: &View) -> (Freedom, Option<AxisLimitation>) {
         let turns = Turns::of(&view.turning, &self.rotary, view.axis);
         let (freedom, swinging) = turns.freedom(view.missed, self.most_swing);
-        (freedom, swinging.map(|i| AxisLeft::Pole(self.machine.axes[i].name)))
+        (freedom, swinging.map(|i| AxisLimitation::Pole(self.machine.axes[i].name)))
     }
 
     /// The Jacobian at a command; the linear axes follow the tip, and turn the tool a little.
@@ -267,20 +273,20 @@ impl Compensator {
         for &i in &self.rotary {
             turning[i] -= placing.turned(&columns, columns.tip[i]);
         }
-        let missed = at.left.axis - placing.turned(&columns, at.left.tip_mm);
-        let axis = at.left.nominal_axis.vector();
+        let missed = at.residual.axis - placing.turned(&columns, at.residual.tip_mm);
+        let axis = at.residual.nominal_axis.vector();
         Ok(View { tip: columns.tip, turning, placing, axis, missed })
     }
 
     fn is_met(&self, at: &Trial, freedom: &Freedom) -> bool {
         let angle = match freedom {
             Freedom::None => 0.0,
-            Freedom::Both => at.left.axis.norm(),
-            Freedom::One { along, .. } => along.dot(&at.left.axis).abs(),
+            Freedom::Both => at.residual.axis.norm(),
+            Freedom::One { along, .. } => along.dot(&at.residual.axis).abs(),
         };
         // After many turns an angle has fewer digits.
         let largest = self.rotary.iter().fold(0.0_f64, |m, &i| m.max(at.command[i].abs()));
-        at.left.tip_mm.norm() <= MET_MM && angle <= MET_RAD + 4.0 * f64::EPSILON * largest
+        at.residual.tip_mm.norm() <= MET_MM && angle <= MET_RAD + 4.0 * f64::EPSILON * largest
     }
 
     /// One step of Newton's method; the first one carries what is done once.
@@ -298,7 +304,7 @@ impl Compensator {
                 std::array::from_fn(|i| motion[i] * by + once * damped[i])
             }
         };
-        let (mut missing, mut next) = (at.left.tip_mm, at.command);
+        let (mut missing, mut next) = (at.residual.tip_mm, at.command);
         for &i in &self.rotary {
             missing += view.tip[i] * turned[i];
             next[i] += turned[i];
@@ -322,8 +328,8 @@ impl Compensator {
         })?;
         let here = self.machine.deviation(&command, &errors);
         let (tip, axis) = (wanted.nominal_tip, wanted.nominal_axis);
-        let left = missed(&here, tip, axis);
-        Ok(Trial { command, errors, left })
+        let residual = missed(&here, tip, axis);
+        Ok(Trial { command, errors, residual })
     }
 
     fn within_travel(&self, command: &Command) -> Result<(), Fault> {
@@ -338,7 +344,7 @@ impl Compensator {
 }
 
 fn not_converged(at: &Trial, evaluations: u32) -> Fault {
-    Fault::NotConverged { evaluations, tip_mm: at.left.tip_mm.norm() }
+    Fault::NotConverged { evaluations, tip_mm: at.residual.tip_mm.norm() }
 }
 
 /// Reached minus wanted pose.

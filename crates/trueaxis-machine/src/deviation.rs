@@ -13,11 +13,12 @@
 
 use crate::axis::Command;
 use crate::chain::{Link, Machine, Step, nominal_motion};
-use crate::errors::{BodyErrors, ErrorValues, Rotation, Six};
+use crate::errors::{BodyErrors, ErrorValues, Rotation, SixErrors};
 use trueaxis_geometry::frame::{Direction, Point, Workpiece, inverse3};
 use trueaxis_geometry::{Mat3, Vec3};
 
-/// Nominal tool in the workpiece, and how far the actual one is from it: what the part feels.
+/// Nominal tool in the workpiece frame, and the deviation of the actual one from it: the deviation
+/// that the part is subject to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deviation {
     /// Nominal tip.
@@ -30,8 +31,8 @@ pub struct Deviation {
     pub axis: Vec3,
 }
 
-/// A vector and its deviation on their way through the chain; `place` is 1 for a point, 0 for a
-/// direction, which feels no shift.
+/// A vector and its deviation, propagated through the chain; `place` is 1 for a point, 0 for a
+/// direction, which does not change with a shift.
 #[derive(Clone, Copy)]
 struct Traveller {
     nominal: Vec3,
@@ -108,7 +109,7 @@ impl Machine {
         mut travellers: [&mut Traveller; 2],
     ) {
         let body = &self.bodies[i];
-        let turn = |six: &Six| six.rotation_minus_identity(self.model.rotation);
+        let turn = |six: &SixErrors| six.rotation_minus_identity(self.model.rotation);
         let joint = self.nominal_joint(i, command);
         for t in &mut travellers {
             t.forward(&body.mounting);
@@ -143,7 +144,7 @@ impl Machine {
         mut travellers: [&mut Traveller; 2],
     ) {
         let body = &self.bodies[i];
-        let back = |six: &Six| self.inverse_turn_minus_identity(six);
+        let back = |six: &SixErrors| self.inverse_turn_minus_identity(six);
         let joint = self.nominal_joint(i, command);
         for t in &mut travellers {
             t.backward(&body.placement);
@@ -176,14 +177,14 @@ impl Machine {
     }
 
     /// The location errors where they tilt the direction of motion and do not turn what is carried.
-    fn tilt(&self, location: &Six, joint: &Link) -> Option<Displacement> {
+    fn tilt(&self, location: &SixErrors, joint: &Link) -> Option<Displacement> {
         let turn = location.rotation_minus_identity(self.model.rotation);
         let shift = turn * joint.shift_mm() + location.shift_mm();
         (!location.is_zero()).then(|| Displacement { shift, turn_minus_identity: Mat3::zeros() })
     }
 
     /// `R⁻¹ − I` of an error's rotation.
-    fn inverse_turn_minus_identity(&self, six: &Six) -> Mat3 {
+    fn inverse_turn_minus_identity(&self, six: &SixErrors) -> Mat3 {
         let turn = six.rotation_minus_identity(self.model.rotation);
         match self.model.rotation {
             Rotation::Exact => turn.transpose(),
@@ -193,7 +194,7 @@ impl Machine {
 }
 
 /// The displacement of an error, its turn by a function.
-fn displacement(six: &Six, turn: impl Fn(&Six) -> Mat3) -> Option<Displacement> {
+fn displacement(six: &SixErrors, turn: impl Fn(&SixErrors) -> Mat3) -> Option<Displacement> {
     (!six.is_zero()).then(|| Displacement { shift: six.shift_mm(), turn_minus_identity: turn(six) })
 }
 

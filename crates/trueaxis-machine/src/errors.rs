@@ -8,9 +8,9 @@ mod stated;
 mod uncertain;
 mod values;
 
-pub use curve::{Curve, Harmonic, Outside, OutsideTable};
+pub use curve::{Curve, Extrapolation, Harmonic, OutsideTable};
 pub use name::{BodyName, Component, ErrorKind, ErrorName};
 pub use spline::{Interpolation, Spline, SplineError};
 pub use stated::{Measurement, StatedError, Uncertainty};
 pub use uncertain::Uncertainties;
-pub use values::{BodyErrors, ErrorIndex, ErrorValues, MAX_BODIES, Rotation, Six};
+pub use values::{BodyErrors, ErrorIndex, ErrorValues, MAX_BODIES, Rotation, SixErrors};

@@ -1,4 +1,4 @@
-//! The machine file: text from people to a checked [`Machine`], all problems at once.
+//! The machine file: from text to a checked [`Machine`], with all problems reported at once.
 
 mod chain_text;
 mod error_text;
@@ -26,7 +26,7 @@ pub trait Tables {
     /// The text of a table by the name that the machine file gives it.
     ///
     /// # Errors
-    /// A sentence that says why it cannot be had.
+    /// A sentence that states why it cannot be read.
     fn text(&self, name: &str) -> Result<String, String>;
 
     /// How to show the table to the user.
@@ -41,7 +41,7 @@ pub struct NoTables;
 
 impl Tables for NoTables {
     fn text(&self, _name: &str) -> Result<String, String> {
-        Err("no tables are at hand here".into())
+        Err("this reader has no access to tables".into())
     }
 }
 
@@ -72,7 +72,7 @@ impl Tables for Folder {
 
 /// The machine that a study names by `machine = "…"`, relative to the study file, and its path.
 pub fn machine_of(root: &Section<'_>, study: &Path) -> Option<(PathBuf, Machine)> {
-    let hint = "the machine file, relative to this file";
+    let hint = "the path of the machine file, relative to this file";
     let name = root.require("machine", hint)?.text()?;
     let path = study.parent().unwrap_or(Path::new("")).join(name);
     let (machine, problems) = Machine::read(root.files(), &path);
@@ -125,7 +125,7 @@ impl Machine {
 }
 
 fn read_machine(root: &Section<'_>, tables: &dyn Tables) -> Option<Machine> {
-    let hint = "every machine file has [machine] with name and chain";
+    let hint = "a machine file begins with [machine], with name and chain";
     root.require("machine", hint);
     let head = root.section("machine", read_head);
     let Some((head, chain)) = head.and_then(|h| h.chain.clone().map(|chain| (h, chain))) else {
@@ -179,7 +179,7 @@ struct Head<'s> {
 
 fn read_head<'s>(section: &Section<'s>) -> Head<'s> {
     let name = section.require("name", "give the machine a name").and_then(|i| i.text());
-    let hint = "such as chain = \"w C' A' b X Y Z t\"";
+    let hint = "write the bodies in order, such as chain = \"w C' A' b X Y Z t\"";
     let chain_item = section.require("chain", hint);
     let chain = chain_item.and_then(|item| {
         let chain = ChainText::parse(item.text()?);
@@ -226,7 +226,7 @@ fn choice<T: Copy>(section: &Section<'_>, key: &str, words: &[(&str, T)]) -> Opt
     let found = words.iter().find(|(word, _)| *word == text).map(|(_, value)| *value);
     if found.is_none() {
         let known = words.iter().map(|(word, _)| *word).collect::<Vec<_>>().join(" or ");
-        item.error("unknown-word", format!("`{text}` is no {key}"), &format!("write {known}"));
+        item.error("unknown-word", format!("unknown {key} `{text}`"), &format!("write {known}"));
     }
     found
 }
@@ -284,16 +284,17 @@ fn read_axis(section: &Section<'_>, axis: &mut Axis, body: &mut ChainBody) {
             Some(sense) if sense.abs() == 1.0 => axis.sense = sense,
             Some(_) => item.error(
                 "bad-sense",
-                "the sense of an axis is 1 or -1".into(),
-                "1: a positive command moves the body in the positive direction; without it ISO 841",
+                "the sense of an axis must be 1 or -1".into(),
+                "1: a positive command moves the body in the positive direction; without this \
+                 entry ISO 841 applies",
             ),
         }
     }
     if let Some(frame) = read_error_frame(section) {
         body.error_frame = frame;
         if axis.kind == AxisKind::Linear {
-            let message = format!("{} does not turn: error_frame has no effect", axis.name);
-            section.warn("no-effect", message, "leave it out");
+            let message = format!("{} is not a rotary axis: error_frame has no effect", axis.name);
+            section.warn("no-effect", message, "remove the entry");
         }
     }
     if let Some(travel) = section.get("travel").and_then(|i| read_travel(&i, axis.kind)) {
@@ -315,7 +316,7 @@ fn positive(section: &Section<'_>, key: &str, dimension: Dimension) -> Option<f6
     let item = section.get(key)?;
     let value = item.quantity(dimension)?;
     if value <= 0.0 {
-        let hint = "leave it out if it is not known";
+        let hint = "remove the entry if the value is not known";
         item.error("not-positive", format!("`{key}` must be above zero"), hint);
         return None;
     }
@@ -323,12 +324,13 @@ fn positive(section: &Section<'_>, key: &str, dimension: Dimension) -> Option<f6
 }
 
 fn read_travel(item: &Item<'_>, kind: AxisKind) -> Option<Travel> {
-    let hint = "such as [\"0 mm\", \"6200 mm\"], or \"unlimited\" for a rotary axis";
+    let hint =
+        "write [from, to], such as [\"0 mm\", \"6200 mm\"], or \"unlimited\" for a rotary axis";
     if !item.is_list() {
         if item.as_text() == Some("unlimited") && kind == AxisKind::Rotary {
             return Some(Travel::Unlimited);
         }
-        item.error("bad-travel", "the travel is two positions".into(), hint);
+        item.error("bad-travel", "the travel must be two positions".into(), hint);
         return None;
     }
     let dimension = match kind {
@@ -337,13 +339,13 @@ fn read_travel(item: &Item<'_>, kind: AxisKind) -> Option<Travel> {
     };
     let ends = item.list()?;
     let [from, to] = &ends[..] else {
-        item.error("bad-travel", "the travel is two positions".into(), hint);
+        item.error("bad-travel", "the travel must be two positions".into(), hint);
         return None;
     };
     let (from, to) = (from.quantity(dimension), to.quantity(dimension));
     let (from, to) = (from?, to?);
     if from >= to {
-        item.error("bad-travel", "the travel ends before it begins".into(), hint);
+        item.error("bad-travel", "the end of the travel is not above its start".into(), hint);
         return None;
     }
     Some(Travel::Between(from, to))
@@ -371,7 +373,7 @@ fn read_tool(section: &Section<'_>, body: &mut ChainBody) -> ToolSide {
     let length = section.quantity("length", Dimension::Length);
     let tip = section.get("tip").and_then(|i| read_vector_mm(&i));
     if length.is_some() && tip.is_some() {
-        let message = "`length` and `tip` both say where the tip is".to_owned();
+        let message = "`length` and `tip` both state the position of the tip".to_owned();
         section.error("duplicate-tip", message, "keep one of them");
     }
     let tip_mm = tip.unwrap_or(Vec3::new(0.0, 0.0, -length.unwrap_or(0.0)));
@@ -388,14 +390,19 @@ fn read_tool(section: &Section<'_>, body: &mut ChainBody) -> ToolSide {
 }
 
 fn read_assembly(name: &str, section: &Section<'_>) -> Option<ToolAssembly> {
-    let length = section.require("length", "from the gauge line to the tip, such as \"100 mm\"");
+    let length = section
+        .require("length", "write the distance from the gauge line to the tip, such as \"100 mm\"");
     let diameter_mm = positive(section, "diameter", Dimension::Length);
     let corner_radius_mm = section.get("corner_radius").and_then(|item| {
         let radius = item.quantity(Dimension::Length)?;
         let largest = diameter_mm.map_or(f64::INFINITY, |d| 0.5 * d * (1.0 + 1e-12));
         if !(0.0..=largest).contains(&radius) {
-            let message = "a corner radius lies between zero and half the diameter".to_owned();
-            item.error("bad-tool", message, "half the diameter for a ball, 0 for a sharp corner");
+            let message = "the corner radius must be between zero and half the diameter".to_owned();
+            item.error(
+                "bad-tool",
+                message,
+                "write half the diameter for a ball-nose tool, 0 for a sharp corner",
+            );
         }
         Some(radius)
     });
@@ -415,7 +422,12 @@ fn read_motions(
     for (key, place, item) in section.entries() {
         let Some(i) = axes.iter().position(|a| a.name.to_string() == key) else {
             let message = format!("the chain has no axis {key}");
-            section.error_at(place, "unknown-axis", message, "error motions belong to axes");
+            section.error_at(
+                place,
+                "unknown-axis",
+                message,
+                "[motion] needs the letter of an axis of the chain",
+            );
             continue;
         };
         item.section(&section.path(key), |s| {

@@ -1,13 +1,13 @@
-//! Heat: what temperatures do to scales, structure and workpiece.
+//! Thermal errors: the effect of temperatures on scales, structure and workpiece.
 //!
 //! ```text
-//!     machine.toml ──> HeatModel (who grows, by how much, which sensor feels it)
-//!     "scale_x=30.5 workpiece=31", CSV log ──> Conditions (what every sensor says)
+//!     machine.toml ──> HeatModel (which body expands, by how much, its sensor)
+//!     "scale_x=30.5 workpiece=31", CSV log ──> Conditions (the reading of every sensor)
 //!     Machine::at(conditions) ──> Machine whose errors contain the thermal parts
 //!     WarmingMachine::at(time) ──> the same while the conditions follow a log
 //! ```
 //!
-//! A machine without conditions has no thermal part: every body stands at the temperature of its
+//! A machine without conditions has no thermal part: every body is at the temperature of its
 //! error table and the workpiece at 20 °C, the reference temperature of ISO 1.
 
 pub mod conditions;
@@ -18,7 +18,7 @@ mod warming;
 mod workpiece;
 
 pub use conditions::{Conditions, TemperatureLog};
-pub use scale::{Heated, HeatedPlace, Scale, StructureModel};
+pub use scale::{HeatedPlace, HeatedScale, Scale, StructureModel};
 pub use warming::{TemperatureRun, WarmingMachine};
 pub use workpiece::{Settling, Workpiece, WorkpieceGrowth};
 
@@ -107,12 +107,12 @@ pub struct ThermalTerm {
     /// What it adds to the error, mm or rad.
     pub curve: Curve,
     /// What one standard uncertainty of each coefficient in it adds, with its sign.
-    pub u: Vec<ThermalU>,
+    pub u: Vec<ThermalUncertainty>,
 }
 
 /// What an uncertain coefficient does to a thermal part.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ThermalU {
+pub struct ThermalUncertainty {
     /// The coefficient, such as `expansion of scale X`; the same name is the same coefficient.
     pub of: String,
     /// What one standard uncertainty of it adds to the error, mm or rad.
@@ -131,7 +131,7 @@ impl ThermalTerm {
     }
 }
 
-impl ThermalU {
+impl ThermalUncertainty {
     /// What one standard uncertainty adds at a position; its curves have a value everywhere.
     pub fn at(&self, q: f64) -> f64 {
         self.curve.at(q).unwrap_or(0.0)
@@ -162,9 +162,8 @@ impl Machine {
     ///     E(q) = E_table(q) + α ∫_f^q (T(s) − T_table) ds + Σ cᵢ (Tᵢ − T_ref)     docs/model.md eq. 80
     /// ```
     ///
-    /// Sensors that nobody has and bodies of which only some sensors are given are told; a body
-    /// none of whose sensors is given stays at the temperature of its table. `None` if there was
-    /// an error.
+    /// Unknown sensors and bodies of which only some sensors are given are reported; a body without
+    /// any given sensor is at the temperature of its table. `None` if there was an error.
     ///
     /// ```
     /// use trueaxis_machine::{Machine, file::NoTables, heat::Conditions};
@@ -206,7 +205,7 @@ impl Machine {
         for (scale, sources) in self.heat.scales.iter().zip(sources) {
             let axis = &self.axes[scale.axis];
             let terms = scale.terms(axis, conditions, sources.as_deref(), problems);
-            // Axes stand behind the workpiece in the chain, in their own order.
+            // Axes follow the workpiece in the chain, in their own order.
             warm.bodies[scale.axis + 1].thermal.extend(terms);
         }
         for model in &self.heat.structure {

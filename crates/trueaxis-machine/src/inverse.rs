@@ -19,7 +19,7 @@ pub use follow::{FollowError, FollowFault};
 use crate::Machine;
 use crate::axis::{AxisKind, Command};
 use crate::errors::BodyName;
-pub(crate) use direction::Aim;
+pub(crate) use direction::DirectionSolver;
 pub(crate) use placer::Placer;
 pub(crate) use serial::Serial;
 use std::fmt;
@@ -71,7 +71,7 @@ pub struct Singularity {
 
 impl fmt::Display for Singularity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} turns about the tool axis; it keeps its angle", self.axis)
+        write!(f, "{} turns about the tool axis; its angle is kept", self.axis)
     }
 }
 
@@ -80,13 +80,13 @@ impl fmt::Display for Singularity {
 pub enum SolveError {
     /// A number of the target or of the starting position is no number or too large.
     #[error(
-        "the target or the starting position has a coordinate that is not a finite number; correct it"
+        "a coordinate of the target or of the starting position is not a finite number; correct it"
     )]
     NotFinite,
     /// No angle of the rotary axes points the tool there.
     #[error(
-        "the tool axis misses the wanted direction by {:.6} deg: {}; tilt the path or \
-         the part towards the closest, ({:.9} {:.9} {:.9})",
+        "the tool axis cannot reach the required direction, the difference is {:.6} deg: {}; tilt \
+         the path or the part towards the closest direction, ({:.9} {:.9} {:.9})",
         .missed_by_rad.to_degrees(), turned_by(.turning), .closest.vector().x,
         .closest.vector().y, .closest.vector().z
     )]
@@ -100,8 +100,8 @@ pub enum SolveError {
     },
     /// The linear axes do not span the space at this pose, and the tip lies off what they span.
     #[error(
-        "the tip stays {missed_by_mm:.6} mm away: at this attitude {} cannot move it in all three \
-         directions; move the target or the part by that much", listed(.moving)
+        "the tip remains {missed_by_mm:.6} mm from the target: in this pose {} cannot move it in \
+         all three directions; move the target or the part by that distance", listed(.moving)
     )]
     TipUnreachable {
         /// How far.
@@ -113,8 +113,8 @@ pub enum SolveError {
 
 fn turned_by(turning: &[BodyName]) -> String {
     match turning {
-        [] => "no rotary axis turns it".into(),
-        _ => format!("it is turned only by {}", listed(turning)),
+        [] => "no rotary axis turns the tool".into(),
+        _ => format!("the tool is turned only by {}", listed(turning)),
     }
 }
 
@@ -169,9 +169,10 @@ impl Machine {
     /// ```
     ///
     /// # Source
-    /// The geometry of two cones (Paden 1986, second subproblem); cases of documents 000 (Eq 12,
-    /// 13), 003 and 004 (Eq 11–13) with their errata. Ours has no case for each machine type and
-    /// no arccos, which loses half of the digits near the poles.
+    /// The geometry of two cones (Paden 1986, second subproblem); cases of Wu et al. 2022
+    /// (Eq 12, 13), Zhang et al. 2023 and Lei and Hsu 2003 (Eq 11–13) with their errata. This
+    /// solution needs no case for each machine type and no arccos, which loses half of the digits
+    /// near the poles.
     pub fn solve(&self, target: &Target, from: &Command) -> Result<Solutions, SolveError> {
         let solver = Solver::new(self, from)?;
         let branches = solver.branches(target)?;
@@ -218,7 +219,7 @@ impl Machine {
     /// ```
     ///
     /// # Source
-    /// Document 000, Eq 13 (the k of C by unwinding, errata 000-8); dynamic programming: Bellman
+    /// Wu et al. 2022, Eq 13 (the k of C by unwinding, errata 000-8); dynamic programming: Bellman
     /// 1957.
     pub fn follow(&self, path: &[Target], from: &Command) -> Result<Vec<Command>, FollowError> {
         match follow::follow(self, path, from)? {
@@ -244,7 +245,7 @@ impl Machine {
 struct Solver<'m> {
     machine: &'m Machine,
     serial: Serial,
-    aim: Aim,
+    aim: DirectionSolver,
     from: Command,
     /// Where there are many targets: what places one tip after the other.
     placer: Option<Placer>,
@@ -263,7 +264,7 @@ impl<'m> Solver<'m> {
             return Err(SolveError::NotFinite);
         }
         let serial = Serial::of(machine);
-        let aim = Aim::of(&serial, from);
+        let aim = DirectionSolver::of(&serial, from);
         Ok(Self { machine, serial, aim, from: *from, placer: None })
     }
 
@@ -321,7 +322,7 @@ impl<'m> Solver<'m> {
             .find(|&i| self.serial.axis_in(&frames, i).cross(&tool).norm() <= RESOLUTION_RAD)
     }
 
-    fn unreachable(&self, missed: direction::Missed) -> SolveError {
+    fn unreachable(&self, missed: direction::UnreachableDirection) -> SolveError {
         let turning = self.aim.turning.iter().map(|t| self.machine.axes[t.axis].name).collect();
         let closest = Direction::of(missed.closest).unwrap_or(Direction::Z);
         SolveError::Unreachable { closest, missed_by_rad: missed.by_rad, turning }

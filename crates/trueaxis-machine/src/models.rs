@@ -1,8 +1,8 @@
-//! The bodies that one can see and bump into: models placed on the nodes of the chain.
+//! Solid models of the machine for pictures and collisions, placed on the bodies of the chain.
 //!
-//! Document 002: each node of the topology carries models, and each model has a model coordinate
-//! system of its own, placed in that of its node. Here a [`Model`] names its node and the place of
-//! its coordinate system there:
+//! Jiang et al.: each node of the topology carries models, and each model has a model coordinate
+//! system of its own, placed in that of its node. Here a [`Model`] names its node and the placement
+//! of its coordinate system there:
 //!
 //! ```text
 //!     bed_from_model = bed_from_node · placement
@@ -16,13 +16,13 @@ use trueaxis_geometry::Vec3;
 /// One rigid model on a node of the chain.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Model {
-    /// How it is called; unique within the machine.
+    /// Its name, unique within the machine.
     pub name: String,
     /// Its node as an index of [`crate::Machine::bodies`]; `None` is the bed.
     pub body: Option<usize>,
     /// The model coordinate system in that of its node.
     pub placement: Link,
-    /// What it looks like, in the model coordinate system.
+    /// Its shape in the model coordinate system.
     pub shape: Shape,
 }
 
@@ -33,28 +33,28 @@ pub enum Shape {
     Stl {
         /// The path as the machine file writes it, relative to that file.
         path: String,
-        /// How many mm one unit of the file is.
+        /// Length of one unit of the file, mm.
         unit_mm: f64,
     },
-    /// A cuboid, centred.
+    /// A cuboid centred at the origin.
     Box {
         /// Its edges along x, y and z, mm.
         size_mm: Vec3,
     },
     /// A frustum of a cone about z, from z = 0 upwards; a cylinder has two equal diameters.
     Cone {
-        /// At z = 0, mm.
+        /// Diameter at z = 0, mm.
         base_diameter_mm: f64,
-        /// At the other end, mm; 0 for a pointed cone.
+        /// Diameter at the other end, mm; 0 for a pointed cone.
         top_diameter_mm: f64,
-        /// Along z, mm.
+        /// Length along z, mm.
         length_mm: f64,
     },
     /// A plane outline raised along z, from z = 0 upwards.
     Prism {
         /// Its corners x, y in order, mm; the outline does not cross itself.
         outline_mm: Vec<[f64; 2]>,
-        /// Along z, mm.
+        /// Length along z, mm.
         length_mm: f64,
     },
 }

@@ -1,20 +1,19 @@
-//! Tool-centre-point control: what the control computes again and again while a program runs.
+//! Tool-centre-point control: the transformation that a control computes in every cycle.
 //!
 //! ```text
-//!     tip wanted, rotary axes given ──place──> linear axes      linear equations
-//!     tool axis wanted ──aim──> rotary axes                     the branch and turn nearest to now
+//!     required tip, rotary axes given ──place──> linear axes      linear equations
+//!     required tool axis ──aim──> rotary axes                   the branch and turn nearest to the present
 //! ```
 //!
-//! The same answers as [`Machine::solve`], for one pose after the other, without memory from the
-//! heap in `place`.
+//! The same results as [`Machine::solve`], for one pose after the other; `place` allocates nothing.
 
 use crate::Machine;
 use crate::axis::Command;
-use crate::inverse::{Aim, Placer, RESOLUTION_RAD, Serial, SolveError, turns};
+use crate::inverse::{DirectionSolver, Placer, RESOLUTION_RAD, Serial, SolveError, turns};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Direction, Workpiece};
 
-/// A nominal machine made ready to follow tool tips; in the workpiece frame of the machine.
+/// The tool-centre-point control of a nominal machine; poses are in its workpiece frame, mm.
 ///
 /// # Example
 /// ```
@@ -36,7 +35,7 @@ pub struct TipControl {
     machine: Machine,
     serial: Serial,
     placer: Placer,
-    aim: Aim,
+    aim: DirectionSolver,
     /// More than two rotary axes: the aim depends on those that are held.
     redundant: bool,
 }
@@ -47,7 +46,7 @@ impl TipControl {
         let serial = Serial::of(machine);
         Some(Self {
             placer: Placer::of(machine, &serial)?,
-            aim: Aim::of(&serial, &Command::default()),
+            aim: DirectionSolver::of(&serial, &Command::default()),
             redundant: serial.rotary().count() > 2,
             serial,
             machine: machine.clone(),
@@ -84,24 +83,24 @@ impl TipControl {
         &self,
         axis: Direction<Workpiece>,
         from: &Command,
-    ) -> Result<Vec<Aimed>, SolveError> {
+    ) -> Result<Vec<DirectionSolution>, SolveError> {
         let (one, other) = self.branches(axis, from)?;
         let idle = one.idle;
         let commands = [Some(one), other].into_iter().flatten().map(|b| b.command).collect();
         let ordered = turns::in_order(&self.machine, commands, from);
         let rotary = |c: &Command| self.serial.rotary().all(|i| self.inside(i, c[i]));
-        let entry = |s: crate::Solution| Aimed {
+        let entry = |s: crate::Solution| DirectionSolution {
             command: s.command,
             within_travel: rotary(&s.command),
             idle,
         };
-        let mut entries: Vec<Aimed> = ordered.into_iter().map(entry).collect();
+        let mut entries: Vec<DirectionSolution> = ordered.into_iter().map(entry).collect();
         // The linear axes do not count here: they are not placed yet.
         entries.sort_by_key(|e| !e.within_travel);
         Ok(entries)
     }
 
-    /// The first of [`TipControl::aim`], the one nearest to `from`, without memory from the heap.
+    /// The first of [`TipControl::aim`], the one nearest to `from`, without allocation.
     ///
     /// # Errors
     /// As [`TipControl::aim`].
@@ -109,11 +108,11 @@ impl TipControl {
         &self,
         axis: Direction<Workpiece>,
         from: &Command,
-    ) -> Result<Aimed, SolveError> {
+    ) -> Result<DirectionSolution, SolveError> {
         let (one, other) = self.branches(axis, from)?;
         Ok(match other {
             None => one,
-            // Inside the travel of the rotary axes comes first, then the shorter way.
+            // Solutions inside the travel of the rotary axes come first, then the shorter motion.
             Some(other) if one.within_travel != other.within_travel => {
                 if one.within_travel {
                     one
@@ -135,7 +134,7 @@ impl TipControl {
         &self,
         axis: Direction<Workpiece>,
         from: &Command,
-    ) -> Result<(Aimed, Option<Aimed>), SolveError> {
+    ) -> Result<(DirectionSolution, Option<DirectionSolution>), SolveError> {
         let u = axis.vector();
         if !u.iter().chain(from).all(|v| v.is_finite()) {
             return Err(SolveError::NotFinite);
@@ -143,7 +142,7 @@ impl TipControl {
         let held;
         let aim = match self.redundant {
             true => {
-                held = Aim::of(&self.serial, from);
+                held = DirectionSolver::of(&self.serial, from);
                 &held
             }
             false => &self.aim,
@@ -163,7 +162,7 @@ impl TipControl {
                 }
             }
             let within_travel = self.serial.rotary().all(|i| self.inside(i, command[i]));
-            Aimed { command, within_travel, idle }
+            DirectionSolution { command, within_travel, idle }
         };
         Ok((entry(aimed.one), aimed.other.map(entry)))
     }
@@ -203,9 +202,9 @@ impl TipControl {
     }
 }
 
-/// One way to stand along a direction.
+/// A position of the rotary axes for a required direction of the tool.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Aimed {
+pub struct DirectionSolution {
     /// The axis positions; linear ones as before.
     pub command: Command,
     /// Whether the rotary axes stay within their travel.

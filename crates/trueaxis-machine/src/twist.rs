@@ -1,4 +1,4 @@
-//! How the tool moves when one error grows: the derivative of the chain.
+//! Sensitivity of the tool pose to each error: the derivative of the chain.
 //!
 //! ```text
 //!     δp = v + ω × p        a point p of the tool, in the frame of the reference     docs/model.md eq. 102
@@ -10,10 +10,10 @@ use crate::errors::{Component, ErrorIndex, ErrorKind, ErrorValues, MAX_BODIES};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Bed, Pose, Tool};
 
-/// What stands still while one looks at the tool.
+/// The body relative to which the motion of the tool is stated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub enum Reference {
-    /// The workpiece, and what is mounted beside it on the table.
+    /// The workpiece, and everything else mounted on the table.
     #[default]
     Workpiece,
     /// The bed: instruments on the floor or on the machine frame.
@@ -23,14 +23,14 @@ pub enum Reference {
 /// A small motion of the tool as seen from the reference: the point p moves by `v + ω × p`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Twist {
-    /// v: how the point of the tool that stands at the origin of the reference moves, mm per mm or
+    /// v: the motion of the point of the tool at the origin of the reference, mm per mm or
     /// mm per rad of the error.
     pub shift_mm: Vec3,
     /// ω, rad per mm or rad per rad of the error.
     pub turn_rad: Vec3,
 }
 
-/// Where every error of the chain acts at one command.
+/// The frames in which the errors of the chain act at one command.
 #[derive(Debug, Clone, Copy)]
 pub struct ErrorFrames {
     bodies: [BodyFrames; MAX_BODIES],
@@ -48,12 +48,12 @@ struct BodyFrames {
 }
 
 impl ErrorFrames {
-    /// The nominal tool as the reference sees it.
+    /// The nominal pose of the tool in the frame of the reference.
     pub fn reference_from_tool(&self) -> &Link {
         &self.reference_from_tool
     }
 
-    /// How the tool moves per unit (mm or rad) of one error.
+    /// The motion of the tool per unit (mm or rad) of one error.
     ///
     /// # Example
     /// ```
@@ -92,7 +92,7 @@ fn unit(component: Component) -> Vec3 {
 }
 
 impl Machine {
-    /// Where every error acts at a command of the nominal machine.
+    /// The frames in which the errors act at a command of the nominal machine.
     ///
     /// ```text
     ///     shift error i:     v = ± R·eᵢ               ω = 0
@@ -155,7 +155,8 @@ impl Machine {
         frames
     }
 
-    /// The tool as the bed sees it, with these errors; [`Machine::pose`] is what the workpiece sees.
+    /// The pose of the tool in the frame of the bed with these errors; [`Machine::pose`] gives it in the
+    /// frame of the workpiece.
     pub fn tool_on_bed(&self, command: &Command, errors: &ErrorValues) -> Pose<Bed, Tool> {
         let product = |acc: Link, i: usize| acc * self.link(i, command, &errors.bodies[i]);
         (self.workpiece_side..self.bodies.len()).fold(Link::identity(), product).relabel()

@@ -2,7 +2,7 @@
 
 use crate::axis::{Axis, AxisKind, Command, Travel};
 
-/// An axis without stated ends is looked at this far on both sides: mm.
+/// Range on both sides of zero for an axis without stated ends, mm.
 const FREE_MM: f64 = 250.0;
 
 /// Poses that fill the travel of all axes evenly: all corners, then `count` multiples of irrational numbers.

@@ -7,7 +7,9 @@ use library::{
     with_random_errors,
 };
 use trueaxis_machine::axis::{Approach, AxisKind, Command};
-use trueaxis_machine::compensate::{AxisLeft, Compensated, Compensator, Fault, MOST_SWING, Scope};
+use trueaxis_machine::compensate::{
+    AxisLimitation, CompensatedPose, Compensator, Fault, MOST_SWING, Scope,
+};
 use trueaxis_machine::errors::{Curve, ErrorName, ErrorValues, Rotation, StatedError};
 use trueaxis_machine::{ErrorModel, Machine, Squareness};
 
@@ -22,15 +24,15 @@ fn missed(machine: &Machine, programmed: &Command, given: &Command, side: &Appro
 }
 
 /// Compensates a pose and judges it; the axis only where it is said to be corrected.
-fn judged(compensator: &Compensator, command: &Command, side: &Approach) -> Compensated {
+fn judged(compensator: &Compensator, command: &Command, side: &Approach) -> CompensatedPose {
     let machine = compensator.machine();
     let name = machine.name();
     let done = compensator.at(command, side).unwrap_or_else(|f| panic!("{name} {command:?}: {f}"));
     let [tip, axis] = missed(machine, command, &done.command, side);
     assert!(tip < 1e-9, "{name} {command:?}: {tip:e} mm");
-    assert!(axis < 1e-12 || done.axis_left.is_some(), "{name} {command:?}: {axis:e}");
-    assert!((tip - done.left.tip_mm.norm()).abs() < 1e-10, "{name}: what it says of the tip");
-    assert!((axis - done.left.axis.norm()).abs() < 1e-12, "{name}: what it says of the axis");
+    assert!(axis < 1e-12 || done.axis_limitation.is_some(), "{name} {command:?}: {axis:e}");
+    assert!((tip - done.residual.tip_mm.norm()).abs() < 1e-10, "{name}: what it says of the tip");
+    assert!((axis - done.residual.axis.norm()).abs() < 1e-12, "{name}: what it says of the axis");
     done
 }
 
@@ -41,14 +43,14 @@ fn pose(machine: &Machine) -> Compensator {
 /// The evaluations and how often the axis kept a deviation, in hundredths of the poses.
 fn judged_everywhere(machine: &Machine, random: &mut Random, poses: u32) -> (u32, u32) {
     let compensator = pose(machine);
-    let (mut most, mut left) = (0, 0);
+    let (mut most, mut share) = (0, 0);
     for _ in 0..poses {
         let (command, side) = (away_from_ends(machine, random), sides(random));
         let done = judged(&compensator, &command, &side);
         most = most.max(done.evaluations);
-        left += u32::from(done.axis_left.is_some());
+        share += u32::from(done.axis_limitation.is_some());
     }
-    (most, 100 * left / poses)
+    (most, 100 * share / poses)
 }
 
 // ---------------------------------------------------------------- every machine
@@ -59,15 +61,15 @@ fn law_compensated_poses_are_the_programmed_ones() {
     for name in MACHINES {
         let own = machine(name);
         let five_axes = FIVE_AXIS.contains(&name);
-        let (most, left) = judged_everywhere(&own, &mut random, 2_000);
+        let (most, share) = judged_everywhere(&own, &mut random, 2_000);
         assert!(most <= 4, "{name}: {most} evaluations");
-        assert!(!five_axes || left <= 2, "{name}: {left} % near a pole");
+        assert!(!five_axes || share <= 2, "{name}: {share} % near a pole");
         for reach in [0.05, 1.0] {
             for _ in 0..20 {
                 let wrong = with_random_errors(&own, &mut random, reach);
-                let (most, left) = judged_everywhere(&wrong, &mut random, 500);
+                let (most, share) = judged_everywhere(&wrong, &mut random, 500);
                 assert!(most <= if reach < 1.0 { 5 } else { 9 }, "{name}: {most} evaluations");
-                assert!(!five_axes || left <= 3, "{name}: {left} % near a pole");
+                assert!(!five_axes || share <= 3, "{name}: {share} % near a pole");
             }
         }
     }
@@ -105,7 +107,7 @@ fn law_without_errors_the_command_stays() {
         for _ in 0..500 {
             let command = random.command(&plain);
             let done = compensator.at(&command, &[0.0; 6]).expect("a pose");
-            assert_eq!((done.command, done.evaluations, done.axis_left), (command, 1, None));
+            assert_eq!((done.command, done.evaluations, done.axis_limitation), (command, 1, None));
         }
     }
 }
@@ -121,7 +123,7 @@ fn law_position_only_moves_no_rotary_axis() {
         for _ in 0..1_000 {
             let (command, side) = (away_from_ends(&wrong, &mut random), sides(&mut random));
             let done = judged(&compensator, &command, &side);
-            assert_eq!(done.axis_left, Some(AxisLeft::PositionOnly));
+            assert_eq!(done.axis_limitation, Some(AxisLimitation::PositionOnly));
             for (i, axis) in wrong.axes().iter().enumerate() {
                 let stays = done.command[i] == command[i];
                 assert!(stays || axis.kind == AxisKind::Linear, "{name}: {} moved", axis.name);
@@ -139,8 +141,8 @@ fn fewer_than_two_rotary_axes_leave_the_tool_axis() {
         );
         let compensator = pose(&checked(&text, ""));
         let done = judged(&compensator, &[30.0, 40.0, 500.0, -70.0, 0.0, 0.0], &[0.0; 6]);
-        assert_eq!(done.axis_left, Some(AxisLeft::FewRotaryAxes), "{chain}");
-        assert!(done.left.axis.norm() > 1e-5, "{chain}");
+        assert_eq!(done.axis_limitation, Some(AxisLimitation::FewRotaryAxes), "{chain}");
+        assert!(done.residual.axis.norm() > 1e-5, "{chain}");
     }
 }
 
@@ -169,16 +171,18 @@ fn law_near_a_pole_no_axis_swings_beyond_the_limit() {
             let size = done.before.axis.norm();
             let swing = (done.command[3] - c).abs().max((done.command[4] - tilt).abs());
             assert!(swing <= 1.02 * MOST_SWING * size, "{tilt}: {swing} rad for {size}");
-            assert!(done.left.axis.norm() <= 1.001 * size, "{tilt}: no worse than before");
+            assert!(done.residual.axis.norm() <= 1.001 * size, "{tilt}: no worse than before");
             if tilt < 0.995 / MOST_SWING {
-                let Some(AxisLeft::Pole(axis)) = done.axis_left else { panic!("{tilt}") };
+                let Some(AxisLimitation::Pole(axis)) = done.axis_limitation else {
+                    panic!("{tilt}")
+                };
                 assert_eq!(axis.to_string(), "C");
-                // What A can do is done: what is left lies along A, as far as the errors let A lie.
+                // A has corrected its part: the residual error lies along A, as far as its errors permit.
                 let along_a = nalgebra::Vector3::new(c.cos(), c.sin(), 0.0);
-                let other = done.left.axis - along_a * along_a.dot(&done.left.axis);
+                let other = done.residual.axis - along_a * along_a.dot(&done.residual.axis);
                 assert!(other.norm() < 2.0 * size * (swing + size), "{tilt}: {:e}", other.norm());
             } else {
-                assert_eq!(done.axis_left, None, "{tilt}");
+                assert_eq!(done.axis_limitation, None, "{tilt}");
             }
         }
     }
@@ -189,7 +193,7 @@ fn at_the_limit_of_the_pole_the_command_does_not_jump() {
     let compensator = pose(&leaning_head(""));
     let at = |tilt: f64| {
         let done = judged(&compensator, &[0.0, 0.0, 0.0, 2.5, tilt, 0.0], &[0.0; 6]);
-        (done.command, done.axis_left.is_some())
+        (done.command, done.axis_limitation.is_some())
     };
     // The limit is where the *actual* tool is 0.01 rad from C: some 30 µrad beside.
     let (mut below, mut above) = (9.9e-3, 1.01e-2);
@@ -208,9 +212,9 @@ fn at_the_limit_of_the_pole_the_command_does_not_jump() {
 fn a_wider_limit_corrects_nearer_to_the_pole() {
     let compensator = pose(&leaning_head(""));
     let command = [0.0, 0.0, 0.0, 0.4, 5e-3, 0.0];
-    assert!(judged(&compensator, &command, &[0.0; 6]).axis_left.is_some());
+    assert!(judged(&compensator, &command, &[0.0; 6]).axis_limitation.is_some());
     let wider = compensator.swinging_at_most(1000.0);
-    assert_eq!(judged(&wider, &command, &[0.0; 6]).axis_left, None);
+    assert_eq!(judged(&wider, &command, &[0.0; 6]).axis_limitation, None);
 }
 
 // ---------------------------------------------------------------- direction of travel
@@ -253,7 +257,7 @@ fn three_rotary_axes_share_the_smallest_motion() {
     let compensator = pose(&machine);
     let command = [0.3, 10.0, 20.0, 30.0, 0.5, -0.4];
     let done = judged(&compensator, &command, &[0.0; 6]);
-    assert_eq!(done.axis_left, None);
+    assert_eq!(done.axis_limitation, None);
     // B and A alone come there as well, by no shorter way.
     let two = pose(&checked(&text.replace("C' ", ""), ""));
     let other = judged(&two, &[10.0, 20.0, 30.0, 0.5, -0.4, 0.0], &[0.0; 6]).command;

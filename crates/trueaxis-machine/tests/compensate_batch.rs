@@ -43,9 +43,9 @@ fn compiled(machine: &Machine, scope: Scope) -> CompiledCompensator {
     CompiledCompensator::new(Compensator::of(machine, scope).expect("three linear axes"))
 }
 
-/// The batch reaches the same poses: what is left of the tip and of the axis is the same as pose by
-/// pose, and the commands differ by less than a program or a control can tell. Share of the poses
-/// that took the scalar path, evaluations per pose.
+/// The batch reaches the same poses: the residual errors of tip and axis are the same as pose by
+/// pose, and the commands differ by less than the resolution of programs and controls. Returns the
+/// share of the poses that took the scalar path, and the evaluations per pose.
 fn agrees(machine: &Machine, scope: Scope, poses: &[(Command, Approach)]) -> (f64, f64) {
     let compiled = compiled(machine, scope);
     let columns = Columns::of(machine, poses);
@@ -62,12 +62,13 @@ fn agrees(machine: &Machine, scope: Scope, poses: &[(Command, Approach)]) -> (f6
             let given = table.at(i);
             let errors = machine.errors_at(&given, approach).expect("inside the tables");
             let here = machine.deviation(&given, &errors);
-            let tip = (here.nominal_tip - one.left.nominal_tip) + here.tip_mm;
-            let axis = (here.nominal_axis.vector() - one.left.nominal_axis.vector()) + here.axis;
+            let tip = (here.nominal_tip - one.residual.nominal_tip) + here.tip_mm;
+            let axis =
+                (here.nominal_axis.vector() - one.residual.nominal_axis.vector()) + here.axis;
             let what = format!("{} {set:?} pose {i}", machine.name());
             assert!(tip.norm() < 1e-9, "{what}: {:e} mm", tip.norm());
             // Where the axis keeps a deviation both keep the same.
-            let axis = (axis - one.left.axis).norm();
+            let axis = (axis - one.residual.axis).norm();
             assert!(axis < 1e-12, "{what}: {axis:e}");
             for (a, b) in given.iter().zip(one.command) {
                 assert!((a - b).abs() < 1e-8, "{what}: {a} {b}");

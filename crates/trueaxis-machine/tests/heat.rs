@@ -12,7 +12,7 @@ use trueaxis_input::{CsvTable, Diagnostics};
 use trueaxis_machine::Machine;
 use trueaxis_machine::batch::{Commands, CompiledMachine, DeviationTable};
 use trueaxis_machine::file::NoTables;
-use trueaxis_machine::heat::field::{HeatedAt, ScaleField, Source, i2erfc, ierfc};
+use trueaxis_machine::heat::field::{HeatedPoint, ScaleField, Source, i2erfc, ierfc};
 use trueaxis_machine::heat::{Conditions, ErrorPart, TemperatureLog};
 
 #[track_caller]
@@ -90,7 +90,7 @@ proptest! {
         place in 0.0..1000.0_f64, from in 0.0..1000.0_f64, to in 0.0..1000.0_f64,
         near in 20.0..60.0_f64, time in 100.0..20_000.0_f64,
     ) {
-        let f = HeatedAt {
+        let f = HeatedPoint {
             place_mm: place, near_celsius: near, far_celsius: 24.0,
             diffusivity_mm2_per_s: 4.0, time_s: time,
         };
@@ -117,7 +117,7 @@ proptest! {
         let (once, often) = (field(vec![(0.0, 0.05)]), field(steps));
         prop_assert!((once.celsius_at(p, 1500.0) - often.celsius_at(p, 1500.0)).abs() < 1e-12);
         let near = once.celsius_at(0.0, 1500.0);
-        let closed = HeatedAt {
+        let closed = HeatedPoint {
             place_mm: 0.0, near_celsius: near, far_celsius: 26.0,
             diffusivity_mm2_per_s: 4.0, time_s: 1500.0,
         };
@@ -274,7 +274,7 @@ fn law_parts_sum_up_and_the_batch_agrees() {
 #[test]
 fn law_the_heated_scale_follows_the_exact_integral() {
     let machine = warm(&hot(), "z_near=35 z_far=21");
-    let exact = HeatedAt {
+    let exact = HeatedPoint {
         place_mm: 0.0,
         near_celsius: 35.0,
         far_celsius: 21.0,

@@ -300,7 +300,7 @@ fn oracle_all_branches() {
     }
 }
 
-/// The flank-milling path of document 000: tool axis along the generatrix, tip at the base circle.
+/// The flank-milling path of Wu et al. 2022: tool axis along the generatrix, tip at the base circle.
 fn frustum() -> Vec<Target> {
     let (sin, cos) = 15_f64.to_radians().sin_cos();
     (0..72)

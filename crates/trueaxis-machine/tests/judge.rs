@@ -8,7 +8,9 @@ use nalgebra::{Matrix3, Matrix4, Vector4};
 use trueaxis_geometry::{Mat3, Vec3};
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::batch::{Commands, CompiledMachine, DeviationTable};
-use trueaxis_machine::errors::{Component, ErrorIndex, ErrorKind, ErrorValues, Rotation, Six};
+use trueaxis_machine::errors::{
+    Component, ErrorIndex, ErrorKind, ErrorValues, Rotation, SixErrors,
+};
 use trueaxis_machine::{ErrorFrame, ErrorModel, Machine, Squareness};
 
 type Matrix = Matrix4<f64>;
@@ -32,7 +34,7 @@ fn turn(about: Vec3, angle: f64) -> Matrix {
 }
 
 /// Eq. 3, or eq. 4 with small angles.
-fn error(six: &Six, rotation: Rotation) -> Matrix {
+fn error(six: &SixErrors, rotation: Rotation) -> Matrix {
     let [x, y, z, a, b, c] = six.0;
     let shifted = shift(Vec3::new(x, y, z));
     match rotation {
@@ -106,7 +108,7 @@ fn random_errors(random: &mut Random, machine: &Machine) -> ErrorValues {
     errors
 }
 
-/// Every shipped machine as it is, with errors that turn with the axes, and with a part that stands
+/// Every shipped machine unchanged, with errors that turn with the axes, and with a part that stands
 /// askew on a tilted fixture; each with every error model.
 fn machines(random: &mut Random) -> Vec<Machine> {
     let mut all: Vec<Machine> = Vec::new();

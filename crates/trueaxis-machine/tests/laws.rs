@@ -8,8 +8,8 @@ use trueaxis_geometry::frame::rotation;
 use trueaxis_geometry::{Mat3, Vec3};
 use trueaxis_machine::axis::Command;
 use trueaxis_machine::errors::{
-    Component, Curve, ErrorIndex, ErrorKind, ErrorValues, Interpolation, Outside, Rotation, Six,
-    Spline,
+    Component, Curve, ErrorIndex, ErrorKind, ErrorValues, Extrapolation, Interpolation, Rotation,
+    SixErrors, Spline,
 };
 use trueaxis_machine::{ErrorModel, Machine, Squareness};
 
@@ -186,7 +186,7 @@ fn law_an_error_turns_about_x_then_y_then_z() {
     for reach in [1e-6, 1e-3, 1.0, 10.0] {
         for _ in 0..2000 {
             let [a, b, c] = std::array::from_fn(|_| random.within(reach));
-            let six = Six([1.0, 2.0, 3.0, a, b, c]);
+            let six = SixErrors([1.0, 2.0, 3.0, a, b, c]);
             let product =
                 rotation(Vec3::z(), c) * (rotation(Vec3::y(), b) * rotation(Vec3::x(), a));
             let ours = six.rotation_minus_identity(Rotation::Exact);
@@ -481,12 +481,12 @@ fn law_beyond_the_ends_a_table_clamps_or_goes_straight_on() {
             let of = |outside| Curve::Table { spline: spline.clone(), outside };
             let (first, last) = spline.range();
             for (end, beyond) in [(first, first - 3.0), (last, last + 3.0)] {
-                assert!(of(Outside::Error).at(beyond).is_err());
+                assert!(of(Extrapolation::Error).at(beyond).is_err());
                 let at = |outside, q| of(outside).at(q).expect("defined everywhere");
-                assert_eq!(at(Outside::Clamp, beyond), spline.at(end));
-                let step = at(Outside::Extend, beyond) - spline.at(end);
+                assert_eq!(at(Extrapolation::Clamp, beyond), spline.at(end));
+                let step = at(Extrapolation::Extend, beyond) - spline.at(end);
                 assert!((step - spline.slope_at(end) * (beyond - end)).abs() < 1e-15);
-                for outside in [Outside::Error, Outside::Clamp, Outside::Extend] {
+                for outside in [Extrapolation::Error, Extrapolation::Clamp, Extrapolation::Extend] {
                     assert_eq!(at(outside, end), spline.at(end));
                 }
             }

@@ -71,9 +71,9 @@ fn nominal(machine: &Machine, command: &Command) -> (Vec3, Vec3) {
     (at.nominal_tip.vector(), at.nominal_axis.vector())
 }
 
-// ---------------------------------------------------------------- document 004, Lei & Hsu 2003
+// ---------------------------------------------------------------- Lei and Hsu 2003
 
-/// The mill of document 004 with other dimensions, and (X0, Y0, Z0) and (X1, Y1, Z1) of its Eq 1.
+/// The mill of Lei and Hsu 2003 with other dimensions, and (X0, Y0, Z0) and (X1, Y1, Z1) of its Eq 1.
 /// The programmed point is the tip: 180 mm below the probe, so that Zm is the command of Z.
 fn lei_hsu(random: &mut Random) -> (Machine, Vec3, Vec3) {
     let (p0, p1) = (random.vector(200.0), random.vector(400.0));
@@ -84,7 +84,7 @@ fn lei_hsu(random: &mut Random) -> (Machine, Vec3, Vec3) {
     (machine.with_tip(Vec3::new(0.0, 0.0, -180.0)), p0, p1)
 }
 
-/// Document 004 Eq 1–10, with the minus signs of errata 004-1 and the table that turns by +a, +c
+/// Lei and Hsu 2003 Eq 1–10, with the minus signs of errata 004-1 and the table that turns by +a, +c
 /// (004-3).
 #[test]
 fn paper_004_eq_1_to_10() {
@@ -128,7 +128,7 @@ fn paper_004_eq_1_to_10() {
     eq8.judge("004 Eq 8-10");
 }
 
-/// Document 004 Eq 11–13: both (a, c) from (I, J, K), with the quadrant of errata 004-4 and the
+/// Lei and Hsu 2003 Eq 11–13: both (a, c) from (I, J, K), with the quadrant of errata 004-4 and the
 /// well-conditioned form of 004-6.
 #[test]
 fn paper_004_eq_11_to_13() {
@@ -155,9 +155,9 @@ fn paper_004_eq_11_to_13() {
     worst.judge("004 Eq 11-13");
 }
 
-// ---------------------------------------------------------------- document 003, Zhang Jian 2023
+// ---------------------------------------------------------------- Zhang et al. 2023
 
-/// Document 003 Eq 1–3; h of the text is d of the equations (errata 003-1), coordinates relative
+/// Zhang et al. 2023 Eq 1–3; h of the text is d of the equations (errata 003-1), coordinates relative
 /// to O_R, ISO senses (003-2); and the tool axis of 003-3.
 #[test]
 fn paper_003_eq_1_to_3() {
@@ -186,7 +186,7 @@ fn paper_003_eq_1_to_3() {
     worst.judge("003 Eq 1-3");
 }
 
-// ---------------------------------------------------------------- document 000, Wu et al. 2022
+// ---------------------------------------------------------------- Wu et al. 2022
 
 /// The frustum of Fig 5 on the gantry, with the A axis beside the C axis (errata 000-5) and a
 /// workpiece that is itself out of place; all by changes of the shipped text.
@@ -306,7 +306,7 @@ fn s_se(e: &BodyErrors) -> Mat3 {
     small([e.motion.0[3], e.motion.0[4], e.motion.0[5]])
 }
 
-/// Document 000 Eq 2: a point of the part in the machine frame.
+/// Wu et al. 2022 Eq 2: a point of the part in the machine frame.
 #[test]
 fn paper_000_eq_2() {
     let mut random = Random(2);
@@ -325,7 +325,7 @@ fn paper_000_eq_2() {
     worst.judge("000 Eq 2");
 }
 
-/// Document 000 Eq 8: at (x0, y0, z0, 0, 0) the nominal tip stands on part zero.
+/// Wu et al. 2022 Eq 8: at (x0, y0, z0, 0, 0) the nominal tip stands on part zero.
 #[test]
 fn paper_000_eq_8() {
     let mut random = Random(8);
@@ -338,7 +338,7 @@ fn paper_000_eq_8() {
     worst.judge("000 Eq 8");
 }
 
-/// Document 000 Eq 9 and 10 with y0, z0 (errata 000-4) and the term (Rz(C) − I) p5 (000-5); Eq 11
+/// Wu et al. 2022 Eq 9 and 10 with y0, z0 (errata 000-4) and the term (Rz(C) − I) p5 (000-5); Eq 11
 /// as v = Rz(C) Rx(A) e_z (000-6).
 #[test]
 fn paper_000_eq_9_to_11() {
@@ -381,7 +381,7 @@ fn paper_000_eq_9_to_11() {
     eq11.judge("000 Eq 11");
 }
 
-/// Document 000 Eq 12 and 13 with errata 000-7 (`arccos v_Z`, better as atan2) and 000-8 (quadrant
+/// Wu et al. 2022 Eq 12 and 13 with errata 000-7 (`arccos v_Z`, better as atan2) and 000-8 (quadrant
 /// by the sign of A): they return the commanded angles up to whole turns of C.
 #[test]
 fn paper_000_eq_12_and_13() {
@@ -408,7 +408,7 @@ fn paper_000_eq_12_and_13() {
     worst.judge("000 Eq 12, 13");
 }
 
-/// Document 000 Eq 1 and 3–7: actual tip and tool axis with all errors in small angles and the
+/// Wu et al. 2022 Eq 1 and 3–7: actual tip and tool axis with all errors in small angles and the
 /// moving frame (errata 000-1, 000-2, 000-3), and the actual position after tool setting, in which
 /// p1 and p1e drop out.
 #[test]

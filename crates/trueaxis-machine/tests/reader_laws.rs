@@ -1,4 +1,4 @@
-//! What holds for every text that somebody may hand in as a machine file.
+//! Properties that hold for every text given as a machine file.
 
 mod library;
 
@@ -98,7 +98,7 @@ fn law_the_reader_keeps_its_speed_in_long_files() {
         let begun = Instant::now();
         let (machine, problems) = check(&format!("{head}{text}"), "");
         assert!(machine.is_none() && problems.iter().count() >= 15_000 || problems.has_errors());
-        // It takes a tenth of a second; a reader that counts lines anew for every key, half a minute.
+        // It takes a tenth of a second; a reader that counts the lines again for every key, half a minute.
         assert!(begun.elapsed() < Duration::from_secs(6), "{:?}", begun.elapsed());
     }
 }

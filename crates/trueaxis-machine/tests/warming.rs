@@ -58,7 +58,7 @@ proptest! {
     fn law_two_constant_sources_are_the_sum_of_the_single_ones(
         g1 in -0.05..0.2_f64, g2 in -0.05..0.2_f64, y in 0.0..900.0_f64,
     ) {
-        // What the sensors read under both fluxes; each also feels the other.
+        // What the sensors read under both fluxes; each also sees the other.
         let [long, short] = [1800.0, 900.0].map(|t: f64| (4.0 * 4.0 * t).sqrt());
         let rise = |l: f64| g1 * long * ierfc(l.abs() / long)
             + g2 * short * ierfc((l - 150.0).abs() / short);
@@ -162,7 +162,7 @@ fn law_a_heated_scale_takes_its_history_from_the_log() {
 
 #[test]
 fn a_machine_holds_until_a_sensor_of_it_moves() {
-    // Nobody asks `hall`; x_begin rises by 0.01 K in 10 s, then stands.
+    // `hall` is not used; x_begin rises by 0.01 K in 10 s, then stands.
     let text =
         "time_s,x_begin_degC,x_end_degC,hall_degC\n0,20,20,0\n100,20.1,20,30\n200,20.1,20,0\n";
     let run = TemperatureRun { log: log(text), start_s: 0.0 };

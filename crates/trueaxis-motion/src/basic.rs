@@ -6,7 +6,7 @@ use super::setup::SetUp;
 use trueaxis_geometry::frame::{Direction, Pose, Workpiece};
 use trueaxis_geometry::{Mat3, Vec3};
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
-use trueaxis_machine::tcp::{Aimed, TipControl};
+use trueaxis_machine::tcp::{DirectionSolution, TipControl};
 use trueaxis_machine::{Machine, SolveError};
 use trueaxis_nc::moves::{Axis, Branch, Frame, Position};
 
@@ -31,7 +31,7 @@ pub(super) fn nearest(
 }
 
 /// The pose of an alignment: by the sign of the rotary axis that tilts the tool.
-pub(super) fn choose(machine: &Machine, aimed: &[Aimed], branch: Branch) -> Command {
+pub(super) fn choose(machine: &Machine, aimed: &[DirectionSolution], branch: Branch) -> Command {
     // The tilting axis is the one next to the tool of a head, next to the bed of a table.
     let rotary =
         || (0..machine.axes().len()).filter(|i| machine.axes()[*i].kind == AxisKind::Rotary);

@@ -1,7 +1,7 @@
 //! Test pieces: a feature, the path that cuts it, and what is evaluated on it.
 //!
 //! [`TestPiece`] is what the loop sees. [`Cone`](cone::Cone) is the first member of the family
-//! (the frustum of NAS 979 and document 000, that of ISO 10791-7, a cylinder at half angle 0);
+//! (the frustum of NAS 979 and Wu et al. 2022, that of ISO 10791-7, a cylinder at half angle 0);
 //! an S-shaped piece or a surface of the user's own implement the same trait: their contacts have
 //! other normals and their features other indices.
 
@@ -53,7 +53,7 @@ pub struct CutSurface<'a> {
 /// Whose definition an index follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Family {
-    /// Document 000, Eq 18–20; shown beside the standard's, never decisive.
+    /// Wu et al. 2022, Eq 18–20; shown beside the standard's, never decisive.
     Paper,
     /// ISO 12181 and ISO 1101 on the section points.
     Iso,

@@ -13,7 +13,7 @@ use trueaxis_geometry::frame::Pose;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Command;
 use trueaxis_machine::chain::Link;
-use trueaxis_machine::errors::{ErrorValues, Rotation, Six};
+use trueaxis_machine::errors::{ErrorValues, Rotation, SixErrors};
 use trueaxis_machine::twist::{Reference, Twist};
 
 /// What is read of the tool point P as seen from the reference point Q; R the attitude of the tool.
@@ -129,7 +129,7 @@ impl Wrench {
 #[derive(Debug, Clone, Copy, Default)]
 struct Setup {
     tool_point_mm: Vec3,
-    shift_and_turn: Six,
+    shift_and_turn: SixErrors,
     zero: [f64; 3],
     scale: f64,
 }
@@ -267,7 +267,7 @@ impl Instrument {
 }
 
 /// reference_from_instrument.
-fn displaced_by(six: &Six) -> Link {
+fn displaced_by(six: &SixErrors) -> Link {
     let turn = trueaxis_geometry::Mat3::identity() + six.rotation_minus_identity(Rotation::Exact);
     Pose::new(turn, six.shift_mm())
 }

@@ -261,10 +261,10 @@ pub fn stated(terms: &[(Term, f64)], u: Option<f64>) -> StatedError {
 }
 
 fn table(knots: &[(f64, f64)]) -> Option<Curve> {
-    use trueaxis_machine::errors::{Interpolation, Outside, Spline};
+    use trueaxis_machine::errors::{Extrapolation, Interpolation, Spline};
     let (at, values): (Vec<f64>, Vec<f64>) = knots.iter().copied().unzip();
     let spline = Spline::new(&at, &values, Interpolation::Linear).ok()?;
-    Some(Curve::Table { spline, outside: Outside::Clamp })
+    Some(Curve::Table { spline, outside: Extrapolation::Clamp })
 }
 
 /// The coefficients of Legendre's polynomial in powers of x.

@@ -5,7 +5,7 @@ use crate::predict::holes::Compensation;
 use serde_json::{Map, Value as Json, json};
 use std::fmt::Write;
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::{Axis, AxisKind, Carries};
+use trueaxis_machine::axis::{Axis, AxisKind, AxisSide};
 use trueaxis_machine::heat::ErrorPart;
 
 /// The units of an axis: of its positions, and of its errors for people, CSV and JSON.
@@ -77,8 +77,8 @@ pub fn compensation_warnings(machine: &Machine, tables: &[ValueTable]) -> Vec<St
 
 fn sign_note(axis: &Axis) -> String {
     let carried = match axis.carries {
-        Carries::Tool => "it carries the tool: error and value have opposite signs",
-        Carries::Workpiece => {
+        AxisSide::Tool => "it carries the tool: error and value have opposite signs",
+        AxisSide::Workpiece => {
             "it carries the workpiece: where its body stands too far in the positive direction of the \
              machine, the value is positive"
         }
@@ -212,7 +212,7 @@ fn one_json(axis: &Axis, table: &ValueTable) -> Json {
     let mut put = |key: &str, value: Json| map.insert(key.to_owned(), value);
     put("axis", json!(axis.name.to_string()));
     put("of", json!(table.order.of.name()));
-    put("carries", json!(if axis.carries == Carries::Tool { "tool" } else { "workpiece" }));
+    put("carries", json!(if axis.carries == AxisSide::Tool { "tool" } else { "workpiece" }));
     put("increment", json!(increment(axis, table)));
     for (unit, scale) in units.keys {
         put(&format!("part_error_{unit}"), three(table.worst, *scale));

@@ -15,7 +15,7 @@ pub trait ErrorMatrix {
 /// `shift · Rz(c)·Ry(b)·Rx(a)`
 pub struct Exact;
 
-/// `shift · (I + [ε]×)`: cheaper than the same computation, shown beside it.
+/// `shift · (I + [ε]×)`: cheaper than the same computation, shown for comparison.
 pub struct SmallAngle;
 
 /// One body; what stands between two axes and never moves is one matrix.

@@ -5,10 +5,11 @@
 //! ```
 //!
 //! The same poses as [`Compensator::at`], to the same 1e-10 mm and 1e-13 rad, by steps with the
-//! Jacobian of the *nominal* machine at the programmed command: each step leaves some 10⁻⁴ of what
-//! was there (the size of the errors' angles and slopes), and what is left is judged by the chain
-//! with its errors, or by the factor that the steps have shown (docs/model.md eq. 163). Poses near a pole, at travel ends, with large errors or outside the compiled
-//! form go to [`Compensator::at`] itself; so every pose has its answer.
+//! Jacobian of the *nominal* machine at the programmed command: each step reduces the residual error
+//! to about 10⁻⁴ of itself (the size of the angles and slopes of the errors). The residual error is
+//! determined with the chain and its errors, or from the factor of the previous steps
+//! (docs/model.md eq. 163). Poses near a pole, at the ends of travel, with large errors or outside
+//! the compiled form are passed to [`Compensator::at`], so that every pose has a result.
 
 mod columns;
 mod jacobian;
@@ -84,12 +85,12 @@ impl Add for Effort {
 pub struct CompiledCompensator {
     compensator: Compensator,
     /// `None` where every pose takes the scalar path.
-    fast: Option<Fast>,
+    fast: Option<FastForm>,
 }
 
 /// What the kernel runs.
 #[derive(Debug, Clone)]
-struct Fast {
+struct FastForm {
     plan: Plan,
     /// The linear axes that place the tip.
     placing: [usize; 3],
@@ -104,7 +105,7 @@ struct Fast {
     growth: Option<(f64, Vec3)>,
 }
 
-impl Fast {
+impl FastForm {
     fn of(compensator: &Compensator) -> Option<Self> {
         let machine = compensator.machine();
         let turning = match (compensator.scope(), compensator.rotary()) {
@@ -152,7 +153,7 @@ fn largest_turn(machine: &Machine, plan: &Plan, travel: &[(f64, f64); MAX_AXES])
 /// What a kernel is given: poses `first ..` of the inputs.
 pub(super) struct CompensationJob<'a> {
     compensator: &'a Compensator,
-    fast: &'a Fast,
+    fast: &'a FastForm,
     inputs: &'a Inputs<'a>,
     first: usize,
 }
@@ -160,7 +161,7 @@ pub(super) struct CompensationJob<'a> {
 impl CompiledCompensator {
     /// Compiles a compensator.
     pub fn new(compensator: Compensator) -> Self {
-        let fast = Fast::of(&compensator);
+        let fast = FastForm::of(&compensator);
         Self { compensator, fast }
     }
 
@@ -182,7 +183,7 @@ impl CompiledCompensator {
     ///
     /// # Errors
     /// Columns that do not fit; the first pose without a compensation, see [`Fault`]. Then the
-    /// columns hold the poses before it, and anything behind.
+    /// columns hold the poses before it, and the rows after it are undefined.
     pub fn commands(
         &self,
         commands: &Commands<'_>,

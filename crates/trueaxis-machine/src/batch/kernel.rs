@@ -77,7 +77,7 @@ pub(super) fn run<const W: usize, L: Lanes<W>>(
     last_poses::<W, L>(job, out, whole)
 }
 
-/// The poses that do not fill a group: the last one is repeated in the lanes left over.
+/// The poses that do not fill a group: the last one is repeated in the remaining lanes.
 #[inline(always)]
 fn last_poses<const W: usize, L: Lanes<W>>(
     job: &Job<'_>,
@@ -233,7 +233,7 @@ fn plus_dot<const W: usize, L: Lanes<W>>(sum: L, a: &[L; 3], b: &[L; 3]) -> L {
     a[2].times_plus(b[2], a[1].times_plus(b[1], a[0].times_plus(b[0], sum)))
 }
 
-/// `d ← d + t + D·(p + d)`; a direction feels no shift.
+/// `d ← d + t + D·(p + d)`; a direction does not change with a shift.
 #[inline(always)]
 fn displace<const W: usize, L: Lanes<W>>(state: &mut State<L>, by: &Displacement<L>) {
     let tip = sum(state.tip, state.tip_deviation);
@@ -269,7 +269,7 @@ fn move_by<const W: usize, L: Lanes<W>>(
     }
 }
 
-/// `Rz(c)·Ry(b)·Rx(a) − I`, as [`crate::errors::Six::rotation_minus_identity`], for small angles.
+/// `Rz(c)·Ry(b)·Rx(a) − I`, as [`crate::errors::SixErrors::rotation_minus_identity`], for small angles.
 #[inline(always)]
 fn error_turn<const W: usize, L: Lanes<W>>(angles: [L; 3]) -> [[L; 3]; 3] {
     let (sa, va) = small_sine_versine(angles[0]);

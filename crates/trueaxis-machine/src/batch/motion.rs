@@ -178,7 +178,7 @@ impl Motion {
 
     /// The widest of some ranges on which no error motion turns by more than the series allow.
     fn narrowed(&self, widest: Range, axis: &Axis) -> Range {
-        // Nobody goes far beyond the travel or the tables; the bound is cheap, so go there in steps.
+        // Positions far beyond the travel or the tables are rare; the bound is cheap, so go there in steps.
         let ends = self.knots.ends();
         let (first, last) = (ends[0].1, ends[ends.len() - 1].0);
         let core = match (first <= last, axis.travel) {

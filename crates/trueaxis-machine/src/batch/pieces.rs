@@ -1,7 +1,7 @@
 //! Curves as cubics on the union of their knots.
 
 use crate::axis::{Axis, AxisKind, Travel};
-use crate::errors::{Curve, Outside, Spline};
+use crate::errors::{Curve, Extrapolation, Spline};
 use std::f64::consts::TAU;
 
 /// Cells of the lookup of an uneven row of knots, at most.
@@ -160,7 +160,7 @@ pub(super) fn span(curve: &Curve, axis: &Axis) -> Option<(f64, f64)> {
         let period = to - from;
         return Some((from - f64::from(below) * period, to + f64::from(above) * period));
     }
-    (*outside != Outside::Clamp).then_some((from, to))
+    (*outside != Extrapolation::Clamp).then_some((from, to))
 }
 
 /// Whether a curve is a cubic between its knots.

@@ -2,7 +2,7 @@
 
 use crate::axis::AxisKind;
 use crate::chain::{ChainBody, Link, Machine, Step as Rule};
-use crate::errors::{Component, Curve, ErrorKind, Rotation, Six};
+use crate::errors::{Component, Curve, ErrorKind, Rotation, SixErrors};
 use trueaxis_geometry::{Mat3, Vec3};
 
 /// One step of the tip p, the tool axis and their deviations d on their way to the workpiece.
@@ -204,14 +204,14 @@ fn location(body: &ChainBody) -> (Vec3, Mat3) {
 }
 
 /// The location errors of a body, which are constants here.
-pub(super) fn location_errors(body: &ChainBody) -> Six {
+pub(super) fn location_errors(body: &ChainBody) -> SixErrors {
     let constant = |curve: &Curve| match curve {
         Curve::Constant(value) => *value,
         _ => 0.0,
     };
     let stated =
         |c: Component| body.location[c as usize].as_ref().map_or(0.0, |e| constant(&e.mean));
-    let mut six = Six(Component::ALL.map(stated));
+    let mut six = SixErrors(Component::ALL.map(stated));
     for term in body.thermal.iter().filter(|t| t.kind == ErrorKind::Location) {
         six.0[term.component as usize] += constant(&term.curve);
     }

@@ -1,4 +1,4 @@
-//! Four and eight poses at a time with the vector instructions of x86-64.
+//! FourPoses and eight poses at a time with the vector instructions of x86-64.
 //!
 //! The lane types are private to this file, and its entries ask the processor first: no
 //! instruction below is ever reached on a processor without it.
@@ -37,12 +37,12 @@ pub(super) fn run_avx512(job: &Job<'_>, out: &mut DeviationColumns<'_>) -> Resul
 
 #[target_feature(enable = "avx2,fma")]
 fn with_avx2(job: &Job<'_>, out: &mut DeviationColumns<'_>) -> Result<(), BatchError> {
-    kernel::run::<4, Four>(job, out)
+    kernel::run::<4, FourPoses>(job, out)
 }
 
 #[target_feature(enable = "avx2,fma,avx512f")]
 fn with_avx512(job: &Job<'_>, out: &mut DeviationColumns<'_>) -> Result<(), BatchError> {
-    kernel::run::<8, Eight>(job, out)
+    kernel::run::<8, EightPoses>(job, out)
 }
 
 pub(super) fn compensate_avx2(
@@ -72,7 +72,7 @@ fn compensate_with_avx2(
     job: &CompensationJob<'_>,
     out: &mut CommandColumns<'_>,
 ) -> Result<Effort, CompensationError> {
-    newton::run::<4, Four>(job, out)
+    newton::run::<4, FourPoses>(job, out)
 }
 
 #[target_feature(enable = "avx2,fma,avx512f")]
@@ -80,16 +80,16 @@ fn compensate_with_avx512(
     job: &CompensationJob<'_>,
     out: &mut CommandColumns<'_>,
 ) -> Result<Effort, CompensationError> {
-    newton::run::<8, Eight>(job, out)
+    newton::run::<8, EightPoses>(job, out)
 }
 
 /// Four poses; lives only inside [`with_avx2`] and [`compensate_with_avx2`].
 #[derive(Clone, Copy)]
-struct Four(__m256d);
+struct FourPoses(__m256d);
 
 /// Eight poses; lives only inside [`with_avx512`] and [`compensate_with_avx512`].
 #[derive(Clone, Copy)]
-struct Eight(__m512d);
+struct EightPoses(__m512d);
 
 /// An operator by one instruction.
 macro_rules! operator {
@@ -105,16 +105,16 @@ macro_rules! operator {
     };
 }
 
-operator!(Four, Add, add, _mm256_add_pd);
-operator!(Four, Sub, sub, _mm256_sub_pd);
-operator!(Four, Mul, mul, _mm256_mul_pd);
-operator!(Four, Div, div, _mm256_div_pd);
-operator!(Eight, Add, add, _mm512_add_pd);
-operator!(Eight, Sub, sub, _mm512_sub_pd);
-operator!(Eight, Mul, mul, _mm512_mul_pd);
-operator!(Eight, Div, div, _mm512_div_pd);
+operator!(FourPoses, Add, add, _mm256_add_pd);
+operator!(FourPoses, Sub, sub, _mm256_sub_pd);
+operator!(FourPoses, Mul, mul, _mm256_mul_pd);
+operator!(FourPoses, Div, div, _mm256_div_pd);
+operator!(EightPoses, Add, add, _mm512_add_pd);
+operator!(EightPoses, Sub, sub, _mm512_sub_pd);
+operator!(EightPoses, Mul, mul, _mm512_mul_pd);
+operator!(EightPoses, Div, div, _mm512_div_pd);
 
-impl Lanes<4> for Four {
+impl Lanes<4> for FourPoses {
     #[inline(always)]
     fn splat(value: f64) -> Self {
         // SAFETY: called inside `…with_avx2` only.
@@ -123,13 +123,13 @@ impl Lanes<4> for Four {
 
     #[inline(always)]
     fn load(from: &[f64; 4]) -> Self {
-        // SAFETY: called inside `…with_avx2` only; four numbers lie behind the reference.
+        // SAFETY: called inside `…with_avx2` only; the reference points to four numbers.
         Self(unsafe { _mm256_loadu_pd(from.as_ptr()) })
     }
 
     #[inline(always)]
     fn store(self, to: &mut [f64; 4]) {
-        // SAFETY: called inside `…with_avx2` only; room for four numbers behind the reference.
+        // SAFETY: called inside `…with_avx2` only; the reference points to room for four numbers.
         unsafe { _mm256_storeu_pd(to.as_mut_ptr(), self.0) }
     }
 
@@ -235,7 +235,7 @@ impl Lanes<4> for Four {
     }
 }
 
-impl Lanes<8> for Eight {
+impl Lanes<8> for EightPoses {
     #[inline(always)]
     fn splat(value: f64) -> Self {
         // SAFETY: called inside `…with_avx512` only.
@@ -244,13 +244,13 @@ impl Lanes<8> for Eight {
 
     #[inline(always)]
     fn load(from: &[f64; 8]) -> Self {
-        // SAFETY: called inside `…with_avx512` only; eight numbers lie behind the reference.
+        // SAFETY: called inside `…with_avx512` only; the reference points to eight numbers.
         Self(unsafe { _mm512_loadu_pd(from.as_ptr()) })
     }
 
     #[inline(always)]
     fn store(self, to: &mut [f64; 8]) {
-        // SAFETY: called inside `…with_avx512` only; room for eight numbers behind the reference.
+        // SAFETY: called inside `…with_avx512` only; the reference points to room for eight numbers.
         unsafe { _mm512_storeu_pd(to.as_mut_ptr(), self.0) }
     }
 

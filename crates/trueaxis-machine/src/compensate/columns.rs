@@ -2,7 +2,7 @@
 
 use crate::axis::{Approach, AxisKind, Command, MAX_AXES};
 use crate::chain::{Link, Machine, Step, nominal_motion};
-use crate::errors::{BodyErrors, ErrorKind, ErrorValues, MAX_BODIES, Six};
+use crate::errors::{BodyErrors, ErrorKind, ErrorValues, MAX_BODIES, SixErrors};
 use trueaxis_geometry::{Mat3, Vec3};
 
 /// One column per axis, in the workpiece frame, per mm or rad of its command.
@@ -43,7 +43,7 @@ impl Columns {
             link_slope(machine, i, command, &errors.bodies[i], &slopes[i], pair)
         };
 
-        // What each body carries, from the tip to the workpiece; then back again with what turns it.
+        // The points carried by each body, from the tip to the workpiece; then back with their rotations.
         let mut carried = [[(Vec3::zeros(), 0.0); 2]; MAX_BODIES];
         let mut pair = [(machine.tip_mm, 1.0), (Vec3::z(), 0.0)];
         for i in (side..count).rev() {
@@ -94,8 +94,12 @@ impl Columns {
 }
 
 /// The slopes of the error motions of each body.
-fn error_slopes(machine: &Machine, command: &Command, approach: &Approach) -> [Six; MAX_BODIES] {
-    let mut slopes = [Six::default(); MAX_BODIES];
+fn error_slopes(
+    machine: &Machine,
+    command: &Command,
+    approach: &Approach,
+) -> [SixErrors; MAX_BODIES] {
+    let mut slopes = [SixErrors::default(); MAX_BODIES];
     for (body, out) in machine.bodies.iter().zip(&mut slopes) {
         let Some(axis) = body.axis else { continue };
         let (q, side) = (command[axis], approach[axis]);
@@ -116,13 +120,13 @@ fn link_slope(
     i: usize,
     command: &Command,
     errors: &BodyErrors,
-    slopes: &Six,
+    slopes: &SixErrors,
     pair: Pair,
 ) -> [Vec3; 2] {
     let (body, model) = (&machine.bodies[i], machine.model);
     let Some(index) = body.axis else { return [Vec3::zeros(); 2] };
     let (axis, q) = (&machine.axes[index], command[index]);
-    let turn = |six: &Six| Mat3::identity() + six.rotation_minus_identity(model.rotation);
+    let turn = |six: &SixErrors| Mat3::identity() + six.rotation_minus_identity(model.rotation);
     let per_unit = axis.direction * axis.sense;
     // What the steps to the right carry, and its slope; `None` as long as nothing has moved.
     let mut carried = through(&body.mounting, pair);

@@ -8,20 +8,20 @@ use crate::errors::BodyName;
 pub enum Fault {
     /// The machine cannot move its tip in all three directions.
     #[error(
-        "{linear} linear axes cannot bring the tip to its place in space; three are needed: name \
-         them in the chain of the machine file"
+        "the machine has {linear} linear axes, but three are needed to position the tip in space: \
+         add them to the chain of the machine file"
     )]
     FewLinearAxes {
-        /// How many it has.
+        /// Its number of linear axes.
         linear: usize,
     },
     /// There are no errors at the command.
     #[error("{0}")]
     Command(#[from] CommandFault),
-    /// The compensated command lies where an error table says nothing.
+    /// The compensated command lies outside an error table that is not extended.
     #[error(
-        "at the compensated command {0}: measure the errors up to the ends of the travel, or let the \
-         table be extended (outside = \"extend\")"
+        "at the compensated command {0}: measure the errors up to the ends of the travel, or \
+         extend the table (outside = \"extend\")"
     )]
     Corrected(CommandFault),
     /// An axis would pass the end of its travel.
@@ -39,13 +39,13 @@ pub enum Fault {
     Flat,
     /// The errors are no small change of the machine.
     #[error(
-        "after {evaluations} evaluations the tip is still {tip_mm:.6} mm off: the errors change too \
-         steeply with the position; check the error tables"
+        "no convergence: after {evaluations} evaluations the residual error of the tip is \
+         {tip_mm:.6} mm; the errors change too steeply with the position, check the error tables"
     )]
     NotConverged {
-        /// How often the chain was evaluated.
+        /// Number of evaluations of the chain.
         evaluations: u32,
-        /// What is left, mm.
+        /// The residual error of the tip, mm.
         tip_mm: f64,
     },
 }
@@ -57,7 +57,7 @@ fn travel_passed(axis: &BodyName, at: &f64, by: &f64) -> String {
     };
     let (at, by) = (at * scale, by * scale);
     format!(
-        "{axis} would have to go to {at:.6} {unit}, {by:.6} {unit} beyond the end of its travel: move \
-         the part or shorten the path"
+        "the compensated position of {axis} is {at:.6} {unit}, {by:.6} {unit} outside its travel: \
+         move the part or shorten the path"
     )
 }

@@ -1,4 +1,4 @@
-//! The steps from the inside: their Jacobian, and what is left after each.
+//! The single steps: their Jacobian, and the residual error after each.
 
 // So that whoever reads this file alone, such as the house rules, knows what it is.
 #[cfg(test)]
@@ -33,7 +33,8 @@ const ERRORS: &str = r#"
     EBX = { polynomial = ["0 urad", "600 urad", "300 urad"], scale = "500 mm" }
     [motion.C]
     EYC = { fourier = { mean = "0 mm", terms = [[2, "0.4 mm", "0.5 mm"]] }, reversal = "0.2 mm" }
-    EAC = { fourier = { mean = "0 urad", terms = [[1, "700 urad", "400 urad"], [3, "200 urad", "-300 urad"]] } }
+    EAC = { fourier = { mean = "0 urad", terms = [[1, "700 urad", "400 urad"], [3, "200 urad", \
+    "-300 urad"]] } }
     ECC = { fourier = { mean = "0 urad", terms = [[1, "-500 urad", "600 urad"]] } }
     [motion.A]
     ECA = { fourier = { mean = "300 urad", terms = [[1, "400 urad", "0 urad"]] } }
@@ -90,16 +91,16 @@ fn law_the_columns_are_the_limits_of_differences() {
     }
 }
 
-/// What is left of the tip, mm, and of the axis at each evaluation, while it is above rounding.
-fn left(compensator: &Compensator, command: [f64; 6]) -> Vec<[f64; 2]> {
+/// The residual error of the tip, mm, and of the axis at each evaluation, while above rounding.
+fn residuals(compensator: &Compensator, command: [f64; 6]) -> Vec<[f64; 2]> {
     let side = [0.0; 6];
     let machine = compensator.machine();
     let errors = machine.errors_at(&command, &side).expect("errors");
     let before = machine.deviation(&command, &errors);
-    let mut now = Trial { command, errors, left: before };
+    let mut now = Trial { command, errors, residual: before };
     let mut all = Vec::new();
     for step in 0..6 {
-        all.push([now.left.tip_mm.norm(), now.left.axis.norm()]);
+        all.push([now.residual.tip_mm.norm(), now.residual.axis.norm()]);
         let view = compensator.view(&now, &side).expect("three directions");
         let next = compensator.step(&now, &view, &Freedom::Both, step == 0);
         now = compensator.trial(next, &side, &before).expect("errors");
@@ -116,15 +117,18 @@ fn law_each_step_squares_what_is_left() {
         for k in 0..40 {
             let k = f64::from(k);
             let xyzca = [10.0 * k, 300.0 - 9.0 * k, -5.0 * k, 0.7 * k, 0.3 + 0.02 * k];
-            let left = left(&compensator, command(&machine, xyzca));
+            let residuals = residuals(&compensator, command(&machine, xyzca));
             // The order from three values in a row: ln(e₂/e₁)/ln(e₁/e₀), of the axis (no unit).
-            let [e0, e1, e2] = [0, 1, 2].map(|i| left[i][1]);
-            assert!(e1 < 20.0 * e0 * e0 && e2 < (20.0 * e1 * e1).max(1e-14), "{chain} {left:?}");
+            let [e0, e1, e2] = [0, 1, 2].map(|i| residuals[i][1]);
+            assert!(
+                e1 < 20.0 * e0 * e0 && e2 < (20.0 * e1 * e1).max(1e-14),
+                "{chain} {residuals:?}"
+            );
             if e2 > 1e-14 {
                 orders.push((e2 / e1).ln() / (e1 / e0).ln());
             }
             // Three corrections of 1 mm and 1 mrad are exact to rounding.
-            assert!(left[3][0] < 1e-10 && left[3][1] < 1e-13, "{chain} {left:?}");
+            assert!(residuals[3][0] < 1e-10 && residuals[3][1] < 1e-13, "{chain} {residuals:?}");
         }
         orders.sort_by(f64::total_cmp);
         let median = orders[orders.len() / 2];

@@ -3,13 +3,15 @@
 use super::lines::{Lines, header};
 use super::set_error::own_text;
 use crate::Machine;
-use crate::axis::{Axis, AxisKind, Carries, Travel};
+use crate::axis::{Axis, AxisKind, AxisSide, Travel};
 use crate::chain::{ChainBody, Link};
-use crate::errors::{Component, Curve, ErrorIndex, ErrorKind, ErrorName, Outside, StatedError};
+use crate::errors::{
+    Component, Curve, ErrorIndex, ErrorKind, ErrorName, Extrapolation, StatedError,
+};
 use std::f64::consts::TAU;
 
-/// A machine as data: what can be seen of its chain, every error that it has or could have, and who
-/// feels its temperatures. Tools and models are those of the machine.
+/// A machine as data: the geometry of its chain, every error that it has or could have, and the
+/// sensors of its temperatures. Tools and models are those of the machine.
 #[derive(Debug, Clone)]
 pub struct Description<'m> {
     /// The machine.
@@ -30,9 +32,9 @@ pub struct DescribedLink<'m> {
     pub body: &'m ChainBody,
     /// Its axis; `None` for the workpiece and the tool.
     pub axis: Option<&'m Axis>,
-    /// On which side of the bed it stands.
-    pub carries: Carries,
-    /// The body that it stands on, towards the bed; `None`: the bed.
+    /// The side of the bed on which it is.
+    pub carries: AxisSide,
+    /// Its parent, towards the bed; `None`: the bed.
     pub parent: Option<usize>,
     /// Its place there with all axes at zero, without errors; the mounting is in it.
     pub parent_from_link: Link,
@@ -43,15 +45,15 @@ pub struct DescribedLink<'m> {
 pub struct DescribedError<'m> {
     /// Its name.
     pub name: ErrorName,
-    /// Where it stands among all errors.
+    /// Its index among all errors.
     pub index: ErrorIndex,
     /// What the machine file states.
     pub stated: Option<&'m StatedError>,
-    /// Its entry in the machine file as people write it, if it has one of its own.
+    /// Its entry in the machine file as written, if it has one.
     pub text: Option<String>,
-    /// The line of that entry, or of the table of its axis where it stands in that; from 1.
+    /// The line of that entry, or of the entry of the table that contains it; from 1.
     pub line: Option<usize>,
-    /// The table of its axis, if it stands in that.
+    /// The table of its axis, if it contains the error.
     pub table: Option<String>,
     /// An error motion over the travel of its axis.
     pub curve: Option<SampledError>,
@@ -94,8 +96,8 @@ fn links(machine: &Machine) -> Vec<DescribedLink<'_>> {
     let bed = machine.workpiece_side();
     let all = machine.bodies().iter().enumerate().map(|(i, body)| {
         let (carries, parent) = match i < bed {
-            true => (Carries::Workpiece, (i + 1 < bed).then_some(i + 1)),
-            false => (Carries::Tool, (i > bed).then(|| i - 1)),
+            true => (AxisSide::Workpiece, (i + 1 < bed).then_some(i + 1)),
+            false => (AxisSide::Tool, (i > bed).then(|| i - 1)),
         };
         let axis = body.axis.map(|a| &machine.axes()[a]);
         let parent_from_link = body.placement * body.mounting;
@@ -144,7 +146,7 @@ fn range(stated: &StatedError, axis: &Axis) -> (f64, f64) {
         Curve::Table { spline, outside } if !spline.is_periodic() => {
             let (first, last) = spline.range();
             match travel {
-                Some((from, to)) if *outside != Outside::Error => (from, to),
+                Some((from, to)) if *outside != Extrapolation::Error => (from, to),
                 Some((from, to)) => (from.clamp(first, last), to.clamp(first, last)),
                 None => (first, last),
             }
@@ -175,7 +177,7 @@ fn sampled(stated: &StatedError, axis: &Axis) -> SampledError {
         let share = i as f64 / steps as f64;
         let q = from * (1.0 - share) + to * share;
         let reversal = stated.reversal.as_ref().map(|r| r.at(q));
-        // A table that says nothing there leaves a gap.
+        // Outside a table that is not extended there is a gap.
         let (Ok(value), None | Some(Ok(_))) = (stated.mean.at(q), &reversal) else { continue };
         if !value.is_finite() {
             continue;
@@ -244,7 +246,7 @@ impl DescribedError<'_> {
         }
     }
 
-    /// The unit in which it is told: µm or µrad as they are typed, and its size in mm or rad.
+    /// The unit in which it is shown: µm or µrad, and its size in mm or rad.
     pub fn unit(&self) -> (&'static str, f64) {
         unit_of(self.index.component)
     }

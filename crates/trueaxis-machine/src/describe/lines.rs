@@ -1,7 +1,7 @@
 //! The text of a machine file line by line, so that one entry can be changed and all else stays as it is.
 //!
-//! A line here is one of TOML's: an entry over several lines of text is one. Which lines belong together is
-//! told by strings, brackets and comments alone; whoever changes a file reads it back.
+//! A line is a logical line of TOML: an entry over several lines of text is one. Which lines belong
+//! together follows from strings, brackets and comments alone; a changed file is read back.
 
 use crate::errors::{ErrorKind, ErrorName};
 use std::ops::Range;
@@ -15,7 +15,7 @@ pub struct Lines {
 }
 
 impl Lines {
-    /// The lines of a text; nothing of it is lost.
+    /// The lines of a text, from which the text can be restored.
     pub fn of(text: &str) -> Self {
         let first = text.find('\n').map(|at| &text[..at]);
         let end = if first.is_some_and(|line| line.ends_with('\r')) { "\r\n" } else { "\n" };
@@ -54,7 +54,7 @@ impl Lines {
         self.lines[at] = format!("{text}{end}");
     }
 
-    /// Puts a line before another one, or behind the last.
+    /// Inserts a line before another one, or after the last.
     pub fn insert(&mut self, at: usize, text: &str) {
         let (end, behind_all) = (self.end, at == self.lines.len());
         let mut open = self.lines.last_mut().filter(|l| behind_all && !l.ends_with('\n'));
@@ -121,7 +121,7 @@ impl Lines {
         self.insert(at, text);
     }
 
-    /// Takes an entry out; a last section of which nothing is left goes with it.
+    /// Removes an entry; a last section that becomes empty is removed with it.
     pub fn take_out(&mut self, header: &str, at: usize) {
         self.remove(at);
         let Some(section) = self.section(header) else { return };
@@ -132,7 +132,7 @@ impl Lines {
         }
     }
 
-    /// The text of the value of an entry: behind its `=`, without a comment.
+    /// The text of the value of an entry: after its `=`, without a comment.
     pub fn value(&self, at: usize) -> Option<&str> {
         value_of(self.line(at)).map(|range| &self.line(at)[range])
     }
@@ -176,12 +176,12 @@ fn heading(line: &str) -> Option<String> {
     Some(inner.replace([' ', '\t', '"', '\''], ""))
 }
 
-/// What stands before the `=` of a line.
+/// The key of a line: the text before its `=`.
 pub fn key_of(line: &str) -> Option<&str> {
     line.split_once('=').map(|(key, _)| key.trim().trim_matches(['"', '\'']))
 }
 
-/// Where the value of an entry stands: behind its `=`, without blanks and comment.
+/// The range of the value of an entry: after its `=`, without blanks and comment.
 pub fn value_of(line: &str) -> Option<Range<usize>> {
     key_of(line).filter(|key| !key.starts_with(['#', '[']))?;
     let from = line.find('=')? + 1;
@@ -275,7 +275,8 @@ mod tests {
 
     #[test]
     fn an_entry_over_several_lines_is_one() {
-        let old = "[motion.C]\nEXC = { fourier = { terms = [ # why\n  [1, \"1 um\", \"2 # um\"],\n] } } # end\nEYC = \"1 um\"\n\
+        let old = "[motion.C]\nEXC = { fourier = { terms = [ # why\n  [1, \"1 um\", \"2 # \
+            um\"],\n] } } # end\nEYC = \"1 um\"\n\
                    note = \"\"\"\n[location]\nEC0Y = 1\n\"\"\"\n[location]\n";
         let mut file = Lines::of(old);
         let at = file.error(name("EXC")).unwrap();

@@ -1,4 +1,4 @@
-//! Positions by the names of their axes, in mm and degrees, as people write them.
+//! Positions by the names of their axes, in mm and degrees, as in `--at "X=10 C=45"`.
 
 use crate::Machine;
 use crate::axis::{Axis, AxisKind, Command};
@@ -35,7 +35,7 @@ fn beyond_travel(machine: &Machine, command: &Command) -> Vec<BodyName> {
     axes.filter(|(axis, q)| !axis.travel.contains(**q)).map(|(axis, _)| axis.name).collect()
 }
 
-/// The command of positions by axis, mm and degrees; axes that are not named stand at 0. A position
+/// The command of positions by axis, mm and degrees; axes that are not named are at 0. A position
 /// outside the travel is computed, with a warning.
 ///
 /// ```no_run
@@ -61,7 +61,7 @@ pub fn command<'a>(
                 ("duplicate-axis", format!("`{letter}`: the axis is named twice"))
             }
             Some(_) if !value.is_finite() => {
-                ("not-finite", format!("`{letter}`: {value} is no position"))
+                ("not-finite", format!("`{letter}`: {value} is not an accepted position"))
             }
             Some(axis) => {
                 named.push(axis);
@@ -70,7 +70,10 @@ pub fn command<'a>(
             }
         };
         sound = false;
-        let hint = format!("the chain of the machine: {}; mm and degrees", machine.chain_text());
+        let hint = format!(
+            "the axes are those of the chain: {}; positions in mm and degrees",
+            machine.chain_text()
+        );
         problems.error(code, place.clone(), message, &hint);
     }
     if sound {
@@ -87,8 +90,8 @@ pub fn warn_beyond_travel(
     problems: &mut Diagnostics,
 ) {
     for axis in beyond_travel(machine, command) {
-        let message = format!("{axis} stands outside its travel");
-        let hint = "the machine cannot go there";
+        let message = format!("the position of {axis} is outside its travel");
+        let hint = "the machine cannot reach this position";
         problems.warn("outside-travel", place.clone(), message, hint);
     }
 }

@@ -6,15 +6,15 @@ use crate::errors::ErrorName;
 use crate::file::Tables;
 use trueaxis_input::{Diagnostics, Dimension, Place, SourceText, parse_measured};
 
-/// Nobody writes more about one error.
+/// Upper limit of the characters of a value.
 const LONGEST: usize = 10_000;
 
 /// Puts one error into the text of a machine file; all else stays as it is, to the byte.
 ///
-/// `value` as people write it: `12 ± 1 urad`, `-3 um`, or any TOML value that the machine file takes for
-/// that error (`{ polynomial = ["0 um", "3 um"], scale = "100 mm" }`); empty: the entry is taken out. The
-/// comment behind a value stays, one within it (between its brackets) goes with it. The new text has been
-/// read back: it is a machine file, and of a file that was one already no other number has changed.
+/// `value` as in a machine file: `12 ± 1 urad`, `-3 um`, or any TOML value that is accepted for that
+/// error (`{ polynomial = ["0 um", "3 um"], scale = "100 mm" }`); an empty text removes the entry. A
+/// comment after a value is kept, one within it (between its brackets) is removed with it. The new text
+/// has been read back: it is a machine file, and if the old text was one, no other number has changed.
 ///
 /// # Errors
 /// What is wrong with the name or the value, or why the file cannot be edited; an error that stands in the
@@ -81,9 +81,10 @@ fn in_line(file: &str, line: usize) -> Place {
 fn error_name(file: &str, text: &str) -> Result<ErrorName, Diagnostics> {
     ErrorName::parse(text.trim()).ok_or_else(|| {
         let shown: String = text.chars().take(20).collect();
-        let message = format!("`{shown}` is no error of ISO 230-1");
+        let message = format!("`{shown}` is not the name of an error of ISO 230-1");
         let hint =
-            "E, direction X Y Z A B C, axis: EXX; with a 0 before the body a location error: EC0Y";
+            "error motions are E, direction X Y Z A B C, axis, such as EXX; location errors have \
+             a 0 before the body, such as EC0Y";
         refuse("unknown-error-name", Place::whole(file), message, hint)
     })
 }
@@ -97,35 +98,35 @@ fn check_body(machine: &Machine, name: ErrorName, file: &str) -> Result<(), Diag
     Err(refuse("unknown-body", Place::whole(file), message, &hint))
 }
 
-/// An error that the file states, but not in a line of its own.
+/// An error that the file states in a table or an inline value, without a line of its own.
 fn elsewhere(lines: &Lines, file: &str, name: ErrorName) -> Diagnostics {
     let Some((line, table)) = lines.table_of(&header(name)) else {
         return cannot_edit(Place::whole(file), name);
     };
-    let message = format!("{name} stands in the table `{table}` of its axis");
+    let message = format!("{name} is a column of the table `{table}` of its axis");
     let hint = format!(
-        "change its column there; or take the columns {name}_… out of the table, then it can have an \
-         entry of its own"
+        "change the column in the table, or remove the columns {name}_… from it and add an entry \
+         {name} to the machine file"
     );
     refuse("error-in-table", in_line(file, lines.number(line)), message, &hint)
 }
 
 fn cannot_edit(place: Place, name: ErrorName) -> Diagnostics {
-    let message = format!("{name}: the way in which this file is written cannot be edited here");
-    let hint = format!("write {name} on a line of its own below [{}], by hand", header(name));
+    let message = format!("{name}: the layout of this file cannot be edited by this program");
+    let hint = format!("write {name} by hand on a separate line below [{}]", header(name));
     refuse("cannot-edit", place, message, &hint)
 }
 
-/// The value as it stands behind the `=`: a quantity gets its quotes.
+/// The value as written after the `=`: a quantity gets its quotes.
 fn as_toml(name: ErrorName, value: &str, place: &Place) -> Result<String, Diagnostics> {
     let bad = |message: String, hint: &str| Err(refuse("bad-value", place.clone(), message, hint));
     if value.len() > LONGEST {
         let message = format!("{name}: the value has {} characters", value.len());
-        return bad(message, "put the numbers into a table: { table = \"file.csv\" }");
+        return bad(message, "move the numbers to a table: { table = \"file.csv\" }");
     }
     if let Some(c) = value.chars().find(|c| c.is_control()) {
         let message = format!("{name}: the value contains {}", c.escape_default());
-        return bad(message, "a value stands on one line, such as 12 ± 1 urad");
+        return bad(message, "write the value on one line, such as 12 ± 1 urad");
     }
     if !value.starts_with(['{', '"', '\'']) {
         let dimension = match name.component.is_rotation() {
@@ -141,16 +142,16 @@ fn as_toml(name: ErrorName, value: &str, place: &Place) -> Result<String, Diagno
     let source = SourceText::new(&place.file, &entry);
     let keys = source.read(|root| root.entries().len());
     if keys != 1 || source.finish().has_errors() || value_of(&entry) != Some(4..entry.len()) {
-        let message = format!("{name}: `{value}` is no TOML value");
+        let message = format!("{name}: `{value}` is not a TOML value");
         return bad(
             message,
-            "such as { constant = \"3 um\", reversal = \"1 um\" }, closed and alone",
+            "write one complete value, such as { constant = \"3 um\", reversal = \"1 um\" }",
         );
     }
     Ok(value.to_owned())
 }
 
-/// The new text is a machine file that has the error, or has it no more, and is as before otherwise.
+/// Checks that the new text is a machine file with (or without) the error and otherwise unchanged.
 fn read_back(
     old: Option<&Machine>,
     (text, file, tables): (&str, &str, &dyn Tables),
@@ -179,7 +180,7 @@ fn read_back(
     }
 }
 
-/// What a machine file says of an error, if it has an entry of its own: as people write it, without the
+/// The entry of an error in a machine file, if it has one: as written, without the
 /// quotes of a quantity.
 pub(super) fn own_text(lines: &Lines, name: ErrorName) -> Option<String> {
     let value = lines.value(lines.error(name)?)?;

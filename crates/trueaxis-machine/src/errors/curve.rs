@@ -2,10 +2,10 @@
 
 use super::Spline;
 
-/// What an error table answers outside its first and last position; a periodic one repeats.
+/// The value of an error table outside its first and last position; a periodic one repeats.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Outside {
-    /// Nothing: the command is refused.
+pub enum Extrapolation {
+    /// No value: the command is an error.
     Error,
     /// The value at the end.
     Clamp,
@@ -51,7 +51,7 @@ pub enum Curve {
         /// The interpolant.
         spline: Spline,
         /// What holds beyond its ends.
-        outside: Outside,
+        outside: Extrapolation,
     },
 }
 
@@ -99,7 +99,7 @@ impl Curve {
     /// The error at a programmed position.
     ///
     /// # Errors
-    /// A position that a table with [`Outside::Error`] does not cover.
+    /// A position that a table with [`Extrapolation::Error`] does not cover.
     ///
     /// # Example
     /// ```
@@ -125,7 +125,7 @@ impl Curve {
     }
 }
 
-fn table_at(spline: &Spline, outside: Outside, q: f64) -> Result<f64, OutsideTable> {
+fn table_at(spline: &Spline, outside: Extrapolation, q: f64) -> Result<f64, OutsideTable> {
     if spline.is_periodic() {
         return Ok(spline.at(q));
     }
@@ -137,9 +137,9 @@ fn table_at(spline: &Spline, outside: Outside, q: f64) -> Result<f64, OutsideTab
         return Ok(spline.at(inside));
     }
     match outside {
-        Outside::Error => Err(OutsideTable { at: q, from, to }),
-        Outside::Clamp => Ok(spline.at(inside)),
-        Outside::Extend => Ok(spline.at(inside) + spline.slope_at(inside) * (q - inside)),
+        Extrapolation::Error => Err(OutsideTable { at: q, from, to }),
+        Extrapolation::Clamp => Ok(spline.at(inside)),
+        Extrapolation::Extend => Ok(spline.at(inside) + spline.slope_at(inside) * (q - inside)),
     }
 }
 
@@ -154,7 +154,7 @@ mod tests {
         let x: Vec<f64> = (0..=12).map(|i| TAU * f64::from(i) / 12.0).collect();
         let y: Vec<f64> = (0..=12).map(|i| f64::from(i % 12)).collect();
         let spline = Spline::new(&x, &y, Interpolation::Periodic).expect("a closed table");
-        let table = Curve::Table { spline, outside: Outside::Error };
+        let table = Curve::Table { spline, outside: Extrapolation::Error };
         let at = |degrees: f64| table.at(degrees.to_radians()).expect("everywhere");
         for turn in [-720.0, -360.0, 360.0, 1080.0] {
             assert!((at(30.0 + turn) - 1.0).abs() < 1e-12);
@@ -170,7 +170,7 @@ mod tests {
             Curve::Constant(3.0),
             Curve::Polynomial { coefficients: vec![1.0, 2.0, -1.0], origin: 1.0, scale: 3.0 },
             Curve::Fourier { mean: 0.2, terms: vec![harmonic] },
-            Curve::Table { spline: line.expect("a table"), outside: Outside::Error },
+            Curve::Table { spline: line.expect("a table"), outside: Extrapolation::Error },
         ];
         for curve in curves {
             for q in [0.0, 0.7, 2.0, 4.9] {

@@ -1,6 +1,6 @@
-//! How errors change with the position: what Newton's method needs of them.
+//! Slopes of the errors: their derivatives by the position, for Newton's method.
 
-use super::{Curve, Outside, Rotation, Six, Spline, StatedError};
+use super::{Curve, Extrapolation, Rotation, SixErrors, Spline, StatedError};
 use trueaxis_geometry::{Mat3, Vec3};
 
 impl Curve {
@@ -31,13 +31,13 @@ impl Curve {
     }
 }
 
-fn table_slope_at(spline: &Spline, outside: Outside, q: f64) -> f64 {
+fn table_slope_at(spline: &Spline, outside: Extrapolation, q: f64) -> f64 {
     if spline.is_periodic() {
         return spline.slope_at(q);
     }
     let (from, to) = spline.range();
     let inside = q.clamp(from, to);
-    if inside != q && outside == Outside::Clamp { 0.0 } else { spline.slope_at(inside) }
+    if inside != q && outside == Extrapolation::Clamp { 0.0 } else { spline.slope_at(inside) }
 }
 
 impl StatedError {
@@ -48,7 +48,7 @@ impl StatedError {
     }
 }
 
-impl Six {
+impl SixErrors {
     /// dR/dq of the rotation of these errors, whose slopes are given.
     ///
     /// ```text
@@ -83,8 +83,8 @@ mod tests {
                 mean: 1.0,
                 terms: vec![Harmonic { order: 3.0, cosine: 0.5, sine: -1.0 }],
             },
-            Curve::Table { spline: spline.clone(), outside: Outside::Extend },
-            Curve::Table { spline, outside: Outside::Clamp },
+            Curve::Table { spline: spline.clone(), outside: Extrapolation::Extend },
+            Curve::Table { spline, outside: Extrapolation::Clamp },
         ];
         let h = 1e-5;
         for curve in curves {
@@ -98,9 +98,9 @@ mod tests {
 
     #[test]
     fn the_slope_of_a_rotation_is_the_limit_of_differences() {
-        let six = Six([0.0, 0.0, 0.0, 0.1, -0.2, 0.3]);
-        let slopes = Six([0.0, 0.0, 0.0, 1.0, 0.5, -2.0]);
-        let moved = |h: f64| Six(std::array::from_fn(|k| six.0[k] + h * slopes.0[k]));
+        let six = SixErrors([0.0, 0.0, 0.0, 0.1, -0.2, 0.3]);
+        let slopes = SixErrors([0.0, 0.0, 0.0, 1.0, 0.5, -2.0]);
+        let moved = |h: f64| SixErrors(std::array::from_fn(|k| six.0[k] + h * slopes.0[k]));
         for rotation in [Rotation::Exact, Rotation::SmallAngle] {
             let at = |h: f64| moved(h).rotation_minus_identity(rotation);
             let found = (at(1e-5) - at(-1e-5)) / 2e-5;

@@ -15,13 +15,13 @@ pub enum Interpolation {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SplineError {
     /// Fewer than two knots.
-    #[error("a table needs at least two rows, this one has {0}")]
+    #[error("the table has {0} rows, at least two are needed")]
     TooFewKnots(usize),
     /// The positions do not increase from this row on (counted from 0).
     #[error("the positions do not increase")]
     NotIncreasing(usize),
     /// A periodic table whose first and last value differ.
-    #[error("a periodic table must end with the value that it begins with: {first} and {last}")]
+    #[error("the first value {first} and the last value {last} of a periodic table must be equal")]
     NotPeriodic {
         /// The first value.
         first: f64,
@@ -29,7 +29,7 @@ pub enum SplineError {
         last: f64,
     },
     /// A number is not finite.
-    #[error("a number of the table is not finite")]
+    #[error("the table contains a number that is not finite")]
     NotFinite,
 }
 
@@ -69,8 +69,8 @@ impl Spline {
     /// ```
     ///
     /// # Source
-    /// de Boor, A Practical Guide to Splines, 2001, ch. IV. Document 001 prints the first and last
-    /// row of its system wrongly (errata 001-1, 001-2).
+    /// de Boor, A Practical Guide to Splines, 2001, ch. IV. The first and last row of the system in
+    /// Zhang et al. 2019 have misprints (errata 001-1, 001-2).
     pub fn new(x: &[f64], y: &[f64], interpolation: Interpolation) -> Result<Self, SplineError> {
         if x.len() < 2 || y.len() != x.len() {
             return Err(SplineError::TooFewKnots(x.len().min(y.len())));
@@ -90,7 +90,7 @@ impl Spline {
         Ok(Self { knots: x.to_vec(), pieces, periodic: interpolation == Interpolation::Periodic })
     }
 
-    /// The value; outside the knots a periodic table repeats, else the first or last piece goes on.
+    /// The value; outside the knots a periodic table repeats, otherwise the first or last piece is continued.
     pub fn at(&self, x: f64) -> f64 {
         let x = self.wrapped(x);
         let i = self.interval(x);

@@ -8,9 +8,9 @@ pub const MAX_BODIES: usize = 8;
 
 /// Six errors of one body, in mm and rad, in the order X Y Z A B C.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Six(pub [f64; 6]);
+pub struct SixErrors(pub [f64; 6]);
 
-impl Six {
+impl SixErrors {
     /// The shift in mm.
     pub fn shift_mm(&self) -> Vec3 {
         Vec3::new(self.0[0], self.0[1], self.0[2])
@@ -74,14 +74,14 @@ pub enum Rotation {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct BodyErrors {
     /// Λ: constant.
-    pub location: Six,
+    pub location: SixErrors,
     /// E: at this position.
-    pub motion: Six,
+    pub motion: SixErrors,
 }
 
 impl BodyErrors {
     /// Location errors or error motions.
-    pub fn six_mut(&mut self, kind: super::ErrorKind) -> &mut Six {
+    pub fn six_mut(&mut self, kind: super::ErrorKind) -> &mut SixErrors {
         match kind {
             super::ErrorKind::Location => &mut self.location,
             super::ErrorKind::Motion => &mut self.motion,
@@ -151,7 +151,7 @@ impl ErrorValues {
         scaled
     }
 
-    fn six(&self, index: ErrorIndex) -> &Six {
+    fn six(&self, index: ErrorIndex) -> &SixErrors {
         let body = &self.bodies[index.body];
         match index.kind {
             super::ErrorKind::Location => &body.location,

@@ -1,6 +1,6 @@
-//! The order of the bodies as people write it.
+//! The order of the bodies as written in the machine file: `w C' A' b X Y Z t`.
 
-use crate::axis::Carries;
+use crate::axis::AxisSide;
 use crate::errors::BodyName;
 
 /// The chain as read: axes from the workpiece to the tool, and how many carry the workpiece.
@@ -8,9 +8,9 @@ use crate::errors::BodyName;
 pub struct ChainText {
     /// Axes in order from the workpiece to the tool.
     pub axes: Vec<BodyName>,
-    /// How many of them stand between the workpiece and the bed.
+    /// The number of bodies between the workpiece and the bed.
     pub workpiece_side: usize,
-    /// What was assumed where the text does not say it.
+    /// The assumption made where the text does not state the order.
     pub notice: Option<String>,
 }
 
@@ -25,7 +25,7 @@ impl ChainText {
     /// ```
     ///
     /// # Errors
-    /// A sentence that says what is wrong with the text.
+    /// A sentence that states the error in the text.
     pub fn parse(text: &str) -> Result<Self, String> {
         let text = text.trim();
         let parsed =
@@ -35,8 +35,8 @@ impl ChainText {
     }
 
     /// What an axis carries.
-    pub fn carries(&self, index: usize) -> Carries {
-        if index < self.workpiece_side { Carries::Workpiece } else { Carries::Tool }
+    pub fn carries(&self, index: usize) -> AxisSide {
+        if index < self.workpiece_side { AxisSide::Workpiece } else { AxisSide::Tool }
     }
 
     /// The long form, with primes and bed.
@@ -62,25 +62,25 @@ fn parse_long(text: &str) -> Result<ChainText, String> {
         return Err("the chain is empty".into());
     };
     if *first != "w" || *last != "t" {
-        return Err("the chain begins with `w` (workpiece) and ends with `t` (tool)".into());
+        return Err("the chain must begin with `w` (workpiece) and end with `t` (tool)".into());
     }
     let mut axes = Vec::new();
     let mut bed = None;
     for word in middle {
         if *word == "b" {
             if bed.replace(axes.len()).is_some() {
-                return Err("the bed `b` stands twice in the chain".into());
+                return Err("the bed `b` occurs twice in the chain".into());
             }
             continue;
         }
         let (name, primed) = split_prime(word);
         if primed && bed.is_some() {
-            return Err(format!("`{word}` has a prime but stands on the tool side of the bed"));
+            return Err(format!("`{word}` has a prime, but is on the tool side of the bed"));
         }
         axes.push(axis_name(name)?);
     }
     let notice = bed.is_none().then(|| {
-        "the chain does not name the bed `b`; taken to stand right after the workpiece".to_owned()
+        "the chain does not name the bed `b`; it is assumed directly after the workpiece".to_owned()
     });
     Ok(ChainText { axes, workpiece_side: bed.unwrap_or(0), notice })
 }
@@ -90,7 +90,9 @@ fn parse_short(text: &str) -> Result<ChainText, String> {
     for c in text.chars() {
         match (c, words.last_mut()) {
             ('\'' | '’' | '′', Some(word)) => word.push('\''),
-            ('\'' | '’' | '′', None) => return Err("the chain begins with a prime".into()),
+            ('\'' | '’' | '′', None) => {
+                return Err("the chain begins with a prime, without a letter before it".into());
+            }
             _ => words.push(c.to_string()),
         }
     }
@@ -105,8 +107,8 @@ fn parse_short(text: &str) -> Result<ChainText, String> {
 }
 
 /// `ZX'Y'A'C'`: the tool side from the bed on, then the primed axes from the bed on. The order of
-/// the linear axes among themselves is not in such a name; document 004 (its Eq 20) has the last
-/// one on the bed.
+/// the linear axes among themselves is not in such a name; in Lei and Hsu 2003 (Eq 20) the last
+/// one is on the bed.
 fn parse_machine_type(words: &[String]) -> Result<ChainText, String> {
     let (mut linear, mut rotary, mut tool) = (Vec::new(), Vec::new(), Vec::new());
     for word in words {
@@ -122,8 +124,8 @@ fn parse_machine_type(words: &[String]) -> Result<ChainText, String> {
     let workpiece_side = axes.len();
     axes.extend(tool);
     let notice = Some(
-        "the name gives no bed and no order of the linear axes; the last primed one is taken to \
-         stand on the bed, as in document 004"
+        "the name states neither the bed nor the order of the linear axes; the last primed axis \
+         is assumed on the bed, as in Lei and Hsu 2003"
             .to_owned(),
     );
     Ok(ChainText { axes, workpiece_side, notice })
@@ -138,7 +140,9 @@ fn axis_name(word: &str) -> Result<BodyName, String> {
     let mut letters = word.chars();
     match (letters.next().and_then(BodyName::new), letters.next()) {
         (Some(name), None) if name.is_axis() => Ok(name),
-        _ => Err(format!("`{word}` is no axis; axes are X Y Z U V W (linear), A B C (rotary)")),
+        _ => {
+            Err(format!("unknown axis `{word}`; axes are X Y Z U V W (linear) and A B C (rotary)"))
+        }
     }
 }
 
@@ -149,7 +153,7 @@ fn check(axes: &[BodyName]) -> Result<(), String> {
         }
     }
     if !(3..=crate::axis::MAX_AXES).contains(&axes.len()) {
-        return Err(format!("a machine has 3 to 6 axes, this chain has {}", axes.len()));
+        return Err(format!("the chain has {} axes, expected 3 to 6", axes.len()));
     }
     Ok(())
 }

@@ -6,12 +6,12 @@ use super::table_text::{ErrorTable, TableCurves, TableHabits, headings_place, po
 use crate::axis::{Axis, AxisKind, Travel};
 use crate::chain::ChainBody;
 use crate::errors::{
-    Component, Curve, ErrorKind, ErrorName, Harmonic, Interpolation, Measurement, Outside,
+    Component, Curve, ErrorKind, ErrorName, Extrapolation, Harmonic, Interpolation, Measurement,
     StatedError, Uncertainty,
 };
 use trueaxis_input::{CsvTable, Diagnostics, Dimension, Item, Section};
 
-/// Fast harmonics are noise: above this order a series says nothing about an axis.
+/// Highest accepted order of a Fourier series; harmonics of higher order are noise.
 const HIGHEST_ORDER: f64 = 1e4;
 /// No error polynomial reaches this within the travel, mm or rad.
 const HIGHEST_ERROR: f64 = 1e12;
@@ -35,19 +35,21 @@ pub fn read_location(section: &Section<'_>, bodies: &mut [ChainBody]) {
         let Some(name) = ErrorName::parse(key).filter(|n| n.kind == ErrorKind::Location) else {
             let hint = match ErrorName::parse(key) {
                 Some(motion) => {
-                    format!("it is an error motion: write it under [motion.{}]", motion.body)
+                    format!("this is an error motion: write it in [motion.{}]", motion.body)
                 }
                 None => {
-                    "location errors are E, direction X Y Z A B C, 0, body: EX0C, EC0Y, EA0t".into()
+                    "location errors are E, direction X Y Z A B C, 0, body, such as EX0C, EC0Y, \
+                     EA0t"
+                        .into()
                 }
             };
-            let message = format!("`{key}` is no location error of ISO 230-1");
+            let message = format!("`{key}` is not a location error of ISO 230-1");
             section.error_at(place, "unknown-error-name", message, &hint);
             continue;
         };
         let Some(body) = bodies.iter_mut().find(|b| b.name == name.body) else {
             let message = format!("{name}: the chain has no body {}", name.body);
-            section.error_at(place, "unknown-body", message, "name a body of the chain, w or t");
+            section.error_at(place, "unknown-body", message, "write a body of the chain, w or t");
             continue;
         };
         let slot = &mut body.location[name.component as usize];
@@ -58,8 +60,8 @@ pub fn read_location(section: &Section<'_>, bodies: &mut [ChainBody]) {
         if let Some(value) = item.measured(dimension_of(name.component)) {
             let largest = if name.component.is_rotation() { LARGE_RAD } else { LARGE_MM };
             if value.value.abs() > largest {
-                let message = format!("{name} is larger than any machine's location error");
-                item.warn("large-error", message, "is the unit right? um and urad are usual");
+                let message = format!("{name} is larger than 10 mm or 10 mrad");
+                item.warn("large-error", message, "check the unit: um and urad are usual");
             }
             let mut stated = StatedError::constant(value.value, value.u);
             stated.measured = measured.clone();
@@ -68,7 +70,7 @@ pub fn read_location(section: &Section<'_>, bodies: &mut [ChainBody]) {
     }
 }
 
-/// What holds for all error motions of one axis unless a curve says otherwise.
+/// Settings for all error motions of one axis unless a curve states others.
 struct MotionReader<'a> {
     axis: &'a Axis,
     tables: &'a dyn Tables,
@@ -84,7 +86,7 @@ pub fn read_motion(section: &Section<'_>, axis: &Axis, body: &mut ChainBody, tab
         tables,
         habits: TableHabits {
             interpolation: read_interpolation(section).unwrap_or(Interpolation::NotAKnot),
-            outside: read_outside(section).unwrap_or(Outside::Error),
+            outside: read_outside(section).unwrap_or(Extrapolation::Error),
         },
         u: read_uncertainties(section),
         measured: read_measurement(section),
@@ -99,11 +101,9 @@ pub fn read_motion(section: &Section<'_>, axis: &Axis, body: &mut ChainBody, tab
         }
         let name = ErrorName::parse(key).filter(|n| n.kind == ErrorKind::Motion);
         let Some(name) = name.filter(|n| n.body == axis.name) else {
-            let message = format!("`{key}` is no error motion of {}", axis.name);
-            let hint = format!(
-                "its error motions are EX{0} EY{0} EZ{0} EA{0} EB{0} EC{0} (ISO 230-1)",
-                axis.name
-            );
+            let message = format!("`{key}` is not an error motion of {}", axis.name);
+            let hint =
+                format!("write EX{0}, EY{0}, EZ{0}, EA{0}, EB{0} or EC{0} (ISO 230-1)", axis.name);
             section.error_at(place, "unknown-error-name", message, &hint);
             continue;
         };
@@ -113,7 +113,7 @@ pub fn read_motion(section: &Section<'_>, axis: &Axis, body: &mut ChainBody, tab
                 place,
                 "duplicate-error",
                 message,
-                "table column or own entry, not both",
+                "keep either the column of the table or the entry",
             );
         }
         body.motion[name.component as usize] = reader.read_curve(name, &item);
@@ -149,7 +149,11 @@ impl MotionReader<'_> {
             ] {
                 if twice {
                     let message = format!("{name}: its {what} is stated twice");
-                    section.error("duplicate-error", message, "in the table or here, not both");
+                    section.error(
+                        "duplicate-error",
+                        message,
+                        "keep either the columns of the table or this entry",
+                    );
                 }
             }
             u = u.or(shape.u).or_else(|| self.general_u(name.component));
@@ -163,12 +167,16 @@ impl MotionReader<'_> {
         let shapes = ["constant", "polynomial", "fourier", "table"];
         let given: Vec<_> = shapes.iter().filter(|s| section.get(s).is_some()).collect();
         if given.len() != 1 {
-            // Which of them belong here cannot be told: do not call them unknown too.
+            // Which of them belong here is not known: do not report them as unknown too.
             for key in ["scale", "origin", "interpolation", "outside"] {
                 section.get(key);
             }
-            let message = format!("an error motion has one shape, here are {}", given.len());
-            section.error("bad-curve", message, "give one of constant, polynomial, fourier, table");
+            let message = format!("an error motion needs exactly one shape, found {}", given.len());
+            section.error(
+                "bad-curve",
+                message,
+                "write one of constant, polynomial, fourier, table",
+            );
             return None;
         }
         let mean = match *given[0] {
@@ -194,7 +202,8 @@ impl MotionReader<'_> {
     fn read_polynomial(&self, section: &Section<'_>, dimension: Dimension) -> Option<Curve> {
         let position = position_dimension(self.axis.kind);
         let origin = section.get("origin").map_or(Some(0.0), |i| i.quantity(position));
-        let hint = "the position above the origin where the argument is 1, such as \"100 mm\"";
+        let hint =
+            "write the distance from the origin at which the argument is 1, such as \"100 mm\"";
         let item = section.require("scale", hint);
         let items = section.get("polynomial")?.list()?;
         let coefficients: Vec<_> = items.iter().map(|i| i.quantity(dimension)).collect();
@@ -202,12 +211,13 @@ impl MotionReader<'_> {
         let (origin, item) = (origin?, item?);
         let scale = item.quantity(position)?;
         if scale == 0.0 {
-            item.error("bad-curve", "the scale of a polynomial is not zero".into(), hint);
+            item.error("bad-curve", "the scale of a polynomial must not be zero".into(), hint);
             return None;
         }
         let coefficients = coefficients?;
         if coefficients.is_empty() {
-            let hint = "[\"0 um\", \"3 um\"] is 3 um times the argument";
+            let hint = "write the coefficients in rising order: [\"0 um\", \"3 um\"] is 3 um \
+                times the argument";
             section.error("bad-curve", "the polynomial has no coefficients".into(), hint);
             return None;
         }
@@ -216,7 +226,7 @@ impl MotionReader<'_> {
         let highest = coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c.abs());
         // Not a number, too, is refused: 0 · ∞ where the scale is next to nothing.
         if highest.is_nan() || highest > HIGHEST_ERROR {
-            let message = format!("the polynomial grows to {highest:.0e} within the travel");
+            let message = format!("the polynomial reaches {highest:.0e} within the travel");
             section.error("too-large", message, "check its scale and its coefficients");
             return None;
         }
@@ -226,13 +236,17 @@ impl MotionReader<'_> {
     fn read_fourier(&self, section: &Section<'_>, dimension: Dimension) -> Option<Curve> {
         if self.axis.kind == AxisKind::Linear {
             let hint = "use a polynomial or a table";
-            let message = format!("{} does not turn: no Fourier series", self.axis.name);
+            let message = format!(
+                "{} is not a rotary axis: a Fourier series is not possible",
+                self.axis.name
+            );
             section.error("bad-curve", message, hint);
             return None;
         }
         section.section("fourier", |series| {
             let mean = series.get("mean").map_or(Some(0.0), |i| i.quantity(dimension));
-            let hint = "[[order, \"cosine\", \"sine\"], …], such as [[1, \"2 um\", \"1 um\"]]";
+            let hint =
+                "write [[order, \"cosine\", \"sine\"], …], such as [[1, \"2 um\", \"1 um\"]]";
             let terms = series.require("terms", hint)?.list()?;
             let terms: Vec<_> = terms.iter().map(|t| harmonic(t, dimension, hint)).collect();
             let terms = terms.into_iter().collect::<Option<_>>()?;
@@ -253,7 +267,12 @@ impl MotionReader<'_> {
             let place = headings_place(&table);
             let message =
                 format!("the table has no column E{}{}_…", component.letter(), self.axis.name);
-            problems.error("missing-column", place, message, "such as EXX_um or EAX_urad");
+            problems.error(
+                "missing-column",
+                place,
+                message,
+                "name it by error and unit, such as EXX_um or EAX_urad",
+            );
         }
         let curves = read.and_then(|r| r.curves(component, &mut problems));
         section.take_over(problems);
@@ -296,13 +315,17 @@ impl MotionReader<'_> {
 fn harmonic(item: &Item<'_>, dimension: Dimension, hint: &str) -> Option<Harmonic> {
     let parts = item.list()?;
     let [order, cosine, sine] = &parts[..] else {
-        item.error("bad-curve", "a harmonic is order, cosine and sine".into(), hint);
+        item.error(
+            "bad-curve",
+            "a harmonic needs three values: order, cosine and sine".into(),
+            hint,
+        );
         return None;
     };
     let (order, cosine, sine) =
         (order.number()?, cosine.quantity(dimension)?, sine.quantity(dimension)?);
     if !(1.0..=HIGHEST_ORDER).contains(&order) || order.fract() != 0.0 {
-        let message = format!("the order is a whole number from 1 to {HIGHEST_ORDER}");
+        let message = format!("the order must be a whole number from 1 to {HIGHEST_ORDER}");
         item.error("bad-curve", message, hint);
         return None;
     }
@@ -316,22 +339,22 @@ fn read_interpolation(section: &Section<'_>) -> Option<Interpolation> {
         "periodic" => Some(Interpolation::Periodic),
         "linear" => Some(Interpolation::Linear),
         other => {
-            let message = format!("`{other}` is no interpolation");
-            item.error("unknown-word", message, "not-a-knot, periodic or linear");
+            let message = format!("unknown interpolation `{other}`");
+            item.error("unknown-word", message, "write not-a-knot, periodic or linear");
             None
         }
     }
 }
 
-fn read_outside(section: &Section<'_>) -> Option<Outside> {
+fn read_outside(section: &Section<'_>) -> Option<Extrapolation> {
     let item = section.get("outside")?;
     match item.text()? {
-        "error" => Some(Outside::Error),
-        "clamp" => Some(Outside::Clamp),
-        "extend" => Some(Outside::Extend),
+        "error" => Some(Extrapolation::Error),
+        "clamp" => Some(Extrapolation::Clamp),
+        "extend" => Some(Extrapolation::Extend),
         other => {
-            let message = format!("`{other}` says not what holds outside the table");
-            item.error("unknown-word", message, "error, clamp or extend");
+            let message = format!("unknown rule `{other}` for positions outside the table");
+            item.error("unknown-word", message, "write error, clamp or extend");
             None
         }
     }
@@ -342,7 +365,11 @@ fn read_uncertainties(section: &Section<'_>) -> [Option<f64>; 2] {
     let Some(item) = section.get("u") else { return [None; 2] };
     let Some(items) = item.list() else { return [None; 2] };
     let [shift, turn] = &items[..] else {
-        item.error("bad-uncertainty", "two values are due here".into(), "[\"0.5 um\", \"1 urad\"]");
+        item.error(
+            "bad-uncertainty",
+            "expected two values here".into(),
+            "write u of displacements and of angles, such as [\"0.5 um\", \"1 urad\"]",
+        );
         return [None; 2];
     };
     [not_negative(shift, Dimension::Length), not_negative(turn, Dimension::Angle)]

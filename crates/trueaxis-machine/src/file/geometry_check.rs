@@ -1,4 +1,4 @@
-//! Whether the axes can do what their number promises.
+//! Checks that the directions of the axes are independent.
 
 use crate::axis::AxisKind;
 use crate::chain::{ChainBody, Machine};

@@ -8,8 +8,8 @@ use crate::chain::ChainBody;
 use crate::errors::{Component, ErrorIndex, ErrorKind, ErrorName};
 use crate::heat::expansion::Anchor;
 use crate::heat::{
-    HeatModel, Heated, HeatedPlace, REFERENCE_CELSIUS, Scale, Sensor, Settling, StructureModel,
-    Workpiece, measured_celsius,
+    HeatModel, HeatedPlace, HeatedScale, REFERENCE_CELSIUS, Scale, Sensor, Settling,
+    StructureModel, Workpiece, measured_celsius,
 };
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{Dimension, Item, MeasuredValue, Section};
@@ -17,7 +17,7 @@ use trueaxis_input::{Dimension, Item, MeasuredValue, Section};
 /// Nothing that holds a scale or a part grows by more, 1/K (zinc 30e-6, plastics 200e-6).
 const LARGE_EXPANSION: f64 = 300e-6;
 
-/// Heat at places closer than this cannot be told apart, mm.
+/// Heat sources closer than this cannot be separated, mm.
 const CLOSEST_MM: f64 = 1.0;
 
 /// `[scale.X]` and `[heat.EZ0t]`.
@@ -28,8 +28,9 @@ pub fn read_heat(root: &Section<'_>, axes: &[Axis], bodies: &[ChainBody]) -> Hea
             let found = axes.iter().position(|a| a.name.to_string() == key);
             let linear = found.filter(|i| axes[*i].kind == AxisKind::Linear);
             let Some(axis) = linear else {
-                let message = format!("`{key}` is no linear axis of this machine");
-                let hint = "scales and screws belong to linear axes; an angle does not expand";
+                let message = format!("`{key}` is not a linear axis of this machine");
+                let hint =
+                    "write the letter of a linear axis: only linear scales and screws expand";
                 section.error_at(place, "unknown-axis", message, hint);
                 continue;
             };
@@ -46,8 +47,13 @@ pub fn read_heat(root: &Section<'_>, axes: &[Axis], bodies: &[ChainBody]) -> Hea
                 .filter(|n| n.body.is_axis() || n.kind == ErrorKind::Location)
                 .and_then(|name| Some((name, bodies.iter().position(|b| b.name == name.body)?)));
             let Some((name, body)) = known else {
-                let message = format!("`{key}` is no error of a body of this machine");
-                section.error_at(place, "unknown-error-name", message, "such as EZ0t, EB0Z, EXX");
+                let message = format!("`{key}` is not an error of a body of this machine");
+                section.error_at(
+                    place,
+                    "unknown-error-name",
+                    message,
+                    "write the name of an error such as EZ0t, EB0Z, EXX",
+                );
                 continue;
             };
             let index = ErrorIndex { body, kind: name.kind, component: name.component };
@@ -61,7 +67,9 @@ pub fn read_heat(root: &Section<'_>, axes: &[Axis], bodies: &[ChainBody]) -> Hea
 fn expansion(item: &Item<'_>) -> Option<MeasuredValue> {
     let value = item.measured(Dimension::Expansion)?;
     if value.value.abs() > LARGE_EXPANSION {
-        let message = "nothing that holds a scale or a part grows so much".to_owned();
+        let message =
+            "the coefficient of expansion is larger than that of any scale, screw or workpiece"
+                .to_owned();
         item.warn("large-expansion", message, "steel has 11.5 um/(m K), aluminium 23.5");
     }
     Some(value)
@@ -86,7 +94,7 @@ fn read_scale(
     axis: &Axis,
     body: &ChainBody,
 ) -> Option<Scale> {
-    let hint = "such as expansion = \"10.8 ± 0.3 um/(m K)\"";
+    let hint = "write it with its unit, such as expansion = \"10.8 ± 0.3 um/(m K)\"";
     let alpha = section.require("expansion", hint).and_then(|i| expansion(&i));
     let fixed_mm = section.quantity("fixed_point", Dimension::Length).unwrap_or(0.0);
     let table_celsius = table_temperature(section, axis, body);
@@ -94,8 +102,8 @@ fn read_scale(
     let is_heated = section.get("heated").is_some();
     let heated = read_heated(section);
     if sensors.is_empty() != is_heated {
-        let message = "a scale has `sensors`, or one place where it is `heated`".to_owned();
-        let hint = format!("sensors = {{ scale_{} = \"0 mm\" }}", axis.name.letter());
+        let message = "a scale needs `sensors` or a place where it is `heated`".to_owned();
+        let hint = format!("write sensors = {{ scale_{} = \"0 mm\" }}", axis.name.letter());
         section.error("missing-key", message, &hint.to_lowercase());
     }
     Some(Scale {
@@ -119,25 +127,28 @@ fn table_temperature(section: &Section<'_>, axis: &Axis, body: &ChainBody) -> f6
         && a != b
     {
         let message = format!("the error table was measured at {b} °C, not at {a} °C");
-        let hint = "leave `table_temperature` out: `measured` of the table says it";
+        let hint = "remove `table_temperature`: `measured` of the table states the temperature";
         section.error("two-temperatures", message, hint);
     }
     stated.or(measured).unwrap_or_else(|| {
-        let message =
-            format!("the temperature of the error table of {} is not stated: 20 °C", axis.name);
+        let message = format!(
+            "the temperature of the error table of {} is not stated; 20 °C is \
+                assumed",
+            axis.name
+        );
         let hint =
-            "table_temperature = \"20 degC\", or measured = { temperature = … } of the table";
+            "write table_temperature = \"20 degC\", or measured = { temperature = … } of the table";
         section.warn("no-temperature", message, hint);
         REFERENCE_CELSIUS
     })
 }
 
 /// `heated = { at, near, far, diffusivity, time }`, or a list of them on one scale.
-fn read_heated(section: &Section<'_>) -> Option<Heated> {
+fn read_heated(section: &Section<'_>) -> Option<HeatedScale> {
     let item = section.get("heated")?;
     let list =
         if item.is_list() { item.list()? } else { section.get("heated").into_iter().collect() };
-    let mut heated: Option<Heated> = None;
+    let mut heated: Option<HeatedScale> = None;
     let mut sound = true;
     for one in &list {
         let read = one.section(&section.path("heated"), read_heated_place).flatten();
@@ -145,14 +156,14 @@ fn read_heated(section: &Section<'_>) -> Option<Heated> {
             sound = false;
             continue;
         };
-        let whole = heated.get_or_insert(Heated {
+        let whole = heated.get_or_insert(HeatedScale {
             places: Vec::new(),
             far: far.clone(),
             diffusivity_mm2_per_s,
         });
         if (&whole.far, whole.diffusivity_mm2_per_s) != (&far, diffusivity_mm2_per_s) {
             let message = "two heated places of one scale differ in `far` or `diffusivity`";
-            let hint = "the scale is one body: it has one diffusivity and one sensor far away";
+            let hint = "a scale has one diffusivity and one sensor far from the heated places";
             one.error("two-scales-in-one", message.to_owned(), hint);
             sound = false;
         }
@@ -160,24 +171,32 @@ fn read_heated(section: &Section<'_>) -> Option<Heated> {
             (p.place_mm - place.place_mm).abs() < CLOSEST_MM || p.near == place.near
         };
         if whole.places.iter().any(same) {
-            let message = "two heated places of one scale share their place or their sensor";
-            let hint = "each has a sensor of its own, 1 mm apart at least";
+            let message =
+                "two heated places of one scale have the same position or the same sensor";
+            let hint = "give each its own sensor, at least 1 mm apart";
             one.error("heated-twice", message.to_owned(), hint);
             sound = false;
         }
         whole.places.push(place);
     }
     if list.is_empty() {
-        item.error("missing-key", "no place is heated".to_owned(), "name one, or leave it out");
+        item.error(
+            "missing-key",
+            "the list `heated` is empty".to_owned(),
+            "add a heated place, or remove the entry",
+        );
     }
     heated.filter(|_| sound)
 }
 
 fn read_heated_place(section: &Section<'_>) -> Option<(HeatedPlace, String, f64)> {
     let place_mm = section.quantity("at", Dimension::Length).unwrap_or(0.0);
-    let near = section.require("near", "the sensor at the place").and_then(|i| i.text());
-    let far =
-        section.require("far", "a sensor that the heat does not reach").and_then(|i| i.text());
+    let near = section
+        .require("near", "write the name of the sensor at the heated place")
+        .and_then(|i| i.text());
+    let far = section
+        .require("far", "write the name of a sensor that the heat does not reach")
+        .and_then(|i| i.text());
     let hint = "steel 4 mm^2/s, glass 0.5 mm^2/s";
     let item = section.require("diffusivity", hint);
     let diffusivity = item.and_then(|i| above_zero(&i, Dimension::Diffusivity));
@@ -189,7 +208,7 @@ fn read_heated_place(section: &Section<'_>) -> Option<(HeatedPlace, String, f64)
 fn above_zero(item: &Item<'_>, dimension: Dimension) -> Option<f64> {
     let value = item.quantity(dimension)?;
     if value <= 0.0 {
-        item.error("not-positive", "this must be above zero".into(), "check its sign");
+        item.error("not-positive", "the value must be above zero".into(), "check the sign");
         return None;
     }
     Some(value)
@@ -213,8 +232,12 @@ fn read_structure(
         }
     }
     if coefficients.is_empty() {
-        let message = format!("{name}: no sensor says how it changes");
-        section.error("missing-key", message, "such as spindle = \"1.8 ± 0.2 um/K\"");
+        let message = format!("{name}: no sensor is named for its thermal change");
+        section.error(
+            "missing-key",
+            message,
+            "write sensor and coefficient, such as spindle = \"1.8 ± 0.2 um/K\"",
+        );
         return None;
     }
     let reference_celsius = reference.unwrap_or(REFERENCE_CELSIUS);
@@ -230,8 +253,12 @@ pub fn read_workpiece_heat(section: &Section<'_>) -> Option<Workpiece> {
     let settling = section.section("settling", read_settling);
     let Some(item) = item else {
         if fixed.is_some() || along.is_some() || settling.is_some() || !sensors.is_empty() {
-            let message = "without `expansion` the workpiece does not grow".to_owned();
-            section.error("missing-key", message, "such as expansion = \"13.2 um/(m K)\"");
+            let message = "[workpiece] has no `expansion`: its thermal growth is zero".to_owned();
+            section.error(
+                "missing-key",
+                message,
+                "add an entry such as expansion = \"13.2 um/(m K)\"",
+            );
         }
         return None;
     };
@@ -255,8 +282,17 @@ fn read_settling(section: &Section<'_>) -> Option<Settling> {
     }
     let need =
         |key, dimension, hint| section.require(key, hint).and_then(|i| above_zero(&i, dimension));
-    let thickness = need("thickness", Dimension::Length, "of the plate, such as \"60 mm\"");
-    let film = need("film", Dimension::FilmCoefficient, "still air \"8 W/(m^2 K)\"");
-    let heat = need("heat_capacity", Dimension::HeatCapacity, "iron \"3.6 MJ/(m^3 K)\"");
+    let thickness =
+        need("thickness", Dimension::Length, "write the thickness of the plate, such as \"60 mm\"");
+    let film = need(
+        "film",
+        Dimension::FilmCoefficient,
+        "write the film coefficient; still air: \"8 W/(m^2 K)\"",
+    );
+    let heat = need(
+        "heat_capacity",
+        Dimension::HeatCapacity,
+        "write the volumetric heat capacity; iron: \"3.6 MJ/(m^3 K)\"",
+    );
     Some(Settling::of_plate(thickness?, film?, heat?))
 }

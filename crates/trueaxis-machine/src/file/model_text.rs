@@ -1,11 +1,12 @@
-//! `[[model]]`: what stands on which node, with the place of its own coordinate system.
+//! `[[model]]`: the solid models of the bodies, each with the placement of its coordinate system.
 
 use super::{positive, read_pose, read_vector_mm};
 use crate::chain::{ChainBody, Link};
 use crate::models::{Model, Shape, ToolSegment};
 use trueaxis_input::{Dimension, Item, QuantityError, Section, Unit, parse_quantity};
 
-const SHAPES: &str = "one of: stl = \"models/ram.stl\", box = \"400 200 100 mm\", cylinder = \
+const SHAPES: &str = "write one of: stl = \"models/ram.stl\", box = \"400 200 100 mm\", \
+    cylinder = \
                       { diameter = \"80 mm\", length = \"120 mm\" }, cone = { base, top, length }, \
                       prism = { outline, length }";
 /// An outline is checked against itself corner by corner; more belongs into an STL file.
@@ -36,7 +37,7 @@ fn read_model(section: &Section<'_>, bodies: &[ChainBody], before: &[Model]) -> 
     let name = name.map_or_else(|| numbered(node, bodies, before), str::to_owned);
     if before.iter().any(|m| m.name == name) {
         let message = format!("two models are called `{name}`");
-        let hint = "reports name models: give each its own name";
+        let hint = "give each model its own name; reports refer to it";
         match given {
             Some(item) => item.error("duplicate-model", message, hint),
             None => section.error("duplicate-model", message, hint),
@@ -45,7 +46,7 @@ fn read_model(section: &Section<'_>, bodies: &[ChainBody], before: &[Model]) -> 
     Some(Model { name, body: node, placement, shape })
 }
 
-/// Document 002 numbers the models of a node: `X 1`, `X 2`.
+/// Jiang et al. number the models of a node: `X 1`, `X 2`.
 fn numbered(node: Option<usize>, bodies: &[ChainBody], before: &[Model]) -> String {
     let letter = node.map_or_else(|| "b".to_owned(), |i| bodies[i].name.to_string());
     let count = before.iter().filter(|m| m.body == node).count();
@@ -54,7 +55,7 @@ fn numbered(node: Option<usize>, bodies: &[ChainBody], before: &[Model]) -> Stri
 
 fn node_hint(bodies: &[ChainBody]) -> String {
     let names: Vec<String> = bodies.iter().map(|b| b.name.to_string()).collect();
-    format!("the node that carries it: b (bed), {}", names.join(", "))
+    format!("write the body that carries the model: b (bed), {}", names.join(", "))
 }
 
 fn read_node(item: &Item<'_>, bodies: &[ChainBody]) -> Option<Option<usize>> {
@@ -82,11 +83,11 @@ pub fn read_shape(section: &Section<'_>) -> Option<Shape> {
     let count = all.iter().filter(|shape| shape.is_some()).count();
     if count != 1 {
         let code = if count == 0 { "missing-key" } else { "two-shapes" };
-        section.error(code, format!("a model has one shape, this one has {count}"), SHAPES);
+        section.error(code, format!("a model needs exactly one shape, found {count}"), SHAPES);
         return None;
     }
     if let (Some(unit), None) = (&unit, &stl) {
-        unit.error("no-effect", "only an STL file has a unit of its own".into(), "leave it out");
+        unit.error("no-effect", "`unit` applies to STL files only".into(), "remove the entry");
     }
     if let Some(item) = stl {
         return read_stl(&item, unit.as_ref());
@@ -128,14 +129,14 @@ fn read_stl(item: &Item<'_>, unit: Option<&Item<'_>>) -> Option<Shape> {
 fn read_box(item: &Item<'_>) -> Option<Shape> {
     let size_mm = read_vector_mm(item)?;
     if size_mm.iter().any(|edge| *edge <= 0.0) {
-        item.error("not-positive", "a box has three edges above zero".into(), SHAPES);
+        item.error("not-positive", "the edges of a box must be above zero".into(), SHAPES);
         return None;
     }
     Some(Shape::Box { size_mm })
 }
 
 fn required(section: &Section<'_>, key: &str) -> Option<f64> {
-    section.require(key, "a length above zero, such as \"80 mm\"");
+    section.require(key, "write a length above zero, such as \"80 mm\"");
     positive(section, key, Dimension::Length)
 }
 
@@ -146,7 +147,7 @@ fn read_cylinder(section: &Section<'_>) -> Option<Shape> {
 }
 
 fn read_cone(section: &Section<'_>) -> Option<Shape> {
-    let hint = "the diameter there, such as \"80 mm\", or \"0 mm\" for a point";
+    let hint = "write the diameter at this end, such as \"80 mm\", or \"0 mm\" for a point";
     let diameter = |key| {
         let item = section.require(key, hint)?;
         let value = item.quantity(Dimension::Length)?;
@@ -159,26 +160,30 @@ fn read_cone(section: &Section<'_>) -> Option<Shape> {
     let (base, top, length) = (diameter("base"), diameter("top"), required(section, "length"));
     let (base_diameter_mm, top_diameter_mm, length_mm) = (base?, top?, length?);
     if base_diameter_mm == 0.0 && top_diameter_mm == 0.0 {
-        section.error("not-positive", "a cone is not a point at both ends".into(), hint);
+        section.error(
+            "not-positive",
+            "one of the two diameters of a cone must be above zero".into(),
+            hint,
+        );
         return None;
     }
     Some(Shape::Cone { base_diameter_mm, top_diameter_mm, length_mm })
 }
 
 fn read_prism(section: &Section<'_>) -> Option<Shape> {
-    let hint = "its corners in order: outline = [\"0 0 mm\", \"100 0 mm\", \"0 50 mm\"]";
+    let hint = "write the corners in order: outline = [\"0 0 mm\", \"100 0 mm\", \"0 50 mm\"]";
     let length = required(section, "length");
     let item = section.require("outline", hint)?;
     let corners: Vec<_> = item.list()?.iter().map(read_corner).collect();
     let outline_mm = corners.into_iter().collect::<Option<Vec<_>>>()?;
     if !(3..=MOST_CORNERS).contains(&outline_mm.len()) {
-        let message = format!("an outline has 3 to {MOST_CORNERS} corners");
+        let message = format!("an outline needs 3 to {MOST_CORNERS} corners");
         item.error("bad-outline", message, hint);
         return None;
     }
     if crosses_itself(&outline_mm) {
         let message = "the outline crosses or touches itself".to_owned();
-        item.error("bad-outline", message, "name the corners once each, in order around it");
+        item.error("bad-outline", message, "write each corner once, in order around the outline");
         return None;
     }
     Some(Shape::Prism { outline_mm, length_mm: length? })
@@ -191,7 +196,7 @@ fn read_corner(item: &Item<'_>) -> Option<[f64; 2]> {
         None
     };
     let [x, y, unit] = words[..] else {
-        return refuse("a corner is two lengths and their unit".into());
+        return refuse("a corner needs two lengths and their unit".into());
     };
     let number = |word: &str| {
         let unit = Unit::find(unit, Dimension::Length)?;
@@ -237,18 +242,23 @@ fn segments_meet((a, b): Edge, (c, d): Edge) -> bool {
 
 /// `shape = [["10 mm", "60 mm"], ["50 mm", "40 mm"]]`: diameter and length, from the tip upwards.
 pub fn read_tool_shape(section: &Section<'_>) -> Option<Vec<ToolSegment>> {
-    let hint = "from the tip upwards, diameter and length: [[\"10 mm\", \"60 mm\"], …]";
+    let hint = "write diameter and length of each segment from the tip upwards: [[\"10 mm\", \"60 \
+        mm\"], …]";
     let item = section.get("shape")?;
     let read = |item: &Item<'_>| {
         let pair = item.list()?;
         let [diameter, length] = &pair[..] else {
-            item.error("bad-tool", "a segment is a diameter and a length".into(), hint);
+            item.error("bad-tool", "a segment needs a diameter and a length".into(), hint);
             return None;
         };
         let length_of = |item: &Item<'_>| {
             let value = item.quantity(Dimension::Length)?;
             if value <= 0.0 {
-                item.error("not-positive", "a segment is larger than zero".into(), hint);
+                item.error(
+                    "not-positive",
+                    "diameter and length of a segment must be above zero".into(),
+                    hint,
+                );
                 return None;
             }
             Some(value)

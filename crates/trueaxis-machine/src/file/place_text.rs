@@ -1,12 +1,12 @@
-//! Places and attitudes as people write them: `"0 -1500 300 mm"`, `["shift …", "turn Y 10 deg"]`.
+//! Placements in the machine file: `"0 -1500 300 mm"`, `["shift …", "turn Y 10 deg"]`.
 
 use crate::chain::Link;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Pose, rotation};
 use trueaxis_input::{Dimension, Item, QuantityError, Unit, parse_quantity};
 
-const HINT: &str = "write \"x y z mm\", \"shift x y z mm\" or \"turn Z 15 deg\", or a list of these \
-                    from left to right";
+const HINT: &str = "write \"x y z mm\", \"shift x y z mm\" or \"turn Z 15 deg\", or a list of \
+    these, applied from left to right";
 
 /// A pose from one step or a list of steps, applied from left to right in the moved frame.
 pub fn read_pose(item: &Item<'_>) -> Option<Link> {
@@ -27,12 +27,20 @@ pub fn read_direction(item: &Item<'_>) -> Option<Vec3> {
     let numbers: Vec<Option<f64>> =
         item.text()?.split_whitespace().map(|w| parse_quantity(w, Dimension::Ratio).ok()).collect();
     let [Some(x), Some(y), Some(z)] = numbers[..] else {
-        item.error("bad-direction", "a direction is three numbers".into(), "write \"0 1 1\"");
+        item.error(
+            "bad-direction",
+            "a direction needs three numbers".into(),
+            "write a vector such as \"0 1 1\"",
+        );
         return None;
     };
     let scale = x.abs().max(y.abs()).max(z.abs());
     if scale == 0.0 {
-        item.error("bad-direction", "the direction has no length".into(), "write \"0 1 1\"");
+        item.error(
+            "bad-direction",
+            "the direction has length zero".into(),
+            "write a vector such as \"0 1 1\"",
+        );
         return None;
     }
     Some((Vec3::new(x, y, z) / scale).normalize())
@@ -46,7 +54,7 @@ fn read_step(item: &Item<'_>) -> Option<Link> {
                 "X" => Vec3::x(),
                 "Y" => Vec3::y(),
                 "Z" => Vec3::z(),
-                _ => return refuse(item, format!("`{about}` is no direction to turn about")),
+                _ => return refuse(item, format!("`{about}` is not a direction to turn about")),
             };
             match parse_quantity(&words[2..].join(" "), Dimension::Angle) {
                 Ok(angle) => Some(Pose::new(rotation(direction, angle), Vec3::zeros())),
@@ -65,7 +73,7 @@ fn vector(item: &Item<'_>, words: &[&str]) -> Option<Vec3> {
     let (numbers, unit) = match words {
         [x, y, z] => ([*x, *y, *z], ""),
         [x, y, z, unit] => ([*x, *y, *z], *unit),
-        _ => return refuse(item, "three lengths and their unit are due here".into()),
+        _ => return refuse(item, "expected three lengths and their unit".into()),
     };
     let unit = match Unit::find(unit, Dimension::Length) {
         Ok(unit) => unit,

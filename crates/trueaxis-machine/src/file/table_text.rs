@@ -3,7 +3,7 @@
 use super::error_text::dimension_of;
 use crate::axis::{Axis, AxisKind, Travel};
 use crate::errors::{
-    Component, Curve, ErrorKind, ErrorName, Interpolation, Outside, Spline, SplineError,
+    Component, Curve, ErrorKind, ErrorName, Interpolation, Extrapolation, Spline, SplineError,
     Uncertainty,
 };
 use std::f64::consts::TAU;
@@ -20,11 +20,11 @@ pub fn position_dimension(kind: AxisKind) -> Dimension {
     }
 }
 
-/// How the rows of a table are joined, and what holds beyond them.
+/// Interpolation of a table, and its continuation outside.
 #[derive(Clone, Copy)]
 pub struct TableHabits {
     pub interpolation: Interpolation,
-    pub outside: Outside,
+    pub outside: Extrapolation,
 }
 
 /// The error motions of one axis over checked positions.
@@ -36,7 +36,7 @@ pub struct ErrorTable<'a> {
     columns: [Columns<'a>; 6],
 }
 
-/// What a table says about one error motion.
+/// The curves of one error motion in a table.
 pub struct TableCurves {
     pub mean: Curve,
     pub reversal: Option<Curve>,
@@ -47,7 +47,7 @@ pub struct TableCurves {
 #[derive(Default)]
 struct Columns<'a> {
     of_role: [Option<Column<'a>>; 4],
-    /// One of them could not be read, which has been reported: say no more about the others.
+    /// One of them could not be read, which has been reported; the others are not reported again.
     broken: bool,
 }
 
@@ -93,7 +93,7 @@ impl<'a> ErrorTable<'a> {
         !columns.broken && columns.of_role.iter().all(Option::is_none)
     }
 
-    /// What the table says about an error motion; `None` if nothing, or with problems.
+    /// The curves of an error motion; `None` if the table has none, or with problems.
     pub fn curves(&self, component: Component, problems: &mut Diagnostics) -> Option<TableCurves> {
         let Columns { of_role: [mean, up, down, u], broken } = &self.columns[component as usize];
         if *broken || self.lacks(component) {
@@ -120,8 +120,9 @@ impl<'a> ErrorTable<'a> {
             _ => {
                 let of_role = &self.columns[component as usize].of_role;
                 let place = of_role.iter().flatten().next()?.place.clone();
-                let message = format!("{name} needs one column, or one _up and one _down");
-                problems.error("bad-table", place, message, "give the mean or both directions");
+                let message =
+                    format!("{name} needs either one column or two columns _up and _down");
+                problems.error("bad-table", place, message, "keep the mean or both directions");
                 None
             }
         }
@@ -146,7 +147,12 @@ impl<'a> ErrorTable<'a> {
         if let Some(row) = u.values.iter().position(|u| *u < 0.0) {
             let place = self.table.row_place(row);
             let message = "a standard uncertainty is negative".to_owned();
-            problems.error("negative-uncertainty", place, message, "it is zero or positive");
+            problems.error(
+                "negative-uncertainty",
+                place,
+                message,
+                "write zero or a positive number",
+            );
             return None;
         }
         Spline::new(&self.positions, &u.values, Interpolation::Linear).ok()
@@ -177,20 +183,21 @@ impl<'a> ErrorTable<'a> {
         );
         let starts_late = matches!(self.axis.travel, Travel::Between(low, _) if from > low);
         let place = self.table.row_place(if starts_late { 0 } else { self.positions.len() - 1 });
-        if self.habits.outside == Outside::Error {
+        if self.habits.outside == Extrapolation::Error {
             let hint = match self.axis.travel {
                 Travel::Unlimited => {
-                    "say interpolation = \"periodic\", outside = \"clamp\" or \"extend\""
+                    "write interpolation = \"periodic\", outside = \"clamp\" or \"extend\""
                 }
                 _ => {
-                    "measure the rest, shorten the travel, or say outside = \"clamp\" or \"extend\""
+                    "measure the rest, shorten the travel, or write outside = \"clamp\" or \
+                     \"extend\""
                 }
             };
             problems.error("table-too-short", place, message, hint);
         } else {
             let hint = match self.habits.outside {
-                Outside::Extend => "beyond its ends the error goes on along a straight line",
-                _ => "beyond its ends the last value holds",
+                Extrapolation::Extend => "outside the table the error is extrapolated linearly",
+                _ => "outside the table the last value is used",
             };
             problems.warn("table-too-short", place, message, hint);
         }
@@ -208,7 +215,7 @@ impl<'a> ErrorTable<'a> {
         let whole = headings_place(self.table);
         if positions.len() < 2 {
             let message = SplineError::TooFewKnots(positions.len()).to_string();
-            problems.error("bad-table", whole, message, "one row for each measured position");
+            problems.error("bad-table", whole, message, "write one row for each measured position");
             return false;
         }
         if let Some(row) = positions.windows(2).position(|w| w[1] - w[0] < CLOSEST) {
@@ -223,8 +230,9 @@ impl<'a> ErrorTable<'a> {
             && self.axis.kind == AxisKind::Rotary;
         if must_close && !whole_turns {
             let span = in_degrees(turns * TAU);
-            let message = format!("a periodic table covers whole turns, this one {span} deg");
-            let hint = "such as 0 .. 360 deg, where the last row repeats the first";
+            let message =
+                format!("a periodic table must cover whole turns, this one covers {span} deg");
+            let hint = "write rows from 0 to 360 deg, the last with the values of the first";
             problems.error("bad-table", whole, message, hint);
             return false;
         }
@@ -240,7 +248,7 @@ impl<'a> ErrorTable<'a> {
             return;
         }
         let Some(parsed) = parsed else {
-            let message = format!("`{}` is no error motion of {axis}", column.name);
+            let message = format!("`{}` is not an error motion of {axis}", column.name);
             let hint = format!(
                 "columns are EX{axis}_um … EC{axis}_urad, EX{axis}_up_um and EX{axis}_down_um, \
                  u_EX{axis}_um"
@@ -253,7 +261,10 @@ impl<'a> ErrorTable<'a> {
         let columns = &mut self.columns[parsed.component as usize];
         let slot = &mut columns.of_role[role as usize];
         if slot.is_some() {
-            let message = format!("`{}`: {parsed} has a column in another unit", column.name);
+            let message = format!(
+                "`{}`: the table has another column of {parsed} in another unit",
+                column.name
+            );
             problems.error("duplicate-column", column.place.clone(), message, "keep one of them");
         }
         columns.broken |= values.is_none();

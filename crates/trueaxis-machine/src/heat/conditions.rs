@@ -1,4 +1,4 @@
-//! Conditions: what every temperature sensor says, typed or from a log.
+//! Conditions: the readings of the temperature sensors, typed or from a log.
 
 use std::sync::Arc;
 use trueaxis_input::{
@@ -14,7 +14,7 @@ const WARM_CELSIUS: f64 = 45.0;
 const JUMP_K: f64 = 2.0;
 /// No body of a machine warms or cools faster, K/s.
 const FASTEST_K_PER_S: f64 = 0.2;
-/// A larger step, many times the usual one of its sensor, is none of a body either, K.
+/// Limit for a step that is also many times the usual one of its sensor, K.
 const LARGE_JUMP_K: f64 = 5.0;
 /// Another must have moved by so much before a sensor that never moves is stuck, K.
 const MOVING_K: f64 = 0.5;
@@ -25,7 +25,7 @@ const ROWS_TO_JUDGE: usize = 10;
 /// No log is longer, s (300 years); beyond, differences of times lose their digits.
 const LONGEST_S: f64 = 1e10;
 
-/// What one sensor says, and where that was written.
+/// The reading of one sensor, and the place where it was written.
 #[derive(Debug, Clone, PartialEq)]
 struct Reading {
     sensor: String,
@@ -59,7 +59,7 @@ impl Conditions {
                 Some((sensor.trim().to_owned(), celsius))
             });
             let Some((sensor, celsius)) = celsius.filter(|(sensor, _)| !sensor.is_empty()) else {
-                let message = format!("`{word}` is not a sensor, =, and a temperature in °C");
+                let message = format!("expected sensor=temperature, found `{word}`");
                 problems.error("bad-temperature", place.clone(), message, hint_for(word));
                 sound = false;
                 continue;
@@ -102,12 +102,12 @@ impl Conditions {
         sound
     }
 
-    /// What a sensor says, °C.
+    /// The reading of a sensor, °C.
     pub fn celsius(&self, sensor: &str) -> Option<f64> {
         self.readings.iter().find(|r| r.sensor == sensor).map(|r| r.celsius)
     }
 
-    /// The sensors that say something, with °C.
+    /// The sensors with a reading, °C.
     pub fn readings(&self) -> impl Iterator<Item = (&str, f64)> {
         self.readings.iter().map(|r| (r.sensor.as_str(), r.celsius))
     }
@@ -127,10 +127,10 @@ impl Conditions {
         for reading in self.readings.iter().filter(|r| !known.contains(&r.sensor.as_str())) {
             let message = format!("the machine file has no sensor `{}`", reading.sensor);
             let hint = match known.is_empty() {
-                true => {
-                    "it has none: name them under [scale.X], [heat.EZ0t] or [workpiece]".to_owned()
-                }
-                false => format!("its sensors: {}", known.join(", ")),
+                true => "the machine file has no sensors: add them to [scale.X], [heat.EZ0t] or \
+                     [workpiece]"
+                    .to_owned(),
+                false => format!("sensors of the machine file: {}", known.join(", ")),
             };
             // A log may have more columns than this machine has sensors.
             if self.history.is_some() {
@@ -141,7 +141,7 @@ impl Conditions {
         }
     }
 
-    /// What some sensors of one body say: all of them, or none; a few are an error.
+    /// The readings of the sensors of one body: of all of them or of none; an incomplete set is an error.
     pub(super) fn of<'s>(
         &self,
         body: &str,
@@ -155,11 +155,12 @@ impl Conditions {
         let names = missing.join(", ");
         if missing.len() < sensors.count() {
             let message = format!("{body}: no temperature for {names}");
-            let hint = "give all sensors of a body, or none";
+            let hint = "state the temperatures of all sensors of a body, or of none";
             problems.error("missing-sensor", self.place.clone(), message, hint);
         } else {
-            let message = format!("{body}: no temperature for {names}, so it has no thermal part");
-            let hint = "it is taken to stand at the temperature of its table";
+            let message =
+                format!("{body}: no temperature for {names}; its thermal errors are not included");
+            let hint = "the temperature of its error table is assumed";
             problems.note("missing-sensor", self.place.clone(), message, hint);
         }
         None
@@ -175,13 +176,13 @@ fn hint_for(word: &str) -> &'static str {
 
 fn check_range(sensor: &str, celsius: f64, place: &Place, problems: &mut Diagnostics) -> bool {
     if !POSSIBLE_CELSIUS.contains(&celsius) {
-        let message = format!("`{sensor}` says {celsius} °C, which no machine has");
-        let hint = "°F, K, or the wrong column? °C = (°F − 32)/1.8 = K − 273.15";
+        let message = format!("`{sensor}` reads {celsius} °C, outside the range of machines");
+        let hint = "check the unit and the column: °C = (°F − 32)/1.8 = K − 273.15";
         problems.error("impossible-temperature", place.clone(), message, hint);
         return false;
     }
     if celsius > WARM_CELSIUS {
-        let message = format!("`{sensor}` says {celsius} °C, warmer than a hall");
+        let message = format!("`{sensor}` reads {celsius} °C, warmer than a workshop");
         let hint = "if these are °F: °C = (°F − 32)/1.8";
         problems.warn("warm-temperature", place.clone(), message, hint);
     }
@@ -200,7 +201,7 @@ impl TemperatureLog {
     /// Reads a CSV table: `time_s` (or another unit of time), then one column for each sensor with
     /// its unit, such as `scale_x_degC`.
     ///
-    /// Times that run backwards and impossible temperatures are errors; sensors that stand still
+    /// Times that run backwards and impossible temperatures are errors; sensors that do not change
     /// while others move, or jump, are warnings.
     pub fn parse(file: &str, text: &str, problems: &mut Diagnostics) -> Option<Self> {
         let mut found = Diagnostics::new();
@@ -233,7 +234,10 @@ impl TemperatureLog {
                 Err(error) => {
                     let hint = match unit.to_ascii_lowercase().ends_with('f') {
                         true => "convert it first: °C = (°F − 32)/1.8",
-                        false => "time_s first, then one column per sensor, such as scale_x_degC",
+                        false => {
+                            "write time_s first, then one column for each sensor, such as \
+                             scale_x_degC"
+                        }
                     };
                     let message = format!("column `{}`: {error}", column.name);
                     problems.error(error.code(), column.place.clone(), message, hint);
@@ -247,7 +251,7 @@ impl TemperatureLog {
             };
             if twice {
                 let message = format!("`{name}` has two columns");
-                let hint = "keep the one in the right unit";
+                let hint = "keep the column with the right unit";
                 problems.error("duplicate-column", column.place.clone(), message, hint);
             } else if dimension == Dimension::Time {
                 self.times_s = values;
@@ -256,8 +260,14 @@ impl TemperatureLog {
             }
         }
         let lacks = match (self.times_s.is_empty(), self.columns.is_empty()) {
-            (true, _) => Some(("the log has no time", "one column `time_s`, and at least one row")),
-            (_, true) => Some(("the log has no sensor", "one column per sensor: scale_x_degC")),
+            (true, _) => Some((
+                "the log has no column of times or no row",
+                "add a column `time_s` and at least one row",
+            )),
+            (_, true) => Some((
+                "the log has no column of a sensor",
+                "add one column for each sensor, such as scale_x_degC",
+            )),
             _ => None,
         };
         if let (Some((message, hint)), false) = (lacks, problems.has_errors()) {
@@ -269,14 +279,15 @@ impl TemperatureLog {
     fn check_times(&self, table: &CsvTable, problems: &mut Diagnostics) {
         if let Some(row) = self.times_s.iter().position(|t| t.abs() > LONGEST_S) {
             let message = format!("the time is {:e} s, more than 300 years", self.times_s[row]);
-            let hint = "count from the begin of the log, in s, min or h";
+            let hint = "state times from the start of the log, in s, min or h";
             problems.error("impossible-time", table.row_place(row), message, hint);
         }
         let back = self.times_s.windows(2).position(|w| w[1] <= w[0]);
         if let Some(i) = back {
             let (before, now) = (self.times_s[i], self.times_s[i + 1]);
-            let message = format!("the time runs from {before} s to {now} s");
-            let hint = "times rise from row to row; is a column swapped, or are logs joined?";
+            let message = format!("the time decreases or repeats: {now} s after {before} s");
+            let hint =
+                "times must increase from row to row: check for swapped columns and joined logs";
             problems.error("time-runs-backwards", table.row_place(i + 1), message, hint);
         }
     }
@@ -297,26 +308,31 @@ impl TemperatureLog {
         }
         if let Some((from, to)) = self.stuck(values) {
             let message = match to - from == values.len() {
-                true => format!("`{name}` stands still at {} °C while others move", values[0]),
+                true => format!("`{name}` stays at {} °C while other sensors change", values[0]),
                 false => format!(
-                    "`{name}` stands still at {} °C for {} rows while others move",
+                    "`{name}` stays at {} °C for {} rows while other sensors change",
                     values[from],
                     to - from
                 ),
             };
-            problems.warn("stuck-sensor", place(from), message, "is it connected?");
+            problems.warn(
+                "stuck-sensor",
+                place(from),
+                message,
+                "check whether the sensor is connected",
+            );
         }
         if let Some(row) = self.jump(values) {
             let (from, to) = (values[row - 1], values[row]);
             let seconds = self.times_s[row] - self.times_s[row - 1];
             let message = format!("`{name}` jumps from {from} to {to} °C within {seconds} s");
-            let hint = "a body of a machine moves by 12 K/min at most: a loose sensor, two swapped \
-                        ones, or two logs joined?";
+            let hint = "the temperature of a machine body changes by at most 12 K/min: check for \
+                a loose sensor, swapped columns and joined logs";
             problems.warn("jumping-sensor", place(row), message, hint);
         }
     }
 
-    /// The rows in which a sensor says the same to the last digit while another one moves.
+    /// The rows in which a sensor reads the same to the last digit while another one changes.
     fn stuck(&self, values: &[f64]) -> Option<(usize, usize)> {
         if values.len() < ROWS_TO_JUDGE || self.times_s.len() != values.len() {
             return None;
@@ -369,7 +385,7 @@ impl TemperatureLog {
             severity: Severity::Error,
             place: Place::whole(&self.file),
             message: format!("{time_s} s lies outside the log, which covers {first} s to {last} s"),
-            hint: "choose a time in it; nothing is told of the time before and after".to_owned(),
+            hint: "choose a time within the log".to_owned(),
         }
     }
 

@@ -1,6 +1,6 @@
-//! How far a body has grown at a place: α times the integral of its temperature.
+//! Thermal expansion of a body at a place: α times the integral of its temperature.
 
-use crate::errors::{Curve, Outside, Spline};
+use crate::errors::{Curve, Extrapolation, Spline};
 
 /// The temperature along a body, by straight lines between sensors and constant beyond them.
 #[derive(Debug, Clone, PartialEq)]
@@ -99,7 +99,7 @@ pub fn growth_curve(
         [grown, t0 - table_celsius, 0.5 * slope, 0.0].map(|c| coefficient * c)
     };
     let pieces = knots.windows(2).map(piece).collect();
-    Curve::Table { spline: Spline::from_pieces(knots, pieces), outside: Outside::Extend }
+    Curve::Table { spline: Spline::from_pieces(knots, pieces), outside: Extrapolation::Extend }
 }
 
 /// Pieces of a sampled curve per depth of the heat: the cubics stay within 2e-9 of depth · rise.
@@ -140,7 +140,7 @@ pub fn sampled_curve(
         [y0, s0, (3.0 * mean - 2.0 * s0 - s1) / h, (s0 + s1 - 2.0 * mean) / (h * h)]
     });
     let pieces = pieces.collect();
-    Curve::Table { spline: Spline::from_pieces(knots, pieces), outside: Outside::Extend }
+    Curve::Table { spline: Spline::from_pieces(knots, pieces), outside: Extrapolation::Extend }
 }
 
 #[cfg(test)]

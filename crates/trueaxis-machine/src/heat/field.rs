@@ -98,9 +98,9 @@ fn ratios(x: f64) -> [f64; 3] {
 /// ```
 ///
 /// # Source
-/// Document 001, eq. 6 and 7.
+/// Zhang et al. 2019, eq. 6 and 7.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HeatedAt {
+pub struct HeatedPoint {
     /// l: where the heat comes in, mm.
     pub place_mm: f64,
     /// T₁: the temperature there, °C.
@@ -113,7 +113,7 @@ pub struct HeatedAt {
     pub time_s: f64,
 }
 
-impl HeatedAt {
+impl HeatedPoint {
     /// √(4aτ): how far the heat has come, mm.
     pub fn depth_mm(&self) -> f64 {
         (4.0 * self.diffusivity_mm2_per_s * self.time_s).sqrt()
@@ -161,7 +161,7 @@ pub struct Source {
 }
 
 impl Source {
-    /// The steps that make the temperature rise at the place itself what a log says.
+    /// The steps of the flux for which the temperature rise at the place itself is that of a log.
     ///
     /// ```text
     ///     ΔT(tₙ) = 2 √(a/π) Σ_{k<n} (gₖ − gₖ₋₁) √(tₙ − tₖ),  g = q/λ           docs/model.md eq. 85
@@ -179,7 +179,7 @@ impl Source {
         Self::from_rises(&[place_mm], diffusivity_mm2_per_s, times_s, &[rise_k.to_vec()])?.pop()
     }
 
-    /// The same for several places, each of which also feels the heat of the others.
+    /// The same for several places, each of which is also subject to the heat of the others.
     ///
     /// ```text
     ///     Σⱼ 2 √(aδ) ierfc(|lᵢ − lⱼ|/√(4aδ)) Δgⱼ = ΔTᵢ(t) − what the earlier steps make of it
@@ -235,7 +235,7 @@ impl Source {
     }
 
     /// Constant fluxes, each since its own age before time 0, that make the rises at their places
-    /// what the sensors there say now.
+    /// the present readings of the sensors there.
     ///
     /// ```text
     ///     Tᵢ − T∞ = Σⱼ 2 gⱼ √(aτⱼ) ierfc(|lᵢ − lⱼ|/√(4aτⱼ))                   docs/model.md eq. 96
@@ -305,7 +305,7 @@ impl ScaleField {
         uniform + self.summed(time_s, |place, depth| heat_content(place, depth, from_mm, to_mm))
     }
 
-    /// How far the heat of the oldest step has come, mm.
+    /// Distance that the heat of the oldest step has reached, mm.
     pub fn depth_mm(&self, time_s: f64) -> f64 {
         let ages = self.sources.iter().flat_map(|s| s.changes(time_s)).map(|c| c.0);
         (4.0 * self.diffusivity_mm2_per_s * ages.fold(0.0, f64::max)).sqrt()
@@ -330,7 +330,7 @@ mod tests {
 
     #[test]
     fn at_the_heated_end_the_near_sensor_is_right_and_far_away_the_far_one() {
-        let field = HeatedAt {
+        let field = HeatedPoint {
             place_mm: 100.0,
             near_celsius: 34.0,
             far_celsius: 26.0,

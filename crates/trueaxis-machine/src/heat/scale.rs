@@ -3,7 +3,7 @@
 use super::conditions::{Conditions, TemperatureLog};
 use super::expansion::{Anchor, Profile, growth_curve, sampled_curve};
 use super::field::{ScaleField, Source};
-use super::{ErrorPart, Sensor, ThermalTerm, ThermalU, reach_of};
+use super::{ErrorPart, Sensor, ThermalTerm, ThermalUncertainty, reach_of};
 use crate::axis::Axis;
 use crate::errors::{Component, Curve, ErrorIndex, ErrorKind};
 use trueaxis_input::{Diagnostics, MeasuredValue};
@@ -18,27 +18,28 @@ pub struct HeatedPlace {
     pub place_mm: f64,
     /// The sensor there.
     pub near: String,
-    /// Since when its flux has been constant, s; a log tells the flux itself.
+    /// Duration of constant flux, s; not needed with a log, from which the flux is determined.
     pub time_s: Option<f64>,
 }
 
-/// A scale that bearings or motors heat, uniform otherwise; the fields of the places add up.
+/// A scale heated at some places, by bearings or motors, and uniform otherwise; the temperature
+/// fields of the places are superposed.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Heated {
-    /// The places, all different.
+pub struct HeatedScale {
+    /// The heated places, all different.
     pub places: Vec<HeatedPlace>,
-    /// The sensor that the heat has not reached.
+    /// The name of a sensor that the heat does not reach.
     pub far: String,
     /// Thermal diffusivity of the scale, mm²/s.
     pub diffusivity_mm2_per_s: f64,
 }
 
-impl Heated {
+impl HeatedScale {
     fn places_mm(&self) -> Vec<f64> {
         self.places.iter().map(|p| p.place_mm).collect()
     }
 
-    /// What comes in, from typed temperatures: constant, at time 0.
+    /// The heat sources for typed temperatures: constant, at time 0.
     fn constant_sources(&self, conditions: &Conditions) -> Option<Vec<Source>> {
         let far = conditions.celsius(&self.far)?;
         let rise = |p: &HeatedPlace| Some(conditions.celsius(&p.near)? - far);
@@ -47,7 +48,7 @@ impl Heated {
         Source::constant(&self.places_mm(), self.diffusivity_mm2_per_s, &ages_s, &rises_k)
     }
 
-    /// What comes in over the rows of a log up to the first one at `until_s` or behind it; the
+    /// The heat that enters over the rows of a log up to the first one at or after `until_s`; the
     /// first row is the uniform state.
     fn logged_sources(&self, log: &TemperatureLog, until_s: f64) -> Option<Vec<Source>> {
         let rows = log.times_s().partition_point(|t| *t < until_s) + 1;
@@ -78,7 +79,7 @@ pub struct Scale {
     /// Its sensors; with one it is uniform.
     pub sensors: Vec<Sensor>,
     /// Heat from bearings or motors instead.
-    pub heated: Option<Heated>,
+    pub heated: Option<HeatedScale>,
 }
 
 impl Scale {
@@ -98,7 +99,7 @@ impl Scale {
         }
     }
 
-    /// How fast heat lengthens it at a time, in the worst case that all of it counts, mm/s.
+    /// Upper bound of its rate of expansion at a time, mm/s.
     ///
     /// ```text
     ///     dE/dt = α Σ 2 a |g|                                              docs/model.md eq. 98
@@ -139,14 +140,14 @@ impl Scale {
                 }
             };
             let Some(curve) = curve_of(self.expansion_per_k.value) else {
-                let message = format!("{body}: the flux of its heat is not known");
-                let hint = "state the `time` of each heated place, or give a log from the uniform \
-                            state on, 5000 rows at most";
+                let message = format!("{body}: the heat flux cannot be determined");
+                let hint = "state the `time` of each heated place, or give a log of at most 5000 \
+                    rows that begins in the uniform state";
                 problems.error("unknown-flux", conditions.place().clone(), message, hint);
                 return Vec::new();
             };
             let u = self.expansion_per_k.u.and_then(curve_of);
-            let u = u.map(|curve| ThermalU { of: format!("expansion of {body}"), curve });
+            let u = u.map(|curve| ThermalUncertainty { of: format!("expansion of {body}"), curve });
             let (kind, part) = (ErrorKind::Motion, ErrorPart::Scale);
             terms.push(ThermalTerm { kind, component, part, curve, u: u.into_iter().collect() });
         }
@@ -160,7 +161,7 @@ impl Scale {
 
     fn heated_curve(
         &self,
-        heated: &Heated,
+        heated: &HeatedScale,
         conditions: &Conditions,
         sources: &[Source],
         alpha: f64,
@@ -215,7 +216,9 @@ impl StructureModel {
         for ((sensor, c), rise) in self.coefficients.iter().zip(rises) {
             value += c.value * rise;
             let of = || format!("{} per K of {sensor}", self.name);
-            u.extend(c.u.map(|u| ThermalU { of: of(), curve: Curve::Constant(u * rise) }));
+            u.extend(
+                c.u.map(|u| ThermalUncertainty { of: of(), curve: Curve::Constant(u * rise) }),
+            );
         }
         Some(ThermalTerm {
             kind: self.index.kind,

@@ -21,7 +21,7 @@ pub struct TemperatureRun {
 }
 
 impl TemperatureRun {
-    /// How long the log goes on behind the start, s.
+    /// Duration of the log after the start, s.
     pub fn lasts_s(&self) -> f64 {
         self.log.times_s().last().map_or(0.0, |last| last - self.start_s)
     }
@@ -69,7 +69,7 @@ pub struct WarmingMachine {
 }
 
 impl WarmingMachine {
-    /// From a machine at any temperatures; what is wrong with the log or its start is told.
+    /// From a machine at any temperatures; problems of the log or its start are reported.
     pub fn new(
         machine: &Machine,
         run: &TemperatureRun,
@@ -79,7 +79,7 @@ impl WarmingMachine {
             problems.add(run.log.outside(run.start_s));
             return None;
         };
-        // Told once, for the start; all else is the same at every time.
+        // Reported once, for the start; everything else is the same at every time.
         machine.at(&conditions, problems)?;
         let end_s = run.log.times_s().last().copied().unwrap_or(run.start_s);
         let scales = machine.heat.scales.iter();
@@ -90,7 +90,8 @@ impl WarmingMachine {
         });
         if lost {
             let message = "the log is too long for the flux of a heated scale".to_owned();
-            let hint = "5000 rows at most: leave out what is behind the program, or thin it";
+            let hint =
+                "give at most 5000 rows: remove those after the program, or keep every n-th row";
             problems.error("unknown-flux", Place::whole(run.log.file()), message, hint);
             return None;
         }
@@ -107,7 +108,7 @@ impl WarmingMachine {
     pub fn at(&self, time_s: f64) -> Option<(Machine, f64)> {
         let now_s = self.run.start_s + time_s;
         let conditions = self.run.log.at(now_s)?;
-        // What there is to tell was told by `new`.
+        // All problems were reported by `new`.
         let told = &mut Diagnostics::new();
         let machine = self.machine.heated_by(&conditions, &self.sources, told)?;
         let until_s = self.holds_until(now_s) - self.run.start_s;

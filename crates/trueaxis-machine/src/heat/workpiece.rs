@@ -17,7 +17,7 @@ pub struct Workpiece {
     pub along: Vec3,
     /// Its sensors; with one it is uniform.
     pub sensors: Vec<Sensor>,
-    /// How it takes the temperature of the hall, if stated.
+    /// How it approaches the temperature of the workshop, if stated.
     pub settling: Option<Settling>,
 }
 
@@ -63,7 +63,7 @@ impl WorkpieceGrowth {
     /// temperature there; that a body bends under a gradient is left out.
     ///
     /// # Source
-    /// Document 001, section 2; ISO 1 for 20 °C.
+    /// Zhang et al. 2019, section 2; ISO 1 for 20 °C.
     pub fn at(&self, p_mm: Vec3) -> Vec3 {
         self.per_expansion(p_mm) * self.expansion_per_k.value
     }

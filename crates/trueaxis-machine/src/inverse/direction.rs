@@ -43,7 +43,7 @@ pub(crate) struct Turn {
 
 /// The rotary axes that aim the tool, at most two, in chain order; all others are held.
 #[derive(Debug, Clone)]
-pub(crate) struct Aim {
+pub(crate) struct DirectionSolver {
     pub turning: Vec<Turn>,
     /// The tool axis with all aiming axes at zero.
     tool_at_zero: Vec3,
@@ -68,13 +68,13 @@ struct Pair {
 type Angles = [Option<f64>; 2];
 
 /// The branches: two, or one where both meet.
-pub(crate) struct Aimed {
+pub(crate) struct AngleBranches {
     pub one: Angles,
     pub other: Option<Angles>,
     pub first_is_idle: bool,
 }
 
-impl Aimed {
+impl AngleBranches {
     fn only(one: Angles) -> Self {
         Self { one, other: None, first_is_idle: false }
     }
@@ -85,12 +85,12 @@ impl Aimed {
 }
 
 /// The direction cannot be reached.
-pub(crate) struct Missed {
+pub(crate) struct UnreachableDirection {
     pub closest: Vec3,
     pub by_rad: f64,
 }
 
-impl Aim {
+impl DirectionSolver {
     /// The first two rotary axes of the chain that can aim, or the only one, or none.
     pub fn of(serial: &Serial, held: &Command) -> Self {
         let rotary: Vec<usize> = serial.rotary().collect();
@@ -132,7 +132,7 @@ impl Aim {
     }
 
     /// The angles that point the tool to the unit vector `u`.
-    pub fn at(&self, u: Vec3) -> Result<Aimed, Missed> {
+    pub fn at(&self, u: Vec3) -> Result<AngleBranches, UnreachableDirection> {
         let v = self.tool_at_zero;
         if let Some(pair) = &self.pair {
             return pair.aim(u);
@@ -143,11 +143,13 @@ impl Aim {
                 if (alpha - beta).abs() > RESOLUTION_RAD {
                     return Err(missed(only.about, u, v, alpha, beta));
                 }
-                Ok(Aimed::only([Some(turned(only.about, v, u)), None]))
+                Ok(AngleBranches::only([Some(turned(only.about, v, u)), None]))
             }
             [] => match angle(u, v) {
-                by_rad if by_rad > RESOLUTION_RAD => Err(Missed { closest: v, by_rad }),
-                _ => Ok(Aimed::only([None; 2])),
+                by_rad if by_rad > RESOLUTION_RAD => {
+                    Err(UnreachableDirection { closest: v, by_rad })
+                }
+                _ => Ok(AngleBranches::only([None; 2])),
             },
         }
     }
@@ -161,7 +163,7 @@ impl Pair {
         Self { a, b, v, beta: angle(b, v), gamma: angle(a, b), n, towards_b: n.cross(&a) }
     }
 
-    fn aim(&self, u: Vec3) -> Result<Aimed, Missed> {
+    fn aim(&self, u: Vec3) -> Result<AngleBranches, UnreachableDirection> {
         let Self { a, b, v, beta, gamma, n, towards_b } = *self;
         let alpha = angle(a, u);
         // Twice s−α, s−β, s−γ and π−s; a triangle exists if none is negative.
@@ -177,7 +179,7 @@ impl Pair {
         if alpha.min(PI - alpha) <= RESOLUTION_RAD {
             let pole = if alpha < 1.0 { a } else { -a };
             let one = [None, Some(turned(b, v, pole))];
-            return Ok(Aimed { one, other: None, first_is_idle: true });
+            return Ok(AngleBranches { one, other: None, first_is_idle: true });
         }
         let half_sine = |i: usize| match excess[i].0 {
             e if e <= FLAT_RAD => 0.0,
@@ -190,7 +192,7 @@ impl Pair {
             [Some(turned(a, w, u)), Some(turned(b, v, w))]
         };
         let other = (up > 0.0 && down > 0.0).then(|| branch(-phi));
-        Ok(Aimed { one: branch(phi), other, first_is_idle: false })
+        Ok(AngleBranches { one: branch(phi), other, first_is_idle: false })
     }
 }
 
@@ -206,11 +208,11 @@ fn turned(about: Vec3, from: Vec3, to: Vec3) -> f64 {
 }
 
 /// `u` brought to the angle `limit` from `a`; if it lies on `a`, in the half plane of `side`.
-fn missed(a: Vec3, u: Vec3, side: Vec3, alpha: f64, limit: f64) -> Missed {
+fn missed(a: Vec3, u: Vec3, side: Vec3, alpha: f64, limit: f64) -> UnreachableDirection {
     let across = [u, side].map(|x| x - a * a.dot(&x));
     let outwards = if across[0].norm() > RESOLUTION_RAD { across[0] } else { across[1] };
     let closest = a * limit.cos() + outwards.normalize() * limit.sin();
-    Missed { closest, by_rad: (alpha - limit).abs() }
+    UnreachableDirection { closest, by_rad: (alpha - limit).abs() }
 }
 
 #[cfg(test)]

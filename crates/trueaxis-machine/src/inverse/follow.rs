@@ -34,7 +34,7 @@ pub enum FollowFault {
     #[error(transparent)]
     Solve(#[from] SolveError),
     /// Every way to reach it leaves the travel; this is the one that leaves it least.
-    #[error("{axis} leaves its travel by {}; move or turn the part", amount(*.kind, *.beyond))]
+    #[error("{axis} exceeds its travel by {}; move or turn the part", amount(*.kind, *.beyond))]
     LeavesTravel {
         /// The axis that leaves its travel farthest: move the part or choose a longer axis.
         axis: BodyName,
@@ -45,8 +45,8 @@ pub enum FollowFault {
     },
     /// From no way to the point before does the tool get here without swinging away.
     #[error(
-        "no continuous motion leads here from the point before: {axis} would have to jump by {:.3} \
-         deg; retract the tool in between and begin a new path here", .by_rad.to_degrees()
+        "no continuous motion from the previous point: {axis} would jump by {:.3} deg; retract \
+         the tool and begin a new path at this point", .by_rad.to_degrees()
     )]
     Jump {
         /// The axis that would turn most.
@@ -134,7 +134,7 @@ pub(super) fn follow(
     let at = |index: usize| move |fault: FollowFault| FollowError { index, fault };
     let mut solver = Solver::new(machine, from).map_err(|e| at(0)(e.into()))?;
     solver.placer = Placer::of(machine, &solver.serial);
-    let way = Way { solver: &solver, rotary: machine.rotary_axes().collect() };
+    let way = PathSolver { solver: &solver, rotary: machine.rotary_axes().collect() };
     let mut stages = Stages::with_capacity(path.len());
     let mut jump = None;
     while stages.len() < path.len() && jump.is_none() {
@@ -146,13 +146,13 @@ pub(super) fn follow(
     Ok((way.walk_back(&stages, reached), jump))
 }
 
-struct Way<'a> {
+struct PathSolver<'a> {
     solver: &'a Solver<'a>,
     /// The rotary axes in chain order.
     rotary: Vec<usize>,
 }
 
-impl Way<'_> {
+impl PathSolver<'_> {
     fn travel(&self, axis: usize) -> Travel {
         self.solver.machine.axes[axis].travel
     }
@@ -175,7 +175,7 @@ impl Way<'_> {
             poles.push(Branches { commands: std::mem::take(&mut commands), held });
         }
         let tells = first + poles.len();
-        // What the point behind the poles may be reached in; nothing at the end of the path.
+        // The solutions for the point after the poles; none at the end of the path.
         let mut after = Vec::new();
         if !poles.is_empty() && tells < path.len() {
             self.push_states(&commands, held, &mut after);
@@ -328,7 +328,7 @@ impl Way<'_> {
                 let first = self.rotary.first().map_or(0.0, |&i| step.turns[i].abs());
                 let (cost, first) = (label.cost + step.cost, label.first + first);
                 let candidate = Label { cost, first, rank: label.rank, before };
-                // Whether a step is continuous is looked at only where it matters.
+                // Whether a step is continuous is checked only where it matters.
                 if !candidate.beats(&best) {
                     continue;
                 }
@@ -349,7 +349,7 @@ impl Way<'_> {
     }
 
     /// Whether the tool axis stays between its ends on a step: on the way it is never farther from
-    /// either end than they are from each other. Looked at halfway, and at every 90° of turning.
+    /// either end than they are from each other. Checked halfway, and at every 90° of turning.
     fn is_continuous(&self, ends: [Vec3; 2], before: &Command, step: &Step) -> bool {
         let apart = |a: Vec3, b: Vec3| a.cross(&b).norm().atan2(a.dot(&b));
         let allowed = apart(ends[0], ends[1]) + TIE_RAD;
@@ -432,7 +432,7 @@ struct Step {
 impl Step {
     /// √(Δq1² + Δq2²); where one end is a pole the turn of its idle axis counts twice, so that it
     /// turns while the tool stands, not while it tilts.
-    fn between(way: &Way<'_>, held: [Option<usize>; 2], states: [&Command; 2]) -> Self {
+    fn between(way: &PathSolver<'_>, held: [Option<usize>; 2], states: [&Command; 2]) -> Self {
         let (mut turns, mut most) = (Command::default(), 0);
         for &axis in &way.rotary {
             turns[axis] = way.turn(axis, states[0], states[1]);

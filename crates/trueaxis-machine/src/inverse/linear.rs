@@ -16,7 +16,7 @@ use trueaxis_geometry::Vec3;
 /// tip would cost more than 1 m of the axis.
 const DEPENDENT: f64 = 1e-3;
 
-/// The tip must be met within this where fewer than three directions are at hand, in mm.
+/// Tolerance for the position of the tip where fewer than three directions are available, mm.
 const MET_MM: f64 = 1e-9;
 
 /// An axis, its direction, and the part of it across those before it (unit vector).

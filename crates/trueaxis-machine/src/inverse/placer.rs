@@ -14,14 +14,14 @@ const FLAT: f64 = 1e-3;
 /// The nominal chain made ready for one command after the other.
 #[derive(Debug, Clone)]
 pub(crate) struct Placer {
-    /// From the workpiece to the tool: what stands fixed before each joint, and behind the last.
+    /// From the workpiece to the tool: the fixed pose before each joint, and after the last.
     steps: Vec<Step>,
     /// The linear axes that place the tip: X Y Z before U V W.
     placing: [usize; 3],
     tip_mm: Vec3,
 }
 
-/// A fixed step of the chain and the joint behind it.
+/// A fixed step of the chain and the joint after it.
 #[derive(Debug, Clone)]
 struct Step {
     shift_mm: Vec3,

@@ -25,7 +25,7 @@ pub(crate) struct Joint {
 #[derive(Debug, Clone)]
 pub(crate) struct Serial {
     pub joints: Vec<Joint>,
-    /// What stands fixed before each joint, and behind the last.
+    /// The fixed pose before each joint, and after the last.
     pub fixed: Vec<Link>,
     tip_mm: Vec3,
 }

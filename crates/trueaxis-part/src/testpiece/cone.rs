@@ -29,7 +29,7 @@ pub struct ConeSize {
 }
 
 impl ConeSize {
-    /// The frustum of document 000 with its positions 1 … 4 (z = −60, −35, −10, 0 mm).
+    /// The frustum of Wu et al. 2022 with its positions 1 … 4 (z = −60, −35, −10, 0 mm).
     ///
     /// # Example
     /// ```

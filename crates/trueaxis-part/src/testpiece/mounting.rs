@@ -3,7 +3,7 @@
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Body, Pose, Workpiece};
 
-/// How the frustum of document 000 stands on its inclined fixture.
+/// How the frustum of Wu et al. 2022 stands on its inclined fixture.
 ///
 /// ```text
 ///            ╱╲  h1 cone

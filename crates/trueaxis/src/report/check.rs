@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::{Axis, AxisKind, Carries, Travel};
+use trueaxis_machine::axis::{Axis, AxisKind, AxisSide, Travel};
 use trueaxis_machine::errors::{Component, Curve, ErrorKind, ErrorName};
 use trueaxis_report::numbers::{fixed, rounded};
 
@@ -102,8 +102,8 @@ fn wrapped(head: &str, words: &str) -> String {
 
 fn axis_line(axis: &Axis) -> String {
     let carries = match axis.carries {
-        Carries::Workpiece => "workpiece",
-        Carries::Tool => "tool",
+        AxisSide::Workpiece => "workpiece",
+        AxisSide::Tool => "tool",
     };
     let d = axis.direction;
     let [x, y, z] = [d.x, d.y, d.z].map(|v| fixed(v, 4));

@@ -7,7 +7,7 @@ use serde::Serialize;
 use serde_json::Value;
 use trueaxis_input::Diagnostic;
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::{Axis, Carries, Travel};
+use trueaxis_machine::axis::{Axis, AxisSide, Travel};
 use trueaxis_report::numbers::rounded;
 use trueaxis_report::{Keyed, document};
 
@@ -119,7 +119,7 @@ impl From<&Axis> for AxisEntry {
         let travel = (format!("travel_{unit}"), TravelEntry::of(axis));
         Self {
             name: axis.name.to_string(),
-            carries: if axis.carries == Carries::Tool { "tool" } else { "workpiece" },
+            carries: if axis.carries == AxisSide::Tool { "tool" } else { "workpiece" },
             direction: [axis.direction.x, axis.direction.y, axis.direction.z],
             sense: axis.sense,
             travel: Keyed(vec![travel]),

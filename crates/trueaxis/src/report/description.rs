@@ -4,7 +4,7 @@ use super::array;
 use serde_json::{Value, json};
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::ToolAssembly;
-use trueaxis_machine::axis::{Axis, AxisKind, Carries, Travel};
+use trueaxis_machine::axis::{Axis, AxisKind, AxisSide, Travel};
 use trueaxis_machine::chain::Link;
 use trueaxis_machine::describe::{DescribedError, DescribedLink, Description, shown};
 use trueaxis_machine::errors::ErrorKind;
@@ -45,10 +45,10 @@ fn link_json(link: &DescribedLink<'_>) -> Value {
     let kind = match link.axis.map(|a| a.kind) {
         Some(AxisKind::Linear) => "linear",
         Some(AxisKind::Rotary) => "rotary",
-        None if link.carries == Carries::Workpiece => "workpiece",
+        None if link.carries == AxisSide::Workpiece => "workpiece",
         None => "tool",
     };
-    let carries = if link.carries == Carries::Workpiece { "workpiece" } else { "tool" };
+    let carries = if link.carries == AxisSide::Workpiece { "workpiece" } else { "tool" };
     // The workpiece and the tool do not move; a direction they have all the same: that of the tool.
     let direction = link.axis.map_or(Vec3::z(), |a| a.direction);
     let limit = |value: Option<f64>| link.axis.zip(value).map(|(a, v)| rounded(shown(a, v)));

@@ -3,7 +3,7 @@
 use super::number::Increments;
 use super::ready::{Preparation, Prepared};
 use trueaxis_machine::axis::{Approach, AxisKind, Command, MAX_AXES};
-use trueaxis_machine::compensate::{AxisLeft, Compensator, Fault as NoCorrection, Scope};
+use trueaxis_machine::compensate::{AxisLimitation, Compensator, Fault as NoCorrection, Scope};
 use trueaxis_machine::{Deviation, Machine};
 use trueaxis_motion::STILL;
 use trueaxis_motion::axis_path::Fault;
@@ -59,7 +59,7 @@ pub(super) struct Place<'p> {
 pub(super) struct Corrected {
     pub command: Command,
     /// Why the tool axis is left, if it is.
-    pub left: Option<AxisLeft>,
+    pub left: Option<AxisLimitation>,
     /// An axis turns round by less than its reversal error: no command meets the place.
     pub undecided: bool,
 }
@@ -135,7 +135,8 @@ impl Corrector {
             let real = turned(approach, at.from, &done.command, &self.least);
             rounds -= 1;
             let undecided = self.reverses && real != side;
-            let corrected = Corrected { command: done.command, left: done.axis_left, undecided };
+            let corrected =
+                Corrected { command: done.command, left: done.axis_limitation, undecided };
             if !undecided || rounds == 0 {
                 return Ok(corrected);
             }

@@ -9,7 +9,7 @@ use trueaxis_machine::axis::{Approach, AxisKind, Command, MAX_AXES};
 use trueaxis_machine::batch::{
     CommandTable, Commands, CompensationError, CompiledCompensator, CompiledMachine, DeviationTable,
 };
-use trueaxis_machine::compensate::{AxisLeft, Compensator, Scope};
+use trueaxis_machine::compensate::{AxisLimitation, Compensator, Scope};
 
 /// Less is no deviation of the tool axis, rad.
 const NONE_RAD: f64 = 1e-13;
@@ -24,7 +24,7 @@ pub(super) struct Prepared {
     pub command: Command,
     /// What the machine misses without it.
     pub before: Deviation,
-    pub left: Option<AxisLeft>,
+    pub left: Option<AxisLimitation>,
     /// From where each axis was taken to come.
     pub side: Approach,
 }
@@ -34,7 +34,7 @@ pub(super) struct Preparation {
     compensator: CompiledCompensator,
     machine: CompiledMachine,
     /// Where the tool axis is never (fully) corrected.
-    always_left: Option<AxisLeft>,
+    always_left: Option<AxisLimitation>,
     places: [Vec<f64>; MAX_AXES],
     sides: [Vec<f64>; MAX_AXES],
     /// Whether the side counts.
@@ -53,8 +53,8 @@ impl Preparation {
         let machine = compensator.machine();
         let rotary = machine.axes().iter().filter(|a| a.kind == AxisKind::Rotary).count();
         let always_left = match (compensator.scope(), rotary) {
-            (Scope::Position, _) => Some(AxisLeft::PositionOnly),
-            (Scope::Pose, 0 | 1) => Some(AxisLeft::FewRotaryAxes),
+            (Scope::Position, _) => Some(AxisLimitation::PositionOnly),
+            (Scope::Pose, 0 | 1) => Some(AxisLimitation::FewRotaryAxes),
             (Scope::Pose, _) => None,
         };
         Self {

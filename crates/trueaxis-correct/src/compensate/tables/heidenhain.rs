@@ -15,7 +15,7 @@ use super::place::Rule;
 use super::table::{Node, PER_UNIT, Table, decimal};
 use std::fmt::Write;
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::{AxisKind, Carries, Travel};
+use trueaxis_machine::axis::{AxisKind, AxisSide, Travel};
 use trueaxis_machine::chain::ErrorFrame;
 use trueaxis_machine::errors::{BodyName, Component, ErrorKind, ErrorName};
 
@@ -39,7 +39,7 @@ impl Control for Heidenhain {
     /// Errors stand in front of the axis on the way from the tool to the table.
     fn link_frame(&self, machine: &Machine, body: usize) -> ErrorFrame {
         match machine.bodies()[body].axis.map(|i| machine.axes()[i].carries) {
-            Some(Carries::Workpiece) => ErrorFrame::Fixed,
+            Some(AxisSide::Workpiece) => ErrorFrame::Fixed,
             _ => ErrorFrame::Moving,
         }
     }

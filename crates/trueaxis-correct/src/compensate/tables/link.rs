@@ -16,7 +16,7 @@ use trueaxis_geometry::{Mat3, Vec3};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, AxisKind, Command};
 use trueaxis_machine::chain::{ErrorFrame, Squareness};
-use trueaxis_machine::errors::{BodyErrors, ErrorValues, Six};
+use trueaxis_machine::errors::{BodyErrors, ErrorValues, SixErrors};
 
 /// The joint of a body at a command: its turn and its shift.
 struct Joint {
@@ -37,30 +37,30 @@ impl Joint {
     }
 
     /// A small motion in front of the joint as one behind it.
-    fn moving_from_fixed(&self, six: &Six) -> Six {
+    fn moving_from_fixed(&self, six: &SixErrors) -> SixErrors {
         let (shift, turn) = halves(six);
         let back = self.turn.transpose();
         joined(back * (shift + turn.cross(&self.shift)), back * turn)
     }
 
     /// A small motion behind the joint as one in front of it.
-    fn fixed_from_moving(&self, six: &Six) -> Six {
+    fn fixed_from_moving(&self, six: &SixErrors) -> SixErrors {
         let (shift, turn) = halves(six);
         let turn = self.turn * turn;
         joined(self.turn * shift - turn.cross(&self.shift), turn)
     }
 }
 
-fn halves(six: &Six) -> (Vec3, Vec3) {
+fn halves(six: &SixErrors) -> (Vec3, Vec3) {
     (six.shift_mm(), Vec3::new(six.0[3], six.0[4], six.0[5]))
 }
 
-fn joined(shift: Vec3, turn: Vec3) -> Six {
-    Six([shift.x, shift.y, shift.z, turn.x, turn.y, turn.z])
+fn joined(shift: Vec3, turn: Vec3) -> SixErrors {
+    SixErrors([shift.x, shift.y, shift.z, turn.x, turn.y, turn.z])
 }
 
-fn sum(a: &Six, b: &Six) -> Six {
-    Six(std::array::from_fn(|i| a.0[i] + b.0[i]))
+fn sum(a: &SixErrors, b: &SixErrors) -> SixErrors {
+    SixErrors(std::array::from_fn(|i| a.0[i] + b.0[i]))
 }
 
 /// The frame in which the machine file gives the error motions of a body.
@@ -78,7 +78,7 @@ pub fn link_errors(
     body: usize,
     command: &Command,
     (of, frame): (&BodyErrors, ErrorFrame),
-) -> Six {
+) -> SixErrors {
     let joint = Joint::of(machine, body, command);
     let rotary =
         machine.bodies()[body].axis.is_some_and(|i| machine.axes()[i].kind == AxisKind::Rotary);
@@ -96,7 +96,7 @@ pub fn link_errors(
     in_frame(&joint, (with, frame), &six)
 }
 
-fn in_frame(joint: &Joint, frames: (ErrorFrame, ErrorFrame), six: &Six) -> Six {
+fn in_frame(joint: &Joint, frames: (ErrorFrame, ErrorFrame), six: &SixErrors) -> SixErrors {
     match frames {
         (ErrorFrame::Moving, ErrorFrame::Fixed) => joint.fixed_from_moving(six),
         (ErrorFrame::Fixed, ErrorFrame::Moving) => joint.moving_from_fixed(six),
@@ -155,7 +155,7 @@ mod tests {
     fn both_sides_of_a_joint_are_the_same_motion() {
         let turn = rotation(Vec3::y(), 0.7);
         let joint = Joint { turn, shift: Vec3::new(3.0, -200.0, 10.0) };
-        let six = Six([1e-3, -2e-3, 3e-3, 1e-5, 2e-5, -3e-5]);
+        let six = SixErrors([1e-3, -2e-3, 3e-3, 1e-5, 2e-5, -3e-5]);
         let back = joint.moving_from_fixed(&joint.fixed_from_moving(&six));
         for (a, b) in six.0.iter().zip(back.0) {
             assert!((a - b).abs() < 1e-15);

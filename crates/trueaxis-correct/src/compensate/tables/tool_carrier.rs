@@ -17,7 +17,7 @@ use super::table::{PER_UNIT, decimal, parse_decimal};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::{AxisKind, Carries, Command};
+use trueaxis_machine::axis::{AxisKind, AxisSide, Command};
 use trueaxis_machine::errors::{BodyName, ErrorName, ErrorValues};
 
 /// The file.
@@ -51,8 +51,8 @@ fn axes(machine: &Machine) -> Option<(Kind, [BodyName; 2])> {
     let rotary: Vec<_> = rotary.filter(|a| a.kind == AxisKind::Rotary).collect();
     let [first, second] = rotary[..] else { return None };
     Some(match (first.carries, second.carries) {
-        (Carries::Tool, Carries::Tool) => (Kind::Head, [first.name, second.name]),
-        (Carries::Workpiece, Carries::Workpiece) => (Kind::Table, [first.name, second.name]),
+        (AxisSide::Tool, AxisSide::Tool) => (Kind::Head, [first.name, second.name]),
+        (AxisSide::Workpiece, AxisSide::Workpiece) => (Kind::Table, [first.name, second.name]),
         // Those that carry the workpiece were looked at first.
         _ => (Kind::Both, [second.name, first.name]),
     })

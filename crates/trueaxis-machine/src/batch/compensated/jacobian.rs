@@ -1,7 +1,7 @@
 //! The nominal Jacobian of W poses at a time; generic over the vector instructions, with the habits
 //! of `kernel.rs`.
 
-use super::Fast;
+use super::FastForm;
 use super::newton::Group;
 use crate::batch::kernel::{
     lanes_at, product, rotation, sine_cosine, slide, slide_along, splat3, splat33, sum,
@@ -22,7 +22,10 @@ pub(super) struct Columns<L> {
 
 /// The nominal Jacobian, carried from the tip to the workpiece.
 #[inline(always)]
-pub(super) fn columns<const W: usize, L: Lanes<W>>(fast: &Fast, group: &Group<W>) -> Columns<L> {
+pub(super) fn columns<const W: usize, L: Lanes<W>>(
+    fast: &FastForm,
+    group: &Group<W>,
+) -> Columns<L> {
     let zero = [L::splat(0.0); 3];
     let [tip, axis, ..] = &fast.plan.steps.start;
     let mut all = Columns { tip: [zero; 5], axis: [zero; 2], wanted: [splat3(tip), splat3(axis)] };
@@ -83,7 +86,7 @@ fn rotate<const W: usize, L: Lanes<W>>(all: &mut Columns<L>, m: &[[L; 3]; 3]) {
 #[inline(always)]
 fn add_slide<const W: usize, L: Lanes<W>>(
     all: &mut Columns<L>,
-    fast: &Fast,
+    fast: &FastForm,
     axis: usize,
     per_unit: &[f64; 3],
 ) {
@@ -97,7 +100,7 @@ fn add_slide<const W: usize, L: Lanes<W>>(
 #[inline(always)]
 fn add_turn<const W: usize, L: Lanes<W>>(
     all: &mut Columns<L>,
-    fast: &Fast,
+    fast: &FastForm,
     axis: usize,
     per_unit: &[f64; 3],
 ) {

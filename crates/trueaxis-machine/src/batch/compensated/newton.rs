@@ -2,7 +2,7 @@
 //! habits of `kernel.rs`.
 
 use super::jacobian::{Columns, columns, cross};
-use super::{CommandColumns, CompensationError, CompensationJob, Effort, Fast, one};
+use super::{CommandColumns, CompensationError, CompensationJob, Effort, FastForm, one};
 use crate::axis::MAX_AXES;
 use crate::batch::Inputs;
 use crate::batch::kernel::{State, difference, dot, poses, splat3, sum};
@@ -16,7 +16,7 @@ const MOST_EVALUATIONS: u32 = 8;
 const CLOSE_MM: f64 = 1e-7;
 const CLOSE_RAD: f64 = 1e-10;
 
-/// One step: from what is left to the motion of the axes.
+/// One step: from the residual error to the motion of the axes.
 struct Inverse<L> {
     /// Of the linear axes per mm of the tip.
     linear: [[L; 3]; 3],
@@ -114,11 +114,15 @@ fn group<const W: usize, L: Lanes<W>>(
 
 /// The lanes that are not met, and those that will not be met by one more step either.
 ///
-/// A step shrinks what is left by the factor that the step before has shown; where that leads below
-/// the limit the step is taken and not judged again. `now` and `before` are the squares of what is
-/// and was left of tip and tool axis; nothing was left before the first step, so that it is judged.
+/// A step reduces the residual error by the factor of the previous step; where that leads below the
+/// limit, the step is made and not evaluated again. `now` and `before` are the squares of the residual
+/// errors of tip and tool axis; `before` is zero at the first step, so that it is evaluated.
 #[inline(always)]
-fn not_met<const W: usize, L: Lanes<W>>(fast: &Fast, now: [L; 2], before: [L; 2]) -> (u32, u32) {
+fn not_met<const W: usize, L: Lanes<W>>(
+    fast: &FastForm,
+    now: [L; 2],
+    before: [L; 2],
+) -> (u32, u32) {
     let (mut far, mut farther) = (0, 0);
     let parts = if fast.turning.is_some() { 2 } else { 1 };
     for part in 0..parts {
@@ -134,7 +138,7 @@ fn not_met<const W: usize, L: Lanes<W>>(fast: &Fast, now: [L; 2], before: [L; 2]
     (far, farther)
 }
 
-/// The last pose is repeated in the lanes left over.
+/// The last pose is repeated in the remaining lanes.
 #[inline(always)]
 fn load<const W: usize>(job: &CompensationJob<'_>, at: usize, count: usize) -> Group<W> {
     let first = job.first + at;
@@ -177,7 +181,7 @@ fn inputs_of<'a, const W: usize>(job: &CompensationJob<'_>, group: &'a Group<W>)
 /// Reached minus wanted tip and tool axis.
 #[inline(always)]
 fn missed<const W: usize, L: Lanes<W>>(
-    fast: &Fast,
+    fast: &FastForm,
     state: &State<L>,
     wanted: &[[L; 3]; 2],
 ) -> ([L; 3], [L; 3]) {
@@ -201,7 +205,10 @@ fn scaled<const W: usize, L: Lanes<W>>(v: [L; 3], by: L) -> [L; 3] {
 
 /// The inverse of the columns, and the lanes where the scalar path shall judge.
 #[inline(always)]
-fn inverse<const W: usize, L: Lanes<W>>(fast: &Fast, columns: &Columns<L>) -> (Inverse<L>, u32) {
+fn inverse<const W: usize, L: Lanes<W>>(
+    fast: &FastForm,
+    columns: &Columns<L>,
+) -> (Inverse<L>, u32) {
     let one = L::splat(1.0);
     let [d1, d2, d3, t1, t2] = columns.tip;
     let normals = [cross(d2, d3), cross(d3, d1), cross(d1, d2)];
@@ -234,7 +241,7 @@ fn inverse<const W: usize, L: Lanes<W>>(fast: &Fast, columns: &Columns<L>) -> (I
 /// Moves the axes: the rotary ones for the tool axis, the linear ones for the tip.
 #[inline(always)]
 fn step<const W: usize, L: Lanes<W>>(
-    fast: &Fast,
+    fast: &FastForm,
     inverse: &Inverse<L>,
     tip: [L; 3],
     axis: [L; 3],
@@ -260,7 +267,7 @@ fn move_back<const W: usize, L: Lanes<W>>(position: &mut [f64; W], by: L) {
 
 /// The lanes with an axis beyond its travel.
 #[inline(always)]
-fn beyond_travel<const W: usize, L: Lanes<W>>(fast: &Fast, group: &Group<W>) -> u32 {
+fn beyond_travel<const W: usize, L: Lanes<W>>(fast: &FastForm, group: &Group<W>) -> u32 {
     let mut beyond = 0;
     for (position, (from, to)) in group.positions.iter().zip(&fast.travel) {
         beyond |= L::load(position).outside(*from, *to);
