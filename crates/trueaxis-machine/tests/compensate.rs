@@ -282,7 +282,7 @@ fn an_axis_at_its_end_is_named_with_how_far_it_would_pass() {
     let [Fault::Travel { axis, at, by }] = faults[..] else { panic!("{faults:?}") };
     assert_eq!(axis.to_string(), "X");
     assert!((at - 300.15).abs() < 1e-6 && (by - 0.15).abs() < 1e-6);
-    assert!(faults[0].to_string().contains("beyond the end of its travel"), "{}", faults[0]);
+    assert!(faults[0].to_string().contains("outside its travel"), "{}", faults[0]);
 }
 
 #[test]

@@ -383,7 +383,7 @@ fn pole_keeps_the_last_angle() {
             let found = machine.solve(&wanted, &from).expect("reachable");
             close(&angles(&machine, &wanted, &from), &[&[c, a]]);
             let singular = found.singular.expect("singular");
-            assert_eq!(singular.to_string(), "C turns about the tool axis; it keeps its angle");
+            assert_eq!(singular.to_string(), "C turns about the tool axis; its angle is kept");
             let reached = tool_at(&machine, &found.solutions[0].command);
             assert!((reached.tip - wanted.tip).amax() < 1e-9);
         }
@@ -564,7 +564,7 @@ fn path_that_cannot_be_followed() {
     let found = machine.solve(&far[7], &[0.0; 6]).expect("reachable without ends");
     let y = found.solutions[0].command[1];
     assert!(axis.letter() == 'Y' && (beyond - (y - 2500.0)).abs() < 1e-9, "{error}");
-    assert!(error.to_string().starts_with("point 7 of the path (counted from 0): Y leaves"));
+    assert!(error.to_string().starts_with("point 7 of the path (counted from 0): Y exceeds"));
 
     let nutating = library::machine("nutating-head");
     let path = [[0.0, 0.0, 1.0], [0.0, 1.0, -1.0]].map(|axis| target([0.0; 3], axis));
@@ -583,5 +583,5 @@ fn travel_decides_the_branch_for_the_whole_path() {
     assert!(commands.expect("a way").iter().all(|c| c[4] < 0.0));
     let error = machine_with("\"-20 deg\", \"20 deg\"").follow(&frustum(), &[0.0; 6]);
     let error = error.expect_err("25 deg needed");
-    assert_eq!((error.index, error.to_string().contains("A leaves its travel by")), (21, true));
+    assert_eq!((error.index, error.to_string().contains("A exceeds its travel by")), (21, true));
 }

@@ -33,8 +33,7 @@ const ERRORS: &str = r#"
     EBX = { polynomial = ["0 urad", "600 urad", "300 urad"], scale = "500 mm" }
     [motion.C]
     EYC = { fourier = { mean = "0 mm", terms = [[2, "0.4 mm", "0.5 mm"]] }, reversal = "0.2 mm" }
-    EAC = { fourier = { mean = "0 urad", terms = [[1, "700 urad", "400 urad"], [3, "200 urad", \
-    "-300 urad"]] } }
+    EAC = { fourier = { mean = "0 urad", terms = [[1, "700 urad", "400 urad"], [3, "200 urad", "-300 urad"]] } }
     ECC = { fourier = { mean = "0 urad", terms = [[1, "-500 urad", "600 urad"]] } }
     [motion.A]
     ECA = { fourier = { mean = "300 urad", terms = [[1, "400 urad", "0 urad"]] } }

@@ -176,7 +176,7 @@ mod tests {
     fn refusals_name_the_fault() {
         let fault = |text: &str| ChainText::parse(text).unwrap_err();
         assert_eq!(fault("w b X Y X t"), "two axes are named X");
-        assert!(fault("w b X Y Q t").starts_with("`Q` is no axis"));
+        assert!(fault("w b X Y Q t").starts_with("unknown axis `Q`"));
         assert!(fault("w b X C' Z t").contains("prime"));
         assert!(fault("w b X Y t").contains("3 to 6"));
         assert!(fault("w b X b Y Z t").contains("twice"));

@@ -3,7 +3,7 @@
 use super::error_text::dimension_of;
 use crate::axis::{Axis, AxisKind, Travel};
 use crate::errors::{
-    Component, Curve, ErrorKind, ErrorName, Interpolation, Extrapolation, Spline, SplineError,
+    Component, Curve, ErrorKind, ErrorName, Extrapolation, Interpolation, Spline, SplineError,
     Uncertainty,
 };
 use std::f64::consts::TAU;
