@@ -4,18 +4,15 @@ use crate::arguments::{MachineArguments, control};
 use crate::output::{Answer, Format, Outcome, report, show, tell};
 use crate::report_file::unusable;
 use clap::{Args, ValueEnum};
-use serde_json::{Value, json};
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use trueaxis::cl::{ClFile, Reading};
-use trueaxis::compensate::post::{
-    FeedRule, Largest, PostOptions, Posted, Verification, post, verify,
-};
+use trueaxis::compensate::post::{FeedRule, PostOptions, Posted, Verification, post, verify};
 use trueaxis::files;
 use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Dimension, Place, parse_quantity};
 use trueaxis::machine::Machine;
 use trueaxis::nc::writer::{Decimals, MOST_DECIMALS, Templates, TipWords};
+use trueaxis::report::{PostReport, post_json, post_text};
 
 /// The cutter locations, the machine and the control.
 #[derive(Args)]
@@ -227,10 +224,11 @@ impl Arguments {
         file: &ClFile,
         options: &PostOptions,
         posted: &Posted,
-        proof: Option<&Verification>,
+        verification: Option<&Verification>,
     ) -> Outcome {
         let Some(output) = &self.output else { return Outcome::Unusable };
-        let sound = proof.is_none_or(|p| p.is_within(options));
+        let report = PostReport { machine, file, options, posted, verification, output };
+        let sound = report.is_sound();
         if sound {
             if let Err(error) = files::write(output, &posted.text) {
                 let message = format!("cannot be written: {error}");
@@ -241,8 +239,8 @@ impl Arguments {
             tell("the program is not within the tolerances; nothing was written");
         }
         let answer = match self.format {
-            Format::Json => Answer::Json(document(machine, file, options, posted, proof, output)),
-            Format::Text => Answer::Text(text(file, options, posted, proof, output, sound)),
+            Format::Json => Answer::Json(post_json(&report)),
+            Format::Text => Answer::Text(post_text(&report)),
         };
         match show(&answer) {
             Outcome::Done if !sound => Outcome::No,
@@ -259,100 +257,4 @@ fn read_template(path: &Path, problems: &mut Diagnostics) -> Option<Templates> {
         problems.error("bad-template", place, error.to_string(), hint);
     };
     Templates::parse(&text).map_err(refuse).ok()
-}
-
-fn lines(text: &[u8]) -> usize {
-    text.iter().filter(|b| **b == b'\n').count()
-}
-
-fn document(
-    machine: &Machine,
-    file: &ClFile,
-    options: &PostOptions,
-    posted: &Posted,
-    proof: Option<&Verification>,
-    output: &Path,
-) -> Value {
-    let largest = |l: &Largest, scale: f64| {
-        json!({
-            "value": l.value * scale,
-            "program_line": l.program_line,
-            "file_line": l.file_line,
-        })
-    };
-    let verify = proof.map(|p| {
-        json!({
-            "within_tolerance": p.is_within(options),
-            "blocks_compared": p.compared,
-            "tip_at_blocks_um": largest(&p.tip_at_ends, 1e3),
-            "axis_at_blocks_urad": largest(&p.axis_at_ends, 1e6),
-            "tip_on_path_um": largest(&p.tip_between, 1e3),
-            "axis_on_path_deg": largest(&p.axis_between, 1_f64.to_degrees()),
-            "axes_beyond_travel": p.troubles.is_grave(),
-        })
-    });
-    json!({
-        "schema": "trueaxis/post/1",
-        "machine": machine.name(),
-        "file": file.name(),
-        "program": output.display().to_string(),
-        "written": proof.is_none_or(|p| p.is_within(options)),
-        "points": file.points().count(),
-        "strokes": posted.strokes,
-        "blocks": posted.blocks,
-        "lines": lines(&posted.text),
-        "rewinds": posted.rewinds,
-        "pole_deviation_deg": posted.pole_deviation_rad.to_degrees(),
-        "tolerance_mm": options.tolerance_mm,
-        "axis_tolerance_deg": options.axis_tolerance_rad.to_degrees(),
-        "verify": verify,
-    })
-}
-
-fn text(
-    file: &ClFile,
-    options: &PostOptions,
-    posted: &Posted,
-    proof: Option<&Verification>,
-    output: &Path,
-    sound: bool,
-) -> String {
-    let mut text = String::new();
-    let points = file.points().count();
-    let what = if sound { "written to" } else { "not written to" };
-    // Writing to a String cannot fail.
-    let _ = writeln!(
-        text,
-        "{points} points -> {} blocks in {} lines, {what} {}",
-        posted.blocks,
-        lines(&posted.text),
-        output.display()
-    );
-    if posted.rewinds > 0 {
-        let _ = writeln!(text, "the tool goes back {} times for an axis to rewind", posted.rewinds);
-    }
-    if posted.pole_deviation_rad > 0.0 {
-        let degrees = posted.pole_deviation_rad.to_degrees();
-        let _ = writeln!(text, "to pass a pole the tool axis was turned by up to {degrees:.6} deg");
-    }
-    let Some(proof) = proof else { return text };
-    let _ = writeln!(text, "\nread back and simulated on the nominal machine:");
-    let _ = writeln!(text, "{:34} {:>14}   at line of program, file", "", "largest");
-    let mut row = |name: &str, l: &Largest, value: String| {
-        let _ = writeln!(text, "  {name:<32} {value:>14}   {}, {}", l.program_line, l.file_line);
-    };
-    let (tip, axis) = (&proof.tip_at_ends, &proof.axis_at_ends);
-    row("tip at the ends of blocks", tip, format!("{:.4} µm", tip.value * 1e3));
-    row("tool axis at the ends of blocks", axis, format!("{:.4} µrad", axis.value * 1e6));
-    let (tip, axis) = (&proof.tip_between, &proof.axis_between);
-    row("tip from the path", tip, format!("{:.4} µm", tip.value * 1e3));
-    row("tool axis from the path", axis, format!("{:.5} deg", axis.value.to_degrees()));
-    let _ = writeln!(
-        text,
-        "  allowed                          {:>11.4} µm and {:.5} deg; {} blocks compared",
-        options.tolerance_mm * 1e3,
-        options.axis_tolerance_rad.to_degrees(),
-        proof.compared
-    );
-    text
 }

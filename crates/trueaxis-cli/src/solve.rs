@@ -3,15 +3,14 @@
 use crate::arguments::{self, MachineArguments, argument};
 use crate::output::{Answer, Format, Outcome, finish};
 use clap::Args;
-use serde_json::{Map, Value, json};
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use trueaxis::geometry::Vec3;
 use trueaxis::geometry::frame::{Direction, Point, Workpiece};
 use trueaxis::input::{CsvTable, Diagnostics};
 use trueaxis::machine::axis::Command;
-use trueaxis::machine::{FollowError, FollowFault, Machine, Solutions, SolveError, Target};
-use trueaxis::report::numbers::{exact, fixed};
+use trueaxis::machine::{FollowError, FollowFault, Machine, SolveError, Target};
+use trueaxis::report::numbers::exact;
+use trueaxis::report::{solve_json, solve_path_json, solve_text};
 
 /// The tool pose to reach.
 #[derive(Args)]
@@ -88,8 +87,8 @@ fn answer(arguments: &Arguments, problems: &mut Diagnostics) -> Option<Answer> {
         problems.warn("outside-travel", argument("--tip"), message, hint);
     }
     Some(match arguments.format {
-        Format::Json => Answer::Json(document(&machine, &solved)),
-        Format::Text => Answer::Text(table(&machine, &solved)),
+        Format::Json => Answer::Json(solve_json(&machine, &solved)),
+        Format::Text => Answer::Text(solve_text(&machine, &solved)),
     })
 }
 
@@ -113,53 +112,6 @@ fn refuse(error: &SolveError, problems: &mut Diagnostics) {
         SolveError::NotFinite => ("not-finite", "--tip", "write finite numbers"),
     };
     problems.error(code, argument(place), error.to_string(), hint);
-}
-
-fn axes_json(machine: &Machine, command: &Command) -> Map<String, Value> {
-    let named = machine.axes().iter().zip(command).enumerate();
-    let shown = |i: usize, q: f64| json!(arguments::to_shown(machine, i, q));
-    named.map(|(i, (axis, q))| (axis.name.to_string(), shown(i, *q))).collect()
-}
-
-fn document(machine: &Machine, solved: &Solutions) -> Value {
-    let entries: Vec<Value> = solved
-        .solutions
-        .iter()
-        .map(|s| {
-            json!({
-                "axes": axes_json(machine, &s.command),
-                "within_limits": s.within_travel,
-                "rotary_travel_deg": s.rotary_travel_rad.to_degrees(),
-            })
-        })
-        .collect();
-    json!({
-        "schema": "trueaxis/solve/1",
-        "solutions": entries,
-        "singular": solved.singular.is_some(),
-        "held_axis": solved.singular.map(|s| s.axis.to_string()),
-    })
-}
-
-fn table(machine: &Machine, solved: &Solutions) -> String {
-    let mut text = String::new();
-    for axis in machine.axes() {
-        // Writing to a String cannot fail.
-        let _ = write!(text, " {:>13}", axis.name.to_string());
-    }
-    text += "   rotary travel, deg\n";
-    for solution in &solved.solutions {
-        for (i, q) in solution.command.iter().take(machine.axes().len()).enumerate() {
-            let _ = write!(text, " {:>13}", fixed(arguments::to_shown(machine, i, *q), 6));
-        }
-        let travel = fixed(solution.rotary_travel_rad.to_degrees(), 6);
-        let mark = if solution.within_travel { "" } else { "   outside the travel" };
-        let _ = writeln!(text, "   {travel}{mark}");
-    }
-    if let Some(singular) = &solved.singular {
-        let _ = writeln!(text, "singular pose: {singular}");
-    }
-    text
 }
 
 const COLUMNS: [&str; 6] = ["tip_x_mm", "tip_y_mm", "tip_z_mm", "axis_i", "axis_j", "axis_k"];
@@ -190,11 +142,7 @@ fn follow(
     let commands = machine.follow(&targets, from).map_err(refuse).ok()?;
     warn_of_poles(machine, &table, (&targets, &commands), problems);
     Some(match format {
-        Format::Json => {
-            let rows: Vec<Value> =
-                commands.iter().map(|c| json!({ "axes": axes_json(machine, c) })).collect();
-            Answer::Json(json!({ "schema": "trueaxis/solve/1", "rows": rows }))
-        }
+        Format::Json => Answer::Json(solve_path_json(machine, &commands)),
         Format::Text => Answer::Text(csv(machine, &commands)),
     })
 }

@@ -227,10 +227,10 @@ fn check_says_what_it_is_and_what_it_lacks() {
     assert_eq!((ran.status, ran.err.as_str()), (0, ""));
     for line in [
         "XKAS2525x60\n  chain   w b X Y Z C A t\n",
-        "  axis  carries    direction               travel                  fastest",
-        "  X     tool       (1.0000 0.0000 0.0000)  0 .. 6200 mm            15 m/min",
-        "  C     tool       (0.0000 0.0000 1.0000)  -360 .. 360 deg         60 deg/s",
-        "  errors  42 location errors, 30 error motions",
+        "  axis   carries   direction                         travel    fastest",
+        "  X      tool      (1.0000 0.0000 0.0000)      0 .. 6200 mm   15 m/min",
+        "  C      tool      (0.0000 0.0000 1.0000)   -360 .. 360 deg   60 deg/s",
+        "  42 location errors, 30 error motions",
         "  It lacks nothing that a prediction needs.",
     ] {
         assert!(ran.out.contains(line), "{line}\n{}", ran.out);

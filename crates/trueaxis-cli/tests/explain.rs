@@ -129,6 +129,10 @@ fn is_code(literal: &Literal) -> bool {
     if !begins || !parts.iter().all(plain) || OTHER_WORDS.split(' ').any(|w| w == literal.text) {
         return false;
     }
+    // Names of documents: `named_schema::<PoseRowsDocument>("pose-rows")`.
+    if literal.before.contains("named_schema::<") {
+        return false;
+    }
     let before = literal.before.trim_end_matches(|c: char| c.is_ascii_digit() || c == ',');
     let called = CALLS.iter().any(|call| before.ends_with(call)) && !before.ends_with("#[error(");
     parts.len() > 1 || called || SINGLE_WORDS.contains(&literal.text.as_str())

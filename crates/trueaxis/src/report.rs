@@ -2,30 +2,45 @@
 //! handed on here.
 
 mod calibrations;
+mod calibrations_document;
 mod certificate;
-mod certificate_blocks;
-mod certificate_page;
+mod certificate_document;
+mod certificate_pictures;
 mod check;
 mod check_document;
 mod comparison;
-mod description;
+mod comparison_document;
+mod description_document;
 mod diagnostic;
 mod pose;
+mod pose_document;
+mod post;
+mod post_document;
+mod solve;
+mod solve_document;
+mod trace;
+mod trace_document;
 
 pub use calibrations::{
-    CalibrationsReport, calibrations_html, calibrations_json, calibrations_text,
+    CalibrationsReport, calibrations_html, calibrations_report, calibrations_text,
 };
-pub use certificate::{certificate_json, certificate_text};
-pub use certificate_page::certificate_html;
-pub use check::check_text;
+pub use calibrations_document::{DiffDocument, calibrations_json};
+pub use certificate::{certificate_html, certificate_report, certificate_text};
+pub use certificate_document::{CertificateDocument, certificate_json};
+pub use check::{check_report, check_text};
 pub use check_document::{CheckDocument, check_json};
-pub use comparison::{comparison_html, comparison_json, comparison_text};
-pub use description::description_json;
+pub use comparison::{comparison_html, comparison_report, comparison_text};
+pub use comparison_document::{VerifyDocument, comparison_json};
+pub use description_document::{DescriptionDocument, description_json};
 pub use diagnostic::{DiagnosticEntry, diagnostic_json, remarks};
-pub use pose::{
-    Bodies, Budget, PoseReport, array, bodies, bodies_json, bodies_table, budget, budget_json,
-    budget_table, deviation_json, pose_json, pose_text,
-};
+pub use pose::{Bodies, Budget, PoseReport, array, bodies, budget, pose_report, pose_text};
+pub use pose_document::{PoseDocument, PoseRowsDocument, pose_json, pose_rows_json};
+pub use post::{PostReport, post_report, post_text};
+pub use post_document::{PostDocument, post_json};
+pub use solve::{solve_report, solve_text};
+pub use solve_document::{SolveDocument, SolvePathDocument, solve_json, solve_path_json};
+pub use trace::{TraceReport, trace_report, trace_text};
+pub use trace_document::{TraceDocument, trace_json};
 
 pub use trueaxis_calibrate::report::*;
 pub use trueaxis_correct::report::*;

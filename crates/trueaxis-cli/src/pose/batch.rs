@@ -2,13 +2,12 @@
 
 use crate::arguments;
 use crate::output::{Answer, Format};
-use serde_json::{Map, Value, json};
 use std::path::Path;
 use trueaxis::input::{CsvTable, Diagnostics};
 use trueaxis::machine::axis::{Approach, Command};
 use trueaxis::machine::{Deviation, Machine};
 use trueaxis::report::numbers::exact;
-use trueaxis::report::{PoseReport, array};
+use trueaxis::report::{PoseReport, array, pose_rows_json};
 
 const COLUMNS: [&str; 12] = [
     "tip_x_mm",
@@ -49,7 +48,7 @@ pub fn answer(
     }
     let names: Vec<&str> = table.columns.iter().map(|c| c.name.as_str()).chain(COLUMNS).collect();
     Some(match format {
-        Format::Json => Answer::Json(document(&names, &rows)),
+        Format::Json => Answer::Json(pose_rows_json(&names, &rows)),
         Format::Text => Answer::Text(csv(&names, &rows)),
     })
 }
@@ -100,14 +99,6 @@ fn numbers(table: &CsvTable, row: usize, d: &Deviation) -> Vec<f64> {
     let vectors =
         [d.nominal_tip.vector(), d.nominal_axis.vector(), d.tip_mm * 1e3, d.axis * 1e6].map(array);
     given.chain(vectors.into_iter().flatten()).collect()
-}
-
-fn document(names: &[&str], rows: &[Vec<f64>]) -> Value {
-    let named = |row: &Vec<f64>| -> Map<String, Value> {
-        names.iter().zip(row).map(|(name, x)| ((*name).to_owned(), json!(x))).collect()
-    };
-    let rows: Vec<Value> = rows.iter().map(|row| Value::Object(named(row))).collect();
-    json!({ "schema": "trueaxis/pose/1", "rows": rows })
 }
 
 fn csv(names: &[&str], rows: &[Vec<f64>]) -> String {

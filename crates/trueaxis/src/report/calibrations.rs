@@ -1,16 +1,11 @@
-//! Two calibrations of one machine, as text, JSON and a page.
+//! Two calibrations of one machine, for people.
 
 use crate::verify::calibrations::{Calibrations, ErrorChange, Moved};
-use maud::html;
-use serde_json::{Map, Value, json};
-use std::fmt::Write as _;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Travel;
 use trueaxis_machine::describe::{command_words, shown, unit};
 use trueaxis_machine::errors::{ErrorKind, ErrorName};
-use trueaxis_report::picture_page::{PicturePage, picture_page};
-use trueaxis_report::{Band, Picture, Scatter};
-use trueaxis_report::{Block, DrawingError, write_block};
+use trueaxis_report::{Band, DrawingError, Picture, Report, Scatter, Section, Standing, Table};
 
 /// Rows of the table of shares.
 const MOST_SHARES: usize = 12;
@@ -84,17 +79,13 @@ impl CalibrationsReport<'_> {
         }
     }
 
-    fn blocks(&self) -> [Block; 2] {
-        let headings = ["error", "unit", "old", "new", "change", "U", "E_n", "at", "moved"];
-        let note = "where the change is clearest; U of the change, k = 2; moved: beyond what chance does \
-                    anywhere among all errors (5 %); perhaps: E_n above 1";
-        let mut errors = Block::new("The errors that changed", note, &headings);
-        let changed = |e: &&ErrorChange| e.change() != Some(0.0);
-        for e in self.found.errors.iter().filter(changed) {
+    fn errors(&self) -> Table {
+        let changed = self.found.errors.iter().filter(|e| e.change() != Some(0.0));
+        let rows = changed.map(|e| {
             let (unit, scale) = scale_of(e.error);
             let number =
                 |v: Option<f64>| v.map_or("–".to_owned(), |v| format!("{:.2}", v * scale));
-            errors.rows.push(vec![
+            [
                 e.error.to_string(),
                 unit.to_owned(),
                 number(e.old),
@@ -104,16 +95,19 @@ impl CalibrationsReport<'_> {
                 e.e_n().map_or("–".to_owned(), |e_n| format!("{e_n:.2}")),
                 self.place(e),
                 words(e.moved).to_owned(),
-            ]);
-        }
+            ]
+        });
+        let note = "where the change is clearest; U of the change, k = 2; moved: beyond what chance does \
+                    anywhere among all errors (5 %); perhaps: E_n above 1";
+        let headings = ["error", "unit", "old", "new", "change", "U", "E_n", "at", "moved"];
+        Table::new(headings).rows(rows).note(note)
+    }
+
+    fn shares(&self) -> Table {
+        let shares = self.found.tip.shares.iter().take(MOST_SHARES);
+        let rows = shares.map(|s| [s.error.to_string(), format!("{:.2}", s.largest_mm * 1e3)]);
         let note = "how far the change of this error alone moves the tip at most";
-        let mut shares = Block::new("What it does to the tip", note, &["error", "µm"]);
-        for share in self.found.tip.shares.iter().take(MOST_SHARES) {
-            shares
-                .rows
-                .push(vec![share.error.to_string(), format!("{:.2}", share.largest_mm * 1e3)]);
-        }
-        [errors, shares]
+        Table::new(["error", "µm"]).rows(rows).note(note)
     }
 
     /// Old and new curve of the error motions that moved, with U.
@@ -165,84 +159,30 @@ fn scale_of(error: ErrorName) -> (&'static str, f64) {
     if error.component.is_rotation() { ("µrad", 1e6) } else { ("µm", 1e3) }
 }
 
-/// For the terminal.
+/// Two calibrations for people.
+pub fn calibrations_report(report: &CalibrationsReport<'_>) -> Report<'static> {
+    let (standing, word) = match report.found.moved().next() {
+        None => (Standing::Good, "UNCHANGED"),
+        Some(_) => (Standing::Bad, "CHANGED"),
+    };
+    let title = format!("{}: comparison of two calibrations", report.new.name());
+    let answer = report.lines().into_iter().fold(Report::new(title), Report::line);
+    answer
+        .verdict(standing, word, report.verdict())
+        .section(Section::new("The errors that changed").table(report.errors()))
+        .section(Section::new("Effect on the tip").table(report.shares()))
+        .sections(report.pictures().into_iter().map(Section::from))
+}
+
+/// Two calibrations for the terminal.
 pub fn calibrations_text(report: &CalibrationsReport<'_>) -> String {
-    let mut out = format!("{}\n", report.new.name());
-    // Writing into a text cannot fail.
-    for line in report.lines() {
-        let _ = writeln!(out, "  {line}");
-    }
-    for block in report.blocks().iter().filter(|b| !b.rows.is_empty()) {
-        let _ = write_block(&mut out, block);
-    }
-    let _ = writeln!(out, "\n{}", report.verdict());
-    out
+    calibrations_report(report).text()
 }
 
-/// The document `trueaxis/diff/1`.
-pub fn calibrations_json(report: &CalibrationsReport<'_>) -> Value {
-    let (old, found) = (report.old, report.found);
-    let errors = found.errors.iter().map(|e| {
-        let rotation = e.error.component.is_rotation();
-        let scale = scale_of(e.error).1;
-        let scaled = |v: Option<f64>| v.map(|v| v * scale);
-        let axis = old.axes().iter().find(|a| a.name == e.error.body);
-        let at = e.at.zip(axis).map(|(q, axis)| json!({ "axis": axis.name.to_string(), "position": shown(axis, q), "unit": unit(axis), "approach": e.approach }));
-        json!({
-            "error": e.error.to_string(),
-            "unit": if rotation { "urad" } else { "um" },
-            "old": scaled(e.old),
-            "new": scaled(e.new),
-            "change": scaled(e.change()),
-            "rms_change": e.rms * scale,
-            "u_change": scaled(e.u),
-            "E_n": e.e_n(),
-            "at": at,
-            "moved": e.moved.key(),
-        })
-    });
-    let tip = &found.tip;
-    let at = old.axes().iter().zip(&tip.at);
-    let at: Map<String, Value> =
-        at.map(|(a, q)| (a.name.to_string(), json!(shown(a, *q)))).collect();
-    let shares = tip
-        .shares
-        .iter()
-        .map(|s| json!({ "error": s.error.to_string(), "largest_um": s.largest_mm * 1e3 }));
-    json!({
-        "schema": "trueaxis/diff/1",
-        "version": trueaxis_report::VERSION,
-        "machine": report.new.name(),
-        "chain": old.chain_text(),
-        "old": report.files[0],
-        "new": report.files[1],
-        "moved": found.moved().map(|e| e.error.to_string()).collect::<Vec<_>>(),
-        "limit_u": found.limit,
-        "errors": errors.collect::<Vec<_>>(),
-        "tip": {
-            "poses": tip.poses,
-            "largest_um": tip.largest_mm * 1e3,
-            "u_um": tip.u_mm * 1e3,
-            "at": at,
-            "rms_um": tip.rms_mm * 1e3,
-            "axis_largest_urad": tip.axis_rad * 1e6,
-            "nominal_difference_mm": tip.nominal_mm,
-            "shares": shares.collect::<Vec<_>>(),
-        },
-    })
-}
-
-/// The page.
+/// Two calibrations as a page.
 ///
 /// # Errors
 /// What the drawing library says.
 pub fn calibrations_html(report: &CalibrationsReport<'_>) -> Result<String, DrawingError> {
-    let class = if report.found.moved().next().is_none() { "verdict pass" } else { "verdict fail" };
-    picture_page(&PicturePage {
-        title: &format!("{}: what moved", report.new.name()),
-        lines: &report.lines(),
-        verdict: Some(html! { section class=(class) { strong { (report.verdict()) } } }),
-        blocks: &report.blocks(),
-        pictures: &report.pictures(),
-    })
+    calibrations_report(report).html()
 }

@@ -1,64 +1,54 @@
 //! A machine file, checked: what the machine is and what it lacks.
 
-use std::fmt::Write;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Axis, AxisKind, AxisSide, Travel};
 use trueaxis_machine::errors::{Component, Curve, ErrorKind, ErrorName};
 use trueaxis_report::numbers::{fixed, rounded};
+use trueaxis_report::{Report, Section, Table};
 
-/// What the machine is and what it lacks.
-pub fn check_text(machine: &Machine) -> String {
-    let mut text = String::new();
-    // Writing to a String cannot fail.
-    let _ = writeln!(text, "{}", machine.name());
-    let _ = writeln!(text, "  chain   {}", machine.chain_text());
+/// What the machine is and what it lacks, for people.
+pub fn check_report(machine: &Machine) -> Report<'static> {
+    let tools = machine.tools().iter();
+    let tools: Vec<_> =
+        tools.map(|t| format!("{} ({} mm)", t.name, rounded(t.length_mm))).collect();
+    let mut about = Section::new("");
     if !machine.source().is_empty() {
-        text += &wrapped("  source  ", machine.source());
+        about = about.paragraph(format!("source: {}", machine.source()));
     }
-    let tools: Vec<_> = machine
-        .tools()
-        .iter()
-        .map(|t| format!("{} ({} mm)", t.name, rounded(t.length_mm)))
-        .collect();
     if !tools.is_empty() {
-        text += &wrapped("  tools   ", &tools.join(", "));
+        about = about.paragraph(format!("tools: {}", tools.join(", ")));
     }
-    let _ = writeln!(
-        text,
-        "\n  {:<5} {:<10} {:<23} {:<23} fastest",
-        "axis", "carries", "direction", "travel"
-    );
-    for axis in machine.axes() {
-        let _ = writeln!(text, "{}", axis_line(axis));
-    }
-    text += &errors_text(machine);
-    let lacking = lacks(machine);
-    if lacking.is_empty() {
-        text += "\n  It lacks nothing that a prediction needs.\n";
-    } else {
-        text += "\n  It lacks\n";
-        for line in lacking {
-            text += &wrapped("    - ", &line);
+    let axes = Table::new(["axis", "carries", "direction", "travel", "fastest"])
+        .rows(machine.axes().iter().map(axis_row));
+    let lacks = match lacks(machine) {
+        none if none.is_empty() => {
+            Section::new("").paragraph("It lacks nothing that a prediction needs.")
         }
-    }
-    text
+        lacks => Section::new("It lacks").list(lacks),
+    };
+    Report::new(machine.name())
+        .line(format!("chain   {}", machine.chain_text()))
+        .section(about)
+        .section(Section::new("Axes").table(axes))
+        .section(errors(machine))
+        .section(lacks)
 }
 
-/// Terminals are at least this wide.
-const WIDTH: usize = 100;
+/// What the machine is and what it lacks, for the terminal.
+pub fn check_text(machine: &Machine) -> String {
+    check_report(machine).text()
+}
 
-fn errors_text(machine: &Machine) -> String {
+fn errors(machine: &Machine) -> Section<'static> {
     let stated = machine.stated_errors();
     let of = |kind| stated.iter().filter(|(_, n)| n.kind == kind).count();
     let (locations, motions) = (of(ErrorKind::Location), of(ErrorKind::Motion));
-    let mut text = format!("\n  errors  {locations} location errors, {motions} error motions\n");
-    for axis in machine.axes() {
-        text += &wrapped(&format!("    {}  ", axis.name), &motions_line(machine, axis));
-    }
-    for (measurement, names) in measurements(machine) {
-        text += &wrapped("    measured ", &format!("{measurement}: {}", names.join(" ")));
-    }
-    text
+    let axes = machine.axes().iter();
+    let measured = measurements(machine).into_iter();
+    Section::new("Errors")
+        .paragraph(format!("{locations} location errors, {motions} error motions"))
+        .table(Table::pairs(axes.map(|a| (a.name.to_string(), motions_line(machine, a)))))
+        .list(measured.map(|(by, names)| format!("measured {by}: {}", names.join(" "))))
 }
 
 /// Instrument, date and temperature, each with the errors that they hold for.
@@ -82,25 +72,7 @@ pub(super) fn measurements(machine: &Machine) -> Vec<(String, Vec<String>)> {
     groups
 }
 
-/// A long line in several, all under the beginning of the first.
-fn wrapped(head: &str, words: &str) -> String {
-    let mut text = head.to_owned();
-    let mut width = head.len();
-    for (i, word) in words.split(' ').enumerate() {
-        if i > 0 && width + 1 + word.chars().count() > WIDTH {
-            text += &format!("\n{:1$}", "", head.len());
-            width = head.len();
-        } else if i > 0 {
-            text += " ";
-            width += 1;
-        }
-        text += word;
-        width += word.chars().count();
-    }
-    text + "\n"
-}
-
-fn axis_line(axis: &Axis) -> String {
+fn axis_row(axis: &Axis) -> [String; 5] {
     let carries = match axis.carries {
         AxisSide::Workpiece => "workpiece",
         AxisSide::Tool => "tool",
@@ -121,7 +93,7 @@ fn axis_line(axis: &Axis) -> String {
         Some(v) => format!("{} deg/s", rounded(v.to_degrees())),
         None => "not stated".to_owned(),
     };
-    format!("  {:<5} {carries:<10} {direction:<23} {travel:<23} {fastest}", axis.name.to_string())
+    [axis.name.to_string(), carries.to_owned(), direction, travel, fastest]
 }
 
 pub(super) fn shown_unit(kind: AxisKind) -> (f64, &'static str) {

@@ -1,29 +1,16 @@
-//! A comparison of readings with a prediction, as text, JSON and a page.
+//! A comparison of readings with a prediction, for people.
 
+use super::certificate::{standing, word};
 use crate::verify::compare::{Against, Comparison, Coverage, Part, Rule, Verified};
-use maud::html;
-use serde_json::{Value, json};
-use std::fmt::Write as _;
 use trueaxis_calibrate::measure::virtual_campaign::shown_unit;
-use trueaxis_part::tolerance::Outcome;
-use trueaxis_report::picture_page::{PicturePage, picture_page};
-use trueaxis_report::{Band, Picture, Scatter};
-use trueaxis_report::{Block, DrawingError, write_block};
+use trueaxis_report::{Band, DrawingError, Picture, Report, Scatter, Section, Table};
 
 /// Places that the terminal and the page show.
 const WORST_PLACES: usize = 10;
 /// More points say nothing new to the eye.
 const MOST_POINTS: usize = 4000;
 
-fn word(outcome: Outcome) -> &'static str {
-    match outcome {
-        Outcome::Pass => "pass",
-        Outcome::Fail => "fail",
-        Outcome::Undecided => "undecided",
-    }
-}
-
-fn rule(task: &Comparison) -> String {
+pub(super) fn rule(task: &Comparison) -> String {
     let k = task.decision.coverage_factor;
     match task.decision.rule {
         Rule::Simple => "every deviation within the tolerance (simple acceptance)".to_owned(),
@@ -58,55 +45,58 @@ fn reason(task: &Comparison, verified: &Verified) -> String {
     }
 }
 
-fn lines(task: &Comparison, verified: &Verified) -> Vec<String> {
+/// A comparison for people.
+pub fn comparison_report<'a>(task: &'a Comparison, verified: &'a Verified) -> Report<'a> {
     let against = match &task.against {
         Against::Prediction(machine) => format!("against the prediction of {}", machine.name()),
         Against::Readings(_) => "against other readings of the same places".to_owned(),
     };
-    vec![
-        format!("{} readings {against}", verified.readings.len()),
-        format!("rule: {}", rule(task)),
-        coverage_words(&verified.coverage),
-    ]
+    let channels = verified.instruments.iter().flat_map(|part| {
+        let instrument = &task.campaign.instruments[part.index as usize];
+        (0..instrument.sight.channels()).map(|channel| (part.index, channel))
+    });
+    let pictures = channels.map(|(of, channel)| picture(task, verified, of, channel));
+    let word = word(verified.outcome).to_uppercase();
+    Report::new(&task.name)
+        .line(format!("{} readings {against}", verified.readings.len()))
+        .line(format!("rule: {}", rule(task)))
+        .line(coverage_words(&verified.coverage))
+        .verdict(standing(verified.outcome), word, reason(task, verified))
+        .section(Section::new("By instrument").table(instruments(task, verified)))
+        .section(Section::new("The worst places").table(places(task, verified)))
+        .sections(pictures.map(|p| Section::from(Picture::Scatter(p))))
 }
 
-fn blocks(task: &Comparison, verified: &Verified) -> [Block; 2] {
+fn instruments(task: &Comparison, verified: &Verified) -> Table {
     let headings =
         ["instrument", "numbers", "rms nominal", "rms", "unit", "within U", "largest |r|/U"];
-    let note = "rms nominal: with a machine without errors; the set-up is fitted to both";
-    let mut by_instrument = Block::new("By instrument", note, &headings);
-    for part in &verified.instruments {
+    let rows = verified.instruments.iter().map(|part| {
         let instrument = &task.campaign.instruments[part.index as usize];
-        let (unit, scale) = shown_unit(instrument);
-        by_instrument.rows.push(row(&instrument.name, part, unit, scale));
-    }
-    let headings =
-        ["place", "instrument", "line", "numbers", "rms", "unit", "within U", "largest |r|/U"];
-    let mut places = Block::new("The worst places", "", &headings);
-    for place in verified.places.iter().take(WORST_PLACES) {
-        let instrument = &task.campaign.instruments[place.instrument as usize];
-        let (unit, scale) = shown_unit(instrument);
-        let part = &place.part;
-        places.rows.push(vec![
-            part.index.to_string(),
-            instrument.name.clone(),
-            verified.readings.lines[place.row].to_string(),
-            part.count.to_string(),
-            format!("{:.2}", part.rms_after * scale),
-            unit.to_owned(),
-            percent(part.coverage.share()),
-            format!("{:.2}", part.worst),
-        ]);
-    }
-    [by_instrument, places]
+        let scale = shown_unit(instrument).1;
+        let nominal = part.rms_before.map_or("–".to_owned(), |v| format!("{:.2}", v * scale));
+        let [count, rest @ ..] = figures(part, shown_unit(instrument));
+        [instrument.name.clone(), count, nominal].into_iter().chain(rest)
+    });
+    let note = "rms nominal: with a machine without errors; the set-up is fitted to both";
+    Table::new(headings).rows(rows).note(note)
 }
 
-fn row(name: &str, part: &Part, unit: &str, scale: f64) -> Vec<String> {
-    let before = part.rms_before.map_or("–".to_owned(), |v| format!("{:.2}", v * scale));
-    vec![
-        name.to_owned(),
+fn places(task: &Comparison, verified: &Verified) -> Table {
+    let headings =
+        ["place", "instrument", "line", "numbers", "rms", "unit", "within U", "largest |r|/U"];
+    let rows = verified.places.iter().take(WORST_PLACES).map(|place| {
+        let instrument = &task.campaign.instruments[place.instrument as usize];
+        let line = verified.readings.lines[place.row].to_string();
+        let names = [place.part.index.to_string(), instrument.name.clone(), line];
+        names.into_iter().chain(figures(&place.part, shown_unit(instrument)))
+    });
+    Table::new(headings).rows(rows)
+}
+
+/// Numbers, rms with its unit, share within U, largest ratio.
+fn figures(part: &Part, (unit, scale): (&str, f64)) -> [String; 5] {
+    [
         part.count.to_string(),
-        before,
         format!("{:.2}", part.rms_after * scale),
         unit.to_owned(),
         percent(part.coverage.share()),
@@ -114,116 +104,21 @@ fn row(name: &str, part: &Part, unit: &str, scale: f64) -> Vec<String> {
     ]
 }
 
-/// For the terminal.
+/// A comparison for the terminal.
 pub fn comparison_text(task: &Comparison, verified: &Verified) -> String {
-    let mut out = format!("{}\n", task.name);
-    // Writing into a text cannot fail.
-    for line in lines(task, verified) {
-        let _ = writeln!(out, "  {line}");
-    }
-    for block in &blocks(task, verified) {
-        let _ = write_block(&mut out, block);
-    }
-    let verdict = word(verified.outcome).to_uppercase();
-    let _ = writeln!(out, "\n{verdict}: {}", reason(task, verified));
-    out
+    comparison_report(task, verified).text()
 }
 
-/// The document `trueaxis/verify/1`.
-pub fn comparison_json(task: &Comparison, verified: &Verified) -> Value {
-    let coverage = |c: &Coverage| {
-        json!({
-            "numbers": c.count,
-            "inside": c.inside,
-            "independent": c.independent,
-            "share": c.share(),
-            "interval_95": c.interval,
-            "expected": c.expected,
-        })
-    };
-    let part = |part: &Part, of: u32| {
-        let instrument = &task.campaign.instruments[of as usize];
-        let (unit, (_, scale)) =
-            (if instrument.sight.is_angle() { "urad" } else { "um" }, shown_unit(instrument));
-        let worst = if part.worst.is_finite() { json!(part.worst) } else { Value::Null };
-        json!({
-            "instrument": instrument.name,
-            "coverage": coverage(&part.coverage),
-            (format!("rms_nominal_{unit}")): part.rms_before.map(|v| v * scale),
-            (format!("rms_{unit}")): part.rms_after * scale,
-            "largest_ratio": worst,
-        })
-    };
-    let places = verified.places.iter().map(|place| {
-        let mut document = part(&place.part, place.instrument);
-        document["group"] = json!(place.part.index);
-        document["line"] = json!(verified.readings.lines[place.row]);
-        document
-    });
-    let deviations = verified.deviations.iter().map(|d| {
-        let of = verified.readings.instruments[d.row];
-        let instrument = &task.campaign.instruments[of as usize];
-        let unit = if instrument.sight.is_angle() { "urad" } else { "um" };
-        let (_, scale) = shown_unit(instrument);
-        json!({
-            "instrument": instrument.name,
-            "line": verified.readings.lines[d.row],
-            "channel": d.channel,
-            (format!("deviation_{unit}")): d.value * scale,
-            (format!("expanded_{unit}")): d.expanded * scale,
-        })
-    });
-    json!({
-        "schema": "trueaxis/verify/1",
-        "name": task.name,
-        "against": match task.against {
-            Against::Prediction(_) => "prediction",
-            Against::Readings(_) => "readings",
-        },
-        "readings": verified.readings.len(),
-        "coverage_factor": task.decision.coverage_factor,
-        "rule": rule(task),
-        "verdict": word(verified.outcome),
-        "pass": verified.counts[0],
-        "fail": verified.counts[1],
-        "undecided": verified.counts[2],
-        "coverage": coverage(&verified.coverage),
-        "instruments": verified.instruments.iter().map(|p| part(p, p.index)).collect::<Vec<_>>(),
-        "places": places.collect::<Vec<_>>(),
-        "deviations": deviations.collect::<Vec<_>>(),
-    })
-}
-
-/// The page.
+/// A comparison as a page.
 ///
 /// # Errors
 /// What the drawing library says.
 pub fn comparison_html(task: &Comparison, verified: &Verified) -> Result<String, DrawingError> {
-    let mut pictures = Vec::new();
-    for part in &verified.instruments {
-        let instrument = &task.campaign.instruments[part.index as usize];
-        for channel in 0..instrument.sight.channels() {
-            pictures.push(picture(task, verified, part.index, channel));
-        }
-    }
-    let class = word(verified.outcome);
-    let verdict = html! {
-        section class=(format!("verdict {class}")) {
-            strong { (class.to_uppercase()) }
-            span { (reason(task, verified)) }
-        }
-    };
-    picture_page(&PicturePage {
-        title: &task.name,
-        lines: &lines(task, verified),
-        verdict: Some(verdict),
-        blocks: &blocks(task, verified),
-        pictures: &pictures,
-    })
+    comparison_report(task, verified).html()
 }
 
 /// Deviations of one channel as dots, in the band of U.
-fn picture(task: &Comparison, verified: &Verified, of: u32, channel: usize) -> Picture {
+fn picture(task: &Comparison, verified: &Verified, of: u32, channel: usize) -> Scatter {
     let instrument = &task.campaign.instruments[of as usize];
     let (unit, scale) = shown_unit(instrument);
     let mine: Vec<_> = verified
@@ -234,7 +129,7 @@ fn picture(task: &Comparison, verified: &Verified, of: u32, channel: usize) -> P
     let stride = mine.len().div_ceil(MOST_POINTS).max(1);
     let shown = || mine.iter().enumerate().step_by(stride).map(|(k, d)| ((k + 1) as f64, *d));
     let name = if instrument.kind.triggers() { "hit" } else { instrument.kind.channels()[channel] };
-    Picture::Scatter(Scatter {
+    Scatter {
         title: format!("{}, {name}", instrument.name),
         note: String::new(),
         x: "reading".to_owned(),
@@ -247,5 +142,5 @@ fn picture(task: &Comparison, verified: &Verified, of: u32, channel: usize) -> P
             points: shown().map(|(x, d)| (x, d.value * scale)).collect(),
         }],
         dashed: Vec::new(),
-    })
+    }
 }

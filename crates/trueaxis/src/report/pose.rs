@@ -1,7 +1,5 @@
 //! The tool at one position: nominal, actual, and what every error does to it.
 
-use serde_json::{Value, json};
-use std::fmt::Write;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Bed, Body, Pose};
 use trueaxis_input::{Diagnostics, Place};
@@ -11,6 +9,7 @@ use trueaxis_machine::errors::ErrorValues;
 use trueaxis_machine::heat::ErrorPart;
 use trueaxis_machine::{Deviation, Machine};
 use trueaxis_report::numbers::fixed;
+use trueaxis_report::{Report, Section, Table};
 
 /// A machine at one position.
 #[derive(Debug, Clone)]
@@ -23,7 +22,7 @@ pub struct PoseReport<'m> {
     pub errors: ErrorValues,
     /// What they do to the tool.
     pub deviation: Deviation,
-    /// Whether the place of every body is told, too.
+    /// Whether the place of every body is reported, too.
     pub with_bodies: bool,
 }
 
@@ -64,33 +63,14 @@ impl<'m> PoseReport<'m> {
     }
 }
 
-/// The document `trueaxis/pose/1`.
-pub fn pose_json(report: &PoseReport<'_>) -> Value {
-    let mut document = json!({ "schema": "trueaxis/pose/1" });
-    let values = deviation_json(&report.deviation);
-    for key in ["nominal", "actual", "deviation"] {
-        document[key] = values[key].clone();
-    }
-    document["budget"] = budget_json(&report.budget());
-    if report.with_bodies {
-        document["bodies"] = bodies_json(&report.bodies());
-    }
-    if report.machine.is_at_temperatures() {
-        add_split(&mut document, report.machine, &report.command, &report.errors);
-    }
-    document
-}
-
-/// The same for people.
-pub fn pose_text(report: &PoseReport<'_>) -> String {
-    let (machine, deviation) = (report.machine, &report.deviation);
+/// The tool at one position, for people.
+pub fn pose_report(report: &PoseReport<'_>) -> Report<'static> {
+    let PoseReport { machine, deviation, .. } = report;
     let (tip, axis) = (deviation.nominal_tip.vector(), deviation.nominal_axis.vector());
-    let mut text = format!("{}   {}\n\n", machine.name(), machine.chain_text());
-    text += &format!("{:<22}{:>14} {:>14} {:>14}\n", "in the workpiece frame", "x", "y", "z");
+    let mut table = Table::new(["", "x", "y", "z", "unit"]);
     let mut row = |name: &str, v: Vec3, digits: usize, unit: &str| {
-        let line = format!("{name:<22}{}  {unit}", columns(v, 14, digits));
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "{}", line.trim_end());
+        let [x, y, z] = texts(v, digits);
+        table.push([name.to_owned(), x, y, z, unit.to_owned()]);
     };
     row("tip, nominal", tip, 4, "mm");
     row("tip, actual", tip + deviation.tip_mm, 4, "mm");
@@ -98,61 +78,28 @@ pub fn pose_text(report: &PoseReport<'_>) -> String {
     row("axis, nominal", axis, 7, "");
     row("axis, actual", axis + deviation.axis, 7, "");
     row("  deviation", deviation.axis * 1e6, 3, "µrad");
-    text += &budget_table(&report.budget());
-    if report.with_bodies {
-        text += &bodies_table(&report.bodies());
-    }
-    if machine.is_at_temperatures() {
-        text += &split_table(machine, &report.command, &report.errors);
-    }
-    text
-}
-
-/// Nominal and actual tool, and the difference.
-pub fn deviation_json(deviation: &Deviation) -> Value {
-    let (tip, axis) = (deviation.nominal_tip.vector(), deviation.nominal_axis.vector());
-    json!({
-        "nominal": { "tip_mm": array(tip), "axis": array(axis) },
-        "actual": {
-            "tip_mm": array(tip + deviation.tip_mm),
-            "axis": array(axis + deviation.axis),
-        },
-        "deviation": {
-            "tip_um": array(deviation.tip_mm * 1e3),
-            "axis_urad": array(deviation.axis * 1e6),
-        },
-    })
-}
-
-/// Each error alone.
-pub fn budget_json(budget: &Budget) -> Value {
-    let share = |(name, share): &(String, Deviation)| {
-        json!({
-            "error": name,
-            "tip_um": array(share.tip_mm * 1e3),
-            "axis_urad": array(share.axis * 1e6),
-        })
+    let answer = Report::new(machine.name())
+        .line(machine.chain_text())
+        .section(Section::new("Tool in the workpiece frame").table(table))
+        .section(budget_section(&report.budget()));
+    let answer = match report.with_bodies {
+        true => answer.section(bodies_section(&report.bodies())),
+        false => answer,
     };
-    budget.iter().map(share).collect()
+    match machine.is_at_temperatures() {
+        true => answer.section(heat_section(report)),
+        false => answer,
+    }
 }
 
-/// Nominal and actual place of every body.
-pub fn bodies_json(bodies: &Bodies) -> Value {
-    bodies.iter().map(|(name, poses)| body_json(name, poses)).collect()
+/// The tool at one position, for the terminal.
+pub fn pose_text(report: &PoseReport<'_>) -> String {
+    pose_report(report).text()
 }
 
-fn body_json(name: &str, [nominal, actual]: &[Pose<Bed, Body>; 2]) -> Value {
-    let pose = |pose: &Pose<Bed, Body>| {
-        let rows: Vec<[f64; 3]> = (0..3).map(|i| array(pose.linear().row(i).transpose())).collect();
-        json!({ "origin_mm": array(*pose.shift_mm()), "rotation": rows })
-    };
-    json!({ "body": name, "nominal": pose(nominal), "actual": pose(actual) })
-}
-
-/// Three numbers in columns of equal width.
-fn columns(v: Vec3, width: usize, digits: usize) -> String {
-    let [x, y, z] = array(v).map(|x| fixed(x, digits));
-    format!("{x:>width$} {y:>width$} {z:>width$}")
+/// Three numbers as texts.
+fn texts(v: Vec3, digits: usize) -> [String; 3] {
+    array(v).map(|x| fixed(x, digits))
 }
 
 /// Every error by its name, with the deviation under it alone.
@@ -164,8 +111,12 @@ pub fn budget(machine: &Machine, command: &Command, errors: &ErrorValues) -> Bud
     shares.map(|share| (share.name, machine.deviation(command, &share.errors))).collect()
 }
 
-/// What each part does to the tip, µm; that of the workpiece is its growth E_w.
-fn split(machine: &Machine, command: &Command, errors: &ErrorValues) -> [(ErrorPart, Vec3); 4] {
+/// What each cause does to the tip, µm; that of the workpiece is its growth E_w.
+pub(super) fn heat_shares(
+    machine: &Machine,
+    command: &Command,
+    errors: &ErrorValues,
+) -> [(ErrorPart, Vec3); 4] {
     ErrorPart::ALL.map(|part| {
         let errors = machine.part(command, errors, part);
         let tip_um = match part {
@@ -176,43 +127,25 @@ fn split(machine: &Machine, command: &Command, errors: &ErrorValues) -> [(ErrorP
     })
 }
 
-/// `comprehensive = machine - workpiece`, and its four parts.
-fn add_split(document: &mut Value, machine: &Machine, command: &Command, errors: &ErrorValues) {
-    let without = ErrorValues { workpiece_mm: Vec3::zeros(), ..*errors };
-    let tip_um = |errors| array(machine.deviation(command, errors).tip_mm * 1e3);
-    let parts = split(machine, command, errors).into_iter();
-    let parts = parts.map(|(part, um)| (part.name().to_owned(), json!({ "tip_um": array(um) })));
-    document["split"] = Value::Object(parts.collect());
-    document["machine"] = json!({ "tip_um": tip_um(&without) });
-    document["comprehensive"] = json!({
-        "tip_um": tip_um(errors),
-        "formula": "machine - workpiece = geometric + scale + structure - workpiece",
-    });
-    if let Some(settling) = machine.heat().workpiece.as_ref().and_then(|w| w.settling) {
-        document["settling"] = json!({
-            "time_constant_s": settling.time_constant_s,
-            "time_to_a_tenth_s": settling.time_to_s(1.0, 0.1),
-        });
+fn heat_section(report: &PoseReport<'_>) -> Section<'static> {
+    let PoseReport { machine, command, errors, .. } = report;
+    let mut table = Table::new(["", "tip x", "y", "z"]);
+    let mut row = |sign: char, name: &str, tip_um| {
+        let name = format!("{sign} {name}");
+        table.push(std::iter::once(name).chain(texts(tip_um, 3)));
+    };
+    for (part, um) in heat_shares(machine, command, errors) {
+        row(if part == ErrorPart::Workpiece { '-' } else { '+' }, part.name(), um);
     }
-}
-
-fn split_table(machine: &Machine, command: &Command, errors: &ErrorValues) -> String {
-    let mut text = String::from("\nmachine - workpiece, tip, µm    x          y          z\n");
-    for (part, um) in split(machine, command, errors) {
-        let sign = if part == ErrorPart::Workpiece { '-' } else { '+' };
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "{sign} {:<21} {}", part.name(), columns(um, 10, 3));
+    row('=', "comprehensive", machine.deviation(command, errors).tip_mm * 1e3);
+    let section = Section::new("Machine − workpiece, µm").table(table);
+    match machine.heat().workpiece.as_ref().and_then(|w| w.settling) {
+        Some(settling) => section.paragraph(format!(
+            "the workpiece needs {:.1} h until a tenth of its difference to the air remains",
+            settling.time_to_s(1.0, 0.1) / 3600.0
+        )),
+        None => section,
     }
-    let whole = machine.deviation(command, errors).tip_mm * 1e3;
-    let _ = writeln!(text, "= {:<21} {}", "comprehensive", columns(whole, 10, 3));
-    if let Some(settling) = machine.heat().workpiece.as_ref().and_then(|w| w.settling) {
-        let hours = settling.time_to_s(1.0, 0.1) / 3600.0;
-        let _ = writeln!(
-            text,
-            "\nthe workpiece needs {hours:.1} h until a tenth of its difference to the air is left"
-        );
-    }
-    text
 }
 
 /// Every body by its name, with its nominal and its actual place on the bed.
@@ -232,33 +165,26 @@ pub fn array(v: Vec3) -> [f64; 3] {
 }
 
 /// The errors that move the tip or turn the axis here, the greatest first.
-pub fn budget_table(budget: &Budget) -> String {
-    let mut felt: Vec<_> =
+pub(super) fn budget_section(budget: &Budget) -> Section<'static> {
+    let mut effective: Vec<_> =
         budget.iter().filter(|(_, d)| d.tip_mm.norm() + d.axis.norm() > 0.0).collect();
-    if felt.is_empty() {
-        return String::new();
-    }
-    felt.sort_by(|a, b| b.1.tip_mm.norm().total_cmp(&a.1.tip_mm.norm()));
-    let mut text = String::from(
-        "\neach error alone            tip, µm                         axis, µrad\n\
-         \u{20}                    x          y          z            x          y          z\n",
-    );
-    for (name, d) in felt {
-        let (tip, axis) = (columns(d.tip_mm * 1e3, 10, 3), columns(d.axis * 1e6, 10, 3));
-        let _ = writeln!(text, "{name:<11} {tip}   {axis}");
-    }
-    text
+    effective.sort_by(|a, b| b.1.tip_mm.norm().total_cmp(&a.1.tip_mm.norm()));
+    let rows = effective.into_iter().map(|(name, d)| {
+        let numbers = [texts(d.tip_mm * 1e3, 3), texts(d.axis * 1e6, 3)];
+        std::iter::once(name.clone()).chain(numbers.into_iter().flatten())
+    });
+    let headings = ["error", "tip x µm", "y µm", "z µm", "axis x µrad", "y µrad", "z µrad"];
+    Section::new("Each error alone").table(Table::new(headings).rows(rows))
 }
 
 /// Where every body stands, and how far from there.
-pub fn bodies_table(bodies: &Bodies) -> String {
-    let mut text = String::from(
-        "\nbody in the machine frame      nominal, mm                   actual - nominal, µm\n\
-         \u{20}             x            y            z           x         y         z\n",
-    );
-    for (name, [nominal, actual]) in bodies {
+pub(super) fn bodies_section(bodies: &Bodies) -> Section<'static> {
+    let rows = bodies.iter().map(|(name, [nominal, actual])| {
         let (n, d) = (*nominal.shift_mm(), (actual.shift_mm() - nominal.shift_mm()) * 1e3);
-        let _ = writeln!(text, "  {name} {}   {}", columns(n, 12, 4), columns(d, 9, 3));
-    }
-    text
+        let numbers = [texts(n, 4), texts(d, 3)];
+        std::iter::once(name.clone()).chain(numbers.into_iter().flatten())
+    });
+    let headings = ["body", "x mm", "y mm", "z mm", "Δx µm", "Δy µm", "Δz µm"];
+    let table = Table::new(headings).rows(rows).note("nominal origin; Δ: actual − nominal");
+    Section::new("Bodies in the machine frame").table(table)
 }

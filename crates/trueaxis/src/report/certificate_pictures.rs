@@ -1,75 +1,25 @@
-//! A certificate as one self-contained page.
+//! The pictures of a certificate.
 
-use super::certificate::word;
-use super::certificate_blocks::{Chapter, chapters};
 use crate::verify::certificate::{Certificate, Study};
-use maud::{Markup, PreEscaped, html};
 use plotters::prelude::*;
-use trueaxis_report::Block;
-use trueaxis_report::page::document;
+use trueaxis_report::Figure;
 use trueaxis_report::plots::{
     COLOURS, DrawingError, INK, Labels, axes, draw, drawing_error, legend, pen, px,
 };
 
-/// The page.
-///
-/// # Errors
-/// What the drawing library says.
-pub fn certificate_html(study: &Study, certificate: &Certificate) -> Result<String, DrawingError> {
-    let pictures = html! {
-        div {
-            figure { (PreEscaped(picture(study, certificate, true)?))
-                figcaption { "Measured tip deviation at the poses of the validation: before and after" } }
-            figure { (PreEscaped(picture(study, certificate, false)?))
-                figcaption { "After, with U of the reading, the predicted 95 % bound and the limit" } }
-        }
-    };
-    let class = word(certificate.outcome);
-    let content = html! {
-        h1 { (study.name) }
-        p.soft { "Certificate of a volumetric compensation, in the order of the topics of ISO/TR 16907" }
-        section class=(format!("verdict {class}")) {
-            strong { (class.to_uppercase()) }
-            span { (certificate.reason) }
-        }
-        @for chapter in chapters(study, certificate) {
-            (section(&chapter, (chapter.title == "Validation").then_some(&pictures)))
-        }
-    };
-    Ok(document(&study.name, &content))
+/// Measured tip deviations without and with the compensation.
+pub(super) fn before_and_after_figure<'a>(
+    study: &'a Study,
+    certificate: &'a Certificate,
+) -> Figure<'a> {
+    let caption = "Measured tip deviation at the poses of the validation: before and after";
+    Figure::new(caption, move || picture(study, certificate, true))
 }
 
-fn section(chapter: &Chapter, pictures: Option<&Markup>) -> Markup {
-    html! {
-        section.long {
-            h2 { (chapter.number) ". " (chapter.title) }
-            @for line in &chapter.lines { p { (line) } }
-            @if let Some(pictures) = pictures { (pictures) }
-            @for block in &chapter.blocks { (table(block)) }
-        }
-    }
-}
-
-fn table(block: &Block) -> Markup {
-    let side = |i: usize| if block.has_words(i) { "text-align:left" } else { "" };
-    let class = |cell: &str| match cell {
-        "pass" | "fail" | "undecided" => Some(cell.to_owned()),
-        _ => None,
-    };
-    html! {
-        h3 { (block.title) }
-        div.scroll { table.small {
-            thead { tr { @for (i, h) in block.headings.iter().enumerate() { th style=(side(i)) { (h) } } } }
-            tbody { @for row in &block.rows { tr {
-                @for (i, cell) in row.iter().enumerate() {
-                    td class=[class(cell)] style=(side(i)) {
-                        @if cell.len() == 64 { code { (cell) } } @else { (cell) }
-                    }
-                }
-            } } }
-        } }
-        @if !block.note.is_empty() { p.soft { (block.note) } }
-    }
+/// Those with the compensation against their prediction.
+pub(super) fn after_figure<'a>(study: &'a Study, certificate: &'a Certificate) -> Figure<'a> {
+    let caption = "After, with U of the reading, the predicted 95 % bound and the limit";
+    Figure::new(caption, move || picture(study, certificate, false))
 }
 
 type Points = Vec<(f64, f64)>;

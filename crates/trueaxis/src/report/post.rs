@@ -1,0 +1,89 @@
+//! An NC program from cutter locations.
+
+use std::path::Path;
+use trueaxis_cl::ClFile;
+use trueaxis_correct::compensate::post::{Largest, PostOptions, Posted, Verification};
+use trueaxis_machine::Machine;
+use trueaxis_report::{Report, Section, Standing, Table};
+
+/// A program with what it was made from.
+#[derive(Debug, Clone, Copy)]
+pub struct PostReport<'a> {
+    /// The machine that it is for.
+    pub machine: &'a Machine,
+    /// The cutter locations.
+    pub file: &'a ClFile,
+    /// How it was written.
+    pub options: &'a PostOptions,
+    /// The program.
+    pub posted: &'a Posted,
+    /// The program read back and simulated, if that was asked for.
+    pub verification: Option<&'a Verification>,
+    /// Its file.
+    pub output: &'a Path,
+}
+
+impl PostReport<'_> {
+    /// Whether nothing is known against the program.
+    pub fn is_sound(&self) -> bool {
+        self.verification.is_none_or(|v| v.is_within(self.options))
+    }
+
+    /// How many lines the program has.
+    pub(super) fn lines(&self) -> usize {
+        self.posted.text.iter().filter(|b| **b == b'\n').count()
+    }
+}
+
+/// A program for people.
+pub fn post_report(report: &PostReport<'_>) -> Report<'static> {
+    let PostReport { file, posted, verification, output, .. } = report;
+    let mut answer = Report::new(format!(
+        "{} points -> {} blocks in {} lines, {} {}",
+        file.points().count(),
+        posted.blocks,
+        report.lines(),
+        if report.is_sound() { "written to" } else { "not written to" },
+        output.display()
+    ));
+    if posted.rewinds > 0 {
+        answer = answer
+            .line(format!("the tool retracts {} times for an axis to rewind", posted.rewinds));
+    }
+    if posted.pole_deviation_rad > 0.0 {
+        let degrees = posted.pole_deviation_rad.to_degrees();
+        let line = format!("to pass a pole the tool axis was turned by up to {degrees:.6} deg");
+        answer = answer.line(line);
+    }
+    let Some(found) = verification else { return answer };
+    let answer = match report.is_sound() {
+        true => answer.verdict(Standing::Good, "PASS", "the program is within the tolerances"),
+        false => answer.verdict(Standing::Bad, "FAIL", "the program is not within the tolerances"),
+    };
+    answer.section(comparison(found, report.options))
+}
+
+fn comparison(found: &Verification, options: &PostOptions) -> Section<'static> {
+    let mut table =
+        Table::new(["", "largest", "unit", "allowed", "line of program", "line of file"]);
+    let mut row = |name: &str, unit: &str, l: &Largest, scale: f64, allowed: String, digits| {
+        let value = format!("{:.digits$}", l.value * scale);
+        let lines = [l.program_line, l.file_line].map(|line| line.to_string());
+        let [program, file] = lines;
+        table.push([name.to_owned(), value, unit.to_owned(), allowed, program, file]);
+    };
+    let degrees = 1_f64.to_degrees();
+    let tip = format!("{:.4}", options.tolerance_mm * 1e3);
+    let axis = format!("{:.5}", options.axis_tolerance_rad.to_degrees());
+    row("tip at the ends of blocks", "µm", &found.tip_at_ends, 1e3, String::new(), 4);
+    row("tool axis at the ends of blocks", "µrad", &found.axis_at_ends, 1e6, String::new(), 4);
+    row("tip from the path", "µm", &found.tip_between, 1e3, tip, 4);
+    row("tool axis from the path", "deg", &found.axis_between, degrees, axis, 5);
+    let note = format!("{} blocks compared", found.compared);
+    Section::new("Read back and simulated on the nominal machine").table(table.note(note))
+}
+
+/// A program for the terminal.
+pub fn post_text(report: &PostReport<'_>) -> String {
+    post_report(report).text()
+}
