@@ -13,11 +13,26 @@ pub(super) struct Columns {
     pub axis: [Vec3; MAX_AXES],
 }
 
-/// A point (place 1) and a direction (place 0) that travel together.
-type Pair = [(Vec3, f64); 2];
+/// The tip and the tool axis, which travel together.
+#[derive(Clone, Copy, Default)]
+struct Carried {
+    /// A point, mm: shifts move it.
+    tip: Vec3,
+    /// A direction: only turns change it.
+    axis: Vec3,
+}
 
-fn through(link: &Link, pair: Pair) -> Pair {
-    pair.map(|(v, place)| (link.linear() * v + link.shift_mm() * place, place))
+/// The slope of both.
+type Slope = [Vec3; 2];
+
+impl Carried {
+    fn through(self, link: &Link) -> Self {
+        Self { tip: link.linear() * self.tip + link.shift_mm(), axis: link.linear() * self.axis }
+    }
+
+    fn turned(self, turn: &Mat3) -> Slope {
+        [turn * self.tip, turn * self.axis]
+    }
 }
 
 impl Columns {
@@ -39,27 +54,26 @@ impl Columns {
         let bed_from_workpiece = links[..side].iter().fold(Link::identity(), |acc, l| *l * acc);
         let workpiece_from_bed = bed_from_workpiece.inverse();
         let back = *workpiece_from_bed.linear();
-        let slope = |i: usize, pair: Pair| {
-            link_slope(machine, i, command, &errors.bodies[i], &slopes[i], pair)
-        };
 
-        // The points carried by each body, from the tip to the workpiece; then back with their rotations.
-        let mut carried = [[(Vec3::zeros(), 0.0); 2]; MAX_BODIES];
-        let mut pair = [(machine.tip_mm, 1.0), (Vec3::z(), 0.0)];
+        // What each body carries, from the tip to the workpiece; then back with the rotations.
+        let mut carried = [Carried::default(); MAX_BODIES];
+        let mut tool = Carried { tip: machine.tip_mm, axis: Vec3::z() };
         for i in (side..count).rev() {
-            carried[i] = pair;
-            pair = through(&links[i], pair);
+            carried[i] = tool;
+            tool = tool.through(&links[i]);
         }
-        pair = through(&workpiece_from_bed, pair);
-        let (axis, mut columns) =
-            (pair[1].0, Self { tip: [Vec3::zeros(); MAX_AXES], axis: [Vec3::zeros(); MAX_AXES] });
+        tool = tool.through(&workpiece_from_bed);
+        let axis = tool.axis;
         for i in 0..side {
-            carried[i] = pair;
-            pair = through(&links[i], pair);
+            carried[i] = tool;
+            tool = tool.through(&links[i]);
         }
+        let mut columns = Self { tip: [Vec3::zeros(); MAX_AXES], axis: [Vec3::zeros(); MAX_AXES] };
         let mut put = |i: usize, turn: Mat3| {
             if let Some(k) = machine.bodies[i].axis {
-                let [tip, direction] = slope(i, carried[i]);
+                let errors = &errors.bodies[i];
+                let [tip, direction] =
+                    link_slope(machine, i, command, errors, &slopes[i], carried[i]);
                 (columns.tip[k], columns.axis[k]) = (turn * tip, turn * direction);
             }
         };
@@ -121,16 +135,16 @@ fn link_slope(
     command: &Command,
     errors: &BodyErrors,
     slopes: &SixErrors,
-    pair: Pair,
-) -> [Vec3; 2] {
+    carried: Carried,
+) -> Slope {
     let (body, model) = (&machine.bodies[i], machine.model);
     let Some(index) = body.axis else { return [Vec3::zeros(); 2] };
     let (axis, q) = (&machine.axes[index], command[index]);
     let turn = |six: &SixErrors| Mat3::identity() + six.rotation_minus_identity(model.rotation);
     let per_unit = axis.direction * axis.sense;
     // What the steps to the right carry, and its slope; `None` as long as nothing has moved.
-    let mut carried = through(&body.mounting, pair);
-    let mut slope: Option<[Vec3; 2]> = None;
+    let mut carried = carried.through(&body.mounting);
+    let mut slope: Option<Slope> = None;
     let mut placed = *body.placement.linear();
     for step in machine.steps(i).iter().rev() {
         match (step, axis.kind) {
@@ -138,33 +152,40 @@ fn link_slope(
             (Step::Location, _) => placed *= turn(&errors.location),
             (Step::Motion, _) => {
                 let turning = errors.motion.rotation_slope(slopes, model.rotation);
-                let mut grown = carried.map(|(v, place)| slopes.shift_mm() * place + turning * v);
+                let [tip, axis_slope] = carried.turned(&turning);
+                let mut grown = [slopes.shift_mm() + tip, axis_slope];
                 // A straight motion has the same slope wherever the errors put what it carries.
                 if axis.kind == AxisKind::Rotary {
                     let error = Link::new(turn(&errors.motion), errors.motion.shift_mm());
                     grown = sum(grown, slope.map(|s| s.map(|v| error.linear() * v)));
-                    carried = through(&error, carried);
+                    carried = carried.through(&error);
                 }
                 slope = Some(grown);
             }
             (Step::Joint, AxisKind::Rotary) => {
                 let motion = nominal_motion(axis, q);
-                carried = through(&motion, carried);
-                let turned = carried.map(|(v, _)| per_unit.cross(&v));
+                carried = carried.through(&motion);
+                let turned = [per_unit.cross(&carried.tip), per_unit.cross(&carried.axis)];
                 slope = Some(sum(turned, slope.map(|s| s.map(|v| motion.linear() * v))));
             }
             (Step::Joint, AxisKind::Linear) => {
-                slope = Some(sum(carried.map(|(_, place)| per_unit * place), slope));
+                slope = Some(shifted(per_unit, slope));
             }
             (Step::TiltedJoint, _) => {
                 let along = turn(&errors.location) * per_unit;
-                slope = Some(sum(carried.map(|(_, place)| along * place), slope));
+                slope = Some(shifted(along, slope));
             }
         }
     }
     slope.map_or([Vec3::zeros(); 2], |slope| slope.map(|v| placed * v))
 }
 
-fn sum(a: [Vec3; 2], b: Option<[Vec3; 2]>) -> [Vec3; 2] {
+fn sum(a: Slope, b: Option<Slope>) -> Slope {
     b.map_or(a, |b| [a[0] + b[0], a[1] + b[1]])
+}
+
+/// A shift along a direction moves the tip and leaves the tool axis.
+fn shifted(along: Vec3, slope: Option<Slope>) -> Slope {
+    let [tip, axis] = slope.unwrap_or_default();
+    [along + tip, axis]
 }
