@@ -1,63 +1,63 @@
-//! The most informative measurements within a limit of time: exchange of one candidate at a time.
+//! The most informative set of measurements within a time limit: exchange of one candidate at a time.
 //!
-//! *Source:* Fedorov 1972 (exchange), Woodbury 1950 (what a pose changes).
+//! *Source:* Fedorov 1972 (exchange), Woodbury 1950 (update of the covariance by one pose).
 
 use nalgebra::DMatrix;
 
-/// A swap that gains less than this share is none: rounding must not go round in circles.
+/// Least relative gain of an exchange, so that rounding does not cause endless exchanges.
 const LEAST_GAIN: f64 = 1e-6;
-/// More sweeps over all poses have never gained anything.
+/// Limit for the sweeps over all poses.
 const MOST_SWEEPS: usize = 30;
 
-/// A pose that may be measured.
+/// A pose that can be measured.
 #[derive(Debug, Clone)]
 pub struct Candidate {
-    /// One column for each number that is read there, in units of its noise: Jᵀ/u.
+    /// One column for each reading at this pose, in units of its noise: Jᵀ/u.
     pub columns: DMatrix<f64>,
-    /// What it takes, s.
+    /// Duration of the measurement, s.
     pub cost_s: f64,
 }
 
-/// What shall be small.
+/// The quantity to be minimised.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Criterion {
-    /// The sum of the variances, each in units of what is allowed of it.
+    /// The sum of the variances, each in units of its permitted value.
     A,
     /// The volume of the ellipsoid of uncertainty.
     D,
 }
 
-/// What is chosen from.
+/// The task: candidates, prior knowledge, wanted quantities and limits.
 #[derive(Debug, Clone)]
 pub struct Exchange {
-    /// The poses.
+    /// The candidate poses.
     pub candidates: Vec<Candidate>,
-    /// What is known before: JᵀWJ of fixed paths and priors, regular over all unknowns.
+    /// Prior information: JᵀWJ of fixed paths and priors, regular over all unknowns.
     pub before: DMatrix<f64>,
-    /// One row for each wanted quantity, in units of what is allowed of it.
+    /// One row for each required quantity, in units of its permitted uncertainty.
     pub wanted: DMatrix<f64>,
-    /// What shall be small.
+    /// The quantity to be minimised.
     pub criterion: Criterion,
-    /// The time that there is, s.
+    /// Available time, s.
     pub limit_s: f64,
-    /// At most so many poses.
+    /// Largest number of poses.
     pub most: usize,
 }
 
-/// What was chosen.
+/// The selected poses.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Selection {
-    /// Numbers of the poses.
+    /// Indices of the poses.
     pub poses: Vec<usize>,
-    /// What they take, s.
+    /// Total duration, s.
     pub cost_s: f64,
-    /// The criterion after the greedy start and after each swap: it never grows.
+    /// The criterion after the greedy start and after each exchange, not increasing.
     pub history: Vec<f64>,
 }
 
 impl Exchange {
-    /// The poses, one after the other by what they gain per second, then exchanged as long as that
-    /// gains anything. No pose is taken twice; the same input gives the same poses.
+    /// Selects poses one after the other by their gain per second, then exchanges them as long as
+    /// the criterion decreases. No pose is selected twice; the same input gives the same poses.
     ///
     /// ```text
     ///     A: tr(L C Lᵀ)    D: log det(L C Lᵀ)    C = (M₀ + Σ Jᵀ J/u²)⁻¹           docs/model.md eq. 112

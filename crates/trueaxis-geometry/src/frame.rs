@@ -8,16 +8,16 @@ use crate::{Mat3, Vec3};
 use std::marker::PhantomData;
 use std::ops::{Mul, Sub};
 
-/// The frame of the machine: axes parallel to the nominal X, Y, Z of ISO 841; it stands on the bed.
+/// The machine frame, fixed to the bed: axes parallel to the nominal X, Y, Z of ISO 841.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Bed {}
-/// The programmed frame of the part (part zero).
+/// The workpiece frame of the program, with its origin at part zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Workpiece {}
 /// The frame of the tool holder; +z points from the tool tip to the spindle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Tool {}
-/// The frame of any body of the machine; which one stands in the name of the variable.
+/// The frame of any body of the machine; the name of the variable states which.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Body {}
 
@@ -126,7 +126,7 @@ impl<To, From> Pose<To, From> {
         Self::new(Mat3::identity(), Vec3::zeros())
     }
 
-    /// From the matrix `R` and the place of the origin of `From` in `To`, in mm.
+    /// A pose from the matrix `R` and the position of the origin of `From` in `To`, in mm.
     pub const fn new(linear: Mat3, shift_mm: Vec3) -> Self {
         Self { linear, shift_mm, frames: PhantomData }
     }
@@ -158,7 +158,7 @@ impl<To, From> Pose<To, From> {
         &self.shift_mm
     }
 
-    /// The pose the other way round.
+    /// The inverse pose.
     ///
     /// `R` must be invertible, as every rotation and every `I + [ε]×` is.
     pub fn inverse(&self) -> Pose<From, To> {
@@ -166,7 +166,7 @@ impl<To, From> Pose<To, From> {
         Pose::new(inverse, -(inverse * self.shift_mm))
     }
 
-    /// The same numbers under other frame names: for the ends of a chain whose links are untyped.
+    /// The same numbers with other frames: for the ends of a chain whose links are untyped.
     pub fn relabel<To2, From2>(self) -> Pose<To2, From2> {
         Pose::new(self.linear, self.shift_mm)
     }
@@ -188,7 +188,7 @@ impl<To, From> Mul<Point<From>> for Pose<To, From> {
 
 impl<To, From> Mul<Direction<From>> for Pose<To, From> {
     type Output = Direction<To>;
-    /// Normalised, so that a direction stays a unit vector under the small-angle model too.
+    /// Normalised, so that a direction remains a unit vector in the small-angle model too.
     fn mul(self, direction: Direction<From>) -> Direction<To> {
         let turned = self.linear * direction.0;
         Direction(turned / turned.norm(), PhantomData)

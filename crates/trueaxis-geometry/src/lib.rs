@@ -1,5 +1,5 @@
-//! Where things are: points, directions and poses whose *frames are in their types* ([`frame`]), so that
-//! a workpiece point cannot be added to a machine point by accident.
+//! Points, directions and poses whose *frames are part of their types* ([`frame`]), so that a point in
+//! the workpiece frame cannot be added to a point in the machine frame by mistake.
 //!
 //! Inside the programs lengths are mm, angles rad, times s, temperatures °C. µm, µrad, deg and
 //! m/min exist only in text.
@@ -8,14 +8,16 @@
 //! use trueaxis_geometry::frame::{Direction, Point, Pose, Tool, Workpiece};
 //! use trueaxis_geometry::Vec3;
 //!
-//! // A tool that stands 100 mm above the part, not tilted; its tip is 100 mm below the holder.
+//! // A tool holder 100 mm above part zero, not tilted; the tip is 100 mm below the holder.
 //! let workpiece_from_tool: Pose<Workpiece, Tool> = Pose::shift(Vec3::new(0.0, 0.0, 100.0));
 //! let tip = workpiece_from_tool * Point::<Tool>::new(0.0, 0.0, -100.0);
 //! assert_eq!(tip.vector(), Vec3::zeros());
 //! assert_eq!((workpiece_from_tool * Direction::<Tool>::Z).vector(), Vec3::z());
 //! ```
 //!
-//! It does not know what a machine, a program or a part is.
+//! `examples/tilted_tool.rs` computes the tip of a tilted tool.
+//!
+//! The crate knows nothing of machines, programs and parts.
 
 pub mod exchange;
 pub mod frame;
@@ -26,7 +28,7 @@ pub type Vec3 = nalgebra::Vector3<f64>;
 /// A 3×3 matrix that acts on column vectors.
 pub type Mat3 = nalgebra::Matrix3<f64>;
 
-/// Straight or turning.
+/// The kind of motion of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AxisKind {
     /// Moves along its direction, mm.

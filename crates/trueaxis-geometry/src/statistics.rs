@@ -1,4 +1,4 @@
-//! Quantiles that tests need.
+//! Quantiles of distributions for statistical tests.
 
 use std::f64::consts::TAU;
 
@@ -41,14 +41,15 @@ pub fn normal_quantile_above(tail: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// What χ² with these degrees of freedom exceeds with this probability (Wilson and Hilferty).
+/// The value that χ² with these degrees of freedom exceeds with this probability (Wilson and
+/// Hilferty).
 pub fn chi_square_above(tail: f64, degrees_of_freedom: f64) -> f64 {
     let a = 2.0 / (9.0 * degrees_of_freedom.max(1e-9));
     let root = 1.0 - a + normal_quantile_above(tail) * a.sqrt();
     degrees_of_freedom * root.max(0.0).powi(3)
 }
 
-/// What Student's t exceeds with this probability (Cornish and Fisher, to the third order).
+/// The value that Student's t exceeds with this probability (Cornish and Fisher, third order).
 pub fn student_above(tail: f64, degrees_of_freedom: f64) -> f64 {
     let z = normal_quantile_above(tail);
     let n = degrees_of_freedom.max(1.0);
@@ -59,7 +60,7 @@ pub fn student_above(tail: f64, degrees_of_freedom: f64) -> f64 {
     z + first / n + second / (n * n) + third / n.powi(3)
 }
 
-/// A standard deviation from the middle of the sizes: five wild values in a hundred do not move it.
+/// Standard deviation from the median of the absolute values, robust against outliers.
 ///
 /// 1.4826 is 1/Φ⁻¹(3/4).
 pub fn robust_deviation(values: impl Iterator<Item = f64>) -> f64 {

@@ -1,8 +1,8 @@
-//! Why a part cannot be evaluated.
+//! Errors of the evaluation of a part.
 
 use thiserror::Error;
 
-/// Why a part cannot be evaluated; each variant is something that the caller can change.
+/// The reason why a part cannot be evaluated; each variant is something that the caller can change.
 ///
 /// ```
 /// use trueaxis_part::{Error, fit::circle};
@@ -12,17 +12,17 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Error {
     /// A circle needs three points.
-    #[error("{found} points are too few, {needed} are needed")]
+    #[error("too few points: {found}, at least {needed} are needed")]
     TooFewPoints {
-        /// How many there are.
+        /// Number of points.
         found: usize,
-        /// How many there must be.
+        /// Least number of points.
         needed: usize,
     },
     /// NaN, infinite, or beyond ±1e100.
-    #[error("value {index} is not a finite number of usable size")]
+    #[error("value {index} (counted from 0) is not finite or exceeds ±1e100")]
     NotFinite {
-        /// Which point, deviation or value, from 0.
+        /// Index of the point, deviation or value, from 0.
         index: usize,
     },
     /// All points are the same point.
@@ -31,23 +31,23 @@ pub enum Error {
     /// All points lie on one straight line.
     #[error("all points lie on one line: there is no circle")]
     Collinear,
-    /// The points do not go round a centre (a short arc, a cloud).
-    #[error("the points do not surround a centre: measure the whole circumference")]
+    /// The points do not enclose a centre (a short arc, a cloud).
+    #[error("the points do not enclose a centre: measure the whole circumference")]
     NoCentre,
-    /// A dimension of a test piece that cannot be made.
+    /// A dimension of a test piece that is not possible.
     #[error("{what}")]
     Shape {
-        /// Which dimension and what is allowed.
+        /// The dimension and its permitted range.
         what: String,
     },
-    /// A list that does not belong to this test piece.
-    #[error("{what}: {found} values, {expected} are due")]
+    /// A list whose length does not fit this test piece.
+    #[error("{what}: {found} values, expected {expected}")]
     WrongLength {
-        /// Which list.
+        /// The name of the list.
         what: &'static str,
         /// Its length.
         found: usize,
-        /// The length that it must have.
+        /// The expected length.
         expected: usize,
     },
 }

@@ -1,4 +1,4 @@
-//! The file of a test piece: dimensions, path, tolerances, and where each comes from.
+//! The file of a test piece: dimensions, path and tolerances with their sources.
 
 use crate::testpiece::cone::{Cone, ConeSize, INDICES};
 use crate::testpiece::{IndexName, NasMounting, TestPiece};
@@ -12,7 +12,7 @@ pub enum Shape {
     Cone(Cone),
 }
 
-/// A test piece as a user wrote it, checked.
+/// A checked file of a test piece.
 ///
 /// # Example
 /// ```
@@ -38,19 +38,19 @@ pub enum Shape {
 /// ```
 #[derive(Debug, Clone)]
 pub struct TestPieceFile {
-    /// What the shop calls it.
+    /// Its name.
     pub name: String,
-    /// Where the dimensions come from.
+    /// The source of the dimensions.
     pub source: String,
-    /// What it is.
+    /// Its shape and dimensions.
     pub shape: Shape,
-    /// How it stands on its fixture, if the file says so.
+    /// Its mounting on the fixture, if stated.
     pub mounting: Option<NasMounting>,
-    /// How much is allowed.
+    /// Its tolerances.
     pub tolerances: Tolerances,
 }
 
-/// Tool positions around a cone if the file does not say.
+/// Default number of tool positions around a cone.
 const DEFAULT_POSITIONS: usize = 72;
 
 impl TestPieceFile {
@@ -58,14 +58,14 @@ impl TestPieceFile {
     ///
     /// `None` if the test piece cannot be used; the source then holds at least one error.
     pub fn read(root: &Section<'_>) -> Option<Self> {
-        let name = root.require("name", "what the shop calls the piece").and_then(|i| i.text());
+        let name = root.require("name", "write the name of the test piece").and_then(|i| i.text());
         let source = root.text("source").unwrap_or_default().to_owned();
         let tool = root
-            .require("tool", "the end mill: [tool] with diameter = \"20 mm\"")
+            .require("tool", "add the end mill: [tool] with diameter = \"20 mm\"")
             .and_then(|item| item.section("tool", |s| length(s, "diameter")))
             .flatten();
         let cone = root
-            .require("cone", "the shape: [cone] with half_angle, base_diameter, height …")
+            .require("cone", "add the shape: [cone] with half_angle, base_diameter, height …")
             .and_then(|item| item.section("cone", |s| cone_size(s, tool)))
             .flatten();
         let checked = cone.and_then(|size| match Cone::new(name.unwrap_or_default(), size) {
@@ -93,7 +93,7 @@ impl TestPieceFile {
         })
     }
 
-    /// The piece as the loop uses it.
+    /// The piece for the simulation.
     pub fn piece(&self) -> &dyn TestPiece {
         match &self.shape {
             Shape::Cone(cone) => cone,
@@ -102,11 +102,11 @@ impl TestPieceFile {
 }
 
 fn length(section: &Section<'_>, key: &str) -> Option<f64> {
-    section.require(key, "a length such as \"60 mm\"")?.quantity(Dimension::Length)
+    section.require(key, "write a length such as \"60 mm\"")?.quantity(Dimension::Length)
 }
 
 fn angle(section: &Section<'_>, key: &str) -> Option<f64> {
-    section.require(key, "an angle such as \"15 deg\"")?.quantity(Dimension::Angle)
+    section.require(key, "write an angle such as \"15 deg\"")?.quantity(Dimension::Angle)
 }
 
 fn lengths(item: &Item<'_>) -> Option<Vec<f64>> {
@@ -120,7 +120,7 @@ fn cone_size(section: &Section<'_>, tool_diameter_mm: Option<f64>) -> Option<Con
     let base_diameter_mm = length(section, "base_diameter");
     let height_mm = length(section, "height");
     let heights = section
-        .require("sections", "heights above the base, the first 0: [\"0 mm\", \"25 mm\"]")
+        .require("sections", "write the heights above the base, the first 0: [\"0 mm\", \"25 mm\"]")
         .and_then(|item| lengths(&item));
     let roundness_height_mm = length(section, "roundness_at");
     let angular = match section.get("angularity_over") {
@@ -198,8 +198,8 @@ fn tolerances(section: &Section<'_>) -> Option<Tolerances> {
             section.error_at(
                 place,
                 "unknown-index",
-                format!("`{key}` is no index of this test piece"),
-                &format!("indices: {known}"),
+                format!("`{key}` is not an index of this test piece"),
+                &format!("indices of this test piece: {known}"),
             );
             complete = false;
             continue;
@@ -218,8 +218,8 @@ fn tolerances(section: &Section<'_>) -> Option<Tolerances> {
         if complete && !good.iter().any(|t| t.index == *index) {
             section.warn(
                 "missing-tolerance",
-                format!("`{}` decides, but has no tolerance", index.key),
-                "without one the verdict does not look at it",
+                format!("`{}` is decisive, but has no tolerance", index.key),
+                "without a tolerance the verdict does not include it",
             );
         }
     }
@@ -234,7 +234,7 @@ fn find(key: &str) -> Option<IndexName> {
 fn tolerance(section: &Section<'_>, item: &Item<'_>, index: IndexName) -> Option<Tolerance> {
     let (limit, source) = if item.is_table() {
         item.section(&section.path(index.key), |s| {
-            let limit = s.require("limit", "a length such as \"0.1 mm\"");
+            let limit = s.require("limit", "write a length such as \"0.1 mm\"");
             let value = limit.as_ref().and_then(|i| i.quantity(Dimension::Length));
             (value.zip(limit), s.text("source").unwrap_or_default().to_owned())
         })?
@@ -245,8 +245,8 @@ fn tolerance(section: &Section<'_>, item: &Item<'_>, index: IndexName) -> Option
     if limit_mm <= 0.0 {
         place.error(
             "tolerance-not-positive",
-            format!("a tolerance of {limit_mm} mm can never be kept"),
-            "a tolerance is more than 0",
+            format!("a tolerance of {limit_mm} mm cannot be met"),
+            "write a tolerance above zero",
         );
         return None;
     }

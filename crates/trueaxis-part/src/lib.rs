@@ -1,4 +1,4 @@
-//! Is the part good?
+//! Test pieces: their ideal tool path, the evaluation of the cut surface and the verdict.
 //!
 //! ```text
 //! TestPieceFile ──read──> TestPiece ──tool_positions──> the ideal path of the tool
@@ -30,8 +30,11 @@
 //! # Ok::<(), trueaxis_part::Error>(())
 //! ```
 //!
-//! It knows nothing of machines and programs: it says where the tool should be and judges where
-//! it was. It opens no file.
+//! All lengths are in mm, in the workpiece frame. `examples/roundness.rs` evaluates the four
+//! reference circles of a small profile.
+//!
+//! The crate knows nothing of machines and programs: it states the ideal positions of the tool and
+//! evaluates the deviations from them. It opens no file.
 
 mod error;
 mod file;

@@ -1,8 +1,8 @@
-//! Test pieces: a feature, the path that cuts it, and what is evaluated on it.
+//! Test pieces: the feature, the path that cuts it, and the indices evaluated on it.
 //!
-//! [`TestPiece`] is what the loop sees. [`Cone`](cone::Cone) is the first member of the family
+//! [`TestPiece`] is the interface for the simulation. [`Cone`](cone::Cone) is the first of the family
 //! (the frustum of NAS 979 and Wu et al. 2022, that of ISO 10791-7, a cylinder at half angle 0);
-//! an S-shaped piece or a surface of the user's own implement the same trait: their contacts have
+//! an S-shaped piece or a surface of the user can implement the same trait: their contacts have
 //! other normals and their features other indices.
 
 pub mod cone;
@@ -24,49 +24,49 @@ pub struct ToolPosition {
     pub tip: Point<Workpiece>,
     /// From the tip to the spindle.
     pub axis: Direction<Workpiece>,
-    /// Where the flank touches the part, one per height, in the order of the piece's sections.
+    /// The contacts of the flank with the part, one per height, in the order of the sections.
     pub contacts: Vec<Contact>,
 }
 
-/// A place on the tool axis whose deviation counts, with the direction in which it counts.
+/// A point of the tool axis at the height of a contact, and the normal of the surface there.
 #[derive(Debug, Clone, Copy)]
 pub struct Contact {
-    /// Distance from the tip up the tool axis.
+    /// Distance from the tip along the tool axis, mm.
     pub along_axis_mm: f64,
-    /// Out of the material.
+    /// The normal of the surface, out of the material.
     pub normal: Direction<Workpiece>,
-    /// Which section (height) of the piece.
+    /// Index of the section (height) of the piece.
     pub section: usize,
 }
 
-/// What was cut: actual minus ideal place of the tool-axis point of every contact, E_v.
+/// The cut surface: actual minus ideal position of the tool-axis point of every contact, E_v.
 ///
 /// Row-major: all contacts of the first tool position, then of the second …
 #[derive(Debug, Clone, Copy)]
 pub struct CutSurface<'a> {
-    /// E_v of every contact, relative to the tool-setting point, workpiece frame.
+    /// E_v of every contact, relative to the tool-setting point, workpiece frame, mm.
     pub deviation_mm: &'a [Vec3],
-    /// What coaxiality and angularity refer to.
+    /// The datum of coaxiality and angularity.
     pub datum: Datum,
 }
 
-/// Whose definition an index follows.
+/// The source of the definition of an index.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Family {
-    /// Wu et al. 2022, Eq 18–20; shown beside the standard's, never decisive.
+    /// Wu et al. 2022, Eq 18–20; shown for comparison, never decisive.
     Paper,
     /// ISO 12181 and ISO 1101 on the section points.
     Iso,
-    /// The error vector itself, of no feature.
+    /// The error vector itself, without a feature.
     Spatial,
 }
 
-/// What an index is about.
+/// The characteristic that an index describes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Feature {
     /// Form of one section.
     Roundness,
-    /// Place of one section.
+    /// Position of one section.
     Coaxiality,
     /// Direction of the generatrix.
     Angularity,
@@ -77,18 +77,18 @@ pub enum Feature {
 /// The name of one index of a test piece.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct IndexName {
-    /// Whose definition.
+    /// The source of its definition.
     pub family: Family,
     /// The key in reports, with its unit: `roundness_mzc_mm`.
     pub key: &'static str,
-    /// What it is about.
+    /// The characteristic that it describes.
     pub feature: Feature,
-    /// Whether the verdict hangs on it.
+    /// Whether it decides the verdict.
     pub decisive: bool,
 }
 
 impl IndexName {
-    /// What tables call it.
+    /// Its title in tables.
     pub fn title(&self) -> &'static str {
         match self.key {
             "roundness_eq18_mm" => "roundness, paper Eq 18",
@@ -107,27 +107,27 @@ impl IndexName {
     }
 }
 
-/// The memory of an evaluation; one per thread.
+/// Working memory of an evaluation; one per thread.
 #[derive(Debug, Clone, Default)]
 pub struct Scratch {
     fitter: Fitter,
     profile_mm: Vec<[f64; 2]>,
 }
 
-/// One height of the piece with everything that a report draws.
+/// One section of the piece with the data of its diagram.
 #[derive(Debug, Clone)]
 pub struct PartSection {
-    /// Height above the base along the axis of the piece.
+    /// Height above the base along the axis of the piece, mm.
     pub height_mm: f64,
-    /// The same height in the workpiece frame.
+    /// The same height in the workpiece frame, mm.
     pub z_mm: f64,
-    /// Nominal radius.
+    /// Nominal radius, mm.
     pub radius_mm: f64,
-    /// Azimuth of every tool position.
+    /// Azimuth of every tool position, rad.
     pub azimuth_rad: Vec<f64>,
-    /// E = n_f·E_v per tool position, positive where material is left.
+    /// E = n_f·E_v for each tool position, mm; positive where material remains.
     pub deviation_mm: Vec<f64>,
-    /// The points of the section (radius + E / cos α).
+    /// The points of the section (radius + E / cos α), mm.
     pub profile_mm: Vec<[f64; 2]>,
     /// The four reference circles.
     pub circles: Circles,
@@ -136,24 +136,24 @@ pub struct PartSection {
     pub indices_mm: Vec<Option<f64>>,
 }
 
-/// A part that is cut to find out how good a machine is.
+/// A part that is cut to determine the accuracy of a machine.
 pub trait TestPiece: std::fmt::Debug + Send + Sync {
-    /// What the shop calls it.
+    /// Its name.
     fn name(&self) -> &str;
 
     /// The ideal path; the tool-setting point is the origin of the workpiece frame.
     fn tool_positions(&self) -> Vec<ToolPosition>;
 
-    /// How many tool positions the path has.
+    /// Number of tool positions of the path.
     fn position_count(&self) -> usize;
 
-    /// How many contacts each tool position has.
+    /// Number of contacts of each tool position.
     fn contacts_per_position(&self) -> usize;
 
     /// The indices, in the order in which [`TestPiece::evaluate`] writes them.
     fn index_names(&self) -> &[IndexName];
 
-    /// Memory for [`TestPiece::evaluate`], so that it allocates nothing.
+    /// Working memory for [`TestPiece::evaluate`], so that it allocates nothing.
     fn scratch(&self) -> Scratch {
         Scratch::default()
     }
@@ -169,20 +169,20 @@ pub trait TestPiece: std::fmt::Debug + Send + Sync {
         indices_mm: &mut [f64],
     ) -> Result<(), Error>;
 
-    /// Every height in full, for reports.
+    /// All sections with their profiles, for reports.
     ///
     /// # Errors
     /// As [`TestPiece::evaluate`].
     fn sections(&self, cut: &CutSurface<'_>) -> Result<Vec<PartSection>, Error>;
 
-    /// The deviations of a faultless machine: all zero, so that every index must be 0.
+    /// The deviations of a machine without errors: all zero, so that every index must be 0.
     fn ideal_deviation_mm(&self) -> Vec<Vec3> {
         vec![Vec3::zeros(); self.position_count() * self.contacts_per_position()]
     }
 }
 
 impl<'a> CutSurface<'a> {
-    /// A cut seen from the ideal axis of the piece.
+    /// A cut surface with the ideal axis of the piece as datum.
     pub fn about_ideal_axis(deviation_mm: &'a [Vec3]) -> Self {
         Self { deviation_mm, datum: Datum::IDEAL }
     }

@@ -1,16 +1,16 @@
-//! How much is allowed, and whether the part keeps it.
+//! Tolerances and the verdict of a part.
 
 use crate::Error;
 use crate::testpiece::IndexName;
 
-/// How much one index may be.
+/// The tolerance of one index.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tolerance {
-    /// Which index.
+    /// The index.
     pub index: IndexName,
-    /// The largest allowed value.
+    /// The largest permitted value, mm.
     pub limit_mm: f64,
-    /// Where the limit comes from.
+    /// The source of the limit.
     pub source: String,
 }
 
@@ -18,10 +18,10 @@ pub struct Tolerance {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Tolerances(pub Vec<Tolerance>);
 
-/// How an uncertainty U enters the decision.
+/// The decision rule: how an uncertainty U enters the decision.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Acceptance<'a> {
-    /// Value ≤ tolerance passes; U is not asked for.
+    /// Value ≤ tolerance passes; U is not considered.
     Simple,
     /// ISO 14253-1: passes if value + U ≤ tolerance, fails if value − U > tolerance.
     GuardBand {
@@ -30,31 +30,31 @@ pub enum Acceptance<'a> {
     },
 }
 
-/// What came out.
+/// The outcome of a comparison with a tolerance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Outcome {
     /// In tolerance.
     Pass,
     /// Out of tolerance.
     Fail,
-    /// Nearer to the limit than the uncertainty, or nothing to judge by.
+    /// Nearer to the limit than the uncertainty, or without tolerance.
     Undecided,
 }
 
 /// One index against its tolerance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judgement {
-    /// Which index.
+    /// The index.
     pub index: IndexName,
-    /// What was found.
+    /// The value of the index, mm.
     pub value_mm: f64,
-    /// The expanded uncertainty that was taken into account.
+    /// The expanded uncertainty U that was taken into account, mm.
     pub expanded_mm: Option<f64>,
-    /// What is allowed.
+    /// The tolerance, mm.
     pub limit_mm: f64,
     /// Value / tolerance: 0.25 means that a quarter of the tolerance is used up.
     pub used_ratio: f64,
-    /// Whether this index is kept.
+    /// Whether this index is in tolerance.
     pub outcome: Outcome,
 }
 
@@ -73,7 +73,7 @@ impl Tolerances {
         self.0.iter().find(|t| t.index.key == key).map(|t| t.limit_mm)
     }
 
-    /// Holds values against the tolerances.
+    /// Compares values with the tolerances.
     ///
     /// ```text
     /// used = value / tolerance
@@ -85,8 +85,8 @@ impl Tolerances {
     /// undecided.
     ///
     /// # Errors
-    /// Lists whose lengths differ; a value or uncertainty that is not finite or is negative where
-    /// it cannot be.
+    /// Lists of different lengths; a value or uncertainty that is not finite, or is negative where
+    /// it must not be.
     ///
     /// # Example
     /// ```

@@ -1,4 +1,4 @@
-//! Published numbers of Wu et al. 2022 (Wu et al. 2022).
+//! Published numbers of Wu et al. 2022.
 
 use trueaxis_geometry::frame::Point;
 use trueaxis_input::SourceText;

@@ -1,18 +1,18 @@
 //! The four reference circles of a roundness section.
 //!
-//! | here | ISO 12181-1 | what it is |
+//! | function | ISO 12181-1 | definition |
 //! |---|---|---|
 //! | [`least_squares`] | LSCI | smallest sum of squared radial deviations |
 //! | [`minimum_zone`] | MZCI | two concentric circles around all points, as close together as possible |
-//! | [`maximum_inscribed`] | MICI | the largest circle that holds no point: a plug in a hole |
-//! | [`minimum_circumscribed`] | MCCI | the smallest circle that holds every point: a ring on a shaft |
+//! | [`maximum_inscribed`] | MICI | the largest circle inside the profile: a plug in a hole |
+//! | [`minimum_circumscribed`] | MCCI | the smallest circle around the profile: a ring on a shaft |
 //!
 //! All are solved in the true distances, not in a linearised (limaçon) model. A [`Fitter`] keeps
 //! its memory from one call to the next, so that a Monte Carlo run allocates nothing.
 //!
-//! How the answers are known to be right: the fast method ends with contact points; a bound that
-//! holds for *every* other centre (docs of each module) proves the result, and where that proof
-//! fails (an arc, a cloud, big deviations) a branch-and-bound search over all centres decides.
+//! The results are verified: the fast method ends with contact points; a bound that holds for *every*
+//! other centre (documented in each module) proves the result, and where that proof fails (an arc, a
+//! cloud, large deviations) a branch-and-bound search over all centres decides.
 
 mod circumscribed;
 mod inscribed;
@@ -25,14 +25,14 @@ use crate::Error;
 /// A reference circle with the zone that the points fill about its centre.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Zone {
-    /// Centre, in the coordinates of the points.
+    /// Centre in the coordinates of the points, mm.
     pub center_mm: [f64; 2],
     /// Radius of the reference circle itself: the mean radius for least squares and minimum
     /// zone (there of the two circles), the inner or outer radius for the other two.
     pub radius_mm: f64,
-    /// Distance of the nearest point from the centre.
+    /// Distance of the nearest point from the centre, mm.
     pub inner_mm: f64,
-    /// Distance of the farthest point from the centre.
+    /// Distance of the farthest point from the centre, mm.
     pub outer_mm: f64,
 }
 
@@ -89,10 +89,10 @@ pub struct Circles {
     pub mcc: Zone,
 }
 
-/// Coordinates beyond this overflow when squared twice.
+/// Limit of the coordinates; larger ones overflow when squared twice.
 const LARGEST_MM: f64 = 1e100;
 
-/// The points relative to their mean, so that a far-away origin costs no digits.
+/// The points relative to their mean, so that a distant origin costs no digits.
 #[derive(Debug, Clone, Default)]
 struct Cloud {
     x: Vec<f64>,

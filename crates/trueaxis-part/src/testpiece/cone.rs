@@ -7,7 +7,7 @@ use crate::Error;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Direction, Point, Workpiece};
 
-/// What is on the drawing of a cone and on its work sheet.
+/// The dimensions of a cone and of its machining.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ConeSize {
     /// Half of the apex angle, α; 0 is a cylinder.
@@ -40,7 +40,7 @@ impl ConeSize {
     /// assert!((top_radius_mm - 108.923).abs() < 1e-3);
     /// ```
     /// # Source
-    /// Wu et al. 2022, table 2, fig. 13; the paper does not print m, 72 is ours.
+    /// Wu et al. 2022, table 2, fig. 13; the paper does not state m; 72 is our choice.
     pub fn nas979() -> Self {
         Self {
             half_angle_rad: 15f64.to_radians(),
@@ -63,7 +63,7 @@ const fn decisive(name: IndexName) -> IndexName {
     IndexName { decisive: true, ..name }
 }
 
-/// Every index of a cone; the place in this list is the place in every list of values.
+/// All indices of a cone, in the order of all lists of values.
 pub const INDICES: [IndexName; 11] = [
     index(Family::Paper, "roundness_eq18_mm", Feature::Roundness),
     index(Family::Paper, "angularity_eq19_mm", Feature::Angularity),
@@ -78,12 +78,12 @@ pub const INDICES: [IndexName; 11] = [
     index(Family::Spatial, "volumetric_max_mm", Feature::Volumetric),
 ];
 
-/// Where `angularity_zone_mm` stands in [`INDICES`].
+/// Position of `angularity_zone_mm` in [`INDICES`].
 const ANGULARITY_ZONE: usize = 9;
-/// Fewer tool positions do not show the form of a section.
-const FEWEST_POSITIONS: usize = 8;
-/// More are a typing error.
-const MOST_POSITIONS: usize = 100_000;
+/// Least number of tool positions that shows the form of a section.
+const MIN_POSITIONS: usize = 8;
+/// Largest accepted number of tool positions.
+const MAX_POSITIONS: usize = 100_000;
 
 /// A truncated cone that can be cut and evaluated.
 ///
@@ -102,7 +102,7 @@ const MOST_POSITIONS: usize = 100_000;
 /// use trueaxis_geometry::Vec3;
 /// use trueaxis_part::testpiece::{CutSurface, TestPiece, cone::{Cone, ConeSize}};
 /// let cone = Cone::new("NAS 979", ConeSize::nas979())?;
-/// // The whole cut is 10 µm off in x: not out of round, but out of place.
+/// // The whole cut is displaced by 10 µm in x: the section is round, but eccentric.
 /// let off = vec![Vec3::new(0.010, 0.0, 0.0); 72 * 4];
 /// let mut indices_mm = [0.0; 11];
 /// cone.evaluate(&CutSurface::about_ideal_axis(&off), &mut cone.scratch(), &mut indices_mm)?;
@@ -121,7 +121,7 @@ pub struct Cone {
     angular: Vec<usize>,
     cos: f64,
     azimuths: Vec<Azimuth>,
-    /// Ideal place of every contact on the tool axis, row-major.
+    /// Ideal position of every contact on the tool axis, row-major, mm.
     places_mm: Vec<Vec3>,
 }
 
@@ -139,7 +139,7 @@ impl Cone {
     /// Checks the dimensions.
     ///
     /// # Errors
-    /// [`Error::Shape`] says which dimension cannot be and what can.
+    /// [`Error::Shape`] names the dimension and its permitted range.
     pub fn new(name: &str, size: ConeSize) -> Result<Self, Error> {
         check(&size)?;
         let find = |height: f64| size.heights_mm.iter().position(|h| *h == height);
@@ -151,7 +151,7 @@ impl Cone {
         let angular = size
             .angularity_heights_mm
             .iter()
-            .map(|h| find(*h).ok_or_else(|| missing("every height of angularity")))
+            .map(|h| find(*h).ok_or_else(|| missing("each height of angularity")))
             .collect::<Result<Vec<_>, _>>()?;
         let azimuths: Vec<_> = (0..size.positions).map(|i| Azimuth::new(&size, i)).collect();
         let cos = size.half_angle_rad.cos();
@@ -197,7 +197,7 @@ impl Cone {
         }
     }
 
-    /// E_v of one contact, seen from the datum.
+    /// E_v of one contact relative to the datum.
     fn vector(&self, cut: &CutSurface<'_>, position: usize, section: usize) -> Vec3 {
         let at = position * self.size.heights_mm.len() + section;
         cut.deviation_mm[at] - cut.datum.displacement_mm(self.places_mm[at])
@@ -217,7 +217,7 @@ impl Cone {
         }));
     }
 
-    /// All indices of one height but the zone over several; the profile stays in the scratch.
+    /// All indices of one height except the zone over several; the profile remains in the scratch.
     fn at_height(
         &self,
         cut: &CutSurface<'_>,
@@ -256,7 +256,7 @@ impl Cone {
         Ok(circles)
     }
 
-    /// Eq 19 as printed: the largest signed rise from the lowest to the highest height.
+    /// Eq 19 as printed: the largest signed difference from the lowest to the highest height.
     fn rise(&self, cut: &CutSurface<'_>) -> f64 {
         let (first, last) = (self.angular[0], self.angular[self.angular.len() - 1]);
         (0..self.azimuths.len())
@@ -275,7 +275,7 @@ impl Cone {
         (0..self.azimuths.len()).map(range).fold(0.0, f64::max)
     }
 
-    /// Largest |E_v| at the tip, whatever the datum: it is an error of the machine.
+    /// Largest |E_v| at the tip, independent of the datum: it is an error of the machine.
     fn volumetric(&self, cut: &CutSurface<'_>) -> f64 {
         let contacts = self.size.heights_mm.len();
         cut.deviation_mm.iter().step_by(contacts).map(Vec3::norm).fold(0.0, f64::max)
@@ -341,7 +341,7 @@ impl Cone {
         };
         ToolPosition {
             tip: Point::from_vector(azimuth.tip_mm),
-            // Both are unit vectors by construction; Z could only stand for a zero vector.
+            // Both are unit vectors by construction; Z would replace only a zero vector.
             axis: Direction::<Workpiece>::of(azimuth.axis).unwrap_or(Direction::Z),
             contacts: self.size.heights_mm.iter().enumerate().filter_map(contact).collect(),
         }
@@ -400,12 +400,12 @@ fn check(size: &ConeSize) -> Result<(), Error> {
         ("the tool diameter", size.tool_diameter_mm),
     ] {
         if !length(value) {
-            return refuse(format!("{name} must be more than 0 and at most 1 km"));
+            return refuse(format!("{name} must be above 0 and at most 1 km"));
         }
     }
-    if !(FEWEST_POSITIONS..=MOST_POSITIONS).contains(&size.positions) {
+    if !(MIN_POSITIONS..=MAX_POSITIONS).contains(&size.positions) {
         return refuse(format!(
-            "{} tool positions: from {FEWEST_POSITIONS} to {MOST_POSITIONS} are possible",
+            "{} tool positions, expected {MIN_POSITIONS} to {MAX_POSITIONS}",
             size.positions
         ));
     }
@@ -419,13 +419,13 @@ fn check_heights(size: &ConeSize) -> Result<(), Error> {
     let refuse = |what: &str| Err(Error::Shape { what: what.to_owned() });
     let upwards = |list: &[f64]| list.windows(2).all(|w| w[0] < w[1]);
     if size.heights_mm.first() != Some(&0.0) || !upwards(&size.heights_mm) {
-        return refuse("the section heights must begin with 0 (the base) and grow");
+        return refuse("the section heights must begin with 0 (the base) and increase");
     }
     if size.heights_mm.len() > 1000 || !size.heights_mm.iter().all(|h| *h <= size.height_mm) {
         return refuse("a section is above the top face");
     }
     if size.angularity_heights_mm.len() < 2 || !upwards(&size.angularity_heights_mm) {
-        return refuse("angularity needs at least two heights, upwards");
+        return refuse("angularity needs at least two heights in increasing order");
     }
     Ok(())
 }

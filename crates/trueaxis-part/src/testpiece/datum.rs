@@ -1,11 +1,12 @@
-//! The datum axis that a coordinate measuring machine aligned to.
+//! The datum axis of a measurement on a coordinate measuring machine.
 
 use trueaxis_geometry::Vec3;
 
-/// What a coordinate measuring machine aligned to: the ideal axis, or a machined reference hole.
+/// The datum of a measurement on a coordinate measuring machine: the ideal axis, or a machined
+/// reference hole.
 ///
-/// A hole that the same machine has bored is itself out of place; measured from the hole, its
-/// deviation disappears from the part. It is a small rigid motion that is taken off:
+/// A hole bored on the same machine has itself a deviation; measured from the hole, this deviation
+/// does not appear in the part. It is a small rigid motion that is subtracted:
 ///
 /// ```text
 /// E_v′(p) = E_v(p) − (shift + tilt × p)        p from the origin of the workpiece frame
@@ -27,9 +28,9 @@ use trueaxis_geometry::Vec3;
 /// uses the ideal axis, as [`Datum::IDEAL`] does.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Datum {
-    /// Displacement of the hole at the origin of the workpiece frame.
+    /// Displacement of the hole at the origin of the workpiece frame, mm.
     pub shift_mm: Vec3,
-    /// Rotation of the hole, as a small rotation vector.
+    /// Rotation of the hole, as a small rotation vector, rad.
     pub tilt_rad: Vec3,
 }
 
@@ -38,7 +39,7 @@ impl Datum {
     pub const IDEAL: Self =
         Self { shift_mm: Vec3::new(0.0, 0.0, 0.0), tilt_rad: Vec3::new(0.0, 0.0, 0.0) };
 
-    /// The motion of the datum at a place of the workpiece frame.
+    /// The displacement of the datum at a point of the workpiece frame, mm.
     pub fn displacement_mm(&self, place_mm: Vec3) -> Vec3 {
         self.shift_mm + self.tilt_rad.cross(&place_mm)
     }

@@ -1,9 +1,9 @@
-//! How a test piece is mounted on the machine.
+//! Mounting of a test piece on the machine.
 
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Body, Pose, Workpiece};
 
-/// How the frustum of Wu et al. 2022 stands on its inclined fixture.
+/// Mounting of the frustum of Wu et al. 2022 on its inclined fixture.
 ///
 /// ```text
 ///            ╱╲  h1 cone
@@ -52,7 +52,7 @@ impl NasMounting {
     /// ```
     /// # Source
     /// Wu et al. 2022, Eq 2; the misalignment of the fixture on the machine (S⁰ʷᵖᵉ) belongs to
-    /// the machine's location errors and is not in here.
+    /// the location errors of the machine and is not included.
     pub fn fixture_from_workpiece(&self) -> Pose<Body, Workpiece> {
         let (sin, cos) = self.inclination_rad.sin_cos();
         let axis_length = self.cone_height_mm + self.pedestal_height_mm;

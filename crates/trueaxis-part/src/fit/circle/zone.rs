@@ -5,7 +5,7 @@
 //! inside, outside, inside (the functions are a Haar system on the circle), so that an entering
 //! point always replaces its neighbour of the same side. The centre that belongs to four such
 //! points is exact without iteration: the bisector of the outer pair meets that of the inner
-//! pair. Distances are taken anew there and the exchange goes on until nothing sticks out.
+//! pair. The distances are computed again there, and the exchange continues until all points are inside.
 //!
 //! **Proof.** At the centre found, width w, inner radius r, let s be the distance of the origin
 //! from the edges of the parallelogram {u_inner − u_outer}. Because a distance is convex and bends
