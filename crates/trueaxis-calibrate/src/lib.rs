@@ -24,3 +24,22 @@ pub mod measure;
 pub mod plan;
 pub mod report;
 pub mod unknowns;
+
+use report::{
+    IdentificationDocument, MeasurementDocument, PlanDocument, ProbeDocument, RtcpDocument,
+    SurfaceDocument, ThermalDocument,
+};
+use trueaxis_report::{NamedSchema, named_schema};
+
+/// The JSON Schemas of the documents of this crate, by name; forms of `identify/1` have names of their own.
+pub fn schemas() -> Vec<NamedSchema> {
+    vec![
+        named_schema::<IdentificationDocument<'_>>("identify-errors"),
+        named_schema::<ProbeDocument<'_>>("identify-probe"),
+        named_schema::<RtcpDocument<'_>>("identify-rtcp"),
+        named_schema::<ThermalDocument<'_>>("identify-thermal"),
+        named_schema::<MeasurementDocument<'_>>("measure"),
+        named_schema::<PlanDocument<'_>>("plan"),
+        named_schema::<SurfaceDocument<'_>>("plan-probe-surface"),
+    ]
+}

@@ -1,12 +1,11 @@
 //! An identification for people at the terminal, and for programs.
 
 use crate::identify::convention::ConventionCheck;
-use crate::identify::errors::{Found, Identification, Unobservable};
+use crate::identify::errors::{Found, Identification};
 use crate::identify::records::{Options, Records};
 use crate::identify::score::Rms;
 use crate::measure::Campaign;
 use crate::unknowns::fit::Model;
-use serde_json::{Value, json};
 use std::fmt::Write as _;
 
 /// Everything of an identification that is told.
@@ -124,12 +123,11 @@ impl IdentificationReport<'_> {
     }
 
     /// The rows that move the result most.
-    pub(super) fn influential(&self) -> Vec<usize> {
+    pub(super) fn influential(&self) -> impl Iterator<Item = usize> {
         let rows = &self.found.influences.rows;
         let mut order: Vec<usize> = (0..rows.len()).collect();
         order.sort_by(|a, b| rows[*b].cook.total_cmp(&rows[*a].cook));
-        order.truncate(5);
-        order
+        order.into_iter().take(5)
     }
 
     pub(super) fn place(&self, row: usize) -> String {
@@ -228,146 +226,4 @@ pub fn conventions_text(check: &ConventionCheck) -> String {
         let _ = writeln!(text, "    {remark}");
     }
     text
-}
-
-fn rms_json(rms: &Rms) -> Value {
-    json!({
-        "um": rms.length_mm.map(|v| v * 1e3),
-        "urad": rms.angle_rad.map(|v| v * 1e6),
-        "times_noise": rms.noise,
-    })
-}
-
-/// The document `trueaxis/identify/1`.
-pub fn identification_json(report: &IdentificationReport<'_>) -> Value {
-    let found = report.found;
-    let one = |f: &Found| {
-        let (value_key, u_key) = match f.is_angle {
-            true => ("value_urad", "u_urad"),
-            false => ("value_um", "u_um"),
-        };
-        let mut entry = json!({ "name": f.name });
-        entry[value_key] = json!(f.value.map(|(v, _)| shown(f, v)));
-        entry[u_key] = json!(f.value.map(|(_, u)| shown(f, u)));
-        entry["u"] = entry[u_key].clone();
-        entry["z"] = json!(f.z());
-        entry
-    };
-    let of = |setup: bool| -> Vec<Value> {
-        found.found.iter().filter(|f| f.is_setup == setup).map(one).collect()
-    };
-    let um = |rms: &Rms| rms.length_mm.map(|v| v * 1e3);
-    let score = &found.score;
-    json!({
-        "schema": "trueaxis/identify/1",
-        "name": report.campaign.name,
-        "machine": report.campaign.machine.name(),
-        "date": report.options.date,
-        "verdict": { "key": found.verdict.key(), "words": found.verdict.words(),
-                     "good": found.verdict.is_good() },
-        "errors": of(false),
-        "setup": of(true),
-        "unobservable": unobservable_json(report),
-        "left_out": found.left_out,
-        "rms_in_um": um(&score.in_sample),
-        "rms_held_out_um": um(&score.held_out),
-        "repeatability_um": um(&score.floor),
-        "repeatability_is_measured": score.floor_is_measured,
-        "rms_without_model_um": um(&score.before),
-        "rms": {
-            "in_sample": rms_json(&score.in_sample),
-            "held_out": rms_json(&score.held_out),
-            "repeatability": rms_json(&score.floor),
-            "without_model": rms_json(&score.before),
-        },
-        "readings": report.records.readings.len(),
-        "places": found.places,
-        "rank": found.fit.sight.rank,
-        "condition": found.fit.sight.condition(),
-        "threshold": report.options.threshold,
-        "model": match report.options.model {
-            Model::Full => "full",
-            Model::Linear => "linear",
-        },
-        "chi_square": found.fit.chi_square,
-        "degrees_of_freedom": found.fit.degrees_of_freedom,
-        "birge_ratio": found.birge,
-        "residual_follows": fields_json(report),
-        "selection": selection_json(report),
-        "outliers": outliers_json(report),
-        "outlier_limit": found.influences.limit,
-        "most_influential": influence_json(report),
-        "conventions": report.conventions.map(conventions_json),
-    })
-}
-
-fn unobservable_json(report: &IdentificationReport<'_>) -> Value {
-    let one = |u: &Unobservable| {
-        json!({
-            "combination": u.combination,
-            "words": u.words,
-            "resolve_with": u.resolve_with,
-        })
-    };
-    report.found.unobservable.iter().map(one).collect()
-}
-
-fn outliers_json(report: &IdentificationReport<'_>) -> Value {
-    let outliers = report.found.influences.outliers.iter().map(|o| {
-        let place = report.records.place(o.row);
-        json!({
-            "file": place.file, "line": place.line, "channel": o.channel + 1,
-            "studentised": o.studentised,
-        })
-    });
-    outliers.collect()
-}
-
-fn influence_json(report: &IdentificationReport<'_>) -> Value {
-    let rows = report.influential().into_iter().map(|row| {
-        let place = report.records.place(row);
-        let i = &report.found.influences.rows[row];
-        json!({ "file": place.file, "line": place.line, "leverage": i.leverage,
-                "cook": i.cook.is_finite().then_some(i.cook) })
-    });
-    rows.collect()
-}
-
-fn fields_json(report: &IdentificationReport<'_>) -> Value {
-    let axes = report.found.design.machine.axes();
-    let fields = report.found.fields.iter().map(|f| {
-        let what = f.axis.map_or("XYZ".to_owned(), |a| axes[a].name.to_string());
-        json!({ "what": what, "share": f.share })
-    });
-    fields.collect()
-}
-
-fn selection_json(report: &IdentificationReport<'_>) -> Value {
-    let selection = &report.found.selection;
-    let scores = selection.scores.iter().map(|s| {
-        json!({
-            "least_z": s.threshold.is_finite().then_some(s.threshold),
-            "terms": s.terms,
-            "held_out_times_noise": s.held_out,
-            "in_sample_times_noise": s.in_sample,
-        })
-    });
-    json!({
-        "candidates": report.found.candidates,
-        "least_z": selection.threshold.is_finite().then_some(selection.threshold),
-        "scores": scores.collect::<Vec<_>>(),
-    })
-}
-
-/// The conventions for programs.
-pub fn conventions_json(check: &ConventionCheck) -> Value {
-    let better = check.better.iter().map(|c| {
-        json!({ "change": c.change, "before_times_noise": c.before, "after_times_noise": c.after })
-    });
-    json!({
-        "tried": check.tried,
-        "residual_times_noise": check.residual,
-        "better": better.collect::<Vec<_>>(),
-        "remarks": check.remarks,
-    })
 }

@@ -4,7 +4,6 @@ use crate::measure::virtual_campaign::{
     ChannelSummary, Measurement, Summary, VirtualCampaign, shown_unit, summarise,
 };
 use crate::measure::{Campaign, Kind};
-use serde_json::{Value, json};
 use std::fmt::Write as _;
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::errors::ErrorValues;
@@ -30,15 +29,15 @@ pub struct MeasuredReport<'a> {
 }
 
 impl MeasuredReport<'_> {
-    fn summary(&self) -> Summary {
+    pub(super) fn summary(&self) -> Summary {
         summarise(self.campaign, self.measurement)
     }
 
-    fn path(&self, sum: &ChannelSummary) -> &str {
+    pub(super) fn path(&self, sum: &ChannelSummary) -> &str {
         self.real.paths.get(sum.path as usize).map_or("", |p| p.name.as_str())
     }
 
-    fn channel(&self, sum: &ChannelSummary) -> &'static str {
+    pub(super) fn channel(&self, sum: &ChannelSummary) -> &'static str {
         let instrument = &self.campaign.instruments[sum.instrument as usize];
         // Of a hit the deviation is what lacks to the radius.
         if instrument.kind.triggers() { "hit" } else { instrument.kind.channels()[sum.channel] }
@@ -117,43 +116,6 @@ pub fn measurement_text(report: &MeasuredReport<'_>) -> String {
         let _ = writeln!(out, "\n  written: {file}");
     }
     out
-}
-
-/// The document `trueaxis/measure/1`.
-pub fn measurement_json(report: &MeasuredReport<'_>) -> Value {
-    let summary = report.summary();
-    let m = report.measurement;
-    let channels = summary.channels.iter().map(|sum| {
-        let instrument = &report.campaign.instruments[sum.instrument as usize];
-        let unit = if instrument.sight.is_angle() { "urad" } else { "um" };
-        let (_, scale) = shown_unit(instrument);
-        json!({
-            "path": report.path(sum),
-            "instrument": instrument.name,
-            "channel": report.channel(sum),
-            "count": sum.count,
-            (format!("mean_{unit}")): sum.mean * scale,
-            (format!("rms_{unit}")): sum.rms * scale,
-            (format!("largest_{unit}")): sum.largest * scale,
-            "largest_row": sum.largest_row,
-        })
-    });
-    let instruments = report.campaign.instruments.iter().enumerate().map(|(of, instrument)| {
-        let rows = m.readings.instruments.iter().filter(|i| **i as usize == of).count();
-        json!({ "name": instrument.name, "kind": instrument.kind.name(), "readings": rows })
-    });
-    json!({
-        "schema": "trueaxis/measure/1",
-        "name": report.campaign.name,
-        "machine": report.campaign.machine.name(),
-        "seed": report.real.truth.seed,
-        "time_s": m.time_s,
-        "readings": m.readings.len(),
-        "lost": m.lost,
-        "instruments": instruments.collect::<Vec<_>>(),
-        "channels": channels.collect::<Vec<_>>(),
-        "files": report.files,
-    })
 }
 
 /// The page: readings over stations, path after path, as in Figs 10–12 of document 004; circles

@@ -2,7 +2,6 @@
 
 use crate::plan::{Chosen, Expectation, Expected, PlanReport, PlannedPath};
 use crate::unknowns::design::Design;
-use serde_json::{Value, json};
 use std::fmt::Write;
 use trueaxis_motion::report::clock;
 
@@ -203,79 +202,4 @@ fn write_hidden(expectation: &Expectation, text: &mut String) -> std::fmt::Resul
         }
     }
     Ok(())
-}
-
-/// The plan as `trueaxis/plan/1`.
-pub fn plan_json(report: &PlanReport<'_>) -> Value {
-    let campaign = &report.plan.campaign;
-    json!({
-        "schema": "trueaxis/plan/1",
-        "name": campaign.name,
-        "machine": campaign.machine.name(),
-        "chain": campaign.machine.chain_text(),
-        "paths": report.paths.iter().map(path_json).collect::<Vec<_>>(),
-        "expected": expected_json(report.design, &report.expectation),
-        "unobservable": report.expectation.unobservable.iter().map(|hidden| json!({
-            "combination": hidden.combination,
-            "words": hidden.words,
-            "resolve_with": hidden.resolve_with,
-        })).collect::<Vec<_>>(),
-        "rank": report.expectation.rank,
-        "condition": report.expectation.condition,
-        "chosen": report.chosen.as_ref().map(|chosen| json!({
-            "poses": chosen.poses,
-            "candidates": chosen.candidates,
-            "blocked": chosen.blocked,
-            "readings": chosen.stations.len(),
-            "time_s": chosen.time_s,
-            "criterion": chosen.history,
-            "expected": expected_json(report.design, &chosen.expectation),
-            "grid": chosen.grid.as_ref().map(|(count, grid)| json!({
-                "poses": count,
-                "expected": expected_json(report.design, grid),
-            })),
-        })),
-    })
-}
-
-fn expected_json(design: &Design, expectation: &Expectation) -> Value {
-    let one = |expected: &Expected| {
-        let (unit, scale) = shown_unit(design, expected);
-        json!({
-            "name": expected.name,
-            "unit": unit.replace('µ', "u"),
-            "u": expected.u.map(|u| u * scale),
-            "expanded_k2": expected.u.map(|u| 2.0 * u * scale),
-        })
-    };
-    expectation.unknowns.iter().map(one).collect()
-}
-
-fn path_json(planned: &PlannedPath) -> Value {
-    let path = &planned.path;
-    let seen = planned.seen.iter().map(|seen| {
-        let scale = if planned.channels == ["angle"] { 1e6 } else { 1e3 };
-        let largest: Vec<f64> = seen.largest.iter().map(|v| v * scale).collect();
-        json!({ "error": seen.name, "largest": largest })
-    });
-    let program = match &planned.check {
-        Err(why) => json!({ "missing": why }),
-        Ok(check) => json!({
-            "duration_s": check.duration_s,
-            "sound": check.is_sound(),
-            "errors": check.errors,
-            "grave": check.grave,
-            "minor": check.minor,
-        }),
-    };
-    json!({
-        "name": path.name,
-        "stations": path.stations.len(),
-        "feed_mm_per_min": path.feed_mm_per_s.map(|f| f * 60.0),
-        "dwell_s": path.dwell_s,
-        "channels": planned.channels,
-        "unit": if planned.channels == ["angle"] { "urad" } else { "um" },
-        "seen_of_10_um_or_urad": seen.collect::<Vec<_>>(),
-        "program": program,
-    })
 }

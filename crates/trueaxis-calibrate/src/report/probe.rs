@@ -2,9 +2,8 @@
 
 use crate::identify::probe::datums::{eccentricity, xy_datum, z_datum};
 use crate::identify::probe::{
-    Calibration, FormError, GaugeKind, Hit, LobingModel, Score, Spread, Study, TableRow,
+    Calibration, FormError, GaugeKind, Hit, LobingModel, Score, Spread, Study,
 };
-use serde_json::{Value, json};
 use std::fmt::Write;
 use trueaxis_geometry::Vec3;
 
@@ -279,114 +278,11 @@ pub(super) fn form_words(found: &Calibration, form: &FormError) -> String {
     )
 }
 
-fn form_name(found: &Calibration) -> (&'static str, usize) {
+pub(super) fn form_name(found: &Calibration) -> (&'static str, usize) {
     match found.gauge.kind {
         GaugeKind::Ring => ("P_FTU,2D", 36),
         GaugeKind::Sphere => ("P_FTU,3D", 25),
     }
-}
-
-/// The document `trueaxis/identify-probe/1`; the keys at its top are those of the first stylus.
-pub fn probe_json(study: &Study, all: &[Calibration]) -> Value {
-    let styli: Vec<Value> = all.iter().map(|f| stylus_json(study, f)).collect();
-    let mut document = styli.first().cloned().unwrap_or_else(|| json!({}));
-    document["schema"] = "trueaxis/identify-probe/1".into();
-    document["name"] = study.name.clone().into();
-    document["eccentricity"] =
-        study.eccentricity.as_ref().and_then(eccentricity).map_or(Value::Null, |e| {
-            json!({ "offset_mm": e.offset_mm, "u_offset_mm": e.u_mm, "runout_um": um(e.runout_mm),
-                    "left_rms_um": um(e.left_mm) })
-        });
-    document["z_datum"] = study.z_datum.as_ref().map(z_datum).map_or(Value::Null, |z| {
-        json!({ "ring_top_mm": z.top_mm, "length_mm": z.length_mm, "u_length_mm": z.u_length_mm,
-                "range_um": um(z.range_mm) })
-    });
-    document["xy_datum"] = study.xy_datum.as_ref().map(xy_datum).map_or(
-        Value::Null,
-        |xy| json!({ "offset_mm": xy.offset_mm, "ball_diameter_mm": xy.ball_diameter_mm }),
-    );
-    document["styli"] = styli.into();
-    document
-}
-
-fn stylus_json(study: &Study, found: &Calibration) -> Value {
-    let spread = |s: &Spread| json!({ "range_um": um(s.range_mm), "rms_um": um(s.rms_mm) });
-    let known = |v: Vec3, n: usize| v.iter().take(n).copied().collect::<Vec<f64>>();
-    let offset = found.offset.map(|o| known(o.value_mm, o.coordinates));
-    let u_offset = found.offset.map(|o| known(o.u_mm, o.coordinates));
-    let scores: Vec<Value> = found
-        .scores
-        .iter()
-        .map(|s| {
-            json!({ "model": s.model.name(), "size": s.size, "parameters": s.parameters,
-                    "rms_in_um": um(s.in_sample_mm), "rms_held_out_um": um(s.held_out_mm),
-                    "chosen": is_chosen(found, s) })
-        })
-        .collect();
-    let (form_name, form_hits) = form_name(found);
-    let orientation = found.orientations_rad.first().copied().unwrap_or(0.0);
-    json!({
-        "stylus": found.stylus,
-        "range_before_um": um(found.before.range_mm),
-        "range_offset_only_um": um(found.offset_only.range_mm),
-        "range_after_um": um(found.after.range_mm),
-        "range_held_out_um": um(found.held_out.range_mm),
-        "rms_before_um": um(found.before.rms_mm),
-        "rms_after_um": um(found.after.rms_mm),
-        "rms_held_out_um": um(found.held_out.rms_mm),
-        "radius_before_mm": radii(found),
-        "offset_mm": offset,
-        "u_offset_mm": u_offset,
-        "centre_mm": known(found.fit.centre_mm, found.gauge.dimensions()),
-        "centre_known": found.gauge.centre_mm.is_some(),
-        "four_hit_bias_um": found.four_hit_bias_mm().map(um),
-        "model": found.fit.lobing.model.name(),
-        "size": found.fit.lobing.size,
-        "harmonics": harmonics_json(found),
-        "scores": scores,
-        "hits": found.before_mm.len(),
-        "s_um": um(found.fit.s_mm()),
-        "degrees_of_freedom": found.fit.freedom(),
-        "coverage_factor": found.coverage_factor,
-        "orientations_deg": found.orientations_rad.iter().map(|o| o.to_degrees()).collect::<Vec<_>>(),
-        "widest_gap_deg": found.gap_rad.to_degrees(),
-        "repeatability": found.repeats.map(|r| json!({ "directions": r.directions, "s_um": um(r.s_mm),
-            "range_um": um(r.range_mm) })),
-        "iso230_10": found.form.map(|f| json!({ "figure": form_name, "hits_of_the_standard": form_hits,
-            "before_um": um(f.before_mm), "after_um": um(f.after_mm), "checked_on_the_page": false })),
-        "check": found.check.as_ref().map(|c| json!({ "hits": c.deviations_mm.len(),
-            "before": spread(&c.before), "after": spread(&c.after), "within_U": c.covered })),
-        "table_orientation_deg": orientation.to_degrees(),
-        "table": found.table(study.table_steps, orientation).iter().map(row_json).collect::<Vec<_>>(),
-        "deviations_um": found.before_mm.iter().map(|d| um(*d)).collect::<Vec<_>>(),
-        "left_um": found.fit.left_mm.iter().map(|d| um(*d)).collect::<Vec<_>>(),
-        "held_out_um": found.fit.held_out_mm.iter().map(|d| um(*d)).collect::<Vec<_>>(),
-    })
-}
-
-fn harmonics_json(found: &Calibration) -> Vec<Value> {
-    harmonics(found)
-        .iter()
-        .map(|h| {
-            json!({ "order": h.order, "axial": h.axial, "amplitude_um": um(h.amplitude_mm()),
-                    "phase_deg": h.phase_rad().to_degrees(), "cosine_um": um(h.cosine_mm),
-                    "sine_um": um(h.sine_mm), "u_um": um(h.u_mm) })
-        })
-        .collect()
-}
-
-/// The least and the greatest measured radius, mm.
-fn radii(found: &Calibration) -> [f64; 2] {
-    let sign = found.gauge.side.sign();
-    let radius = |d: &f64| found.gauge.radius_mm + sign * d;
-    let all = || found.before_mm.iter().map(radius);
-    [all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max)]
-}
-
-fn row_json(row: &TableRow) -> Value {
-    let (s, c) = row.direction_rad.sin_cos();
-    json!({ "angle_deg": row.direction_rad.to_degrees(), "dR_um": um(row.deviation_mm),
-            "dX_um": um(row.deviation_mm * c), "dY_um": um(row.deviation_mm * s), "u_um": um(row.u_mm) })
 }
 
 /// The direction table as CSV: what to subtract along the direction of motion.

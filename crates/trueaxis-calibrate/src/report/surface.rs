@@ -2,7 +2,6 @@
 
 use crate::plan::program::ProgramCheck;
 use crate::plan::surface::{Pose, SurfaceStudy};
-use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// The path, for people.
@@ -52,29 +51,4 @@ pub fn surface_text(
     };
     let _ = writeln!(text, "\n  {verdict}");
     text
-}
-
-/// The document `trueaxis/plan-probe-surface/1`.
-pub fn surface_json(
-    study: &SurfaceStudy,
-    poses: &[Pose],
-    asked: usize,
-    check: &ProgramCheck,
-) -> Value {
-    let points = poses.iter().map(|p| {
-        let (x, n) = (p.point.point_mm, p.point.normal);
-        json!({ "point_mm": [x.x, x.y, x.z], "normal": [n.x, n.y, n.z], "line": p.point.line })
-    });
-    json!({
-        "schema": "trueaxis/plan-probe-surface/1",
-        "name": study.name,
-        "asked": asked,
-        "points": points.collect::<Vec<_>>(),
-        "spacing_mm": study.spacing_mm,
-        "duration_s": check.duration_s,
-        "sound": check.is_sound(),
-        "errors": check.errors,
-        "troubles": check.grave,
-        "notes": check.minor,
-    })
 }

@@ -1,7 +1,6 @@
 //! A thermal model as text and JSON.
 
 use crate::identify::thermal::{Logs, Score, ThermalModel, Zero};
-use serde_json::{Value, json};
 use std::fmt::Write;
 use trueaxis_machine::errors::ErrorName;
 
@@ -187,70 +186,4 @@ fn coefficients(text: &mut String, logs: &Logs, model: &ThermalModel) {
             intercept_mm * 1e3
         );
     }
-}
-
-/// The document `trueaxis/identify/1` of a thermal model.
-pub fn thermal_json(logs: &Logs, model: &ThermalModel) -> Value {
-    let coefficients = model.coefficients.iter().map(|c| {
-        json!({
-            "sensor": logs.sensors[c.term.sensor],
-            "lag_s": c.term.lag_s,
-            "um_per_k": c.mm_per_k * 1e3,
-            "u_um_per_k": c.u_mm_per_k * 1e3,
-            "range_celsius": c.range_celsius,
-        })
-    });
-    let cycles = logs.cycles.iter().enumerate().map(|(g, cycle)| {
-        json!({
-            "name": cycle.name,
-            "rows": cycle.displacement_mm.len(),
-            "no_model_um": model.scores[0].by_cycle_mm[g] * 1e3,
-            "held_out_um": model.score().by_cycle_mm[g] * 1e3,
-        })
-    });
-    let lines = thermal_lines(logs, model);
-    json!({
-        "schema": "trueaxis/identify/1",
-        "what": "thermal",
-        "name": logs.name,
-        "error": logs.error,
-        "zero": logs.zero.name(),
-        "verdict": if model.refusal.is_some() { "refused" } else { "model" },
-        "refusal": model.refusal,
-        "explained": model.explained(),
-        "no_model_um": model.scores[0].held_out_mm * 1e3,
-        "in_sample_um": model.score().in_sample_mm * 1e3,
-        "row_wise_um": model.score().row_wise_mm * 1e3,
-        "held_out_um": model.score().held_out_mm * 1e3,
-        "held_out_since_start_um": model.since_start_mm * 1e3,
-        "repeatability_um": model.repeatability_mm * 1e3,
-        "repeatability_stated": model.repeatability_stated,
-        "chosen_terms": model.chosen,
-        "coefficients": coefficients.collect::<Vec<_>>(),
-        "correlation": model.correlation,
-        "intercept_um": model.intercept_mm.map(|mm| mm * 1e3),
-        "reference_celsius": logs.reference_celsius,
-        "scores": model.scores.iter().map(|s| score_json(logs, s)).collect::<Vec<_>>(),
-        "all_terms": score_json(logs, &model.all_terms),
-        "cycles": cycles.collect::<Vec<_>>(),
-        "machine_file": lines.as_ref().ok(),
-        "no_machine_file_because": lines.as_ref().err(),
-        "warnings": model.warnings,
-    })
-}
-
-fn score_json(logs: &Logs, score: &Score) -> Value {
-    let term = |t: &crate::identify::thermal::Term| json!({ "sensor": logs.sensors[t.sensor], "lag_s": t.lag_s });
-    json!({
-        "terms": score.terms.iter().map(term).collect::<Vec<_>>(),
-        "in_sample_um": score.in_sample_mm * 1e3,
-        "row_wise_um": score.row_wise_mm * 1e3,
-        "held_out_um": score.held_out_mm * 1e3,
-        "held_out_um2": score.held_out_mm.powi(2) * 1e6,
-        "u_held_out_um2": score.u_held_out_mm2 * 1e6,
-        "by_cycle_um": score.by_cycle_mm.iter().map(|v| v * 1e3).collect::<Vec<_>>(),
-        "chosen_again": score.chosen_again,
-        // No number in JSON: columns that cannot be told apart at all.
-        "condition": score.condition.is_finite().then_some(score.condition),
-    })
 }

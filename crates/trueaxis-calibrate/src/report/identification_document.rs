@@ -1,0 +1,373 @@
+//! An identification for programs: `trueaxis/identify/1`.
+
+use super::identification::{IdentificationReport, shown};
+use crate::identify::convention::{Convention, ConventionCheck};
+use crate::identify::errors::Found;
+use crate::identify::score::Rms;
+use crate::identify::selection::Score;
+use crate::unknowns::fit::Model;
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::Value;
+use trueaxis_report::{Keyed, document};
+
+/// Errors identified from the readings of a campaign.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct IdentificationDocument<'a> {
+    /// Which document this is.
+    #[schemars(extend("const" = "trueaxis/identify/1"))]
+    pub schema: &'static str,
+    /// Name of the campaign.
+    pub name: &'a str,
+    /// Name of the machine.
+    pub machine: &'a str,
+    /// Date of the measurement as written; null if none is stated.
+    pub date: Option<&'a str>,
+    /// Whether the model explains the readings.
+    pub verdict: VerdictEntry,
+    /// The errors of the machine.
+    pub errors: Vec<FoundEntry<'a>>,
+    /// The errors of the set-up of the instruments.
+    pub setup: Vec<FoundEntry<'a>>,
+    /// Combinations of errors that change no reading.
+    pub unobservable: Vec<UnobservableEntry<'a>>,
+    /// Candidate terms that the readings do not support.
+    pub left_out: &'a [String],
+    /// Root mean square of the residual of length readings, in sample, µm; null without such readings.
+    pub rms_in_um: Option<f64>,
+    /// The same on places that the model had not seen, µm.
+    pub rms_held_out_um: Option<f64>,
+    /// Repeatability of the readings, µm.
+    pub repeatability_um: Option<f64>,
+    /// Whether the repeatability comes from repeated readings; if not, it is the stated noise.
+    pub repeatability_is_measured: bool,
+    /// Root mean square without the errors sought, set-up only, µm.
+    pub rms_without_model_um: Option<f64>,
+    /// The same figures for lengths and angles.
+    pub rms: RmsEntries,
+    /// Number of readings.
+    pub readings: usize,
+    /// Number of places.
+    pub places: usize,
+    /// Rank of the design matrix.
+    pub rank: usize,
+    /// Its condition number.
+    pub condition: f64,
+    /// Relative singular value below which a combination counts as unobservable.
+    pub threshold: f64,
+    /// `full` or `linear`.
+    pub model: &'static str,
+    /// χ² of the fit.
+    pub chi_square: f64,
+    /// Its degrees of freedom.
+    pub degrees_of_freedom: usize,
+    /// Factor by which the uncertainties are enlarged, 1 or more.
+    pub birge_ratio: f64,
+    /// Which axes the residual of the held-out places follows.
+    pub residual_follows: Vec<FieldEntry>,
+    /// How the terms were selected.
+    pub selection: SelectionEntry,
+    /// Readings beyond the limit of studentised residuals.
+    pub outliers: Vec<OutlierEntry>,
+    /// That limit, in standard deviations.
+    pub outlier_limit: f64,
+    /// The readings that change the result most if they are left out.
+    pub most_influential: Vec<InfluenceEntry>,
+    /// The conventions that were tried; null if that was not asked for.
+    pub conventions: Option<ConventionsEntry<'a>>,
+}
+
+/// The result.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct VerdictEntry {
+    /// `explained`, `over-fitted`, `follows-xyz`, `turns-with-axis` or `unexplained`.
+    pub key: &'static str,
+    /// In words.
+    pub words: String,
+    /// Whether the model may be trusted.
+    pub good: bool,
+}
+
+/// One unknown.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct FoundEntry<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// `value_um` and its standard uncertainty `u_um`, or `value_urad` and `u_urad`; null if not observable.
+    #[serde(flatten)]
+    pub value: Keyed<Option<f64>>,
+    /// The standard uncertainty again, in the same unit.
+    pub u: Option<f64>,
+    /// Value divided by its standard uncertainty.
+    pub z: Option<f64>,
+}
+
+/// A combination of unknowns that changes no reading.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct UnobservableEntry<'a> {
+    /// As a sum.
+    pub combination: &'a str,
+    /// In words.
+    pub words: &'a str,
+    /// A set-up that makes it observable; null if none of those tried does.
+    pub resolve_with: Option<&'a str>,
+}
+
+/// Root mean squares of the residual.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct RmsEntries {
+    /// Of the readings that the model was fitted to.
+    pub in_sample: RmsEntry,
+    /// Of places that the model had not seen.
+    pub held_out: RmsEntry,
+    /// Of repeated readings, or the stated noise.
+    pub repeatability: RmsEntry,
+    /// Without the errors sought, set-up only.
+    pub without_model: RmsEntry,
+}
+
+/// A root mean square.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct RmsEntry {
+    /// Of lengths, µm; null without such readings.
+    pub um: Option<f64>,
+    /// Of angles, µrad; null without such readings.
+    pub urad: Option<f64>,
+    /// In units of the stated noise.
+    pub times_noise: f64,
+}
+
+/// A part of the residual.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct FieldEntry {
+    /// `XYZ`, or the letter of a rotary axis.
+    pub what: String,
+    /// The share of the squares of the residual, 0 to 1.
+    pub share: f64,
+}
+
+/// How the terms were selected.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct SelectionEntry {
+    /// Number of candidate terms.
+    pub candidates: usize,
+    /// Least |z| of a term that is kept; null if none is.
+    pub least_z: Option<f64>,
+    /// The limits that were tried.
+    pub scores: Vec<SelectionScoreEntry>,
+}
+
+/// One limit for the terms.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct SelectionScoreEntry {
+    /// Least |z| of a term that is kept; null if none is.
+    pub least_z: Option<f64>,
+    /// Number of terms that are kept.
+    pub terms: usize,
+    /// Residual of held-out places, in units of the noise.
+    pub held_out_times_noise: f64,
+    /// Residual in sample, in units of the noise.
+    pub in_sample_times_noise: f64,
+}
+
+/// A reading that does not fit.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct OutlierEntry {
+    /// Its file.
+    pub file: String,
+    /// Its line there.
+    pub line: usize,
+    /// Its channel, from 1.
+    pub channel: usize,
+    /// Its studentised residual.
+    pub studentised: f64,
+}
+
+/// A reading and its influence on the result.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct InfluenceEntry {
+    /// Its file.
+    pub file: String,
+    /// Its line there.
+    pub line: usize,
+    /// Its leverage, 0 to 1.
+    pub leverage: f64,
+    /// Cook's distance; null if the result depends on this reading alone.
+    pub cook: Option<f64>,
+}
+
+/// The conventions that were tried.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct ConventionsEntry<'a> {
+    /// Number of changes tried.
+    pub tried: usize,
+    /// The residual as the readings are, in units of the noise.
+    pub residual_times_noise: f64,
+    /// Changes that fit far better, the best first.
+    pub better: Vec<ConventionEntry<'a>>,
+    /// What cannot be checked.
+    pub remarks: &'a [String],
+}
+
+/// A change of convention that fits far better.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct ConventionEntry<'a> {
+    /// What to change.
+    pub change: &'a str,
+    /// The residual without the change, in units of the noise.
+    pub before_times_noise: f64,
+    /// The residual with the change, in units of the noise.
+    pub after_times_noise: f64,
+}
+
+impl<'a> IdentificationDocument<'a> {
+    /// The document of an identification.
+    pub fn of(report: &IdentificationReport<'a>) -> Self {
+        let (found, records) = (report.found, report.records);
+        let of = |setup: bool| {
+            let of = found.found.iter().filter(|f| f.is_setup == setup);
+            of.map(FoundEntry::from).collect()
+        };
+        let um = |rms: &Rms| rms.length_mm.map(|v| v * 1e3);
+        let score = &found.score;
+        Self {
+            schema: "trueaxis/identify/1",
+            name: &report.campaign.name,
+            machine: report.campaign.machine.name(),
+            date: report.options.date.as_deref(),
+            verdict: VerdictEntry {
+                key: found.verdict.key(),
+                words: found.verdict.words(),
+                good: found.verdict.is_good(),
+            },
+            errors: of(false),
+            setup: of(true),
+            unobservable: unobservable(report),
+            left_out: &found.left_out,
+            rms_in_um: um(&score.in_sample),
+            rms_held_out_um: um(&score.held_out),
+            repeatability_um: um(&score.floor),
+            repeatability_is_measured: score.floor_is_measured,
+            rms_without_model_um: um(&score.before),
+            rms: RmsEntries {
+                in_sample: RmsEntry::from(&score.in_sample),
+                held_out: RmsEntry::from(&score.held_out),
+                repeatability: RmsEntry::from(&score.floor),
+                without_model: RmsEntry::from(&score.before),
+            },
+            readings: records.readings.len(),
+            places: found.places,
+            rank: found.fit.sight.rank,
+            condition: found.fit.sight.condition(),
+            threshold: report.options.threshold,
+            model: match report.options.model {
+                Model::Full => "full",
+                Model::Linear => "linear",
+            },
+            chi_square: found.fit.chi_square,
+            degrees_of_freedom: found.fit.degrees_of_freedom,
+            birge_ratio: found.birge,
+            residual_follows: fields(report),
+            selection: SelectionEntry {
+                candidates: found.candidates,
+                least_z: finite(found.selection.threshold),
+                scores: found.selection.scores.iter().map(SelectionScoreEntry::from).collect(),
+            },
+            outliers: outliers(report),
+            outlier_limit: found.influences.limit,
+            most_influential: report.influential().map(|row| influence(report, row)).collect(),
+            conventions: report.conventions.map(ConventionsEntry::from),
+        }
+    }
+}
+
+fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}
+
+fn unobservable<'a>(report: &IdentificationReport<'a>) -> Vec<UnobservableEntry<'a>> {
+    let one = |u: &'a crate::identify::errors::Unobservable| UnobservableEntry {
+        combination: &u.combination,
+        words: &u.words,
+        resolve_with: u.resolve_with.as_deref(),
+    };
+    report.found.unobservable.iter().map(one).collect()
+}
+
+fn fields(report: &IdentificationReport<'_>) -> Vec<FieldEntry> {
+    let axes = report.found.design.machine.axes();
+    let fields = report.found.fields.iter().map(|f| FieldEntry {
+        what: f.axis.map_or("XYZ".to_owned(), |a| axes[a].name.to_string()),
+        share: f.share,
+    });
+    fields.collect()
+}
+
+fn outliers(report: &IdentificationReport<'_>) -> Vec<OutlierEntry> {
+    let outliers = report.found.influences.outliers.iter().map(|o| {
+        let place = report.records.place(o.row);
+        let (channel, studentised) = (o.channel + 1, o.studentised);
+        OutlierEntry { file: place.file, line: place.line, channel, studentised }
+    });
+    outliers.collect()
+}
+
+fn influence(report: &IdentificationReport<'_>, row: usize) -> InfluenceEntry {
+    let place = report.records.place(row);
+    let influence = &report.found.influences.rows[row];
+    let (leverage, cook) = (influence.leverage, finite(influence.cook));
+    InfluenceEntry { file: place.file, line: place.line, leverage, cook }
+}
+
+impl<'a> From<&'a Found> for FoundEntry<'a> {
+    fn from(found: &'a Found) -> Self {
+        let names = if found.is_angle { ["value_urad", "u_urad"] } else { ["value_um", "u_um"] };
+        let u = found.value.map(|(_, u)| shown(found, u));
+        let value = found.value.map(|(v, _)| shown(found, v));
+        let value = names.into_iter().zip([value, u]).collect();
+        Self { name: &found.name, value, u, z: found.z() }
+    }
+}
+
+impl From<&Rms> for RmsEntry {
+    fn from(rms: &Rms) -> Self {
+        Self {
+            um: rms.length_mm.map(|v| v * 1e3),
+            urad: rms.angle_rad.map(|v| v * 1e6),
+            times_noise: rms.noise,
+        }
+    }
+}
+
+impl From<&Score> for SelectionScoreEntry {
+    fn from(score: &Score) -> Self {
+        Self {
+            least_z: finite(score.threshold),
+            terms: score.terms,
+            held_out_times_noise: score.held_out,
+            in_sample_times_noise: score.in_sample,
+        }
+    }
+}
+
+impl<'a> From<&'a ConventionCheck> for ConventionsEntry<'a> {
+    fn from(check: &'a ConventionCheck) -> Self {
+        Self {
+            tried: check.tried,
+            residual_times_noise: check.residual,
+            better: check.better.iter().map(ConventionEntry::from).collect(),
+            remarks: &check.remarks,
+        }
+    }
+}
+
+impl<'a> From<&'a Convention> for ConventionEntry<'a> {
+    fn from(c: &'a Convention) -> Self {
+        Self { change: &c.change, before_times_noise: c.before, after_times_noise: c.after }
+    }
+}
+
+/// The document `trueaxis/identify/1` as a JSON value.
+pub fn identification_json(report: &IdentificationReport<'_>) -> Value {
+    document(&IdentificationDocument::of(report))
+}
