@@ -19,6 +19,7 @@ mod pose;
 mod post;
 mod predict;
 mod report_file;
+mod schema;
 #[cfg(feature = "serve")]
 mod serve;
 mod simulate;
@@ -49,6 +50,7 @@ Examples:
   trueaxis post machines/i5-engraver/machine.toml examples/06_compensate/bangle.cls --control fanuc -o bangle.nc --verify
   trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml
   trueaxis explain table-too-short
+  trueaxis schema pose
   trueaxis serve --open
 
 Exit status: 0 done, 1 the verdict is no, 2 unusable input or arguments.")]
@@ -87,6 +89,8 @@ enum Verb {
     Verify(verify::Arguments),
     /// What a diagnostic means and what to do: explain table-too-short
     Explain(explain::Arguments),
+    /// The JSON documents that --format json prints: their keys, types, meanings and units
+    Schema(schema::Arguments),
     /// See it all in a browser, offline: a local server with the page in it
     #[cfg(feature = "serve")]
     Serve(serve::Arguments),
@@ -117,6 +121,7 @@ fn main() -> ExitCode {
         Verb::Evaluate(arguments) => evaluate::run(&arguments),
         Verb::Verify(arguments) => verify::run(&arguments),
         Verb::Explain(arguments) => explain::run(&arguments),
+        Verb::Schema(arguments) => schema::run(&arguments),
         #[cfg(feature = "serve")]
         Verb::Serve(arguments) => serve::run(&arguments),
     };

@@ -255,5 +255,5 @@ fn all_codes_are_listed() {
 fn an_unknown_code_gives_its_neighbours() {
     let ran = trueaxis(&["explain", "tabel-to-short"]);
     assert_eq!((ran.status, ran.out.as_str()), (2, ""));
-    assert!(ran.err.contains("hint: near to it are table-too-short"), "{}", ran.err);
+    assert!(ran.err.contains("hint: similar codes are table-too-short"), "{}", ran.err);
 }

@@ -29,6 +29,7 @@
 //! }
 //! ```
 
+pub mod explain;
 pub mod files;
 pub mod questions;
 pub mod report;
@@ -49,6 +50,9 @@ pub use trueaxis_nc as nc;
 pub use trueaxis_part as part;
 
 pub use trueaxis_report::{NamedSchema, VERSION};
+
+/// A JSON Schema.
+pub use schemars::Schema;
 
 /// The examples of the README are tests.
 #[cfg(doctest)]

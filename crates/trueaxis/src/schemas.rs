@@ -1,13 +1,16 @@
 //! The JSON documents of the program with their JSON Schemas.
 
+use crate::explain::{ExplainDocument, ExplainListDocument};
 use crate::report::{
     CertificateDocument, CheckDocument, DescriptionDocument, DiagnosticEntry, DiffDocument,
     PoseDocument, PoseRowsDocument, PostDocument, SolveDocument, SolvePathDocument, TraceDocument,
     VerifyDocument,
 };
+use schemars::{JsonSchema, Schema, generate::SchemaSettings, json_schema};
+use serde_json::Value;
 use trueaxis_report::{NamedSchema, named_schema};
 
-/// The JSON Schema of every document that the library makes, by name; several forms of one document have names
+/// The JSON Schema of every document that the program prints, by name; several forms of one document have names
 /// such as `pose` and `pose-rows`.
 ///
 /// ```
@@ -20,8 +23,9 @@ pub fn schemas() -> Vec<NamedSchema> {
         named_schema::<CertificateDocument<'_>>("certificate"),
         named_schema::<CheckDocument<'_>>("check"),
         named_schema::<DescriptionDocument<'_>>("description"),
-        named_schema::<DiagnosticEntry<'_>>("diagnostic"),
         named_schema::<DiffDocument<'_>>("diff"),
+        named_schema::<ExplainDocument>("explain"),
+        named_schema::<ExplainListDocument>("explain-list"),
         named_schema::<PoseDocument>("pose"),
         named_schema::<PoseRowsDocument>("pose-rows"),
         named_schema::<PostDocument<'_>>("post"),
@@ -30,6 +34,22 @@ pub fn schemas() -> Vec<NamedSchema> {
         named_schema::<TraceDocument<'_>>("trace"),
         named_schema::<VerifyDocument<'_>>("verify"),
     ];
+    all.iter_mut().for_each(|(_, schema)| add_diagnostics(schema));
+    all.push(named_schema::<DiagnosticEntry<'_>>("diagnostic"));
     all.sort_by_key(|(name, _)| *name);
     all
+}
+
+/// The problems of the input, which the commands add to the documents of their answers.
+fn add_diagnostics(schema: &mut Schema) {
+    let settings = SchemaSettings::draft2020_12().for_serialize();
+    let entry = DiagnosticEntry::json_schema(&mut settings.into_generator());
+    let diagnostics = json_schema!({
+        "description": "The problems found in the input; absent where the command reports them on standard error only.",
+        "type": "array",
+        "items": entry,
+    });
+    if let Some(Value::Object(properties)) = schema.get_mut("properties") {
+        properties.entry("diagnostics").or_insert(diagnostics.into());
+    }
 }
