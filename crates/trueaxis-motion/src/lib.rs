@@ -87,6 +87,12 @@ use trueaxis_machine::heat::TemperatureRun;
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::moves::Step;
 use trueaxis_nc::{Outcome, Program, Settings, interpret};
+use trueaxis_report::{NamedSchema, named_schema};
+
+/// The JSON Schemas of the documents of this crate, by name.
+pub fn schemas() -> Vec<NamedSchema> {
+    vec![named_schema::<report::SimulationDocument<'_>>("simulate")]
+}
 
 /// Takes what the simulation finds, stretch by stretch, in constant memory.
 pub trait Observer {

@@ -1,11 +1,11 @@
 //! A simulation as text, JSON and a page.
 
 mod simulation;
+mod simulation_document;
 mod simulation_page;
 mod simulation_plots;
 mod simulation_views;
 
-pub use simulation::{
-    Simulation, clock, simulation_json, simulation_text, trouble_code, trouble_text,
-};
+pub use simulation::{Simulation, clock, simulation_text, trouble_code, trouble_text};
+pub use simulation_document::{SimulationDocument, simulation_json};
 pub use simulation_page::simulation_html;

@@ -54,6 +54,12 @@ use iso230_6::Diagonals;
 use iso230_7::Rotation;
 use trueaxis_input::sheet::{self, Cells, Sheet};
 use trueaxis_input::{Diagnostics, Dimension, Place, Unit};
+use trueaxis_report::{NamedSchema, named_schema};
+
+/// The JSON Schemas of the documents of this crate, by name.
+pub fn schemas() -> Vec<NamedSchema> {
+    vec![named_schema::<report::EvaluationDocument<'_>>("evaluate")]
+}
 
 /// A standard that readings can be evaluated by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

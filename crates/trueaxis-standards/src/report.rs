@@ -2,11 +2,11 @@
 
 mod evaluation;
 mod evaluation_circular;
+mod evaluation_document;
 mod evaluation_html;
-mod evaluation_json;
 mod evaluation_others;
 mod evaluation_positioning;
 
 pub use evaluation::{Evaluation, Sheets, evaluation_text};
+pub use evaluation_document::{EvaluationDocument, evaluation_json};
 pub use evaluation_html::evaluation_html;
-pub use evaluation_json::evaluation_json;

@@ -4,7 +4,6 @@ use crate::{
     Drift, Findings, Job, Run, SetUp, Summary, Trouble, TroubleKind, TroubleList, Worst,
     limit_name, shown, unit,
 };
-use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Travel;
@@ -257,26 +256,6 @@ fn write_drift(s: &Simulation<'_>, drift: &Drift, out: &mut String) -> std::fmt:
     Ok(())
 }
 
-/// The temperatures and the drift as JSON; null where no log runs.
-fn drift_json(drift: Option<&Drift>) -> Value {
-    let Some(drift) = drift else { return Value::Null };
-    let run = drift.run();
-    let sensors = drift.sensors().into_iter().map(|s| {
-        let range = json!({ "lowest_degC": s.lowest_celsius, "highest_degC": s.highest_celsius });
-        (s.sensor, range)
-    });
-    json!({
-        "log": run.log.file(),
-        "from_s": run.start_s,
-        "to_s": run.start_s + drift.time_s(),
-        "sensors": sensors.collect::<Map<_, _>>(),
-        "drift_um": { "value": drift.tip.value * 1e3, "line": drift.tip.origin.line,
-                      "program": drift.tip.origin.program, "time_s": drift.tip.time_s },
-        "drift_at_end_um": drift.last_mm * 1e3,
-        "drift_unknown_places": drift.unknown,
-    })
-}
-
 fn write_troubles(s: &Simulation<'_>, out: &mut String) -> std::fmt::Result {
     let list = &s.troubles.list;
     if list.is_empty() {
@@ -353,116 +332,6 @@ pub fn clock(seconds: f64) -> String {
         true => format!("{hours:.0} h {:02.0} min {rest:05.2} s", minutes - hours * 60.0),
         false => format!("{minutes:.0} min {rest:05.2} s"),
     }
-}
-
-/// A simulation as one JSON document, numbers in full double precision.
-pub fn simulation_json(s: &Simulation<'_>) -> Value {
-    let summary = s.summary;
-    let worst = |w: &Worst, scale: f64| {
-        json!({ "value": w.value * scale, "line": w.origin.line, "program": w.origin.program,
-                "time_s": w.time_s })
-    };
-    json!({
-        "schema": "trueaxis/simulate/1",
-        "version": trueaxis_report::VERSION,
-        "machine": { "name": s.machine.name(), "chain": s.machine.chain_text() },
-        "program": s.program,
-        "programs": s.run.programs,
-        "control": control_name(s.control),
-        "set_up_given": s.setup.given,
-        "time_s": summary.time_s,
-        "rapid_s": summary.rapid_s,
-        "dwell_s": summary.dwell_s,
-        "feed_mm": summary.feed_mm,
-        "rapid_mm": summary.rapid_mm,
-        "moves": summary.moves,
-        "nodes": summary.nodes,
-        "tip_box_mm": summary.cut_box_mm.map(|b| b.map(|v| [v.x, v.y, v.z])),
-        "axes": axes(s),
-        "deviation": {
-            "tip_um": worst(&summary.feed_tip, 1e3),
-            "tip_rms_um": summary.feed_tip_rms_mm * 1e3,
-            "feed_um": worst(&summary.along_path[0], 1e3),
-            "normal_um": worst(&summary.along_path[1], 1e3),
-            "binormal_um": worst(&summary.along_path[2], 1e3),
-            "axis_urad": worst(&summary.feed_axis, 1e6),
-            "tip_with_rapid_um": worst(&summary.tip, 1e3),
-            "axis_with_rapid_urad": worst(&summary.axis, 1e6),
-        },
-        "reversals": summary.reversals.iter().map(|r| json!({
-            "axis": s.machine.axes()[r.axis].name.to_string(), "at": shown(s.machine, r.axis, r.at),
-            "line": r.origin.line, "program": r.origin.program, "time_s": r.time_s,
-        })).collect::<Vec<_>>(),
-        "troubles": s.troubles.list.iter().map(|t| trouble(s, t)).collect::<Vec<_>>(),
-        "troubles_left_out": s.troubles.left_out,
-        "messages": summary.messages,
-        "stops": summary.stops,
-        "tools": summary.tools.iter()
-            .map(|(tool, moves)| json!({ "tool": tool, "moves": moves }))
-            .collect::<Vec<_>>(),
-        "path_file": s.path_file,
-        "temperatures": drift_json(s.drift),
-    })
-}
-
-fn axes(s: &Simulation<'_>) -> Value {
-    let mut map = Map::new();
-    for (i, axis) in s.summary.axes.iter().enumerate() {
-        let value = |v: f64| Some(v).filter(|v| v.is_finite()).map(|v| shown(s.machine, i, v));
-        let of = &s.machine.axes()[i];
-        map.insert(
-            of.name.to_string(),
-            json!({
-                "unit": unit(s.machine, i),
-                "lowest": value(axis.lowest),
-                "highest": value(axis.highest),
-                "travelled": value(axis.travelled),
-                "reversals": axis.reversals,
-                "fastest_per_s": value(axis.fastest.value.abs()),
-                "fastest_line": axis.fastest.origin.line,
-                "velocity_limit_per_s": of.limits.velocity.and_then(value),
-            }),
-        );
-    }
-    Value::Object(map)
-}
-
-fn trouble(s: &Simulation<'_>, trouble: &Trouble) -> Value {
-    let mut map = Map::new();
-    let mut put = |key: &str, value: Value| {
-        map.insert(key.to_owned(), value);
-    };
-    put("code", trouble_code(&trouble.kind).into());
-    put("grave", trouble.grave.into());
-    put("text", trouble_text(s.machine, trouble).into());
-    put("line", trouble.first.line.into());
-    put("program", trouble.first.program.into());
-    put("last_line", trouble.last.line.into());
-    put("from_s", trouble.from_s.into());
-    put("to_s", trouble.to_s.into());
-    put("nodes", trouble.nodes.into());
-    match &trouble.kind {
-        TroubleKind::Collision { first, second }
-        | TroubleKind::NearMiss { first, second }
-        | TroubleKind::RapidInStock { first, second } => {
-            put("bodies", json!([first, second]));
-            put("clearance_mm", trouble.value.into());
-        }
-        TroubleKind::OverTravel { axis } | TroubleKind::OverSpeed { axis, .. } => {
-            put("axis", s.machine.axes()[*axis].name.to_string().into());
-            put("value", shown(s.machine, *axis, trouble.value).into());
-            put("limit", shown(s.machine, *axis, trouble.limit).into());
-        }
-        TroubleKind::SlowedDown { axis, .. } => {
-            put("axis", s.machine.axes()[*axis].name.to_string().into());
-            put("feed_ratio", trouble.value.into());
-        }
-        TroubleKind::RotaryFlip { axis } => {
-            put("axis", s.machine.axes()[*axis].name.to_string().into());
-            put("turned_deg", trouble.value.to_degrees().into());
-        }
-    }
-    Value::Object(map)
 }
 
 #[cfg(test)]

@@ -2,7 +2,6 @@
 
 use super::evaluation::{Sheets, figure};
 use crate::iso230_4::{Causes, Circular, PathResult};
-use serde_json::{Map, Value, json};
 use trueaxis_report::Block;
 use trueaxis_report::{Picture, Polar, PolarLine};
 
@@ -95,63 +94,5 @@ fn picture(c: &Circular) -> Picture {
             c.axes[0], c.axes[1]
         ),
         lines,
-    })
-}
-
-/// The keys of a circular test in the document `trueaxis/evaluate/1`.
-pub(super) fn json(c: &Circular, map: &mut Map<String, Value>) {
-    let um = |v: Option<f64>| json!(v.map(|v| v * UM));
-    let mut put = |key: &str, value: Value| {
-        map.insert(key.to_owned(), value);
-    };
-    put("axes", json!(c.axes));
-    put("radius_mm", json!(c.radius_mm));
-    put("centre_mm", json!(c.centre_mm));
-    for p in &c.paths {
-        let way = p.path.sense.word();
-        put(&format!("G_{way}_um"), um(Some(p.g_mm)));
-        put(&format!("F_{way}_max_um"), um(p.f_mm.map(|f| f[0])));
-        put(&format!("F_{way}_min_um"), um(p.f_mm.map(|f| f[1])));
-    }
-    let single = c.paths.iter().map(|p| p.g_mm).reduce(f64::max);
-    put("G_um", um(single));
-    put("G_b_um", um(c.g_both_mm));
-    let of_all = c.paths.iter().filter_map(|p| p.f_mm);
-    let of_all = of_all.reduce(|a, b| [a[0].max(b[0]), a[1].min(b[1])]);
-    put("F_max_um", um(of_all.map(|f| f[0])));
-    put("F_min_um", um(of_all.map(|f| f[1])));
-    put("D_um", um(c.d_mm));
-    let path = |p: &PathResult| {
-        json!({
-            "direction": p.path.sense.word(),
-            "points": p.path.points_mm.len(),
-            "overlap_left_out_deg": p.path.overlap_rad.to_degrees(),
-            "G_um": p.g_mm * UM,
-            "F_max_um": um(p.f_mm.map(|f| f[0])),
-            "F_min_um": um(p.f_mm.map(|f| f[1])),
-            "mean_radial_um": um(p.mean_radial_mm),
-            "centre_mm": p.circle.center_mm,
-            "mean_radius_mm": p.circle.radius_mm,
-        })
-    };
-    put("paths", c.paths.iter().map(path).collect());
-    put("causes", c.causes.as_ref().map_or(Value::Null, |causes| causes_json(c, causes)));
-}
-
-fn causes_json(c: &Circular, causes: &Causes) -> Value {
-    let spike = |s: &crate::iso230_4::Spike| {
-        json!({ "axis": c.axes[s.axis], "at_deg": s.at_rad.to_degrees().round(),
-                "direction": s.sense.word(), "height_um": s.height_mm * UM })
-    };
-    json!({
-        "backlash_um": { &c.axes[0]: causes.backlash_mm[0] * UM,
-                         &c.axes[1]: causes.backlash_mm[1] * UM },
-        "scale_mismatch_um": causes.scale_mismatch_mm * UM,
-        "squareness_urad": causes.squareness_rad.map(|v| v * 1e6),
-        "servo_mismatch_um": causes.servo_mismatch_mm.map(|v| v * UM),
-        "diagonal_ellipse_um": causes.diagonal_ellipse_mm.map(|v| v * UM),
-        "centre_um": [causes.centre_mm[0] * UM, causes.centre_mm[1] * UM],
-        "spikes": causes.spikes.iter().map(spike).collect::<Vec<_>>(),
-        "residual_rms_um": causes.residual_rms_mm * UM,
     })
 }

@@ -7,7 +7,6 @@ use crate::iso230_2::Quantity;
 use crate::iso230_3::{Channel, Drift};
 use crate::iso230_6::Diagonals;
 use crate::iso230_7::{ErrorMotion, Rotation};
-use serde_json::{Map, Value, json};
 use trueaxis_input::Dimension;
 use trueaxis_report::Block;
 use trueaxis_report::{Band, Picture, Polar, PolarLine, Scatter};
@@ -17,7 +16,7 @@ const UM: f64 = 1e3;
 const MOST_POINTS: usize = 2000;
 
 /// Unit for people, unit in JSON, factor from the inner unit.
-fn unit(channel: &Channel) -> (&'static str, &'static str, f64) {
+pub(super) fn unit(channel: &Channel) -> (&'static str, &'static str, f64) {
     match channel.dimension {
         Dimension::Length => ("µm", "um", 1e3),
         Dimension::Angle => ("µrad", "urad", 1e6),
@@ -68,27 +67,6 @@ pub(super) fn drift_sheets(d: &Drift) -> Sheets {
         }
     }
     Sheets { figures: vec![block], details: Vec::new(), pictures }
-}
-
-pub(super) fn drift_json(d: &Drift, map: &mut Map<String, Value>) {
-    map.insert("window_s".into(), json!(d.window_s));
-    map.insert("duration_s".into(), json!(d.times_s.last()));
-    let channel = |c: &Channel| {
-        let (_, unit, scale) = unit(c);
-        let mut entry = Map::new();
-        entry.insert("name".into(), json!(c.name));
-        for (key, value) in [
-            ("range", c.range),
-            ("first_window", c.first_window),
-            ("largest_window", c.largest_window.0),
-            ("end", c.end),
-        ] {
-            entry.insert(format!("{key}_{unit}"), json!(value * scale));
-        }
-        entry.insert("largest_window_from_s".into(), json!(c.largest_window.1));
-        Value::Object(entry)
-    };
-    map.insert("channels".into(), d.channels.iter().map(channel).collect());
 }
 
 /// The figures of ISO 230-6: the largest of all diagonals.
@@ -142,25 +120,6 @@ pub(super) fn diagonal_sheets(d: &Diagonals) -> Sheets {
     Sheets { figures, details: Vec::new(), pictures }
 }
 
-pub(super) fn diagonal_json(d: &Diagonals, map: &mut Map<String, Value>) {
-    for (quantity, key, _) in OF_DIAGONALS {
-        map.insert(format!("{key}_um"), json!(d.largest(quantity).map(|v| v * UM)));
-    }
-    let one = |d: &crate::iso230_6::DiagonalResult| {
-        let mut entry = Map::new();
-        entry.insert("diagonal".into(), d.diagonal.name().into());
-        entry.insert("stretch_um_per_m".into(), json!(d.stretch.map(|v| v * 1e6)));
-        positioning::json(&d.measurement, &d.result, &mut entry);
-        Value::Object(entry)
-    };
-    map.insert("diagonals".into(), d.diagonals.iter().map(one).collect());
-    let hint = |h: &crate::iso230_6::SquarenessHint| {
-        json!({ "axes": h.axes, "closer_urad": h.closer_rad * 1e6,
-                "from": if h.of_body { "body" } else { "face" } })
-    };
-    map.insert("squareness".into(), d.squareness.iter().map(hint).collect());
-}
-
 pub(super) fn rotation_sheets(r: &Rotation) -> Sheets {
     let title = format!("Error motions over {} revolutions", r.revolutions);
     let note = "radial: about the least-squares centre, without the once-per-revolution part; \
@@ -197,20 +156,4 @@ pub(super) fn rotation_sheets(r: &Rotation) -> Sheets {
     };
     let pictures = r.motions.iter().map(picture).collect();
     Sheets { figures: vec![block], details: Vec::new(), pictures }
-}
-
-pub(super) fn rotation_json(r: &Rotation, map: &mut Map<String, Value>) {
-    map.insert("revolutions".into(), json!(r.revolutions));
-    map.insert("readings_per_revolution".into(), json!(r.angles_rad.len()));
-    map.insert("readings_left_out".into(), json!(r.left_out));
-    let motion = |m: &ErrorMotion| {
-        json!({
-            "sensitive": m.sensitive.name(),
-            "total_um": m.total_mm * UM,
-            "synchronous_um": m.synchronous_mm * UM,
-            "asynchronous_um": m.asynchronous_mm.map(|v| v * UM),
-            "fundamental_um": m.fundamental_mm * UM,
-        })
-    };
-    map.insert("motions".into(), r.motions.iter().map(motion).collect());
 }

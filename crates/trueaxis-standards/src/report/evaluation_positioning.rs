@@ -5,7 +5,6 @@ use crate::Standard;
 use crate::iso230_2::{
     Approached, Direction, Measurement, Position, Positioning, Quantity, Reading,
 };
-use serde_json::{Map, Value, json};
 use trueaxis_geometry::AxisKind;
 use trueaxis_report::Block;
 use trueaxis_report::{Band, Picture, Scatter};
@@ -22,7 +21,7 @@ fn shown(kind: AxisKind) -> (&'static str, f64) {
 }
 
 /// The same for positions.
-fn place(kind: AxisKind, position: f64) -> f64 {
+pub(super) fn place(kind: AxisKind, position: f64) -> f64 {
     match kind {
         AxisKind::Linear => position,
         // 90, not 90.00000000000001.
@@ -217,85 +216,9 @@ fn reversal(r: &Positioning) -> Picture {
 }
 
 /// Units of the deviations in JSON, with the factor from mm or rad.
-fn json_units(kind: AxisKind) -> &'static [(&'static str, f64)] {
+pub(super) fn json_units(kind: AxisKind) -> &'static [(&'static str, f64)] {
     match kind {
         AxisKind::Linear => &[("um", 1e3)],
         AxisKind::Rotary => &[("urad", 1e6), ("arcsec", 648_000.0 / std::f64::consts::PI)],
     }
-}
-
-/// The keys of a positioning test in the document `trueaxis/evaluate/1`.
-pub(super) fn json(m: &Measurement, r: &Positioning, map: &mut Map<String, Value>) {
-    let mut put = |key: String, value: Value| {
-        map.insert(key, value);
-    };
-    put("kind".into(), if r.kind == AxisKind::Linear { "linear" } else { "rotary" }.into());
-    for (unit, scale) in json_units(r.kind) {
-        for q in Quantity::ALL {
-            put(format!("{}_{unit}", q.key()), json!(r.value(q).map(|v| v * scale)));
-        }
-    }
-    for (unit, scale) in json_units(r.kind) {
-        let of = |q: Quantity| (q.key().to_owned(), json!(r.expanded_of(q).map(|v| v * scale)));
-        put(format!("U_{unit}"), Value::Object(Quantity::ALL.map(of).into_iter().collect()));
-    }
-    let unit = place_unit(r.kind);
-    put(format!("travel_{unit}"), json!(place(r.kind, m.length())));
-    put("positions".into(), r.positions.iter().map(|p| position(r.kind, p)).collect());
-    put("budget".into(), budget_json(r));
-    let (v, b) = (&r.others.vdi3441, &r.others.b554);
-    let keyed = |pairs: &[(&str, Option<f64>)]| -> Value {
-        let entries = json_units(r.kind).iter().flat_map(|(unit, scale)| {
-            let entry = move |(key, v): &(&str, Option<f64>)| {
-                (format!("{key}_{unit}"), json!(v.map(|v| v * scale)))
-            };
-            pairs.iter().map(entry)
-        });
-        Value::Object(entries.collect())
-    };
-    put("vdi3441".into(), keyed(&[("P", v.p), ("Pa", v.pa), ("Ps", v.ps), ("U", v.u)]));
-    let b = [
-        ("accuracy", b.accuracy),
-        ("accuracy_up", b.accuracy_up),
-        ("accuracy_down", b.accuracy_down),
-        ("repeatability", b.repeatability),
-        ("reversal", b.reversal),
-    ];
-    put("b5_54_form".into(), keyed(&b));
-}
-
-fn budget_json(r: &Positioning) -> Value {
-    let Some(budget) = &r.budget else { return Value::Null };
-    let (unit, scale) = json_units(r.kind)[0];
-    let share = |s: &crate::iso230_2::Share| {
-        (format!("{}_u_{unit}", s.name.replace(' ', "_")), json!(s.u * scale))
-    };
-    let mut map: Map<String, Value> = budget.shares.iter().map(share).collect();
-    map.insert(format!("drift_u_{unit}"), json!(budget.drift_u.map(|u| u * scale)));
-    Value::Object(map)
-}
-
-fn position(kind: AxisKind, p: &Position) -> Value {
-    let mut map = Map::new();
-    map.insert(format!("target_{}", place_unit(kind)), json!(place(kind, p.target)));
-    let count = |a: Option<Approached>| json!(a.map_or(0, |a| a.count));
-    map.insert("n_up".into(), count(p.up));
-    map.insert("n_down".into(), count(p.down));
-    for (unit, scale) in json_units(kind) {
-        let values = [
-            ("mean_up", p.up.map(|a| a.mean)),
-            ("mean_down", p.down.map(|a| a.mean)),
-            ("mean", p.mean()),
-            ("s_up", p.up.and_then(|a| a.s)),
-            ("s_down", p.down.and_then(|a| a.s)),
-            ("B", p.reversal()),
-            ("R_up", p.repeatability_of(Direction::Up)),
-            ("R_down", p.repeatability_of(Direction::Down)),
-            ("R", p.repeatability()),
-        ];
-        for (key, value) in values {
-            map.insert(format!("{key}_{unit}"), json!(value.map(|v| v * scale)));
-        }
-    }
-    Value::Object(map)
 }
