@@ -1,8 +1,10 @@
-//! Cutter-location files: where the CAM system wants the tool.
+//! Cutter-location files: the tool positions computed by a CAM system.
 //!
 //! APT CLDATA as text in the dialects of Creo (GPOST, Pro/CL), NCL, CATIA aptsource and SolidWorks
-//! CAM, and plain tables of `x y z i j k`. Nothing of a file is lost: every line belongs to a
-//! [`Record`], words without effect are kept as such, unknown ones are told with their line.
+//! CAM, and plain tables of `x y z i j k`. Every line of a file belongs to a [`Record`]: words
+//! without effect are kept as such, and unknown words are reported with their line.
+//!
+//! Lengths are in mm in the workpiece frame of the CAM system, feeds in mm/min or mm per revolution.
 //!
 //! ```
 //! use trueaxis_cl::{ClFile, Reading, Word};
@@ -14,6 +16,8 @@
 //! assert_eq!(point.axis, [0.0, 0.6, 0.8]);
 //! assert_eq!(point.feed.map(|f| f.value), Some(254.0));
 //! ```
+//!
+//! `examples/extent.rs` reads a file and prints the range of its points.
 
 mod reader;
 mod rewrite;
@@ -24,16 +28,16 @@ use std::ops::Range;
 use trueaxis_input::Diagnostics;
 use trueaxis_nc::moves::{Coolant, Feed, Turning};
 
-/// One place of the tool.
+/// One position of the tool.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClPoint {
-    /// The tip in the part, mm.
+    /// The tip in the workpiece frame, mm.
     pub tip_mm: [f64; 3],
-    /// From the tip to the spindle, length 1.
+    /// The tool axis: unit vector from the tip to the spindle.
     pub axis: [f64; 3],
-    /// As fast as the machine can.
+    /// Whether it is reached in rapid traverse.
     pub rapid: bool,
-    /// How fast else; `None` before the first FEDRAT.
+    /// The feed otherwise; `None` before the first FEDRAT.
     pub feed: Option<Feed>,
 }
 
@@ -42,94 +46,94 @@ pub struct ClPoint {
 pub struct ClCircle {
     /// Its centre, mm.
     pub center_mm: [f64; 3],
-    /// The tool turns counter-clockwise about it; length 1.
+    /// Unit vector of the axis; the tool moves counter-clockwise about it.
     pub normal: [f64; 3],
 }
 
 /// A drilling cycle; lengths along the tool axis from the point, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClCycle {
-    /// How deep.
+    /// Depth below the point.
     pub depth_mm: f64,
-    /// Above the point, down to where it goes in rapid.
+    /// Height above the point down to which the tool moves in rapid traverse.
     pub clearance_mm: f64,
-    /// Above the point, up to where it goes at the end.
+    /// Height above the point to which the tool retracts at the end.
     pub retract_mm: f64,
-    /// The feed downwards, if the cycle has one.
+    /// The feed of drilling, if the cycle states one.
     pub feed: Option<Feed>,
 }
 
-/// What a record says.
+/// The content of a record.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Word {
     /// GOTO, GODLTA, or a row of a table.
     Goto(ClPoint),
-    /// FROM: where the tool stands first; nothing moves.
+    /// FROM: the first position of the tool, without motion.
     From(ClPoint),
     /// CIRCLE: the next GOTO is reached along it.
     Circle(ClCircle),
-    /// RAPID: for the next motion.
+    /// RAPID: rapid traverse for the next motion.
     Rapid,
     /// FEDRAT.
     Feed(Feed),
-    /// SPINDL: which way, and revolutions per minute where given.
+    /// SPINDL: direction, and speed in 1/min if given.
     Spindle(Turning, Option<f64>),
     /// COOLNT.
     Coolant(Coolant),
-    /// LOADTL, LOAD/TOOL: the number.
+    /// LOADTL, LOAD/TOOL: the tool number.
     Tool(u32),
-    /// CUTTER: diameter and radius of the corner, mm.
+    /// CUTTER: the cutter.
     Cutter {
-        /// Across.
+        /// Cutting diameter, mm.
         diameter_mm: f64,
-        /// Of the corner.
+        /// Radius of the corner, mm.
         corner_radius_mm: f64,
     },
-    /// TLAXIS: for the points without vector that follow.
+    /// TLAXIS: the tool axis of the following points without vector.
     ToolAxis([f64; 3]),
     /// MULTAX ON or OFF.
     MultiAxis(bool),
     /// UNITS: `true` for inches.
     Inches(bool),
-    /// CYCLE: at each point that follows.
+    /// CYCLE: executed at each following point.
     Cycle(ClCycle),
     /// CYCLE/OFF.
     CycleOff,
-    /// DELAY, s.
+    /// DELAY: dwell time, s.
     Delay(f64),
     /// STOP or OPSTOP.
     Stop {
-        /// OPSTOP.
+        /// Whether it is OPSTOP.
         optional: bool,
     },
-    /// INSERT: a line for the control as it is.
+    /// INSERT: a line that is passed to the control unchanged.
     Insert(String),
-    /// PARTNO, REMARK, PPRINT, TPRINT, `$$`: for people.
+    /// PARTNO, REMARK, PPRINT, TPRINT, `$$`: a comment.
     Comment(String),
     /// FINI, END.
     End,
-    /// A word of the language without effect on the path here.
+    /// A known word without effect on the path.
     Noted,
-    /// A word that nobody knows here.
+    /// An unknown word.
     Unknown,
 }
 
 /// One statement of the file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Record {
-    /// Where it begins, from 1.
+    /// The line on which it begins, from 1.
     pub line: u32,
     /// Its bytes, continuation lines and comments included.
     pub span: Range<usize>,
-    /// What it says; lengths in mm, modal words resolved.
+    /// Its content; lengths in mm, modal words resolved.
     pub word: Word,
 }
 
-/// What is taken where the file is silent, or instead of what it says.
+/// Settings for reading that replace statements of the file.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Reading {
-    /// Lengths are inches (or not), whatever UNITS says.
+    /// `true`: lengths are in inches, `false`: in mm; `None`: as UNITS states.
     pub inches: Option<bool>,
 }
 
@@ -141,21 +145,21 @@ pub struct ClFile {
     records: Vec<Record>,
 }
 
-/// How much a file moves.
+/// The range of the points of a file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extent {
-    /// How many points.
+    /// Number of points.
     pub points: usize,
     /// The smallest coordinates, mm.
     pub min_mm: [f64; 3],
-    /// The largest.
+    /// The largest coordinates, mm.
     pub max_mm: [f64; 3],
-    /// The largest angle of the tool axis against Z of the part, rad.
+    /// The largest angle between the tool axis and Z of the workpiece frame, rad.
     pub tilt_rad: f64,
 }
 
 impl ClFile {
-    /// Reads a file; all problems at once. With errors the records are there, but not to be cut.
+    /// Reads a file and reports all problems. With errors the records must not be machined.
     pub fn read(name: &str, source: Vec<u8>, reading: &Reading) -> (Self, Diagnostics) {
         let (records, problems) = reader::read(name, &source, reading);
         (Self { name: name.to_owned(), source, records }, problems)
@@ -176,7 +180,7 @@ impl ClFile {
         &self.records
     }
 
-    /// All points that the tool goes to, each with its line.
+    /// All points of the path, each with its line.
     pub fn points(&self) -> impl Iterator<Item = (u32, &ClPoint)> {
         self.records.iter().filter_map(|r| match &r.word {
             Word::Goto(point) => Some((r.line, point)),
@@ -184,7 +188,7 @@ impl ClFile {
         })
     }
 
-    /// How far the points reach; `None` without points.
+    /// The range of the points; `None` without points.
     pub fn extent(&self) -> Option<Extent> {
         let mut points = self.points().map(|(_, p)| p);
         let first = points.next()?;

@@ -1,4 +1,4 @@
-//! From statements to records: units, modal words, and everything that is wrong.
+//! From statements to records: units, modal words and diagnostics.
 
 use super::scan::{Scanner, Statement};
 use super::words::{Major, major};
@@ -9,13 +9,13 @@ use trueaxis_nc::moves::{Coolant, Feed, FeedMode, Turning};
 
 const INCH_MM: f64 = 25.4;
 
-/// No machine goes that far.
-const FARTHEST_MM: f64 = 1e7;
+/// Largest accepted coordinate.
+const MAX_COORDINATE_MM: f64 = 1e7;
 
-/// More problems say nothing new.
-const MOST_PROBLEMS: usize = 100;
+/// Largest number of listed problems.
+const MAX_PROBLEMS: usize = 100;
 
-/// How far from 1 the length of a tool axis may be before it is told.
+/// Deviation of the length of a tool axis from 1 above which a warning is given.
 const NORM_TOLERANCE: f64 = 1e-4;
 
 pub(super) fn read(name: &str, source: &[u8], reading: &Reading) -> (Vec<Record>, Diagnostics) {
@@ -35,26 +35,26 @@ struct Reader<'n> {
     reading: Reading,
     records: Vec<Record>,
     problems: Diagnostics,
-    told: HashSet<String>,
+    reported: HashSet<String>,
     count: usize,
     unit_mm: f64,
     units_given: bool,
-    /// Of TLAXIS.
+    /// The vector of TLAXIS.
     axis: Option<[f64; 3]>,
-    /// TLAXIS is a comment, by SYN.
+    /// TLAXIS was declared a comment by SYN.
     no_tool_axis: bool,
     multi_axis: bool,
-    /// The points so far that have their own vector, and those that have none.
+    /// The numbers of points so far with and without a vector.
     points: [usize; 2],
     first_without: u32,
     rapid: bool,
     feed: Option<Feed>,
     tip_mm: Option<[f64; 3]>,
-    /// Points whose vector is not of length 1: how many, the first line, the worst.
+    /// Points whose vector is not of length 1: their number, the first line, the worst length.
     off: (usize, u32, f64),
 }
 
-/// Why a statement cannot be used: code, message, hint.
+/// The reason why a statement cannot be used: code, message, hint.
 type Fault = (&'static str, String, &'static str);
 
 impl<'n> Reader<'n> {
@@ -65,7 +65,7 @@ impl<'n> Reader<'n> {
             reading,
             records: Vec::new(),
             problems: Diagnostics::new(),
-            told: HashSet::new(),
+            reported: HashSet::new(),
             count: 0,
             unit_mm,
             units_given: false,
@@ -87,17 +87,18 @@ impl<'n> Reader<'n> {
 
     fn error(&mut self, line: u32, (code, message, hint): Fault) {
         self.count += 1;
-        if self.count <= MOST_PROBLEMS {
+        if self.count <= MAX_PROBLEMS {
             self.problems.error(code, self.place(line), message, hint);
-        } else if self.count == MOST_PROBLEMS + 1 {
-            let message = format!("more than {MOST_PROBLEMS} problems; the rest is not listed");
+        } else if self.count == MAX_PROBLEMS + 1 {
+            let message =
+                format!("more than {MAX_PROBLEMS} problems; the remaining ones are not listed");
             self.problems.note("too-many-problems", self.place(line), message, "");
         }
     }
 
     /// A warning, once for each subject.
     fn warn(&mut self, code: &'static str, subject: &str, line: u32, message: String, hint: &str) {
-        if self.told.len() < MOST_PROBLEMS && self.told.insert(format!("{code} {subject}")) {
+        if self.reported.len() < MAX_PROBLEMS && self.reported.insert(format!("{code} {subject}")) {
             self.problems.warn(code, self.place(line), message, hint);
         }
     }
@@ -106,12 +107,12 @@ impl<'n> Reader<'n> {
         let all = self.points[0] + self.points[1];
         if all == 0 {
             let message = "the file has no point (GOTO)".to_owned();
-            let hint = "a cutter-location file in APT, or a table x y z i j k, is due here";
+            let hint = "expected a cutter-location file in APT, or a table x y z i j k";
             self.problems.error("no-points", Place::whole(self.name), message, hint);
         }
         if self.points[1] > 0 && self.axis.is_none() {
             let message = format!(
-                "{} of {all} points have no tool axis (first here): 0 0 1 is taken",
+                "{} of {all} points have no tool axis (the first is here): 0 0 1 is assumed",
                 self.points[1]
             );
             let hint = "for more than three axes write MULTAX/ON and GOTO/x,y,z,i,j,k";
@@ -120,15 +121,16 @@ impl<'n> Reader<'n> {
         let (count, line, worst) = self.off;
         if count > 0 {
             let message = format!(
-                "the tool axis of {count} points is not of length 1 (first here, worst {worst:.6}): \
-                 its direction is taken"
+                "the tool axes of {count} points are not unit vectors (the first is here, the \
+                 worst \
+                 has length {worst:.6}): only their direction is used"
             );
-            let hint = "does the CAM system write enough digits?";
+            let hint = "let the CAM system write more digits";
             self.problems.warn("axis-not-unit", self.place(line), message, hint);
         }
         if all > 0 && !self.units_given && self.reading.inches.is_none() {
-            let message = "the file names no unit: mm is taken".to_owned();
-            let hint = "write UNITS/MM or UNITS/INCHES, or say it";
+            let message = "the file states no unit: mm is assumed".to_owned();
+            let hint = "write UNITS/MM or UNITS/INCHES, or state the unit on the command line";
             self.problems.note("no-units", Place::whole(self.name), message, hint);
         }
         (self.records, self.problems)
@@ -142,9 +144,8 @@ impl<'n> Reader<'n> {
             if is_heading(s) {
                 return Word::Noted;
             }
-            let message =
-                format!("`{}` is not a word that is known here: it is kept, not used", s.word);
-            self.warn("unknown-word", &s.word, s.line, message, "does it move the tool?");
+            let message = format!("unknown word `{}`: it is kept, but has no effect", s.word);
+            self.warn("unknown-word", &s.word, s.line, message, "check whether it moves the tool");
             return Word::Unknown;
         };
         match self.known(major, s) {
@@ -238,8 +239,8 @@ impl<'n> Reader<'n> {
 
     fn not_applied(&mut self, what: &str, s: &Statement) -> Word {
         if !s.argument(0).eq_ignore_ascii_case("OFF") {
-            let message = format!("{} is noted, not applied: {what}", s.word);
-            let hint = "check where the tool goes";
+            let message = format!("{} is read, but not applied: {what}", s.word);
+            let hint = "check the path of the tool";
             self.warn("not-applied", &s.word, s.line, message, hint);
         }
         Word::Noted
@@ -255,11 +256,11 @@ impl<'n> Reader<'n> {
 
     fn place_mm(&self, s: &Statement) -> Result<[f64; 3], Fault> {
         let place = self.numbers::<3>(s, 0)?.map(|v| v * self.unit_mm);
-        match place.iter().all(|v| v.abs() < FARTHEST_MM) {
+        match place.iter().all(|v| v.abs() < MAX_COORDINATE_MM) {
             true => Ok(place),
             false => {
-                let message = "the point is farther away than any machine reaches".to_owned();
-                Err(("too-far", message, "are the units right?"))
+                let message = "a coordinate of the point exceeds 10 km".to_owned();
+                Err(("too-far", message, "check the units"))
             }
         }
     }
@@ -288,7 +289,7 @@ impl<'n> Reader<'n> {
         match own.or(self.axis) {
             Some(axis) => Ok(axis),
             None if self.multi_axis => {
-                let message = "MULTAX is on, but the point has no tool axis".to_owned();
+                let message = "the point has no tool axis, but MULTAX is on".to_owned();
                 Err(("no-tool-axis", message, "write GOTO/x,y,z,i,j,k, or TLAXIS before it"))
             }
             None => Ok([0.0, 0.0, 1.0]),
@@ -301,7 +302,7 @@ impl<'n> Reader<'n> {
         let norm = vector.iter().map(|v| v * v).sum::<f64>().sqrt();
         if !(norm > 1e-3 && norm < 1e9) {
             let message = format!("the tool axis has the length {norm}");
-            return Err(("zero-tool-axis", message, "a vector of length 1 is due here"));
+            return Err(("zero-tool-axis", message, "write a vector of length 1"));
         }
         if (norm - 1.0).abs() > NORM_TOLERANCE {
             let (count, line, worst) = self.off;
@@ -322,7 +323,7 @@ impl<'n> Reader<'n> {
             _ => self.place_mm(s)?,
         };
         let Some(now) = self.tip_mm else {
-            let message = "GODLTA before the first point".to_owned();
+            let message = "GODLTA is before the first point".to_owned();
             return Err(("no-place", message, "write GOTO or FROM before it"));
         };
         let tip_mm: [f64; 3] = std::array::from_fn(|i| now[i] + step[i]);
@@ -343,7 +344,7 @@ impl<'n> Reader<'n> {
         };
         let norm = normal.iter().map(|v| v * v).sum::<f64>().sqrt();
         if !(norm > 1e-3 && norm < 1e9) {
-            let message = "the normal of the circle has no length".to_owned();
+            let message = "the normal of the circle has length zero".to_owned();
             return Err(("bad-circle", message, "write CIRCLE/x,y,z,i,j,k,radius"));
         }
         Ok(ClCircle { center_mm, normal: normal.map(|v| v / norm) })
@@ -373,7 +374,7 @@ impl<'n> Reader<'n> {
         };
         let feed = Feed { mode, value: value * unit };
         self.feed = Some(feed);
-        // A feed ends a rapid that has not moved yet.
+        // A feed ends a rapid traverse without motion so far.
         self.rapid = false;
         Ok(Word::Feed(feed))
     }
@@ -386,8 +387,9 @@ impl<'n> Reader<'n> {
                 "CLW" | "ON" | "RPM" | "" => {}
                 "CCLW" => turning = Turning::CounterClockwise,
                 "SFM" | "SMM" | "SURF" => {
-                    let message = "SPINDL with a surface speed is read as rpm 0".to_owned();
-                    let hint = "a milling program names rpm";
+                    let message =
+                        "SPINDL states a surface speed: no spindle speed is written".to_owned();
+                    let hint = "state the speed in rpm, such as SPINDL/RPM,3000,CLW";
                     self.warn("surface-speed", "", s.line, message, hint);
                     return Ok(Word::Spindle(turning, None));
                 }
@@ -412,7 +414,7 @@ impl<'n> Reader<'n> {
             "INCH" | "INCHES" | "IN" => true,
             "MM" | "MILLIMETERS" | "MILLIMETRES" => false,
             other => {
-                let message = format!("`{other}` is no unit of length that is known here");
+                let message = format!("unknown unit of length `{other}`");
                 return Err(("unknown-unit", message, "write UNITS/MM or UNITS/INCHES"));
             }
         };
@@ -435,7 +437,7 @@ impl<'n> Reader<'n> {
         }
         if !matches!(kind.as_str(), "DRILL" | "FACE" | "REAM" | "CSINK") {
             let message = format!("CYCLE/{kind} is read as drilling in one stroke");
-            let hint = "pecks, dwells and the way out of the cycle are left out; check it";
+            let hint = "pecks, dwells and the retraction of the cycle are omitted; check the hole";
             self.warn("cycle-not-applied", &kind, s.line, message, hint);
         }
         let named = |names: &[&str]| {
@@ -465,19 +467,19 @@ impl<'n> Reader<'n> {
     fn delay(&mut self, s: &Statement) -> Result<Word, Fault> {
         let time = number(s.argument(0))?;
         if !(0.0..1e6).contains(&time) {
-            let message = format!("{time} is not a time to wait");
+            let message = format!("{time} s is not an accepted dwell time");
             return Err(("bad-delay", message, "write DELAY/1.5, in seconds"));
         }
         if s.argument(1).eq_ignore_ascii_case("REV") {
-            let message = "DELAY in revolutions is read as no delay".to_owned();
-            self.warn("not-applied", "DELAY", s.line, message, "write it in seconds");
+            let message = "DELAY in revolutions is not applied".to_owned();
+            self.warn("not-applied", "DELAY", s.line, message, "write the time in seconds");
             return Ok(Word::Noted);
         }
         Ok(Word::Delay(time))
     }
 }
 
-/// Whether a line names the columns of a table.
+/// Whether a line contains the headings of a table.
 fn is_heading(s: &Statement) -> bool {
     s.word == "X" || s.word.starts_with("TIP_X")
 }
@@ -485,7 +487,7 @@ fn is_heading(s: &Statement) -> bool {
 fn tool_number(text: &str) -> Result<u32, Fault> {
     match number(text)? {
         n if (0.0..1e8).contains(&n) => Ok(n as u32),
-        n => Err(("bad-tool", format!("{n} is not the number of a tool"), "write LOADTL/1")),
+        n => Err(("bad-tool", format!("{n} is not a tool number"), "write LOADTL/1")),
     }
 }
 
@@ -498,7 +500,7 @@ fn number(text: &str) -> Result<f64, Fault> {
                 true => "a number is missing".to_owned(),
                 false => format!("`{shown}` is not a number"),
             };
-            Err(("bad-number", message, "numbers look like 12.5 or -3"))
+            Err(("bad-number", message, "write a number such as 12.5 or -3"))
         }
     }
 }

@@ -36,7 +36,7 @@ impl Statement {
         self.arguments.iter().map(|range| self.text[range.clone()].trim())
     }
 
-    /// The text behind the major word and its slash.
+    /// The text after the major word and its slash.
     pub fn rest(&self) -> &str {
         let rest = self.text.trim_start();
         let rest = rest.get(self.word.len()..).unwrap_or_default().trim_start();
@@ -122,7 +122,7 @@ fn take_line(line: &str, into: &mut Statement) -> bool {
                     into.comment.push_str(comment.trim());
                     return false;
                 }
-                // Behind a single mark only a comment may stand.
+                // After a single mark only a comment may follow.
                 into.comment.push_str(rest.trim());
                 return true;
             }

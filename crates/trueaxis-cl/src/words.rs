@@ -1,6 +1,6 @@
-//! The vocabulary: what each major word does, as tables.
+//! The vocabulary: the meaning of each major word, as tables.
 
-/// What a major word is for.
+/// The meaning of a major word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Major {
     Goto,
@@ -24,11 +24,11 @@ pub(super) enum Major {
     Comment,
     End,
     Synonym,
-    /// Without effect on the path here.
+    /// Without effect on the path.
     Noted,
-    /// It changes where the tool goes, and is left out: a warning.
+    /// It changes the path and is not applied: a warning.
     NotApplied(&'static str),
-    /// It moves the tool in a way that is not read: an error.
+    /// A kind of motion that is not read: an error.
     Motion(&'static str),
 }
 
@@ -56,10 +56,14 @@ pub(super) fn major(word: &str) -> Option<Major> {
         "PARTNO" | "REMARK" | "PPRINT" | "TPRINT" | "LETTER" | "DISPLY" => Major::Comment,
         "FINI" | "END" => Major::End,
         "SYN" => Major::Synonym,
-        "CUTCOM" => Major::NotApplied("radius compensation: the points are taken as they are"),
-        "ROTABL" | "ROTHED" | "ROTATE" => Major::NotApplied("a turn of a table or head by itself"),
-        "TRACUT" | "TRANS" | "ORIGIN" | "COPY" => Major::NotApplied("another frame of the points"),
-        "GOHOME" => Major::NotApplied("the way home: the safe end stands for it"),
+        "CUTCOM" => Major::NotApplied("radius compensation; the points are used unchanged"),
+        "ROTABL" | "ROTHED" | "ROTATE" => Major::NotApplied("a rotation of a table or head alone"),
+        "TRACUT" | "TRANS" | "ORIGIN" | "COPY" => {
+            Major::NotApplied("a transformation of the points")
+        }
+        "GOHOME" => Major::NotApplied(
+            "the motion to the home position; the safe end of the program is used instead",
+        ),
         "CALSUB" | "DEFSUB" | "ENDSUB" => Major::NotApplied("subprograms"),
         "THREAD" | "PITCH" => Major::NotApplied("threading"),
         "GOFWD" | "GOLFT" | "GORGT" | "GOBACK" | "GOUP" | "GODOWN" | "GO" | "TLON" | "INDIRV"
@@ -70,7 +74,7 @@ pub(super) fn major(word: &str) -> Option<Major> {
     })
 }
 
-/// Words of the language, and of the systems that write it, without effect on the path here.
+/// Words of the language, and of the systems that write it, without effect on the path.
 const NOTED: [&str; 60] = [
     "PPWORD", "CAMERA", "CSYS", "TRNTYP", "SELECT", "SELCTL", "MACHIN", "SWITCH", "TOOLNO",
     "TURRET", "PPFUN", "REWIND", "INTOL", "OUTTOL", "TOLER", "LINTOL", "CLDIST", "MODE", "HEAD",

@@ -4,8 +4,8 @@ use trueaxis_cl::{ClFile, ClPoint, Reading};
 
 fn read(text: &[u8]) -> ClFile {
     let (file, problems) = ClFile::read("a.cls", text.to_vec(), &Reading::default());
-    let told: Vec<String> = problems.iter().map(ToString::to_string).collect();
-    assert!(!problems.has_errors(), "{told:?}");
+    let found: Vec<String> = problems.iter().map(ToString::to_string).collect();
+    assert!(!problems.has_errors(), "{found:?}");
     file
 }
 
