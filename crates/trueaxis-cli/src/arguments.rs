@@ -2,15 +2,14 @@
 
 use clap::Args;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 pub use trueaxis::describe::{axis_index, to_inner, to_shown, warn_beyond_travel};
-use trueaxis::files;
 use trueaxis::files::disk;
 use trueaxis::geometry::Vec3;
 use trueaxis::input::{CsvTable, Diagnostics, Dimension, Place, QuantityError, parse_quantity};
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{Approach, Command};
-use trueaxis::machine::heat::{Conditions, TemperatureRun};
+use trueaxis::machine::heat::TemperatureRun;
+use trueaxis::questions::MachineChoice;
 
 /// The machine and the tool in it.
 #[derive(Args)]
@@ -57,118 +56,37 @@ impl MachineArguments {
         &self.machine
     }
 
-    /// Reads the machine and puts the tool in; what is wrong goes to `problems`.
-    pub fn read(&self, problems: &mut Diagnostics) -> Option<Machine> {
-        let (machine, found) = files::machine(&self.machine);
-        problems.append(found);
-        let machine = self.at_temperatures(machine?, problems)?;
-        self.with_tool(machine, problems)
+    /// As the questions of the library take it.
+    pub fn choice(&self, start: Option<&LogStart>) -> MachineChoice {
+        MachineChoice {
+            file: self.machine.clone(),
+            tool_length: self.tool_length.clone(),
+            tool: self.tool.clone(),
+            temperature: self.temperature.clone(),
+            temperature_log: self.temperature_log.clone(),
+            log_time: self.log_time.clone(),
+            log_start: start.and_then(|start| start.log_start.clone()),
+        }
     }
 
-    /// The same with a log that the temperatures follow, if a start is given: then the machine is
-    /// that of the start.
+    /// Reads the machine and puts the tool in; what is wrong goes to `problems`.
+    pub fn read(&self, problems: &mut Diagnostics) -> Option<Machine> {
+        self.choice(None).read(&disk(), problems)
+    }
+
+    /// The same with a log that the temperatures follow, if a start is given.
     pub fn read_from(
         &self,
         start: &LogStart,
         problems: &mut Diagnostics,
     ) -> Option<(Machine, Option<TemperatureRun>)> {
-        let (Some(text), Some(path)) = (&start.log_start, &self.temperature_log) else {
-            return Some((self.read(problems)?, None));
-        };
-        let (machine, found) = files::machine(&self.machine);
-        problems.append(found);
-        let start_s = log_time("--log-start", text, problems);
-        let log = trueaxis::simulate::read_temperature_log(&disk(), path, problems);
-        let run = TemperatureRun { log: Arc::new(log?), start_s: start_s? };
-        let conditions = conditions_at(&run, "--log-start", problems)?;
-        let machine = machine?.at(&conditions, problems)?;
-        Some((self.with_tool(machine, problems)?, Some(run)))
-    }
-
-    fn with_tool(&self, machine: Machine, problems: &mut Diagnostics) -> Option<Machine> {
-        let length_mm = match (&self.tool, &self.tool_length) {
-            (Some(name), _) => named_tool(&machine, name, problems)?,
-            (None, Some(text)) => tool_length(text, problems)?,
-            (None, None) => return Some(machine),
-        };
-        Some(machine.with_tip(Vec3::new(0.0, 0.0, -length_mm)))
-    }
-}
-
-impl MachineArguments {
-    fn at_temperatures(&self, machine: Machine, problems: &mut Diagnostics) -> Option<Machine> {
-        let conditions = match (&self.temperature, &self.temperature_log) {
-            (Some(text), _) => Conditions::typed("--temperature", text, problems)?,
-            (None, Some(path)) => {
-                let time_s = self.log_time.as_deref();
-                let time_s = time_s.map(|t| log_time("--log-time", t, problems));
-                conditions_of(path, time_s, problems)?
-            }
-            (None, None) => return Some(machine),
-        };
-        machine.at(&conditions, problems)
+        self.choice(Some(start)).read_from(&disk(), problems)
     }
 
     /// Whether temperatures were given.
     pub fn has_temperatures(&self) -> bool {
-        self.temperature.is_some() || self.temperature_log.is_some()
+        self.choice(None).has_temperatures()
     }
-}
-
-fn log_time(name: &str, text: &str, problems: &mut Diagnostics) -> Option<f64> {
-    let plain = parse_quantity(text, Dimension::Ratio);
-    let refuse = |e: QuantityError| {
-        let hint = format!("a plain number, in s, or with its unit: {name} 3600, {name} \"1 h\"");
-        problems.error(e.code(), argument(name), e.to_string(), &hint);
-    };
-    plain.or_else(|_| parse_quantity(text, Dimension::Time)).map_err(refuse).ok()
-}
-
-/// `time_s`: none for the end of the log, an inner none if it could not be read.
-fn conditions_of(
-    path: &Path,
-    time_s: Option<Option<f64>>,
-    problems: &mut Diagnostics,
-) -> Option<Conditions> {
-    let log = trueaxis::simulate::read_temperature_log(&disk(), path, problems)?;
-    let last_s = *log.times_s().last()?;
-    let run = TemperatureRun { log: Arc::new(log), start_s: time_s.unwrap_or(Some(last_s))? };
-    conditions_at(&run, "--log-time", problems)
-}
-
-fn conditions_at(
-    run: &TemperatureRun,
-    name: &str,
-    problems: &mut Diagnostics,
-) -> Option<Conditions> {
-    let conditions = run.log.at(run.start_s);
-    if conditions.is_none() {
-        let outside = run.log.outside(run.start_s);
-        problems.error(outside.code, argument(name), outside.message, &outside.hint);
-    }
-    conditions
-}
-
-fn named_tool(machine: &Machine, name: &str, problems: &mut Diagnostics) -> Option<f64> {
-    let tool = machine.tools().iter().find(|t| t.name == name);
-    if tool.is_none() {
-        let known: Vec<_> = machine.tools().iter().map(|t| t.name.as_str()).collect();
-        let message = format!("the machine file has no tool `{name}`");
-        let hint = match known.is_empty() {
-            true => "it has no [tool.library]; give --tool-length instead".to_owned(),
-            false => format!("its tools: {}", known.join(", ")),
-        };
-        problems.error("unknown-tool", argument("--tool"), message, &hint);
-    }
-    tool.map(|t| t.length_mm)
-}
-
-fn tool_length(text: &str, problems: &mut Diagnostics) -> Option<f64> {
-    let refuse = |e: QuantityError| {
-        let hint = "a plain number, in mm: --tool-length 100";
-        problems.error(e.code(), argument("--tool-length"), e.to_string(), hint);
-    };
-    parse_quantity(text, Dimension::Ratio).map_err(refuse).ok()
 }
 
 /// The place of a problem in an argument.

@@ -132,11 +132,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 /// What `--output` may replace.
-const VALUES: crate::report_file::Written = crate::report_file::Written {
-    argument: "--output",
-    what: "a file of compensation values",
-    begins: &[b"# trueaxis compensation values", b"{\n  \"schema\": \"trueaxis/compensate/"],
-};
+const VALUES: crate::report_file::Written = crate::report_file::Written::file(
+    "--output",
+    "a file of compensation values",
+    &[b"# trueaxis compensation values", b"{\n  \"schema\": \"trueaxis/compensate/"],
+);
 
 fn answer(arguments: &ValuesArguments, machine: &Machine, tables: &[ValueTable]) -> Outcome {
     let text = match arguments.format {

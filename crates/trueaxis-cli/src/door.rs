@@ -4,7 +4,7 @@ use crate::output::{Answer as Shown, Format, Outcome, report, show, tell};
 use crate::report_file::{unusable, write_report};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::Path;
-use trueaxis::files::output::{REPORT, may_write};
+use trueaxis::files::output::{REPORT, may_write, no_file_twice};
 use trueaxis::files::{self, disk};
 use trueaxis::input::Diagnostics;
 use trueaxis::questions::{Answer, NewFile, Question};
@@ -26,8 +26,12 @@ impl Door<'_> {
     fn try_ask<Q: Question>(&self, question: &Q) -> Result<Outcome, Outcome> {
         let mut problems = Diagnostics::new();
         let input = question.read(&disk(), &mut problems);
-        let outputs = question.outputs().into_iter().chain(self.report.map(|path| (path, &REPORT)));
-        outputs.for_each(|(path, kind)| may_write(path, kind, &mut problems));
+        let report_file = self.report.map(|path| (path.to_owned(), &REPORT));
+        let outputs: Vec<_> =
+            question.outputs(input.as_ref()).into_iter().chain(report_file).collect();
+        outputs.iter().for_each(|(path, kind)| may_write(path, kind, &mut problems));
+        let paths: Vec<&Path> = outputs.iter().map(|(path, _)| path.as_path()).collect();
+        no_file_twice(&paths, &mut problems);
         let answer = match input.filter(|_| !problems.has_errors()) {
             Some(input) => answer(question, input, &mut problems),
             None => None,
@@ -39,6 +43,7 @@ impl Door<'_> {
             write_report(path, answer.page())?;
         }
         answer.files().iter().try_for_each(write)?;
+        answer.notes().iter().for_each(|note| tell(note));
         let shown = show(&match self.format {
             Format::Json => Shown::Json(answer.document(&found)),
             Format::Text => Shown::Text(answer.text()),

@@ -4,7 +4,6 @@ use clap::ValueEnum;
 use serde_json::Value;
 use std::io::{ErrorKind, Write};
 use trueaxis::input::{Diagnostics, Severity};
-pub use trueaxis::report::diagnostic_json;
 
 /// More diagnostics than this say nothing new to a reader; a table of a million rows can have a
 /// million of them.

@@ -13,18 +13,12 @@ use trueaxis::machine::Machine;
 use trueaxis::simulate::ParquetTable;
 use trueaxis::simulate::{CsvTable, Observer};
 
-const CSV: Written = Written {
-    argument: "--path",
-    what: "the table of a path",
-    begins: &[b"time_s,program,line,tool,"],
-};
+const CSV: Written =
+    Written::file("--path", "the table of a path", &[b"time_s,program,line,tool,"]);
 /// The table of bodies.
-pub const BODIES: Written = Written {
-    argument: "--bodies",
-    what: "the table of bodies",
-    begins: &[b"time_s,program,line,body,"],
-};
-const PARQUET: Written = Written { argument: "--path", what: "a Parquet file", begins: &[b"par1"] };
+pub const BODIES: Written =
+    Written::file("--bodies", "the table of bodies", &[b"time_s,program,line,body,"]);
+const PARQUET: Written = Written::file("--path", "a Parquet file", &[b"par1"]);
 
 fn is_parquet(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("parquet"))

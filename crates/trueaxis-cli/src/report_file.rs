@@ -1,57 +1,12 @@
 //! Files that a command leaves behind: what may be replaced, and how it is told.
 
 use crate::output::{Outcome, report, tell};
-use std::fs::{self, File};
-use std::io::Read;
 use std::path::Path;
 use trueaxis::files;
 use trueaxis::input::{Diagnostics, Place};
 use trueaxis::report::DrawingError;
 
-/// A file that a command writes.
-pub struct Written {
-    /// The argument that names it.
-    pub argument: &'static str,
-    /// What it is, for messages.
-    pub what: &'static str,
-    /// How such files begin, in small letters; anything else is not overwritten.
-    pub begins: &'static [&'static [u8]],
-}
-
-/// The HTML report.
-pub const REPORT: Written =
-    Written { argument: "--report", what: "a report", begins: &[b"<!doctype html"] };
-
-/// Whether a file may be put there: the folder exists, and what stands there is of the same kind.
-pub fn may_write(path: &Path, file: &Written, problems: &mut Diagnostics) {
-    let Written { argument, what, .. } = file;
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let (message, hint) = if path.file_name().is_none() || path.is_dir() {
-        ("is a folder, not a file".to_owned(), format!("name a file in it: {argument} FOLDER/FILE"))
-    } else if !folder.is_dir() {
-        let hint = format!("make the folder first, or name another {argument}");
-        ("its folder does not exist".to_owned(), hint)
-    } else if !replaceable(path, file.begins) {
-        let hint = format!("it is not overwritten; name another {argument}");
-        (format!("is there, and is not {what}"), hint)
-    } else {
-        return;
-    };
-    problems.error("unwritable-file", Place::whole(&path.display().to_string()), message, &hint);
-}
-
-/// Nothing, an empty file or one of the kind; never a study, a machine or a device.
-fn replaceable(path: &Path, begins: &[&[u8]]) -> bool {
-    let Ok(found) = fs::metadata(path) else { return true };
-    if !found.is_file() {
-        return false;
-    }
-    let mut start = Vec::new();
-    // A file that cannot be read is not known to be of the kind.
-    let read = File::open(path).and_then(|file| file.take(64).read_to_end(&mut start));
-    start.make_ascii_lowercase();
-    read.is_ok() && (start.is_empty() || begins.iter().any(|b| start.starts_with(b)))
-}
+pub use trueaxis::files::output::{Kind as Written, REPORT, may_write};
 
 /// Writes a report whole or not at all, and says where it is.
 pub fn write_report(path: &Path, page: Result<String, DrawingError>) -> Result<(), Outcome> {

@@ -11,23 +11,38 @@
 //! println!("{}", answer.text());
 //! ```
 
+mod adapt;
+mod evaluate;
 mod identify;
+mod machine;
+mod measure;
 mod plan;
 mod predict;
 mod probe;
+mod program;
 mod rtcp;
 mod rtcp_programs;
 mod surface;
 mod thermal;
+mod verify;
 
+pub use adapt::{Adapt, AdaptAnswer};
+pub use evaluate::{Evaluate, EvaluateAnswer, EvaluateInput, ReadingsFile};
 pub use identify::{DroppedTable, Identified, Identify};
+pub use machine::MachineChoice;
+pub use measure::{Measure, MeasureAnswer};
 pub use plan::{PlanAnswer, PlanMeasurement};
 pub use predict::{Predict, PredictInput, Predicted};
 pub use probe::{IdentifyProbe, ProbeAnswer};
+pub use program::{CompensateProgram, ProgramAnswer};
 pub use rtcp::{IdentifyRtcp, RtcpAnswer};
 pub use rtcp_programs::{RtcpPrograms, RtcpProgramsAnswer, RtcpProgramsDocument};
 pub use surface::{PlanSurface, SurfaceAnswer};
 pub use thermal::{IdentifyThermal, ThermalAnswer};
+pub use verify::{
+    CalibrationsAnswer, CertificateAnswer, Certify, CompareCalibrations, VerifyAnswer,
+    VerifyReadings,
+};
 
 use crate::files::output::Kind;
 use serde_json::Value;
@@ -50,7 +65,7 @@ pub trait Question {
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input>;
 
     /// Files that the answer will write: looked at before the work, not after it.
-    fn outputs(&self) -> Vec<(&Path, &'static Kind)> {
+    fn outputs(&self, _input: Option<&Self::Input>) -> Vec<(PathBuf, &'static Kind)> {
         Vec::new()
     }
 
@@ -88,6 +103,11 @@ pub trait Answer {
 
     /// Files that were asked for beside the report.
     fn files(&self) -> Vec<NewFile> {
+        Vec::new()
+    }
+
+    /// What to do with these files.
+    fn notes(&self) -> Vec<String> {
         Vec::new()
     }
 }

@@ -14,22 +14,37 @@ pub struct Kind {
     pub name: &'static str,
     /// How such files begin, in small letters; anything else is not overwritten.
     pub begins: &'static [&'static [u8]],
+    /// What such files contain, in any case; empty if they are known by their beginning.
+    pub contains: &'static str,
+    /// Whether its folder is made where there is none.
+    pub makes_folder: bool,
+}
+
+impl Kind {
+    /// A file in a folder that is there.
+    pub const fn file(
+        argument: &'static str,
+        name: &'static str,
+        begins: &'static [&'static [u8]],
+    ) -> Self {
+        Self { argument, name, begins, contains: "", makes_folder: false }
+    }
 }
 
 /// The HTML report.
-pub const REPORT: Kind =
-    Kind { argument: "--report", name: "a report", begins: &[b"<!doctype html"] };
+pub const REPORT: Kind = Kind::file("--report", "a report", &[b"<!doctype html"]);
 
 /// Whether a file may be put there: the folder exists, and what stands there is of the same kind.
 pub fn may_write(path: &Path, kind: &Kind, problems: &mut Diagnostics) {
     let Kind { argument, name, .. } = kind;
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let will_be = kind.makes_folder && !folder.exists();
     let (message, hint) = if path.file_name().is_none() || path.is_dir() {
         ("is a folder, not a file".to_owned(), format!("name a file in it: {argument} FOLDER/FILE"))
-    } else if !folder.is_dir() {
+    } else if !folder.is_dir() && !will_be {
         let hint = format!("make the folder first, or name another {argument}");
         ("its folder does not exist".to_owned(), hint)
-    } else if !replaceable(path, kind.begins) {
+    } else if !replaceable(path, kind) {
         let hint = format!("it is not overwritten; name another {argument}");
         (format!("is there, and is not {name}"), hint)
     } else {
@@ -39,16 +54,40 @@ pub fn may_write(path: &Path, kind: &Kind, problems: &mut Diagnostics) {
 }
 
 /// Nothing, an empty file or one of the kind; never a study, a machine or a device.
-fn replaceable(path: &Path, begins: &[&[u8]]) -> bool {
+fn replaceable(path: &Path, kind: &Kind) -> bool {
+    /// What marks a file stands within this many bytes.
+    const HEAD: u64 = 1 << 14;
     let Ok(found) = fs::metadata(path) else { return true };
     if !found.is_file() {
         return false;
     }
-    let mut start = Vec::new();
+    let mut head = Vec::new();
     // A file that cannot be read is not known to be of the kind.
-    let read = File::open(path).and_then(|file| file.take(64).read_to_end(&mut start));
-    start.make_ascii_lowercase();
-    read.is_ok() && (start.is_empty() || begins.iter().any(|b| start.starts_with(b)))
+    let read = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
+    head.make_ascii_lowercase();
+    let marked = || String::from_utf8_lossy(&head).contains(&kind.contains.to_ascii_lowercase());
+    let is_kind = kind.begins.iter().any(|b| head.starts_with(b));
+    read.is_ok() && (head.is_empty() || is_kind || !kind.contains.is_empty() && marked())
+}
+
+/// Refuses one file for two outputs.
+pub fn no_file_twice(paths: &[&Path], problems: &mut Diagnostics) {
+    for (i, path) in paths.iter().enumerate() {
+        if paths[..i].iter().any(|other| same_place(path, other)) {
+            let place = Place::whole(&path.display().to_string());
+            let message = "is named for two outputs".to_owned();
+            problems.error("one-file-twice", place, message, "name a file for each");
+        }
+    }
+}
+
+/// Whether two names stand for one place, where a file may be or not.
+fn same_place(one: &Path, other: &Path) -> bool {
+    let place = |path: &Path| {
+        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        Some((folder.canonicalize().ok()?, path.file_name()?.to_owned()))
+    };
+    one == other || place(one).is_some_and(|p| Some(p) == place(other))
 }
 
 /// Whether two paths name one file.

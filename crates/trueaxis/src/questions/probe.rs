@@ -36,10 +36,8 @@ pub struct ProbeAnswer {
     files: Vec<NewFile>,
 }
 
-const CORRECTED: Kind =
-    Kind { argument: "-o", name: "a table of corrected hits", begins: &[b"point_x_mm,"] };
-const TABLE: Kind =
-    Kind { argument: "--table", name: "a direction table", begins: &[b"# stylus "] };
+const CORRECTED: Kind = Kind::file("-o", "a table of corrected hits", &[b"point_x_mm,"]);
+const TABLE: Kind = Kind::file("--table", "a direction table", &[b"# stylus "]);
 
 impl IdentifyProbe {
     fn orientation_rad(&self, problems: &mut Diagnostics) -> Option<f64> {
@@ -112,9 +110,9 @@ impl Question for IdentifyProbe {
         Some((study?, files.clone(), orientation_rad))
     }
 
-    fn outputs(&self) -> Vec<(&Path, &'static Kind)> {
-        let corrected = self.correct.iter().map(|(_, path)| (path.as_path(), &CORRECTED));
-        corrected.chain(self.table.iter().map(|path| (path.as_path(), &TABLE))).collect()
+    fn outputs(&self, _: Option<&Self::Input>) -> Vec<(PathBuf, &'static Kind)> {
+        let corrected = self.correct.iter().map(|(_, path)| (path.clone(), &CORRECTED));
+        corrected.chain(self.table.iter().map(|path| (path.clone(), &TABLE))).collect()
     }
 
     fn answer(

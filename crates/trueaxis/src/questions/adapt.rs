@@ -1,0 +1,171 @@
+//! How is a path moved onto the blank that was measured?
+
+use super::{Answer, NewFile, Question, named_control, with_diagnostics};
+use crate::files::output::Kind;
+use crate::report;
+use serde_json::Value;
+use std::path::PathBuf;
+use trueaxis_correct::compensate::adapt::{AdaptStudy, Adaptation, adapt, read_adapt_study};
+use trueaxis_correct::compensate::post::{PostOptions, post, verify};
+use trueaxis_correct::report::{AdaptReport, AdaptedProgram};
+use trueaxis_input::{Diagnostics, Dimension, Files, Place, parse_quantity};
+use trueaxis_nc::writer::TipWords;
+use trueaxis_report::DrawingError;
+
+/// A path moved onto a measured blank, and the wall that it leaves.
+#[derive(Debug, Clone)]
+pub struct Adapt {
+    /// The study: path, measured blank, cutter, wall.
+    pub study: PathBuf,
+    /// Where the program of the adapted path goes, and the control that it is for, by its name.
+    pub output: Option<(PathBuf, String)>,
+    /// Whether the control keeps the tip of the tool on the path (TCP).
+    pub tcp: bool,
+    /// Largest distance between adapted path and program, mm, as typed.
+    pub tolerance: String,
+    /// Where the adapted cutter locations go.
+    pub cl: Option<PathBuf>,
+}
+
+/// A study with the adapted path.
+#[derive(Debug)]
+pub struct AdaptAnswer {
+    study: AdaptStudy,
+    adaptation: Adaptation,
+    program: Option<AdaptedProgram>,
+    files: Vec<NewFile>,
+    asked_for_files: bool,
+}
+
+/// What `--cl` may replace: nothing that is there and not empty but an adapted path.
+const CL: Kind =
+    Kind::file("--cl", "an adapted path", &[b"$$ adapted by trueaxis", b"# adapted by trueaxis"]);
+
+impl Adapt {
+    fn options(&self, problems: &mut Diagnostics) -> Option<PostOptions> {
+        let tolerance_mm = parse_quantity(&self.tolerance, Dimension::Ratio).ok();
+        let Some(tolerance_mm) = tolerance_mm.filter(|v| (1e-6..1.0).contains(v)) else {
+            let message = format!("`{}` is not a tolerance in mm", self.tolerance);
+            problems.error("bad-number", Place::whole("--tolerance"), message, "such as 0.001");
+            return None;
+        };
+        let (path, control) = self.output.as_ref()?;
+        let name = path.file_stem();
+        Some(PostOptions {
+            tip_words: self.tcp.then_some(TipWords::Angles),
+            tolerance_mm,
+            name: name.map_or_else(|| "PROGRAM".into(), |n| n.to_string_lossy().into_owned()),
+            ..PostOptions::of(named_control(control, problems)?)
+        })
+    }
+
+    /// The program of the adapted path, with its proof.
+    fn program(
+        &self,
+        study: &AdaptStudy,
+        adaptation: &Adaptation,
+        options: &PostOptions,
+        problems: &mut Diagnostics,
+    ) -> Option<(AdaptedProgram, NewFile)> {
+        let path = self.output.as_ref()?.0.clone();
+        let (posted, found) = post(&study.machine, &adaptation.path, options);
+        problems.append(found);
+        let posted = posted?;
+        let proof = verify(&study.machine, &posted, options);
+        let program = AdaptedProgram {
+            file: path.display().to_string(),
+            written: proof.is_within(options) && adaptation.findings.is_empty(),
+            blocks: posted.blocks,
+            tip_mm: proof.tip_between.value,
+            axis_rad: proof.axis_between.value,
+        };
+        Some((program, NewFile { name: "program", path, content: posted.text }))
+    }
+
+    /// The adapted cutter locations, in the form of those that were read.
+    fn cutter_locations(&self, study: &AdaptStudy, adaptation: &Adaptation) -> Option<NewFile> {
+        let begin = if study.path.is_table() { "#" } else { "$$" };
+        let mut text = format!("{begin} adapted by trueaxis: {}\n", one_line(&study.name));
+        text.retain(|c| c.is_ascii());
+        let content = [text.into_bytes(), adaptation.path.rewritten()].concat();
+        Some(NewFile { name: "path", path: self.cl.clone()?, content })
+    }
+}
+
+fn one_line(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { ' ' } else { c }).take(60).collect()
+}
+
+impl Question for Adapt {
+    type Input = (AdaptStudy, Option<PostOptions>);
+    type Answer = AdaptAnswer;
+
+    fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
+        let (study, found) = read_adapt_study(files, &self.study);
+        problems.append(found);
+        let options = self.options(problems);
+        Some((study?, options))
+    }
+
+    fn outputs(&self, _: Option<&Self::Input>) -> Vec<(PathBuf, &'static Kind)> {
+        self.cl.iter().map(|path| (path.clone(), &CL)).collect()
+    }
+
+    fn answer(
+        &self,
+        (study, options): Self::Input,
+        _: &(dyn Fn(f64) + Sync),
+        problems: &mut Diagnostics,
+    ) -> Option<AdaptAnswer> {
+        let (adaptation, found) = adapt(&study);
+        problems.append(found);
+        let adaptation = adaptation?;
+        let program = match &options {
+            Some(options) => self.program(&study, &adaptation, options, problems),
+            None => None,
+        };
+        let mut files = Vec::new();
+        let (program, text) = program.unzip();
+        files.extend(text.filter(|_| program.as_ref().is_some_and(|p| p.written)));
+        if adaptation.findings.is_empty() {
+            files.extend(self.cutter_locations(&study, &adaptation));
+        }
+        let asked_for_files = self.output.is_some() || self.cl.is_some();
+        Some(AdaptAnswer { study, adaptation, program, files, asked_for_files })
+    }
+}
+
+impl AdaptAnswer {
+    fn shown(&self) -> AdaptReport<'_> {
+        let Self { study, adaptation, program, .. } = self;
+        AdaptReport { study, adaptation, program: program.as_ref() }
+    }
+}
+
+impl Answer for AdaptAnswer {
+    fn document(&self, problems: &Diagnostics) -> Value {
+        with_diagnostics(report::adapt_json(&self.shown()), problems)
+    }
+
+    fn text(&self) -> String {
+        report::adapt_text(&self.shown())
+    }
+
+    fn page(&self) -> Result<String, DrawingError> {
+        report::adapt_html(&self.shown())
+    }
+
+    fn is_yes(&self) -> bool {
+        self.adaptation.findings.is_empty() && self.program.as_ref().is_none_or(|p| p.written)
+    }
+
+    fn files(&self) -> Vec<NewFile> {
+        self.files.clone()
+    }
+
+    fn notes(&self) -> Vec<String> {
+        let refused = !self.adaptation.findings.is_empty() && self.asked_for_files;
+        let note = "the adapted path must not be cut; neither program nor path was written";
+        refused.then(|| note.to_owned()).into_iter().collect()
+    }
+}

@@ -1,0 +1,270 @@
+//! What do the readings show by a standard?
+
+use super::{Answer, NewFile, Question, with_diagnostics};
+use crate::report;
+use crate::verify::write_back::{FIRST_LINE, write_back};
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+use trueaxis_input::{Diagnostics, Dimension, Files, Place, parse_quantity};
+use trueaxis_machine::Machine;
+use trueaxis_machine::describe::axis_index;
+use trueaxis_report::DrawingError;
+use trueaxis_standards::conditions::{Conditions, read_conditions};
+use trueaxis_standards::import::Import;
+use trueaxis_standards::report::Evaluation;
+use trueaxis_standards::{Evaluated, Readings, Standard, evaluate_text, iso230_3};
+
+/// Readings by ISO 230 and its relatives.
+#[derive(Debug, Clone)]
+pub struct Evaluate {
+    /// By which standard.
+    pub standard: Standard,
+    /// The readings.
+    pub data: ReadingsFile,
+    /// The form of the readings; by the ending of the name if none is named.
+    pub import: Option<Import>,
+    /// Which feature of a QIF file: its name or its id.
+    pub feature: Option<String>,
+    /// Instrument, temperature, nominal circle; the TOML file beside the data if none is named.
+    pub conditions: Option<PathBuf>,
+    /// Radius of the nominal circle instead of that of the conditions, as typed, with its unit.
+    pub radius: Option<String>,
+    /// Length of the windows of ISO 230-3, as typed, with its unit.
+    pub window: Option<String>,
+    /// The machine file and the axis beside which the error motion goes as a table.
+    pub write_back: Option<(PathBuf, String)>,
+}
+
+/// Where readings come from.
+#[derive(Debug, Clone)]
+pub enum ReadingsFile {
+    /// A file.
+    Path(PathBuf),
+    /// A text with its name.
+    Text(String, String),
+}
+
+/// What is known for an evaluation.
+#[derive(Debug)]
+pub struct EvaluateInput {
+    name: String,
+    text: String,
+    conditions: Conditions,
+    conditions_file: Option<PathBuf>,
+    window_s: f64,
+    machine: Option<(PathBuf, Machine, usize)>,
+}
+
+/// Readings with their result.
+#[derive(Debug)]
+pub struct EvaluateAnswer {
+    /// By which standard.
+    pub standard: Standard,
+    /// The readings' file or name.
+    pub name: String,
+    /// What is known beside them.
+    pub conditions: Conditions,
+    /// The file of the conditions, if there is one.
+    pub conditions_file: Option<PathBuf>,
+    /// The result.
+    pub evaluated: Evaluated,
+    /// Warnings and notes, each as one text.
+    pub remarks: Vec<String>,
+    table: Option<Table>,
+}
+
+impl EvaluateAnswer {
+    /// What a report shows.
+    pub fn shown(&self) -> Evaluation<'_> {
+        Evaluation {
+            standard: self.standard,
+            file: &self.name,
+            conditions: &self.conditions,
+            evaluated: &self.evaluated,
+            remarks: &self.remarks,
+        }
+    }
+}
+
+/// An error motion as a table beside the machine file.
+#[derive(Debug)]
+struct Table {
+    file: NewFile,
+    /// The lines for the machine file.
+    lines: String,
+}
+
+impl Evaluate {
+    fn path(&self) -> &Path {
+        match &self.data {
+            ReadingsFile::Path(path) => path,
+            ReadingsFile::Text(name, _) => Path::new(name),
+        }
+    }
+
+    /// The conditions that are named, or those beside the data.
+    fn conditions_file(&self, files: &Files) -> Option<PathBuf> {
+        let beside = self.path().with_extension("toml");
+        let is_there = matches!(self.data, ReadingsFile::Path(_)) && files.is_file(&beside);
+        self.conditions.clone().or(is_there.then_some(beside))
+    }
+
+    /// The axis that the table is for.
+    fn machine(
+        &self,
+        problems: &mut Diagnostics,
+        files: &Files,
+    ) -> Option<(PathBuf, Machine, usize)> {
+        let (path, letter) = self.write_back.as_ref()?;
+        let (machine, found) = Machine::read(files, path);
+        problems.append(found);
+        let machine = machine?;
+        let Some(axis) = axis_index(&machine, letter) else {
+            let message = format!("the machine has no axis `{letter}`");
+            let hint = format!("its chain: {}", machine.chain_text());
+            problems.error("unknown-axis", Place::whole("--write-back"), message, &hint);
+            return None;
+        };
+        Some((path.clone(), machine, axis))
+    }
+
+    fn table(
+        &self,
+        input: &EvaluateInput,
+        conditions: &Conditions,
+        evaluated: &Evaluated,
+        problems: &mut Diagnostics,
+    ) -> Option<Table> {
+        let (machine_path, machine, axis) = input.machine.as_ref()?;
+        let Evaluated::Positioning(_, result) = evaluated else {
+            let message = "only a positioning test makes a table".to_owned();
+            problems.error("no-table", Place::whole("--write-back"), message, "use iso230-2");
+            return None;
+        };
+        let axis = &machine.axes()[*axis];
+        let back = write_back(axis, result, conditions, &input.name, problems)?;
+        let stem = self.path().file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let name = format!("{stem}-{}.csv", back.error);
+        let path = machine_path.with_file_name(&name);
+        let is_ours = |text: String| text.is_empty() || text.starts_with(FIRST_LINE);
+        if path.exists() && !fs::read_to_string(&path).is_ok_and(is_ours) {
+            let message = "is there, and was not written by this command".to_owned();
+            let place = Place::whole(&path.display().to_string());
+            let hint = "it is not overwritten; move it away";
+            problems.error("unwritable-file", place, message, hint);
+            return None;
+        }
+        let sign = match back.negated {
+            true => "sign changed: this body moves against its command (ISO 841)\n",
+            false => "",
+        };
+        let section = back.section(axis, &name, conditions);
+        let lines = format!(
+            "{sign}for the machine file, in place of what it says of {}:\n{section}",
+            back.error
+        );
+        let file = NewFile { name: "table", path, content: back.table.into_bytes() };
+        Some(Table { file, lines })
+    }
+}
+
+impl Question for Evaluate {
+    type Input = EvaluateInput;
+    type Answer = EvaluateAnswer;
+
+    fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<EvaluateInput> {
+        let conditions_file = self.conditions_file(files);
+        let mut conditions = read_conditions(files, conditions_file.as_deref(), problems);
+        if let Some(text) = &self.radius {
+            conditions.circle.radius_mm = positive("--radius", text, Dimension::Length, problems);
+        }
+        let window_s = match &self.window {
+            Some(text) => positive("--window", text, Dimension::Time, problems),
+            None => Some(iso230_3::HOUR_S),
+        };
+        let (name, text) = match &self.data {
+            ReadingsFile::Path(path) => {
+                let text = files.text(path, "a table of readings (CSV)", problems);
+                (path.display().to_string(), text)
+            }
+            ReadingsFile::Text(name, text) => (name.clone(), Some(text.clone())),
+        };
+        let machine = self.machine(problems, files);
+        let (text, window_s) = (text?, window_s.unwrap_or(iso230_3::HOUR_S));
+        Some(EvaluateInput { name, text, conditions, conditions_file, window_s, machine })
+    }
+
+    fn answer(
+        &self,
+        mut input: EvaluateInput,
+        _: &(dyn Fn(f64) + Sync),
+        problems: &mut Diagnostics,
+    ) -> Option<EvaluateAnswer> {
+        let usual = || self.path().with_extension("toml");
+        let conditions_file = input.conditions_file.clone().unwrap_or_else(usual);
+        let readings = Readings {
+            standard: self.standard,
+            file: &input.name,
+            text: &input.text,
+            import: self.import.unwrap_or_else(|| Import::of(self.path())),
+            feature: self.feature.as_deref(),
+            conditions: &input.conditions,
+            conditions_file: &conditions_file.display().to_string(),
+            window_s: input.window_s,
+        };
+        let (evaluated, conditions) = evaluate_text(&readings, problems);
+        let evaluated = evaluated?;
+        let table = self.table(&input, &conditions, &evaluated, problems);
+        let remarks = report::remarks(problems);
+        let (name, conditions_file) = (std::mem::take(&mut input.name), input.conditions_file);
+        let standard = self.standard;
+        Some(EvaluateAnswer {
+            standard,
+            name,
+            conditions,
+            conditions_file,
+            evaluated,
+            remarks,
+            table,
+        })
+    }
+}
+
+/// A positive quantity of an argument.
+fn positive(
+    name: &str,
+    text: &str,
+    dimension: Dimension,
+    problems: &mut Diagnostics,
+) -> Option<f64> {
+    let (code, message, hint) = match parse_quantity(text, dimension) {
+        Ok(value) if value > 0.0 => return Some(value),
+        Ok(_) => ("not-positive", format!("`{text}` is not positive"), String::new()),
+        Err(e) => (e.code(), e.to_string(), e.hint()),
+    };
+    problems.error(code, Place::whole(name), message, &hint);
+    None
+}
+
+impl Answer for EvaluateAnswer {
+    fn document(&self, problems: &Diagnostics) -> Value {
+        with_diagnostics(report::evaluation_json(&self.shown()), problems)
+    }
+
+    fn text(&self) -> String {
+        report::evaluation_text(&self.shown())
+    }
+
+    fn page(&self) -> Result<String, DrawingError> {
+        report::evaluation_html(&self.shown())
+    }
+
+    fn files(&self) -> Vec<NewFile> {
+        self.table.iter().map(|table| table.file.clone()).collect()
+    }
+
+    fn notes(&self) -> Vec<String> {
+        self.table.iter().map(|table| table.lines.clone()).collect()
+    }
+}

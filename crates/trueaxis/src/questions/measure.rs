@@ -1,0 +1,211 @@
+//! What would instruments read on a machine whose errors are known?
+
+use super::{Answer, NewFile, Question, with_diagnostics};
+use crate::files::output::Kind;
+use crate::report;
+use serde_json::Value;
+use std::fmt::Write;
+use std::path::PathBuf;
+use trueaxis_calibrate::measure::instrument::SetupError;
+use trueaxis_calibrate::measure::virtual_campaign::{
+    Measurement, VirtualCampaign, measure, read_virtual,
+};
+use trueaxis_calibrate::measure::{Campaign, read_campaign};
+use trueaxis_calibrate::report::MeasuredReport;
+use trueaxis_input::{Diagnostics, Files, Place};
+use trueaxis_report::DrawingError;
+
+/// The readings of a campaign on a machine whose errors are known.
+#[derive(Debug, Clone, Default)]
+pub struct Measure {
+    /// The campaign: machine, instruments, paths, and if wanted `[truth]` and `[disturb]`.
+    pub campaign: PathBuf,
+    /// The folder for one table of readings per instrument.
+    pub output: Option<PathBuf>,
+    /// Where what is true goes.
+    pub truth: Option<PathBuf>,
+    /// Random seed instead of that of `[truth]`.
+    pub seed: Option<u64>,
+}
+
+/// A campaign with the readings that its instruments would take.
+#[derive(Debug)]
+pub struct MeasureAnswer {
+    campaign: Campaign,
+    real: VirtualCampaign,
+    measurement: Measurement,
+    tables: Vec<String>,
+    files: Vec<NewFile>,
+}
+
+const READINGS_BEGIN: &str = "# virtual readings of trueaxis measure";
+const READINGS: Kind = Kind {
+    argument: "-o",
+    name: "a table of virtual readings",
+    begins: &[READINGS_BEGIN.as_bytes()],
+    contains: "",
+    makes_folder: true,
+};
+const TRUTH_BEGIN: &str = "# the truth behind virtual readings";
+const TRUTH: Kind =
+    Kind::file("--truth", "the truth of a virtual measurement", &[TRUTH_BEGIN.as_bytes()]);
+
+impl Measure {
+    /// Where the table of each instrument goes.
+    fn tables(&self, campaign: &Campaign) -> Vec<PathBuf> {
+        let Some(folder) = &self.output else { return Vec::new() };
+        let path = |name: &str| {
+            // A name of a campaign must not lead out of the folder.
+            let safe = |c: char| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' };
+            folder.join(format!("{}.csv", name.chars().map(safe).collect::<String>()))
+        };
+        campaign.instruments.iter().map(|i| path(&i.name)).collect()
+    }
+
+    fn name(&self) -> String {
+        self.campaign.file_name().unwrap_or_default().display().to_string()
+    }
+
+    fn files(
+        &self,
+        campaign: &Campaign,
+        real: &VirtualCampaign,
+        measurement: &Measurement,
+    ) -> Vec<NewFile> {
+        let name = self.name();
+        let mut files = Vec::new();
+        let tables = self.tables(campaign);
+        for (index, (path, instrument)) in (0..).zip(tables.into_iter().zip(&campaign.instruments))
+        {
+            let head = format!(
+                "{READINGS_BEGIN}: {} on the paths of {name}, seed {}\n",
+                instrument.name, real.truth.seed
+            );
+            let rows = measurement.readings.table(&campaign.machine, instrument, index);
+            files.push(NewFile { name: "readings", path, content: (head + &rows).into_bytes() });
+        }
+        if let Some(path) = &self.truth {
+            let text = truth_text(&name, campaign, real, measurement);
+            let (path, content) = (path.clone(), text.into_bytes());
+            files.push(NewFile { name: "truth", path, content });
+        }
+        files
+    }
+}
+
+impl Question for Measure {
+    type Input = (Campaign, VirtualCampaign);
+    type Answer = MeasureAnswer;
+
+    fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
+        let (read, found) = read_campaign(files, &self.campaign, |root, campaign| {
+            read_virtual(root, campaign, self.seed)
+        });
+        problems.append(found);
+        read
+    }
+
+    fn outputs(&self, input: Option<&Self::Input>) -> Vec<(PathBuf, &'static Kind)> {
+        let tables = input.map(|(campaign, _)| self.tables(campaign)).unwrap_or_default();
+        let tables = tables.into_iter().map(|path| (path, &READINGS));
+        tables.chain(self.truth.clone().map(|path| (path, &TRUTH))).collect()
+    }
+
+    fn answer(
+        &self,
+        (campaign, real): Self::Input,
+        _: &(dyn Fn(f64) + Sync),
+        problems: &mut Diagnostics,
+    ) -> Option<MeasureAnswer> {
+        let measurement = match measure(&campaign, &real) {
+            Ok(measurement) => measurement,
+            Err(error) => {
+                let place = Place::whole(&self.campaign.display().to_string());
+                let hint = "change the path, the set-up or the machine";
+                problems.error("cannot-measure", place, error.to_string(), hint);
+                return None;
+            }
+        };
+        let files = self.files(&campaign, &real, &measurement);
+        let tables = self.tables(&campaign).iter().map(|p| p.display().to_string()).collect();
+        Some(MeasureAnswer { campaign, real, measurement, tables, files })
+    }
+}
+
+impl MeasureAnswer {
+    fn shown(&self) -> MeasuredReport<'_> {
+        MeasuredReport {
+            campaign: &self.campaign,
+            real: &self.real,
+            measurement: &self.measurement,
+            files: &self.tables,
+        }
+    }
+}
+
+impl Answer for MeasureAnswer {
+    fn document(&self, problems: &Diagnostics) -> Value {
+        with_diagnostics(report::measurement_json(&self.shown()), problems)
+    }
+
+    fn text(&self) -> String {
+        report::measurement_text(&self.shown())
+    }
+
+    fn page(&self) -> Result<String, DrawingError> {
+        report::measurement_html(&self.shown())
+    }
+
+    fn files(&self) -> Vec<NewFile> {
+        self.files.clone()
+    }
+}
+
+/// What is true, as a `[truth]` that says it again.
+fn truth_text(
+    name: &str,
+    campaign: &Campaign,
+    real: &VirtualCampaign,
+    measurement: &Measurement,
+) -> String {
+    let truth = &real.truth;
+    let mut text = format!("{TRUTH_BEGIN} of {name}\n\n[truth]\nseed = {}\n", truth.seed);
+    let path = truth.machine_path.as_ref().unwrap_or(&campaign.machine_path);
+    // Writing to a String cannot fail.
+    let _ = writeln!(text, "machine = {:?}", path.display().to_string());
+    let _ = writeln!(text, "draw = {}", truth.factors.is_some());
+    let shown = |value: f64, angle: bool| match angle {
+        true => format!("\"{} urad\"", value * 1e6),
+        false => format!("\"{} um\"", value * 1e3),
+    };
+    if !truth.errors.is_empty() {
+        let _ = writeln!(text, "\n[truth.errors]");
+    }
+    for (error, value) in &truth.errors {
+        let _ = writeln!(text, "{error} = {}", shown(*value, error.component.is_rotation()));
+    }
+    for (instrument, values) in truth.instruments.iter().zip(&truth.setups) {
+        if !values.is_empty() {
+            let _ = writeln!(text, "\n[truth.setup.{:?}]", instrument.name);
+        }
+        for (unknown, value) in instrument.unknowns.iter().zip(values) {
+            let angle = match unknown.error {
+                SetupError::ReferenceTurn(_) | SetupError::Scale => true,
+                SetupError::Zero(_) => instrument.sight.is_angle(),
+                _ => false,
+            };
+            let _ = writeln!(text, "{} = {}", unknown.name, shown(*value, angle));
+        }
+    }
+    let _ = writeln!(text, "\n[wrong]\n# rows of each table, counted from 1, wrong on purpose");
+    for (of, instrument) in campaign.instruments.iter().enumerate() {
+        let rows = measurement.readings.instruments.iter().enumerate();
+        let mine = rows.filter(|(_, i)| **i as usize == of).map(|(row, _)| row);
+        let wrong =
+            mine.enumerate().filter(|(_, row)| measurement.outliers.binary_search(row).is_ok());
+        let wrong: Vec<usize> = wrong.map(|(k, _)| k + 1).collect();
+        let _ = writeln!(text, "{:?} = {wrong:?}", instrument.name);
+    }
+    let _ = writeln!(text, "\n[lost]\nrows = {}", measurement.lost);
+    text
+}

@@ -1,0 +1,188 @@
+//! How is a program written so that the actual tool goes where it says?
+
+use super::{Answer, MachineChoice, NewFile, Question, named_control, with_diagnostics};
+use crate::files::output::{Kind, same_file};
+use crate::report;
+use serde_json::Value;
+use std::path::PathBuf;
+use trueaxis_correct::compensate::program::{
+    CorrectionLimit, Increments, MARK, ProgramOptions, Rewritten, compensate_program,
+};
+use trueaxis_correct::report::ProgramReport;
+use trueaxis_input::{Diagnostics, Dimension, Files, Place, parse_quantity};
+use trueaxis_motion::{Job, Options, ProgramFiles};
+use trueaxis_report::DrawingError;
+
+/// An NC program rewritten for the actual machine. Quantities are as typed, with their units.
+#[derive(Debug, Clone)]
+pub struct CompensateProgram {
+    /// The machine.
+    pub machine: MachineChoice,
+    /// The NC program.
+    pub program: PathBuf,
+    /// Where the compensated program goes.
+    pub output: PathBuf,
+    /// Work offsets and tools; PROGRAM.setup.toml if none is named and it is there.
+    pub setup: Option<PathBuf>,
+    /// The control of the program, by its name.
+    pub control: Option<String>,
+    /// Whether loops, subprograms and computed numbers become one flat program first.
+    pub flat: bool,
+    /// Whether only the tip is corrected, with the linear axes.
+    pub position_only: bool,
+    /// How far the tip may be missed between the ends of blocks.
+    pub residual: String,
+    /// How far the tool axis may be missed there.
+    pub residual_axis: String,
+    /// The least increment of linear axes.
+    pub increment: String,
+    /// The least increment of rotary axes.
+    pub increment_deg: String,
+    /// Whether numbers are written in full double precision instead.
+    pub no_rounding: bool,
+    /// A larger correction of the tip is refused.
+    pub limit: String,
+    /// A larger correction of the tool axis is refused.
+    pub limit_axis: String,
+}
+
+/// A program rewritten.
+pub struct ProgramAnswer {
+    job: Job,
+    program: String,
+    output: PathBuf,
+    shown_output: String,
+    options: ProgramOptions,
+    rewritten: Rewritten,
+}
+
+/// What may be replaced: nothing that is there and not empty, but a compensated program.
+const PROGRAM: Kind =
+    Kind { contains: MARK, ..Kind::file("--output", "a compensated program of ours", &[]) };
+
+impl CompensateProgram {
+    fn options(&self, problems: &mut Diagnostics) -> Option<ProgramOptions> {
+        let mut read = |name: &str, text: &str, dimension, (low, high): (f64, f64), hint: &str| {
+            let value = parse_quantity(text, dimension).ok().filter(|v| (low..=high).contains(v));
+            if value.is_none() {
+                let message = format!("`{text}` cannot be used here");
+                problems.error("bad-number", Place::whole(name), message, hint);
+            }
+            value
+        };
+        let (length, angle) = (Dimension::Length, Dimension::Angle);
+        let residual_mm =
+            read("--residual", &self.residual, length, (1e-6, 1.0), "such as \"1 um\"");
+        let residual_rad =
+            read("--residual-axis", &self.residual_axis, angle, (1e-8, 0.1), "such as \"10 urad\"");
+        let linear_mm =
+            read("--increment", &self.increment, length, (1e-9, 0.1), "such as \"1 um\"");
+        let turn = (1e-12, 0.02);
+        let rotary =
+            read("--increment-deg", &self.increment_deg, angle, turn, "such as \"0.0001 deg\"");
+        let tip_mm = read("--limit", &self.limit, length, (1e-6, 100.0), "such as \"1 mm\"");
+        let axis_rad =
+            read("--limit-axis", &self.limit_axis, angle, (1e-8, 0.1), "such as \"1 mrad\"");
+        let increments = Increments { linear_mm: linear_mm?, rotary_deg: rotary?.to_degrees() };
+        Some(ProgramOptions {
+            position_only: self.position_only,
+            residual_mm: residual_mm?,
+            residual_rad: residual_rad?,
+            increments: (!self.no_rounding).then_some(increments),
+            limit: CorrectionLimit { tip_mm: tip_mm?, axis_rad: axis_rad? },
+            flat: self.flat,
+            pose_by_pose: false,
+            mark: String::new(),
+        })
+    }
+
+    fn job(&self, files: &Files, problems: &mut Diagnostics) -> Option<Job> {
+        let machine = self.machine.read(files, problems)?;
+        let control = match &self.control {
+            None => None,
+            Some(name) => Some(named_control(name, problems)?),
+        };
+        let setup = self.setup.as_deref();
+        let program = ProgramFiles { files, program: &self.program, text: None, setup, control };
+        Job::read(machine, &program, Options::default(), problems)
+    }
+
+    /// Machine, its file and this version, for the heading of the program.
+    fn mark(&self, files: &Files, machine: &str) -> String {
+        let hash = files.read(&self.machine.file).map_or(0, |bytes| fnv1a(&bytes));
+        format!("FOR {machine} FILE {hash:016x} BY TRUEAXIS {}", crate::VERSION)
+    }
+}
+
+/// Tells one machine file from another; no secret depends on it.
+fn fnv1a(bytes: &[u8]) -> u64 {
+    let step = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, step)
+}
+
+impl Question for CompensateProgram {
+    type Input = (Job, ProgramOptions);
+    type Answer = ProgramAnswer;
+
+    fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
+        let options = self.options(problems);
+        let job = self.job(files, problems);
+        if same_file(&self.output, &self.program) {
+            let place = Place::whole(&self.output.display().to_string());
+            let message = "is the program itself".to_owned();
+            problems.error("one-file-twice", place, message, "name another --output");
+        }
+        let (job, options) = (job?, options?);
+        let mark = self.mark(files, job.machine.name());
+        Some((job, ProgramOptions { mark, ..options }))
+    }
+
+    fn outputs(&self, _: Option<&Self::Input>) -> Vec<(PathBuf, &'static Kind)> {
+        vec![(self.output.clone(), &PROGRAM)]
+    }
+
+    fn answer(
+        &self,
+        (job, options): Self::Input,
+        _: &(dyn Fn(f64) + Sync),
+        problems: &mut Diagnostics,
+    ) -> Option<ProgramAnswer> {
+        let (rewritten, found) =
+            compensate_program(&job.machine, &job.program, &job.setup, &options);
+        problems.append(found);
+        let (program, output) = (self.program.display().to_string(), self.output.clone());
+        let shown_output = output.display().to_string();
+        Some(ProgramAnswer { job, program, output, shown_output, options, rewritten: rewritten? })
+    }
+}
+
+impl ProgramAnswer {
+    fn shown(&self) -> ProgramReport<'_> {
+        ProgramReport {
+            machine: &self.job.machine,
+            program: &self.program,
+            output: &self.shown_output,
+            options: &self.options,
+            rewritten: &self.rewritten,
+        }
+    }
+}
+
+impl Answer for ProgramAnswer {
+    fn document(&self, problems: &Diagnostics) -> Value {
+        with_diagnostics(report::program_json(&self.shown()), problems)
+    }
+
+    fn text(&self) -> String {
+        report::program_text(&self.shown())
+    }
+
+    fn page(&self) -> Result<String, DrawingError> {
+        Ok(report::program_html(&self.shown()))
+    }
+
+    fn files(&self) -> Vec<NewFile> {
+        let (path, content) = (self.output.clone(), self.rewritten.text.clone());
+        vec![NewFile { name: "program", path, content }]
+    }
+}

@@ -1,0 +1,211 @@
+//! Is the machine as its file says, has it moved, does a compensation hold?
+
+use super::{Answer, Question, with_diagnostics};
+use crate::report::{self, CalibrationsReport};
+use crate::verify::calibrations::{Calibrations, calibrations};
+use crate::verify::certificate::{Certificate, PoseFault, Study, certify, read_certificate};
+use crate::verify::compare::{Comparison, Verified, compare, read_comparison};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use trueaxis_input::{Diagnostics, Files, Place};
+use trueaxis_machine::Machine;
+use trueaxis_part::tolerance::Outcome;
+use trueaxis_report::DrawingError;
+
+fn whole(path: &Path) -> Place {
+    Place::whole(&path.display().to_string())
+}
+
+/// Readings against what a machine file predicts, or against other readings.
+#[derive(Debug, Clone, Default)]
+pub struct VerifyReadings {
+    /// What is compared with what, and how it is decided.
+    pub file: PathBuf,
+}
+
+/// A comparison with its result.
+#[derive(Debug)]
+pub struct VerifyAnswer {
+    task: Comparison,
+    verified: Verified,
+}
+
+impl Question for VerifyReadings {
+    type Input = Comparison;
+    type Answer = VerifyAnswer;
+
+    fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Comparison> {
+        let (task, found) = read_comparison(files, &self.file);
+        problems.append(found);
+        task
+    }
+
+    fn answer(
+        &self,
+        task: Comparison,
+        _: &(dyn Fn(f64) + Sync),
+        problems: &mut Diagnostics,
+    ) -> Option<VerifyAnswer> {
+        match compare(&task) {
+            Ok(verified) => Some(VerifyAnswer { task, verified }),
+            Err(error) => {
+                let hint =
+                    "do the readings belong to this campaign: columns, units, order of channels?";
+                problems.error("cannot-compare", whole(&self.file), error.to_string(), hint);
+                None
+            }
+        }
+    }
+}
+
+impl Answer for VerifyAnswer {
+    fn document(&self, problems: &Diagnostics) -> Value {
+        with_diagnostics(report::comparison_json(&self.task, &self.verified), problems)
+    }
+
+    fn text(&self) -> String {
+        report::comparison_text(&self.task, &self.verified)
+    }
+
+    fn page(&self) -> Result<String, DrawingError> {
+        report::comparison_html(&self.task, &self.verified)
+    }
+
+    fn is_yes(&self) -> bool {
+        self.verified.outcome == Outcome::Pass
+    }
+}
+
+/// Two calibrations of one machine: what moved, and is it significant?
+#[derive(Debug, Clone, Default)]
+pub struct CompareCalibrations {
+    /// The older machine file.
+    pub old: PathBuf,
+    /// The newer one.
+    pub new: PathBuf,
+}
+
+/// Two calibrations with what moved between them.
+#[derive(Debug)]
+pub struct CalibrationsAnswer {
+    old: Machine,
+    new: Machine,
+    names: [String; 2],
+    found: Calibrations,
+}
+
+impl CalibrationsAnswer {
+    fn shown(&self) -> CalibrationsReport<'_> {
+        let [old, new] = &self.names;
+        CalibrationsReport { old: &self.old, new: &self.new, files: [old, new], found: &self.found }
+    }
+}
+
+impl Question for CompareCalibrations {
+    type Input = [Machine; 2];
+    type Answer = CalibrationsAnswer;
+
+    fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<[Machine; 2]> {
+        let mut read = |path| {
+            let (machine, found) = Machine::read(files, path);
+            problems.append(found);
+            machine
+        };
+        let (old, new) = (read(&self.old), read(&self.new));
+        Some([old?, new?])
+    }
+
+    fn answer(
+        &self,
+        [old, new]: [Machine; 2],
+        _: &(dyn Fn(f64) + Sync),
+        problems: &mut Diagnostics,
+    ) -> Option<CalibrationsAnswer> {
+        let names = [&self.old, &self.new].map(|path| path.display().to_string());
+        match calibrations(&old, &new) {
+            Ok(found) => Some(CalibrationsAnswer { old, new, names, found }),
+            Err(reason) => {
+                let hint = "name two machine files of one machine, the older first";
+                problems.error("other-machine", whole(&self.new), reason, hint);
+                None
+            }
+        }
+    }
+}
+
+impl Answer for CalibrationsAnswer {
+    fn document(&self, problems: &Diagnostics) -> Value {
+        with_diagnostics(report::calibrations_json(&self.shown()), problems)
+    }
+
+    fn text(&self) -> String {
+        report::calibrations_text(&self.shown())
+    }
+
+    fn page(&self) -> Result<String, DrawingError> {
+        report::calibrations_html(&self.shown())
+    }
+
+    fn is_yes(&self) -> bool {
+        self.found.moved().next().is_none()
+    }
+}
+
+/// What a compensation leaves on poses that the identification has not used.
+#[derive(Debug, Clone, Default)]
+pub struct Certify {
+    /// The study: machine, poses, limit.
+    pub study: PathBuf,
+}
+
+/// A study with its certificate.
+pub struct CertificateAnswer {
+    study: Study,
+    certificate: Certificate,
+}
+
+impl Question for Certify {
+    type Input = Study;
+    type Answer = CertificateAnswer;
+
+    fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Study> {
+        let (study, found) = read_certificate(files, &self.study);
+        problems.append(found);
+        study
+    }
+
+    fn answer(
+        &self,
+        study: Study,
+        _: &(dyn Fn(f64) + Sync),
+        problems: &mut Diagnostics,
+    ) -> Option<CertificateAnswer> {
+        match certify(&study) {
+            Ok(certificate) => Some(CertificateAnswer { study, certificate }),
+            Err(PoseFault { place, fault }) => {
+                let place = place.unwrap_or_else(|| whole(&self.study));
+                let hint = "leave the pose out, or extend the tables of the machine file";
+                problems.error("pose-not-certified", place, fault.to_string(), hint);
+                None
+            }
+        }
+    }
+}
+
+impl Answer for CertificateAnswer {
+    fn document(&self, problems: &Diagnostics) -> Value {
+        with_diagnostics(report::certificate_json(&self.study, &self.certificate), problems)
+    }
+
+    fn text(&self) -> String {
+        report::certificate_text(&self.study, &self.certificate)
+    }
+
+    fn page(&self) -> Result<String, DrawingError> {
+        report::certificate_html(&self.study, &self.certificate)
+    }
+
+    fn is_yes(&self) -> bool {
+        self.certificate.outcome == Outcome::Pass
+    }
+}
