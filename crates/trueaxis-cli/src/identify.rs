@@ -7,12 +7,11 @@ mod thermal;
 
 use crate::output::{Answer, Format, Outcome, finish};
 use clap::{Args, Subcommand};
-use serde_json::{Value, json};
-use std::fmt::Write;
 use std::path::PathBuf;
 use trueaxis::files::disk;
-use trueaxis::identify::expansion::{Expansion, Runs, identify_expansion, read_runs};
+use trueaxis::identify::expansion::{Runs, identify_expansion, read_runs};
 use trueaxis::input::{Diagnostics, Place};
+use trueaxis::report::{expansion_json, expansion_text};
 
 /// What to identify.
 #[derive(Args)]
@@ -85,51 +84,7 @@ fn answer(runs: &Runs, arguments: &ExpansionArguments, problems: &mut Diagnostic
         problems.warn("identification", place, warning.clone(), "");
     }
     match arguments.format {
-        Format::Json => Answer::Json(document(runs, &found)),
-        Format::Text => Answer::Text(text(runs, &found)),
+        Format::Json => Answer::Json(expansion_json(runs, &found)),
+        Format::Text => Answer::Text(expansion_text(runs, &found)),
     }
-}
-
-fn document(data: &Runs, found: &Expansion) -> Value {
-    let runs = data.runs.iter().zip(&found.slopes).map(|(run, slope)| {
-        json!({
-            "name": run.name,
-            "temperature_celsius": run.celsius.value,
-            "slope_um_per_m": slope * 1e6,
-        })
-    });
-    json!({
-        "schema": "trueaxis/identify/1",
-        "name": data.name,
-        "expansion_um_per_m_k": found.per_k * 1e6,
-        "u_um_per_m_k": found.u_per_k * 1e6,
-        "slope_difference_um_per_m_k": found.slope_difference_per_k * 1e6,
-        "residual_um": found.residual_mm * 1e3,
-        "materials": found.materials,
-        "runs": runs.collect::<Vec<_>>(),
-        "warnings": found.warnings,
-    })
-}
-
-fn text(data: &Runs, found: &Expansion) -> String {
-    let mut text = format!("{}\n\n", data.name);
-    let (alpha, u) = (found.per_k * 1e6, found.u_per_k * 1e6);
-    // Writing to a String cannot fail.
-    let _ =
-        writeln!(text, "  expansion          {alpha:.3} ± {u:.3} µm/(m·K), standard uncertainty");
-    let difference = found.slope_difference_per_k * 1e6;
-    let _ =
-        writeln!(text, "  slope difference   {difference:.3} µm/(m·K), coldest and warmest run");
-    let material = match found.materials.is_empty() {
-        true => "none of steel tape, glass, Zerodur".to_owned(),
-        false => found.materials.join(" or "),
-    };
-    let _ = writeln!(text, "  material           {material}");
-    let _ = writeln!(text, "  residual           {:.3} µm\n", found.residual_mm * 1e3);
-    for (run, slope) in data.runs.iter().zip(&found.slopes) {
-        let (name, celsius) = (&run.name, run.celsius.value);
-        let _ = writeln!(text, "  {name:<18} {celsius:>6.1} °C   slope {:>9.3} µm/m", slope * 1e6);
-    }
-    let _ = writeln!(text, "\n  in the machine file: expansion = \"{alpha:.2} ± {u:.2} um/(m K)\"");
-    text
 }

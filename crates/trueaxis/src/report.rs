@@ -12,6 +12,8 @@ mod comparison;
 mod comparison_document;
 mod description_document;
 mod diagnostic;
+mod expansion;
+mod expansion_document;
 mod pose;
 mod pose_document;
 mod post;
@@ -33,6 +35,8 @@ pub use comparison::{comparison_html, comparison_report, comparison_text};
 pub use comparison_document::{VerifyDocument, comparison_json};
 pub use description_document::{DescriptionDocument, description_json};
 pub use diagnostic::{DiagnosticEntry, diagnostic_json, remarks};
+pub use expansion::{expansion_report, expansion_text};
+pub use expansion_document::{ExpansionDocument, expansion_json};
 pub use pose::{Bodies, Budget, PoseReport, array, bodies, budget, pose_report, pose_text};
 pub use pose_document::{PoseDocument, PoseRowsDocument, pose_json, pose_rows_json};
 pub use post::{PostReport, post_report, post_text};
@@ -47,5 +51,7 @@ pub use crate::schemas::schemas;
 pub use trueaxis_calibrate::report::*;
 pub use trueaxis_correct::report::*;
 pub use trueaxis_motion::report::*;
-pub use trueaxis_report::{Band, Block, DrawingError, Picture, Polar, PolarLine, Scatter, numbers};
+pub use trueaxis_report::{
+    Band, Block, DrawingError, Picture, Polar, PolarLine, Scatter, Table, numbers,
+};
 pub use trueaxis_standards::report::*;

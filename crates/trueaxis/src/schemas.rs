@@ -1,10 +1,11 @@
 //! The JSON documents of the program with their JSON Schemas.
 
 use crate::explain::{ExplainDocument, ExplainListDocument};
+use crate::questions::RtcpProgramsDocument;
 use crate::report::{
     CertificateDocument, CheckDocument, DescriptionDocument, DiagnosticEntry, DiffDocument,
-    PoseDocument, PoseRowsDocument, PostDocument, SolveDocument, SolvePathDocument, TraceDocument,
-    VerifyDocument,
+    ExpansionDocument, PoseDocument, PoseRowsDocument, PostDocument, SolveDocument,
+    SolvePathDocument, TraceDocument, VerifyDocument,
 };
 use schemars::{JsonSchema, Schema, generate::SchemaSettings, json_schema};
 use serde_json::Value;
@@ -26,6 +27,8 @@ pub fn schemas() -> Vec<NamedSchema> {
         named_schema::<DiffDocument<'_>>("diff"),
         named_schema::<ExplainDocument>("explain"),
         named_schema::<ExplainListDocument>("explain-list"),
+        named_schema::<ExpansionDocument<'_>>("identify-expansion"),
+        named_schema::<RtcpProgramsDocument<'_>>("identify-rtcp-programs"),
         named_schema::<PoseDocument>("pose"),
         named_schema::<PoseRowsDocument>("pose-rows"),
         named_schema::<PostDocument<'_>>("post"),
@@ -34,6 +37,9 @@ pub fn schemas() -> Vec<NamedSchema> {
         named_schema::<TraceDocument<'_>>("trace"),
         named_schema::<VerifyDocument<'_>>("verify"),
     ];
+    all.extend(trueaxis_calibrate::schemas());
+    all.extend(trueaxis_motion::schemas());
+    all.extend(trueaxis_standards::schemas());
     all.iter_mut().for_each(|(_, schema)| add_diagnostics(schema));
     all.push(named_schema::<DiagnosticEntry<'_>>("diagnostic"));
     all.sort_by_key(|(name, _)| *name);
