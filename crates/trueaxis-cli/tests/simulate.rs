@@ -49,12 +49,12 @@ fn the_report_is_one_whole_file() {
     assert!(html.len() < 3 << 20, "{} bytes", html.len());
     for words in [
         "ring-fanuc.nc on i5 engraving centre",
-        "The way of the tip in the workpiece",
+        "Path of the tool tip in the workpiece",
         "deviation of the tip, µm",
         "speed of X, mm/s",
         "A, deg",
         "time, s",
-        "Troubles",
+        "Issues",
         "Zhang Jian et al. 2023",
         env!("CARGO_PKG_VERSION"),
     ] {
@@ -88,7 +88,7 @@ fn exit_status_says_whether_part_or_machine_are_in_danger() {
     let folder = Folder::new("simulate-status");
     for (name, text, status, verdict) in [
         ("good.nc", GOOD, 0, None),
-        ("far.nc", FAR, 1, Some("TROUBLE")),
+        ("far.nc", FAR, 1, Some("CRITICAL")),
         ("broken.nc", BROKEN, 2, None),
     ] {
         let (program, page) = (folder.file(name, text), folder.path(&format!("{name}.html")));

@@ -2,10 +2,12 @@
 
 mod simulation;
 mod simulation_document;
-mod simulation_page;
+mod simulation_pictures;
 mod simulation_plots;
 mod simulation_views;
 
-pub use simulation::{Simulation, clock, simulation_text, trouble_code, trouble_text};
+pub use simulation::{
+    Simulation, clock, simulation_html, simulation_report, simulation_text, trouble_code,
+    trouble_text,
+};
 pub use simulation_document::{SimulationDocument, simulation_json};
-pub use simulation_page::simulation_html;

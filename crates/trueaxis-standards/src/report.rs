@@ -3,10 +3,8 @@
 mod evaluation;
 mod evaluation_circular;
 mod evaluation_document;
-mod evaluation_html;
 mod evaluation_others;
 mod evaluation_positioning;
 
-pub use evaluation::{Evaluation, Sheets, evaluation_text};
+pub use evaluation::{Contents, Evaluation, evaluation_html, evaluation_report, evaluation_text};
 pub use evaluation_document::{EvaluationDocument, evaluation_json};
-pub use evaluation_html::evaluation_html;

@@ -1,16 +1,22 @@
-//! A simulation for people and for programs.
+//! A simulation for people.
 
+use super::simulation_pictures::{axis_pictures, curves, marks_note};
+use super::simulation_views::tool_path;
 use crate::{
-    Drift, Findings, Job, Run, SetUp, Summary, Trouble, TroubleKind, TroubleList, Worst,
-    limit_name, shown, unit,
+    AxisUse, Drift, Findings, Job, Run, Series, SetUp, Summary, Trouble, TroubleKind, TroubleList,
+    Worst, limit_name, shown, unit,
 };
-use std::fmt::Write as _;
+use std::path::Path;
+use trueaxis_input::{Diagnostic, Severity};
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::Travel;
+use trueaxis_machine::axis::{AxisKind, Travel};
 use trueaxis_nc::Control;
 use trueaxis_nc::moves::Origin;
+use trueaxis_report::numbers::fixed;
+use trueaxis_report::{Columns, DrawingError, Figure, Report, Section, Standing, Table};
 
 /// Everything that a report of a simulation shows.
+#[derive(Clone, Copy)]
 pub struct Simulation<'a> {
     /// The machine.
     pub machine: &'a Machine,
@@ -18,17 +24,17 @@ pub struct Simulation<'a> {
     pub program: &'a str,
     /// Whose program it is.
     pub control: Control,
-    /// What stood on the machine.
+    /// Tools, work offsets and bodies.
     pub setup: &'a SetUp,
     /// How it ended.
     pub run: &'a Run,
-    /// What it comes to.
+    /// Times, paths, extents and the largest deviations.
     pub summary: &'a Summary,
-    /// What went wrong.
+    /// The issues that were found.
     pub troubles: &'a TroubleList,
     /// The file of the path, if one was written.
     pub path_file: Option<&'a str>,
-    /// What changing temperatures did, where they followed a log.
+    /// The effect of changing temperatures, where they followed a log.
     pub drift: Option<&'a Drift>,
 }
 
@@ -47,13 +53,33 @@ impl<'a> Simulation<'a> {
             drift: found.drift.as_ref(),
         }
     }
+
+    /// The block as people name it: `line 12`, with the program where it is not the main one.
+    pub fn block(&self, origin: Origin) -> String {
+        match (origin.program, self.run.programs.get(origin.program as usize)) {
+            (0, _) | (_, None) => format!("line {}", origin.line),
+            (_, Some(program)) => format!("{program}:{}", origin.line),
+        }
+    }
+
+    /// From which block to which.
+    fn blocks(&self, trouble: &Trouble) -> String {
+        match trouble.first == trouble.last {
+            true => self.block(trouble.first),
+            false => format!("{} to {}", self.block(trouble.first), self.block(trouble.last)),
+        }
+    }
+
+    fn is_exact(&self) -> bool {
+        self.machine.stated_errors().is_empty() && !self.machine.is_at_temperatures()
+    }
 }
 
-/// Troubles that the terminal lists.
-const MOST_SHOWN: usize = 20;
+/// Rows of the table of issues, and of other lists that a program can make long.
+const MOST_ROWS: usize = 1000;
 
-/// Kinds of troubles that only cost time, in the terminal.
-const MOST_MINOR: usize = 6;
+/// Rows of the table of issues on the terminal.
+const MOST_ON_TERMINAL: usize = 26;
 
 pub(super) fn control_name(control: Control) -> &'static str {
     match control {
@@ -64,17 +90,7 @@ pub(super) fn control_name(control: Control) -> &'static str {
     }
 }
 
-impl Simulation<'_> {
-    /// The block as people name it: `line 12`, with the program where it is not the main one.
-    pub fn block(&self, origin: Origin) -> String {
-        match (origin.program, self.run.programs.get(origin.program as usize)) {
-            (0, _) | (_, None) => format!("line {}", origin.line),
-            (_, Some(program)) => format!("{program}:{}", origin.line),
-        }
-    }
-}
-
-/// What went wrong, in one sentence with its figures.
+/// An issue in one sentence with its values.
 pub fn trouble_text(machine: &Machine, trouble: &Trouble) -> String {
     let name = |axis: usize| machine.axes()[axis].name;
     let value =
@@ -96,9 +112,9 @@ pub fn trouble_text(machine: &Machine, trouble: &Trouble) -> String {
             value(*axis, trouble.limit)
         ),
         TroubleKind::OverSpeed { axis, near_pole } => format!(
-            "over-speed: the feed asks {} for {}/s, it has {}/s{}; the control slows down",
-            name(*axis),
+            "over-speed: the feed needs {} of {}/s, its limit is {}/s{}; the control slows down",
             value(*axis, trouble.value),
+            name(*axis),
             value(*axis, trouble.limit),
             if *near_pole { " (near a pole of the rotary axes)" } else { "" }
         ),
@@ -116,7 +132,7 @@ pub fn trouble_text(machine: &Machine, trouble: &Trouble) -> String {
     }
 }
 
-/// The code of a trouble in JSON.
+/// The code of an issue in JSON.
 pub fn trouble_code(kind: &TroubleKind) -> &'static str {
     match kind {
         TroubleKind::Collision { .. } => "collision",
@@ -127,197 +143,6 @@ pub fn trouble_code(kind: &TroubleKind) -> &'static str {
         TroubleKind::SlowedDown { .. } => "slowed-down",
         TroubleKind::RotaryFlip { .. } => "rotary-flip",
     }
-}
-
-/// The simulation as the terminal shows it.
-pub fn simulation_text(s: &Simulation<'_>) -> String {
-    let mut out = String::new();
-    // Writing into a text cannot fail.
-    let _ = write_text(s, &mut out);
-    out
-}
-
-fn write_text(s: &Simulation<'_>, out: &mut String) -> std::fmt::Result {
-    let (summary, machine) = (s.summary, s.machine);
-    writeln!(out, "{} on {}", s.program, machine.name())?;
-    writeln!(out, "  {}    {}\n", machine.chain_text(), control_name(s.control))?;
-    writeln!(
-        out,
-        "  time      {}   ({} with feed, {} rapid, {} waiting)",
-        clock(summary.time_s),
-        clock(summary.time_s - summary.rapid_s - summary.dwell_s),
-        clock(summary.rapid_s),
-        clock(summary.dwell_s)
-    )?;
-    writeln!(
-        out,
-        "  way       {:.1} mm with feed, {:.1} mm rapid   ({} moves, {} places)",
-        summary.feed_mm, summary.rapid_mm, summary.moves, summary.nodes
-    )?;
-    if let Some([low, high]) = summary.cut_box_mm {
-        writeln!(
-            out,
-            "  tip       X {} … {}   Y {} … {}   Z {} … {} mm, with feed",
-            fixed(low.x, 3),
-            fixed(high.x, 3),
-            fixed(low.y, 3),
-            fixed(high.y, 3),
-            fixed(low.z, 3),
-            fixed(high.z, 3)
-        )?;
-    }
-    writeln!(
-        out,
-        "\n  axis        lowest      highest         travel          fastest    reversals"
-    )?;
-    for (i, axis) in summary.axes.iter().enumerate() {
-        if axis.lowest > axis.highest {
-            continue;
-        }
-        let limits = match machine.axes()[i].travel {
-            Travel::Between(a, b) => {
-                format!("{:.0} … {:.0}", shown(machine, i, a), shown(machine, i, b))
-            }
-            Travel::Unlimited => "without end".to_owned(),
-            Travel::Unknown => "not stated".to_owned(),
-        };
-        writeln!(
-            out,
-            "  {:<4} {:>12} {:>12} {:>3} {:>16} {:>10.2} {:>3}/s {:>8}",
-            machine.axes()[i].name.to_string(),
-            fixed(shown(machine, i, axis.lowest), 3),
-            fixed(shown(machine, i, axis.highest), 3),
-            unit(machine, i),
-            limits,
-            shown(machine, i, axis.fastest.value.abs()),
-            unit(machine, i),
-            axis.reversals
-        )?;
-    }
-    if machine.stated_errors().is_empty() && !machine.is_at_temperatures() {
-        writeln!(out, "\n  the machine file states no errors: the actual tool is the nominal one")?;
-        return write_end(s, out);
-    }
-    writeln!(out, "\n  deviation of the actual tool from the nominal one, with feed")?;
-    let at = |w: &Worst| format!("{}, {}", s.block(w.origin), clock(w.time_s));
-    writeln!(
-        out,
-        "  tip         {:>9.2} µm   at {}   ({:.2} µm rms)",
-        summary.feed_tip.value * 1e3,
-        at(&summary.feed_tip),
-        summary.feed_tip_rms_mm * 1e3
-    )?;
-    for (name, worst) in ["feed", "normal", "binormal"].iter().zip(&summary.along_path) {
-        writeln!(out, "  {name:<11} {:>9.2} µm   at {}", worst.value * 1e3, at(worst))?;
-    }
-    let axis = &summary.feed_axis;
-    writeln!(out, "  tool axis   {:>9.2} µrad at {}", axis.value * 1e6, at(axis))?;
-    write_end(s, out)
-}
-
-fn write_end(s: &Simulation<'_>, out: &mut String) -> std::fmt::Result {
-    if let Some(drift) = s.drift {
-        write_drift(s, drift, out)?;
-    }
-    write_troubles(s, out)?;
-    if let Some(path) = s.path_file {
-        writeln!(out, "\n  path: {path}")?;
-    }
-    Ok(())
-}
-
-fn write_drift(s: &Simulation<'_>, drift: &Drift, out: &mut String) -> std::fmt::Result {
-    let run = drift.run();
-    let (from_s, to_s) = (run.start_s, run.start_s + drift.time_s());
-    writeln!(
-        out,
-        "\n  temperatures of {}, from {} to {} of its time",
-        run.log.file(),
-        clock(from_s),
-        clock(to_s)
-    )?;
-    for sensor in drift.sensors() {
-        let (low, high) = (sensor.lowest_celsius, sensor.highest_celsius);
-        writeln!(out, "  {:<15} {low:>7.2} … {high:.2} °C", sensor.sensor)?;
-    }
-    let worst = &drift.tip;
-    writeln!(
-        out,
-        "  drift of the deviation since the start: {:.2} µm at the most, at {}, {}; {:.2} µm at the end",
-        worst.value * 1e3,
-        s.block(worst.origin),
-        clock(worst.time_s),
-        drift.last_mm * 1e3
-    )?;
-    if drift.unknown > 0 {
-        let places = drift.unknown;
-        writeln!(out, "  not known at {places} places, since an error table ends before them")?;
-    }
-    Ok(())
-}
-
-fn write_troubles(s: &Simulation<'_>, out: &mut String) -> std::fmt::Result {
-    let list = &s.troubles.list;
-    if list.is_empty() {
-        return writeln!(out, "\n  no trouble found");
-    }
-    let count = list.len() as u64 + s.troubles.left_out;
-    writeln!(out, "\n  {count} trouble{} found", if count == 1 { "" } else { "s" })?;
-    let grave: Vec<&Trouble> = list.iter().filter(|t| t.grave).collect();
-    for trouble in grave.iter().take(MOST_SHOWN) {
-        let text = trouble_text(s.machine, trouble);
-        writeln!(out, "  ! {}  {}  {text}", clock(trouble.from_s), blocks(s, trouble))?;
-    }
-    if grave.len() > MOST_SHOWN {
-        let hidden = grave.len() - MOST_SHOWN;
-        writeln!(out, "    … and {hidden} more; --format json and the report have them")?;
-    }
-    write_minor(s, out)
-}
-
-/// What costs only time: one line for each kind, with its worst place.
-fn write_minor(s: &Simulation<'_>, out: &mut String) -> std::fmt::Result {
-    let mut kinds: Vec<(&TroubleKind, Vec<&Trouble>)> = Vec::new();
-    for trouble in s.troubles.list.iter().filter(|t| !t.grave) {
-        match kinds.iter_mut().find(|(kind, _)| **kind == trouble.kind) {
-            Some((_, all)) => all.push(trouble),
-            None => kinds.push((&trouble.kind, vec![trouble])),
-        }
-    }
-    let badness = |t: &Trouble| (t.value - t.limit).abs();
-    let worst_of = |all: &[&Trouble]| all.iter().map(|t| badness(t)).fold(0.0, f64::max);
-    kinds.sort_by(|a, b| worst_of(&b.1).total_cmp(&worst_of(&a.1)));
-    let hidden = kinds.len().saturating_sub(MOST_MINOR);
-    for (_, all) in kinds.into_iter().take(MOST_MINOR) {
-        let Some(worst) = all.iter().max_by(|a, b| badness(a).total_cmp(&badness(b))) else {
-            continue;
-        };
-        let times = match all.len() {
-            1 => String::new(),
-            n => format!("   ({n} stretches, this is the worst)"),
-        };
-        let text = trouble_text(s.machine, worst);
-        writeln!(out, "  · {}  {}  {text}{times}", clock(worst.from_s), blocks(s, worst))?;
-    }
-    if hidden > 0 {
-        writeln!(out, "    … and {hidden} more kinds; --format json and the report have them")?;
-    }
-    Ok(())
-}
-
-/// From which block to which.
-pub(super) fn blocks(s: &Simulation<'_>, trouble: &Trouble) -> String {
-    match trouble.first == trouble.last {
-        true => s.block(trouble.first),
-        false => format!("{} to {}", s.block(trouble.first), s.block(trouble.last)),
-    }
-}
-
-/// A number with so many decimals, without a minus before a zero.
-fn fixed(value: f64, digits: usize) -> String {
-    let text = format!("{value:.digits$}");
-    let zero = text.trim_start_matches(['-', '0', '.']).is_empty();
-    if zero { text.trim_start_matches('-').to_owned() } else { text }
 }
 
 /// Seconds as people read them: `4 min 05.20 s`.
@@ -332,6 +157,366 @@ pub fn clock(seconds: f64) -> String {
         true => format!("{hours:.0} h {:02.0} min {rest:05.2} s", minutes - hours * 60.0),
         false => format!("{minutes:.0} min {rest:05.2} s"),
     }
+}
+
+/// A simulation for people; with pictures where `series` holds their curves.
+pub fn simulation_report<'a>(s: Simulation<'a>, series: Option<&'a Series>) -> Report<'a> {
+    let name = Path::new(s.program).file_name().map_or(s.program.into(), |n| n.to_string_lossy());
+    let chain = s.machine.chain_text();
+    let (standing, word, sentence) = verdict(&s);
+    let drawn = series.map(|series| [path_section(s, series), deviation_curves(s, series)]);
+    Report::new(format!("{name} on {}", s.machine.name()))
+        .line(format!("{} · {chain} · {}", control_name(s.control), clock(s.summary.time_s)))
+        .verdict(standing, word, sentence)
+        .section(summary_section(s.summary))
+        .section(deviation_section(&s))
+        .sections(drawn.into_iter().flatten())
+        .section(axis_section(s, series))
+        .sections(temperature_section(&s))
+        .sections(issue_sections(&s))
+        .section(tool_section(&s))
+        .section(Section::new("Messages of the program").list(s.summary.messages.iter().cloned()))
+        .section(diagnostic_section(s.run))
+        .section(input_section(&s))
+}
+
+/// The simulation as the terminal shows it.
+pub fn simulation_text(s: &Simulation<'_>) -> String {
+    simulation_report(*s, None).text()
+}
+
+/// The simulation as one self-contained page.
+///
+/// # Errors
+/// A picture that the drawing library refuses.
+pub fn simulation_html(s: &Simulation<'_>, series: &Series) -> Result<String, DrawingError> {
+    simulation_report(*s, Some(series)).html()
+}
+
+fn verdict(s: &Simulation<'_>) -> (Standing, &'static str, String) {
+    let count = |n: u64, noun: &str| format!("{n} {noun}{}", if n == 1 { "" } else { "s" });
+    let critical = s.troubles.list.iter().filter(|t| t.grave).count() as u64;
+    let all = s.troubles.list.len() as u64 + s.troubles.left_out;
+    let errors = s.run.problems.iter().filter(|d| d.severity == Severity::Error).count() as u64;
+    match (critical, all - critical) {
+        _ if errors > 0 => {
+            let sentence = format!("{} in the program", count(errors, "error"));
+            (Standing::Bad, "NOT COMPLETE", sentence)
+        }
+        (0, 0) => {
+            let sentence = "no issue found that endangers part or machine".to_owned();
+            (Standing::Good, "NO ISSUES", sentence)
+        }
+        (0, slow) => {
+            let sentence =
+                format!("{} found, without danger for part and machine", count(slow, "issue"));
+            (Standing::Open, "SLOWER", sentence)
+        }
+        (critical, slow) => {
+            let also = if slow > 0 { format!(", and {slow} more") } else { String::new() };
+            let sentence = format!("{}{also} found", count(critical, "critical issue"));
+            (Standing::Bad, "CRITICAL", sentence)
+        }
+    }
+}
+
+fn summary_section(summary: &Summary) -> Section<'static> {
+    let (all, rapid, dwell) = (summary.time_s, summary.rapid_s, summary.dwell_s);
+    let (feed_mm, rapid_mm) = (summary.feed_mm, summary.rapid_mm);
+    let mm = |v: f64| format!("{v:.1}");
+    let table = Table::new(["", "with feed", "rapid", "waiting", "total"])
+        .row([
+            "time".to_owned(),
+            clock(all - rapid - dwell),
+            clock(rapid),
+            clock(dwell),
+            clock(all),
+        ])
+        .row([
+            "path of the tip, mm".to_owned(),
+            mm(feed_mm),
+            mm(rapid_mm),
+            String::new(),
+            mm(feed_mm + rapid_mm),
+        ]);
+    let mut note = format!("{} moves, {} points of the path", summary.moves, summary.nodes);
+    if let Some([low, high]) = summary.cut_box_mm {
+        let range = |i: usize| format!("{} … {}", fixed(low[i], 3), fixed(high[i], 3));
+        let (x, y, z) = (range(0), range(1), range(2));
+        note += &format!("; with feed the tip reaches X {x}, Y {y}, Z {z} mm");
+    }
+    if summary.stops > 0 {
+        note += &format!("; {} stops", summary.stops);
+    }
+    Section::new("Summary").table(table.note(note + "."))
+}
+
+fn deviation_section(s: &Simulation<'_>) -> Section<'static> {
+    let section =
+        Section::new("Largest deviation of the actual tool from the nominal one, with feed");
+    if s.is_exact() {
+        return section
+            .paragraph("The machine file states no errors: the actual tool is the nominal one.");
+    }
+    let row = |name: &str, scale: f64, worst: &Worst| {
+        let value = fixed(worst.value * scale, 2);
+        [name.to_owned(), value, s.block(worst.origin), clock(worst.time_s)]
+    };
+    let summary = s.summary;
+    let [feed, normal, binormal] = &summary.along_path;
+    let rms = fixed(summary.feed_tip_rms_mm * 1e3, 2);
+    let table = Table::new(["in the workpiece", "value", "at", "when"])
+        .row(row("tip, µm", 1e3, &summary.feed_tip))
+        .row(["tip, root mean square, µm".to_owned(), rms, String::new(), String::new()])
+        .row(row("along the feed, µm", 1e3, feed))
+        .row(row("along the normal, µm", 1e3, normal))
+        .row(row("along the binormal, µm", 1e3, binormal))
+        .row(row("tool axis, µrad", 1e6, &summary.feed_axis))
+        .note(
+            "The normal lies across the feed on the side of the tool axis, the binormal across both: \
+             for an upright tool they are the height and the side of the cut.",
+        );
+    section.table(table)
+}
+
+fn path_section<'a>(s: Simulation<'a>, series: &'a Series) -> Section<'a> {
+    let section = Section::new("Path of the tool tip in the workpiece");
+    if series.points().len() < 2 {
+        return section;
+    }
+    let worst =
+        if s.summary.feed_tip.value > 0.0 { " The largest deviation is drawn on top." } else { "" };
+    let note = format!(
+        "Nominal path in the workpiece frame, all views at one scale. Rapid moves may leave the \
+         picture.{worst}"
+    );
+    section.figure(Figure::new(note, || tool_path(series.points())))
+}
+
+fn deviation_curves<'a>(s: Simulation<'a>, series: &'a Series) -> Section<'a> {
+    let section = Section::new("Deviation and speed over time");
+    if s.summary.nodes == 0 {
+        return section;
+    }
+    section
+        .note(format!(
+            "Deviation of the actual tool from the nominal one, in the workpiece, rapid moves included. \
+             Each column shows the lowest and the highest value in its stretch of time. The speed is in \
+             deg/min where only rotary axes move.{}",
+            marks_note(&s)
+        ))
+        .figure(Figure::new("", move || curves(&s, series)))
+}
+
+fn axis_section<'a>(s: Simulation<'a>, series: Option<&'a Series>) -> Section<'a> {
+    let mut positions =
+        Table::new(["axis", "lowest", "highest", "unit", "travel", "path", "reversals"]);
+    let mut speeds = Table::new(["axis", "fastest", "limit", "used", "as m/min", "at"]);
+    for (i, of) in s.summary.axes.iter().enumerate() {
+        let axis = &s.machine.axes()[i];
+        let name = axis.name.to_string();
+        if of.lowest > of.highest {
+            positions.push([name, "does not move".to_owned()]);
+            continue;
+        }
+        let digits = |v: f64| fixed(shown(s.machine, i, v), 3);
+        let cells = [
+            name,
+            digits(of.lowest),
+            digits(of.highest),
+            unit(s.machine, i).to_owned(),
+            travel(&s, i),
+            format!("{:.1}", shown(s.machine, i, of.travelled)),
+            of.reversals.to_string(),
+        ];
+        let inside = [of.lowest, of.highest].iter().all(|q| axis.travel.contains(*q));
+        positions = if inside { positions.row(cells) } else { positions.bold_row(cells) };
+        speeds = speed_row(&s, i, of, speeds);
+    }
+    let section = Section::new("Axes").table(positions).table(speeds);
+    let Some(series) = series.filter(|_| s.summary.nodes > 0) else { return section };
+    let pictures = axis_pictures(s, series);
+    section.grid(Columns::One, pictures).note(format!(
+        "Positions and speeds over time; ends of travel and speed limits are red lines where they come \
+         into view.{}",
+        marks_note(&s)
+    ))
+}
+
+pub(super) fn travel(s: &Simulation<'_>, axis: usize) -> String {
+    match s.machine.axes()[axis].travel {
+        Travel::Between(a, b) => {
+            let of = |v: f64| shown(s.machine, axis, v);
+            format!("{:.0} … {:.0} {}", of(a), of(b), unit(s.machine, axis))
+        }
+        Travel::Unlimited => "unlimited".to_owned(),
+        Travel::Unknown => "not stated".to_owned(),
+    }
+}
+
+fn speed_row(s: &Simulation<'_>, index: usize, of: &AxisUse, speeds: Table) -> Table {
+    let (axis, fastest) = (&s.machine.axes()[index], of.fastest.value.abs());
+    let limit = axis.limits.velocity;
+    let speed = |v: f64| format!("{:.2} {}/s", shown(s.machine, index, v), unit(s.machine, index));
+    // As on the plates of machines.
+    let per_minute = match (axis.kind, limit) {
+        (AxisKind::Rotary, _) => String::new(),
+        (AxisKind::Linear, None) => format!("{:.2}", fastest * 0.06),
+        (AxisKind::Linear, Some(v)) => format!("{:.2} of {:.2}", fastest * 0.06, v * 0.06),
+    };
+    let cells = [
+        axis.name.to_string(),
+        speed(fastest),
+        limit.map_or_else(|| "not stated".to_owned(), speed),
+        limit.map_or_else(String::new, |v| format!("{:.0} %", 100.0 * fastest / v)),
+        per_minute,
+        if fastest > 0.0 { s.block(of.fastest.origin) } else { String::new() },
+    ];
+    match limit.is_some_and(|v| fastest > v * (1.0 + 1e-6)) {
+        true => speeds.bold_row(cells),
+        false => speeds.row(cells),
+    }
+}
+
+fn temperature_section(s: &Simulation<'_>) -> Option<Section<'static>> {
+    let drift = s.drift?;
+    let run = drift.run();
+    let (from_s, to_s) = (run.start_s, run.start_s + drift.time_s());
+    let sensors = drift.sensors().into_iter().map(|sensor| {
+        let (low, high) = (sensor.lowest_celsius, sensor.highest_celsius);
+        [sensor.sensor, format!("{low:.2} … {high:.2}")]
+    });
+    let worst = &drift.tip;
+    let mut found = format!(
+        "Drift of the deviation of the tip since the start, with feed: {:.2} µm at most, at {}, {}; \
+         {:.2} µm at the end.",
+        worst.value * 1e3,
+        s.block(worst.origin),
+        clock(worst.time_s),
+        drift.last_mm * 1e3
+    );
+    if drift.unknown > 0 {
+        let points = drift.unknown;
+        found +=
+            &format!(" Not known at {points} points, because an error table ends before them.");
+    }
+    let log = run.log.file();
+    let time = format!(
+        "Log {log}, from {} to {} of its time ({from_s:.1} s to {to_s:.1} s).",
+        clock(from_s),
+        clock(to_s)
+    );
+    let table = Table::new(["sensor", "°C"]).rows(sensors);
+    Some(Section::new("Temperatures").paragraph(time).table(table).paragraph(found))
+}
+
+/// Critical issues one by one, the others once for each kind; then all stretches of the others.
+fn issue_sections(s: &Simulation<'_>) -> Vec<Section<'static>> {
+    let row = |t: &Trouble, also: &str| {
+        [
+            if t.grave { "critical" } else { "time" }.to_owned(),
+            s.blocks(t),
+            clock(t.from_s),
+            clock(t.to_s - t.from_s),
+            trouble_text(s.machine, t) + also,
+        ]
+    };
+    let table = || Table::new(["", "block", "from", "for", "issue"]);
+    let (critical, minor): (Vec<&Trouble>, Vec<_>) = s.troubles.list.iter().partition(|t| t.grave);
+    let mut issues = table().most_on_terminal(MOST_ON_TERMINAL);
+    for trouble in critical.iter().take(MOST_ROWS) {
+        issues = issues.bold_row(row(trouble, ""));
+    }
+    let kinds = minor_kinds(&minor);
+    for (worst, count) in &kinds {
+        let also = match count {
+            1 => String::new(),
+            n => format!("   ({n} stretches, this is the worst)"),
+        };
+        issues.push(row(worst, &also));
+    }
+    let left_out = s.troubles.left_out + critical.len().saturating_sub(MOST_ROWS) as u64;
+    let left_out = left_out + minor.len().saturating_sub(MOST_ROWS) as u64;
+    let section = Section::new("Issues");
+    let section = match (issues.rows.is_empty(), left_out) {
+        (true, _) => section.paragraph("None found."),
+        (_, 0) => section.table(issues),
+        (_, n) => section.table(issues.note(format!("… and {n} more of the same kinds."))),
+    };
+    let every = table().rows(minor.iter().take(MOST_ROWS).map(|t| row(t, "")));
+    let every = Section::new("Issues that cost time, every stretch").on_page().table(every);
+    let is_more = minor.len() > kinds.len();
+    [section].into_iter().chain(is_more.then_some(every)).collect()
+}
+
+/// The worst issue of each kind and how many of them there are, the worst first.
+fn minor_kinds<'t>(minor: &[&'t Trouble]) -> Vec<(&'t Trouble, usize)> {
+    let badness = |t: &Trouble| (t.value - t.limit).abs();
+    let mut kinds: Vec<(&Trouble, usize)> = Vec::new();
+    for trouble in minor {
+        match kinds.iter_mut().find(|(other, _)| other.kind == trouble.kind) {
+            Some((worst, count)) => {
+                *count += 1;
+                if badness(trouble) >= badness(worst) {
+                    *worst = trouble;
+                }
+            }
+            None => kinds.push((trouble, 1)),
+        }
+    }
+    kinds.sort_by(|a, b| badness(b.0).total_cmp(&badness(a.0)));
+    kinds
+}
+
+fn tool_section(s: &Simulation<'_>) -> Section<'static> {
+    let mm = |v: f64| fixed(v, 3);
+    let row = |(number, moves): (&u32, &u64)| {
+        let tool = s.setup.tools.get(number);
+        [
+            if *number == 0 { "none yet".to_owned() } else { format!("T{number}") },
+            tool.map_or_else(|| "as in the machine file".to_owned(), |t| t.name.clone()),
+            mm(-tool.map_or(s.machine.tip_mm(), |t| t.tip_mm).z),
+            tool.and_then(|t| t.diameter_mm).map_or_else(String::new, mm),
+            moves.to_string(),
+        ]
+    };
+    let table = Table::new(["tool", "name", "length, mm", "diameter, mm", "moves"]);
+    Section::new("Tools").table(table.rows(s.summary.tools.iter().take(MOST_ROWS).map(row)))
+}
+
+/// On the terminal the diagnostics stand above the answer.
+fn diagnostic_section(run: &Run) -> Section<'static> {
+    let row = |d: &Diagnostic| {
+        let place = match d.place.line {
+            0 => "whole".to_owned(),
+            line => format!("{line}:{}", d.place.column),
+        };
+        [place, d.severity.to_string(), d.message.clone(), d.hint.clone()]
+    };
+    let table = Table::new(["place", "", "message", "hint"]);
+    let table = table.rows(run.problems.iter().take(MOST_ROWS).map(row));
+    Section::new("Notes on the program").on_page().table(table)
+}
+
+fn input_section(s: &Simulation<'_>) -> Section<'static> {
+    let offsets: Vec<String> = s.setup.work_offsets.keys().map(ToString::to_string).collect();
+    let offsets = if offsets.is_empty() { "none".to_owned() } else { offsets.join(", ") };
+    let setup = match s.setup.given {
+        true => format!("given: {} tools; work offsets {offsets}", s.setup.tools.len()),
+        false => "none: work offsets and tool lengths are 0".to_owned(),
+    };
+    let called = s.run.programs.iter().skip(1).take(MOST_ROWS);
+    let table = Table::pairs([("program", s.program)])
+        .rows(called.map(|program| ["subprogram", program]))
+        .rows([
+            ["control", control_name(s.control)],
+            ["set-up", &setup],
+            ["machine", s.machine.name()],
+            ["source of the machine", s.machine.source()],
+            ["stated errors", &s.machine.stated_errors().len().to_string()],
+        ])
+        .rows(s.path_file.map(|path| ["path", path]));
+    Section::new("Inputs").table(table)
 }
 
 #[cfg(test)]

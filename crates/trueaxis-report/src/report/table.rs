@@ -88,7 +88,7 @@ impl Table {
     }
 
     /// Whether a column holds words, which read better from the left: where no cell is a number.
-    pub(super) fn has_words(&self, column: usize) -> bool {
+    pub fn has_words(&self, column: usize) -> bool {
         let cells = || self.rows.iter().filter_map(|row| row.cells.get(column));
         let is_number = |cell: &String| cell == "–" || starts_with_number(cell);
         column == 0 || self.headings.is_empty() || !cells().any(is_number)

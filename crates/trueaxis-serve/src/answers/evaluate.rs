@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use trueaxis::files;
 use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Dimension, parse_quantity};
-use trueaxis::report::{Block, Evaluation, Picture, evaluation_json, evaluation_text, remarks};
+use trueaxis::report::{Evaluation, Picture, Table, evaluation_json, evaluation_text, remarks};
 use trueaxis::verify::conditions::{Conditions, read_conditions};
 use trueaxis::verify::import::Import;
 use trueaxis::verify::{Evaluated, Readings, Standard, evaluate_text, iso230_3};
@@ -117,17 +117,17 @@ pub(super) fn evaluate(desk: &Desk, body: &Value, _: &Job) -> Result<Reply, Refu
         ["standard", "path", "name", "text", "import", "feature", "conditions", "radius", "window"];
     let judged = judged(desk, &Body::of(body, &known)?)?;
     let mut drawn = Drawn::default();
-    let (mut document, text, sheets) =
-        judged.told(|e| (evaluation_json(e), evaluation_text(e), e.sheets()));
+    let (mut document, text, contents) =
+        judged.told(|e| (evaluation_json(e), evaluation_text(e), e.contents()));
     document["diagnostics"] = diagnostics_json(&judged.problems).into();
-    let pictures: Value = sheets.pictures.iter().map(|picture| drawn.picture(picture)).collect();
+    let pictures: Value = contents.pictures.iter().map(|picture| drawn.picture(picture)).collect();
     let file = judged.conditions_file.as_ref().and_then(|path| desk.project.name_of(path));
     let frame = Frame::new()
         .say("document", document)
         .say("text", json!(text))
         .say("conditions_file", json!(file))
-        .say("figures", sheets.figures.iter().map(block_json).collect())
-        .say("details", sheets.details.iter().map(block_json).collect())
+        .say("figures", contents.results.iter().map(table_json).collect())
+        .say("details", contents.details.iter().map(table_json).collect())
         .say("pictures", pictures)
         .say("remarks", remarks(&judged.problems).into())
         .say("diagnostics", diagnostics_json(&judged.problems).into())
@@ -136,13 +136,13 @@ pub(super) fn evaluate(desk: &Desk, body: &Value, _: &Job) -> Result<Reply, Refu
     Ok(Reply::Frame(frame))
 }
 
-fn block_json(block: &Block) -> Value {
-    let words: Vec<bool> = (0..block.headings.len()).map(|i| block.has_words(i)).collect();
+fn table_json((title, table): &(String, Table)) -> Value {
+    let words: Vec<bool> = (0..table.headings.len()).map(|i| table.has_words(i)).collect();
     json!({
-        "title": block.title,
-        "note": block.note,
-        "headings": block.headings,
-        "rows": block.rows,
+        "title": title,
+        "note": table.note,
+        "headings": table.headings,
+        "rows": table.rows.iter().map(|row| &row.cells).collect::<Vec<_>>(),
         "words": words,
     })
 }

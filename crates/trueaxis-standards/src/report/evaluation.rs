@@ -1,8 +1,9 @@
-//! An evaluation for people: the same tables for the terminal and the page.
+//! An evaluation for people.
 
+use super::{evaluation_circular, evaluation_others, evaluation_positioning};
 use crate::conditions::Conditions;
 use crate::{Evaluated, Standard};
-use trueaxis_report::{Block, Picture, write_block};
+use trueaxis_report::{DrawingError, Picture, Report, Section, Table};
 
 /// Everything that a report of an evaluation shows.
 pub struct Evaluation<'a> {
@@ -18,37 +19,32 @@ pub struct Evaluation<'a> {
     pub remarks: &'a [String],
 }
 
-/// What all reports of an evaluation show, in their order.
-pub struct Sheets {
+/// The tables and pictures of an evaluation, each table with its title.
+pub struct Contents {
     /// Before the pictures.
-    pub figures: Vec<Block>,
-    /// Behind them.
-    pub details: Vec<Block>,
+    pub results: Vec<(String, Table)>,
     /// Between them.
     pub pictures: Vec<Picture>,
+    /// After the pictures.
+    pub details: Vec<(String, Table)>,
 }
 
 impl Evaluation<'_> {
     /// Tables and pictures.
-    pub fn sheets(&self) -> Sheets {
+    pub fn contents(&self) -> Contents {
         match self.evaluated {
             Evaluated::Positioning(measurement, result) => {
-                super::evaluation_positioning::sheets(self.standard, measurement, result)
+                evaluation_positioning::contents(self.standard, measurement, result)
             }
-            Evaluated::Circular(circle) => super::evaluation_circular::sheets(circle),
-            Evaluated::Drift(drift) => super::evaluation_others::drift_sheets(drift),
-            Evaluated::Diagonals(d) => super::evaluation_others::diagonal_sheets(d),
-            Evaluated::Rotation(r) => super::evaluation_others::rotation_sheets(r),
+            Evaluated::Circular(circle) => evaluation_circular::contents(circle),
+            Evaluated::Drift(drift) => evaluation_others::drift(drift),
+            Evaluated::Diagonals(d) => evaluation_others::diagonals(d),
+            Evaluated::Rotation(r) => evaluation_others::rotation(r),
         }
     }
 
-    /// What was measured, in words.
-    pub(super) fn title(&self) -> &str {
-        self.conditions.name.as_deref().unwrap_or(self.file)
-    }
-
     /// Machine, axis, instrument, date, temperature, where known.
-    pub(super) fn circumstances(&self) -> String {
+    fn circumstances(&self) -> String {
         let c = self.conditions;
         let axis = c.axis.as_ref().map(|a| format!("axis {a}"));
         let temperature = c.temperature_c.map(|t| match t.u {
@@ -67,28 +63,39 @@ impl Evaluation<'_> {
     }
 }
 
-/// A figure, or a dash where there is none.
-pub(super) fn figure(value: Option<f64>, scale: f64) -> String {
+/// An evaluation for people.
+pub fn evaluation_report(evaluation: &Evaluation<'_>) -> Report<'static> {
+    let Contents { results, pictures, details } = evaluation.contents();
+    let section = |(title, table): (String, Table)| Section::new(title).table(table);
+    let remarks = Section::new("Remarks on the readings").on_page();
+    Report::new(evaluation.conditions.name.as_deref().unwrap_or(evaluation.file))
+        .line(evaluation.standard.title())
+        .line(evaluation.circumstances())
+        .sections(results.into_iter().map(section))
+        .sections(pictures.into_iter().map(Section::from))
+        .section(remarks.list(evaluation.remarks.iter().cloned()))
+        .sections(details.into_iter().map(section))
+}
+
+/// The evaluation as the terminal shows it.
+pub fn evaluation_text(evaluation: &Evaluation<'_>) -> String {
+    evaluation_report(evaluation).text()
+}
+
+/// The evaluation as one self-contained page.
+///
+/// # Errors
+/// What the drawing library says.
+pub fn evaluation_html(evaluation: &Evaluation<'_>) -> Result<String, DrawingError> {
+    evaluation_report(evaluation).html()
+}
+
+/// A value with two decimals, or a dash where there is none.
+pub(super) fn cell(value: Option<f64>, scale: f64) -> String {
     match value {
         // No minus before what is shown as zero.
         Some(v) if (v * scale).abs() < 0.005 => "0.00".to_owned(),
         Some(v) => format!("{:.2}", v * scale),
         None => "–".to_owned(),
     }
-}
-
-/// The evaluation as the terminal shows it.
-pub fn evaluation_text(evaluation: &Evaluation<'_>) -> String {
-    let sheets = evaluation.sheets();
-    let mut out = format!(
-        "{}\n  {}\n  {}\n",
-        evaluation.title(),
-        evaluation.standard.title(),
-        evaluation.circumstances()
-    );
-    for block in sheets.figures.iter().chain(&sheets.details) {
-        // Writing into a text cannot fail.
-        let _ = write_block(&mut out, block);
-    }
-    out
 }

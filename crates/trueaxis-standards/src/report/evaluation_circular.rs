@@ -1,43 +1,43 @@
-//! The tables and pictures of a circular test.
+//! The tables and the picture of a circular test.
 
-use super::evaluation::{Sheets, figure};
+use super::evaluation::{Contents, cell};
 use crate::iso230_4::{Causes, Circular, PathResult};
-use trueaxis_report::Block;
-use trueaxis_report::{Picture, Polar, PolarLine};
+use trueaxis_report::{Picture, Polar, PolarLine, Table};
 
 const UM: f64 = 1e3;
 
-pub(super) fn sheets(c: &Circular) -> Sheets {
-    let mut figures = vec![figures(c)];
-    figures.extend(c.causes.as_ref().map(|causes| cause_block(c, causes)));
-    let details = c.causes.as_ref().map(|causes| spikes(c, causes)).into_iter().collect();
-    Sheets { figures, details, pictures: vec![picture(c)] }
+pub(super) fn contents(c: &Circular) -> Contents {
+    let mut results = vec![("Results of the test".to_owned(), deviations(c))];
+    let causes = c.causes.as_ref();
+    results
+        .extend(causes.map(|found| ("Causes of the deviations".to_owned(), causes_of(c, found))));
+    let spikes = causes.map(|found| ("Reversal spikes".to_owned(), spikes(c, found)));
+    Contents { results, details: spikes.into_iter().collect(), pictures: vec![picture(c)] }
 }
 
 /// `G ccw`, `G cw`, … in µm.
-fn figures(c: &Circular) -> Block {
-    let note = "G about the least-squares centre, F about the nominal one, outward positive";
-    let mut block = Block::new("Figures of the test", note, &["ISO 230-4", "", "µm"]);
+fn deviations(c: &Circular) -> Table {
+    let mut table = Table::new(["ISO 230-4", "", "µm"])
+        .note("G about the least-squares centre, F about the nominal one, outward positive");
     let mut row = |symbol: String, name: &str, value: Option<f64>| {
-        block.rows.push(vec![symbol, name.to_owned(), figure(value, UM)]);
+        table.push([symbol, name.to_owned(), cell(value, UM)]);
     };
     for p in &c.paths {
-        let way = p.path.sense.word();
-        row(format!("G {way}"), "circular deviation", Some(p.g_mm));
-        row(format!("F max {way}"), "radial deviation", p.f_mm.map(|f| f[0]));
-        row(format!("F min {way}"), "radial deviation", p.f_mm.map(|f| f[1]));
+        let sense = p.path.sense.word();
+        row(format!("G {sense}"), "circular deviation", Some(p.g_mm));
+        row(format!("F max {sense}"), "radial deviation", p.f_mm.map(|f| f[0]));
+        row(format!("F min {sense}"), "radial deviation", p.f_mm.map(|f| f[1]));
     }
     row("G(b)".into(), "bidirectional circular deviation", c.g_both_mm);
     row("D".into(), "mean bidirectional radial deviation", c.d_mm);
-    block
+    table
 }
 
-fn cause_block(c: &Circular, causes: &Causes) -> Block {
-    let note =
-        "Least squares over all paths; 10° behind each reversal are left out for the spikes.";
-    let mut block = Block::new("What makes it unround", note, &["cause", "", ""]);
+fn causes_of(c: &Circular, causes: &Causes) -> Table {
+    let mut table = Table::new(["cause", "", ""])
+        .note("Least squares over all paths; 10° after each reversal are left out for the spikes.");
     let mut row = |name: String, value: Option<f64>, scale: f64, unit: &str| {
-        block.rows.push(vec![name, figure(value, scale), unit.to_owned()]);
+        table.push([name, cell(value, scale), unit.to_owned()]);
     };
     let [a, b] = &c.axes;
     row(format!("reversal {a} (B = E↑ − E↓)"), Some(causes.backlash_mm[0]), UM, "µm");
@@ -51,22 +51,22 @@ fn cause_block(c: &Circular, causes: &Causes) -> Block {
     }
     row(format!("centre {a}"), Some(causes.centre_mm[0]), UM, "µm");
     row(format!("centre {b}"), Some(causes.centre_mm[1]), UM, "µm");
-    row("left over, rms".into(), Some(causes.residual_rms_mm), UM, "µm");
-    block
+    row("residual, root mean square".into(), Some(causes.residual_rms_mm), UM, "µm");
+    table
 }
 
-fn spikes(c: &Circular, causes: &Causes) -> Block {
-    let note = "Largest residual within 10° behind the reversal, outward positive.";
-    let mut block = Block::new("Reversal spikes", note, &["axis", "at", "way", "µm"]);
-    for spike in &causes.spikes {
-        block.rows.push(vec![
+fn spikes(c: &Circular, causes: &Causes) -> Table {
+    let rows = causes.spikes.iter().map(|spike| {
+        [
             c.axes[spike.axis].clone(),
             format!("{:.0}°", spike.at_rad.to_degrees()),
             spike.sense.word().to_owned(),
-            figure(Some(spike.height_mm), UM),
-        ]);
-    }
-    block
+            cell(Some(spike.height_mm), UM),
+        ]
+    });
+    Table::new(["axis", "at", "direction", "µm"])
+        .rows(rows)
+        .note("Largest residual within 10° after the reversal, outward positive.")
 }
 
 fn base_radius(c: &Circular) -> f64 {
@@ -83,7 +83,7 @@ fn picture(c: &Circular) -> Picture {
             let (x, y) = (p[0] - c.centre_mm[0], p[1] - c.centre_mm[1]);
             (y.atan2(x), (x.hypot(y) - radius) * UM)
         });
-        let label = format!("{}, G {} µm", p.path.sense.word(), figure(Some(p.g_mm), UM));
+        let label = format!("{}, G {} µm", p.path.sense.word(), cell(Some(p.g_mm), UM));
         PolarLine { label, colour: i, points: points.collect() }
     };
     let lines = c.paths.iter().enumerate().map(line).collect();

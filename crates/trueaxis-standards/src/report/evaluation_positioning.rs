@@ -1,13 +1,12 @@
 //! The tables and pictures of a positioning test.
 
-use super::evaluation::{Sheets, figure};
+use super::evaluation::{Contents, cell};
 use crate::Standard;
 use crate::iso230_2::{
     Approached, Direction, Measurement, Position, Positioning, Quantity, Reading,
 };
 use trueaxis_geometry::AxisKind;
-use trueaxis_report::Block;
-use trueaxis_report::{Band, Picture, Scatter};
+use trueaxis_report::{Band, Picture, Scatter, Table};
 
 /// More points than this are a grey area, and a page of many megabytes.
 const MOST_POINTS: usize = 4000;
@@ -36,53 +35,48 @@ fn place_unit(kind: AxisKind) -> &'static str {
     }
 }
 
-pub(super) fn sheets(standard: Standard, m: &Measurement, r: &Positioning) -> Sheets {
-    let iso = vec![figures(r)];
-    let others = vec![vdi3441(r), b554(r)];
-    let (mut first, second) = match standard {
-        Standard::Vdi3441 | Standard::B5_54 => (others, iso),
-        _ => (iso, others),
+pub(super) fn contents(standard: Standard, m: &Measurement, r: &Positioning) -> Contents {
+    let iso = vec![titled("Figures of the axis", iso230_2(r))];
+    let vdi3441 = titled("VDI/DGQ 3441", vdi3441(r));
+    let b554 = titled("Form of ASME B5.54", b554(r));
+    let (results, mut details) = match standard {
+        Standard::Vdi3441 => (vec![vdi3441, b554], iso),
+        Standard::B5_54 => (vec![b554, vdi3441], iso),
+        _ => (iso, vec![vdi3441, b554]),
     };
-    if standard == Standard::B5_54 {
-        first.reverse();
-    }
-    let mut details = second;
     details.extend(budget(r));
-    details.push(table(r));
-    Sheets { figures: first, details, pictures: vec![scatter(m, r), reversal(r)] }
+    details.push((format!("Every target, {}", shown(r.kind).0), targets(r)));
+    Contents { results, details, pictures: vec![scatter(m, r), reversal(r)] }
 }
 
-fn figures(r: &Positioning) -> Block {
+fn titled(title: &str, table: Table) -> (String, Table) {
+    (title.to_owned(), table)
+}
+
+fn iso230_2(r: &Positioning) -> Table {
     let (unit, scale) = shown(r.kind);
-    let headings = ["ISO 230-2", "", unit, "U (k = 2)"];
-    let note = "– : the readings do not allow it, or nothing is known of the instrument (U)";
-    let mut block = Block::new("Figures of the axis", note, &headings);
-    for quantity in Quantity::ALL {
-        block.rows.push(vec![
+    let rows = Quantity::ALL.map(|quantity| {
+        [
             quantity.symbol().to_owned(),
             quantity.title().to_owned(),
-            figure(r.value(quantity), scale),
-            figure(r.expanded_of(quantity), scale),
-        ]);
-    }
-    block
+            cell(r.value(quantity), scale),
+            cell(r.expanded_of(quantity), scale),
+        ]
+    });
+    Table::new(["ISO 230-2", "", unit, "U (k = 2)"])
+        .rows(rows)
+        .note("– : the readings do not allow it, or nothing is known of the instrument (U)")
 }
 
-fn named(
-    title: &str,
-    note: &'static str,
-    r: &Positioning,
-    rows: &[(&str, &str, Option<f64>)],
-) -> Block {
+fn named(r: &Positioning, rows: &[(&str, &str, Option<f64>)]) -> Table {
     let (unit, scale) = shown(r.kind);
-    let mut block = Block::new(title, note, &["", "", unit]);
-    for (symbol, name, value) in rows {
-        block.rows.push(vec![(*symbol).to_owned(), (*name).to_owned(), figure(*value, scale)]);
-    }
-    block
+    let row = |(symbol, name, value): &(&str, &str, Option<f64>)| {
+        [(*symbol).to_owned(), (*name).to_owned(), cell(*value, scale)]
+    };
+    Table::new(["", "", unit]).rows(rows.iter().map(row))
 }
 
-fn vdi3441(r: &Positioning) -> Block {
+fn vdi3441(r: &Positioning) -> Table {
     let v = &r.others.vdi3441;
     let rows = [
         ("P", "positional uncertainty", v.p),
@@ -90,10 +84,10 @@ fn vdi3441(r: &Positioning) -> Block {
         ("Ps max", "positional scatter", v.ps),
         ("U max", "reversal", v.u),
     ];
-    named("VDI/DGQ 3441", "", r, &rows)
+    named(r, &rows)
 }
 
-fn b554(r: &Positioning) -> Block {
+fn b554(r: &Positioning) -> Table {
     let b = &r.others.b554;
     let rows = [
         ("both", "range of all readings", b.accuracy),
@@ -102,51 +96,46 @@ fn b554(r: &Positioning) -> Block {
         ("repeat", "largest range at one target from one side", b.repeatability),
         ("reversal", "largest reversal", b.reversal),
     ];
-    let note = "The form was not compared with the text of the standard.";
-    named("Form of ASME B5.54", note, r, &rows)
+    named(r, &rows).note("The form was not compared with the text of the standard.")
 }
 
-fn budget(r: &Positioning) -> Option<Block> {
+fn budget(r: &Positioning) -> Option<(String, Table)> {
     let budget = r.budget.as_ref()?;
     let (unit, scale) = shown(r.kind);
-    let title = "Measuring uncertainty (ISO/TR 230-9), standard uncertainty of each contribution";
-    let mut block = Block::new(title, "", &["over the measured length", unit]);
-    for share in &budget.shares {
-        block.rows.push(vec![share.name.to_owned(), figure(Some(share.u), scale)]);
-    }
-    let drift = "drift, each reading".to_owned();
-    block.rows.push(vec![drift, figure(budget.drift_u, scale)]);
-    Some(block)
+    let shares = budget.shares.iter().map(|s| (s.name, Some(s.u)));
+    let all = shares.chain([("drift, each reading", budget.drift_u)]);
+    let table = Table::new(["over the measured length", unit])
+        .rows(all.map(|(name, u)| [name.to_owned(), cell(u, scale)]));
+    let title = "Measurement uncertainty (ISO/TR 230-9), standard uncertainty of each contribution";
+    Some(titled(title, table))
 }
 
-fn table(r: &Positioning) -> Block {
-    let (unit, scale) = shown(r.kind);
+fn targets(r: &Positioning) -> Table {
+    let scale = shown(r.kind).1;
     let at = format!("target, {}", place_unit(r.kind));
     let headings = [&at[..], "n↑", "n↓", "x̄↑", "x̄↓", "x̄", "s↑", "s↓", "B", "R↑", "R↓", "R"];
-    let mut block = Block::new(&format!("Every target, {unit}"), "", &headings);
-    for p in &r.positions {
-        let mean = |a: Option<Approached>| figure(a.map(|a| a.mean), scale);
-        let s = |a: Option<Approached>| figure(a.and_then(|a| a.s), scale);
-        let count = |a: Option<Approached>| a.map_or(0, |a| a.count).to_string();
-        block.rows.push(vec![
-            format!("{}", place(r.kind, p.target)),
+    let mean = |a: Option<Approached>| cell(a.map(|a| a.mean), scale);
+    let s = |a: Option<Approached>| cell(a.and_then(|a| a.s), scale);
+    let count = |a: Option<Approached>| a.map_or(0, |a| a.count).to_string();
+    Table::new(headings).rows(r.positions.iter().map(|p| {
+        [
+            place(r.kind, p.target).to_string(),
             count(p.up),
             count(p.down),
             mean(p.up),
             mean(p.down),
-            figure(p.mean(), scale),
+            cell(p.mean(), scale),
             s(p.up),
             s(p.down),
-            figure(p.reversal(), scale),
-            figure(p.repeatability_of(Direction::Up), scale),
-            figure(p.repeatability_of(Direction::Down), scale),
-            figure(p.repeatability(), scale),
-        ]);
-    }
-    block
+            cell(p.reversal(), scale),
+            cell(p.repeatability_of(Direction::Up), scale),
+            cell(p.repeatability_of(Direction::Down), scale),
+            cell(p.repeatability(), scale),
+        ]
+    }))
 }
 
-fn scatter(m: &Measurement, r: &Positioning) -> Picture {
+pub(super) fn scatter(m: &Measurement, r: &Positioning) -> Picture {
     let (unit, scale) = shown(r.kind);
     let total: usize = m.targets.iter().map(|t| t.up.len() + t.down.len()).sum();
     let step = total.div_ceil(MOST_POINTS).max(1);
