@@ -15,7 +15,7 @@ use super::score::{Residuals, Score, repeatability};
 use super::selection;
 use super::selection::{Candidates, Selection, Sums, parts_by_place, select};
 use crate::measure::{Campaign, Readings};
-use crate::plan::remedies;
+use crate::plan::Unobservable;
 use crate::unknowns::confusion::{Confusion, confusions};
 use crate::unknowns::design::{Design, Unknown};
 use crate::unknowns::fit::{Fit, FitError, by_rows, fit_by, linear_residuals};
@@ -58,17 +58,6 @@ impl Found {
     pub fn z(&self) -> Option<f64> {
         self.value.filter(|(_, u)| *u > 0.0).map(|(value, u)| value / u)
     }
-}
-
-/// A combination that nobody can see in these readings.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Unobservable {
-    /// As a sum.
-    pub combination: String,
-    /// In a sentence.
-    pub words: String,
-    /// What would resolve it.
-    pub resolve_with: Option<String>,
 }
 
 /// What became of it.
@@ -275,11 +264,7 @@ impl<'a> Work<'a> {
         self.confusions.iter().flat_map(|c| &c.members).for_each(|(k, _)| unseen[*k] = true);
         let left_out = self.candidates.maybe.iter().filter(|k| !self.numbers.contains(k));
         let suspicious = score.in_sample.noise > SUSPICIOUS;
-        let unobservable = |c: &Confusion| Unobservable {
-            combination: c.formula(&self.whole),
-            words: c.words(&self.whole),
-            resolve_with: remedies(campaign, &self.whole, c),
-        };
+        let unobservable = |c: &Confusion| Unobservable::of(campaign, &self.whole, c);
         Identification {
             found: found(design, &self.fit, birge, |k| unseen[self.numbers[k]]),
             left_out: left_out.filter_map(|k| self.whole.unknown(*k)).map(|u| u.name()).collect(),

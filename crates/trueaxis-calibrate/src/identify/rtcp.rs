@@ -38,6 +38,8 @@ use crate::unknowns::fit::Fit;
 use crate::unknowns::fit::FitError;
 use crate::unknowns::fit::fit;
 use nalgebra::{DMatrix, DVector};
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::path::PathBuf;
 use trueaxis_geometry::Vec3;
 use trueaxis_input::Place;
@@ -112,10 +114,10 @@ pub struct RtcpStudy {
     pub date: Option<String>,
 }
 
-/// Something that no reading tells.
-#[derive(Debug, Clone, PartialEq)]
+/// A combination of offsets that changes no reading.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Unseen {
-    /// A sum that changes no reading.
+    /// As a sum.
     pub combination: String,
     /// What that means.
     pub words: String,

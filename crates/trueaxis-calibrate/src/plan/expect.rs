@@ -2,10 +2,12 @@
 
 use super::remedy::remedies;
 use crate::measure::{Campaign, Readings};
-use crate::unknowns::confusion::confusions;
+use crate::unknowns::confusion::{Confusion, confusions};
 use crate::unknowns::design::{Design, Unknown};
 use crate::unknowns::fit::{Observability, normal_matrix};
 use nalgebra::DMatrix;
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// How large an error is taken to be where its effect is shown: 10 µm or 10 µrad, in mm and rad.
 pub const USUAL_SIZE: f64 = 0.01;
@@ -23,15 +25,26 @@ pub struct Expected {
     pub u: Option<f64>,
 }
 
-/// A combination that stays hidden.
-#[derive(Debug, Clone, PartialEq)]
+/// A combination of unknowns that changes no reading.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Unobservable {
-    /// As a sum of unknowns.
+    /// As a sum.
     pub combination: String,
-    /// In a sentence.
+    /// In words.
     pub words: String,
-    /// The cheapest further set-up that would tell, if one is known.
+    /// A set-up that makes it observable; null if none of those tried does.
     pub resolve_with: Option<String>,
+}
+
+impl Unobservable {
+    /// A combination with the set-up that resolves it.
+    pub fn of(campaign: &Campaign, design: &Design, confusion: &Confusion) -> Self {
+        Self {
+            combination: confusion.formula(design),
+            words: confusion.words(design),
+            resolve_with: remedies(campaign, design, confusion),
+        }
+    }
 }
 
 /// What to expect of a set of readings.
@@ -58,11 +71,8 @@ pub fn expect(campaign: &Campaign, design: &Design, stations: &Readings) -> Expe
         let u = sight.is_seen[k].then(|| covariance[(k, k)].max(0.0).sqrt());
         Some(Expected { unknown: k, name: unknown.name(), is_angle: unknown.is_angle(), u })
     });
-    let unobservable = confusions(&sight).into_iter().map(|confusion| Unobservable {
-        combination: confusion.formula(design),
-        words: confusion.words(design),
-        resolve_with: remedies(campaign, design, &confusion),
-    });
+    let unobservable =
+        confusions(&sight).into_iter().map(|c| Unobservable::of(campaign, design, &c));
     Expectation {
         unknowns: unknowns.collect(),
         unobservable: unobservable.collect(),

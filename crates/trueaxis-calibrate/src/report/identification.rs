@@ -1,12 +1,16 @@
-//! An identification for people at the terminal, and for programs.
+//! An identification for people.
 
+use super::identification_arrows::{Arrow, arrow_picture, longest, magnification};
+use super::identification_pictures::{Bar, bars, correlation_map};
 use crate::identify::convention::ConventionCheck;
 use crate::identify::errors::{Found, Identification};
 use crate::identify::records::{Options, Records};
 use crate::identify::score::Rms;
 use crate::measure::Campaign;
+use crate::plan::Unobservable;
 use crate::unknowns::fit::Model;
-use std::fmt::Write as _;
+use std::rc::Rc;
+use trueaxis_report::{Columns, DrawingError, Figure, Report, Section, Standing, Table};
 
 /// Everything of an identification that is told.
 pub struct IdentificationReport<'a> {
@@ -23,7 +27,9 @@ pub struct IdentificationReport<'a> {
 }
 
 /// How many outliers and influential poses are told.
-pub(super) const MOST_TOLD: usize = 10;
+const MOST_TOLD: usize = 10;
+/// Most unknowns of the correlation map.
+const MOST_MAPPED: usize = 60;
 /// Correlations from here on are told.
 const STRONG: f64 = 0.9;
 
@@ -32,30 +38,20 @@ pub(super) fn shown(found: &Found, value: f64) -> f64 {
     if found.is_angle { value * 1e6 } else { value * 1e3 }
 }
 
-pub(super) fn unit(found: &Found) -> &'static str {
+fn unit(found: &Found) -> &'static str {
     if found.is_angle { "µrad" } else { "µm" }
 }
 
 /// `1.02 µm, 3.1 µrad`.
-pub(super) fn rms_words(rms: &Rms) -> String {
+fn rms_words(rms: &Rms) -> String {
     let length = rms.length_mm.map(|v| format!("{:.3} µm", v * 1e3));
     let angle = rms.angle_rad.map(|v| format!("{:.3} µrad", v * 1e6));
     length.into_iter().chain(angle).collect::<Vec<_>>().join(", ")
 }
 
-/// Name, value and u as text.
-pub(super) fn value_words(found: &Found) -> String {
-    match found.value {
-        Some((value, u)) => {
-            format!("{:>10.3} ± {:.3} {}", shown(found, value), shown(found, u), unit(found))
-        }
-        None => "cannot be told from others".to_owned(),
-    }
-}
-
 impl IdentificationReport<'_> {
     /// The side-by-side rows: words, rms.
-    pub(super) fn scores(&self) -> Vec<(&'static str, Rms)> {
+    fn scores(&self) -> Vec<(&'static str, Rms)> {
         let score = &self.found.score;
         let floor = match score.floor_is_measured {
             true => "repeatability, from repeated readings",
@@ -70,7 +66,7 @@ impl IdentificationReport<'_> {
     }
 
     /// What to know of the result, in sentences.
-    pub(super) fn remarks(&self) -> Vec<String> {
+    fn remarks(&self) -> Vec<String> {
         let found = self.found;
         let mut remarks = Vec::new();
         if found.birge > 1.0 {
@@ -130,100 +126,199 @@ impl IdentificationReport<'_> {
         order.into_iter().take(5)
     }
 
-    pub(super) fn place(&self, row: usize) -> String {
+    fn place(&self, row: usize) -> String {
         let place = self.records.place(row);
         format!("{}:{}", place.file, place.line)
     }
 }
 
-/// The result as text.
-pub fn identification_text(report: &IdentificationReport<'_>) -> String {
-    let found = report.found;
-    let mut text = format!("{}\n{}\n\n", report.campaign.name, report.campaign.machine.name());
-    // Writing to a String cannot fail.
-    let _ = writeln!(text, "  {}\n", found.verdict.words());
-    let _ = writeln!(
-        text,
-        "  {} readings in {} places, {} unknowns, rank {}, condition {:.3e}{}\n",
-        report.records.readings.len(),
-        found.places,
-        found.found.len(),
-        found.fit.sight.rank,
-        found.fit.sight.condition(),
-        if report.options.model == Model::Linear { ", linear model" } else { "" },
+/// The result for people.
+fn report<'a>(told: &'a IdentificationReport<'_>) -> Report<'a> {
+    let (found, records, campaign) = (told.found, told.records, told.campaign);
+    let linear = if told.options.model == Model::Linear { ", linear model" } else { "" };
+    let date = told.options.date.as_ref().map_or(String::new(), |date| format!(", {date}"));
+    let standing = if found.verdict.is_good() { Standing::Good } else { Standing::Bad };
+    Report::new(&campaign.name)
+        .line(format!("{}{date}", campaign.machine.name()))
+        .line(format!(
+            "{} readings in {} places, {} unknowns, rank {}, condition {:.3e}{linear}",
+            records.readings.len(),
+            found.places,
+            found.found.len(),
+            found.fit.sight.rank,
+            found.fit.sight.condition(),
+        ))
+        .verdict(standing, found.verdict.words(), "")
+        .section(score_section(told))
+        .sections(told.conventions.map(conventions_section))
+        .section(arrow_section(told))
+        .section(error_section(told))
+        .section(unobservable_section("What these readings cannot tell apart", &found.unobservable))
+        .section(correlation_section(told))
+        .section(outlier_section(told))
+        .section(influence_section(told))
+}
+
+fn score_section<'a>(told: &IdentificationReport<'_>) -> Section<'a> {
+    let found = told.found;
+    let axes = found.design.machine.axes();
+    let table = Table::new(["root mean square of the residual", "", "times the noise"]).rows(
+        told.scores()
+            .iter()
+            .map(|(words, rms)| [(*words).to_owned(), rms_words(rms), format!("{:.2}", rms.noise)]),
     );
-    text += "  root mean square of the residual\n";
-    for (words, rms) in report.scores() {
-        let _ = writeln!(text, "    {words:<42} {}", rms_words(&rms));
-    }
-    text += "\n  error                              value ± standard uncertainty        z\n";
-    for f in &found.found {
-        let z = f.z().map_or(String::new(), |z| format!("{z:>8.1}"));
-        let _ = writeln!(text, "    {:<26} {:<34} {z}", f.name, value_words(f));
-    }
-    if !found.unobservable.is_empty() {
-        text += "\n  what these readings cannot tell apart\n";
-        for u in &found.unobservable {
-            let _ = writeln!(text, "    {}", u.words);
-            let _ = writeln!(text, "        {}", u.combination);
-            if let Some(with) = &u.resolve_with {
-                let _ = writeln!(text, "        resolved by: {with}");
-            }
-        }
-    }
-    text += &outliers_text(report);
-    for remark in report.remarks() {
-        let _ = writeln!(text, "\n  {remark}");
-    }
-    if let Some(check) = report.conventions {
-        text += &conventions_text(check);
-    }
-    text
+    let choice = if found.candidates > 0 { ", the choice of its terms included" } else { "" };
+    let fields = found.fields.iter().map(|f| {
+        let axis = f.axis.map_or("X Y Z".to_owned(), |a| axes[a].name.to_string());
+        format!("{axis} by {:.0} %", 100.0 * f.share.max(0.0))
+    });
+    let fields = fields.collect::<Vec<_>>().join(", ");
+    Section::new("How well the model explains the readings")
+        .table(table.note(format!(
+            "Held out: every place was predicted by a model that had not seen it{choice}."
+        )))
+        .paragraph(format!("The residual that is held out follows {fields} of its squares."))
+        .list(told.remarks())
 }
 
-fn outliers_text(report: &IdentificationReport<'_>) -> String {
-    let found = report.found;
-    let outliers = &found.influences.outliers;
-    let mut text = String::new();
-    if !outliers.is_empty() {
-        // Writing to a String cannot fail.
-        let _ = writeln!(
-            text,
-            "\n  readings that do not fit (|t| above {:.2}); they count all the same",
-            found.influences.limit
-        );
-        for o in outliers.iter().take(MOST_TOLD) {
-            let _ = writeln!(
-                text,
-                "    {}: channel {} is {:+.1} standard deviations off",
-                report.place(o.row),
-                o.channel + 1,
-                o.studentised
-            );
-        }
-        if outliers.len() > MOST_TOLD {
-            let _ = writeln!(text, "    … and {} more", outliers.len() - MOST_TOLD);
-        }
-    }
-    text
-}
-
-/// The conventions as text.
-pub fn conventions_text(check: &ConventionCheck) -> String {
-    let mut text = format!(
-        "\n  conventions: {} changes tried; as it is, the residual is {:.2} times the noise\n",
+fn conventions_section<'a>(check: &ConventionCheck) -> Section<'a> {
+    let section = Section::new("Conventions").paragraph(format!(
+        "{} changes tried; as it is, the residual is {:.2} times the noise",
         check.tried, check.residual
-    );
-    match check.better.is_empty() {
-        true => text += "    no change of sign, order, sense or side fits far better\n",
-        false => {
-            for c in &check.better {
-                let _ = writeln!(text, "    {}", c.words());
-            }
-        }
+    ));
+    let none = "no change of sign, order, sense or side fits far better";
+    let better: Vec<String> = match check.better.is_empty() {
+        true => vec![none.to_owned()],
+        false => check.better.iter().map(|c| c.words()).collect(),
+    };
+    section.list(better.into_iter().chain(check.remarks.iter().cloned()))
+}
+
+fn arrow_section<'a>(told: &IdentificationReport<'_>) -> Section<'a> {
+    let section =
+        Section::new("Residuals where the linear axes stand, in the frame of the machine")
+            .on_page();
+    let arrows = Rc::new(told.arrows());
+    let (before, after) = (|a: &Arrow| a.before_mm, |a: &Arrow| a.after_mm);
+    let sizes = [longest(&arrows, before), longest(&arrows, after)];
+    if sizes[0] <= 0.0 {
+        return section;
     }
-    for remark in &check.remarks {
-        let _ = writeln!(text, "    {remark}");
+    let [large, small] = sizes.map(|size| magnification(&arrows, size));
+    let views = |of: fn(&Arrow) -> _, by: f64| {
+        [(0, 1, "X, mm", "Y, mm"), (0, 2, "X, mm", "Z, mm"), (1, 2, "Y, mm", "Z, mm")].map(|view| {
+            let arrows = Rc::clone(&arrows);
+            Figure::new("", move || Ok(arrow_picture(&arrows, of, by, view)))
+        })
+    };
+    let words = |what: &str, by: f64, longest_mm: f64| {
+        format!("{what}, enlarged {by} times; the longest is {:.2} µm.", longest_mm * 1e3)
+    };
+    section
+        .paragraph(words("Without the errors sought", large, sizes[0]))
+        .grid(Columns::Three, views(before, large))
+        .paragraph(words("After identification", small, sizes[1]))
+        .grid(Columns::Three, views(after, small))
+        .paragraph("The same at the exaggeration of the first row.")
+        .grid(Columns::Three, views(after, large))
+}
+
+fn error_section<'a>(told: &'a IdentificationReport<'_>) -> Section<'a> {
+    let found = &told.found.found;
+    let figure = |angle: bool| {
+        let machine = found.iter().filter(move |f| !f.is_setup && f.is_angle == angle);
+        let all: Vec<Bar<'_>> = machine.filter_map(bar).collect();
+        let caption = format!("{}, bars with 95 % intervals", if angle { "µrad" } else { "µm" });
+        (!all.is_empty()).then(|| Figure::new(caption, move || Ok(bars(&all))))
+    };
+    let row = |f: &Found| {
+        let number = |v: f64| format!("{:.3}", shown(f, v));
+        let [value, u, unit] = match f.value {
+            Some((value, u)) => [number(value), number(u), unit(f).to_owned()],
+            None => ["cannot be told from others", "", ""].map(str::to_owned),
+        };
+        let z = f.z().map_or(String::new(), |z| format!("{z:.1}"));
+        [f.name.clone(), value, u, unit, z]
+    };
+    let left_out = &told.found.left_out;
+    let note = match left_out.is_empty() {
+        true => String::new(),
+        false => format!("Not supported by the readings: {}.", left_out.join(", ")),
+    };
+    let table = Table::new(["error", "value", "standard uncertainty", "", "z"]).note(note);
+    Section::new("The errors")
+        .grid(Columns::AsFit, [false, true].into_iter().filter_map(figure))
+        .table(table.rows(found.iter().map(row)).most_on_terminal(usize::MAX))
+}
+
+fn bar(found: &Found) -> Option<Bar<'_>> {
+    let (value, u) = found.value?;
+    let (value, half) = (shown(found, value), 1.96 * shown(found, u));
+    Some(Bar { name: &found.name, value, half, text: format!("{value:.2} {}", unit(found)) })
+}
+
+/// Combinations that change no reading.
+pub(super) fn unobservable_section<'a>(title: &str, list: &[Unobservable]) -> Section<'a> {
+    let line = |u: &Unobservable| {
+        let with = u.resolve_with.as_deref().unwrap_or("none of the set-ups that were tried");
+        format!("{}: {} = ?; resolved by: {with}", u.words, u.combination)
+    };
+    Section::new(title).list(list.iter().map(line))
+}
+
+fn correlation_section<'a>(told: &'a IdentificationReport<'_>) -> Section<'a> {
+    let seen = told.found.found.iter().filter(|f| f.value.is_some());
+    let seen: Vec<&Found> = seen.take(MOST_MAPPED).collect();
+    let caption =
+        "Red +1, white 0, blue −1. Strongly correlated errors are known together better than each.";
+    let figures = (seen.len() > 1).then(|| {
+        let mut figure = Figure::new(caption, move || Ok(correlation_map(told, &seen)));
+        figure.round = true;
+        figure
+    });
+    Section::new("Correlation").on_page().grid(Columns::One, figures)
+}
+
+fn outlier_section<'a>(told: &IdentificationReport<'_>) -> Section<'a> {
+    let (outliers, limit) = (&told.found.influences.outliers, told.found.influences.limit);
+    let section = Section::new("Readings that do not fit");
+    if outliers.is_empty() {
+        return section.paragraph(format!(
+            "No reading lies beyond the limit of studentised residuals, {limit:.2} (5 % for all together, \
+             Bonferroni)."
+        ));
     }
-    text
+    let rows = outliers.iter().take(MOST_TOLD).map(|o| {
+        [told.place(o.row), (o.channel + 1).to_string(), format!("{:+.1}", o.studentised)]
+    });
+    section
+        .paragraph(format!(
+            "{} numbers lie beyond the limit of studentised residuals, {limit:.2} (5 % for all together, \
+             Bonferroni); they count all the same. The first are:",
+            outliers.len()
+        ))
+        .table(Table::new(["reading", "channel", "studentised residual"]).rows(rows))
+}
+
+fn influence_section<'a>(told: &IdentificationReport<'_>) -> Section<'a> {
+    let rows = told.influential().map(|row| {
+        let influence = &told.found.influences.rows[row];
+        let (leverage, cook) = (influence.leverage, influence.cook);
+        [told.place(row), format!("{leverage:.3}"), format!("{cook:.4}")]
+    });
+    Section::new("Readings that move the result most if they are left out")
+        .table(Table::new(["reading", "leverage", "Cook's distance"]).rows(rows))
+}
+
+/// The result as text.
+pub fn identification_text(told: &IdentificationReport<'_>) -> String {
+    report(told).text()
+}
+
+/// The result as one page.
+///
+/// # Errors
+/// What the drawing library says.
+pub fn identification_html(told: &IdentificationReport<'_>) -> Result<String, DrawingError> {
+    report(told).html()
 }

@@ -5,6 +5,7 @@ use crate::identify::convention::{Convention, ConventionCheck};
 use crate::identify::errors::Found;
 use crate::identify::score::Rms;
 use crate::identify::selection::Score;
+use crate::plan::Unobservable;
 use crate::unknowns::fit::Model;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -30,7 +31,7 @@ pub struct IdentificationDocument<'a> {
     /// The errors of the set-up of the instruments.
     pub setup: Vec<FoundEntry<'a>>,
     /// Combinations of errors that change no reading.
-    pub unobservable: Vec<UnobservableEntry<'a>>,
+    pub unobservable: &'a [Unobservable],
     /// Candidate terms that the readings do not support.
     pub left_out: &'a [String],
     /// Root mean square of the residual of length readings, in sample, µm; null without such readings.
@@ -100,17 +101,6 @@ pub struct FoundEntry<'a> {
     pub u: Option<f64>,
     /// Value divided by its standard uncertainty.
     pub z: Option<f64>,
-}
-
-/// A combination of unknowns that changes no reading.
-#[derive(Debug, Serialize, JsonSchema)]
-pub struct UnobservableEntry<'a> {
-    /// As a sum.
-    pub combination: &'a str,
-    /// In words.
-    pub words: &'a str,
-    /// A set-up that makes it observable; null if none of those tried does.
-    pub resolve_with: Option<&'a str>,
 }
 
 /// Root mean squares of the residual.
@@ -242,7 +232,7 @@ impl<'a> IdentificationDocument<'a> {
             },
             errors: of(false),
             setup: of(true),
-            unobservable: unobservable(report),
+            unobservable: &found.unobservable,
             left_out: &found.left_out,
             rms_in_um: um(&score.in_sample),
             rms_held_out_um: um(&score.held_out),
@@ -283,15 +273,6 @@ impl<'a> IdentificationDocument<'a> {
 
 fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
-}
-
-fn unobservable<'a>(report: &IdentificationReport<'a>) -> Vec<UnobservableEntry<'a>> {
-    let one = |u: &'a crate::identify::errors::Unobservable| UnobservableEntry {
-        combination: &u.combination,
-        words: &u.words,
-        resolve_with: u.resolve_with.as_deref(),
-    };
-    report.found.unobservable.iter().map(one).collect()
 }
 
 fn fields(report: &IdentificationReport<'_>) -> Vec<FieldEntry> {

@@ -1,15 +1,14 @@
-//! A virtual measurement as text, JSON and a page.
+//! A virtual measurement for people.
 
 use crate::measure::virtual_campaign::{
     ChannelSummary, Measurement, Summary, VirtualCampaign, shown_unit, summarise,
 };
 use crate::measure::{Campaign, Kind};
-use std::fmt::Write as _;
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::errors::ErrorValues;
-use trueaxis_report::picture_page::{PicturePage, picture_page};
-use trueaxis_report::{Band, Picture, Polar, PolarLine, Scatter};
-use trueaxis_report::{Block, DrawingError, write_block};
+use trueaxis_report::{
+    Band, DrawingError, Picture, Polar, PolarLine, Report, Scatter, Section, Table,
+};
 
 /// More points say nothing new to the eye.
 const MOST_POINTS: usize = 4000;
@@ -43,26 +42,18 @@ impl MeasuredReport<'_> {
         if instrument.kind.triggers() { "hit" } else { instrument.kind.channels()[sum.channel] }
     }
 
-    fn block(&self, summary: &Summary) -> Block {
+    fn table(&self, summary: &Summary) -> Table {
         let headings =
             ["path", "instrument", "channel", "readings", "mean", "rms", "largest", "unit"];
-        let mut block = Block::new("Readings less nominal", "", &headings);
-        for sum in &summary.channels {
+        Table::new(headings).most_on_terminal(usize::MAX).rows(summary.channels.iter().map(|sum| {
             let instrument = &self.campaign.instruments[sum.instrument as usize];
             let (unit, scale) = shown_unit(instrument);
-            let figure = |v: f64| format!("{:.2}", v * scale + 0.0);
-            block.rows.push(vec![
-                self.path(sum).to_owned(),
-                instrument.name.clone(),
-                self.channel(sum).to_owned(),
-                sum.count.to_string(),
-                figure(sum.mean),
-                figure(sum.rms),
-                figure(sum.largest),
-                unit.to_owned(),
-            ]);
-        }
-        block
+            let [mean, rms, largest] =
+                [sum.mean, sum.rms, sum.largest].map(|v| format!("{:.2}", v * scale + 0.0));
+            let (path, channel) = (self.path(sum).to_owned(), self.channel(sum).to_owned());
+            let count = sum.count.to_string();
+            [path, instrument.name.clone(), channel, count, mean, rms, largest, unit.to_owned()]
+        }))
     }
 
     fn lines(&self) -> Vec<String> {
@@ -95,36 +86,24 @@ impl MeasuredReport<'_> {
     }
 }
 
-/// For the terminal.
-pub fn measurement_text(report: &MeasuredReport<'_>) -> String {
-    let mut out = format!("{}\n", report.campaign.name);
-    for line in report.lines() {
-        let _ = writeln!(out, "  {line}");
-    }
-    // Writing into a text cannot fail.
-    let _ = write_block(&mut out, &report.block(&report.summary()));
-    if report.files.is_empty() {
-        for (of, instrument) in report.campaign.instruments.iter().enumerate() {
-            let _ =
-                writeln!(out, "\n  The first rows of {}; -o FOLDER writes all:", instrument.name);
-            for line in report.first_rows(of).lines() {
-                let _ = writeln!(out, "  {line}");
-            }
-        }
-    }
-    for file in report.files {
-        let _ = writeln!(out, "\n  written: {file}");
-    }
-    out
+fn report<'a>(told: &MeasuredReport<'_>, summary: &Summary) -> Report<'a> {
+    let instruments = told.campaign.instruments.iter().enumerate();
+    // What has been written to files need not be shown.
+    let first = instruments.filter(|_| told.files.is_empty()).map(|(of, instrument)| {
+        let title = format!("The first rows of {}; -o FOLDER writes all", instrument.name);
+        Section::new(title).on_terminal().code(told.first_rows(of))
+    });
+    let mut report = Report::new(&told.campaign.name);
+    report.lines = told.lines();
+    report
+        .section(Section::new("Readings less nominal").table(told.table(summary)))
+        .sections(first)
+        .section(Section::new("Written").on_terminal().list(told.files.iter().cloned()))
 }
 
-/// The page: readings over stations, path after path, as in Figs 10–12 of document 004; circles
-/// of a ball-bar round their centre.
-///
-/// # Errors
-/// What the drawing library says.
-pub fn measurement_html(report: &MeasuredReport<'_>) -> Result<String, DrawingError> {
-    let summary = report.summary();
+/// Readings over stations, path after path, as in Figs 10–12 of document 004; circles of a ball-bar
+/// round their centre.
+fn pictures(report: &MeasuredReport<'_>, summary: &Summary) -> Vec<Picture> {
     let mut pictures = Vec::new();
     for path in 0..report.real.paths.len() {
         for (of, instrument) in report.campaign.instruments.iter().enumerate() {
@@ -132,19 +111,28 @@ pub fn measurement_html(report: &MeasuredReport<'_>) -> Result<String, DrawingEr
             if rows.is_empty() {
                 continue;
             }
-            pictures.push(over_stations(report, &summary, (path, of), &rows));
+            pictures.push(over_stations(report, summary, (path, of), &rows));
             if instrument.kind == Kind::BallBar {
-                pictures.extend(around(report, &summary, (path, of), &rows));
+                pictures.extend(around(report, summary, (path, of), &rows));
             }
         }
     }
-    picture_page(&PicturePage {
-        title: &report.campaign.name,
-        lines: &report.lines(),
-        verdict: None,
-        blocks: &[report.block(&summary)],
-        pictures: &pictures,
-    })
+    pictures
+}
+
+/// The measurement as text.
+pub fn measurement_text(told: &MeasuredReport<'_>) -> String {
+    report(told, &told.summary()).text()
+}
+
+/// The measurement as one page.
+///
+/// # Errors
+/// What the drawing library says.
+pub fn measurement_html(told: &MeasuredReport<'_>) -> Result<String, DrawingError> {
+    let summary = told.summary();
+    let pictures = pictures(told, &summary).into_iter().map(Section::from);
+    report(told, &summary).sections(pictures).html()
 }
 
 /// Rows of an instrument on a path, thinned out for the eye.

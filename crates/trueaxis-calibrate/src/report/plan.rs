@@ -1,12 +1,18 @@
-//! A plan for people and for programs: what each path sees, what to expect, what stays hidden.
+//! A plan for people.
 
-use crate::plan::{Chosen, Expectation, Expected, PlanReport, PlannedPath};
+use super::identification::unobservable_section;
+use super::identification_pictures::{Bar, bars};
+use super::surface::issues;
+use crate::plan::{Chosen, Expected, PlanReport, PlannedPath, tools};
 use crate::unknowns::design::Design;
-use std::fmt::Write;
+use trueaxis_geometry::Vec3;
 use trueaxis_motion::report::clock;
+use trueaxis_report::{Columns, DrawingError, Figure, Report, Section, Table};
 
-/// Lines of a check that are shown.
-const MOST_SHOWN: usize = 5;
+/// Width of a view, pixels.
+const VIEW_PX: f64 = 240.0;
+/// How long the tool axis is drawn, mm.
+const STROKE_MM: f64 = 40.0;
 
 /// µm, µrad or 1, with the factor from mm, rad or 1.
 pub(super) fn shown_unit(design: &Design, expected: &Expected) -> (&'static str, f64) {
@@ -20,7 +26,7 @@ pub(super) fn shown_unit(design: &Design, expected: &Expected) -> (&'static str,
 }
 
 /// Three digits that count.
-pub(super) fn figure(value: f64) -> String {
+fn figure(value: f64) -> String {
     let digits = match value.abs() {
         v if v >= 99.95 => 0,
         v if v >= 9.995 => 1,
@@ -30,98 +36,65 @@ pub(super) fn figure(value: f64) -> String {
     format!("{value:.digits$}")
 }
 
-/// The plan as text.
-pub fn plan_text(report: &PlanReport<'_>) -> String {
-    let mut text = String::new();
-    // Writing to a String cannot fail.
-    let _ = written(report, &mut text);
-    text
-}
-
-fn written(report: &PlanReport<'_>, text: &mut String) -> std::fmt::Result {
-    let campaign = &report.plan.campaign;
+/// The plan for people.
+fn report<'a>(told: &'a PlanReport<'_>) -> Report<'a> {
+    let campaign = &told.plan.campaign;
     let machine = &campaign.machine;
-    writeln!(text, "{}\n  {}, {}\n", campaign.name, machine.name(), machine.chain_text())?;
-    writeln!(text, "Paths and their programs")?;
-    for planned in &report.paths {
-        write_path(planned, text)?;
-    }
-    write_seen(report, text)?;
-    write_expected(report, text)?;
-    if let Some(chosen) = &report.chosen {
-        write_choice(report, chosen, text)?;
-    }
-    write_hidden(&report.expectation, text)
-}
-
-fn write_path(planned: &PlannedPath, text: &mut String) -> std::fmt::Result {
-    let path = &planned.path;
-    let how = match path.feed_mm_per_s {
-        Some(feed) => format!("moving at {:.0} mm/min", feed * 60.0),
-        None => format!("standing {} s at each", figure(path.dwell_s)),
+    let e = &told.expectation;
+    let unobservable = match e.unobservable.is_empty() {
+        true => Section::new("").paragraph("Everything sought is observable."),
+        false => unobservable_section("Not observable", &e.unobservable),
     };
-    let count = path.stations.len();
-    match &planned.check {
-        Err(why) => {
-            writeln!(text, "  {:<10} {count:>5} stations, {how}; no program: {why}", path.name)
-        }
-        Ok(check) => {
-            let verdict = match check.is_sound() {
-                true => "nothing in the way",
-                false => "NOT SAFE",
-            };
-            let runs = clock(check.duration_s);
-            writeln!(
-                text,
-                "  {:<10} {count:>5} stations, {how}; runs {runs}; {verdict}",
-                path.name
-            )?;
-            let all = || check.errors.iter().chain(&check.grave);
-            for line in all().take(MOST_SHOWN) {
-                writeln!(text, "      ! {line}")?;
-            }
-            if all().count() > MOST_SHOWN {
-                writeln!(text, "      … and {} more", all().count() - MOST_SHOWN)?;
-            }
-            match check.minor.first() {
-                Some(line) => writeln!(text, "      {} minor, such as {line}", check.minor.len()),
-                None => Ok(()),
-            }
-        }
-    }
+    Report::new(&campaign.name)
+        .line(format!("{}, {}", machine.name(), machine.chain_text()))
+        .section(path_section(told))
+        .section(seen_section(told))
+        .section(expected_section(told))
+        .sections(told.chosen.as_ref().map(|chosen| chosen_section(told, chosen)))
+        .section(unobservable)
+        .sections(told.paths.iter().map(|planned| {
+            let tools = tools(campaign, &planned.path.stations);
+            views(format!("Path {}", planned.path.name), &tools).on_page()
+        }))
 }
 
-fn write_seen(report: &PlanReport<'_>, text: &mut String) -> std::fmt::Result {
-    writeln!(
-        text,
-        "\nWhat each path sees: largest reading, µm or µrad, for 10 µm or 10 µrad of each error"
-    )?;
-    let head = |planned: &PlannedPath| {
-        format!("{} ({})", short(&planned.path.name, 16), planned.channels.join(", "))
-    };
-    let cells: Vec<Vec<String>> = report
-        .paths
-        .iter()
-        .map(|planned| {
-            let rows = (0..planned.seen.len()).map(|k| readings(planned, k));
-            std::iter::once(head(planned)).chain(rows).collect()
-        })
-        .collect();
-    let widths: Vec<usize> =
-        cells.iter().map(|c| c.iter().map(|t| t.chars().count()).max().unwrap_or(0)).collect();
-    let names = report.paths.first().into_iter().flat_map(|p| &p.seen).map(|s| s.name.as_str());
-    for (k, name) in std::iter::once("").chain(names).enumerate() {
-        write!(text, "  {name:<14}")?;
-        for (column, width) in cells.iter().zip(&widths) {
-            write!(text, "  {:>width$}", column.get(k).map_or("", String::as_str))?;
-        }
-        writeln!(text)?;
-    }
-    Ok(())
+fn path_section<'a>(told: &PlanReport<'_>) -> Section<'a> {
+    let mut lines = Vec::new();
+    let rows = told.paths.iter().map(|planned| {
+        let path = &planned.path;
+        let how = match path.feed_mm_per_s {
+            Some(feed) => format!("moving at {:.0} mm/min", feed * 60.0),
+            None => format!("standing {} s at each", figure(path.dwell_s)),
+        };
+        let [runs, verdict] = match &planned.check {
+            Err(why) => [String::new(), format!("no program: {why}")],
+            Ok(check) => {
+                lines.extend(issues(check).iter().map(|line| format!("{}: {line}", path.name)));
+                let safe = if check.is_sound() { "nothing in the way" } else { "NOT SAFE" };
+                [clock(check.duration_s), safe.to_owned()]
+            }
+        };
+        [path.name.clone(), path.stations.len().to_string(), how, runs, verdict]
+    });
+    let table = Table::new(["path", "stations", "readings", "runs", "program"]).rows(rows);
+    Section::new("Paths and their programs").table(table).list(lines)
 }
 
-fn short(name: &str, most: usize) -> String {
-    name.chars().take(most).collect()
+fn seen_section<'a>(told: &PlanReport<'_>) -> Section<'a> {
+    let heads = told.paths.iter().map(|planned| {
+        let name: String = planned.path.name.chars().take(16).collect();
+        format!("{name} ({})", planned.channels.join(", "))
+    });
+    let names = told.paths.first().into_iter().flat_map(|p| &p.seen).map(|s| s.name.clone());
+    let rows = names.enumerate().map(|(k, name)| {
+        let readings = told.paths.iter().map(|planned| readings(planned, k));
+        std::iter::once(name).chain(readings).collect::<Vec<_>>()
+    });
+    Section::new("Largest reading, µm or µrad, for 10 µm or 10 µrad of each error").table(
+        Table::new(std::iter::once("error".to_owned()).chain(heads))
+            .rows(rows)
+            .most_on_terminal(usize::MAX),
+    )
 }
 
 /// The channels of one error on one path, µm or µrad.
@@ -135,71 +108,113 @@ fn readings(planned: &PlannedPath, k: usize) -> String {
     largest.map_or_else(String::new, |all: Vec<String>| all.join(" "))
 }
 
-fn write_expected(report: &PlanReport<'_>, text: &mut String) -> std::fmt::Result {
-    let e = &report.expectation;
-    writeln!(
-        text,
-        "\nWhat to expect before anybody measures ({} of {} combinations seen, condition {})",
-        e.rank,
-        e.unknowns.len(),
-        figure(e.condition)
-    )?;
-    writeln!(text, "  {:<22} {:>9} {:>9}", "", "u", "U (k=2)")?;
-    for expected in &e.unknowns {
-        let (unit, scale) = shown_unit(report.design, expected);
-        match expected.u {
-            Some(u) => writeln!(
-                text,
-                "  {:<22} {:>9} {:>9} {unit}",
-                expected.name,
-                figure(u * scale),
-                figure(2.0 * u * scale)
-            )?,
-            None => writeln!(text, "  {:<22} {:>9} {:>9}", expected.name, "–", "hidden")?,
-        }
-    }
-    Ok(())
+fn expected_section<'a>(told: &'a PlanReport<'_>) -> Section<'a> {
+    let e = &told.expectation;
+    let figures = ["µm", "µrad", "µm/m"].into_iter().filter_map(|unit| {
+        let bar = |e: &'a Expected| {
+            let (its, scale) = shown_unit(told.design, e);
+            let value = e.u.filter(|_| its == unit)? * 2.0 * scale;
+            let text = format!("{} {unit}", figure(value));
+            Some(Bar { name: &e.name, value, half: 0.0, text })
+        };
+        let all: Vec<Bar<'a>> = e.unknowns.iter().filter_map(bar).collect();
+        (!all.is_empty()).then(|| Figure::new(format!("U (k = 2), {unit}"), move || Ok(bars(&all))))
+    });
+    let rows = e.unknowns.iter().map(|expected| {
+        let (unit, scale) = shown_unit(told.design, expected);
+        let [u, expanded, unit] = match expected.u {
+            Some(u) => [figure(u * scale), figure(2.0 * u * scale), unit.to_owned()],
+            None => ["–", "not observable", ""].map(str::to_owned),
+        };
+        [expected.name.clone(), u, expanded, unit]
+    });
+    Section::new("Uncertainty to expect")
+        .paragraph(format!(
+            "{} of {} combinations are observable, condition {}",
+            e.rank,
+            e.unknowns.len(),
+            figure(e.condition)
+        ))
+        .grid(Columns::AsFit, figures)
+        .table(Table::new(["", "u", "U (k = 2)", ""]).rows(rows).most_on_terminal(usize::MAX))
 }
 
-fn write_choice(report: &PlanReport<'_>, chosen: &Chosen, text: &mut String) -> std::fmt::Result {
-    let swaps = chosen.history.len().saturating_sub(1);
-    writeln!(
-        text,
-        "\nChosen: {} of {} poses, {} readings, {} (by per_hit and per_pose), {swaps} exchanges",
+fn chosen_section<'a>(told: &PlanReport<'_>, chosen: &Chosen) -> Section<'a> {
+    let mut section = Section::new("Chosen poses").paragraph(format!(
+        "{} of {} poses, {} readings, {} (by per_hit and per_pose), {} exchanges",
         chosen.poses,
         chosen.candidates,
         chosen.stations.len(),
-        clock(chosen.time_s)
-    )?;
+        clock(chosen.time_s),
+        chosen.history.len().saturating_sub(1)
+    ));
     if chosen.blocked > 0 {
-        writeln!(
-            text,
-            "  {} poses were left out: the tool would run into something",
-            chosen.blocked
-        )?;
+        let blocked = chosen.blocked;
+        section = section.paragraph(format!(
+            "{blocked} poses were left out: the tool would run into something or leave the travel"
+        ));
     }
-    let Some((count, grid)) = &chosen.grid else { return Ok(()) };
-    writeln!(text, "  U (k=2) {:>22} {:>14}", "chosen", format!("grid of {count}"))?;
-    for (a, b) in chosen.expectation.unknowns.iter().zip(&grid.unknowns) {
-        let (unit, scale) = shown_unit(report.design, a);
-        let one = |u: Option<f64>| u.map_or("hidden".to_owned(), |u| figure(2.0 * u * scale));
-        writeln!(text, "  {:<20} {:>9} {:>14} {unit}", a.name, one(a.u), one(b.u))?;
-    }
-    Ok(())
+    let Some((count, grid)) = &chosen.grid else { return section };
+    let rows = chosen.expectation.unknowns.iter().zip(&grid.unknowns).map(|(a, b)| {
+        let (unit, scale) = shown_unit(told.design, a);
+        let one =
+            |u: Option<f64>| u.map_or("not observable".to_owned(), |u| figure(2.0 * u * scale));
+        [a.name.clone(), one(a.u), one(b.u), unit.to_owned()]
+    });
+    let headings =
+        ["U (k = 2)".to_owned(), "chosen".to_owned(), format!("grid of {count}"), String::new()];
+    section.table(Table::new(headings).rows(rows).most_on_terminal(usize::MAX))
 }
 
-fn write_hidden(expectation: &Expectation, text: &mut String) -> std::fmt::Result {
-    if expectation.unobservable.is_empty() {
-        return writeln!(text, "\nEverything that is sought can be told.");
-    }
-    writeln!(text, "\nWhat cannot be told")?;
-    for hidden in &expectation.unobservable {
-        writeln!(text, "  {}", hidden.words)?;
-        writeln!(text, "      {} = ?", hidden.combination)?;
-        match &hidden.resolve_with {
-            Some(set_up) => writeln!(text, "      would tell: {set_up}")?,
-            None => writeln!(text, "      none of the set-ups that were tried would tell")?,
+/// The stations from above, from the front and from the right: the tool point, and the tool axis as
+/// a stroke.
+fn views<'a>(title: String, tools: &[(Vec3, Vec3)]) -> Section<'a> {
+    let points = || tools.iter().flat_map(|(p, u)| [*p, p + u * STROKE_MM]);
+    let low = points().fold(Vec3::repeat(f64::INFINITY), |a, b| a.inf(&b));
+    let high = points().fold(Vec3::repeat(f64::NEG_INFINITY), |a, b| a.sup(&b));
+    let middle = (low + high) * 0.5;
+    let scale = 0.9 * VIEW_PX / (high - low).max().max(1.0);
+    let place = |p: &Vec3, right: usize, up: usize| {
+        let of = |i: usize, sign: f64| 0.5 * VIEW_PX + sign * (p[i] - middle[i]) * scale;
+        [of(right, 1.0), of(up, -1.0)]
+    };
+    let view = |(title, right, up): (&str, usize, usize)| {
+        let mut svg = format!(
+            "<svg viewBox=\"0 0 {VIEW_PX} {VIEW_PX}\" role=\"img\"><rect width=\"{VIEW_PX}\" \
+             height=\"{VIEW_PX}\" fill=\"none\" stroke=\"#bbb\"/>"
+        );
+        for (p, u) in tools {
+            let ([x1, y1], [x2, y2]) =
+                (place(p, right, up), place(&(p + u * STROKE_MM), right, up));
+            svg += &format!(
+                "<line x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\" stroke=\"#0072b2\" \
+                 stroke-width=\"0.8\"/><circle cx=\"{x1:.1}\" cy=\"{y1:.1}\" r=\"1.8\" fill=\"#d55e00\"/>"
+            );
         }
-    }
-    Ok(())
+        Figure::new(title, move || Ok(format!("{svg}</svg>")))
+    };
+    let panels = [
+        ("from above: X, Y", 0, 1),
+        ("from the front: X, Z", 0, 2),
+        ("from the right: Y, Z", 1, 2),
+    ];
+    Section::new(title)
+        .note(format!(
+            "Tool point and tool axis on the workpiece; the frame is {} mm wide.",
+            figure(VIEW_PX / scale)
+        ))
+        .grid(Columns::Three, panels.map(view))
+}
+
+/// The plan as text.
+pub fn plan_text(told: &PlanReport<'_>) -> String {
+    report(told).text()
+}
+
+/// The plan as one page.
+///
+/// # Errors
+/// What the drawing library says.
+pub fn plan_html(told: &PlanReport<'_>) -> Result<String, DrawingError> {
+    report(told).html()
 }

@@ -26,7 +26,7 @@ pub struct PlanDocument<'a> {
     /// The uncertainty to expect of each unknown.
     pub expected: Vec<ExpectedEntry<'a>>,
     /// Combinations of unknowns that change no reading.
-    pub unobservable: Vec<UnobservableEntry<'a>>,
+    pub unobservable: &'a [Unobservable],
     /// Number of combinations of unknowns that are observable.
     pub rank: usize,
     /// Condition number of the design matrix.
@@ -102,17 +102,6 @@ pub struct ExpectedEntry<'a> {
     pub expanded_k2: Option<f64>,
 }
 
-/// A combination of unknowns that changes no reading.
-#[derive(Debug, Serialize, JsonSchema)]
-pub struct UnobservableEntry<'a> {
-    /// As a sum.
-    pub combination: &'a str,
-    /// In words.
-    pub words: &'a str,
-    /// A set-up that makes it observable; null if none of those tried does.
-    pub resolve_with: Option<&'a str>,
-}
-
 /// The chosen poses.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct ChosenEntry<'a> {
@@ -155,7 +144,7 @@ impl<'a> PlanDocument<'a> {
             chain: campaign.machine.chain_text(),
             paths: report.paths.iter().map(PathEntry::from).collect(),
             expected: expected(design, expectation),
-            unobservable: expectation.unobservable.iter().map(UnobservableEntry::from).collect(),
+            unobservable: &expectation.unobservable,
             rank: expectation.rank,
             condition: expectation.condition,
             chosen: report.chosen.as_ref().map(|chosen| ChosenEntry::of(design, chosen)),
@@ -228,13 +217,6 @@ impl<'a> From<&'a Result<ProgramCheck, String>> for ProgramEntry<'a> {
                 minor: &check.minor,
             },
         }
-    }
-}
-
-impl<'a> From<&'a Unobservable> for UnobservableEntry<'a> {
-    fn from(u: &'a Unobservable) -> Self {
-        let resolve_with = u.resolve_with.as_deref();
-        Self { combination: &u.combination, words: &u.words, resolve_with }
     }
 }
 

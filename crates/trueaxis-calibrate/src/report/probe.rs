@@ -1,11 +1,16 @@
-//! The calibration of a probe as text, JSON and tables.
+//! The calibration of a probe for people, and its tables.
 
+use super::probe_pictures::{hits_picture, latitudes_picture, scores_picture};
 use crate::identify::probe::datums::{eccentricity, xy_datum, z_datum};
 use crate::identify::probe::{
-    Calibration, FormError, GaugeKind, Hit, LobingModel, Score, Spread, Study,
+    Calibration, FormError, GaugeKind, Hit, LobingModel, Score, Spread, Study, Stylus, TableRow,
 };
 use std::fmt::Write;
 use trueaxis_geometry::Vec3;
+use trueaxis_report::{DrawingError, Report, Section, Table};
+
+/// Directions of the table on the page.
+const SHOWN: usize = 12;
 
 /// Directions of the harmonics of a spline.
 const FINE: usize = 720;
@@ -93,7 +98,7 @@ pub(super) fn um(mm: f64) -> f64 {
 }
 
 /// What the calibration is worth, in one sentence.
-pub(super) fn verdict(found: &Calibration) -> String {
+fn verdict(found: &Calibration) -> String {
     let share = 100.0 * (1.0 - found.held_out.rms_mm / found.before.rms_about_mean());
     format!(
         "stylus `{}`: radii range over {:.2} µm as measured, {:.2} µm in directions that the model has \
@@ -119,7 +124,7 @@ pub(super) fn is_chosen(found: &Calibration, score: &Score) -> bool {
 }
 
 /// What was touched, in words.
-pub(super) fn gauge_words(found: &Calibration) -> String {
+fn gauge_words(found: &Calibration) -> String {
     let gauge = &found.gauge;
     let kind = match gauge.kind {
         GaugeKind::Ring => "ring",
@@ -140,107 +145,7 @@ pub(super) fn gauge_words(found: &Calibration) -> String {
     )
 }
 
-/// The study with the calibration of each stylus, for people.
-pub fn probe_text(study: &Study, all: &[Calibration]) -> String {
-    let mut text = format!("{}\n", study.name);
-    datums_text(&mut text, study);
-    for found in all {
-        stylus_text(&mut text, found);
-    }
-    text
-}
-
-fn datums_text(text: &mut String, study: &Study) {
-    // Writing to a String cannot fail.
-    if let Some(dial) = study.eccentricity.as_ref().and_then(eccentricity) {
-        let [x, y] = dial.offset_mm.map(um);
-        let [ux, uy] = dial.u_mm.map(um);
-        let _ = writeln!(
-            text,
-            "\n  dial on the ball   offset {x:.2} ± {ux:.2}, {y:.2} ± {uy:.2} µm; run-out {:.2} µm",
-            um(dial.runout_mm)
-        );
-    }
-    if let Some(z) = study.z_datum.as_ref().map(z_datum) {
-        let _ = writeln!(
-            text,
-            "\n  Z datum            length of the probe {:.4} ± {:.4} mm; ring at Z {:.4} mm; range of the \
-             triggers {:.2} µm",
-            z.length_mm,
-            z.u_length_mm,
-            z.top_mm,
-            um(z.range_mm)
-        );
-    }
-    if let Some(xy) = study.xy_datum.as_ref().map(xy_datum) {
-        let [x, y] = xy.offset_mm.map(um);
-        let [dx, dy] = xy.ball_diameter_mm;
-        let _ = writeln!(
-            text,
-            "\n  four hits          offset {x:.2}, {y:.2} µm; the ball acts like {dx:.4} mm in X, {dy:.4} mm \
-             in Y"
-        );
-    }
-}
-
-fn stylus_text(text: &mut String, found: &Calibration) {
-    let _ = writeln!(text, "\nstylus `{}`: {}\n", found.stylus, gauge_words(found));
-    let _ = writeln!(text, "  deviations of the radius, µm             range      rms");
-    let mut line = |name: &str, spread: &Spread| {
-        let (range, rms) = (um(spread.range_mm), um(spread.rms_mm));
-        let _ = writeln!(text, "  {name:<38} {range:>7.2}  {rms:>7.2}");
-    };
-    line("as measured", &found.before);
-    line("offset alone taken off", &found.offset_only);
-    line("corrected, hits of the calibration", &found.after);
-    line("corrected, directions held out", &found.held_out);
-    if let Some(check) = &found.check {
-        line("fresh hits, as measured", &check.before);
-        line("fresh hits, corrected", &check.after);
-    }
-    let _ = writeln!(text, "\n  {}", scatter_words(found));
-    if let Some(check) = &found.check {
-        let share = 100.0 * check.covered;
-        let _ = writeln!(text, "  {share:.0} % of the fresh hits lie within U (95 %)");
-    }
-    let _ = writeln!(text, "  {}", offset_words(found));
-    if let Some(form) = &found.form {
-        let _ = writeln!(text, "  {}", form_words(found, form));
-    }
-    if let Some(repeats) = &found.repeats {
-        let _ = writeln!(
-            text,
-            "  repeated hits in {} directions: s {:.2} µm, largest range {:.2} µm",
-            repeats.directions,
-            um(repeats.s_mm),
-            um(repeats.range_mm)
-        );
-    }
-    let _ = writeln!(text, "\n  pre-travel, µm     order    amplitude        u   first lobe, deg");
-    for h in harmonics(found) {
-        let order = match h.axial {
-            0 => h.order.to_string(),
-            p => format!("{} (sin λ)^{p}", h.order),
-        };
-        let _ = write!(text, "  {order:>22} {:>12.3} {:>8.3}", um(h.amplitude_mm()), um(h.u_mm));
-        let phase = format!("{:>12.2}", h.phase_rad().to_degrees());
-        let _ = writeln!(text, "{}", if h.order == 0 { "" } else { &phase });
-    }
-    let _ = writeln!(text, "\n  rms, µm                        parameters  in sample   held out");
-    for score in &found.scores {
-        let mark = if is_chosen(found, score) { "->" } else { "  " };
-        let _ = writeln!(
-            text,
-            "  {mark} {:<27} {:>9} {:>10.3} {:>10.3}",
-            size_words(score),
-            score.parameters,
-            um(score.in_sample_mm),
-            um(score.held_out_mm)
-        );
-    }
-}
-
-pub(super) fn scatter_words(found: &Calibration) -> String {
+fn scatter_words(found: &Calibration) -> String {
     format!(
         "one hit scatters by s = {:.3} µm ({} degrees of freedom); U = {:.2} u covers 95 %",
         um(found.fit.s_mm()),
@@ -249,7 +154,7 @@ pub(super) fn scatter_words(found: &Calibration) -> String {
     )
 }
 
-pub(super) fn offset_words(found: &Calibration) -> String {
+fn offset_words(found: &Calibration) -> String {
     let Some(offset) = &found.offset else {
         return "offset: not told by these hits (centre unknown, one orientation)".to_owned();
     };
@@ -267,7 +172,7 @@ pub(super) fn offset_words(found: &Calibration) -> String {
     )
 }
 
-pub(super) fn form_words(found: &Calibration, form: &FormError) -> String {
+fn form_words(found: &Calibration, form: &FormError) -> String {
     let (name, hits) = form_name(found);
     format!(
         "{name} (after ISO 230-10; {hits} hits there, {} here; not checked on the page): {:.2} µm as \
@@ -283,6 +188,159 @@ pub(super) fn form_name(found: &Calibration) -> (&'static str, usize) {
         GaugeKind::Ring => ("P_FTU,2D", 36),
         GaugeKind::Sphere => ("P_FTU,3D", 25),
     }
+}
+
+/// The study with the calibration of each stylus, for people.
+fn report<'a>(study: &Study, all: &[Calibration]) -> Report<'a> {
+    Report::new(&study.name)
+        .section(Section::new("Datums").list(datums(study)))
+        .sections(all.iter().zip(&study.styli).flat_map(|(found, stylus)| sections(found, stylus)))
+}
+
+fn datums(study: &Study) -> Vec<String> {
+    let dial = study.eccentricity.as_ref().and_then(eccentricity).map(|dial| {
+        let ([x, y], [ux, uy]) = (dial.offset_mm.map(um), dial.u_mm.map(um));
+        format!(
+            "dial on the ball: offset {x:.2} ± {ux:.2}, {y:.2} ± {uy:.2} µm; run-out {:.2} µm",
+            um(dial.runout_mm)
+        )
+    });
+    let z = study.z_datum.as_ref().map(z_datum).map(|z| {
+        format!(
+            "Z datum: length of the probe {:.4} ± {:.4} mm; ring at Z {:.4} mm; range of the triggers \
+             {:.2} µm",
+            z.length_mm,
+            z.u_length_mm,
+            z.top_mm,
+            um(z.range_mm)
+        )
+    });
+    let xy = study.xy_datum.as_ref().map(xy_datum).map(|xy| {
+        let ([x, y], [dx, dy]) = (xy.offset_mm.map(um), xy.ball_diameter_mm);
+        format!(
+            "four hits: offset {x:.2}, {y:.2} µm; the ball acts like {dx:.4} mm in X, {dy:.4} mm in Y"
+        )
+    });
+    dial.into_iter().chain(z).chain(xy).collect()
+}
+
+fn sections<'a>(found: &Calibration, stylus: &Stylus) -> [Section<'a>; 5] {
+    let name = &found.stylus;
+    let mut facts = vec![gauge_words(found), scatter_words(found)];
+    facts.extend(found.check.as_ref().map(|check| {
+        format!("{:.0} % of the fresh hits lie within U (95 %)", 100.0 * check.covered)
+    }));
+    facts.push(offset_words(found));
+    facts.extend(found.form.as_ref().map(|form| form_words(found, form)));
+    facts.extend(found.repeats.as_ref().map(|repeats| {
+        format!(
+            "repeated hits in {} directions: s {:.2} µm, largest range {:.2} µm",
+            repeats.directions,
+            um(repeats.s_mm),
+            um(repeats.range_mm)
+        )
+    }));
+    let picture = match found.gauge.kind {
+        GaugeKind::Ring => hits_picture(found, stylus),
+        GaugeKind::Sphere => latitudes_picture(found),
+    };
+    [
+        Section::new(format!("Stylus `{name}`: deviations of the radius"))
+            .paragraph(verdict(found))
+            .table(spreads(found))
+            .list(facts),
+        Section::from(picture),
+        Section::new(format!("Stylus `{name}`: pre-travel by direction of motion"))
+            .table(harmonics_table(found)),
+        scores(found),
+        directions(found).on_page(),
+    ]
+}
+
+fn spreads(found: &Calibration) -> Table {
+    let row = |name: &str, spread: &Spread| {
+        let [range, rms] = [spread.range_mm, spread.rms_mm].map(|v| format!("{:.3}", um(v)));
+        [name.to_owned(), range, rms]
+    };
+    let table = Table::new(["µm", "range", "rms"])
+        .row(row("as measured", &found.before))
+        .row(row("offset alone taken off", &found.offset_only))
+        .row(row("corrected, hits of the calibration", &found.after))
+        .row(row("corrected, directions held out", &found.held_out));
+    table.rows(found.check.iter().flat_map(|check| {
+        [row("fresh hits, as measured", &check.before), row("fresh hits, corrected", &check.after)]
+    }))
+}
+
+fn harmonics_table(found: &Calibration) -> Table {
+    let row = |h: Harmonic| {
+        let order = match h.axial {
+            0 => h.order.to_string(),
+            p => format!("{} · (sin λ)^{p}", h.order),
+        };
+        let phase = match h.order {
+            0 => "–".to_owned(),
+            _ => format!("{:.2}", h.phase_rad().to_degrees()),
+        };
+        [order, format!("{:.3}", um(h.amplitude_mm())), format!("{:.3}", um(h.u_mm)), phase]
+    };
+    let headings = ["order", "amplitude, µm", "u, µm", "first lobe, deg"];
+    Table::new(headings).rows(harmonics(found).into_iter().map(row)).note(
+        "Directions of motion as the probe sees them. The first harmonic is the offset: no hit can tell \
+         the two apart.",
+    )
+}
+
+fn scores<'a>(found: &Calibration) -> Section<'a> {
+    let mut table = Table::new(["rms, µm", "parameters", "in sample", "held out", ""]);
+    for score in &found.scores {
+        let [in_sample, held_out] =
+            [score.in_sample_mm, score.held_out_mm].map(|v| format!("{:.3}", um(v)));
+        let row = [size_words(score), score.parameters.to_string(), in_sample, held_out];
+        table = match is_chosen(found, score) {
+            true => table.bold_row(row.into_iter().chain(["chosen".to_owned()])),
+            false => table.row(row),
+        };
+    }
+    Section::from(scores_picture(found)).table(table)
+}
+
+fn directions<'a>(found: &Calibration) -> Section<'a> {
+    let orientation = found.orientations_rad.first().copied().unwrap_or(0.0);
+    let row = |r: TableRow| {
+        let (s, c) = r.direction_rad.sin_cos();
+        let d = um(r.deviation_mm);
+        let angle = format!("{:.1}", r.direction_rad.to_degrees());
+        let [d, x, y, u] =
+            [d, no_minus(d * c), no_minus(d * s), um(r.u_mm)].map(|v| format!("{v:.2}"));
+        [angle, d, x, y, u]
+    };
+    let degrees = orientation.to_degrees();
+    let title = format!("Stylus `{}`: direction table, spindle at {degrees:.0} deg", found.stylus);
+    let headings = ["direction, deg", "dR, µm", "dX, µm", "dY, µm", "u, µm"];
+    Section::new(title).table(
+        Table::new(headings).rows(found.table(SHOWN, orientation).into_iter().map(row)).note(
+            "Corrected point = measured point − dR along the direction of motion. All directions: --table.",
+        ),
+    )
+}
+
+/// No minus before what rounds to zero.
+fn no_minus(um: f64) -> f64 {
+    if um.abs() < 0.005 { 0.0 } else { um }
+}
+
+/// The calibrations as text.
+pub fn probe_text(study: &Study, all: &[Calibration]) -> String {
+    report(study, all).text()
+}
+
+/// The calibrations as one page.
+///
+/// # Errors
+/// What the drawing library says.
+pub fn probe_html(study: &Study, all: &[Calibration]) -> Result<String, DrawingError> {
+    report(study, all).html()
 }
 
 /// The direction table as CSV: what to subtract along the direction of motion.

@@ -1,54 +1,54 @@
-//! A probing path over a surface as text and JSON.
+//! A probing path over a surface for people.
 
 use crate::plan::program::ProgramCheck;
 use crate::plan::surface::{Pose, SurfaceStudy};
-use std::fmt::Write;
+use trueaxis_report::{Report, Section, Standing};
 
-/// The path, for people.
+/// What a check says of a program, the worst first.
+pub(super) fn issues(check: &ProgramCheck) -> Vec<String> {
+    let mut lines = Vec::new();
+    let lists =
+        [("ERROR", &check.errors), ("critical issue", &check.grave), ("note", &check.minor)];
+    for (mark, list) in lists {
+        let most = if mark == "note" { 2 } else { 10 };
+        lines.extend(list.iter().take(most).map(|line| format!("{mark}: {line}")));
+        if list.len() > most {
+            lines.push(format!("{mark}: and {} more", list.len() - most));
+        }
+    }
+    lines
+}
+
+/// The path as text.
 pub fn surface_text(
     study: &SurfaceStudy,
     poses: &[Pose],
     asked: usize,
     check: &ProgramCheck,
 ) -> String {
-    let mut text = format!("{}\n\n", study.name);
-    // Writing to a String cannot fail.
-    let _ = writeln!(
-        text,
-        "  points        {} of {asked}, {} mm apart at least, on {}",
-        poses.len(),
-        study.spacing_mm,
-        study.machine.name()
-    );
-    let _ = writeln!(
-        text,
-        "  probe         ball {} mm, {} mm to its centre; stands off {} mm, goes on to {:.3} mm below the \
-         surface",
-        2.0 * study.ball_radius_mm,
-        study.probe_length_mm,
-        study.stand_off_mm,
-        study.beyond_mm
-    );
-    let minutes = check.duration_s / 60.0;
-    let _ = writeln!(text, "  duration      {minutes:.1} min");
     let part =
         if study.part.is_some() { "machine and part" } else { "machine (no part is stated)" };
-    let _ = writeln!(text, "  collisions    probe with {part}");
-    for (mark, list) in
-        [("ERROR", &check.errors), ("TROUBLE", &check.grave), ("note", &check.minor)]
-    {
-        let most = if mark == "note" { 2 } else { 10 };
-        for line in list.iter().take(most) {
-            let _ = writeln!(text, "  {mark:<13} {line}");
-        }
-        if list.len() > most {
-            let _ = writeln!(text, "  {mark:<13} and {} more", list.len() - most);
-        }
-    }
-    let verdict = match check.is_sound() {
-        true => "nothing is in its way",
-        false => "NOT to be run: see above",
+    let report = Report::new(&study.name)
+        .line(format!(
+            "{} of {asked} points, {} mm apart at least, on {}",
+            poses.len(),
+            study.spacing_mm,
+            study.machine.name()
+        ))
+        .line(format!(
+            "probe: ball {} mm, {} mm to its centre; stands off {} mm, goes on to {:.3} mm below the surface",
+            2.0 * study.ball_radius_mm,
+            study.probe_length_mm,
+            study.stand_off_mm,
+            study.beyond_mm
+        ))
+        .line(format!(
+            "{:.1} min; collisions of the probe with {part} were checked",
+            check.duration_s / 60.0
+        ));
+    let report = match check.is_sound() {
+        true => report.verdict(Standing::Good, "SAFE", "nothing is in its way"),
+        false => report.verdict(Standing::Bad, "NOT SAFE", "not to be run"),
     };
-    let _ = writeln!(text, "\n  {verdict}");
-    text
+    report.section(Section::new("Check of the program").list(issues(check))).text()
 }

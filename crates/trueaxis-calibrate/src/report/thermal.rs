@@ -1,8 +1,13 @@
-//! A thermal model as text and JSON.
+//! A thermal model for people.
 
+use super::thermal_pictures::{cycle_picture, scores_picture};
 use crate::identify::thermal::{Logs, Score, ThermalModel, Zero};
-use std::fmt::Write;
+use std::fmt::Write as _;
 use trueaxis_machine::errors::ErrorName;
+use trueaxis_report::{Columns, DrawingError, Figure, Report, Section, Standing, Table};
+
+/// More cycles are not drawn one by one.
+const MOST_DRAWN: usize = 24;
 
 /// The lines for the machine file, or why there are none.
 ///
@@ -44,9 +49,9 @@ fn key(name: &str) -> String {
 }
 
 /// What the model is worth, in one sentence.
-pub(super) fn verdict(model: &ThermalModel) -> String {
+fn verdict(model: &ThermalModel) -> String {
     if let Some(refusal) = &model.refusal {
-        return format!("no model: {refusal}");
+        return refusal.clone();
     }
     let score = model.score();
     format!(
@@ -63,7 +68,7 @@ fn percent(share: f64) -> String {
     format!("{:.0} %", share * 100.0)
 }
 
-pub(super) fn names(logs: &Logs, score: &Score) -> String {
+fn names(logs: &Logs, score: &Score) -> String {
     match score.terms.is_empty() {
         true => "none".to_owned(),
         false => score.terms.iter().map(|t| t.name(logs)).collect::<Vec<_>>().join(", "),
@@ -71,7 +76,7 @@ pub(super) fn names(logs: &Logs, score: &Score) -> String {
 }
 
 /// What is free in each cycle, in words.
-pub(super) fn zero(logs: &Logs) -> &'static str {
+fn zero(logs: &Logs) -> &'static str {
     match logs.zero {
         Zero::Cycle => "free in each cycle (the zero of the probe is unknown)",
         Zero::Start => "the first reading of each cycle",
@@ -79,18 +84,13 @@ pub(super) fn zero(logs: &Logs) -> &'static str {
     }
 }
 
-/// Headings and rows of the table of scores.
-pub(super) const SCORES: [&str; 6] =
-    ["terms", "in sample", "single rows out", "whole cycles out", "again", "condition"];
-
-/// One row of the table of scores, without the names of the sensors.
-pub(super) fn score_cells(logs: &Logs, score: &Score) -> [String; 6] {
+/// One row of the table of scores.
+fn score_row(logs: &Logs, score: &Score, names: String) -> [String; 7] {
     let um = |mm: f64| format!("{:.2}", mm * 1e3);
-    let cycles = logs.cycles.len();
     // With nothing to choose the same is always chosen.
     let again = match score.terms.is_empty() {
-        true => "-".to_owned(),
-        false => format!("{}/{cycles}", score.chosen_again),
+        true => "–".to_owned(),
+        false => format!("{}/{}", score.chosen_again, logs.cycles.len()),
     };
     let condition = match score.condition.is_finite() {
         true => format!("{:.0}", score.condition),
@@ -103,6 +103,7 @@ pub(super) fn score_cells(logs: &Logs, score: &Score) -> [String; 6] {
         format!("{} ± {}", um(score.held_out_mm), um(u_of_root(score))),
         again,
         condition,
+        names,
     ]
 }
 
@@ -111,79 +112,119 @@ fn u_of_root(score: &Score) -> f64 {
     if score.held_out_mm > 0.0 { score.u_held_out_mm2 / (2.0 * score.held_out_mm) } else { 0.0 }
 }
 
-/// The model as a table, with the verdict first.
-pub fn thermal_text(logs: &Logs, model: &ThermalModel) -> String {
+/// The model for people.
+fn report<'a>(logs: &'a Logs, model: &'a ThermalModel) -> Report<'a> {
     let rows: usize = logs.cycles.iter().map(|c| c.displacement_mm.len()).sum();
-    let mut text = format!("{}\n\n", logs.name);
-    // Writing to a String cannot fail.
-    let _ = writeln!(text, "  error     {}", logs.error);
-    let _ = writeln!(text, "  logs      {} cycles, {rows} rows", logs.cycles.len());
-    let _ = writeln!(text, "  zero      {}", zero(logs));
-    let _ = writeln!(text, "\n  {}\n", verdict(model));
-    let [a, b, c, d, e, f] = SCORES;
-    let _ = writeln!(text, "  rms, µm   {a:>5} {b:>10} {c:>16} {d:>18} {e:>7} {f:>10}  sensors");
-    for (i, score) in model.scores.iter().enumerate() {
-        let mark = if i == model.chosen { "->" } else { "  " };
-        score_line(&mut text, mark, logs, score, &names(logs, score));
-    }
-    score_line(&mut text, "all", logs, &model.all_terms, "all at once: over-fitted");
-    let _ = writeln!(text, "\n  {}", beside(model));
-    coefficients(&mut text, logs, model);
-    let _ = writeln!(text, "\n  cycle                      without a model   held out, rms, µm");
-    for (g, cycle) in logs.cycles.iter().enumerate() {
-        let (none, with) = (model.scores[0].by_cycle_mm[g], model.score().by_cycle_mm[g]);
-        let name = &cycle.name;
-        let _ = writeln!(text, "  {name:<28} {:>13.2} {:>19.2}", none * 1e3, with * 1e3);
-    }
-    match thermal_lines(logs, model) {
-        Ok(lines) => {
-            let _ = write!(text, "\n  in the machine file:\n\n{lines}");
-        }
-        Err(why) => {
-            let _ = writeln!(text, "\n  nothing for the machine file: {why}");
-        }
-    }
-    text
+    let (standing, word) = match model.refusal.is_some() {
+        true => (Standing::Bad, "no model"),
+        false => (Standing::Good, "MODEL"),
+    };
+    let lines = match thermal_lines(logs, model) {
+        Ok(lines) => Section::new("In the machine file").code(lines),
+        Err(why) => Section::new("").paragraph(format!("Nothing for the machine file: {why}.")),
+    };
+    Report::new(&logs.name)
+        .line(format!(
+            "Thermal model of {} from {} cycles, {rows} rows; zero: {}",
+            logs.error,
+            logs.cycles.len(),
+            zero(logs)
+        ))
+        .verdict(standing, word, verdict(model))
+        .section(score_section(logs, model))
+        .section(
+            Section::new("More terms: better on what is known, not on what comes")
+                .figure(Figure::new("", || scores_picture(model))),
+        )
+        .section(coefficient_section(logs, model))
+        .section(lines)
+        .section(cycle_section(logs, model))
+        .section(
+            Section::new("What to know of this model")
+                .on_page()
+                .list(model.warnings.iter().cloned()),
+        )
 }
 
-/// What stands beside the scores.
-pub(super) fn beside(model: &ThermalModel) -> String {
+fn score_section<'a>(logs: &Logs, model: &ThermalModel) -> Section<'a> {
     let stated = if model.repeatability_stated { "stated" } else { "from neighbouring readings" };
-    format!(
-        "repeatability of a reading {:.2} µm ({stated}); held out and counted from the first row of each \
-         cycle {:.2} µm",
-        model.repeatability_mm * 1e3,
-        model.since_start_mm * 1e3
-    )
-}
-
-fn score_line(text: &mut String, mark: &str, logs: &Logs, score: &Score, names: &str) {
-    let [a, b, c, d, e, f] = score_cells(logs, score);
-    let _ = writeln!(text, "  {mark:<9} {a:>5} {b:>10} {c:>16} {d:>18} {e:>7} {f:>10}  {names}");
-}
-
-fn coefficients(text: &mut String, logs: &Logs, model: &ThermalModel) {
-    if model.coefficients.is_empty() {
-        return;
+    let headings = [
+        "terms",
+        "in sample",
+        "single rows out",
+        "whole cycles out",
+        "again",
+        "condition",
+        "sensors",
+    ];
+    let mut table = Table::new(headings);
+    for (i, score) in model.scores.iter().enumerate() {
+        let names = names(logs, score);
+        table = match i == model.chosen {
+            true => table.bold_row(score_row(logs, score, format!("{names} (chosen)"))),
+            false => table.row(score_row(logs, score, names)),
+        };
     }
+    let all = score_row(logs, &model.all_terms, "all at once: over-fitted".to_owned());
+    Section::new("What it is worth, rms in µm")
+        .table(table.row(all).note(
+            "In sample: on the rows that the coefficients come from. Single rows out: what leaving out \
+             one row at a time claims; its neighbours are still there. Whole cycles out: sensors chosen \
+             and coefficients fitted without the cycle, ± standard uncertainty; this one counts. Again: \
+             without how many cycles the same sensors were chosen. Condition: from 30 on the columns \
+             cannot be told apart.",
+        ))
+        .paragraph(format!(
+            "Repeatability of a reading {:.2} µm ({stated}); held out and counted from the first row of \
+             each cycle {:.2} µm.",
+            model.repeatability_mm * 1e3,
+            model.since_start_mm * 1e3
+        ))
+}
+
+fn coefficient_section<'a>(logs: &Logs, model: &ThermalModel) -> Section<'a> {
     let refused = if model.refusal.is_some() { " (refused)" } else { "" };
-    let _ = writeln!(text, "\n  coefficient, µm/K, with standard uncertainty{refused}");
-    for c in &model.coefficients {
+    let rows = model.coefficients.iter().map(|c| {
         let [low, high] = c.range_celsius;
-        let _ = writeln!(
-            text,
-            "  {:<28} {:>9.3} ± {:.3}   logged from {low:.1} to {high:.1} °C",
-            c.term.name(logs),
-            c.mm_per_k * 1e3,
-            c.u_mm_per_k * 1e3
-        );
+        let [k, u] = [c.mm_per_k, c.u_mm_per_k].map(|v| format!("{:.3}", v * 1e3));
+        [c.term.name(logs), k, u, format!("{low:.1} … {high:.1}")]
+    });
+    let section = Section::new(format!("Coefficients{refused}"))
+        .table(Table::new(["sensor", "µm/K", "u, µm/K", "logged, °C"]).rows(rows));
+    match model.intercept_mm.filter(|_| !model.coefficients.is_empty()) {
+        Some(mm) => section.paragraph(format!(
+            "Where all read {} °C: {:.3} µm.",
+            logs.reference_celsius,
+            mm * 1e3
+        )),
+        None => section,
     }
-    if let Some(intercept_mm) = model.intercept_mm {
-        let _ = writeln!(
-            text,
-            "  {:<28} {:>9.3} µm",
-            format!("where all read {} °C", logs.reference_celsius),
-            intercept_mm * 1e3
-        );
-    }
+}
+
+fn cycle_section<'a>(logs: &'a Logs, model: &'a ThermalModel) -> Section<'a> {
+    let (none, with) = (&model.scores[0].by_cycle_mm, &model.score().by_cycle_mm);
+    let rows = logs.cycles.iter().enumerate().map(|(g, cycle)| {
+        let um = |mm: f64| format!("{:.2}", mm * 1e3);
+        [cycle.name.clone(), um(none[g]), um(with[g])]
+    });
+    let figures = logs.cycles.iter().enumerate().take(MOST_DRAWN).map(move |(g, cycle)| {
+        let caption = format!("{}: {:.2} µm left", cycle.name, with[g] * 1e3);
+        Figure::new(caption, move || cycle_picture(cycle, g, model))
+    });
+    Section::new("Each cycle, foretold by a model that has not seen it")
+        .table(Table::new(["cycle", "without a model, rms, µm", "held out, rms, µm"]).rows(rows))
+        .grid(Columns::AsFit, figures)
+}
+
+/// The model as text.
+pub fn thermal_text(logs: &Logs, model: &ThermalModel) -> String {
+    report(logs, model).text()
+}
+
+/// The model as one page.
+///
+/// # Errors
+/// What the drawing library says.
+pub fn thermal_html(logs: &Logs, model: &ThermalModel) -> Result<String, DrawingError> {
+    report(logs, model).html()
 }

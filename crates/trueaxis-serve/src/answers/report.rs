@@ -34,7 +34,10 @@ pub(super) fn report(desk: &Desk, body: &Value, job: &Job) -> Result<Reply, Refu
             super::simulate::page(desk, &request, job)?
         }
         "plan" => plan(&body, &path)?,
-        "identify" => identification_html(&identified(&path, |_| Ok(None), job)?.report()),
+        "identify" => {
+            let identified = identified(&path, |_| Ok(None), job)?;
+            identification_html(&identified.report()).map_err(undrawn)?
+        }
         "evaluate" => {
             let request = json!({ "standard": body.text("standard")?, "path": name });
             let judged = judged(desk, &Body::of(&request, &["standard", "path"])?)?;
@@ -79,7 +82,7 @@ fn plan(body: &Body<'_>, path: &Path) -> Result<String, Refusal> {
         return Err(Refusal::unusable(&problems));
     }
     let design = plan.campaign.design();
-    Ok(plan_html(&planned(&plan, &design, chosen, control)))
+    plan_html(&planned(&plan, &design, chosen, control)).map_err(undrawn)
 }
 
 fn comparison(path: &Path) -> Result<String, Refusal> {

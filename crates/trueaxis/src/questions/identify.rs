@@ -197,7 +197,7 @@ impl Answer for Identified {
     }
 
     fn page(&self) -> Result<String, DrawingError> {
-        Ok(report::identification_html(&self.shown()))
+        report::identification_html(&self.shown())
     }
 
     fn is_yes(&self) -> bool {

@@ -87,7 +87,7 @@ impl Answer for PlanAnswer {
     }
 
     fn page(&self) -> Result<String, DrawingError> {
-        Ok(report::plan_html(&self.shown()))
+        report::plan_html(&self.shown())
     }
 
     fn is_yes(&self) -> bool {
