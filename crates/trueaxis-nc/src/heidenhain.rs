@@ -163,7 +163,12 @@ impl<'r> Run<'r> {
     fn block(&mut self, program: &Program, line: &Line) -> Result<Next, Fault> {
         if line.too_long {
             let message = "more than 10000 words in one block";
-            return Err(fault("too-many-words", line.start, message, "is this an NC program?"));
+            return Err(fault(
+                "too-many-words",
+                line.start,
+                message,
+                "check whether the file is an NC program",
+            ));
         }
         if line.skip && !self.core.settings.skipped_blocks_too {
             return Ok(Next::Following);

@@ -209,9 +209,7 @@ impl Decimals {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum WriteError {
     /// A number that no control reads.
-    #[error(
-        "{word} = {value} cannot be written; it must be finite and of a size that machines have"
-    )]
+    #[error("{word} = {value} cannot be written: it is not finite or too large for a machine")]
     Number {
         /// The word.
         word: &'static str,
@@ -219,7 +217,7 @@ pub enum WriteError {
         value: f64,
     },
     /// A feed that is 0 to the least increment.
-    #[error("the feed {value} is zero or negative to {decimals} decimals; a feed move needs more")]
+    #[error("the feed {value} is not above zero with {decimals} decimals, as a feed move needs")]
     Feed {
         /// What was asked for.
         value: f64,

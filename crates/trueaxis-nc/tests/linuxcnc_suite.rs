@@ -12,8 +12,8 @@ use support::{Call, expected_calls, our_calls, outside, tidy_end};
 
 /// Tests that differ, and why; `docs/validation.md` has the same table.
 const DIFFERENCES: [(&str, &str); 6] = [
-    ("crazy-paths", "radius compensation is noted, not applied"),
-    ("inverse-time-with-comp", "radius compensation is noted, not applied"),
+    ("crazy-paths", "radius compensation is not applied"),
+    ("inverse-time-with-comp", "radius compensation is not applied"),
     ("g71-endless-loop2", "lathe cycle G71 is not applied"),
     ("g71-endless-loop_2", "lathe cycle G71 is not applied"),
     ("g72-facing", "lathe cycle G72 is not applied"),
@@ -152,8 +152,8 @@ fn rotate_taps(calls: &mut [Call], order: [usize; 3]) {
 /// Programs that LinuxCNC rejects and we accept, and why.
 const ACCEPTED: [(&str, &str); 4] = [
     ("g64-r-on-g61", "a word that nothing uses is a warning"),
-    ("ccomp-arcexit", "radius compensation is noted, not applied"),
-    ("ccomp-gouging", "radius compensation is noted, not applied"),
+    ("ccomp-arcexit", "radius compensation is not applied"),
+    ("ccomp-gouging", "radius compensation is not applied"),
     ("g64-m19-r-ambiguous", "R goes to M19"),
 ];
 

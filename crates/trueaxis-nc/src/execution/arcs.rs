@@ -15,7 +15,8 @@ pub(crate) fn by_radius(
     let half = half_chord([start, end]);
     if half > radius.abs() + rounding_mm {
         let message = format!(
-            "the arc does not fit: its ends are {:.4} mm apart, more than twice the radius {:.4} mm",
+            "the arc does not fit: its ends are {:.4} mm apart, more than twice the radius {:.4} \
+             mm",
             2.0 * half,
             radius.abs()
         );
@@ -53,8 +54,8 @@ fn on_bisector(
     at: usize,
 ) -> Result<[f64; 2], Fault> {
     if half == 0.0 {
-        let message = "an arc without a centre must end elsewhere than it begins";
-        return Err(fault("arc-does-not-fit", at, message, "a full circle needs its centre"));
+        let message = "an arc with a radius must not end at its start";
+        return Err(fault("arc-does-not-fit", at, message, "write the centre of a full circle"));
     }
     let along = [(end[0] - start[0]) / (2.0 * half), (end[1] - start[1]) / (2.0 * half)];
     let middle = [0, 1].map(|i| f64::midpoint(start[i], end[i]));
@@ -71,7 +72,7 @@ pub(crate) fn check_radii(
 ) -> Result<(), Fault> {
     let radius = |p: [f64; 2]| (p[0] - center[0]).hypot(p[1] - center[1]);
     let (from, to) = (radius(start), radius(end));
-    let hint = "check the centre and the target, and whether the centre counts from the start";
+    let hint = "check the centre and the target, and whether the centre is relative to the start";
     if from <= 0.0 || to <= 0.0 {
         return Err(fault("arc-does-not-fit", at, "the radius of the arc is zero", hint));
     }
@@ -108,8 +109,8 @@ pub(crate) fn direction_before(
 ) -> Result<[f64; 2], Fault> {
     let along = tangent.map(|t| [t[first], t[second]]).filter(|t| t[0].hypot(t[1]) > 1e-9);
     along.ok_or_else(|| {
-        let message = "there is no move before it in this plane that it could continue";
-        fault("missing-tangent", at, message, "write a line or an arc in the plane before it")
+        let message = "no previous move in this plane that the arc could continue";
+        fault("missing-tangent", at, message, "write a line or an arc in this plane before it")
     })
 }
 

@@ -212,7 +212,8 @@ impl<'r> Core<'r> {
         if self.reported.len() < MOST_WARNINGS {
             self.problems.warn(code, place, message.into(), hint);
         } else {
-            let message = format!("{MOST_WARNINGS} warnings and more: the rest is not listed");
+            let message =
+                format!("more than {MOST_WARNINGS} warnings; the remaining ones are not listed");
             self.problems.note("too-many-problems", place, message, "");
         }
     }
@@ -224,7 +225,7 @@ impl<'r> Core<'r> {
 
     /// The same for what would change the moves.
     pub fn left_out(&mut self, subject: &str, at: usize) {
-        self.not_applied(subject, at, "the moves that follow are those without it");
+        self.not_applied(subject, at, "the following moves are computed without it");
     }
 
     /// Counts a call or a jump backwards.
@@ -256,7 +257,7 @@ impl<'r> Core<'r> {
         if let Some(number) = self.loaded.get(name) {
             return Ok(*number);
         }
-        let mut why = "it has no name".to_owned();
+        let mut why = "its name is empty".to_owned();
         for known in names {
             match self.library.text(&known) {
                 Ok(text) => {

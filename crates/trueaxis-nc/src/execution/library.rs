@@ -34,6 +34,6 @@ pub struct NoLibrary;
 
 impl Library for NoLibrary {
     fn text(&self, _name: &str) -> Result<Vec<u8>, String> {
-        Err("no other programs are at hand here".into())
+        Err("no other programs are available".into())
     }
 }

@@ -6,24 +6,24 @@ use crate::moves::FeedMode;
 use crate::text::program::{Fault, fault};
 
 pub(crate) fn endless_loop(most: u64, at: usize) -> Fault {
-    let message = format!("more than {most} jumps and calls: an endless loop?");
-    fault("endless-loop", at, message, "check its condition, or raise the limit")
+    let message = format!("more than {most} jumps and calls: probably an endless loop");
+    fault("endless-loop", at, message, "check the condition of the loop, or raise the limit")
 }
 
 pub(crate) fn calls_too_deep(deepest: usize, at: usize) -> Fault {
-    let message = format!("more than {deepest} calls or repetitions within each other");
-    fault("calls-too-deep", at, message, "does it call itself for ever?")
+    let message = format!("more than {deepest} nested calls or repetitions");
+    fault("calls-too-deep", at, message, "check whether the program calls itself without end")
 }
 
 pub(crate) fn missing_program(name: &str, why: &str, at: usize) -> Fault {
-    let hint = "put it where subprograms are found, or check the spelling";
+    let hint = "put it into the folder of subprograms, or check the spelling";
     fault("missing-subprogram", at, format!("the program {name} is missing: {why}"), hint)
 }
 
 /// The program itself sets off an alarm.
 pub(crate) fn alarm(text: &str, at: usize) -> Fault {
-    let message = format!("the program sets off the alarm {}", text.trim());
-    fault("program-alarm", at, message, "the program asked for it")
+    let message = format!("the program raises the alarm {}", text.trim());
+    fault("program-alarm", at, message, "check the condition before it in the program")
 }
 
 pub(crate) fn arc_without_centre(hint: &'static str, at: usize) -> Fault {
@@ -32,98 +32,98 @@ pub(crate) fn arc_without_centre(hint: &'static str, at: usize) -> Fault {
 }
 
 pub(crate) fn bad_turns(turns: f64, at: usize) -> Fault {
-    let message = format!("{turns} is not a number of turns");
+    let message = format!("expected a whole number of turns, found {turns}");
     fault("bad-turns", at, message, "write a whole number")
 }
 
 pub(crate) fn negative_feed(feed: f64, at: usize) -> Fault {
-    fault("negative-feed", at, format!("{feed} is not a feed"), "write F100")
+    fault("negative-feed", at, format!("the feed {feed} is negative"), "write F100")
 }
 
 pub(crate) fn zero_feed(mode: FeedMode, at: usize) -> Fault {
     let (message, hint) = match mode {
-        FeedMode::InverseTime => ("with G93 each feed move needs its own F", "write F"),
+        FeedMode::InverseTime => ("inverse-time feed (G93) needs F in each feed move", "write F"),
         _ => ("a feed move without feed", "write F before the first feed move"),
     };
     fault("zero-feed", at, message, hint)
 }
 
 pub(crate) fn unclosed_bracket(at: usize) -> Fault {
-    let hint = "one closing bracket for each that opens";
+    let hint = "write one closing bracket for each opening one";
     fault("unbalanced-brackets", at, "this bracket is not closed", hint)
 }
 
 /// Brackets, functions and signs within each other.
 pub(crate) fn too_deep(at: usize) -> Fault {
-    let message = "too many brackets, functions or signs within each other";
-    fault("too-deep", at, message, "use parameters for parts of it")
+    let message = "brackets, functions or signs are nested too deeply";
+    fault("too-deep", at, message, "use parameters for parts of the expression")
 }
 
 pub(crate) fn too_large(value: f64, what: impl Display, at: usize) -> Fault {
     let message = format!("{value} is too large for {what}");
-    fault("too-large", at, message, "no machine goes that far")
+    fault("too-large", at, message, "check the value and the unit")
 }
 
 pub(crate) fn repeated_word(name: impl Display, at: usize) -> Fault {
-    let message = format!("the word {name} stands twice in this block");
+    let message = format!("the word {name} occurs twice in this block");
     fault("repeated-word", at, message, "write it once")
 }
 
 pub(crate) fn unknown_word(name: impl Display, at: usize) -> Fault {
-    let message = format!("the word {name} is not known to this control");
-    let hint = "check the spelling; is the program written for another control or a printer?";
+    let message = format!("unknown word {name} for this control");
+    let hint = "check the spelling, and whether the program is for another control or a 3D printer";
     fault("unknown-word", at, message, hint)
 }
 
 pub(crate) fn unknown_g_code(number: f64, at: usize) -> Fault {
-    let message = format!("G{number} is not known to this control");
-    fault("unknown-g-code", at, message, "is the program written for another control?")
+    let message = format!("unknown G code G{number} for this control");
+    fault("unknown-g-code", at, message, "check whether the program is for another control")
 }
 
 pub(crate) fn unknown_axis(at: usize) -> Fault {
-    fault("unknown-axis", at, "this axis is not known here", "the axes are X Y Z A B C U V W")
+    fault("unknown-axis", at, "unknown axis", "use the axes X Y Z A B C U V W")
 }
 
 pub(crate) fn missing_equals(name: impl Display, hint: &'static str, at: usize) -> Fault {
-    fault("missing-equals", at, format!("{name} is followed by ="), hint)
+    fault("missing-equals", at, format!("expected = after {name}"), hint)
 }
 
 /// A tool, or the number of its length.
 pub(crate) fn bad_tool(name: impl Display, at: usize) -> Fault {
-    let message = format!("{name} is not the number of a tool");
+    let message = format!("{name} is not a tool number");
     fault(
         "bad-tool",
         at,
         message,
-        "write a whole number from 0 on, or a name where names are known",
+        "write a whole number from 0, or a name if the control has names of tools",
     )
 }
 
 pub(crate) fn zero_direction(at: usize) -> Fault {
-    fault("zero-direction", at, "the direction has no length", "write all three parts of it")
+    fault("zero-direction", at, "the direction has length zero", "write all three components")
 }
 
 pub(crate) fn bad_dwell(at: usize) -> Fault {
     let message = "the time of the dwell is missing, negative or too long";
-    fault("bad-dwell", at, message, "write how many seconds")
+    fault("bad-dwell", at, message, "write the time in seconds")
 }
 
 pub(crate) fn bad_work_offset(number: impl Display, hint: &'static str, at: usize) -> Fault {
-    fault("bad-work-offset", at, format!("there is no work offset {number}"), hint)
+    fault("bad-work-offset", at, format!("unknown work offset {number}"), hint)
 }
 
 /// A label, or the number or name of a block.
 pub(crate) fn missing_label(name: impl Display, at: usize) -> Fault {
-    let message = format!("there is no {name} to go to");
+    let message = format!("the target {name} of the jump does not exist");
     fault("missing-label", at, message, "check the number or name, and the direction of the jump")
 }
 
 pub(crate) fn missing_depth(at: usize) -> Fault {
-    fault("cycle-without-depth", at, "the cycle has no depth", "write the depth of the hole")
+    fault("cycle-without-depth", at, "the cycle has no depth", "state the depth of the hole")
 }
 
 pub(crate) fn no_parameter(name: impl Display, hint: &'static str, at: usize) -> Fault {
-    fault("parameter-out-of-range", at, format!("there is no parameter {name}"), hint)
+    fault("parameter-out-of-range", at, format!("unknown parameter {name}"), hint)
 }
 
 /// A parameter is read before it got a value.
@@ -133,23 +133,18 @@ pub(crate) fn no_value_yet(name: impl Display, at: usize) -> Fault {
 }
 
 pub(crate) fn text_too_long(most: usize, at: usize) -> Fault {
-    fault("too-long", at, format!("the text is longer than {most} characters"), "shorten it")
+    fault("too-long", at, format!("the text is longer than {most} characters"), "shorten the text")
 }
 
 /// A frame that has no inverse.
 pub(crate) fn flat_frame(at: usize) -> Fault {
-    let message = "the frame squeezes space flat or leaves the range of numbers";
-    fault("flat-frame", at, message, "check its scales and shifts")
+    let message = "a scale of the frame is zero or its values are too large";
+    fault("flat-frame", at, message, "check the scales and shifts of the frame")
 }
 
 /// A factor that is zero, far from one or, where none can mirror, negative.
 pub(crate) fn bad_scale(at: usize) -> Fault {
-    fault(
-        "bad-scale",
-        at,
-        "a scale squeezes the part flat, mirrors it or is too large",
-        "write a factor near 1",
-    )
+    fault("bad-scale", at, "the scale is zero, negative or too large", "write a factor near 1")
 }
 
 /// Two codes of one group that differ cannot stand in one block.
@@ -160,7 +155,7 @@ pub(crate) fn check_groups<C: Copy + PartialEq>(
     for (index, (code, at)) in codes.iter().enumerate() {
         let Some(own) = group(*code) else { continue };
         if codes[..index].iter().any(|(c, _)| c != code && group(*c) == Some(own)) {
-            let message = "two codes of this block contradict each other";
+            let message = "two codes of one group are in this block";
             return Err(fault("conflicting-codes", *at, message, "write them in two blocks"));
         }
     }
@@ -169,5 +164,5 @@ pub(crate) fn check_groups<C: Copy + PartialEq>(
 
 pub(crate) fn too_many_pecks(most: f64, at: usize) -> Fault {
     let message = format!("the block drills more than {most} times");
-    fault("too-many-pecks", at, message, "check the depth of a peck and the number of holes")
+    fault("too-many-pecks", at, message, "check the depth of peck and the number of holes")
 }

@@ -140,22 +140,23 @@ impl Core<'_> {
     pub fn compensate(&mut self, side: CompensationSide, at: usize) {
         self.emit(Event::Compensation(side));
         if side != CompensationSide::Off {
-            let message = "radius compensation is noted, not applied";
-            let hint = "the moves are those of the program; let the CAM system compensate";
+            let message = "radius compensation is not applied";
+            let hint =
+                "the moves are those of the program; let the CAM system compensate the radius";
             self.warn("compensation-not-applied", "", at, message, hint);
         }
     }
 
     /// Warns that the tool table does not have a tool.
     pub fn unknown_length(&mut self, tool: u32, at: usize) {
-        let message = format!("the length of tool {tool} is not known: 0 is taken");
+        let message = format!("the length of tool {tool} is not known: 0 is assumed");
         self.warn("unknown-tool-length", tool, at, message, "give a tool table");
     }
 
     /// Warns of an M function that is not known.
     pub fn unknown_m_code(&mut self, number: f64, at: usize) {
-        let message = format!("M{number} is not known to this control");
-        let hint = "if the machine builder defined it, it has no effect here";
+        let message = format!("unknown M function M{number} for this control");
+        let hint = "if the machine builder defined it, its effect is missing here";
         self.warn("unknown-m-code", number, at, message, hint);
     }
 }

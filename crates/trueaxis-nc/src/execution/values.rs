@@ -20,7 +20,7 @@ pub(crate) fn not_zero(divisor: f64, at: usize) -> Result<f64, Fault> {
 }
 
 pub(crate) fn out_of_domain(name: &str, x: f64, at: usize) -> Fault {
-    fault("out-of-domain", at, format!("{name} of {x} has no value"), "check the argument")
+    fault("out-of-domain", at, format!("{name} of {x} is not defined"), "check the argument")
 }
 
 /// The functions that every language knows, by their name.

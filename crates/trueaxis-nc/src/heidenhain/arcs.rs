@@ -26,7 +26,7 @@ impl Run<'_> {
     /// C (3), CP (4), CR (5), CT (6) and CTP (7).
     pub(super) fn circle(&mut self, kind: usize, words: &Words, rapid: bool) -> Result<(), Fault> {
         if rapid {
-            let message = "a circle with FMAX: its feed is that before it";
+            let message = "a circle with FMAX: the previous feed is used";
             self.core.warn("rapid-circle", "", words.at, message, "write F");
         }
         self.core.modes.check_feed(words.at)?;
@@ -97,7 +97,7 @@ impl Run<'_> {
         if let Some(sweep) = words.angle {
             let swept = if sweep.incremental { sweep.value } else { sweep.value - angle };
             if sweep.incremental && swept != 0.0 && (swept > 0.0) != ccw {
-                let message = "IPA and DR have different signs: DR counts";
+                let message = "IPA and DR have different signs: DR is used";
                 self.core.warn("contrary-signs", "IPA", words.at, message, "write the same sign");
             }
             if sweep.incremental {
@@ -132,7 +132,8 @@ impl Run<'_> {
             if (end[0] - start[0]) * along[0] + (end[1] - start[1]) * along[1] > 0.0 {
                 return Ok(None);
             }
-            let message = "the target lies straight behind: no circle leads there";
+            let message = "the target lies in the direction opposite to the motion: no tangential \
+                circle leads to it";
             return Err(fault("arc-does-not-fit", at, message, "check the target"));
         };
         Ok(Some(Circle { center, ccw, turns: 1, target }))
@@ -151,7 +152,7 @@ impl Run<'_> {
         } else {
             words.target(&self.frames.position)
         };
-        let message = format!("APPR {name} is moved as a line to its point");
+        let message = format!("APPR {name} is replaced by a line to its first contour point");
         let hint = "the tangential part of the approach is missing";
         self.core.warn("not-applied", format!("APPR {name}"), words.at, &message, hint);
         if !rapid {
@@ -204,7 +205,7 @@ impl Run<'_> {
                 self.depart_by_circle_and_line(t, target, words)
             }
             _ => {
-                let message = "DEP needs an element before it, and LEN, or CCA and R";
+                let message = "DEP needs a previous contour element, and LEN, or CCA and R";
                 let hint = "write DEP LT LEN5, DEP LN LEN5, DEP CT CCA90 R5 or DEP LCT X… Y… R5";
                 Err(fault("missing-value", words.at, message, hint))
             }

@@ -87,8 +87,8 @@ impl Run<'_> {
         let at = c.offset();
         if c.accept_symbol(b'#') {
             self.value(c)?;
-            let message = "the datum comes from a table that is not read here";
-            let hint = "write its values into the program";
+            let message = "the datum is in a table that is not read";
+            let hint = "write the values into the program";
             self.core.warn("not-applied", "datum table", at, message, hint);
             return Ok(());
         }
@@ -255,8 +255,9 @@ impl Run<'_> {
             self.cycle = Some(Cycle::Drilling(number, values));
             return Ok(());
         }
-        let message = format!("cycle {number} is not executed: its moves are missing");
-        let hint = "let the CAM system write its moves out";
+        let message =
+            format!("cycle {number} is not executed: its moves are missing from the path");
+        let hint = "let the CAM system write the moves of the cycle";
         self.core.warn("cycle-not-executed", number, at, &message, hint);
         if !matches!(number, 14 | 20 | 220 | 221 | 392 | 400..=499) {
             self.cycle = Some(Cycle::Missing);

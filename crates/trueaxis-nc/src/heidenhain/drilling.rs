@@ -70,7 +70,7 @@ impl Run<'_> {
         let rigid = matches!(number, 17 | 207 | 209);
         if !rigid && hole.feed.value <= 0.0 || rigid && hole.pitch == 0.0 {
             let message = format!("cycle {number} has no feed or pitch");
-            return Err(fault("zero-feed", at, message, "give the feed or pitch of the cycle"));
+            return Err(fault("zero-feed", at, message, "state the feed or pitch of the cycle"));
         }
         let height = self.frames.position[self.along()];
         let mut strokes = vec![Stroke::Feed(hole.feed)];

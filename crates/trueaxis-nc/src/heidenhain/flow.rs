@@ -53,7 +53,7 @@ impl Activation {
 impl Run<'_> {
     fn active(&mut self) -> &mut Activation {
         // why: the stack is never empty while a block is executed.
-        self.stack.last_mut().expect("a block belongs to an activation")
+        self.stack.last_mut().expect("every block belongs to an activation")
     }
 
     /// BEGIN PGM name MM.
@@ -65,7 +65,7 @@ impl Run<'_> {
         let rest = c.rest().to_ascii_uppercase();
         let inches = rest.split_whitespace().last() == Some("INCH");
         if !inches && rest.split_whitespace().last() != Some("MM") {
-            let message = "BEGIN PGM does not say MM or INCH: MM is taken";
+            let message = "BEGIN PGM states neither MM nor INCH: MM is assumed";
             self.core.warn("no-unit", "begin", at, message, "write BEGIN PGM name MM");
         }
         self.active().begun = true;
@@ -98,7 +98,12 @@ impl Run<'_> {
         let begun = self.stack.iter().rev().take_while(|a| a.begun).count() > 0;
         if begun && !matches!(self.active().reason, Reason::Label(_)) {
             let message = "END PGM is missing";
-            return Err(fault("truncated-program", at, message, "was the file cut off?"));
+            return Err(fault(
+                "truncated-program",
+                at,
+                message,
+                "check whether the file is complete",
+            ));
         }
         self.end(at)
     }
@@ -184,7 +189,7 @@ impl Run<'_> {
         }
         c.finish()?;
         if !(0.0..1e9).contains(&wanted) {
-            let message = format!("{wanted} is not a number of repeats");
+            let message = format!("expected a whole number of repeats, found {wanted}");
             return Err(fault("bad-repeats", at, message, "write REP 3"));
         }
         let left = self.active().rounds.entry(at).or_insert(wanted.round() as u64);

@@ -69,7 +69,7 @@ static FUNCTIONS: &[(u32, bool, Effect)] = &[
     (117, true, Effect::Note("M117 end of M116")),
     (118, false, Effect::Note("M118 handwheel in addition")),
     (120, false, Effect::Note("M120 look-ahead of the compensation")),
-    (124, false, Effect::NotApplied("M124 points closer than T are left out")),
+    (124, false, Effect::NotApplied("M124 points closer than T are omitted")),
     (126, false, Effect::ShortestWay(true)),
     (127, true, Effect::ShortestWay(false)),
     (128, false, Effect::ToolCentre(true)),
@@ -195,8 +195,8 @@ impl Run<'_> {
     /// M140 MB: away from the workpiece along the tool axis.
     fn retract(&mut self, called: &Called) -> Result<(), Fault> {
         let Some(length_mm) = called.value.filter(|v| v.is_finite()) else {
-            let message = "M140 MB MAX goes to the end of the travel, which is not known here";
-            let hint = "the retraction is missing; write MB with a length";
+            let message = "M140 MB MAX moves to the end of the travel, which is not known here";
+            let hint = "the retraction is missing from the path; write MB with a length";
             self.core.warn("not-applied", "M140", called.at, message, hint);
             return Ok(());
         };
@@ -205,7 +205,7 @@ impl Run<'_> {
             Some(direction) if self.core.modes.tool_centre => unit(direction).unwrap_or([0.0; 3]),
             _ if rotary && !self.frames.is_tilted() => {
                 let message = "M140 with turned axes: the tool axis is not known here";
-                let hint = "the retraction is missing";
+                let hint = "the retraction is missing from the path";
                 self.core.warn("not-applied", "M140 turned", called.at, message, hint);
                 return Ok(());
             }
@@ -224,7 +224,7 @@ impl Run<'_> {
         let mut step = self.core.plain_move(kind, target, named);
         if let Some(value) = called.feed {
             if value <= 0.0 {
-                return Err(fault("zero-feed", called.at, "a feed of zero", "write F100"));
+                return Err(fault("zero-feed", called.at, "the feed is zero", "write F100"));
             }
             let scale = if self.core.modes.inches { 2.54 } else { 1.0 };
             step.feed = Feed { mode: FeedMode::PerMinute, value: value * scale };

@@ -244,7 +244,7 @@ impl<'s> Cursor<'s> {
             return Ok(None);
         };
         let Some(value) = number_value(&self.source[token.start..token.end]) else {
-            let message = "this is not a number";
+            let message = "expected a number";
             return Err(fault("bad-number", token.start, message, "write digits, such as 1.5"));
         };
         self.advance();
@@ -258,7 +258,7 @@ impl<'s> Cursor<'s> {
             None => Ok(None),
             Some(n) if n.fract() == 0.0 && n < 1e9 => Ok(Some(n as u32)),
             Some(n) => {
-                let message = format!("{n} is not a whole number");
+                let message = format!("expected a whole number, found {n}");
                 Err(fault("bad-number", at, message, "write a whole number"))
             }
         }
@@ -309,7 +309,7 @@ impl<'s> Cursor<'s> {
 
     /// What stands here is not understood.
     pub fn unknown(&self) -> Fault {
-        let message = format!("`{}` is not understood here", self.shown());
+        let message = format!("unexpected text `{}`", self.shown());
         let code = match self.token().map(|t| t.kind) {
             Some(TokenKind::Letter | TokenKind::Word) => "unknown-word",
             _ => "unexpected-sign",

@@ -52,10 +52,10 @@ impl Run<'_> {
             9 | 10 => {
                 let name = ["RND", "CHF"][kind - 9];
                 if words.arc_radius.or(leg).is_none() {
-                    let message = format!("{name} has no size");
+                    let message = format!("{name} needs a size");
                     return Err(fault("missing-value", words.at, message, "write RND R5 or CHF 2"));
                 }
-                let message = format!("{name} is not applied: the corner is kept");
+                let message = format!("{name} is not applied: the path keeps the sharp corner");
                 self.core.warn(
                     "not-applied",
                     name,
@@ -143,7 +143,7 @@ impl Run<'_> {
             Some(FeedWord::PerMinute(value)) => Feed { mode: per_minute, value },
             Some(FeedWord::PerRevolution(value)) => Feed { mode: FeedMode::PerRevolution, value },
             Some(FeedWord::PerTooth(value)) => {
-                let message = "FZ: the number of teeth is not known, one is taken";
+                let message = "FZ: the number of teeth is not known, one is assumed";
                 self.core.warn("feed-per-tooth", "", words.at, message, "write FU or F instead");
                 Feed { mode: FeedMode::PerRevolution, value }
             }
@@ -224,8 +224,8 @@ impl Run<'_> {
     /// M91: coordinates count from the machine zero.
     fn machine_line(&mut self, words: &Words, rapid: bool) -> Result<(), Fault> {
         if words.calls(92) {
-            let message = "M92 is read as M91: its datum is known to the machine only";
-            self.core.warn("not-applied", "M92", words.at, message, "check where the tool goes");
+            let message = "M92 is read as M91: the datum of the machine builder is not known";
+            self.core.warn("not-applied", "M92", words.at, message, "check the path of the tool");
         }
         if !rapid {
             self.core.modes.check_feed(words.at)?;
@@ -257,18 +257,18 @@ impl Run<'_> {
             }
         }
         if normal.is_some() {
-            let message = "LN: the normal is noted, 3D compensation is not applied";
+            let message = "LN: 3D compensation by the normal is not applied";
             let hint = "the moves are those of the program";
             self.core.warn("not-applied", "LN normal", words.at, message, hint);
         }
         if tool.is_some() && !self.core.modes.tool_centre {
-            let message = "LN with a tool direction, but M128 or FUNCTION TCPM is not on";
+            let message = "LN has a tool direction, but M128 or FUNCTION TCPM is not on";
             self.core.warn(
                 "direction-without-tcp",
                 "",
                 words.at,
                 message,
-                "write FUNCTION TCPM before",
+                "write FUNCTION TCPM before it",
             );
         }
         let target = words.target(&self.frames.position);
@@ -298,7 +298,7 @@ impl Run<'_> {
     /// The pole, which must be there.
     pub(super) fn pole(&self, at: usize) -> Result<[f64; 2], Fault> {
         self.pole.ok_or_else(|| {
-            fault("missing-pole", at, "the centre is missing", "write CC before this block")
+            fault("missing-pole", at, "the centre (CC) is missing", "write CC before this block")
         })
     }
 
@@ -338,12 +338,15 @@ fn check_words(kind: usize, words: &Words) -> Result<(), Fault> {
             words.length.or(words.sweep).is_some() && !matches!(kind, 11 | 12),
             "LEN and CCA need DEP",
         ),
-        (matches!(kind, 9 | 10) && !words.functions.is_empty(), "no M function can stand here"),
-        (matches!(kind, 9 | 10) && words.has_axis(), "no axis can stand here"),
+        (
+            matches!(kind, 9 | 10) && !words.functions.is_empty(),
+            "an M function is not possible here",
+        ),
+        (matches!(kind, 9 | 10) && words.has_axis(), "an axis is not possible here"),
     ];
     match wrong.iter().find(|(found, _)| *found) {
         Some((_, why)) => {
-            let message = "a word of this block has no use in it".to_owned();
+            let message = "a word of this block has no effect".to_owned();
             Err(fault("unused-word", words.at, message, why))
         }
         None => Ok(()),

@@ -216,8 +216,8 @@ impl Run<'_> {
 }
 
 fn no_plane(at: usize) -> Fault {
-    let message = "the vectors or points give no plane";
-    fault("zero-direction", at, message, "they must have a length and not lie on one line")
+    let message = "the vectors or points do not define a plane";
+    fault("zero-direction", at, message, "they must not be zero or lie on one line")
 }
 
 #[cfg(test)]

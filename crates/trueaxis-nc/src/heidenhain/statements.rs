@@ -125,7 +125,7 @@ impl Run<'_> {
                 c.accept("TABREAD");
                 c.accept_symbol(b':');
                 if let Some(target) = self.variable(c)? {
-                    self.variables.store(target, Stored::Unknown("it comes from a table"));
+                    self.variables.store(target, Stored::Unknown("it is in a table"));
                 }
                 c.leave();
                 Ok(Next::Following)
@@ -136,8 +136,8 @@ impl Run<'_> {
                 Ok(Next::Following)
             }
             _ => {
-                let message = format!("FN {number} is not known");
-                Err(fault("unknown-word", at, message, "FN 0 to FN 38 are known"))
+                let message = format!("unknown function FN {number}");
+                Err(fault("unknown-word", at, message, "use FN 0 to FN 38"))
             }
         }
     }
@@ -213,7 +213,7 @@ impl Run<'_> {
                 let scale = if axis.is_rotary() { 1.0 } else { self.core.modes.unit_mm() };
                 Stored::Number(place[axis] / scale)
             }
-            None => Stored::Unknown("FN 18 asks the machine for it"),
+            None => Stored::Unknown("FN 18 reads it from the machine"),
         };
         self.variables.store(target, stored);
         Ok(())

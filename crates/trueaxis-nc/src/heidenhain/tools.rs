@@ -27,13 +27,13 @@ impl Run<'_> {
         if let Some(name) = name {
             let number = self.core.settings.tool_names.get(&name).copied();
             if number.is_none() {
-                let message = format!("the tool `{name}` is not known: number 0 is taken");
+                let message = format!("unknown tool `{name}`: number 0 is used");
                 self.core.warn(
                     "unknown-tool-name",
                     &name,
                     at,
                     &message,
-                    "give a tool table with names",
+                    "state the tools with their names in the set-up file",
                 );
             }
             self.core.emit(Event::ToolName(name));
@@ -197,7 +197,7 @@ impl Run<'_> {
             return Ok(());
         }
         if self.blank.is_none() {
-            let message = "BLK FORM 0.2 without 0.1: the other corner is taken as zero";
+            let message = "BLK FORM 0.2 without 0.1: the other corner is assumed at zero";
             self.core.warn(
                 "blank-without-corner",
                 "blank",

@@ -129,8 +129,8 @@ impl Run<'_> {
             let exponent = sign * self.primary(c)?;
             value = value.powf(exponent);
             if value.is_nan() {
-                let message = "this power has no real value";
-                return Err(fault("out-of-domain", at, message, "check base and exponent"));
+                let message = "the power is not a real number";
+                return Err(fault("out-of-domain", at, message, "check the base and the exponent"));
             }
         }
         Ok(if negative { -value } else { value })
@@ -238,7 +238,7 @@ impl Run<'_> {
             return Ok(text);
         }
         if c.accept_any(&["SYSSTR", "CFGREAD", "FGREAD"]).is_some() {
-            let message = "this text is known to the machine only";
+            let message = "the value of this text is known only to the machine";
             return Err(fault("unknown-value", at, message, "write the text into the program"));
         }
         let message = "a text is missing".to_owned();
@@ -281,7 +281,7 @@ fn function(index: usize, x: f64, at: usize) -> Result<f64, Fault> {
 
 pub(super) fn missing(c: &Cursor<'_>) -> Fault {
     let message = format!("a number is missing before `{}`", c.shown());
-    let hint = "a number, a parameter such as Q1, a bracket or a function stands here";
+    let hint = "write a number, a parameter such as Q1, a bracket or a function";
     if c.symbol() == Some(b')') {
         return fault("unbalanced-brackets", c.offset(), message, hint);
     }
@@ -290,7 +290,7 @@ pub(super) fn missing(c: &Cursor<'_>) -> Fault {
             "not-a-number",
             c.offset(),
             "`nan` is not a number",
-            "check the postprocessor",
+            "check the post-processor",
         );
     }
     fault("missing-value", c.offset(), message, hint)

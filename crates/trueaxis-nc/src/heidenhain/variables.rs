@@ -80,7 +80,7 @@ impl Run<'_> {
         };
         let most = if matches!(kind, 1 | 2) { 499 } else { 1999 };
         if number > most {
-            let hint = "Q0 to Q1999, QS0 to QS1999, QL0 to QL499, QR0 to QR499";
+            let hint = "use Q0 to Q1999, QS0 to QS1999, QL0 to QL499, QR0 to QR499";
             return Err(mistakes::no_parameter(number, hint, at));
         }
         Ok(Some(match kind {
@@ -101,7 +101,7 @@ impl Run<'_> {
             Some(Stored::Number(value)) => Ok(*value),
             Some(Stored::Unknown(what)) => {
                 let message = format!("the value of {} is not known: {what}", show(variable));
-                let hint = "only the machine knows it: write the number into the program";
+                let hint = "write the number into the program";
                 Err(fault("unknown-value", at, message, hint))
             }
             None => self.assigned_by_control(variable, at),
@@ -158,13 +158,15 @@ impl Run<'_> {
             113 => Ok(f64::from(u8::from(inches))),
             114 => Ok(length(self.modes.tool_length_mm, inches)),
             120..=122 if self.frames.is_tilted() => {
-                let message = format!("Q{number}: the rotary angles of the plane need a machine");
-                let hint = "interpret the program with a machine that reaches the plane";
+                let message =
+                    format!("Q{number}: the rotary angles of the plane depend on the machine");
+                let hint = "interpret the program with a machine that can reach the plane";
                 Err(fault("unknown-value", at, message, hint))
             }
             100..=107 | 112 | 115..=199 => {
-                let message = format!("Q{number} is set by the control and not known here");
-                let hint = "only the machine knows it: write the number into the program";
+                let message =
+                    format!("the value of Q{number} is set by the control and not known here");
+                let hint = "write the number into the program";
                 Err(fault("unknown-value", at, message, hint))
             }
             _ => Err(undefined()),

@@ -87,8 +87,8 @@ impl Words {
         if !foreign && *self == axes {
             return Ok(());
         }
-        let message = "a word of this block has no use in it";
-        Err(fault("unused-word", self.at, message, "only axis words stand here"))
+        let message = "a word of this block has no effect";
+        Err(fault("unused-word", self.at, message, "only axis words are possible here"))
     }
 
     /// Nothing but M functions may stand in others.
@@ -97,8 +97,8 @@ impl Words {
         if *self == (Self { functions, at: self.at, ..Self::default() }) {
             return Ok(());
         }
-        let message = "a word of this block has no use in it";
-        Err(fault("unused-word", self.at, message, "only M functions stand here"))
+        let message = "a word of this block has no effect";
+        Err(fault("unused-word", self.at, message, "only M functions are possible here"))
     }
 
     pub fn calls(&self, number: u32) -> bool {
@@ -353,6 +353,6 @@ fn repeated(name: impl std::fmt::Display, at: usize) -> Fault {
 }
 
 fn unexpected(name: &str, c: &Cursor<'_>) -> Fault {
-    let message = format!("`{name}` is not a word of this block");
+    let message = format!("unexpected word `{name}` in this block");
     fault("unknown-word", c.offset(), message, "check the spelling and the order of the words")
 }

@@ -39,8 +39,8 @@ impl Run<'_> {
     pub(super) fn cycle(&mut self, cycle: Cycle, at: usize) -> Result<(), Fault> {
         for letter in *b"ABC" {
             if self.words.look(letter).is_some() {
-                let message = "rotary axes do not move in a drilling cycle";
-                return Err(fault("rotary-in-cycle", at, message, "turn them in a block before"));
+                let message = "a rotary axis is programmed in a drilling cycle";
+                return Err(fault("rotary-in-cycle", at, message, "turn it in a previous block"));
             }
         }
         self.core.modes.check_feed(at)?;
@@ -52,7 +52,7 @@ impl Run<'_> {
         });
         let repeats = repeats.unwrap_or(1.0);
         if !(0.0..1e5).contains(&repeats) {
-            let message = format!("{repeats} is not a number of holes");
+            let message = format!("expected a whole number of holes, found {repeats}");
             return Err(fault("bad-repeats", at, message, "write L2"));
         }
         let pecks = if hole.peck > 0.0 { (hole.r - hole.bottom) / hole.peck } else { 1.0 };
@@ -103,14 +103,14 @@ impl Run<'_> {
         let r = r_word.or(self.modes.cycle.r_mm);
         let Some(r) = r else {
             let message = "the cycle has no R";
-            return Err(fault("cycle-without-r", at, message, "write R, the plane of retraction"));
+            return Err(fault("cycle-without-r", at, message, "write R, the retraction plane"));
         };
         let depth = self.axis_word(axis).map(|z| if incremental { z + r } else { z });
         let Some(bottom) = depth.or(self.modes.cycle.bottom_mm) else {
             return Err(mistakes::missing_depth(at));
         };
         if (r < bottom) != (cycle == Cycle::BackBore) {
-            let message = "the plane of retraction R lies below the bottom of the hole";
+            let message = "the retraction plane R is below the bottom of the hole";
             return Err(fault("cycle-r-below-bottom", at, message, "check R and the depth"));
         }
         let peck = self.length(b'Q').or(self.modes.cycle.peck_mm);

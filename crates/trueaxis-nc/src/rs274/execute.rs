@@ -86,7 +86,7 @@ impl Run<'_> {
         }
         self.report_unused()?;
         if self.called.take().is_some() {
-            let message = "no code of this block calls the program it names";
+            let message = "the block names a program, but no code that calls it";
             let hint = "write M98 or G65 before the name";
             return Err(fault("unexpected-sign", block.span.start, message, hint));
         }
@@ -200,7 +200,7 @@ impl Run<'_> {
         if self.is_fanuc() {
             self.core.modes.inches = inches;
         } else if self.words.look(b'F').is_some() {
-            let message = "F counts in the units before this block".to_owned();
+            let message = "F is read in the units before this block".to_owned();
             let hint = "write G20 or G21 in a block before F";
             self.core.warn("feed-before-units", 0, at, message, hint);
         }
@@ -219,7 +219,7 @@ impl Run<'_> {
         match self.modes.motion {
             Some(motion) if motion != Motion::Cancelled => self.motion(motion, machine, at),
             _ => {
-                let message = "axis words without a motion code";
+                let message = "axis words without an active motion code";
                 Err(fault("no-motion-code", at, message, "write G0, G1, G2 or G3 before them"))
             }
         }

@@ -37,7 +37,7 @@ struct Statement<'b> {
 impl Run<'_> {
     pub(super) fn frame(&mut self) -> &mut Activation {
         // why: the stack is never empty while a block is executed.
-        self.stack.last_mut().expect("a block belongs to a frame")
+        self.stack.last_mut().expect("every block belongs to a frame")
     }
 
     /// The text has no more blocks.
@@ -46,12 +46,18 @@ impl Run<'_> {
         let Some(label) = self.frame().sub.take() else {
             if self.opened {
                 let message = "the closing % is missing";
-                self.core.warn("truncated-program", 0, at, message, "was the file cut off?");
+                self.core.warn(
+                    "truncated-program",
+                    0,
+                    at,
+                    message,
+                    "check whether the file is complete",
+                );
             }
             self.core.emit(Event::End);
             return Ok(Next::Finished);
         };
-        let message = format!("the subprogram {} has no end", show(&label));
+        let message = format!("the end of the subprogram {} is missing", show(&label));
         Err(fault("missing-end", at, message, "end it with endsub or M99"))
     }
 
@@ -66,8 +72,8 @@ impl Run<'_> {
             Some(Label::Computed(node)) => {
                 let value = self.value(passage, *node)?;
                 if !(0.0..1e15).contains(&value) {
-                    let message = format!("{value} is not a label");
-                    return Err(fault("bad-label", *offset, message, "labels are whole numbers"));
+                    let message = format!("expected a whole number as label, found {value}");
+                    return Err(fault("bad-label", *offset, message, "write a whole number"));
                 }
                 Label::Number(value.round() as u64)
             }
@@ -107,10 +113,10 @@ impl Run<'_> {
             return Ok(None);
         }
         if let Some(label) = self.frame().sub.take() {
-            let message = format!("the subprogram {} has no end", show(&label));
+            let message = format!("the end of the subprogram {} is missing", show(&label));
             return Err(fault("missing-end", at, message, "end it with M99"));
         }
-        let message = "the next program begins before this one has an end".to_owned();
+        let message = "the next program begins before the end of this one".to_owned();
         self.core.warn("missing-end", 0, at, message, "end the main program with M30");
         self.core.emit(Event::End);
         Ok(Some(Next::Finished))
@@ -158,8 +164,8 @@ impl Run<'_> {
         let from = marks.partition_point(|m| m.start <= statement.offset);
         let fits = |m: &&Mark| m.label == statement.label && wanted.contains(&m.keyword);
         marks[from..].iter().find(fits).cloned().ok_or_else(|| {
-            let message = format!("{} has no end", show(&statement.label));
-            fault(code, statement.offset, message, "each block of control has its end")
+            let message = format!("the end of {} is missing", show(&statement.label));
+            fault(code, statement.offset, message, "end each control structure with the same label")
         })
     }
 
@@ -280,7 +286,7 @@ impl Run<'_> {
             Keyword::Call => {
                 let mut locals = Locals::default();
                 if statement.arguments.len() > 30 {
-                    let message = "a call has 30 arguments at the most";
+                    let message = "the call has more than 30 arguments";
                     return Err(fault("too-many-arguments", at, message, "use global parameters"));
                 }
                 for number in &mut locals.numbers[1..=30] {
@@ -292,8 +298,8 @@ impl Run<'_> {
                 self.enter(statement.passage, &statement.label, locals, 1, at)
             }
             Keyword::Sub if self.frame().sub.is_some() => {
-                let message = "a sub is defined within a sub";
-                Err(fault("nested-sub", at, message, "define subs one after the other"))
+                let message = "a subprogram is defined within a subprogram";
+                Err(fault("nested-sub", at, message, "define the subprograms one after the other"))
             }
             Keyword::Sub => {
                 let mark = self.ahead(statement, &[Keyword::EndSub], "missing-endsub")?;
@@ -302,8 +308,8 @@ impl Run<'_> {
                         m.keyword == Keyword::Sub && m.start > at && m.start < mark.start
                     });
                 if let Some(nested) = nested {
-                    let message = "a sub is defined within a sub";
-                    let hint = "define subs one after the other";
+                    let message = "a subprogram is defined within a subprogram";
+                    let hint = "define the subprograms one after the other";
                     return Err(fault("nested-sub", nested.start, message, hint));
                 }
                 self.jump(mark.next, mark.line + 1, at)
@@ -373,9 +379,11 @@ impl Run<'_> {
             Some((start, line)) => Ok((number, start, line)),
             None if program.dialect().macro_words => Ok((number, 0, 1)),
             None => {
-                let message =
-                    format!("{} does not define {name}", self.core.programs[number].file());
-                Err(fault("missing-subprogram", at, message, "it needs o<name> sub … endsub"))
+                let message = format!(
+                    "the file {} does not define {name}",
+                    self.core.programs[number].file()
+                );
+                Err(fault("missing-subprogram", at, message, "the file needs o<name> sub … endsub"))
             }
         }
     }
@@ -383,7 +391,7 @@ impl Run<'_> {
 
 fn unopened(statement: &Statement<'_>) -> Fault {
     let message =
-        format!("{:?} of {} without a beginning", statement.keyword, show(&statement.label));
+        format!("{:?} of {} without its beginning", statement.keyword, show(&statement.label));
     fault("unopened-control", statement.offset, message, "check the labels")
 }
 

@@ -40,19 +40,24 @@ impl Run<'_> {
                 let value = self.value(passage, *number)?;
                 let number = value.round();
                 if (value - number).abs() > 1e-4 || !(0.0..1e9).contains(&number) {
-                    let message = format!("{value} is not the number of a parameter");
-                    let hint = "parameters have whole numbers from 1 on";
+                    let message = format!("{value} is not a parameter number");
+                    let hint = "write a whole number from 1";
                     return Err(fault("bad-parameter", passage.block.span.start, message, hint));
                 }
                 Ok(Parameter::Number(number as u32))
             }
-            _ => Err(fault("bad-parameter", passage.block.span.start, "no parameter", "write #1")),
+            _ => Err(fault(
+                "bad-parameter",
+                passage.block.span.start,
+                "expected a parameter",
+                "write #1",
+            )),
         }
     }
 
     fn locals(&self) -> &Locals {
         // why: the stack is never empty while a block is executed.
-        &self.stack.last().expect("a block belongs to a frame").locals
+        &self.stack.last().expect("every block belongs to a frame").locals
     }
 
     /// The value of a parameter; `None` if it never got one.
@@ -162,8 +167,7 @@ impl Run<'_> {
                 }
                 if number > own && self.system(number).is_some() {
                     let message = format!(
-                        "#{number} belongs to the control: setting it is noted \
-                                           but has no effect"
+                        "#{number} belongs to the control: the value is stored, but has no effect"
                     );
                     let hint = "set offsets by G10";
                     self.core.warn("system-parameter", number, offset, message, hint);
@@ -183,8 +187,8 @@ impl Run<'_> {
             Parameter::Name(name) => {
                 let fixed = name.starts_with('_') && !self.named.contains_key(&name);
                 if name.starts_with("_ini[") || fixed && self.read_name(&name).is_some() {
-                    let message = format!("#<{name}> can only be read");
-                    let hint = "take a name of your own";
+                    let message = format!("#<{name}> is read-only");
+                    let hint = "use another name";
                     return Err(fault("read-only-parameter", offset, message, hint));
                 }
                 match self.stack.last_mut() {

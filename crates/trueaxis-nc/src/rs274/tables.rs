@@ -113,10 +113,12 @@ impl Run<'_> {
         let Some(work) = self.frames.offsets.get_mut(index).filter(|_| !fanuc) else { return };
         if work.linear.take().is_some() {
             let message = format!(
-                "work offset {} is turned otherwise than about Z: its turn about Z alone is taken",
+                "work offset {} is rotated about other axes than Z: only the rotation about Z is \
+                 used",
                 index + 1
             );
-            let hint = "this control turns work offsets about Z; align the part or the model";
+            let hint =
+                "this control rotates work offsets about Z only; align the part or the model";
             self.core.warn("work-offset-not-about-z", index as u32, at, message, hint);
         }
     }
@@ -237,8 +239,14 @@ impl Run<'_> {
         let machine = self.frames.machine();
         let away = |a: Axis| (machine[a] - self.frames.references[0][a]).abs() > 1e-3;
         if Axis::ALL.into_iter().any(|a| named.contains(a) && away(a)) {
-            let message = "G27: this is not the reference point".to_owned();
-            self.core.warn("not-at-reference", 0, at, message, "the control stops here");
+            let message = "G27: the position is not the reference point".to_owned();
+            self.core.warn(
+                "not-at-reference",
+                0,
+                at,
+                message,
+                "the control would stop here; check the position",
+            );
         }
     }
 
@@ -293,7 +301,7 @@ impl Run<'_> {
             _ => {
                 let _ = self.words.take_all();
                 let message = "this form of G10 is not applied".to_owned();
-                let hint = "L1, L2, L10, L11 and L20 are, and L12, L13 and L50 of FANUC";
+                let hint = "use L1, L2, L10, L11, L20, or L12, L13 and L50 of FANUC";
                 self.core.warn("not-applied", 10, at, message, hint);
                 Ok(())
             }
@@ -306,7 +314,7 @@ impl Run<'_> {
             self.frames.offsets.resize(index + 1, Default::default());
         }
         if index >= self.frames.offsets.len() {
-            return Err(mistakes::bad_work_offset(number, "P1 is G54, P6 is G59", at));
+            return Err(mistakes::bad_work_offset(number, "write P1 for G54 to P6 for G59", at));
         }
         let words = Axis::ALL.map(|a| self.axis_word(a));
         let rotation = self.words.take(b'R');

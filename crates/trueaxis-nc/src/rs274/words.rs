@@ -233,7 +233,7 @@ impl Run<'_> {
                 continue;
             }
             let message = format!("no code of this block uses the word {name}");
-            let hint = "it has no effect; later ones are not listed";
+            let hint = "the word has no effect; further ones are not listed";
             self.core.warn("unused-word", u32::from(letter), offset, message, hint);
         }
         Ok(())

@@ -129,7 +129,7 @@ impl Run<'_> {
         let r = xyz(&target);
         let mut q = p;
         if words.through.iter().all(Option::is_none) {
-            let message = "CIP needs the point on the way";
+            let message = "CIP needs an intermediate point";
             return Err(fault("missing-value", at, message, "write I1= J1= K1="));
         }
         for (i, word) in words.through.iter_mut().enumerate() {
@@ -144,7 +144,7 @@ impl Run<'_> {
         let n2 = dot(normal, normal);
         let scale = dot(a, a) * dot(b, b);
         if n2.is_nan() || n2 <= 1e-18 * scale || scale == 0.0 {
-            let message = "the three points of CIP lie on a line or are the same";
+            let message = "the three points of CIP lie on a line or coincide";
             return Err(fault("arc-does-not-fit", at, message, "check I1, J1, K1 and the target"));
         }
         // The centre of the circle through 0, a and b:

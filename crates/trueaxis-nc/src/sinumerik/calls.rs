@@ -109,7 +109,11 @@ impl Run<'_> {
             "RET" => {
                 reader.advance();
                 if !self.arguments(reader)?.is_empty() {
-                    self.core.not_applied("RET with a target", at, "it returns behind the call");
+                    self.core.not_applied(
+                        "RET with a target",
+                        at,
+                        "it returns to the block after the call",
+                    );
                 }
                 return self.return_from(1).map(Some);
             }
@@ -133,12 +137,12 @@ impl Run<'_> {
                 return Ok(Some(Next::Following));
             }
             "DEFINE" => {
-                let hint = "write out what the macro stands for";
+                let hint = "write the text of the macro instead";
                 self.core.not_applied("DEFINE", at, hint);
                 return Ok(Some(Next::Following));
             }
             _ if tables::takes_block(word) => {
-                let hint = "the moves that follow are those without it";
+                let hint = "the following moves are computed without it";
                 self.core.not_applied(word, at, hint);
                 return Ok(Some(Next::Following));
             }
@@ -178,8 +182,13 @@ impl Run<'_> {
         reader: &mut Reader<'_>,
     ) -> Result<(String, Vec<Argument>), Fault> {
         let Some((name, length)) = reader.name() else {
-            let message = "the name of a program is due here";
-            return Err(fault("missing-value", reader.here(), message, "write the name"));
+            let message = "expected the name of a program";
+            return Err(fault(
+                "missing-value",
+                reader.here(),
+                message,
+                "write the name of the program",
+            ));
         };
         reader.at += length;
         let mut arguments = Vec::new();
@@ -252,13 +261,14 @@ impl Run<'_> {
             (name, Vec::new())
         };
         if bracket {
-            reader.require(b')', "one ) for each (")?;
+            reader.require(b')', "write one ) for each (")?;
         }
         let rounds = self.rounds(reader)?;
         if word == "EXTCALL" && self.find_program(&name, at).is_err() {
-            let message =
-                format!("the program {name} of EXTCALL is not here: its moves are missing");
-            let hint = "put it beside the program";
+            let message = format!(
+                "the program {name} of EXTCALL was not found: its moves are missing from the path"
+            );
+            let hint = "put it into the folder of the program";
             self.core.warn("not-executed", &name, at, message, hint);
             return Ok(Next::Following);
         }
@@ -283,7 +293,8 @@ impl Run<'_> {
         let found = match self.find_program(name, at) {
             Ok(found) => found,
             Err(_) if cycle || self.archive.is_some() => {
-                let message = format!("{name} is not executed: the moves inside it are missing");
+                let message =
+                    format!("{name} is not executed: its moves are missing from the path");
                 let hint = "the other moves are those of the program";
                 if self.archive.is_none() {
                     self.core.warn("not-executed", name, at, message, hint);
@@ -360,8 +371,8 @@ impl Run<'_> {
             (start, here) = (read.end, here + 1);
         }
         if !bound && arguments.iter().any(|a| a.value.is_some()) {
-            let message = "the program has no PROC for these arguments";
-            let hint = "begin it with PROC NAME(REAL A)";
+            let message = "the subprogram has no PROC for these arguments";
+            let hint = "begin the subprogram with PROC NAME(REAL A)";
             self.core.warn("unused-arguments", number, at, message, hint);
         }
         (activation.at, activation.line) = (start, here);
@@ -391,7 +402,10 @@ impl Run<'_> {
             }
         }
         if arguments.len() > index {
-            let message = format!("{} arguments for {index} parameters", arguments.len());
+            let message = format!(
+                "the call has {} arguments, but PROC has {index} parameters",
+                arguments.len()
+            );
             return Err(fault("too-many-arguments", at, message, "check the call"));
         }
         while let Some(word) = reader.word() {
@@ -415,7 +429,7 @@ impl Run<'_> {
         let by_reference = reader.accept_word("VAR");
         let kind: Kind = self.kind(reader)?;
         let Some(name) = reader.word() else {
-            let message = "the name of a parameter is due in PROC";
+            let message = "expected the name of a parameter in PROC";
             return Err(fault("bad-definition", at, message, "names begin with two letters or _"));
         };
         reader.advance();

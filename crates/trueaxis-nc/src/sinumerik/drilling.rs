@@ -79,7 +79,7 @@ impl Run<'_> {
         };
         let safe = surface + parameters.or_zero(2)?.abs() * unit;
         if bottom > safe || retract < surface {
-            let message = "the bottom lies above the surface, or the retraction below it";
+            let message = "the bottom is above the surface, or the retraction plane below it";
             return Err(fault("cycle-heights", at, message, "check RTP, RFP, DP and DPR"));
         }
         feed.check(at)?;
@@ -123,7 +123,7 @@ impl Run<'_> {
             (None, None) => hole.surface - hole.bottom,
         };
         if first <= 0.0 || (hole.surface - hole.bottom) / first > MOST_PECKS {
-            let message = format!("{first} mm is not the depth of a peck");
+            let message = format!("{first} mm is not a possible depth of peck");
             return Err(fault("cycle-without-depth", at, message, "check FDEP and FDPR"));
         }
         let degression = parameters.or_zero(7)?;
@@ -132,7 +132,7 @@ impl Run<'_> {
             self.core.not_applied(
                 "the degression DAM of CYCLE83",
                 at,
-                "all pecks are as deep as the first",
+                "all pecks have the depth of the first",
             );
         }
         let (bottom_time, top_time) = (parameters.or_zero(8)?, parameters.or_zero(9)?);
@@ -215,7 +215,7 @@ impl Run<'_> {
                 self.core.not_applied(
                     "the lift-off of CYCLE86",
                     at,
-                    "the tool goes straight out here",
+                    "the tool retracts along its axis",
                 );
             }
         }

@@ -260,7 +260,7 @@ impl Run<'_> {
             Code::Limits => self.core.emit(Event::Note("G25, G26 limits of the working area")),
             Code::Note(name) => self.core.emit(Event::Note(name)),
             Code::NotApplied(name) => {
-                self.core.not_applied(name, at, "the moves that follow are those without it");
+                self.core.not_applied(name, at, "the following moves are computed without it");
             }
             Code::Motion(_) | Code::Machine => {}
         }
@@ -346,8 +346,15 @@ impl Run<'_> {
             (Some((seconds, _)), _) => seconds,
             (None, Some((turns, speed))) if speed > 0.0 => turns * 60.0 / speed,
             (None, Some(_)) => {
-                let message = "the dwell counts turns of a spindle that has no speed".to_owned();
-                self.core.warn("dwell-without-speed", "", at, message, "write S in a block before");
+                let message =
+                    "the dwell is stated in revolutions, but the spindle has no speed".to_owned();
+                self.core.warn(
+                    "dwell-without-speed",
+                    "",
+                    at,
+                    message,
+                    "write S in a previous block",
+                );
                 0.0
             }
             _ => -1.0,
@@ -432,11 +439,11 @@ impl Run<'_> {
         let at = self.core.start;
         if left > 0 {
             let message = "no code of this block uses I, J or K".to_owned();
-            self.core.warn("unused-word", "IJK", at, message, "circles and threads do");
+            self.core.warn("unused-word", "IJK", at, message, "use them with circles and threads");
         }
         for (name, _, _, at) in &words.named {
-            let message = format!("no code of this block uses this word ({name:?})");
-            let hint = "it has no effect; later ones are not listed";
+            let message = format!("no code of this block uses the word {name:?}");
+            let hint = "the word has no effect; further ones are not listed";
             self.core.warn("unused-word", format!("{name:?}"), *at, message, hint);
         }
     }

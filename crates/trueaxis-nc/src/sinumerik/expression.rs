@@ -238,7 +238,7 @@ impl Run<'_> {
 }
 
 pub(super) fn missing_value(reader: &Reader<'_>) -> Fault {
-    let hint = "a number, R1, a variable, a function such as SIN( ), or ( )";
+    let hint = "write a number, R1, a variable, a function such as SIN( ), or ( )";
     fault("missing-value", reader.here(), "a value is missing here", hint)
 }
 
@@ -256,7 +256,7 @@ fn quoted_number(reader: &mut Reader<'_>) -> Result<Value, Fault> {
     let digits = if base == 10 { text } else { &text[1..] };
     let Some(value) = i64::from_str_radix(digits, base).ok() else {
         let hint = "write 'HFF' or 'B1010'";
-        return Err(fault("bad-number", at, "this is not a number", hint));
+        return Err(fault("bad-number", at, "expected a number", hint));
     };
     let close = at + 1 + text.len();
     while reader.peek().is_some_and(|t| t.start <= close) {
@@ -269,7 +269,12 @@ fn bits(value: f64, at: usize) -> Result<i64, Fault> {
     if value.fract() == 0.0 && value.abs() < 9e15 {
         return Ok(value as i64);
     }
-    Err(fault("wrong-type", at, format!("{value} has no bits"), "whole numbers have"))
+    Err(fault(
+        "wrong-type",
+        at,
+        format!("{value} is not a whole number, as bit operations need"),
+        "write a whole number",
+    ))
 }
 
 /// The value of `left operator right`; `at` is where the left one begins and the operator stands.

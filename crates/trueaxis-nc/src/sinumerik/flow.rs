@@ -149,15 +149,15 @@ impl Run<'_> {
                     Keyword::If | Keyword::For | Keyword::While | Keyword::Loop | Keyword::Repeat
                 );
                 let (code, message) = match begins {
-                    true => ("missing-end", "this structure has no end"),
-                    false => ("unopened-control", "nothing that ends here has begun"),
+                    true => ("missing-end", "the end of this structure is missing"),
+                    false => ("unopened-control", "the beginning of this structure is missing"),
                 };
                 let hint = "IF ENDIF, FOR ENDFOR, WHILE ENDWHILE, LOOP ENDLOOP, REPEAT UNTIL";
                 Err(fault(code, at, message, hint))
             }
             None => {
-                let message = "a control structure stands alone in its block";
-                Err(fault("unopened-control", at, message, "write it in a line of its own"))
+                let message = "a control structure must be alone in its block";
+                Err(fault("unopened-control", at, message, "write it on a separate line"))
             }
         }
     }
@@ -165,7 +165,12 @@ impl Run<'_> {
     fn jump_behind(&mut self, mark: Option<usize>, at: usize) -> Result<Next, Fault> {
         let structure = self.structure();
         let Some(mark) = mark.and_then(|i| structure.marks.get(i)) else {
-            return Err(fault("missing-end", at, "this structure has no end", "end it"));
+            return Err(fault(
+                "missing-end",
+                at,
+                "the end of this structure is missing",
+                "write its end, such as ENDIF or ENDFOR",
+            ));
         };
         Ok(self.send(mark.next, mark.line + 1))
     }
@@ -182,13 +187,13 @@ impl Run<'_> {
         if reader.is_empty() {
             return Ok(());
         }
-        let message = "nothing else can stand behind this";
+        let message = "unexpected text after this statement";
         let symbol = reader.symbol();
         let code = match symbol {
             Some(b')' | b']') => "unbalanced-brackets",
             _ => "unexpected-sign",
         };
-        Err(fault(code, reader.here(), message, "write it in a line of its own"))
+        Err(fault(code, reader.here(), message, "write it on a separate line"))
     }
 
     fn branch(&mut self, reader: &mut Reader<'_>, at: usize) -> Result<Next, Fault> {
@@ -234,7 +239,7 @@ impl Run<'_> {
         reader.require(b'=', "write FOR R1=0 TO 5")?;
         let first = self.number(reader)?;
         if !reader.accept_word("TO") {
-            let message = "TO is due here";
+            let message = "expected TO";
             return Err(fault("missing-sign", reader.here(), message, "write FOR R1=0 TO 5"));
         }
         let last = self.number(reader)?;
@@ -258,7 +263,7 @@ impl Run<'_> {
         let value = self.expression(reader)?;
         if !reader.accept_word("OF") {
             let hint = "write CASE R1 OF 1 GOTOF A DEFAULT GOTOF B";
-            return Err(fault("missing-sign", reader.here(), "OF is due here", hint));
+            return Err(fault("missing-sign", reader.here(), "expected OF", hint));
         }
         while !reader.is_empty() {
             let matches = if reader.accept_word("DEFAULT") {
@@ -274,7 +279,7 @@ impl Run<'_> {
                 return self.go_to(reader);
             }
             if !reader.word().is_some_and(|w| w.starts_with("GOTO")) {
-                let message = "a jump such as GOTOF is due here";
+                let message = "expected a jump such as GOTOF";
                 let hint = "write CASE R1 OF 1 GOTOF A DEFAULT GOTOF B";
                 return Err(fault("missing-sign", reader.here(), message, hint));
             }
@@ -299,7 +304,7 @@ impl Run<'_> {
             return Ok(word);
         }
         if reader.is_empty() {
-            let message = "the name of a block is due here";
+            let message = "expected the name of a block";
             return Err(fault("missing-value", reader.here(), message, "write GOTOF END1"));
         }
         Ok(self.text(reader)?.to_ascii_uppercase())

@@ -30,7 +30,7 @@ struct Arguments<'a> {
 impl Arguments<'_> {
     fn value(&self, index: usize) -> Result<&Value, Fault> {
         self.values.get(index).and_then(Option::as_ref).ok_or_else(|| {
-            let message = format!("the function has no argument {}", index + 1);
+            let message = format!("argument {} of the function is missing", index + 1);
             fault("missing-argument", self.at, message, "write all arguments between commas")
         })
     }
@@ -79,8 +79,8 @@ impl Run<'_> {
             "AXSTRING" => Ok(Value::Text(arguments.text(0)?)),
             "ISFILE" => Ok(Value::truth(self.core.library.text(&arguments.text(0)?).is_ok())),
             _ => text_function(word, &arguments)?.ok_or_else(|| {
-                let message = format!("{word} is not evaluated here");
-                fault("function-not-known", at, message, "set its value by hand")
+                let message = format!("{word} is not evaluated");
+                fault("function-not-known", at, message, "replace it by its value")
             }),
         }
     }
@@ -120,8 +120,8 @@ impl Run<'_> {
                 Some(axis) => entries.push((axis, value.unwrap_or(neutral))),
                 None if value.unwrap_or(neutral) == neutral => {}
                 None => {
-                    let hint = "the axes are X Y Z A B C U V W";
-                    self.core.not_applied("the frame of an axis that is not known", place, hint);
+                    let hint = "use the axes X Y Z A B C U V W";
+                    self.core.not_applied("the frame of an unknown axis", place, hint);
                 }
             }
             if reader.is_empty() {
@@ -188,7 +188,12 @@ fn text_function(word: &str, arguments: &Arguments<'_>) -> Result<Option<Value>,
             let text = arguments.text(0)?;
             let number = text.trim().parse().ok().filter(|v: &f64| v.is_finite());
             let number = number.ok_or_else(|| {
-                fault("bad-number", at, format!("`{text}` is not a number"), "ask ISNUMBER before")
+                fault(
+                    "bad-number",
+                    at,
+                    format!("`{text}` is not a number"),
+                    "check the text with ISNUMBER before",
+                )
             })?;
             Value::Number(number)
         }

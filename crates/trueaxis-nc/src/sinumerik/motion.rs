@@ -30,7 +30,7 @@ impl Run<'_> {
         let target = self.target(words);
         let mut target = if polar { self.polar_target(words, target)? } else { target };
         if !(target.0.iter().all(|v| v.abs() < 1e13)) {
-            let message = "the target is further than any machine goes";
+            let message = "the target is too far away for a machine";
             return Err(fault("too-large", at, message, "check the increments"));
         }
         if motion == Motion::Linear && words.has(Name::Angle) {
@@ -176,15 +176,15 @@ impl Run<'_> {
             [false, true] => (sin, cos),
             _ => {
                 self.core.not_applied(
-                    "ANG with two or no coordinates",
+                    "ANG needs exactly one coordinate of the end point",
                     at,
-                    "write the end of the line",
+                    "write one coordinate of the end point",
                 );
                 return Ok(target);
             }
         };
         if along.abs() < 1e-9 {
-            let message = "the line by ANG never reaches the coordinate";
+            let message = "the line at the angle ANG does not reach the coordinate";
             return Err(fault("bad-angles", at, message, "check ANG"));
         }
         let (from, to) = if given[0] { (first, second) } else { (second, first) };
@@ -216,13 +216,14 @@ impl Run<'_> {
                 MoveKind::Linear
             }
             _ => {
-                let message = "only G0 and G1 go in machine coordinates";
+                let message = "machine coordinates need G0 or G1";
                 return Err(fault("bad-machine-move", at, message, "write G0 or G1"));
             }
         };
         if self.core.modes.tool_centre {
-            let message = "machine coordinates while TRAORI is on: the axes are taken".to_owned();
-            let hint = "write TRAFOOF before";
+            let message = "machine coordinates while TRAORI is on: they are read as axis positions"
+                .to_owned();
+            let hint = "write TRAFOOF before it";
             self.core.warn("machine-move-with-traori", "", at, message, hint);
         }
         let now = self.chain.machine();
@@ -249,8 +250,9 @@ impl Run<'_> {
 
     /// G74 and G75: the named axes go to the reference or fixed point.
     pub(super) fn reference(&mut self, words: &mut Words, at: usize) {
-        let message = "G74 and G75 go to the machine zero here".to_owned();
-        let hint = "the machine data know the reference and fixed points";
+        let message = "G74 and G75 move to machine zero here".to_owned();
+        let hint =
+            "the reference and fixed points are in the machine data, which are not known here";
         self.core.warn("reference-point", "", at, message, hint);
         for (name, _) in &words.numbered {
             let letter = name.as_bytes().first().copied().unwrap_or(b' ');

@@ -16,10 +16,10 @@ impl Run<'_> {
         }
         let at = words.vector_place;
         for (number, subject) in
-            [(4, "A4 B4 C4 normals of a surface"), (5, "A5 B5 C5 normals of a surface")]
+            [(4, "the surface normal A4 B4 C4"), (5, "the surface normal A5 B5 C5")]
         {
             if words.vector(number).is_some() {
-                self.core.not_applied(subject, at, "write the direction of the tool as A3 B3 C3");
+                self.core.not_applied(subject, at, "write the tool direction as A3 B3 C3");
             }
         }
         let direction = match (words.vector(3), words.vector(2)) {
@@ -28,7 +28,7 @@ impl Run<'_> {
             _ => None,
         };
         if direction.is_some() && !self.core.modes.tool_centre {
-            let message = "a direction of the tool without TRAORI".to_owned();
+            let message = "a tool direction without TRAORI".to_owned();
             let hint = "write TRAORI before it";
             self.core.warn("direction-without-traori", "", at, message, hint);
         }
@@ -86,7 +86,11 @@ impl Run<'_> {
         let through = through.or(kept.through);
         let opening = opening.or(kept.half_opening_deg);
         if opening.is_some_and(|o| o < 0.0) {
-            self.core.not_applied("a negative NUT", at, "ORICONCW and ORICONCCW say which way");
+            self.core.not_applied(
+                "a negative NUT",
+                at,
+                "choose the direction by ORICONCW or ORICONCCW",
+            );
         }
         let ccw = match way {
             // The manual's example turns from (0,1,1) to (1,0,1) about (0,0,1) by 270 deg: its

@@ -38,8 +38,8 @@ pub(super) fn read_line(program: &Program, start: usize, tokens: &mut Vec<Token>
             TokenKind::Unknown => {
                 let text =
                     String::from_utf8_lossy(&source[token.start..token.end.min(token.start + 40)]);
-                let message = format!("`{text}` cannot stand here");
-                let hint = "a block consists of words such as G1 X10";
+                let message = format!("unexpected text `{text}`");
+                let hint = "write words such as G1 X10";
                 line.fault = Some(fault("unexpected-sign", token.start, message, hint));
             }
             TokenKind::Text if !is_closed(&source[token.start..token.end]) => {
@@ -48,7 +48,7 @@ pub(super) fn read_line(program: &Program, start: usize, tokens: &mut Vec<Token>
             }
             _ if tokens.len() >= MOST_TOKENS => {
                 let message = format!("more than {MOST_TOKENS} parts in one line");
-                let hint = "is this an NC program?";
+                let hint = "check whether the file is an NC program";
                 line.fault = Some(fault("too-many-words", token.start, message, hint));
             }
             _ => tokens.push(token),
@@ -180,8 +180,7 @@ impl<'t> Reader<'t> {
     pub fn number(&mut self) -> Option<Result<f64, Fault>> {
         let token = self.number_ahead(0)?;
         self.advance();
-        let bad =
-            |at| fault("bad-number", at, "this is not a number", "write a number such as 1.5");
+        let bad = |at| fault("bad-number", at, "expected a number", "write a number such as 1.5");
         let Some(value) = number_value(self.text(token)) else {
             return Some(Err(bad(token.start)));
         };
@@ -227,7 +226,7 @@ impl<'t> Reader<'t> {
         let sign = char::from(symbol);
         let code =
             if matches!(symbol, b')' | b']') { "unbalanced-brackets" } else { "missing-sign" };
-        Err(fault(code, self.here(), format!("`{sign}` is due here"), hint))
+        Err(fault(code, self.here(), format!("expected `{sign}`"), hint))
     }
 
     /// Whether the words GOTO, GOTOF … stand somewhere behind.

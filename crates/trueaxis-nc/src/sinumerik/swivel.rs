@@ -52,7 +52,7 @@ impl Run<'_> {
         let angles = [7, 8, 9].map(|i| parameters.or_zero(i));
         let [a, b, c] = angles;
         let Some(rotation) = swivel_rotation(mode, [a?, b?, c?], at)? else {
-            let hint = "swivel by angles of the plane; only the machine knows the other";
+            let hint = "use swivel angles of the plane; rotary-axis angles depend on the machine";
             self.core.not_applied("CYCLE800 by angles of the rotary axes", at, hint);
             return Ok(());
         };
@@ -153,8 +153,14 @@ fn swivel_rotation(mode: u8, angles_deg: [f64; 3], at: usize) -> Result<Option<F
                     continue;
                 }
                 let Some(axis) = axis(place as u8) else {
-                    let message = format!("_MODE {mode} of CYCLE800 names no axis for an angle");
-                    return Err(fault("bad-swivel-mode", at, message, "57 is the order X Y Z"));
+                    let message =
+                        format!("_MODE {mode} of CYCLE800 does not name an axis for each angle");
+                    return Err(fault(
+                        "bad-swivel-mode",
+                        at,
+                        message,
+                        "write for example 57: X, then Y, then Z",
+                    ));
                 };
                 rotation = rotation.after(&transform::turned(axis, angle));
             }
@@ -172,7 +178,7 @@ fn swivel_rotation(mode: u8, angles_deg: [f64; 3], at: usize) -> Result<Option<F
             }
             let third = named[2].unwrap_or(Axis::Z);
             let plane = transform::projected(traces).ok_or_else(|| {
-                let message = "the projection angles of CYCLE800 leave no plane between them";
+                let message = "the projection angles of CYCLE800 do not define a plane";
                 fault("bad-angles", at, message, "check _MODE, _A and _B")
             })?;
             Ok(Some(plane.after(&transform::turned(third, c))))

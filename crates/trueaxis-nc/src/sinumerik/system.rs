@@ -44,7 +44,7 @@ impl Run<'_> {
                     break;
                 }
             }
-            reader.require(b']', "one ] for each [")?;
+            reader.require(b']', "write one ] for each [")?;
         }
         Ok((name, indices))
     }
@@ -102,7 +102,7 @@ impl Run<'_> {
             "TC_DP3" => self.chain.tools.get(&(number as u32)).map_or(0.0, |t| t[Axis::Z]),
             _ => {
                 let message = format!("the value of ${name} is not known here");
-                let hint = "only the machine knows it; write the value itself";
+                let hint = "write the value itself";
                 return Err(fault("unknown-system-variable", at, message, hint));
             }
         };
@@ -147,7 +147,7 @@ impl Run<'_> {
             _ => match &value {
                 Value::Frame(frame) => **frame,
                 _ => {
-                    let hint = "the moves that follow are those without it";
+                    let hint = "the following moves are computed without it";
                     self.core.not_applied(&format!("${name}="), at, hint);
                     return Ok(());
                 }
@@ -166,7 +166,11 @@ impl Run<'_> {
         let kept = match name {
             "P_UIFR" => {
                 if number > 999 {
-                    return Err(mistakes::bad_work_offset(number, "1 is G54, 5 is G505", at));
+                    return Err(mistakes::bad_work_offset(
+                        number,
+                        "write 1 for G54, 5 for G505",
+                        at,
+                    ));
                 }
                 self.chain.offsets.insert(number, frame);
                 if let Some(archive) = &mut self.archive {
@@ -183,7 +187,7 @@ impl Run<'_> {
             "P_WPFRAME" | "P_TOOLFRAME" => self.chain.change(|c| c.swivel = frame),
             _ if frame == Frame::IDENTITY => true,
             _ => {
-                let hint = "the moves that follow are those without it";
+                let hint = "the following moves are computed without it";
                 self.core.not_applied(&format!("${name}="), at, hint);
                 true
             }
@@ -227,12 +231,16 @@ impl Run<'_> {
             "TC_DP4" => Axis::Y,
             "TC_DP5" => Axis::X,
             _ => {
-                self.core.not_applied(&format!("${name}="), at, "only the lengths of tools are");
+                self.core.not_applied(
+                    &format!("${name}="),
+                    at,
+                    "only the lengths of tools are applied",
+                );
                 return Ok(());
             }
         };
         if edge != 1.0 {
-            self.core.not_applied("a cutting edge other than 1", at, "D1 is");
+            self.core.not_applied("a cutting edge other than 1", at, "only D1 is applied");
             return Ok(());
         }
         if self.chain.tools.len() < 100_000 {

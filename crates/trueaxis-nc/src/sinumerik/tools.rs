@@ -52,12 +52,11 @@ impl Run<'_> {
             number += 1;
         }
         if self.names.len() >= 100_000 {
-            let message = "more than 100000 names of tools";
-            return Err(fault("bad-tool", at, message, "is this an NC program?"));
+            let message = "more than 100000 tool names";
+            return Err(fault("bad-tool", at, message, "check whether the file is an NC program"));
         }
-        let message =
-            format!("the tool {name} is not in the tool table: it gets the number {number}");
-        self.core.warn("unknown-tool", name, at, message, "give a tool table");
+        let message = format!("unknown tool {name}: the number {number} is assigned");
+        self.core.warn("unknown-tool", name, at, message, "state the tool in the set-up file");
         self.names.insert(name.to_owned(), number);
         Ok(number)
     }
@@ -71,8 +70,8 @@ impl Run<'_> {
 
     fn apply_edge(&mut self, at: usize) -> Result<(), Fault> {
         if self.modes.edge > 1 {
-            let message = format!("D{} has the length of D1 here", self.modes.edge);
-            let hint = "the tool table knows one length for each tool";
+            let message = format!("cutting edge D{}: the length of D1 is used", self.modes.edge);
+            let hint = "the tool table has one length for each tool";
             self.core.warn("unknown-cutting-edge", self.modes.edge, at, message, hint);
         }
         self.apply_length(at);

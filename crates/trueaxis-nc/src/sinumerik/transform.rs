@@ -117,7 +117,7 @@ pub(super) fn from_entries(word: &str, entries: &[(Axis, f64)], at: usize) -> Re
         "ROT" => frame = rpy(spatial.map(|v| v.unwrap_or(0.0))),
         "ROTS" => {
             frame = projected(spatial).ok_or_else(|| {
-                let message = "solid angles name two axes and leave a plane between them";
+                let message = "solid angles need two axes and must define a plane";
                 fault("bad-angles", at, message, "write ROTS X10 Y20")
             })?;
         }

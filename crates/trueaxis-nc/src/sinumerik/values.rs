@@ -30,11 +30,9 @@ impl Value {
     pub fn number(&self, at: usize) -> Result<f64, Fault> {
         match self {
             Self::Number(value) => Ok(*value),
-            Self::Text(_) => Err(wrong(at, "a number is due here, not a text")),
-            Self::Axis(axis) => {
-                Err(wrong(at, format!("a number is due here, not the axis {axis}")))
-            }
-            Self::Frame(_) => Err(wrong(at, "a number is due here, not a frame")),
+            Self::Text(_) => Err(wrong(at, "expected a number, found a text")),
+            Self::Axis(axis) => Err(wrong(at, format!("expected a number, found the axis {axis}"))),
+            Self::Frame(_) => Err(wrong(at, "expected a number, found a frame")),
         }
     }
 
@@ -43,14 +41,14 @@ impl Value {
             Self::Text(text) => Ok(text.clone()),
             Self::Number(value) => Ok(shown(*value)),
             Self::Axis(axis) => Ok(axis.to_string()),
-            Self::Frame(_) => Err(wrong(at, "a text is due here, not a frame")),
+            Self::Frame(_) => Err(wrong(at, "expected a text, found a frame")),
         }
     }
 
     pub fn as_frame(&self, at: usize) -> Result<Frame, Fault> {
         match self {
             Self::Frame(frame) => Ok(**frame),
-            _ => Err(wrong(at, "a frame such as CTRANS(X,1) is due here")),
+            _ => Err(wrong(at, "expected a frame such as CTRANS(X,1)")),
         }
     }
 }
@@ -127,7 +125,7 @@ impl Kind {
                 Value::Text(text)
             }
             (Self::Axis, Value::Axis(axis)) => Value::Axis(axis),
-            (Self::Axis, _) => return Err(wrong(at, "the name of an axis is due here")),
+            (Self::Axis, _) => return Err(wrong(at, "expected the name of an axis")),
             (Self::Frame, value) => Value::frame(value.as_frame(at)?),
         })
     }

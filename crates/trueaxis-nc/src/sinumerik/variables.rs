@@ -40,14 +40,14 @@ impl Run<'_> {
         let at = reader.here();
         let index = if reader.accept(b'[') {
             let index = self.number(reader)?;
-            reader.require(b']', "one ] for each [")?;
+            reader.require(b']', "write one ] for each [")?;
             index
         } else {
             reader.number().unwrap_or_else(|| Err(super::expression::missing_value(reader)))?
         };
         if index.fract() != 0.0 || !(0.0..=LAST_R as f64).contains(&index) {
             let name = format_args!("R{index}");
-            return Err(mistakes::no_parameter(name, "R0 to R32767 are there", at));
+            return Err(mistakes::no_parameter(name, "use R0 to R32767", at));
         }
         Ok(index as usize)
     }
@@ -56,8 +56,8 @@ impl Run<'_> {
         if let Some(Some(value)) = self.r.get(index) {
             return *value;
         }
-        let message = format!("R{index} is read before it is set: 0 is taken");
-        let hint = "the control takes what an earlier program left there";
+        let message = format!("R{index} is read before it is set: 0 is assumed");
+        let hint = "the control would use the value of an earlier program";
         self.core.warn("unset-parameter", format!("R{index}"), at, message, hint);
         0.0
     }
@@ -81,7 +81,7 @@ impl Run<'_> {
                 name
             }
         };
-        reader.require(b')', "one ) for each (")?;
+        reader.require(b')', "write one ) for each (")?;
         Ok(self.has_variable(name.split('[').next().unwrap_or("")))
     }
 
@@ -101,9 +101,9 @@ impl Run<'_> {
             return Ok(Value::Number(*value));
         }
         if reader.symbol_ahead(1) == Some(b'(') {
-            let message = format!("the function {word} is not known");
-            let hint = "SIN COS TAN ASIN ACOS ATAN2 SQRT ABS POT TRUNC ROUND LN EXP MINVAL MAXVAL \
-                        BOUND and functions of texts and frames are";
+            let message = format!("unknown function {word}");
+            let hint = "known: SIN COS TAN ASIN ACOS ATAN2 SQRT ABS POT TRUNC ROUND LN EXP MINVAL \
+                MAXVAL BOUND and functions of texts and frames";
             return Err(fault("function-not-known", at, message, hint));
         }
         Err(undeclared(word, at))
@@ -126,17 +126,17 @@ impl Run<'_> {
                     break;
                 }
             }
-            reader.require(b']', "one ] for each [")?;
+            reader.require(b']', "write one ] for each [")?;
         }
         let sizes = match self.variables().and_then(|v| v.get(&name)) {
             Some(variable) => variable.sizes.clone(),
             None => Vec::new(),
         };
         let wrong = |message: String| {
-            fault("index-out-of-range", at, message, "indices count from 0, below the size")
+            fault("index-out-of-range", at, message, "indices count from 0 to the size less 1")
         };
         if indices.len() > sizes.len() {
-            return Err(wrong(format!("{name} has {} dimensions", sizes.len())));
+            return Err(wrong(format!("{name} is an array with {} dimensions", sizes.len())));
         }
         let mut cell = 0;
         for (place, size) in sizes.iter().enumerate() {
@@ -231,14 +231,14 @@ impl Run<'_> {
     ) -> Result<(), Fault> {
         let values = self.arguments(reader)?;
         let Slot::Cell(name, first) = slot else {
-            let message = "SET and REP fill arrays";
+            let message = "SET and REP fill arrays only";
             return Err(fault("wrong-type", at, message, "set R parameters one by one"));
         };
         let count = self.variables().and_then(|v| v.get(name)).map_or(0, |v| v.values.len());
         let left = count.saturating_sub(*first);
         if list && values.len() > left {
-            let message = format!("{name} has no room for {} values", values.len());
-            return Err(fault("index-out-of-range", at, message, "declare the array larger"));
+            let message = format!("{name} is too small for {} values", values.len());
+            return Err(fault("index-out-of-range", at, message, "declare a larger array"));
         }
         if !list {
             let value = values.first().cloned().flatten().unwrap_or(Value::Number(0.0));
@@ -268,8 +268,8 @@ impl Run<'_> {
         loop {
             let at = reader.here();
             let Some(name) = reader.word() else {
-                let message = "the name of a variable is due here";
-                let hint = "names begin with two letters or _";
+                let message = "expected the name of a variable";
+                let hint = "write a name that begins with two letters or _";
                 return Err(fault("bad-definition", at, message, hint));
             };
             reader.advance();
@@ -285,7 +285,7 @@ impl Run<'_> {
         if reader.is_empty() {
             return Ok(());
         }
-        let message = "a comma or the end of the block is due here";
+        let message = "expected a comma or the end of the block";
         Err(fault("bad-definition", reader.here(), message, "write DEF REAL A, B=2"))
     }
 
@@ -293,14 +293,14 @@ impl Run<'_> {
         let kind = reader.word().as_deref().and_then(Kind::of);
         let Some(kind) = kind else {
             let hint = "INT REAL BOOL CHAR STRING[n] AXIS FRAME";
-            return Err(fault("bad-definition", reader.here(), "a type is due here", hint));
+            return Err(fault("bad-definition", reader.here(), "expected a type", hint));
         };
         reader.advance();
         if let Kind::Text(_) = kind
             && reader.accept(b'[')
         {
             let longest = self.number(reader)?.clamp(0.0, LONGEST_TEXT as f64);
-            reader.require(b']', "one ] for each [")?;
+            reader.require(b']', "write one ] for each [")?;
             return Ok(Kind::Text(longest as usize));
         }
         Ok(kind)
@@ -319,8 +319,8 @@ impl Run<'_> {
             }
             let size = self.number(reader)?.round();
             if !(1.0..=MOST_CELLS as f64).contains(&size) || sizes.len() >= 3 {
-                let message = format!("an array of {size} elements cannot be declared");
-                return Err(fault("bad-definition", at, message, "at most three dimensions"));
+                let message = format!("an array of {size} elements is not possible");
+                return Err(fault("bad-definition", at, message, "use at most three dimensions"));
             }
             sizes.push(size as usize);
             if !matches!(reader.symbol(), Some(b',' | b']')) {
@@ -382,6 +382,6 @@ impl Run<'_> {
 
 fn undeclared(name: &str, at: usize) -> Fault {
     let message = format!("the variable {name} is not declared");
-    let hint = "declare it with DEF, or give it as a constant of the machine";
+    let hint = "declare it with DEF, or state it as a constant of the machine";
     fault("undefined-parameter", at, message, hint)
 }

@@ -168,7 +168,7 @@ impl Run<'_> {
         if reader.accept(b'[') {
             // S[2]=1000 is S2=1000 with a computed number.
             let number = self.number(reader)?;
-            reader.require(b']', "one ] for each [")?;
+            reader.require(b']', "write one ] for each [")?;
             reader.require(b'=', "write S[2]=1000")?;
             self.extended(letter, &number.to_string(), reader, at)?;
             return Ok(None);
@@ -206,7 +206,7 @@ impl Run<'_> {
         match reader.number() {
             Some(value) => value.map(|v| if negative { -v } else { v }),
             None => {
-                let hint = "a number stands behind a letter; an expression behind letter and =";
+                let hint = "write a number after a letter, or = and an expression";
                 Err(fault("missing-value", reader.here(), "a value is missing here", hint))
             }
         }
@@ -256,7 +256,7 @@ impl Run<'_> {
     ) -> Result<(), Fault> {
         let (value, mode) = match letter {
             b'T' => {
-                self.core.not_applied("the tool of another spindle", at, "T alone is");
+                self.core.not_applied("the tool of another spindle", at, "only T is applied");
                 self.expression(reader)?;
                 return Ok(());
             }
@@ -276,8 +276,8 @@ impl Run<'_> {
             (b'S', 1) => self.words.speed = Some(value),
             (b'M', 1) => return self.put(b'M', (value, mode), at),
             (b'S' | b'M', _) => {
-                let subject = format!("{}{digits}= of another spindle", char::from(letter));
-                self.core.not_applied(&subject, at, "the main spindle's is");
+                let subject = format!("{}{digits}= for another spindle", char::from(letter));
+                self.core.not_applied(&subject, at, "only the main spindle is applied");
             }
             (b'F' | b'G', _) => {
                 let subject = format!("{}[{digits}]=", char::from(letter));
@@ -312,8 +312,8 @@ impl Run<'_> {
             }
             b'M' => {
                 let Some(m) = code_number(number) else {
-                    let message = format!("M{number} is not known to this control");
-                    return Err(fault("unknown-m-code", at, message, "M functions are whole"));
+                    let message = format!("unknown M function M{number} for this control");
+                    return Err(fault("unknown-m-code", at, message, "write a whole number"));
                 };
                 self.words.m.push((m, at));
             }
@@ -361,7 +361,7 @@ impl Run<'_> {
         if word == "AX" {
             reader.require(b'[', "write AX[AXIS1]=10")?;
             let axis = self.axis(reader)?;
-            reader.require(b']', "one ] for each [")?;
+            reader.require(b']', "write one ] for each [")?;
             reader.require(b'=', "write AX[AXIS1]=10")?;
             let value = self.moded_value(reader)?;
             return self.words.put_axis(axis, value, at);
@@ -381,8 +381,8 @@ impl Run<'_> {
         let (message, hint) = if is_set {
             (format!("{word} is neither declared nor known to this control"), "declare it with DEF")
         } else {
-            let hint = "check the spelling; a subprogram is called in a block of its own";
-            (format!("the word {word} is not known to this control"), hint)
+            let hint = "check the spelling; call a subprogram in a separate block";
+            (format!("unknown word {word} for this control"), hint)
         };
         Err(fault("unknown-word", at, message, hint))
     }
@@ -403,7 +403,7 @@ impl Run<'_> {
             } else if self.axis_or_other(reader).is_err() {
                 return Err(mistakes::unknown_axis(place));
             }
-            reader.require(b']', "one ] for each [")?;
+            reader.require(b']', "write one ] for each [")?;
         }
         if !reader.equals_ahead(0) {
             // FZ, MEAS … may stand as switches in other releases.
@@ -411,15 +411,15 @@ impl Run<'_> {
         }
         reader.advance();
         if let Name::NotApplied(subject) = name {
-            self.core.not_applied(subject, at, "the moves that follow are those without it");
+            self.core.not_applied(subject, at, "the following moves are computed without it");
             if reader.symbol() == Some(b'(') {
                 return skip_brackets(reader);
             }
         }
         let (value, mode) = self.moded_value(reader)?;
         if let Some(axis) = axis {
-            let hint = "it moves with the other axes of its block here";
-            self.core.not_applied("the own motion of POS axes", at, hint);
+            let hint = "the axis moves with the other axes of the block";
+            self.core.not_applied("the independent motion of POS axes", at, hint);
             return self.words.put_axis(axis, (value, mode), at);
         }
         if value.is_nan() || value.abs() > LARGEST {
@@ -472,10 +472,10 @@ fn foreign(reader: &Reader<'_>) -> Fault {
     let text = String::from_utf8_lossy(&reader.source[token.start..end]).into_owned();
     let (code, hint) = match token.kind {
         TokenKind::Symbol if text == ")" || text == "]" => {
-            ("unbalanced-brackets", "one opening bracket for each that closes")
+            ("unbalanced-brackets", "write one opening bracket for each closing one")
         }
-        TokenKind::Number => ("no-address", "a number stands behind a letter, such as X1"),
-        _ => ("unexpected-sign", "a block consists of words such as G1 X10"),
+        TokenKind::Number => ("no-address", "write a number after a letter, such as X1"),
+        _ => ("unexpected-sign", "write words such as G1 X10"),
     };
-    fault(code, token.start, format!("`{text}` cannot stand here"), hint)
+    fault(code, token.start, format!("unexpected text `{text}`"), hint)
 }

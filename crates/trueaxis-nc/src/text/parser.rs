@@ -168,7 +168,12 @@ impl<'s, 'b> Parser<'s, 'b> {
         while let Some(token) = self.token {
             if self.block.items.len() >= MOST_ITEMS {
                 let message = format!("more than {MOST_ITEMS} words in one line");
-                self.fault("too-many-words", token.start, message, "is this an NC program?");
+                self.fault(
+                    "too-many-words",
+                    token.start,
+                    message,
+                    "check whether the file is an NC program",
+                );
                 return self.give_up();
             }
             let understood = match token.kind {
@@ -194,11 +199,11 @@ impl<'s, 'b> Parser<'s, 'b> {
             String::from_utf8_lossy(&self.source[token.start..token.end.min(token.start + 40)])
                 .into_owned();
         let (code, hint) = match token.kind {
-            TokenKind::Symbol if text == "]" => ("unbalanced-brackets", "one [ for each ]"),
-            TokenKind::Number => ("no-address", "a number stands behind a letter, such as X1"),
-            _ => ("unexpected-sign", "a block consists of words such as G1 X10"),
+            TokenKind::Symbol if text == "]" => ("unbalanced-brackets", "write one [ for each ]"),
+            TokenKind::Number => ("no-address", "write a number after a letter, such as X1"),
+            _ => ("unexpected-sign", "write words such as G1 X10"),
         };
-        self.fault(code, token.start, format!("`{text}` cannot stand here"), hint);
+        self.fault(code, token.start, format!("unexpected text `{text}`"), hint);
         false
     }
 
@@ -224,12 +229,12 @@ impl<'s, 'b> Parser<'s, 'b> {
         let offset = self.here();
         let Some(target) = self.value() else { return false };
         if !matches!(self.block.nodes[target as usize], Node::Parameter(_) | Node::Named(_)) {
-            let message = "only a parameter can be set".to_owned();
+            let message = "expected a parameter before =".to_owned();
             self.fault("bad-assignment", offset, message, "write #1=2");
             return false;
         }
         if !self.accept(b'=') {
-            let message = "a parameter at the beginning of a block is set by =".to_owned();
+            let message = "expected = after the parameter".to_owned();
             self.fault("missing-equals", self.here(), message, "write #1=2");
             return false;
         }

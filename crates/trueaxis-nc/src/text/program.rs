@@ -303,7 +303,8 @@ impl Program {
             for fault in block.faults.drain(..) {
                 count += 1;
                 if count > 100 {
-                    let message = "more than 100 problems; the rest is not listed".to_owned();
+                    let message =
+                        "more than 100 problems; the remaining ones are not listed".to_owned();
                     problems.note("too-many-problems", places.of(fault.offset), message, "");
                     return problems;
                 }

@@ -55,7 +55,7 @@ impl Templates {
     pub fn of(control: Control) -> Self {
         let text = BUILT_IN.iter().find(|(c, _)| *c == control).map_or("", |(_, text)| text);
         // why: the four texts are constants, and a test reads each of them.
-        Self::parse(text).expect("built-in templates are sound")
+        Self::parse(text).expect("the built-in templates are valid")
     }
 
     /// Those of the user.

@@ -132,7 +132,7 @@ impl Run<'_> {
         let locals = locals_of(&std::mem::take(&mut self.words.arguments), at)?;
         let depth = self.stack.len();
         if self.modes.macros.len() > self.core.settings.deepest_call {
-            let message = "too many modal macros within each other";
+            let message = "modal macros are nested too deeply";
             return Err(fault("calls-too-deep", at, message, "end them by G67"));
         }
         self.modes.macros.push(ModalMacro { each_block, depth, label, repeats, locals });
@@ -218,7 +218,9 @@ impl Run<'_> {
             if let Some(number) = back {
                 return self.jump_to_number(number, at);
             }
-            let message = "M99 in the main program repeats it: taken as its end".to_owned();
+            let message = "M99 in the main program repeats it without end: it is read as the end \
+                of the program"
+                .to_owned();
             self.core.warn("endless-main", 0, at, message, "write M30");
             self.core.emit(crate::moves::Event::End);
             return Ok(Next::Finished);

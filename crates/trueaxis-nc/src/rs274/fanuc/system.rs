@@ -206,7 +206,8 @@ impl Run<'_> {
     /// Says that a variable was read whose value only the running control has.
     pub(in crate::rs274) fn system_reads(&mut self, at: usize) {
         if let Some(number) = self.guessed.take() {
-            let message = format!("only the running control knows #{number}: 0 is taken");
+            let message =
+                format!("the value of #{number} exists only while the control runs: 0 is assumed");
             let hint = "times and signals are not simulated";
             self.core.warn("unknown-at-runtime", number, at, message, hint);
         }

@@ -251,15 +251,15 @@ impl Run<'_> {
             return Err(mistakes::zero_direction(at));
         };
         if self.modes.transforms.nested >= 2 {
-            let message = "more than two rotations in space within each other";
-            return Err(fault("too-many-rotations", at, message, "end them by G69"));
+            let message = "more than two nested rotations in space";
+            return Err(fault("too-many-rotations", at, message, "end the rotations by G69"));
         }
         let turn = Frame::shifted(point(center)).after(&about_vector(axis, angle_deg));
         let transforms = &mut self.modes.transforms;
         transforms.nested += 1;
         transforms.tilt = Some(transforms.tilt.map_or(turn, |outer| outer.after(&turn)));
         if self.frames.tool != Position::default() {
-            let message = "the tool length is left along the axes of the machine".to_owned();
+            let message = "the tool length remains along the axes of the machine".to_owned();
             let hint = "use G68.2 with G53.1 where the tool is swivelled";
             self.core.warn("length-not-rotated", 0, at, message, hint);
         }
@@ -285,7 +285,7 @@ impl Run<'_> {
             _ => {
                 let _ = self.words.take_all();
                 let message = format!("G68.2 P{kind} is not applied");
-                let hint = "P0 to P3 are; the moves that follow are those without it";
+                let hint = "use P0 to P3; the following moves are computed without it";
                 self.core.warn("not-applied", 682, at, message, hint);
                 return Ok(());
             }
@@ -307,8 +307,13 @@ impl Run<'_> {
         let order = self.words.take(b'Q').unwrap_or(123.0);
         let angles = b"IJK".map(|l| self.words.take(l).unwrap_or(0.0));
         if ![123.0, 132.0, 213.0, 231.0, 312.0, 321.0].contains(&order) {
-            let message = format!("Q{order} is not an order of three turns");
-            return Err(fault("bad-tilted-plane", at, message, "write Q123: X, then Y, then Z"));
+            let message = format!("Q{order} is not an order of three rotations");
+            return Err(fault(
+                "bad-tilted-plane",
+                at,
+                message,
+                "write for example Q123: X, then Y, then Z",
+            ));
         }
         let order = order as usize;
         let mut frame = Frame::IDENTITY;
@@ -330,7 +335,7 @@ impl Run<'_> {
         let index = match self.words.take(b'Q') {
             Some(q) if q.fract() == 0.0 && (0.0..=f64::from(most)).contains(&q) => q as usize,
             _ => {
-                let message = "which point or vector this is (Q) is missing".to_owned();
+                let message = "Q, the number of the point or vector, is missing".to_owned();
                 return Err(fault(
                     "bad-tilted-plane",
                     at,
@@ -365,7 +370,12 @@ impl Run<'_> {
         transforms.pieces = [None; 4];
         let Some(mut frame) = frame else {
             let message = "the points or vectors of the plane lie on one line";
-            return Err(fault("bad-tilted-plane", at, message, "give three corners of a triangle"));
+            return Err(fault(
+                "bad-tilted-plane",
+                at,
+                message,
+                "state three points that form a triangle",
+            ));
         };
         if let Some((shift, turn_deg)) = extra {
             frame = frame.after(&Frame::shifted(point(shift))).after(&about(2, turn_deg));
@@ -376,7 +386,7 @@ impl Run<'_> {
     /// G53.1 and G53.6.
     fn align(&mut self, keep_tip: bool, at: usize) -> Result<(), Fault> {
         if !self.modes.transforms.tilted {
-            let message = "G53.1 without a tilted plane";
+            let message = "G53.1 without an active tilted plane";
             return Err(fault("no-tilted-plane", at, message, "write G68.2 before it"));
         }
         let branch = match self.words.take(b'P') {
@@ -393,7 +403,7 @@ impl Run<'_> {
         let Some(scale) = self.modes.transforms.scale else { return };
         if scale.linear[axis][axis] != 1.0 {
             let message = "Q and the clearances of the cycle are scaled with its axis".to_owned();
-            let hint = "FANUC leaves them as they are: scale the plane alone, by I and J";
+            let hint = "FANUC does not scale them: scale only the plane, by I and J";
             self.core.warn("cycle-scaled", 0, at, message, hint);
         }
     }
@@ -403,8 +413,8 @@ impl Run<'_> {
         let Some(scale) = self.modes.transforms.scale else { return };
         let [a, b, _] = plane.axes().map(|a| scale.linear[a as usize][a as usize].abs());
         if (a - b).abs() > 1e-9 * a.max(b) {
-            let message = "different scales make an ellipse of this circle".to_owned();
-            let hint = "FANUC moves a circle there: scale both axes of the plane alike";
+            let message = "this circle is scaled to an ellipse".to_owned();
+            let hint = "FANUC moves a circle: use the same scale for both axes of the plane";
             self.core.warn("circle-not-round", 0, at, message, hint);
         }
     }

@@ -61,7 +61,7 @@ impl Parser<'_, '_> {
         let Some((_, keyword)) = O_WORDS.iter().find(|(word, _)| self.accept_word(word)) else {
             let hint = "sub endsub call return if elseif else endif while endwhile do repeat \
                         endrepeat break continue";
-            let message = "no key word behind the O label".to_owned();
+            let message = "expected a key word after the O label".to_owned();
             self.fault("unknown-o-word", self.here(), message, hint);
             return false;
         };
@@ -75,14 +75,14 @@ impl Parser<'_, '_> {
             arguments.push(argument);
         }
         if self.token.is_some() {
-            let message = "nothing else can stand behind an O word".to_owned();
-            self.fault("unexpected-sign", self.here(), message, "put it into a line of its own");
+            let message = "unexpected text after an O word".to_owned();
+            self.fault("unexpected-sign", self.here(), message, "write it on a separate line");
             return false;
         }
         let conditional =
             matches!(keyword, Keyword::If | Keyword::ElseIf | Keyword::While | Keyword::Repeat);
         if conditional && arguments.len() != 1 {
-            let message = "one condition or count in brackets is due".to_owned();
+            let message = "expected one condition or count in brackets".to_owned();
             self.fault("missing-value", self.here(), message, "write o1 if [#1 GT 0]");
             return false;
         }
@@ -113,7 +113,7 @@ impl Parser<'_, '_> {
         if let Some(token) = self.token.filter(|t| t.kind == TokenKind::Number) {
             let value = number_value(&self.source[token.start..token.end]);
             let Some(value) = value.filter(|v| v.fract() == 0.0 && *v < 1e15) else {
-                let message = "a label is a whole number".to_owned();
+                let message = "the label must be a whole number".to_owned();
                 self.fault("bad-label", token.start, message, "write O100");
                 return None;
             };
@@ -148,7 +148,7 @@ impl Parser<'_, '_> {
                 } else if self.accept_word(b"THEN") {
                     self.push(Keyword::IfThen, None, vec![condition], offset);
                 } else {
-                    let message = "GOTO or THEN is due behind the condition".to_owned();
+                    let message = "expected GOTO or THEN after the condition".to_owned();
                     self.fault("unknown-macro-word", self.here(), message, "IF [#1 GT 0] GOTO 10");
                     return None;
                 }
@@ -156,7 +156,7 @@ impl Parser<'_, '_> {
             Keyword::While => {
                 let condition = self.bracket()?;
                 if !self.accept_word(b"DO") {
-                    let message = "DO is due behind the condition".to_owned();
+                    let message = "expected DO after the condition".to_owned();
                     self.fault("unknown-macro-word", self.here(), message, "WHILE [#1 GT 0] DO1");
                     return None;
                 }

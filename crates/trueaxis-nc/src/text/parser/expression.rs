@@ -41,7 +41,7 @@ impl Parser<'_, '_> {
     pub(super) fn number(&mut self, token: Token) -> NodeId {
         let value = number_value(&self.source[token.start..token.end]);
         if value.is_none() {
-            let message = "this is not a number".to_owned();
+            let message = "expected a number".to_owned();
             self.fault("bad-number", token.start, message, "write a number such as 1.5");
         }
         self.advance();
@@ -72,8 +72,13 @@ impl Parser<'_, '_> {
 
     fn deeper(&mut self, read: fn(&mut Self) -> Option<NodeId>) -> Option<NodeId> {
         if self.depth >= DEEPEST {
-            let message = "too many brackets within each other".to_owned();
-            self.fault("too-deep", self.here(), message, "use parameters for parts of it");
+            let message = "brackets are nested too deeply".to_owned();
+            self.fault(
+                "too-deep",
+                self.here(),
+                message,
+                "use parameters for parts of the expression",
+            );
             return None;
         }
         self.depth += 1;
@@ -101,7 +106,7 @@ impl Parser<'_, '_> {
 
     fn missing_value(&mut self) {
         let message = "a value is missing here".to_owned();
-        let hint = "a number, a parameter such as #1, or an expression in [brackets]";
+        let hint = "write a number, a parameter such as #1, or an expression in [brackets]";
         self.fault("missing-value", self.here(), message, hint);
     }
 
@@ -131,7 +136,7 @@ impl Parser<'_, '_> {
         let value = self.deeper(|p| p.chain(0))?;
         if !self.accept(b']') {
             let message = "this bracket is not closed".to_owned();
-            self.fault("unbalanced-brackets", open, message, "one ] for each [");
+            self.fault("unbalanced-brackets", open, message, "write one ] for each [");
             return None;
         }
         Some(value)
@@ -189,9 +194,10 @@ impl Parser<'_, '_> {
             |f: Function| self.dialect.macro_words || !matches!(f, Function::Bcd | Function::Bin);
         let known: Vec<_> = FUNCTIONS.iter().filter(|(_, f)| known(*f)).collect();
         let Some((_, function)) = known.into_iter().find(|(name, _)| self.accept_word(name)) else {
-            let hint = "a number, a parameter, [ ], or SIN COS TAN ASIN ACOS ATAN SQRT ABS ROUND \
+            let hint = "write a number, a parameter, [ ], or SIN COS TAN ASIN ACOS ATAN SQRT ABS \
+                ROUND \
                         FIX FUP LN EXP EXISTS";
-            self.fault("missing-value", offset, "no value and no known function".into(), hint);
+            self.fault("missing-value", offset, "expected a value or a function".into(), hint);
             return None;
         };
         let argument = self.bracket()?;
@@ -205,7 +211,7 @@ impl Parser<'_, '_> {
         } else if self.dialect.macro_words {
             self.node(Node::Number(1.0))
         } else {
-            let message = "ATAN has two arguments".to_owned();
+            let message = "ATAN needs two arguments".to_owned();
             self.fault("missing-value", self.here(), message, "write ATAN[y]/[x]");
             return None;
         };
@@ -216,7 +222,7 @@ impl Parser<'_, '_> {
         let at = self.here();
         let inner = self.bracket()?;
         if !matches!(self.block.nodes[inner as usize], Node::Parameter(_) | Node::Named(_)) {
-            let message = "EXISTS asks for one parameter".to_owned();
+            let message = "EXISTS needs exactly one parameter".to_owned();
             self.fault("bad-exists", at, message, "write EXISTS[#1] or EXISTS[#<name>]");
             return None;
         }
