@@ -26,7 +26,7 @@ mod words;
 
 use std::ops::Range;
 use trueaxis_input::Diagnostics;
-use trueaxis_nc::moves::{Coolant, Feed, Turning};
+use trueaxis_nc::moves::{Coolant, Feed, SpindleDirection};
 
 /// One position of the tool.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,7 +78,7 @@ pub enum Word {
     /// FEDRAT.
     Feed(Feed),
     /// SPINDL: direction, and speed in 1/min if given.
-    Spindle(Turning, Option<f64>),
+    Spindle(SpindleDirection, Option<f64>),
     /// COOLNT.
     Coolant(Coolant),
     /// LOADTL, LOAD/TOOL: the tool number.

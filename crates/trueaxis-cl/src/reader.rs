@@ -5,7 +5,7 @@ use super::words::{Major, major};
 use super::{ClCircle, ClCycle, ClPoint, Reading, Record, Word};
 use std::collections::HashSet;
 use trueaxis_input::{Diagnostics, Place};
-use trueaxis_nc::moves::{Coolant, Feed, FeedMode, Turning};
+use trueaxis_nc::moves::{Coolant, Feed, FeedMode, SpindleDirection};
 
 const INCH_MM: f64 = 25.4;
 
@@ -380,12 +380,12 @@ impl<'n> Reader<'n> {
     }
 
     fn spindle(&mut self, s: &Statement) -> Result<Word, Fault> {
-        let (mut speed, mut turning) = (None, Turning::Clockwise);
+        let (mut speed, mut turning) = (None, SpindleDirection::Clockwise);
         for argument in s.arguments() {
             match argument.to_ascii_uppercase().as_str() {
-                "OFF" => return Ok(Word::Spindle(Turning::Stopped, None)),
+                "OFF" => return Ok(Word::Spindle(SpindleDirection::Stopped, None)),
                 "CLW" | "ON" | "RPM" | "" => {}
-                "CCLW" => turning = Turning::CounterClockwise,
+                "CCLW" => turning = SpindleDirection::CounterClockwise,
                 "SFM" | "SMM" | "SURF" => {
                     let message =
                         "SPINDL states a surface speed: no spindle speed is written".to_owned();

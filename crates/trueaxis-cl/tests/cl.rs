@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use trueaxis_cl::{ClCircle, ClFile, Reading, Word};
-use trueaxis_nc::moves::Turning;
+use trueaxis_nc::moves::SpindleDirection;
 
 /// A folder or file of the outside data, or `None` with a message.
 fn outside(path: &str) -> Option<PathBuf> {
@@ -105,7 +105,7 @@ fn a_file_by_hand() {
     let has = |word: Word| file.records().iter().any(|r| r.word == word);
     assert!(has(Word::Tool(7)) && has(Word::Delay(2.0)) && has(Word::End));
     assert!(has(Word::Cutter { diameter_mm: 10.0, corner_radius_mm: 2.0 }));
-    assert!(has(Word::Spindle(Turning::CounterClockwise, Some(1000.0))));
+    assert!(has(Word::Spindle(SpindleDirection::CounterClockwise, Some(1000.0))));
     assert!(has(Word::Comment("A $ B".to_owned())));
     let circle = ClCircle { center_mm: [0.0, 0.0, 6.0], normal: [0.0, 0.0, 1.0] };
     assert!(has(Word::Circle(circle)));

@@ -22,6 +22,7 @@
 pub mod exchange;
 pub mod frame;
 pub mod statistics;
+pub mod surface;
 
 /// A column vector of three components; its unit and frame are in the name of the variable.
 pub type Vec3 = nalgebra::Vector3<f64>;

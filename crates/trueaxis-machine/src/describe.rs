@@ -4,6 +4,7 @@
 mod description;
 pub mod lines;
 mod positions;
+pub mod replacement;
 mod set_error;
 
 pub use description::{

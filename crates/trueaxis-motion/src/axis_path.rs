@@ -30,7 +30,7 @@ use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::moves::{
     Axis, AxisSet, Coordinates, Event, FeedMode, Frame, Move, MoveKind, OrientationPath, Origin,
-    PathControl, Position, Step, Way,
+    PathControl, Position, RotaryDirection, Step,
 };
 
 /// One place of the path that the control commands.
@@ -337,7 +337,7 @@ impl<'m> AxisPath<'m> {
             let target = m.target[*axis] + self.frame.shift[*axis];
             end[index] = match axis.is_rotary() {
                 true => {
-                    let way = m.ways[*axis as usize - Axis::A as usize];
+                    let way = m.rotary_directions[*axis as usize - Axis::A as usize];
                     self.turned(index, target.to_radians(), way)
                 }
                 false => target,
@@ -347,20 +347,20 @@ impl<'m> AxisPath<'m> {
     }
 
     /// The angle that a rotary axis goes to.
-    fn turned(&self, axis: usize, target: f64, way: Way) -> f64 {
+    fn turned(&self, axis: usize, target: f64, way: RotaryDirection) -> f64 {
         let (now, turn) = (self.command[axis], std::f64::consts::TAU);
         let travel = self.machine.axes()[axis].travel;
         match way {
-            Way::AsWritten => target,
-            Way::Shortest => {
+            RotaryDirection::AsWritten => target,
+            RotaryDirection::Shortest => {
                 let near = target + turn * ((now - target) / turn).round();
                 let others = [near, near - turn, near + turn];
                 let inside = others.into_iter().filter(|q| travel.contains(*q));
                 let distance = |q: &f64| (q - now).abs();
                 inside.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(near)
             }
-            Way::Positive => target + turn * ((now - target) / turn - 1e-9).ceil(),
-            Way::Negative => target + turn * ((now - target) / turn + 1e-9).floor(),
+            RotaryDirection::Positive => target + turn * ((now - target) / turn - 1e-9).ceil(),
+            RotaryDirection::Negative => target + turn * ((now - target) / turn + 1e-9).floor(),
         }
     }
 

@@ -181,7 +181,7 @@ pub fn simulate(
         let place = place(program, &outcome.programs, &fault);
         problems.error(fault.code, place, fault.message, fault.hint);
     }
-    Run { problems, programs: outcome.programs, stopped: options.stop.is_asked() }
+    Run { problems, programs: outcome.programs, stopped: options.stop.is_requested() }
 }
 
 /// Executes a program as its control would; subprograms lie beside it.
@@ -270,7 +270,7 @@ impl<'w, 'o> Walk<'w, 'o> {
     fn take(&mut self, step: &Step) {
         let sound = self.path.faults.is_empty() && self.stretch.faults.is_empty();
         // Without `keep_going` the first fault ends the simulation.
-        if !(self.keep_going || sound) || self.stretch.stop.is_asked() {
+        if !(self.keep_going || sound) || self.stretch.stop.is_requested() {
             return;
         }
         let stretch = &mut self.stretch;
@@ -325,7 +325,7 @@ impl Stretch<'_, '_> {
 
     /// Everything that has its time, in batches of one temperature.
     fn evaluate(&mut self) {
-        while let Some(first) = self.stamps.first().filter(|_| !self.stop.is_asked()) {
+        while let Some(first) = self.stamps.first().filter(|_| !self.stop.is_requested()) {
             match self.present.advance(first.time_s) {
                 Ok(true) => {
                     let since_s = self.present.since_s();

@@ -83,7 +83,7 @@ fn std_numbers_alone(bencher: divan::Bencher<'_, '_>) {
     });
 }
 
-/// What the memory alone takes: each byte is looked at once.
+/// The time for reading each byte once, for comparison.
 #[divan::bench(sample_count = 10)]
 fn line_ends_alone(bencher: divan::Bencher<'_, '_>) {
     let text = text().into_bytes();

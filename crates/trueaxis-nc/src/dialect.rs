@@ -1,4 +1,4 @@
-//! What differs between the controls, as tables.
+//! The differences between the controls, as tables.
 
 use crate::heidenhain::dialect as heidenhain;
 use crate::rs274::code::Action;
@@ -10,7 +10,7 @@ use crate::sinumerik::dialect as sinumerik;
 pub enum Control {
     /// Siemens SINUMERIK 840D.
     Sinumerik840d,
-    /// FANUC and its relatives.
+    /// FANUC and compatible controls.
     Fanuc,
     /// LinuxCNC, RS274/NGC.
     LinuxCnc,
@@ -18,10 +18,10 @@ pub enum Control {
     Heidenhain,
 }
 
-/// How the programs of one control look and which codes it knows.
+/// The syntax and the codes of the programs of one control.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dialect {
-    /// Whose it is.
+    /// The control.
     pub control: Control,
     /// `( … )` is a comment.
     pub paren_comments: bool,
@@ -45,14 +45,14 @@ pub struct Dialect {
     pub fix_towards_zero: bool,
     /// The largest number of a parameter.
     pub parameters: u32,
-    /// G codes in tenths (G43.1 is 431) and what each does.
+    /// G codes in tenths (G43.1 is 431) with their actions.
     pub g_codes: &'static [(u16, Action)],
-    /// M codes and what each does.
+    /// M codes with their actions.
     pub m_codes: &'static [(u16, Action)],
 }
 
 impl Dialect {
-    /// Letters, numbers and `;` comments, nothing else: what each control adds to.
+    /// Letters, numbers and `;` comments only: the basis of all controls.
     pub(crate) const BARE: Self = Self {
         control: Control::LinuxCnc,
         paren_comments: false,
@@ -80,12 +80,12 @@ impl Dialect {
         }
     }
 
-    /// What a G code does, by its number in tenths.
+    /// The action of a G code, by its number in tenths.
     pub fn g_code(&self, tenths: u16) -> Option<Action> {
         self.g_codes.iter().find(|(code, _)| *code == tenths).map(|(_, action)| *action)
     }
 
-    /// What an M code does.
+    /// The action of an M code.
     pub fn m_code(&self, number: u16) -> Option<Action> {
         self.m_codes.iter().find(|(code, _)| *code == number).map(|(_, action)| *action)
     }

@@ -1,4 +1,4 @@
-//! What the three languages share while they execute a program.
+//! Execution of programs: the parts that the three languages share.
 
 pub(crate) mod arcs;
 pub(crate) mod drilling;
@@ -20,36 +20,36 @@ pub use library::{Library, NoLibrary};
 pub(crate) use modes::Modes;
 pub use stop::Stop;
 
-/// What the control is set to before the program begins.
+/// The state of the control before the program begins.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
-    /// Backward jumps and calls before the program counts as endless.
+    /// Largest number of backward jumps and calls; more are an endless loop.
     pub most_jumps: u64,
-    /// Calls within calls.
+    /// Largest depth of nested calls.
     pub deepest_call: usize,
-    /// Go on behind a block with an error instead of stopping there, up to 100 errors.
+    /// Whether the execution continues after a block with an error, up to 100 errors.
     pub keep_going: bool,
-    /// Execute blocks that begin with `/`.
+    /// Whether blocks that begin with `/` are executed.
     pub skipped_blocks_too: bool,
-    /// Lengths are inches until the program says otherwise.
+    /// Whether lengths are in inches until the program states the unit.
     pub inches: bool,
-    /// X words are diameters until the program says otherwise (lathes).
+    /// Whether X words are diameters until the program states otherwise (lathes).
     pub diameters: bool,
-    /// I J K are coordinates of the centre until the program says otherwise.
+    /// Whether I J K are coordinates of the centre until the program states otherwise.
     pub absolute_centers: bool,
-    /// The plane until the program says otherwise.
+    /// The plane until the program states another.
     pub plane: Plane,
-    /// Lengths of the tools by number.
+    /// Tool lengths by tool number, along each axis, mm.
     pub tools: BTreeMap<u32, Position>,
-    /// Numbers of the tools that have names.
+    /// Tool numbers by name.
     pub tool_names: BTreeMap<String, u32>,
-    /// The work offsets by number, from 1 for G54; where none is given it is zero.
+    /// Work offsets by number, from 1 for G54; zero where none is given.
     pub work_offsets: BTreeMap<u32, Frame>,
     /// Named read-only parameters of the machine, such as `_ini[axis_x]max_limit`, lower case.
     pub constants: BTreeMap<String, f64>,
-    /// Tell each block and what it computes: [`Event::Block`](crate::Event::Block), [`Event::Computed`](crate::Event::Computed).
-    pub tell_blocks: bool,
-    /// Asked from outside, the execution ends before the next block.
+    /// Whether each block and its computed values are reported: [`Event::Block`](crate::Event::Block), [`Event::Computed`](crate::Event::Computed).
+    pub report_blocks: bool,
+    /// On request through this flag, the execution ends before the next block.
     pub stop: Stop,
 }
 
@@ -68,19 +68,19 @@ impl Default for Settings {
             tool_names: BTreeMap::new(),
             work_offsets: BTreeMap::new(),
             constants: BTreeMap::new(),
-            tell_blocks: false,
+            report_blocks: false,
             stop: Stop::default(),
         }
     }
 }
 
-/// How the execution ended and what was found on the way.
+/// The result of an execution.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
     /// All problems with their places.
     pub problems: Diagnostics,
-    /// The program came to its end; `false` if an error, or somebody, stopped it.
+    /// Whether the program was executed to its end; `false` after an error or a stop on request.
     pub finished: bool,
-    /// The programs by the number in [`Origin::program`](crate::moves::Origin::program).
+    /// The names of the programs, by the number in [`Origin::program`](crate::moves::Origin::program).
     pub programs: Vec<String>,
 }

@@ -7,7 +7,7 @@
 //! A block is executed while it is read: Klartext has no expression that reaches beyond its block,
 //! so no tree is built.
 //!
-//! What is left out, each with a warning: radius and 3D compensation, RND and CHF (the corner is
+//! Not applied, each with a warning: radius and 3D compensation, RND and CHF (the corner is
 //! kept), APPR (a line to its point), cycles other than drilling, patterns, probing, datum tables,
 //! M140 MB MAX, M103, M109, M138 … Errors, because the path would be unknown: free contours (FK),
 //! PLANE PROJECTED and AXIAL, structured IF, FOR and WHILE, and values that only the machine knows
@@ -36,7 +36,8 @@ use std::rc::Rc;
 
 use crate::execution::{Core, Language, Next, Outcome};
 use crate::moves::{
-    Axis, CompensationSide, Coordinates, Event, Move, MoveKind, OrientationPath, Position, Way,
+    Axis, CompensationSide, Coordinates, Event, Move, MoveKind, OrientationPath, Position,
+    RotaryDirection,
 };
 use crate::text::program::{Fault, Program, fault};
 use cycles::Cycle;
@@ -58,7 +59,7 @@ struct Modes {
     coolant: bool,
     /// M126: rotary axes take the shortest way.
     shortest: bool,
-    /// How the tool axis turns, as the receiver was told last.
+    /// The last reported motion of the tool axis.
     orientation: OrientationPath,
     /// FUNCTION TCPM AXIS SPAT: A B C are space angles.
     space_angles: bool,
@@ -173,15 +174,15 @@ impl<'r> Run<'r> {
         if line.skip && !self.core.settings.skipped_blocks_too {
             return Ok(Next::Following);
         }
-        let told = self.core.settings.tell_blocks;
-        if told {
+        let reported = self.core.settings.report_blocks;
+        if reported {
             self.core.emit(Event::Block { text: line.start..line.end });
         }
         if line.tokens.is_empty() {
             return Ok(Next::Following);
         }
         let mut cursor = Cursor::new(program.source(), line);
-        let steers = told && (self.variable(&mut cursor.clone())?.is_some() || cursor.steers());
+        let steers = reported && (self.variable(&mut cursor.clone())?.is_some() || cursor.steers());
         let next = self.statement(&mut cursor)?;
         cursor.finish()?;
         if steers {
@@ -190,7 +191,7 @@ impl<'r> Run<'r> {
         Ok(next)
     }
 
-    /// A move of which every value is told; the place is kept.
+    /// A move of which every value is reported; the position is kept.
     fn emit_move(&mut self, mut step: Move, at: usize) -> Result<(), Fault> {
         let numbers = step.target.0.iter().chain(step.direction.iter().flatten());
         if !numbers.chain([&step.feed.value]).all(|v| v.abs() < 1e9) {
@@ -201,7 +202,7 @@ impl<'r> Run<'r> {
             for (i, turned) in self.turned.iter_mut().enumerate() {
                 let (axis, target) = (3 + i, step.target.0[3 + i]);
                 let before = self.frames.position.0[axis];
-                if step.ways[i] == Way::Shortest && target != before {
+                if step.rotary_directions[i] == RotaryDirection::Shortest && target != before {
                     // The display shows the written angle, whatever turns the axis has made.
                     *turned += before + shortest_deg(target - before) - target;
                 }
@@ -226,7 +227,7 @@ impl<'r> Run<'r> {
         }
         let mut step = self.core.plain_move(kind, target, named);
         if self.modes.shortest {
-            step.ways = [Way::Shortest; 3];
+            step.rotary_directions = [RotaryDirection::Shortest; 3];
         }
         self.emit_move(step, at)
     }

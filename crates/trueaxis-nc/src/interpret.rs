@@ -1,4 +1,4 @@
-//! One door for all controls: a program goes to the language that it is written in.
+//! The common entry point for all controls: a program is executed by the rules of its control.
 
 use crate::dialect::Control;
 use crate::execution::{Core, Library, Outcome, Settings};
@@ -6,7 +6,8 @@ use crate::moves::Step;
 use crate::text::program::Program;
 use crate::{heidenhain, rs274, sinumerik};
 
-/// Executes a program; every move and event goes to `take` as soon as it is known.
+/// Executes a program. Each move and event is passed to `take` in the order of execution; the outcome
+/// has the problems.
 ///
 /// ```
 /// use trueaxis_nc::{Control, NoLibrary, Program, Settings, Step, interpret};

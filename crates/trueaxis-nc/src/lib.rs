@@ -1,20 +1,20 @@
-//! What was programmed? NC programs of four controls, read without loss and executed into moves.
+//! NC programs of four controls, read without loss and executed to moves.
 //!
 //! ```text
 //!     bytes ──text──> blocks ──rs274, sinumerik, heidenhain──> moves, events ──> Step by Step
 //!                              └── execution: what the three languages share
 //! ```
 //!
-//! # The three things to know
+//! # Overview
 //!
-//! 1. A [`Program`] is a text with its [`Control`]. It is kept as it is: [`Program::print`] gives
-//!    every byte back, [`Program::check`] lists what is wrong with the text as such.
-//! 2. [`interpret`] executes a program by the rules of its control, with [`Settings`] for what the
-//!    control knows beforehand (tool lengths, work offsets) and a [`Library`] for subprograms.
-//! 3. What comes out is a [`Step`] at a time: a [`Move`] with its target in the program frame (mm,
-//!    degrees), or an [`Event`] such as a work offset, a tool change, a frame. The [`Outcome`] has
-//!    the problems: each with a code, a place, a message and a hint. The same mistake has the same
-//!    code and message in every language.
+//! 1. A [`Program`] is a text with its [`Control`]. The text is not changed: [`Program::print`]
+//!    returns every byte, [`Program::check`] lists the errors of the text.
+//! 2. [`interpret`] executes a program by the rules of its control, with [`Settings`] for the data of
+//!    the control (tool lengths, work offsets) and a [`Library`] for subprograms.
+//! 3. The result is a sequence of [`Step`]s: a [`Move`] with its target in the program frame (mm,
+//!    degrees), or an [`Event`] such as a work offset, a tool change, a frame. The [`Outcome`]
+//!    contains the problems, each with a code, a place, a message and a hint. The same mistake has
+//!    the same code and message in every language.
 //!
 //! # A first program
 //!
@@ -33,8 +33,8 @@
 //! assert_eq!(moves[1].feed.value, 254.0);
 //! ```
 //!
-//! The same in the words of another control gives the same moves, and a mistake is told with its
-//! place:
+//! The same path in the language of another control gives the same moves. A mistake is reported with
+//! its place:
 //!
 //! ```
 //! use trueaxis_nc::{Control, NoLibrary, Program, Settings, interpret};
@@ -51,11 +51,11 @@
 //! # Further parts
 //!
 //! - [`writer`] writes programs for the same four controls.
-//! - [`moves`] holds the vocabulary of what comes out, [`code`] and [`dialect`] what the controls
-//!   write differently, [`lexer`] and [`program`] the text; [`sinumerik`] reads dumps of a set-up.
+//! - [`moves`] defines moves and events, [`code`] and [`dialect`] the differences between the
+//!   controls, [`lexer`] and [`program`] the text; [`sinumerik`] reads archives of a set-up.
 //!
-//! The crate knows no machine: where the axes really go, and how fast, is asked elsewhere. It opens
-//! no file: subprograms come through a [`Library`].
+//! The crate has no model of the machine: axis positions and times are computed elsewhere. It opens
+//! no file: subprograms are read through a [`Library`].
 
 pub mod dialect;
 mod execution;

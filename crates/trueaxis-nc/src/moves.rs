@@ -1,16 +1,23 @@
-//! What comes out: moves and what happens between them.
+//! The result of an execution: moves, and the events between them.
+//!
+//! Positions are in mm for linear axes and in degrees for rotary axes, as in programs. Frames:
+//!
+//! - *program frame*: the coordinates of the program, in mm whatever the programmed unit;
+//! - *basic frame*: the machine coordinates while all rotary axes are at zero; [`Frame`] leads from
+//!   the program frame to it;
+//! - *machine coordinates*: axis positions from machine zero ([`Coordinates::Machine`]).
 
 use std::fmt;
 use std::ops::{Index, IndexMut, Range};
 
-/// The nine axes that a program can name.
+/// The nine axes of NC programs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Axis {
-    /// Linear.
+    /// Linear axis X.
     X,
-    /// Linear.
+    /// Linear axis Y.
     Y,
-    /// Linear.
+    /// Linear axis Z.
     Z,
     /// Rotary about X.
     A,
@@ -27,22 +34,22 @@ pub enum Axis {
 }
 
 impl Axis {
-    /// All, in the order of [`Position`].
+    /// All axes, in the order of [`Position`].
     pub const ALL: [Self; 9] =
         [Self::X, Self::Y, Self::Z, Self::A, Self::B, Self::C, Self::U, Self::V, Self::W];
 
-    /// The letter.
+    /// The letter of the axis as an ASCII byte.
     pub fn letter(self) -> u8 {
         b"XYZABCUVW"[self as usize]
     }
 
-    /// Whether it turns: its numbers are degrees.
+    /// Whether it is a rotary axis, with positions in degrees.
     pub fn is_rotary(self) -> bool {
         matches!(self, Self::A | Self::B | Self::C)
     }
 }
 
-/// Axis values: mm for linear axes, degrees for rotary ones, as programs have them.
+/// Positions of the nine axes: mm for linear axes, degrees for rotary axes.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Position(pub [f64; 9]);
 
@@ -60,17 +67,17 @@ impl IndexMut<Axis> for Position {
 }
 
 impl Position {
-    /// Axis by axis the sum.
+    /// The sum, axis by axis.
     pub fn plus(&self, other: &Self) -> Self {
         Self(std::array::from_fn(|i| self.0[i] + other.0[i]))
     }
 
-    /// Axis by axis the difference.
+    /// The difference, axis by axis.
     pub fn minus(&self, other: &Self) -> Self {
         Self(std::array::from_fn(|i| self.0[i] - other.0[i]))
     }
 
-    /// X and Y turned by an angle about Z; everything else as it was.
+    /// X and Y rotated by an angle about Z; the other axes unchanged.
     pub fn turned(&self, angle_deg: f64) -> Self {
         if angle_deg == 0.0 {
             return *self;
@@ -83,7 +90,7 @@ impl Position {
     }
 }
 
-/// Axes by name, as one bit each.
+/// A set of axes, one bit each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct AxisSet(pub u16);
 
@@ -91,73 +98,73 @@ impl AxisSet {
     /// X, Y and Z.
     pub const XYZ: Self = Self(0b111);
 
-    /// Whether an axis is in it.
+    /// Whether it contains an axis.
     pub fn contains(self, axis: Axis) -> bool {
         self.0 & (1 << axis as u16) != 0
     }
 
-    /// With one more axis.
+    /// The set with one more axis.
     #[must_use]
     pub fn with(self, axis: Axis) -> Self {
         Self(self.0 | (1 << axis as u16))
     }
 }
 
-/// Which way a rotary axis turns to its target.
+/// The direction in which a rotary axis turns to its target.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Way {
-    /// From the present angle to the written one, over as many turns as lie between.
+pub enum RotaryDirection {
+    /// From the present angle to the programmed one, including full turns.
     #[default]
     AsWritten,
-    /// The shortest way to the written angle, full turns left out: DC.
+    /// The shortest rotation to the programmed angle, without full turns: DC.
     Shortest,
-    /// In the positive direction, full turns left out: ACP.
+    /// In the positive direction, without full turns: ACP.
     Positive,
-    /// In the negative direction, full turns left out: ACN.
+    /// In the negative direction, without full turns: ACN.
     Negative,
 }
 
-/// What the numbers of a target count from.
+/// The coordinates in which a target is stated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Coordinates {
     /// The program frame.
     #[default]
     Program,
-    /// The machine zero, without any frame, tool length or transformation; only the named axes
-    /// move: G53 and SUPA of SINUMERIK, M91 of HEIDENHAIN.
+    /// Axis positions from machine zero, without frame, tool length or transformation; only the
+    /// named axes move: G53 and SUPA of SINUMERIK, M91 of HEIDENHAIN.
     Machine,
 }
 
-/// Where the program frame stands in the basic frame: `basic = linear · program + shift`.
+/// The program frame in the basic frame: `basic = linear · program + shift`.
 ///
-/// The basic frame is that of the machine coordinates while all rotary axes stand at zero. Rotary
-/// axes and U, V, W are only shifted.
+/// The basic frame is that of the machine coordinates while all rotary axes are at zero. Rotary axes
+/// and U, V, W are only shifted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
-    /// Turn, scale and mirror of X, Y and Z; row by row.
+    /// Rotation, scale and mirroring of X, Y and Z: the matrix row by row.
     pub linear: [[f64; 3]; 3],
     /// The origin of the program frame, mm and degrees.
     pub shift: Position,
 }
 
 impl Frame {
-    /// Program and basic coordinates are the same.
+    /// The frame in which program and basic coordinates are equal.
     pub const IDENTITY: Self = Self {
         linear: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         shift: Position([0.0; 9]),
     };
 
-    /// A shift alone.
+    /// A frame with a shift only, mm and degrees.
     pub fn shifted(shift: Position) -> Self {
         Self { shift, ..Self::IDENTITY }
     }
 
-    /// A vector of the program frame in the basic frame.
+    /// Converts a vector from the program frame to the basic frame.
     pub fn vector(&self, v: [f64; 3]) -> [f64; 3] {
         self.linear.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
     }
 
-    /// A place of the program frame in the basic frame.
+    /// Converts a position from the program frame to the basic frame.
     pub fn place(&self, p: &Position) -> Position {
         let mut out = p.plus(&self.shift);
         let turned = self.vector([p.0[0], p.0[1], p.0[2]]);
@@ -167,7 +174,7 @@ impl Frame {
         out
     }
 
-    /// `inner` is applied first, then `self`.
+    /// The product of two frames: `inner` is applied first, then `self`.
     #[must_use]
     pub fn after(&self, inner: &Self) -> Self {
         let mut linear = [[0.0; 3]; 3];
@@ -179,7 +186,8 @@ impl Frame {
         Self { linear, shift: self.place(&inner.shift) }
     }
 
-    /// A place of the basic frame in the program frame; `None` if the frame squeezes space flat.
+    /// Converts a position from the basic frame to the program frame; `None` if the matrix has no
+    /// inverse.
     pub fn inverse_place(&self, p: &Position) -> Option<Position> {
         let m = &self.linear;
         let minor = |a: usize, b: usize| {
@@ -200,43 +208,45 @@ impl Frame {
     }
 }
 
-/// How the tool axis gets from one direction to the next while the tip moves.
+/// The motion of the tool axis from one direction to the next while the tip moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum OrientationPath {
-    /// The rotary axes move evenly: ORIAXES, ORIMKS, and all controls without vectors.
+    /// The rotary axes are interpolated linearly: ORIAXES, ORIMKS, and all controls without vectors.
     Axes,
-    /// In the plane of both directions: ORIVECT, ORIPLANE, TCPM with PATHCTRL VECTOR.
+    /// In the plane of the two directions: ORIVECT, ORIPLANE, TCPM with PATHCTRL VECTOR.
     GreatCircle,
-    /// On a cone: ORICONCW, ORICONCCW, ORICONIO, ORICONTO; it holds for the next move only.
+    /// On a cone, for the next move only: ORICONCW, ORICONCCW, ORICONIO, ORICONTO.
     Cone(Cone),
 }
 
-/// A cone that the tool axis moves on; what is not given follows from the ends.
+/// The cone on which the tool axis moves; values that are not given follow from the end directions.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Cone {
-    /// Its axis in the program frame: A6 B6 C6.
+    /// Its axis in the program frame, of any length: A6 B6 C6.
     pub axis: Option<[f64; 3]>,
-    /// A direction on the way: A7 B7 C7 of ORICONIO.
+    /// An intermediate direction in the program frame, of any length: A7 B7 C7 of ORICONIO.
     pub through: Option<[f64; 3]>,
-    /// The angle between the axis and each line, half the opening: NUT.
+    /// The angle between its axis and its generatrices, half of the opening angle, degrees: NUT.
     pub half_opening_deg: Option<f64>,
-    /// The angle that is travelled about the axis: PSI.
+    /// The angle of rotation about its axis, degrees: PSI.
     pub angle_deg: Option<f64>,
-    /// Right-handed about the axis (ORICONCW); `None` the shorter way or by `through`.
+    /// Whether the rotation is right-handed about the axis (ORICONCW); `None`: the shorter rotation,
+    /// or the one through `through`.
     pub ccw: Option<bool>,
-    /// The cone continues the last one without a corner: ORICONTO.
+    /// Whether the cone continues the previous one tangentially: ORICONTO.
     pub tangential: bool,
 }
 
-/// Which of the poses with the same tool axis is taken.
+/// The choice between the solutions of the rotary axes for the same tool axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Branch {
-    /// The one with the least rotary travel.
+    /// The solution with the least rotary travel.
     #[default]
     Nearest,
-    /// The first rotary axis of the head, or the last of the table, at a positive angle: SEQ+.
+    /// The solution with the first rotary axis of the head, or the last of the table, at a positive
+    /// angle: SEQ+.
     Positive,
-    /// The same at a negative angle: SEQ-.
+    /// The same with a negative angle: SEQ-.
     Negative,
 }
 
@@ -252,7 +262,7 @@ pub enum Plane {
 }
 
 impl Plane {
-    /// First and second axis of the plane and the one that stands on it, right-handed.
+    /// The first and second axis of the plane and the axis perpendicular to it, right-handed.
     pub fn axes(self) -> [Axis; 3] {
         match self {
             Self::Xy => [Axis::X, Axis::Y, Axis::Z],
@@ -262,7 +272,7 @@ impl Plane {
     }
 }
 
-/// What F means.
+/// The meaning of F.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FeedMode {
     /// G94: mm/min (degrees/min if only rotary axes move).
@@ -273,43 +283,44 @@ pub enum FeedMode {
     PerRevolution,
 }
 
-/// A feed with its meaning.
+/// A feed with its unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Feed {
-    /// What the value means.
+    /// The unit of the value.
     pub mode: FeedMode,
-    /// mm/min, 1/min or mm/revolution; 0 where none is programmed.
+    /// The value in mm/min (degrees/min if only rotary axes move), 1/min or mm/revolution; 0 if none
+    /// is programmed.
     pub value: f64,
 }
 
 /// A circle or helix in the program frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Arc {
-    /// Its plane.
+    /// The plane of the circle.
     pub plane: Plane,
     /// The centre along the first and the second axis of the plane, mm.
     pub center_mm: [f64; 2],
-    /// Begun turns: 1 up to and including a full circle.
+    /// Number of turns begun: 1 up to and including a full circle.
     pub turns: u32,
-    /// Counter-clockwise seen against the axis of the plane.
+    /// Whether it is counter-clockwise, seen against the axis perpendicular to the plane.
     pub ccw: bool,
 }
 
 /// A circle or helix in any plane of the program frame: CIP, CT, polar circles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpatialArc {
-    /// The centre, mm.
+    /// The centre in the program frame, mm.
     pub center_mm: [f64; 3],
-    /// The axis; the tool turns counter-clockwise about it.
+    /// The unit vector of the axis in the program frame; the tool moves counter-clockwise about it.
     pub normal: [f64; 3],
-    /// Begun turns: 1 up to and including a full circle.
+    /// Number of turns begun: 1 up to and including a full circle.
     pub turns: u32,
 }
 
-/// How a place is reached.
+/// The kind of motion to a target.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum MoveKind {
-    /// As fast as the machine can.
+    /// Rapid traverse.
     Rapid,
     /// A straight line with feed.
     Linear,
@@ -317,37 +328,37 @@ pub enum MoveKind {
     Arc(Arc),
     /// A circle or helix in any plane.
     SpatialArc(SpatialArc),
-    /// The rotary axes turn, as fast as they can, until the tool stands along Z of the program
-    /// frame: G53.1, CYCLE800, PLANE MOVE and TURN. The target tells nothing.
+    /// The rotary axes turn in rapid traverse until the tool axis is along Z of the program frame:
+    /// G53.1, CYCLE800, PLANE MOVE and TURN. The target has no meaning.
     Align {
-        /// The tip stays where it is on the workpiece; otherwise the linear axes stand still.
+        /// Whether the tip keeps its position on the workpiece; otherwise the linear axes do not move.
         keep_tip: bool,
-        /// Which pose.
+        /// The choice of the solution.
         branch: Branch,
     },
-    /// A straight line that keeps step with the spindle.
+    /// A straight line synchronised with the spindle.
     Thread {
-        /// mm per revolution.
+        /// Pitch, mm per revolution.
         pitch_mm: f64,
     },
-    /// To the place and back, in step with the spindle.
+    /// To the target and back, synchronised with the spindle.
     RigidTap {
-        /// mm per revolution.
+        /// Pitch, mm per revolution.
         pitch_mm: f64,
     },
-    /// A straight line until the probe trips; here it never does.
+    /// A straight line until the probe triggers; it never triggers here.
     Probe,
-    /// Nothing moves.
+    /// A dwell without motion.
     Dwell {
-        /// How long.
+        /// Duration, s.
         seconds: f64,
     },
 }
 
-/// Where in which program a move was written.
+/// The place in the programs at which a move was written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Origin {
-    /// 0 is the main program, then subprograms in the order of their first call.
+    /// The program: 0 for the main program, then subprograms in the order of their first call.
     pub program: u32,
     /// The line, from 1.
     pub line: u32,
@@ -355,32 +366,31 @@ pub struct Origin {
 
 /// One move of the tool.
 ///
-/// The target is in the program frame: what the program says, after units and increments, before
-/// work offset, shift, rotation and tool length, which [`Event`]s tell.
+/// The target is in the program frame: the programmed values after units and increments, before work
+/// offset, shift, rotation and tool length, which [`Event`]s report.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Move {
-    /// How.
+    /// The kind of motion.
     pub kind: MoveKind,
-    /// Where to, mm and degrees.
+    /// The target, mm and degrees, in the coordinates stated by `coordinates`.
     pub target: Position,
-    /// The axes that the block names; the others keep their place, rotary axes also their angle
+    /// The axes programmed in the block; the others keep their position, rotary axes also their angle
     /// unless a direction is given.
     pub named: AxisSet,
-    /// How A, B and C turn to their targets.
-    pub ways: [Way; 3],
-    /// What the target counts from.
+    /// The directions of rotation of A, B and C to their targets.
+    pub rotary_directions: [RotaryDirection; 3],
+    /// The coordinates of the target.
     pub coordinates: Coordinates,
-    /// The direction of the tool axis in the program frame where it is programmed as a vector, as
-    /// it is written, of any length.
+    /// The tool axis in the program frame if it is programmed as a vector; of any length, as written.
     pub direction: Option<[f64; 3]>,
-    /// How fast; of no meaning to [`MoveKind::Rapid`].
+    /// The feed; without meaning for [`MoveKind::Rapid`].
     pub feed: Feed,
-    /// The block.
+    /// The block of the move.
     pub origin: Origin,
 }
 
 impl Move {
-    /// A move in program coordinates without a direction of its own.
+    /// A move in program coordinates without a tool direction.
     pub fn plain(
         kind: MoveKind,
         target: Position,
@@ -388,19 +398,20 @@ impl Move {
         feed: Feed,
         origin: Origin,
     ) -> Self {
-        let (ways, coordinates) = ([Way::AsWritten; 3], Coordinates::Program);
-        Self { kind, target, named, ways, coordinates, direction: None, feed, origin }
+        let (rotary_directions, coordinates) =
+            ([RotaryDirection::AsWritten; 3], Coordinates::Program);
+        Self { kind, target, named, rotary_directions, coordinates, direction: None, feed, origin }
     }
 }
 
-/// Which way the spindle turns.
+/// The direction of rotation of the spindle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Turning {
-    /// Not at all.
+pub enum SpindleDirection {
+    /// The spindle is stopped.
     Stopped,
-    /// Clockwise seen from the spindle.
+    /// Clockwise, seen from the spindle towards the workpiece (M3).
     Clockwise,
-    /// Counter-clockwise.
+    /// Counter-clockwise (M4).
     CounterClockwise,
 }
 
@@ -415,83 +426,83 @@ pub enum Coolant {
     Off,
 }
 
-/// On which side of the path the cutter stands.
+/// The side of the path on which the cutter is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CompensationSide {
     /// On the path.
     Off,
-    /// Left of it.
+    /// Left of the path (G41).
     Left,
-    /// Right of it.
+    /// Right of the path (G42).
     Right,
 }
 
 /// How corners are passed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PathControl {
-    /// Along the programmed path.
+    /// Along the programmed path, without a stop.
     ExactPath,
-    /// Stopping at each corner.
+    /// With a stop at each corner.
     ExactStop,
-    /// Rounded, within P.
+    /// Rounded within a tolerance.
     Continuous,
 }
 
-/// What happens between the moves.
+/// An event between the moves.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Event {
-    /// A tool is prepared.
+    /// A tool is selected, by number.
     ToolSelect(u32),
-    /// That tool comes into the spindle.
+    /// The tool of this number is changed into the spindle.
     ToolChange(u32),
-    /// The spindle turns or stops.
-    Spindle(Turning),
-    /// Revolutions per minute, or m/min with surface speed.
+    /// The spindle starts or stops.
+    Spindle(SpindleDirection),
+    /// The spindle speed, 1/min, or m/min with constant surface speed.
     SpindleSpeed(f64),
     /// The spindle is oriented to an angle.
     SpindleOrient {
-        /// In degrees.
+        /// The angle, degrees.
         angle_deg: f64,
     },
     /// Coolant.
     Coolant(Coolant),
-    /// Another work offset, or another value of it: machine = offset + turn(program + shift) + tool.
+    /// A work offset becomes active or changes: machine = offset + rotation(program + shift) + tool.
     WorkOffset {
         /// Its number, from 1 for G54.
         index: u32,
-        /// The offset.
+        /// The offset, mm and degrees.
         offset: Position,
-        /// The turn about Z.
+        /// The rotation about Z, degrees.
         rotation_deg: f64,
     },
-    /// The shift of the axes (G92, G52).
+    /// The shift of the axes (G92, G52), mm and degrees.
     Shift(Position),
-    /// The tool length, along each axis.
+    /// The tool length along each axis, mm.
     ToolLength(Position),
-    /// The whole of offsets, shifts, turns and scales has changed: this is what moves are read
-    /// with. Without [`Event::ToolCentre`] and [`Event::TiltedPlane`] the axes go to
-    /// frame(target) + tool length; with one of them the tip, in the workpiece, goes to
-    /// frame(target), however the rotary axes stand.
+    /// The product of offsets, shifts, rotations and scales has changed; the following moves are
+    /// read with this frame. Without [`Event::ToolCentre`] and [`Event::TiltedPlane`] the axes move
+    /// to frame(target) + tool length; with one of them the tip, in the workpiece frame, moves to
+    /// frame(target) for any position of the rotary axes.
     Frame(Frame),
-    /// The tip of the tool is programmed (TCP) or the axes are.
+    /// Tool-centre-point control is switched on (targets are those of the tip) or off (of the axes).
     ToolCentre(bool),
-    /// The frame is tied to a swivelled plane of the workpiece: CYCLE800, G68.2, PLANE.
+    /// A tilted working plane is switched on or off: CYCLE800, G68.2, PLANE.
     TiltedPlane(bool),
-    /// How the tool axis moves between directions from here on.
+    /// The motion of the tool axis between directions, from here on.
     Orientation(OrientationPath),
-    /// The next tool by its name, for controls that call tools so; its number is in the event of
-    /// selection or change that follows.
+    /// The next tool by its name, for controls with tool names; the following event of selection or
+    /// change states its number.
     ToolName(String),
     /// The plane of arcs and cycles.
     Plane(Plane),
-    /// Radius compensation is wanted; the moves are those of the program.
+    /// Radius compensation is programmed; the moves are not compensated.
     Compensation(CompensationSide),
-    /// How corners are passed; tolerance in mm, 0 if none is given.
+    /// The mode in which corners are passed.
     Path {
-        /// The way.
+        /// The mode.
         control: PathControl,
-        /// How far from the corner.
+        /// Tolerance at corners, mm; 0 if none is programmed.
         tolerance_mm: f64,
     },
     /// The blank in the program frame, mm: two corners of a box along the axes.
@@ -507,26 +518,26 @@ pub enum Event {
     Log(String),
     /// A stop, optional or not.
     Stop {
-        /// Only if the operator wished so.
+        /// Whether it is an optional stop (M1).
         optional: bool,
     },
-    /// A block is executed; told only where [`crate::Settings::tell_blocks`] asks for it, before what
-    /// the block does.
+    /// A block is executed; reported before its moves, and only with
+    /// [`crate::Settings::report_blocks`].
     Block {
-        /// Its bytes in its program, line end included.
+        /// The range of its bytes in its program, line end included.
         text: Range<usize>,
     },
-    /// A part of the block just told that the program computes, or that only steers the execution;
-    /// told with the blocks.
+    /// A part of the last reported block that the program computes, or that only controls the
+    /// execution; reported with the blocks.
     Computed {
-        /// Its bytes; blanks behind it may be among them.
+        /// The range of its bytes, possibly with blanks after it.
         text: Range<usize>,
-        /// Its value; `None` for what steers: assignments, labels, jumps, calls.
+        /// Its value; `None` for assignments, labels, jumps and calls.
         value: Option<f64>,
     },
     /// The end of the program.
     End,
-    /// Something of no effect on the path.
+    /// A function without effect on the path, by name.
     Note(&'static str),
 }
 
@@ -535,7 +546,7 @@ pub enum Event {
 pub enum Step {
     /// The tool moves.
     Move(Move),
-    /// Something else happens.
+    /// An event, with the block that causes it.
     Event(Event, Origin),
 }
 

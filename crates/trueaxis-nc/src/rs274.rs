@@ -14,9 +14,9 @@ mod frames;
 pub(crate) mod linuxcnc;
 mod parameters;
 mod quick;
+mod reported;
 mod straight;
 mod tables;
-mod told;
 mod values;
 mod words;
 
@@ -97,7 +97,7 @@ impl<'r> Language<'r> for Run<'r> {
     fn advance(&mut self, block: &mut Block) -> Result<Next, Fault> {
         let Some(top) = self.stack.last() else { return Ok(Next::Finished) };
         let program = Rc::clone(&self.core.programs[top.program]);
-        if !self.core.settings.tell_blocks {
+        if !self.core.settings.report_blocks {
             self.straight_lines(program.source());
         }
         let Some(top) = self.stack.last() else { return Ok(Next::Finished) };
@@ -158,7 +158,7 @@ impl<'r> Run<'r> {
         line: u32,
         block: &mut Block,
     ) -> Result<Next, Fault> {
-        let quick = match self.core.settings.tell_blocks {
+        let quick = match self.core.settings.report_blocks {
             true => None,
             false => self.quick(program.dialect(), program.source(), at),
         };

@@ -149,8 +149,8 @@ impl<'r> Run<'r> {
         tokens: &mut Vec<Token>,
     ) -> Result<Next, Fault> {
         self.depth = 0;
-        let told = self.core.settings.tell_blocks;
-        if !told && let Some(end) = self.quick(program.source(), at) {
+        let reported = self.core.settings.report_blocks;
+        if !reported && let Some(end) = self.quick(program.source(), at) {
             self.end = end;
             return self.perform();
         }
@@ -163,13 +163,13 @@ impl<'r> Run<'r> {
             return Err(fault);
         }
         let mut reader = Reader::new(program.source(), tokens, line.stop);
-        if !told {
+        if !reported {
             return self.statement(&mut reader);
         }
         self.core.emit(Event::Block { text: at..line.end });
         let next = self.statement(&mut reader)?;
         if next == Next::Jumped {
-            self.core.tell_steering(at..line.end);
+            self.core.report_steering(at..line.end);
         }
         Ok(next)
     }

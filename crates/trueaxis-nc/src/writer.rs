@@ -1,12 +1,12 @@
 //! Writes NC programs for the four controls.
 //!
 //! ```text
-//!     Block (what every control can do) ──Writer──> text of one control
+//!     Block (common to all controls)    ──Writer──> text of one control
 //!                                   Templates: start, tool call, tool-centre point, end
 //! ```
 //!
-//! What is written reads back, by [`interpret`](crate::interpret), as the same moves to the least
-//! increment. Words that would say nothing new are left out.
+//! [`interpret`](crate::interpret) reads the text back as the same moves to the least increment.
+//! Modal words that do not change are omitted.
 //!
 //! ```
 //! use trueaxis_nc::moves::{Axis, Feed, FeedMode};
@@ -40,63 +40,65 @@ pub use number::MOST_DECIMALS;
 pub use template::{BUILT_IN, Templates};
 
 use crate::dialect::Control;
-use crate::moves::{Axis, AxisSet, Coolant, Coordinates, Feed, FeedMode, Position, Turning};
+use crate::moves::{
+    Axis, AxisSet, Coolant, Coordinates, Feed, FeedMode, Position, SpindleDirection,
+};
 use number::Form;
 
-/// A block was written, or why not.
-type Written = Result<(), WriteError>;
+/// The result of writing a block.
+type WriteResult = Result<(), WriteError>;
 
-/// One block of a program, in words that all controls share.
+/// One block of a program, independent of the control.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Block<'a> {
-    /// The beginning, by the template.
+    /// The start of the program, by the template.
     Start(&'a Heading<'a>),
-    /// A remark for people.
+    /// A comment.
     Comment(&'a str),
-    /// A tool comes into the spindle, by the template.
+    /// A tool change, by the template.
     Tool(&'a ToolCall<'a>),
-    /// The spindle turns at a speed in revolutions per minute, or stops.
-    Spindle(Turning, f64),
+    /// The spindle starts with a speed in 1/min, or stops.
+    Spindle(SpindleDirection, f64),
     /// Coolant on or off.
     Coolant(Coolant),
-    /// From here on the tip of the tool is programmed (TCP), by the template.
+    /// Tool-centre-point control on, by the template: the following targets are those of the tip.
     TipOn(TipWords),
-    /// From here on axes are programmed again, by the template.
+    /// Tool-centre-point control off, by the template: the following targets are axis positions.
     TipOff,
-    /// As fast as the machine can.
+    /// A move in rapid traverse.
     Rapid(Target),
     /// A straight line with feed.
     Line(Target, Feed),
-    /// Nothing moves for some seconds.
+    /// A dwell, s.
     Dwell(f64),
-    /// A text on the screen.
+    /// A message to the operator.
     Message(&'a str),
     /// A stop, with a text for the operator.
     Stop {
-        /// Only if the operator wished so.
+        /// Whether it is an optional stop (M1).
         optional: bool,
-        /// What the operator shall do.
+        /// The instruction for the operator.
         message: Option<&'a str>,
     },
-    /// Lines of the control's own language, as they are; nothing is known to be modal behind them.
+    /// Lines in the language of the control, unchanged; after them all modal words are written again.
     Text(&'a str),
     /// The end, by the template.
     End,
 }
 
-/// What the program is called and what its first lines say.
+/// The name of the program and the content of its first lines.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Heading<'a> {
-    /// Its name; letters, digits and `_` remain of it.
+    /// Its name; characters other than letters, digits and `_` are removed.
     pub name: &'a str,
-    /// Its number where programs have one (FANUC's O word).
+    /// Its number, for controls with program numbers (the O word of FANUC).
     pub number: u32,
-    /// Remarks.
+    /// Comments.
     pub comments: &'a [&'a str],
-    /// Coordinates without tool-centre point are positions of the axes from the machine zero, tool
-    /// length included; see [`axis_coordinates`].
+    /// Whether coordinates without tool-centre-point control are axis positions from machine zero,
+    /// tool length included; see [`axis_coordinates`].
     pub machine_coordinates: bool,
-    /// How far corners may be rounded, mm (where the template asks for it).
+    /// Tolerance for the rounding of corners, mm (if the template uses it).
     pub tolerance_mm: f64,
 }
 
@@ -112,18 +114,18 @@ impl Default for Heading<'_> {
     }
 }
 
-/// A tool and its speed.
+/// A tool and its spindle speed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ToolCall<'a> {
     /// Its number.
     pub number: u32,
-    /// What it is, for people.
+    /// Its description, for a comment.
     pub text: &'a str,
-    /// Revolutions per minute, for controls that name them with the tool.
+    /// Spindle speed, 1/min, for controls that state it with the tool.
     pub speed_per_minute: Option<f64>,
 }
 
-/// How the tool axis is written while the tip is programmed.
+/// The form of the tool axis while tool-centre-point control is on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TipWords {
     /// By the rotary axes: G43.4, TRAORI with A and C, TCPM AXIS POS.
@@ -132,21 +134,21 @@ pub enum TipWords {
     Vectors,
 }
 
-/// Where a block leads.
+/// The target of a block.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Target {
-    /// mm and degrees; of meaning for the named axes.
+    /// The position, mm and degrees; used for the named axes only.
     pub place: Position,
     /// The axes that move.
     pub named: AxisSet,
-    /// The tool axis, where it is written as a vector.
+    /// The tool axis, if it is written as a vector.
     pub direction: Option<[f64; 3]>,
-    /// What the numbers count from.
+    /// The coordinates of the position.
     pub coordinates: Coordinates,
 }
 
 impl Target {
-    /// With one more axis, mm or degrees.
+    /// The target with one more axis, mm or degrees.
     #[must_use]
     pub fn at(mut self, axis: Axis, value: f64) -> Self {
         self.place[axis] = value;
@@ -154,25 +156,25 @@ impl Target {
         self
     }
 
-    /// With a tool axis.
+    /// The target with a tool axis.
     #[must_use]
     pub fn along(self, direction: [f64; 3]) -> Self {
         Self { direction: Some(direction), ..self }
     }
 
-    /// Counted from the machine zero.
+    /// The target in machine coordinates.
     #[must_use]
     pub fn from_machine_zero(self) -> Self {
         Self { coordinates: Coordinates::Machine, ..self }
     }
 }
 
-/// What a program must have its axis positions counted from, if tool-centre point is not to be used
-/// and no offset or tool length is to count.
+/// The coordinates in which a program states axis positions without tool-centre-point control, work
+/// offset and tool length.
 ///
-/// HEIDENHAIN (M91) and LinuxCNC (G53) say so in each block. SINUMERIK switches offset and length
-/// off (G500 D0); FANUC has neither, so that its G54 must be 0: the start templates do and say so
-/// with [`Heading::machine_coordinates`].
+/// HEIDENHAIN (M91) and LinuxCNC (G53) state this in each block. SINUMERIK switches offset and length
+/// off (G500 D0); FANUC has neither, so that its G54 must be 0: the start templates write this with
+/// [`Heading::machine_coordinates`].
 pub fn axis_coordinates(control: Control) -> Coordinates {
     match control {
         Control::Heidenhain | Control::LinuxCnc => Coordinates::Machine,
@@ -180,16 +182,16 @@ pub fn axis_coordinates(control: Control) -> Coordinates {
     }
 }
 
-/// How many digits numbers have.
+/// The numbers of decimals.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Decimals {
-    /// Of mm: 4 is 0.1 µm.
+    /// Decimals of mm: 4 is 0.1 µm.
     pub linear: u8,
-    /// Of degrees: 5 turns a tool axis by less than 1e-7.
+    /// Decimals of degrees: 5 is a resolution of 0.2 µrad.
     pub angle: u8,
-    /// Of the parts of a vector.
+    /// Decimals of the components of a vector.
     pub vector: u8,
-    /// Of feeds, speeds and times.
+    /// Decimals of feeds, speeds and times.
     pub feed: u8,
 }
 
@@ -205,10 +207,10 @@ impl Decimals {
     }
 }
 
-/// Why a block cannot be written.
+/// The reason why a block cannot be written.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum WriteError {
-    /// A number that no control reads.
+    /// A number that is not finite or too large for a control.
     #[error("{word} = {value} cannot be written: it is not finite or too large for a machine")]
     Number {
         /// The word.
@@ -216,30 +218,30 @@ pub enum WriteError {
         /// Its value.
         value: f64,
     },
-    /// A feed that is 0 to the least increment.
+    /// A feed that is not above zero after rounding.
     #[error("the feed {value} is not above zero with {decimals} decimals, as a feed move needs")]
     Feed {
-        /// What was asked for.
+        /// The feed.
         value: f64,
-        /// The decimals of the style.
+        /// The number of decimals.
         decimals: u8,
     },
-    /// The control has no such word.
+    /// The control has no word for it.
     #[error("{control} cannot write {what}; {instead}")]
     NotInDialect {
-        /// Whose dialect.
+        /// The control.
         control: &'static str,
-        /// What was asked for.
+        /// The function that cannot be written.
         what: &'static str,
-        /// What to do.
+        /// The action to take instead.
         instead: &'static str,
     },
-    /// A template that cannot be filled in.
+    /// A template that cannot be rendered.
     #[error("the template of the program does not work: {0}")]
     Template(String),
 }
 
-/// What the control was told last, in least increments; `None`: not known.
+/// The last written modal values, in least increments; `None`: not known.
 #[derive(Debug, Clone, PartialEq, Default)]
 struct Modal {
     rapid: Option<bool>,
@@ -268,12 +270,12 @@ pub struct Writer {
 }
 
 impl Writer {
-    /// With the usual number of decimals and the built-in templates.
+    /// A writer with the usual numbers of decimals and the built-in templates.
     pub fn new(control: Control) -> Self {
         Self::with(control, Decimals::default(), Templates::of(control))
     }
 
-    /// With other decimals or templates.
+    /// A writer with other decimals or templates.
     pub fn with(control: Control, decimals: Decimals, templates: Templates) -> Self {
         Self {
             control,
@@ -289,7 +291,7 @@ impl Writer {
         }
     }
 
-    /// How many digits numbers have.
+    /// The numbers of decimals.
     pub fn decimals(&self) -> Decimals {
         self.decimals
     }
@@ -299,22 +301,22 @@ impl Writer {
         &self.text
     }
 
-    /// The line that the next block begins, from 1.
+    /// The number of the line on which the next block begins, from 1.
     pub fn next_line(&self) -> usize {
         self.text.iter().filter(|b| **b == b'\n').count() + 1
     }
 
-    /// The text.
+    /// The complete text.
     pub fn finish(self) -> Vec<u8> {
         self.text
     }
 
-    /// Takes the text that is ready out, for programs that are written in pieces.
+    /// Takes the finished part of the text, for programs that are written in pieces.
     pub fn take_text(&mut self) -> Vec<u8> {
         std::mem::take(&mut self.text)
     }
 
-    /// Writes a block; moves that lead nowhere new are left out.
+    /// Writes a block; moves to the present position are omitted.
     ///
     /// # Errors
     /// [`WriteError`]; nothing of the block is written then.

@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use trueaxis_cl::{ClFile, Reading, Word};
-use trueaxis_nc::moves::{Axis, Branch, Coordinates, Frame, Position, Way};
+use trueaxis_nc::moves::{Axis, Branch, Coordinates, Frame, Position, RotaryDirection};
 use trueaxis_nc::{Control, Library, MoveKind, NoLibrary, Program, Settings, Step, interpret};
 
 /// A folder or file of the outside data, or `None` with a message.
@@ -173,7 +173,7 @@ fn shown(step: &Step) -> String {
             if m.coordinates == Coordinates::Machine {
                 text.push_str(" machine");
             }
-            if m.ways != [Way::AsWritten; 3] {
+            if m.rotary_directions != [RotaryDirection::AsWritten; 3] {
                 text.push_str(" shortest");
             }
             if let Some(d) = m.direction {
@@ -207,7 +207,7 @@ fn place(origin: &trueaxis_nc::moves::Origin) -> String {
     }
 }
 
-/// To six decimals, without the noise behind them.
+/// To six decimals, without the noise beyond them.
 fn number(value: f64) -> String {
     let text = format!("{:.6}", value + 0.0);
     let text = text.trim_end_matches('0').trim_end_matches('.');

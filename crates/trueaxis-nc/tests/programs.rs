@@ -93,7 +93,7 @@ fn difference(file: &Path, control: Control, bad: bool) -> Option<String> {
     }
     let expected = PathBuf::from(format!("{}.expected", file.display()));
     let Ok(expected) = std::fs::read_to_string(&expected) else {
-        return Some(format!("{name}: no .expected beside it\n    {}", shown()));
+        return Some(format!("{name}: the file .expected is missing\n    {}", shown()));
     };
     let wanted: Vec<_> =
         expected.lines().filter(|l| !l.starts_with('#') && !l.trim().is_empty()).collect();

@@ -10,7 +10,8 @@ use std::path::{Path, PathBuf};
 
 use support::outside;
 use trueaxis_nc::moves::{
-    Axis, Coordinates, Frame, OrientationPath, PathControl, Position, Turning, Way,
+    Axis, Coordinates, Frame, OrientationPath, PathControl, Position, RotaryDirection,
+    SpindleDirection,
 };
 use trueaxis_nc::sinumerik::read_archive;
 use trueaxis_nc::{
@@ -67,8 +68,8 @@ fn move_text(m: &Move) -> String {
             write!(text, " {axis}{}", short(m.target[axis])).unwrap();
         }
     }
-    for (axis, way) in [Axis::A, Axis::B, Axis::C].into_iter().zip(m.ways) {
-        if way != Way::AsWritten {
+    for (axis, way) in [Axis::A, Axis::B, Axis::C].into_iter().zip(m.rotary_directions) {
+        if way != RotaryDirection::AsWritten {
             write!(text, " {axis}:{way:?}").unwrap();
         }
     }
@@ -112,7 +113,7 @@ fn event_text(event: &Event) -> String {
                 cone.tangential
             )
         }
-        Event::Spindle(Turning::Stopped) => "spindle off".into(),
+        Event::Spindle(SpindleDirection::Stopped) => "spindle off".into(),
         Event::Spindle(turning) => format!("spindle {turning:?}"),
         Event::SpindleSpeed(speed) => format!("speed {}", short(*speed)),
         other => format!("{other:?}"),

@@ -188,7 +188,7 @@ proptest! {
     }
 
     /// The machine stays where it is while frames change: a place reached in machine coordinates
-    /// reads the same, by whatever frames, when it is told as a target in them.
+    /// reads the same, by whatever frames, when it is stated as a target in them.
     #[test]
     fn law_frames_change_and_the_machine_stays(
         shift in -100.0..100.0_f64,

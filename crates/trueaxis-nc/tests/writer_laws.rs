@@ -1,7 +1,7 @@
 //! What the writer writes, the interpreter reads back.
 
 use proptest::prelude::*;
-use trueaxis_nc::moves::{Axis, Coolant, Event, Feed, FeedMode, Move, MoveKind, Turning};
+use trueaxis_nc::moves::{Axis, Coolant, Event, Feed, FeedMode, Move, MoveKind, SpindleDirection};
 use trueaxis_nc::writer::{
     Block, Decimals, Heading, Target, Templates, TipWords, ToolCall, WriteError, Writer,
 };
@@ -30,7 +30,7 @@ fn moves(steps: &[Step]) -> Vec<Move> {
 
 /// A place to which a move leads, by the machine's own axes or the tip with its axis.
 #[derive(Debug, Clone)]
-enum Way {
+enum RotaryDirection {
     Rapid,
     PerMinute(f64),
     Inverse(f64),
@@ -39,7 +39,7 @@ enum Way {
 #[derive(Debug, Clone)]
 struct Wanted {
     target: Target,
-    way: Way,
+    way: RotaryDirection,
 }
 
 fn value() -> impl Strategy<Value = f64> {
@@ -48,9 +48,9 @@ fn value() -> impl Strategy<Value = f64> {
 
 fn wanted() -> impl Strategy<Value = Wanted> {
     let way = prop_oneof![
-        Just(Way::Rapid),
-        (0.01..20_000.0).prop_map(Way::PerMinute),
-        (0.01..5_000.0).prop_map(Way::Inverse),
+        Just(RotaryDirection::Rapid),
+        (0.01..20_000.0).prop_map(RotaryDirection::PerMinute),
+        (0.01..5_000.0).prop_map(RotaryDirection::Inverse),
     ];
     (prop::collection::vec((0..5_usize, value()), 1..5), way).prop_map(|(axes, way)| {
         let names = [Axis::X, Axis::Y, Axis::Z, Axis::A, Axis::C];
@@ -64,16 +64,16 @@ fn rounded(value: f64, decimals: u8) -> f64 {
     (value * scale).round_ties_even() / scale
 }
 
-fn allows(control: Control, way: &Way) -> bool {
-    !(control == Control::Heidenhain && matches!(way, Way::Inverse(_)))
+fn allows(control: Control, way: &RotaryDirection) -> bool {
+    !(control == Control::Heidenhain && matches!(way, RotaryDirection::Inverse(_)))
 }
 
 fn block(wanted: &Wanted) -> Block<'static> {
     let feed = |mode, value| Block::Line(wanted.target, Feed { mode, value });
     match wanted.way {
-        Way::Rapid => Block::Rapid(wanted.target),
-        Way::PerMinute(value) => feed(FeedMode::PerMinute, value),
-        Way::Inverse(value) => feed(FeedMode::InverseTime, value),
+        RotaryDirection::Rapid => Block::Rapid(wanted.target),
+        RotaryDirection::PerMinute(value) => feed(FeedMode::PerMinute, value),
+        RotaryDirection::Inverse(value) => feed(FeedMode::InverseTime, value),
     }
 }
 
@@ -84,12 +84,12 @@ fn assert_same(wanted: &Wanted, place: &[f64; 9], came: &Move, text: &str) {
         assert!((a - b).abs() < 1e-9, "{axis}: {a} {b}\n{text}");
     }
     match wanted.way {
-        Way::Rapid => assert_eq!(came.kind, MoveKind::Rapid, "{text}"),
-        Way::PerMinute(f) => {
+        RotaryDirection::Rapid => assert_eq!(came.kind, MoveKind::Rapid, "{text}"),
+        RotaryDirection::PerMinute(f) => {
             assert_eq!((came.kind, came.feed.mode), (MoveKind::Linear, FeedMode::PerMinute));
             assert!((came.feed.value - rounded(f, 3)).abs() < 1e-9, "{text}");
         }
-        Way::Inverse(f) => {
+        RotaryDirection::Inverse(f) => {
             assert_eq!((came.kind, came.feed.mode), (MoveKind::Linear, FeedMode::InverseTime));
             assert!((came.feed.value - rounded(f, 3)).abs() < 1e-9, "{text}");
         }
@@ -208,13 +208,13 @@ fn law_everything_else_reads_back() {
         for block in [
             Block::Start(&Heading::default()),
             Block::Tool(&call),
-            Block::Spindle(Turning::Clockwise, 12_000.0),
+            Block::Spindle(SpindleDirection::Clockwise, 12_000.0),
             Block::Coolant(Coolant::Flood),
             Block::Rapid(near),
             Block::Dwell(1.5),
             Block::Line(near.at(Axis::X, 5.0), feed),
             Block::Coolant(Coolant::Off),
-            Block::Spindle(Turning::Stopped, 0.0),
+            Block::Spindle(SpindleDirection::Stopped, 0.0),
             Block::Stop { optional: false, message: Some("measure") },
             Block::Rapid(Target::default().at(Axis::Z, -0.5).from_machine_zero()),
             Block::Line(near, feed),
@@ -229,8 +229,8 @@ fn law_everything_else_reads_back() {
             |wanted: &Event| steps.iter().any(|s| matches!(s, Step::Event(e, _) if e == wanted));
         assert!(event(&Event::ToolChange(4)), "{text}");
         assert!(event(&Event::SpindleSpeed(12_000.0)), "{text}");
-        assert!(event(&Event::Spindle(Turning::Clockwise)), "{text}");
-        assert!(event(&Event::Spindle(Turning::Stopped)), "{text}");
+        assert!(event(&Event::Spindle(SpindleDirection::Clockwise)), "{text}");
+        assert!(event(&Event::Spindle(SpindleDirection::Stopped)), "{text}");
         assert!(event(&Event::Coolant(Coolant::Flood)) && event(&Event::Coolant(Coolant::Off)));
         assert!(event(&Event::Stop { optional: false }) && event(&Event::End), "{text}");
         let moves = moves(&steps);

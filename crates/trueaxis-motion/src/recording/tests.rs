@@ -316,7 +316,7 @@ fn a_simulation_ends_when_it_is_asked_to() {
     impl Observer for Asks {
         fn path(&mut self, batch: &Batch<'_>) {
             self.1 += batch.nodes.len();
-            self.0.ask();
+            self.0.request();
         }
     }
     let (machine, setup) = (machine(), SetUp::default());

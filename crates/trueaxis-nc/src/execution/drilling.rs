@@ -1,7 +1,7 @@
 //! Drilling cycles as strokes along the axis that stands on the plane.
 
 use super::{Language, mistakes};
-use crate::moves::{Event, Feed, MoveKind, Position, Turning};
+use crate::moves::{Event, Feed, MoveKind, Position, SpindleDirection};
 use crate::text::program::Fault;
 
 /// Pecks of one block: more than any program means.
@@ -21,7 +21,7 @@ pub(crate) enum Stroke {
     /// Waits that many seconds.
     Dwell(f64),
     /// The spindle turns otherwise.
-    Turn(Turning),
+    Turn(SpindleDirection),
     /// What else happens.
     Event(Event),
 }
@@ -94,11 +94,11 @@ pub(crate) fn check_pecks(count: f64, most: f64, at: usize) -> Result<(), Fault>
 }
 
 /// The other way round.
-pub(crate) fn reversed(turning: Turning) -> Turning {
+pub(crate) fn reversed(turning: SpindleDirection) -> SpindleDirection {
     match turning {
-        Turning::Clockwise => Turning::CounterClockwise,
-        Turning::CounterClockwise => Turning::Clockwise,
-        Turning::Stopped => Turning::Stopped,
+        SpindleDirection::Clockwise => SpindleDirection::CounterClockwise,
+        SpindleDirection::CounterClockwise => SpindleDirection::Clockwise,
+        SpindleDirection::Stopped => SpindleDirection::Stopped,
     }
 }
 

@@ -39,17 +39,17 @@ pub(crate) trait Language<'r> {
     /// Executes what comes next: a block, some plain ones, or the end of a text.
     fn advance(&mut self, room: &mut Self::Room) -> Result<Next, Fault>;
 
-    /// Goes on behind a block that had an error.
+    /// Continues after a block with an error.
     fn pass_over(&mut self, room: &Self::Room);
 
     /// Tells the frame if it has changed.
     fn emit_frame(&mut self);
 
-    /// Executes the program; `false` if an error, or somebody, stopped it.
+    /// Executes the program; `false` after an error or a stop on request.
     fn run(&mut self) -> bool {
         let mut room = Self::Room::default();
         self.emit_frame();
-        while !self.core().settings.stop.is_asked() {
+        while !self.core().settings.stop.is_requested() {
             match self.advance(&mut room) {
                 Ok(Next::Finished) => return true,
                 Ok(Next::Following | Next::Jumped) => {}
@@ -89,8 +89,8 @@ pub(crate) struct Core<'r> {
     pub modes: Modes,
     /// Backward jumps and calls.
     jumps: u64,
-    /// The frame as it was told last.
-    told: Frame,
+    /// The last reported frame.
+    reported_frame: Frame,
     problems: Diagnostics,
     errors: usize,
     /// Nothing can go on, whatever the settings say.
@@ -115,7 +115,7 @@ impl<'r> Core<'r> {
             start: 0,
             modes: Modes::new(settings),
             jumps: 0,
-            told: Frame::IDENTITY,
+            reported_frame: Frame::IDENTITY,
             problems: Diagnostics::new(),
             errors: 0,
             stopped: false,
@@ -148,17 +148,17 @@ impl<'r> Core<'r> {
 
     /// Tells the frame if it has changed, and whether it has.
     pub fn emit_frame(&mut self, frame: Frame) -> bool {
-        let changed = frame != self.told;
+        let changed = frame != self.reported_frame;
         if changed {
-            self.told = frame;
+            self.reported_frame = frame;
             self.emit(Event::Frame(frame));
         }
         changed
     }
 
     /// A part of the block that only steers the execution, if anybody asks.
-    pub fn tell_steering(&mut self, text: std::ops::Range<usize>) {
-        if self.settings.tell_blocks {
+    pub fn report_steering(&mut self, text: std::ops::Range<usize>) {
+        if self.settings.report_blocks {
             self.emit(Event::Computed { text, value: None });
         }
     }
@@ -170,7 +170,7 @@ impl<'r> Core<'r> {
         self.errors += 1;
     }
 
-    /// Reports a fault; whether the run goes on behind its block.
+    /// Reports a fault; whether the run continues after its block.
     fn goes_on_after(&mut self, fault: Fault) -> bool {
         self.report(fault);
         self.settings.keep_going && !self.stopped && self.errors < MOST_ERRORS

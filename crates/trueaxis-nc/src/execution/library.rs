@@ -1,23 +1,24 @@
-//! What a program asks from outside: other programs, and what only the machine knows.
+//! Access of a program to other programs and to the kinematics of the machine.
 
 use crate::moves::{Branch, Position};
 
-/// Gives the text of subprograms by name, and angles of the machine; this crate opens no file and
-/// knows no machine.
+/// Provides the texts of subprograms by name and the rotary angles of the machine: this crate opens no
+/// file and has no model of the machine.
 pub trait Library {
     /// The text of a program.
     ///
     /// # Errors
-    /// A sentence that says why it cannot be had.
+    /// A sentence that states why it cannot be read.
     fn text(&self, name: &str) -> Result<Vec<u8>, String>;
 
-    /// How to show the program to the user.
+    /// The name of the program in diagnostics.
     fn display(&self, name: &str) -> String {
         name.to_owned()
     }
 
-    /// A, B and C in degrees at which the tool stands along a direction of the basic frame; the
-    /// axes that the machine lacks are 0. `None` where no machine is known or none reaches it.
+    /// The angles A, B and C in degrees at which the tool axis is along a direction of the basic
+    /// frame; 0 for axes that the machine does not have. `None` without a machine, or if the machine
+    /// does not reach the direction.
     fn rotary_angles(
         &self,
         _direction: [f64; 3],
@@ -28,7 +29,7 @@ pub trait Library {
     }
 }
 
-/// No subprograms but those in the program itself.
+/// A library without programs: only subprograms in the program itself are found.
 #[derive(Debug, Clone, Copy)]
 pub struct NoLibrary;
 

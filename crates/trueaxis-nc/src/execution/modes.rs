@@ -3,7 +3,7 @@
 use super::{Core, Settings, mistakes};
 use crate::moves::{
     Axis, AxisSet, CompensationSide, Event, Feed, FeedMode, Move, MoveKind, Plane, Position,
-    Turning,
+    SpindleDirection,
 };
 use crate::text::program::Fault;
 
@@ -16,7 +16,7 @@ pub(crate) struct Modes {
     pub plane: Plane,
     pub feed: Feed,
     pub speed: f64,
-    pub turning: Turning,
+    pub turning: SpindleDirection,
     /// The tool that is prepared.
     pub selected: u32,
     /// The tool in the spindle.
@@ -34,7 +34,7 @@ impl Modes {
             plane: settings.plane,
             feed: Feed { mode: FeedMode::PerMinute, value: 0.0 },
             speed: 0.0,
-            turning: Turning::Stopped,
+            turning: SpindleDirection::Stopped,
             selected: 0,
             tool: 0,
             tool_centre: false,
@@ -100,7 +100,7 @@ impl Core<'_> {
         self.emit(Event::Plane(plane));
     }
 
-    pub fn turn_spindle(&mut self, turning: Turning) {
+    pub fn turn_spindle(&mut self, turning: SpindleDirection) {
         self.modes.turning = turning;
         self.emit(Event::Spindle(turning));
     }
@@ -127,7 +127,7 @@ impl Core<'_> {
     /// The tool that is prepared comes into the spindle, which stops.
     pub fn change_tool(&mut self) {
         self.modes.tool = self.modes.selected;
-        self.modes.turning = Turning::Stopped;
+        self.modes.turning = SpindleDirection::Stopped;
         self.emit(Event::ToolChange(self.modes.tool));
     }
 

@@ -1,9 +1,9 @@
-//! A wish to stop, asked from another thread.
+//! A request to stop, from another thread.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A flag that all its clones share: whoever waits for a long run asks it to stop.
+/// A flag shared by all its clones, by which another thread ends a long run.
 ///
 /// ```
 /// use trueaxis_nc::{Control, NoLibrary, Program, Settings, Stop, interpret};
@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// let settings = Settings { stop: stop.clone(), ..Settings::default() };
 /// let outcome = interpret(&program, &NoLibrary, &settings, &mut |_| {
 ///     moves += 1;
-///     stop.ask();
+///     stop.request();
 /// });
 /// assert!(!outcome.finished && !outcome.problems.has_errors() && moves < 10);
 /// ```
@@ -21,13 +21,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub struct Stop(Arc<AtomicBool>);
 
 impl Stop {
-    /// Whoever looks at this flag ends its work.
-    pub fn ask(&self) {
+    /// Requests the end of the run.
+    pub fn request(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Whether somebody asked.
-    pub fn is_asked(&self) -> bool {
+    /// Whether the end was requested.
+    pub fn is_requested(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 }
@@ -38,9 +38,9 @@ impl From<Arc<AtomicBool>> for Stop {
     }
 }
 
-/// By what they say now.
+/// Equal if both have the same state now.
 impl PartialEq for Stop {
     fn eq(&self, other: &Self) -> bool {
-        self.is_asked() == other.is_asked()
+        self.is_requested() == other.is_requested()
     }
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::frames::Transformation;
 use super::line::Cursor;
-use super::variables::{Stored, Variable};
+use super::variables::{StoredValue, Variable};
 use super::words::Words;
 use super::{Language, Run, fault};
 use crate::execution::mistakes;
@@ -241,7 +241,7 @@ impl Run<'_> {
                     *c = ahead;
                     if let Some(value) = self.cycle_value(c)? {
                         values.insert(q, value);
-                        self.variables.store(Variable::Global(q), Stored::Number(value));
+                        self.variables.store(Variable::Global(q), StoredValue::Number(value));
                     }
                 }
                 // The name of the cycle.
@@ -331,7 +331,7 @@ impl Run<'_> {
         Ok(next)
     }
 
-    /// M99 calls the cycle behind the move of its block, M89 behind each.
+    /// M99 calls the cycle after the move of its block, M89 after each.
     pub(super) fn cycle_of_block(&mut self, words: &Words) -> Result<Next, Fault> {
         if words.calls(99) {
             self.modes.cycle_everywhere = false;

@@ -186,7 +186,7 @@ impl Run<'_> {
         strokes
     }
 
-    /// Tapping with a floating chuck: the spindle turns round at the bottom.
+    /// Tapping with a floating chuck: the spindle reverses at the bottom.
     fn tap(&self, hole: &Hole) -> Vec<Stroke> {
         let turning = self.core.modes.turning;
         let mut strokes = vec![Stroke::Linear(hole.bottom), Stroke::Turn(reversed(turning))];

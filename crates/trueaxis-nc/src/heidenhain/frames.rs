@@ -48,7 +48,7 @@ impl Transformation {
 /// The manual (TNC 620, working plane coordinate system): "the result of transformations built up
 /// on each other depends on the programming sequence". So they are kept in the order in which they
 /// were switched on; a new value of one that is on takes the place of the old value, but only
-/// behind the tilt if it was programmed behind the tilt.
+/// after the tilt if it was programmed after the tilt.
 #[derive(Debug, Clone)]
 pub(super) struct Frames {
     /// The present place in the program frame, mm and degrees.
@@ -133,7 +133,7 @@ impl Frames {
             None if neutral => {}
             None => chain.push(new.clone()),
         }
-        // Of a kind that was on before and behind a tilt one is left when the tilt has ended.
+        // Of a kind that was on before and after a tilt, one remains when the tilt has ended.
         if let Some(index) = self.found(&new) {
             let kept = index + usize::from(!neutral);
             let mut place = 0;

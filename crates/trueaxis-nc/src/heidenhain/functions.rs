@@ -1,9 +1,11 @@
 //! The M functions: a table of what each does and when.
 
-use super::words::{Called, Words};
+use super::words::{FunctionCall, Words};
 use super::{Run, fault};
 use crate::execution::frames::unit;
-use crate::moves::{Axis, Coolant, Event, Feed, FeedMode, MoveKind, OrientationPath, Turning};
+use crate::moves::{
+    Axis, Coolant, Event, Feed, FeedMode, MoveKind, OrientationPath, SpindleDirection,
+};
 use crate::text::program::Fault;
 
 /// What an M function does.
@@ -11,9 +13,9 @@ use crate::text::program::Fault;
 enum Effect {
     Stop(bool),
     End,
-    Spindle(Turning),
+    Spindle(SpindleDirection),
     Coolant(Coolant),
-    SpindleAndCoolant(Turning),
+    SpindleAndCoolant(SpindleDirection),
     /// Read with the axis words: M91, M92, M98, M99, M130 …
     WithBlock,
     ReduceRotary,
@@ -33,15 +35,15 @@ static FUNCTIONS: &[(u32, bool, Effect)] = &[
     (0, true, Effect::Stop(false)),
     (1, true, Effect::Stop(true)),
     (2, true, Effect::End),
-    (3, false, Effect::Spindle(Turning::Clockwise)),
-    (4, false, Effect::Spindle(Turning::CounterClockwise)),
-    (5, true, Effect::Spindle(Turning::Stopped)),
+    (3, false, Effect::Spindle(SpindleDirection::Clockwise)),
+    (4, false, Effect::Spindle(SpindleDirection::CounterClockwise)),
+    (5, true, Effect::Spindle(SpindleDirection::Stopped)),
     (6, true, Effect::Note("M6 tool change")),
     (7, false, Effect::Coolant(Coolant::Mist)),
     (8, false, Effect::Coolant(Coolant::Flood)),
     (9, true, Effect::Coolant(Coolant::Off)),
-    (13, false, Effect::SpindleAndCoolant(Turning::Clockwise)),
-    (14, false, Effect::SpindleAndCoolant(Turning::CounterClockwise)),
+    (13, false, Effect::SpindleAndCoolant(SpindleDirection::Clockwise)),
+    (14, false, Effect::SpindleAndCoolant(SpindleDirection::CounterClockwise)),
     (19, true, Effect::Note("M19 oriented stop of the spindle")),
     (30, true, Effect::End),
     (89, true, Effect::CycleEverywhere),
@@ -116,7 +118,12 @@ impl Run<'_> {
         Ok(false)
     }
 
-    fn effect(&mut self, effect: Effect, called: &Called, words: &Words) -> Result<bool, Fault> {
+    fn effect(
+        &mut self,
+        effect: Effect,
+        called: &FunctionCall,
+        words: &Words,
+    ) -> Result<bool, Fault> {
         match effect {
             Effect::Stop(optional) => self.core.emit(Event::Stop { optional }),
             Effect::End => {
@@ -180,7 +187,7 @@ impl Run<'_> {
     }
 
     /// M94: the display of rotary axes is brought below a full turn; nothing moves.
-    fn reduce_rotary(&mut self, called: &Called) {
+    fn reduce_rotary(&mut self, called: &FunctionCall) {
         for axis in [Axis::A, Axis::B, Axis::C] {
             if called.axes.0 != 0 && !called.axes.contains(axis) {
                 continue;
@@ -193,7 +200,7 @@ impl Run<'_> {
     }
 
     /// M140 MB: away from the workpiece along the tool axis.
-    fn retract(&mut self, called: &Called) -> Result<(), Fault> {
+    fn retract(&mut self, called: &FunctionCall) -> Result<(), Fault> {
         let Some(length_mm) = called.value.filter(|v| v.is_finite()) else {
             let message = "M140 MB MAX moves to the end of the travel, which is not known here";
             let hint = "the retraction is missing from the path; write MB with a length";

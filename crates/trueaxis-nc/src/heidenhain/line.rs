@@ -16,7 +16,7 @@ pub(super) struct Line {
     pub tokens: Vec<Token>,
     /// The first byte.
     pub start: usize,
-    /// One behind the last byte, with the line end.
+    /// The offset after the last byte, with the line end.
     pub end: usize,
     /// How many lines of the text it has.
     pub lines: u32,
@@ -145,7 +145,7 @@ impl<'s> Cursor<'s> {
         self.taken = 0;
     }
 
-    /// The byte of the next word, or behind the last one.
+    /// The byte of the next word, or the offset after the last one.
     pub fn offset(&self) -> usize {
         match self.token() {
             Some(token) => token.start + self.taken,
@@ -302,7 +302,7 @@ impl<'s> Cursor<'s> {
         }
     }
 
-    /// Nothing may be left over.
+    /// Nothing may remain unread.
     pub fn finish(&self) -> Result<(), Fault> {
         if self.done() { Ok(()) } else { Err(self.unknown()) }
     }

@@ -8,7 +8,8 @@ use crate::execution::Next;
 use crate::execution::frames::unit;
 use crate::execution::mistakes;
 use crate::moves::{
-    Axis, AxisSet, CompensationSide, Coordinates, Event, Feed, FeedMode, MoveKind, Position, Way,
+    Axis, AxisSet, CompensationSide, Coordinates, Event, Feed, FeedMode, MoveKind, Position,
+    RotaryDirection,
 };
 use crate::text::program::Fault;
 
@@ -200,7 +201,7 @@ impl Run<'_> {
         for (i, axis) in rotary.into_iter().enumerate() {
             let increment = words.axes[axis as usize].is_some_and(|w| w.incremental);
             if self.modes.shortest && !increment {
-                step.ways[i] = Way::Shortest;
+                step.rotary_directions[i] = RotaryDirection::Shortest;
             }
         }
         self.emit_move(step, words.at)?;

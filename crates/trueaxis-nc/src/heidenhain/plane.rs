@@ -2,7 +2,7 @@
 
 use super::frames::Transformation;
 use super::line::Cursor;
-use super::variables::{Stored, Variable};
+use super::variables::{StoredValue, Variable};
 use super::words::{FeedWord, split_address};
 use super::{Language, Run, fault};
 use crate::execution::frames::{about, cross, dot, from_axes, minus, unit};
@@ -187,7 +187,7 @@ impl Run<'_> {
         for i in 0..3 {
             let variable = Variable::Global(120 + i as u32);
             match angles {
-                Some(angles) => self.variables.store(variable, Stored::Number(angles[i])),
+                Some(angles) => self.variables.store(variable, StoredValue::Number(angles[i])),
                 None => self.undefine(variable),
             }
         }

@@ -1,7 +1,7 @@
 //! What a block begins with, and the statements that move nothing.
 
 use super::line::Cursor;
-use super::variables::{Stored, Variable};
+use super::variables::{StoredValue, Variable};
 use super::words::{Words, split_address};
 use super::{Run, fault};
 use crate::execution::values::{self, finite, not_zero};
@@ -125,7 +125,7 @@ impl Run<'_> {
                 c.accept("TABREAD");
                 c.accept_symbol(b':');
                 if let Some(target) = self.variable(c)? {
-                    self.variables.store(target, Stored::Unknown("it is in a table"));
+                    self.variables.store(target, StoredValue::Unknown("it is in a table"));
                 }
                 c.leave();
                 Ok(Next::Following)
@@ -180,7 +180,7 @@ impl Run<'_> {
             13 => a.atan2(second(self, 0, "ANG")?).to_degrees().rem_euclid(360.0),
             _ => a,
         };
-        self.variables.store(target, Stored::Number(finite(value, at)?));
+        self.variables.store(target, StoredValue::Number(finite(value, at)?));
         Ok(())
     }
 
@@ -211,9 +211,9 @@ impl Run<'_> {
         let stored = match place.zip(axis) {
             Some((place, axis)) => {
                 let scale = if axis.is_rotary() { 1.0 } else { self.core.modes.unit_mm() };
-                Stored::Number(place[axis] / scale)
+                StoredValue::Number(place[axis] / scale)
             }
-            None => Stored::Unknown("FN 18 reads it from the machine"),
+            None => StoredValue::Unknown("FN 18 reads it from the machine"),
         };
         self.variables.store(target, stored);
         Ok(())

@@ -16,7 +16,7 @@ impl Run<'_> {
         }
     }
 
-    /// The number of a tool, by number or by name; the event of its name is told.
+    /// The number of a tool, by number or by name; the event of its name is reported.
     fn tool_number(&mut self, c: &mut Cursor<'_>) -> Result<Option<u32>, Fault> {
         let at = c.offset();
         let name = match c.text() {

@@ -1,14 +1,14 @@
 //! Numbers, formulas and texts.
 
 use super::line::Cursor;
-use super::variables::{Stored, Variable};
+use super::variables::{StoredValue, Variable};
 use super::{Run, fault};
 use crate::execution::mistakes;
 use crate::execution::values::{self, finite, not_zero};
 use crate::moves::Event;
 use crate::text::program::Fault;
 
-/// Brackets and functions within each other: enough for people, little for the stack.
+/// Largest depth of nested brackets and functions: ample for programs, small for the stack.
 const DEEPEST: usize = 60;
 
 /// Functions of one value.
@@ -32,7 +32,7 @@ impl Run<'_> {
             None => match self.variable(c)? {
                 Some(variable) => {
                     let read = self.read(variable, at)?;
-                    if self.core.settings.tell_blocks {
+                    if self.core.settings.report_blocks {
                         let value = Some(if negative { -read } else { read });
                         self.core.emit(Event::Computed { text: at..c.offset(), value });
                     }
@@ -71,7 +71,7 @@ impl Run<'_> {
             return Ok(());
         }
         let value = self.formula(c)?;
-        self.variables.store(target, Stored::Number(value));
+        self.variables.store(target, StoredValue::Number(value));
         Ok(())
     }
 

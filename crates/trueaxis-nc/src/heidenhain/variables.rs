@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::line::Cursor;
 use super::{Run, fault};
 use crate::execution::mistakes;
-use crate::moves::{Axis, Turning};
+use crate::moves::{Axis, SpindleDirection};
 use crate::text::program::Fault;
 
 /// Characters of a text parameter.
@@ -26,7 +26,7 @@ pub(super) enum Variable {
 
 /// A number, or why there is none.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Stored {
+pub(super) enum StoredValue {
     Number(f64),
     /// Only the machine knows it: what was asked for.
     Unknown(&'static str),
@@ -34,10 +34,10 @@ pub(super) enum Stored {
 
 #[derive(Debug, Default)]
 pub(super) struct Variables {
-    numbers: HashMap<Variable, Stored>,
+    numbers: HashMap<Variable, StoredValue>,
     texts: HashMap<u32, String>,
     /// QL of the programs that wait for the present one.
-    outer: Vec<HashMap<Variable, Stored>>,
+    outer: Vec<HashMap<Variable, StoredValue>>,
 }
 
 impl Variables {
@@ -55,7 +55,7 @@ impl Variables {
         self.numbers.extend(self.outer.pop().unwrap_or_default());
     }
 
-    pub fn store(&mut self, variable: Variable, value: Stored) {
+    pub fn store(&mut self, variable: Variable, value: StoredValue) {
         self.numbers.insert(variable, value);
     }
 
@@ -98,8 +98,8 @@ impl Run<'_> {
             return Err(fault("text-for-number", at, message, "write TONUMB(SRC_QS1)"));
         }
         match self.variables.numbers.get(&variable) {
-            Some(Stored::Number(value)) => Ok(*value),
-            Some(Stored::Unknown(what)) => {
+            Some(StoredValue::Number(value)) => Ok(*value),
+            Some(StoredValue::Unknown(what)) => {
                 let message = format!("the value of {} is not known: {what}", show(variable));
                 let hint = "write the number into the program";
                 Err(fault("unknown-value", at, message, hint))
@@ -111,7 +111,7 @@ impl Run<'_> {
     pub(super) fn is_defined(&self, variable: Variable) -> bool {
         match variable {
             Variable::Text(number) => self.variables.texts.contains_key(&number),
-            _ => matches!(self.variables.numbers.get(&variable), Some(Stored::Number(_))),
+            _ => matches!(self.variables.numbers.get(&variable), Some(StoredValue::Number(_))),
         }
     }
 
@@ -150,9 +150,9 @@ impl Run<'_> {
                 Some(axis) => f64::from(axis as u8),
             }),
             110 => Ok(match self.core.modes.turning {
-                Turning::Stopped => -1.0,
-                Turning::Clockwise => 0.0,
-                Turning::CounterClockwise => 1.0,
+                SpindleDirection::Stopped => -1.0,
+                SpindleDirection::Clockwise => 0.0,
+                SpindleDirection::CounterClockwise => 1.0,
             }),
             111 => Ok(f64::from(u8::from(self.modes.coolant))),
             113 => Ok(f64::from(u8::from(inches))),

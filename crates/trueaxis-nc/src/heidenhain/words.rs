@@ -42,7 +42,7 @@ pub(super) enum FeedWord {
 
 /// An M function with the words that belong to it.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Called {
+pub(super) struct FunctionCall {
     pub number: u32,
     pub at: usize,
     pub value: Option<f64>,
@@ -64,7 +64,7 @@ pub(super) struct Words {
     pub length: Option<f64>,
     pub sweep: Option<f64>,
     pub feed: Option<FeedWord>,
-    pub functions: Vec<Called>,
+    pub functions: Vec<FunctionCall>,
     /// Where the first word stands.
     pub at: usize,
 }
@@ -288,7 +288,7 @@ impl Run<'_> {
     }
 
     /// The number of an M function and the words that are its own.
-    fn function_words(&mut self, c: &mut Cursor<'_>, at: usize) -> Result<Called, Fault> {
+    fn function_words(&mut self, c: &mut Cursor<'_>, at: usize) -> Result<FunctionCall, Fault> {
         let number = match self.operand(c)? {
             Some(n) if (0.0..1e6).contains(&n) && n.fract() == 0.0 => n as u32,
             _ => {
@@ -296,7 +296,8 @@ impl Run<'_> {
                 return Err(fault("missing-value", at, message, "write M3"));
             }
         };
-        let mut called = Called { number, at, value: None, feed: None, axes: AxisSet::default() };
+        let mut called =
+            FunctionCall { number, at, value: None, feed: None, axes: AxisSet::default() };
         match number {
             // Handwheel: how far each axis may be moved by hand.
             118 => {
@@ -337,7 +338,7 @@ impl Run<'_> {
     }
 }
 
-/// The sign behind DR.
+/// The sign after DR.
 fn direction_sign(c: &mut Cursor<'_>) -> Result<bool, Fault> {
     if c.accept_symbol(b'+') {
         return Ok(true);

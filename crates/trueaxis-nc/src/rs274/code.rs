@@ -1,6 +1,6 @@
 //! What a code does, whatever its number on this or that control.
 
-use crate::moves::{CompensationSide, Coolant, FeedMode, PathControl, Plane, Turning};
+use crate::moves::{CompensationSide, Coolant, FeedMode, PathControl, Plane, SpindleDirection};
 
 /// How a motion is programmed; it lasts until another one comes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -121,7 +121,7 @@ pub enum Action {
     /// Calls a macro with letters as arguments.
     MacroCall,
     /// The spindle.
-    Spindle(Turning),
+    Spindle(SpindleDirection),
     /// Orients the spindle.
     Orient,
     /// S is a surface speed (`true`) or revolutions.

@@ -1,9 +1,11 @@
 //! The codes that mean the same to FANUC and LinuxCNC.
 
-use crate::moves::{CompensationSide as Side, Coolant, FeedMode, PathControl, Plane, Turning};
+use crate::moves::{
+    CompensationSide as Side, Coolant, FeedMode, PathControl, Plane, SpindleDirection,
+};
 use crate::rs274::code::{Action as A, Cycle, Motion};
 
-/// The common codes with those of one control behind them.
+/// The common codes followed by those of one control.
 pub(super) const fn joined<const N: usize, const M: usize, const ALL: usize>(
     common: [(u16, A); N],
     own: [(u16, A); M],
@@ -71,9 +73,9 @@ pub(super) const RS274_M_CODES: [(u16, A); 14] = [
     (0, A::Stop(false)),
     (1, A::Stop(true)),
     (2, A::End),
-    (3, A::Spindle(Turning::Clockwise)),
-    (4, A::Spindle(Turning::CounterClockwise)),
-    (5, A::Spindle(Turning::Stopped)),
+    (3, A::Spindle(SpindleDirection::Clockwise)),
+    (4, A::Spindle(SpindleDirection::CounterClockwise)),
+    (5, A::Spindle(SpindleDirection::Stopped)),
     (6, A::ToolChange),
     (7, A::Coolant(Coolant::Mist)),
     (8, A::Coolant(Coolant::Flood)),

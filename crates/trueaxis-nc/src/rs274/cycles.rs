@@ -3,7 +3,7 @@
 use super::{Run, fault};
 use crate::execution::drilling::{Drill, MOST_PECKS, Stroke, check_pecks, pecks, reversed};
 use crate::execution::mistakes;
-use crate::moves::{Event, MoveKind, Position, Turning};
+use crate::moves::{Event, MoveKind, Position, SpindleDirection};
 use crate::rs274::code::Cycle;
 use crate::text::program::Fault;
 
@@ -152,8 +152,12 @@ impl Run<'_> {
         };
         match cycle {
             Cycle::TapLeft | Cycle::TapRight => {
-                strokes.extend([turn(Turning::Stopped), turn(reversed(turning)), wait]);
-                strokes.extend([Stroke::Linear(hole.clear), turn(Turning::Stopped), turn(turning)]);
+                strokes.extend([turn(SpindleDirection::Stopped), turn(reversed(turning)), wait]);
+                strokes.extend([
+                    Stroke::Linear(hole.clear),
+                    turn(SpindleDirection::Stopped),
+                    turn(turning),
+                ]);
             }
             Cycle::Bore | Cycle::BoreDwell => {
                 strokes.extend((cycle == Cycle::BoreDwell).then_some(wait));
@@ -162,10 +166,10 @@ impl Run<'_> {
             }
             Cycle::BoreManual => {
                 let stop = Stroke::Event(Event::Stop { optional: false });
-                strokes.extend([wait, turn(Turning::Stopped), stop, out, turn(turning)]);
+                strokes.extend([wait, turn(SpindleDirection::Stopped), stop, out, turn(turning)]);
             }
             Cycle::BoreStop | Cycle::FineBore => {
-                strokes.extend([wait, turn(Turning::Stopped), out, turn(turning)]);
+                strokes.extend([wait, turn(SpindleDirection::Stopped), out, turn(turning)]);
             }
             Cycle::DrillDwell => strokes.extend([wait, out]),
             _ => strokes.push(out),

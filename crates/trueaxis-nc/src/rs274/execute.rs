@@ -18,8 +18,8 @@ impl Run<'_> {
             }
             return Err(first.clone());
         }
-        if self.core.settings.tell_blocks {
-            return self.told_block(passage);
+        if self.core.settings.report_blocks {
+            return self.report_block(passage);
         }
         self.sound_block(passage)
     }
@@ -475,7 +475,7 @@ impl Run<'_> {
     }
 }
 
-/// The name behind M98 or G65 of FANUC, and where it stands.
+/// The name after M98 or G65 of FANUC, and its byte offset.
 fn called_name<'b>(program: &Program, items: &'b [Item]) -> Option<(&'b Label, usize)> {
     let name = items.iter().find_map(|item| match item {
         Item::Control { keyword: Keyword::Call, label: Some(label), offset, .. } => {

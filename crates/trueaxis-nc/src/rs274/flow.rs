@@ -153,7 +153,7 @@ impl Run<'_> {
         Ok(Next::Jumped)
     }
 
-    /// The next mark behind a byte that fits.
+    /// The next matching mark after a byte.
     fn ahead(
         &self,
         statement: &Statement<'_>,
@@ -269,7 +269,7 @@ impl Run<'_> {
         }
     }
 
-    /// Goes behind the end of the loop.
+    /// Continues after the end of the loop.
     fn leave(&mut self, statement: &Statement<'_>) -> Result<Next, Fault> {
         let closing_while = statement.keyword == Keyword::Break;
         let mut ends = vec![Keyword::EndWhile, Keyword::EndRepeat];
@@ -329,7 +329,7 @@ impl Run<'_> {
         }
     }
 
-    /// Enters a subprogram of this text or of the library; the caller goes on behind `block`.
+    /// Enters a subprogram of this text or of the library; the caller continues after `block`.
     pub(super) fn enter(
         &mut self,
         passage: Passage<'_>,

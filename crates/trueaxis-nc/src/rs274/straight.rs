@@ -43,7 +43,7 @@ fn no_digits(digits: u64) -> u64 {
 /// pairs and halves.
 #[inline(always)]
 fn whole_number(digits: u64, count: u32) -> u64 {
-    // Two shifts, since none may be by 64; what is left stands at the end, with zeros before it.
+    // Two shifts, since none may be by 64; the remaining bytes are at the end, with zeros before them.
     let half = 32 - 4 * count;
     let kept = (digits << half) << half;
     let pairs = kept.wrapping_mul(10).wrapping_add(kept >> 8) & 0x00ff_00ff_00ff_00ff;
@@ -58,7 +58,7 @@ fn eight(source: &[u8], at: usize) -> Option<u64> {
     Some(bytes ^ 0x3030_3030_3030_3030)
 }
 
-/// A number of at most seven digits before and seven behind its point, and where it ends. The value
+/// A number of at most seven digits before and seven after its point, and where it ends. The value
 /// is exact: digits and power of ten fit in a double, so one division rounds correctly.
 ///
 /// Most numbers have no more than eight signs, the point among them: it is taken out, and the digits
@@ -99,7 +99,7 @@ fn signed(value: f64, negative: bool) -> f64 {
     f64::from_bits(value.to_bits() ^ u64::from(negative) << 63)
 }
 
-/// The same for more signs: the parts before and behind the point for themselves.
+/// The same for more characters: the parts before and after the point separately.
 #[inline(never)]
 fn long_number(source: &[u8], at: usize, negative: bool) -> Option<(f64, usize)> {
     let part = |at: usize| -> Option<(u32, u64)> {
@@ -163,7 +163,7 @@ impl Run<'_> {
         let common = Straight { unit_mm, x_mm, incremental: self.core.modes.incremental };
         let mut origin = Origin { program: program as u32, line };
         let stop = &self.core.settings.stop;
-        while !stop.is_asked()
+        while !stop.is_requested()
             && let Some(next) = self.straight_line(&common, source, at, origin)
         {
             // What comes may have to tell where this line was.

@@ -41,7 +41,7 @@ pub(super) struct Modes {
     pub transforms: Transforms,
     /// Where G28 or G30 came through last.
     pub via: Option<Position>,
-    /// What is left of G10 L50: blocks are data until G11.
+    /// G10 L50 is active: blocks are data until G11.
     pub data_input: bool,
     /// G66 and G66.1, the innermost last.
     pub macros: Vec<ModalMacro>,

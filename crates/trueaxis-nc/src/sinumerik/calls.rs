@@ -34,7 +34,7 @@ pub(super) struct Activation {
     pub line: u32,
     pub variables: HashMap<String, Variable>,
     pub sections: Vec<Repetition>,
-    /// The FOR that counts on, not anew.
+    /// The FOR that continues to count instead of beginning again.
     pub continuing: Option<usize>,
     /// Further rounds of the whole program, and where each begins.
     rounds: (u64, usize, u32),
@@ -74,7 +74,7 @@ impl Activation {
     }
 }
 
-/// What is called behind each block with a move.
+/// The subprogram called after each block with a move.
 #[derive(Debug, Clone)]
 pub(super) struct ModalCall {
     pub name: String,
@@ -223,7 +223,7 @@ impl Run<'_> {
         Ok(Argument { value: Some(self.expression(reader)?), slot })
     }
 
-    /// `P3` or `P=3` behind a call.
+    /// `P3` or `P=3` after a call.
     pub(super) fn rounds(&mut self, reader: &mut Reader<'_>) -> Result<u64, Fault> {
         if reader.letter() == Some(b'P') {
             reader.advance();

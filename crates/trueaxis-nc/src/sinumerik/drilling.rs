@@ -93,7 +93,7 @@ impl Run<'_> {
         dwell(seconds.min(1e9))
     }
 
-    /// The drill does its strokes; then the path begins anew.
+    /// The drill makes its strokes; then the path begins again.
     fn done(&mut self, strokes: Vec<Stroke>, at: usize) -> Result<(), Fault> {
         self.drill(strokes, at)?;
         self.modes.tangent = None;
@@ -111,8 +111,8 @@ impl Run<'_> {
 
     /// CYCLE83: RTP, RFP, SDIS, DP, DPR, FDEP, FDPR, DAM, DTB, DTS, FRF, VARI.
     ///
-    /// FRF slows the first peck. All pecks are as deep as the first: the degression DAM is left out,
-    /// which the user is told.
+    /// FRF slows the first peck. All pecks are as deep as the first: the degression DAM is not applied,
+    /// which is reported.
     fn drill_deep(&mut self, parameters: &Parameters<'_>) -> Result<(), Fault> {
         let at = parameters.at;
         let hole = self.hole(parameters, 19)?;

@@ -1,11 +1,11 @@
 //! Executes the words of a block: modes, tool, spindle, frames, then the move.
 
-use super::tables::{Angles, Code, Motion, Name, Turning as Way};
+use super::tables::{Angles, Code, Motion, Name, OrientationMode};
 use super::words::Words;
 use super::{Language, Next, Run, transform};
 use crate::execution::{Modes as CommonModes, Settings, mistakes};
 use crate::moves::{
-    Axis, Cone, Coolant, Event, MoveKind, OrientationPath, PathControl, Position, Turning,
+    Axis, Cone, Coolant, Event, MoveKind, OrientationPath, PathControl, Position, SpindleDirection,
 };
 use crate::text::program::Fault;
 
@@ -20,9 +20,9 @@ pub(super) struct Modes {
     pub path: (PathControl, f64),
     pub angles: Angles,
     /// Group 51 as it was written last.
-    pub turns: Option<Way>,
-    /// What was told of it; cones are told move by move.
-    pub cone: Option<Way>,
+    pub turns: Option<OrientationMode>,
+    /// The last reported mode; cones are reported move by move.
+    pub cone: Option<OrientationMode>,
     /// Words of a cone that wait for a move.
     pub next_cone: Cone,
     /// The pole of polar coordinates, in the program frame.
@@ -112,7 +112,7 @@ impl Run<'_> {
         }
     }
 
-    /// Executes the codes behind feed and tool: whether one took the words of the axes, and whether
+    /// Executes the codes after feed and tool: whether one took the words of the axes, and whether
     /// these count from the machine zero.
     fn later_codes(
         &mut self,
@@ -165,9 +165,9 @@ impl Run<'_> {
         for (m, at) in &words.m {
             match m {
                 0 | 1 | 2 | 17 | 30 => {}
-                3 => self.core.turn_spindle(Turning::Clockwise),
-                4 => self.core.turn_spindle(Turning::CounterClockwise),
-                5 => self.core.turn_spindle(Turning::Stopped),
+                3 => self.core.turn_spindle(SpindleDirection::Clockwise),
+                4 => self.core.turn_spindle(SpindleDirection::CounterClockwise),
+                5 => self.core.turn_spindle(SpindleDirection::Stopped),
                 6 => self.change_tool(words.edge.map(|(edge, _)| edge), *at),
                 7 => self.core.emit(Event::Coolant(Coolant::Mist)),
                 8 => self.core.emit(Event::Coolant(Coolant::Flood)),
@@ -196,7 +196,7 @@ impl Run<'_> {
                 PathControl::ExactStop => PathControl::Continuous,
                 other => other,
             };
-            self.tell_path(control, tolerance * self.core.modes.unit_mm());
+            self.report_path(control, tolerance * self.core.modes.unit_mm());
         }
         let mut noted = Vec::new();
         words.named.retain(|(name, ..)| match name {
@@ -211,7 +211,7 @@ impl Run<'_> {
         }
     }
 
-    pub(super) fn tell_path(&mut self, control: PathControl, tolerance_mm: f64) {
+    pub(super) fn report_path(&mut self, control: PathControl, tolerance_mm: f64) {
         self.modes.path = (control, tolerance_mm);
         self.core.emit(Event::Path { control, tolerance_mm });
     }
@@ -242,11 +242,11 @@ impl Run<'_> {
                 self.core.tool_centre(on);
             }
             Code::Angles(angles) => self.modes.angles = angles,
-            Code::Turning(way) => self.turn_by(way),
+            Code::Orientation(way) => self.turn_by(way),
             Code::Compensation(side) => self.core.compensate(side, at),
             Code::Path(control, with_distance) => {
                 let distance = if with_distance { words.take(Name::Tolerance) } else { None };
-                self.tell_path(
+                self.report_path(
                     control,
                     distance.map_or(0.0, |(d, ..)| d * self.core.modes.unit_mm()),
                 );
@@ -390,15 +390,15 @@ impl Run<'_> {
         self.modes.pole = pole;
     }
 
-    fn turn_by(&mut self, way: Way) {
+    fn turn_by(&mut self, way: OrientationMode) {
         self.modes.cone = None;
         self.modes.next_cone = Cone::default();
         let path = match way {
-            Way::Axes | Way::Machine => OrientationPath::Axes,
-            Way::Vector => OrientationPath::GreatCircle,
+            OrientationMode::Axes | OrientationMode::Machine => OrientationPath::Axes,
+            OrientationMode::Vector => OrientationPath::GreatCircle,
             // Without a word of group 51, ORIWKS means the great circle.
-            Way::Workpiece => match self.modes.turns {
-                Some(Way::Axes) => OrientationPath::Axes,
+            OrientationMode::Workpiece => match self.modes.turns {
+                Some(OrientationMode::Axes) => OrientationPath::Axes,
                 _ => OrientationPath::GreatCircle,
             },
             _ => {
@@ -407,7 +407,7 @@ impl Run<'_> {
                 return;
             }
         };
-        if !matches!(way, Way::Machine | Way::Workpiece) {
+        if !matches!(way, OrientationMode::Machine | OrientationMode::Workpiece) {
             self.modes.turns = Some(way);
         }
         self.core.emit(Event::Orientation(path));
@@ -465,8 +465,8 @@ fn check_groups(words: &Words) -> Result<(), Fault> {
         Code::Shift { .. } => Some(10),
         Code::ToolCentre(_) => Some(11),
         Code::Angles(_) => Some(12),
-        Code::Turning(Way::Machine | Way::Workpiece) => Some(13),
-        Code::Turning(_) => Some(14),
+        Code::Orientation(OrientationMode::Machine | OrientationMode::Workpiece) => Some(13),
+        Code::Orientation(_) => Some(14),
         Code::Dwell | Code::Pole(_) | Code::Reference | Code::Limits => Some(15),
         Code::Motion(_) => Some(16),
     };

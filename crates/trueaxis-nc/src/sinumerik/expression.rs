@@ -8,7 +8,7 @@ use crate::execution::values::{finite, not_zero};
 use crate::text::lexer::TokenKind;
 use crate::text::program::Fault;
 
-/// Brackets, functions and signs within each other: enough for people, little for the stack.
+/// Largest depth of nested brackets, functions and signs: ample for programs, small for the stack.
 const DEEPEST: usize = 60;
 
 /// Operators of two values.
@@ -209,7 +209,7 @@ impl Run<'_> {
         self.variable_value(&word, reader)
     }
 
-    /// `( … )` with values between commas; what is left out is `None`.
+    /// `( … )` with values between commas; an omitted value is `None`.
     pub(super) fn arguments(
         &mut self,
         reader: &mut Reader<'_>,

@@ -28,7 +28,7 @@ const STEERING: [&str; 23] = [
 ];
 
 impl Run<'_> {
-    /// Executes a block behind its mark for skipping.
+    /// Executes a block after its mark for skipping.
     pub(super) fn statement(&mut self, reader: &mut Reader<'_>) -> Result<Next, Fault> {
         let numbered = reader.letter() == Some(b'N') || reader.symbol() == Some(b':');
         if numbered && reader.number_ahead(1).is_some() {
@@ -40,14 +40,14 @@ impl Run<'_> {
         }
         let at = reader.here();
         if at > labels {
-            self.core.tell_steering(labels..at);
+            self.core.report_steering(labels..at);
         }
         if let Some(word) = reader.word()
             && !self.has_variable(&word)
             && let Some(next) = self.control(&word, reader, at)?
         {
             if STEERING.contains(&word.as_str()) {
-                self.core.tell_steering(self.core.start..self.end);
+                self.core.report_steering(self.core.start..self.end);
             }
             return Ok(next);
         }
@@ -409,7 +409,7 @@ impl Run<'_> {
         Ok(Next::Jumped)
     }
 
-    /// The byte behind the block that begins at one.
+    /// The offset after the block that begins at a byte.
     fn block_end(&self, start: usize) -> usize {
         let source = self.core.programs[self.core.origin.program as usize].source();
         let found = source[start..].iter().position(|b| *b == b'\n');
@@ -417,7 +417,7 @@ impl Run<'_> {
     }
 
     /// Where the part ends that begins at a label and has no second one: at ENDLABEL, at the REPEAT
-    /// behind it, or with the program.
+    /// after it, or with the program.
     fn part_end(&mut self, begin: usize) -> usize {
         let structure = self.structure();
         let here = self.core.start;

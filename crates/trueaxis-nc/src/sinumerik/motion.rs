@@ -3,7 +3,7 @@
 use super::tables::{Motion, Name};
 use super::words::{Mode, Words};
 use super::{Run, fault};
-use crate::moves::{Axis, AxisSet, Coordinates, Move, MoveKind, Position, Way};
+use crate::moves::{Axis, AxisSet, Coordinates, Move, MoveKind, Position, RotaryDirection};
 use crate::text::program::Fault;
 
 impl Run<'_> {
@@ -78,13 +78,13 @@ impl Run<'_> {
     ) {
         let ways = [Axis::A, Axis::B, Axis::C].map(|axis| {
             if !words.axes.contains(axis) {
-                return Way::AsWritten;
+                return RotaryDirection::AsWritten;
             }
             match words.modes[axis as usize] {
-                Mode::Shortest => Way::Shortest,
-                Mode::Positive => Way::Positive,
-                Mode::Negative => Way::Negative,
-                _ => Way::AsWritten,
+                Mode::Shortest => RotaryDirection::Shortest,
+                Mode::Positive => RotaryDirection::Positive,
+                Mode::Negative => RotaryDirection::Negative,
+                _ => RotaryDirection::AsWritten,
             }
         });
         let (feed, origin) = (self.core.modes.feed, self.core.origin);
@@ -95,7 +95,7 @@ impl Run<'_> {
             }
         }
         self.core.emit_move(Move {
-            ways,
+            rotary_directions: ways,
             direction,
             ..Move::plain(kind, target, named, feed, origin)
         });

@@ -1,7 +1,7 @@
 //! Directions of the tool axis and how it gets there.
 
 use super::Run;
-use super::tables::{Angles, Name, Turning};
+use super::tables::{Angles, Name, OrientationMode};
 use super::words::Words;
 use crate::execution::frames::turns;
 use crate::execution::mistakes;
@@ -9,7 +9,7 @@ use crate::moves::{Axis, Cone, Event, OrientationPath};
 use crate::text::program::Fault;
 
 impl Run<'_> {
-    /// The direction that a block programs, in the program frame; a cone is told before it.
+    /// The direction that a block programs, in the program frame; a cone is reported before it.
     pub(super) fn take_direction(&mut self, words: &mut Words) -> Result<Option<[f64; 3]>, Fault> {
         if words.vector_bits == 0 && !words.has(Name::ConeAngle) && !words.has(Name::ConeOpening) {
             return Ok(None);
@@ -32,7 +32,7 @@ impl Run<'_> {
             let hint = "write TRAORI before it";
             self.core.warn("direction-without-traori", "", at, message, hint);
         }
-        self.tell_cone(direction.is_some(), words, at)?;
+        self.report_cone(direction.is_some(), words, at)?;
         Ok(direction)
     }
 
@@ -67,8 +67,8 @@ impl Run<'_> {
     /// # Source
     /// Programming Manual "Job Planning", ORICONCW and its relatives: A6 B6 C6 is the axis, NUT half
     /// the opening (not verified), A7 B7 C7 a direction on the way. The angle about the axis as PSI is the wish of
-    /// this project; the manual has it as a polynomial.
-    fn tell_cone(&mut self, turns: bool, words: &mut Words, at: usize) -> Result<(), Fault> {
+    /// this project; in the manual it is a polynomial.
+    fn report_cone(&mut self, turns: bool, words: &mut Words, at: usize) -> Result<(), Fault> {
         let opening = words.take(Name::ConeOpening).map(|(v, ..)| v);
         let angle_deg = words.take(Name::ConeAngle).map(|(v, ..)| v);
         let axis = words.vector(6).map(|v| self.unit_vector(v, at)).transpose()?;
@@ -95,8 +95,8 @@ impl Run<'_> {
         let ccw = match way {
             // The manual's example turns from (0,1,1) to (1,0,1) about (0,0,1) by 270 deg: its
             // clockwise is right-handed about the axis, seen along it.
-            Turning::ConeClockwise => Some(true),
-            Turning::ConeCounterClockwise => Some(false),
+            OrientationMode::ConeClockwise => Some(true),
+            OrientationMode::ConeCounterClockwise => Some(false),
             _ => None,
         };
         let cone = Cone {
@@ -105,7 +105,7 @@ impl Run<'_> {
             half_opening_deg: opening.map(f64::abs),
             angle_deg,
             ccw,
-            tangential: way == Turning::ConeTangential,
+            tangential: way == OrientationMode::ConeTangential,
         };
         if turns || angle_deg.is_some() {
             self.core.emit(Event::Orientation(OrientationPath::Cone(cone)));

@@ -32,7 +32,7 @@ impl Run<'_> {
     #[inline]
     fn quick_word(&mut self, source: &[u8], letter: u8, at: usize, first: bool) -> Option<usize> {
         let (value, after) = plain_number(source, at + 1)?;
-        // A3=0.5: a number behind the letter, then = and the value.
+        // A3=0.5: a number after the letter, then = and the value.
         if source.get(after) == Some(&b'=') {
             if !matches!(letter, b'A'..=b'C') || value != 3.0 {
                 return None;

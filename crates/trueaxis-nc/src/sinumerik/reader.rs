@@ -1,4 +1,4 @@
-//! The tokens of one line, looked at one by one.
+//! The tokens of one line, read one by one.
 
 use crate::execution::mistakes;
 use crate::text::lexer::{Lexer, Token, TokenKind, number_value};
@@ -12,7 +12,7 @@ const MOST_TOKENS: usize = 10_000;
 /// What a line is apart from its tokens.
 #[derive(Debug)]
 pub(super) struct Line {
-    /// One behind the line end.
+    /// The offset after the line end.
     pub end: usize,
     /// Where the last token ends.
     pub stop: usize,
@@ -229,7 +229,7 @@ impl<'t> Reader<'t> {
         Err(fault(code, self.here(), format!("expected `{sign}`"), hint))
     }
 
-    /// Whether the words GOTO, GOTOF … stand somewhere behind.
+    /// Whether one of the words GOTO, GOTOF … follows in the line.
     pub fn jumps_later(&self) -> bool {
         self.tokens[self.at.min(self.tokens.len())..].iter().any(|t| {
             t.kind == TokenKind::Word && {

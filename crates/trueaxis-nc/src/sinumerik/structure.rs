@@ -59,7 +59,7 @@ impl Keyword {
 #[derive(Debug, Clone)]
 pub(super) struct Mark {
     pub keyword: Keyword,
-    /// The block that has it.
+    /// The block that contains it.
     pub start: usize,
     /// The block after it.
     pub next: usize,
@@ -196,7 +196,7 @@ impl Structure {
         if keyword == Keyword::If && reader.jumps_later() {
             return;
         }
-        // With a label behind it, REPEAT repeats a part and opens nothing.
+        // With a label after it, REPEAT repeats a part and opens no structure.
         if keyword == Keyword::Repeat && reader.ahead(1).is_some() {
             return;
         }

@@ -13,7 +13,7 @@ pub(super) struct Parameters<'a> {
 }
 
 impl Parameters<'_> {
-    /// A number; what is left out is `None`.
+    /// A number; an omitted one is `None`.
     pub fn number(&self, index: usize) -> Result<Option<f64>, Fault> {
         let Some(Some(value)) = self.values.get(index) else { return Ok(None) };
         let number = value.number(self.at)?;
@@ -38,7 +38,7 @@ impl Run<'_> {
     /// # Source
     /// Operating Manual "Milling" and Programming Manual "Job Planning", swivelling CYCLE800. Of _ST
     /// the units (new or additive) and tens (tip follows) are read, of the other digits nothing. That
-    /// a new plane deletes the programmable frame is said there; that an additive one keeps it behind
+    /// a new plane deletes the programmable frame is said there; that an additive one keeps it after
     /// the swivel frame is our reading.
     pub(super) fn cycle_800(&mut self, parameters: &Parameters<'_>) -> Result<(), Fault> {
         let at = parameters.at;
@@ -126,7 +126,7 @@ impl Run<'_> {
     pub(super) fn cycle_832(&mut self, parameters: &Parameters<'_>) -> Result<(), Fault> {
         let off = parameters.number(1)?.is_some_and(|m| (m.abs() as u64).is_multiple_of(10));
         let tolerance = if off { 0.0 } else { parameters.or_zero(0)?.max(0.0) };
-        self.tell_path(PathControl::Continuous, tolerance * self.core.modes.unit_mm());
+        self.report_path(PathControl::Continuous, tolerance * self.core.modes.unit_mm());
         Ok(())
     }
 }

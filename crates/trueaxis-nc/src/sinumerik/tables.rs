@@ -21,7 +21,7 @@ pub(super) enum Motion {
     FreeTap,
 }
 
-/// How the tool axis is told by angles.
+/// The definition of the tool axis by angles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Angles {
     /// A2 about Z, B2 about X', C2 about Z''.
@@ -32,9 +32,9 @@ pub(super) enum Angles {
     RpyReversed,
 }
 
-/// How the tool axis moves.
+/// The interpolation of the tool axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Turning {
+pub(super) enum OrientationMode {
     Axes,
     Vector,
     ConeClockwise,
@@ -72,7 +72,7 @@ pub(super) enum Code {
     Machine,
     ToolCentre(bool),
     Angles(Angles),
-    Turning(Turning),
+    Orientation(OrientationMode),
     Compensation(Side),
     Path(PathControl, bool),
     /// G9.
@@ -99,7 +99,7 @@ impl Code {
             Self::Compensation(_) | Self::Path(..) | Self::ExactOnce => 4,
             Self::Offset(_) | Self::Shift { .. } => 5,
             Self::Frame(_) => 6,
-            Self::ToolCentre(_) | Self::Angles(_) | Self::Turning(_) => 7,
+            Self::ToolCentre(_) | Self::Angles(_) | Self::Orientation(_) => 7,
             Self::Machine => 8,
             Self::Dwell | Self::Pole(_) | Self::Reference | Self::Limits => 9,
             Self::Motion(_) => 10,
@@ -207,14 +207,14 @@ pub(super) fn code(word: &str) -> Option<Code> {
         "ORIEULER" => Code::Angles(Angles::Euler),
         "ORIRPY" => Code::Angles(Angles::Rpy),
         "ORIRPY2" => Code::Angles(Angles::RpyReversed),
-        "ORIAXES" => Code::Turning(Turning::Axes),
-        "ORIVECT" | "ORIPLANE" => Code::Turning(Turning::Vector),
-        "ORICONCW" => Code::Turning(Turning::ConeClockwise),
-        "ORICONCCW" => Code::Turning(Turning::ConeCounterClockwise),
-        "ORICONIO" => Code::Turning(Turning::ConeThrough),
-        "ORICONTO" => Code::Turning(Turning::ConeTangential),
-        "ORIMKS" => Code::Turning(Turning::Machine),
-        "ORIWKS" => Code::Turning(Turning::Workpiece),
+        "ORIAXES" => Code::Orientation(OrientationMode::Axes),
+        "ORIVECT" | "ORIPLANE" => Code::Orientation(OrientationMode::Vector),
+        "ORICONCW" => Code::Orientation(OrientationMode::ConeClockwise),
+        "ORICONCCW" => Code::Orientation(OrientationMode::ConeCounterClockwise),
+        "ORICONIO" => Code::Orientation(OrientationMode::ConeThrough),
+        "ORICONTO" => Code::Orientation(OrientationMode::ConeTangential),
+        "ORIMKS" => Code::Orientation(OrientationMode::Machine),
+        "ORIWKS" => Code::Orientation(OrientationMode::Workpiece),
         "INVCW" | "INVCCW" => Code::NotApplied("the involute"),
         "ASPLINE" | "BSPLINE" | "CSPLINE" => Code::NotApplied("spline interpolation"),
         "POLY" => Code::NotApplied("polynomial interpolation"),

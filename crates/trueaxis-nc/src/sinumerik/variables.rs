@@ -35,7 +35,7 @@ pub(super) fn axis_named(name: &str) -> Option<Axis> {
 }
 
 impl Run<'_> {
-    /// `12` or `[expression]` behind an R.
+    /// `12` or `[expression]` after an R.
     pub(super) fn r_index(&mut self, reader: &mut Reader<'_>) -> Result<usize, Fault> {
         let at = reader.here();
         let index = if reader.accept(b'[') {

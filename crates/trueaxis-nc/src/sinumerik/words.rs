@@ -146,7 +146,7 @@ impl Run<'_> {
                 ));
             }
             self.assignment(&slot, reader)?;
-            self.core.tell_steering(at..reader.here());
+            self.core.report_steering(at..reader.here());
             return Ok(None);
         }
         if letter == b'L'
@@ -196,7 +196,7 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// A signed number behind a letter.
+    /// A signed number after a letter.
     fn plain_value(&mut self, reader: &mut Reader<'_>) -> Result<f64, Fault> {
         let mut negative = false;
         while let Some(sign @ (b'-' | b'+')) = reader.symbol() {
@@ -221,25 +221,25 @@ impl Run<'_> {
             Some("ACP") => Mode::Positive,
             Some("ACN") => Mode::Negative,
             Some("QU") => Mode::Modal,
-            _ => return Ok((self.told_number(reader)?, Mode::Modal)),
+            _ => return Ok((self.reported_number(reader)?, Mode::Modal)),
         };
         let open = reader.here();
         reader.advance();
         reader.require(b'(', "write X=AC(10)")?;
-        let value = self.told_number(reader)?;
+        let value = self.reported_number(reader)?;
         reader.close(open)?;
         Ok((value, mode))
     }
 
-    /// The value of an expression; one that is more than a number is told to who asks.
-    fn told_number(&mut self, reader: &mut Reader<'_>) -> Result<f64, Fault> {
+    /// The value of an expression; with `report_blocks` one that is not a plain number is reported.
+    fn reported_number(&mut self, reader: &mut Reader<'_>) -> Result<f64, Fault> {
         let (from, signed) = (reader.here(), matches!(reader.symbol(), Some(b'+' | b'-')));
         let first = reader.at;
         let value = self.number(reader)?;
         let plain = reader.at == first + 1 + usize::from(signed);
         let begins = reader.source.get(from + usize::from(signed));
         let is_digit = begins.is_some_and(|b| b.is_ascii_digit() || *b == b'.');
-        if self.core.settings.tell_blocks && !(plain && is_digit) {
+        if self.core.settings.report_blocks && !(plain && is_digit) {
             let text = from..reader.here();
             self.core.emit(crate::moves::Event::Computed { text, value: Some(value) });
         }
@@ -351,7 +351,7 @@ impl Run<'_> {
                 return Err(mistakes::missing_equals(word, "write NAME=2", reader.here()));
             }
             self.assignment(&slot, reader)?;
-            self.core.tell_steering(at..reader.here());
+            self.core.report_steering(at..reader.here());
             return Ok(());
         }
         reader.advance();

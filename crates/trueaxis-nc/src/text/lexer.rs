@@ -38,7 +38,7 @@ pub struct Token {
     pub kind: TokenKind,
     /// The first byte.
     pub start: usize,
-    /// One behind the last byte.
+    /// The offset after the last byte.
     pub end: usize,
 }
 
@@ -67,7 +67,7 @@ impl<'s> Lexer<'s> {
         Self { source, dialect, at: start.min(source.len()), fresh: true }
     }
 
-    /// The byte behind the last token.
+    /// The offset after the last token.
     pub fn offset(&self) -> usize {
         self.at
     }

@@ -8,8 +8,8 @@ use crate::dialect::{Control, Dialect};
 use crate::text::lexer::{Lexer, Token, TokenKind};
 use crate::text::program::{Block, Fault, Item, Node, NodeId, is_trivia};
 
-/// Steps of brackets, functions and parameters within each other (a bracket is two): enough for
-/// people, little for the stack.
+/// Largest depth of nested brackets, functions and parameters (a bracket counts twice): ample for
+/// programs, small for the stack.
 const DEEPEST: usize = 100;
 
 /// Parts of one block: more than any control takes, little for the memory.
@@ -38,7 +38,7 @@ struct Parser<'s, 'b> {
     lexer: Lexer<'s>,
     /// The next token that is neither a blank nor a comment; `None` at the end of the line.
     token: Option<Token>,
-    /// One behind the line end, known once the line is read.
+    /// The offset after the line end, known once the line is read.
     end: usize,
     /// Where the line end begins, known once the line is read.
     stop: usize,
@@ -78,7 +78,7 @@ impl<'s, 'b> Parser<'s, 'b> {
             }
         };
         if self.token.is_none() {
-            // Nothing behind the line end belongs to this block.
+            // Nothing after the line end belongs to this block.
             self.lexer = Lexer::new(self.source, self.dialect, self.source.len());
         }
     }

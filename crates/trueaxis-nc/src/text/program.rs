@@ -10,16 +10,16 @@ use crate::dialect::{Control, Dialect};
 use crate::text::lexer::{Lexer, TokenKind};
 use crate::text::parser::parse_block;
 
-/// Something wrong with a piece of text; a [`Diagnostics`] entry once its place is known.
+/// An error in a piece of text; it becomes an entry of [`Diagnostics`] with its place.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fault {
-    /// A stable name for programs.
+    /// The code of the diagnostic, stable for programs.
     pub code: &'static str,
-    /// The byte of the program.
+    /// The byte offset in the program.
     pub offset: usize,
-    /// What is wrong.
+    /// The error in one sentence.
     pub message: String,
-    /// What to do.
+    /// The action to take.
     pub hint: &'static str,
 }
 
@@ -52,7 +52,7 @@ pub enum Node {
     ArcTangent(NodeId, NodeId),
     /// `EXISTS[#n]`.
     Exists(NodeId),
-    /// `a op b`, and where the operator stands.
+    /// `a op b`, and the byte offset of the operator.
     Binary(Operator, NodeId, NodeId, usize),
 }
 
@@ -104,7 +104,7 @@ pub enum Label {
     Number(u64),
     /// `O<name>`, lower case.
     Name(String),
-    /// `O#1`, `GOTO #1`: known when it is executed.
+    /// `O#1`, `GOTO #1`: known only during execution.
     Computed(NodeId),
 }
 
@@ -145,27 +145,27 @@ pub enum Item {
         letter: u8,
         /// Its value.
         value: NodeId,
-        /// Where the letter stands.
+        /// The byte offset of the letter.
         offset: usize,
     },
     /// `#n = x`: the target is a [`Node::Parameter`] or [`Node::Named`].
     Assign {
-        /// What is set.
+        /// The parameter that is set.
         target: NodeId,
-        /// To what.
+        /// The new value.
         value: NodeId,
-        /// Where the assignment begins.
+        /// The byte offset of the assignment.
         offset: usize,
     },
     /// A control statement.
     Control {
-        /// Which.
+        /// The key word.
         keyword: Keyword,
         /// Its label.
         label: Option<Label>,
         /// Its condition, count or arguments.
         arguments: Vec<NodeId>,
-        /// Where it begins.
+        /// The byte offset at which it begins.
         offset: usize,
     },
     /// A comment with its marks.
@@ -174,7 +174,7 @@ pub enum Item {
     Mark(usize),
 }
 
-/// One line of a program, taken apart.
+/// One parsed line of a program.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Block {
     /// Its bytes with the line end.
@@ -187,14 +187,14 @@ pub struct Block {
     pub items: Vec<Item>,
     /// The nodes of all expressions in it.
     pub nodes: Vec<Node>,
-    /// What is wrong with it; a block with faults must not be executed.
+    /// Its errors; a block with faults must not be executed.
     pub faults: Vec<Fault>,
 }
 
 /// A program: its text, read by the rules of its control.
 ///
-/// The text is kept as it is and blocks are taken apart when they are needed, so the memory does
-/// not grow with the number of blocks beyond the text itself.
+/// The text is not changed, and blocks are parsed when they are needed, so that the memory does not
+/// grow with the number of blocks beyond the text itself.
 ///
 /// ```
 /// use trueaxis_nc::{Control, Program};
@@ -216,14 +216,14 @@ pub struct Program {
 pub(crate) struct Mark {
     pub keyword: Keyword,
     pub label: Label,
-    /// The block that has it.
+    /// The byte offset of the block that contains it.
     pub start: usize,
-    /// The block after it.
+    /// The byte offset of the next block.
     pub next: usize,
     pub line: u32,
 }
 
-/// Where jumps can go.
+/// The targets of jumps.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Structure {
     pub marks: Vec<Mark>,
@@ -234,7 +234,7 @@ pub(crate) struct Structure {
 }
 
 impl Program {
-    /// Takes a text; nothing is read yet.
+    /// A program from its text, which is not parsed yet.
     pub fn new(file: &str, source: Vec<u8>, control: Control) -> Self {
         let dialect = Dialect::of(control);
         Self {
@@ -255,7 +255,7 @@ impl Program {
         &self.source
     }
 
-    /// The rules it is read by.
+    /// The rules of its control.
     pub fn dialect(&self) -> &'static Dialect {
         self.dialect
     }
@@ -275,13 +275,13 @@ impl Program {
         })
     }
 
-    /// Takes the block apart that begins at a byte, into room that is used again.
+    /// Parses the block that begins at a byte into `block`, whose memory is used again.
     pub fn read_block(&self, start: usize, line: u32, block: &mut Block) {
         parse_block(&self.source, self.dialect, start, block);
         block.line = line;
     }
 
-    /// The text put together from its tokens.
+    /// The text as the sequence of its tokens: equal to the source.
     pub fn print(&self) -> Vec<u8> {
         let mut text = Vec::with_capacity(self.source.len());
         for token in Lexer::new(&self.source, self.dialect, 0) {
@@ -290,7 +290,7 @@ impl Program {
         text
     }
 
-    /// Everything that is wrong with the text as such, up to 100 problems.
+    /// All syntax errors of the text, up to 100 problems.
     pub fn check(&self) -> Diagnostics {
         let mut places = Places::new(self);
         let mut problems = Diagnostics::new();
@@ -315,7 +315,7 @@ impl Program {
         problems
     }
 
-    /// Where jumps can go; found at the first jump.
+    /// The targets of jumps, determined at the first jump.
     pub(crate) fn structure(&self) -> &Structure {
         self.structure.get_or_init(|| self.find_structure())
     }
@@ -355,8 +355,8 @@ impl Program {
 }
 
 impl Structure {
-    /// Where the block of a number begins: the next one behind a byte, else the first one, within
-    /// the program (O number) that the byte is in.
+    /// The beginning of the block with a number: the next one after a byte, otherwise the first one,
+    /// within the program (O number) that contains the byte.
     pub fn block_number(&self, wanted: u64, from: usize) -> Option<(usize, u32)> {
         let mut programs = self.marks.iter().filter(|m| m.keyword == Keyword::ProgramNumber);
         let end = programs.clone().find(|m| m.start > from).map_or(usize::MAX, |m| m.start);
@@ -396,7 +396,7 @@ impl Structure {
     }
 }
 
-/// Turns byte offsets into lines and columns; quick for offsets that grow.
+/// Converts byte offsets to lines and columns; fast for increasing offsets.
 #[derive(Debug, Clone)]
 pub(crate) struct Places<'p> {
     program: &'p Program,
@@ -410,7 +410,7 @@ impl<'p> Places<'p> {
         Self { program, at: 0, line: 1, column: 1 }
     }
 
-    /// Begins at a byte that begins a line.
+    /// A converter that begins at a byte at the beginning of a line.
     pub fn beginning(program: &'p Program, at: usize, line: u32) -> Self {
         Self { program, at, line: line as usize, column: 1 }
     }

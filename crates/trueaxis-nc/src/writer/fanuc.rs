@@ -1,13 +1,13 @@
 //! FANUC: a point in every number, G53 in rapid only.
 
 use super::number::Form;
-use super::{Target, WriteError, Writer, Written};
+use super::{Target, WriteError, WriteResult, Writer};
 use crate::moves::{Coordinates, Feed};
 
 /// X counts seconds.
 pub(super) const DWELL: (&[u8], Form) = (b"G4 X", Form::Point);
 
-pub(super) fn straight(w: &mut Writer, target: &Target, feed: Option<&Feed>) -> Written {
+pub(super) fn straight(w: &mut Writer, target: &Target, feed: Option<&Feed>) -> WriteResult {
     let machine = target.coordinates == Coordinates::Machine;
     if machine && feed.is_some() {
         let what = "a move with feed from the machine zero (G53)";

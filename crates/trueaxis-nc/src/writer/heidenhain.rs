@@ -1,12 +1,12 @@
 //! HEIDENHAIN Klartext: numbered blocks, a sign before every coordinate, FMAX for one block.
 
 use super::number::{Form, push};
-use super::{Target, WriteError, Writer, Written};
+use super::{Target, WriteError, WriteResult, Writer};
 use crate::moves::{Axis, Coordinates, Feed, FeedMode};
 
 pub(super) const DWELL: (&[u8], Form) = (b"FUNCTION DWELL TIME", Form::Plain);
 
-pub(super) fn straight(w: &mut Writer, target: &Target, feed: Option<&Feed>) -> Written {
+pub(super) fn straight(w: &mut Writer, target: &Target, feed: Option<&Feed>) -> WriteResult {
     if feed.is_some_and(|f| f.mode != FeedMode::PerMinute) {
         let what = "a feed other than in mm/min";
         let instead = "use feed per minute";

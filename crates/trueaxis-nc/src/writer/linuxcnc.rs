@@ -1,12 +1,12 @@
 //! LinuxCNC: G53 with and without feed, no vectors.
 
 use super::number::Form;
-use super::{Target, WriteError, Writer, Written};
+use super::{Target, WriteError, WriteResult, Writer};
 use crate::moves::{Coordinates, Feed};
 
 pub(super) const DWELL: (&[u8], Form) = (b"G4 P", Form::Plain);
 
-pub(super) fn straight(w: &mut Writer, target: &Target, feed: Option<&Feed>) -> Written {
+pub(super) fn straight(w: &mut Writer, target: &Target, feed: Option<&Feed>) -> WriteResult {
     if target.direction.is_some() {
         let what = "the tool axis as a vector";
         let instead = "write the rotary axes";

@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn unusable_templates_are_told() {
+    fn unusable_templates_are_reported() {
         let all = "{% block start %}{% endblock %}{% block tool %}{% endblock %}\
                    {% block tip_on %}{% endblock %}{% block tip_off %}{% endblock %}";
         let why = |text: String| Templates::parse(&text).unwrap_err().to_string();

@@ -5,9 +5,9 @@ use super::template::Values;
 use super::{Heading, Modal, Target, TipWords, ToolCall, WriteError, Writer};
 use super::{fanuc, heidenhain, linuxcnc, sinumerik};
 use crate::dialect::Control;
-use crate::moves::{Axis, Coordinates, Feed, FeedMode, Turning};
+use crate::moves::{Axis, Coordinates, Feed, FeedMode, SpindleDirection};
 
-/// Texts for people are cut here: controls have short lines.
+/// Comments and messages are cut at this length: controls have short lines.
 const LONGEST_TEXT: usize = 100;
 
 impl Writer {
@@ -48,7 +48,7 @@ impl Writer {
         }
     }
 
-    /// Fills a block of the template in; nothing is known to be modal behind it.
+    /// Renders a block of the template; after it all modal words are written again.
     pub(super) fn by_template(&mut self, block: &str, values: &Values) -> Result<(), WriteError> {
         let text = self.templates.render(block, values)?;
         self.lines(&text);
@@ -160,16 +160,20 @@ impl Writer {
         self.line(if optional { b"M1" } else { b"M0" });
     }
 
-    pub(super) fn spindle(&mut self, turning: Turning, speed: f64) -> Result<(), WriteError> {
+    pub(super) fn spindle(
+        &mut self,
+        turning: SpindleDirection,
+        speed: f64,
+    ) -> Result<(), WriteError> {
         let decimals = self.decimals.feed;
         let speed = increments(speed, decimals, "S")?;
         let code: &[u8] = match turning {
-            Turning::Stopped => {
+            SpindleDirection::Stopped => {
                 self.line(b"M5");
                 return Ok(());
             }
-            Turning::Clockwise => b"M3",
-            Turning::CounterClockwise => b"M4",
+            SpindleDirection::Clockwise => b"M3",
+            SpindleDirection::CounterClockwise => b"M4",
         };
         if speed > 0 {
             self.begin();

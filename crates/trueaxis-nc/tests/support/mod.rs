@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use trueaxis_nc::moves::{Axis, FeedMode, PathControl, Plane, Position, Turning};
+use trueaxis_nc::moves::{Axis, FeedMode, PathControl, Plane, Position, SpindleDirection};
 use trueaxis_nc::{Control, Event, Library, Move, MoveKind, Program, Settings, Step, interpret};
 
 /// A folder or file of the outside data, or `None` with a message.
@@ -207,7 +207,7 @@ fn tools() -> BTreeMap<u32, Position> {
 /// Our calls for a program, and what was wrong with it.
 pub fn our_calls(file: &Path) -> (Vec<Call>, String) {
     let folder = file.parent().unwrap();
-    // This one is about going on behind errors.
+    // This one is about continuing after errors.
     let keep_going = folder.ends_with("oword-unwind");
     let (constants, tools) = (constants(folder), tools());
     let settings = Settings { constants, tools, keep_going, ..Settings::default() };
@@ -283,9 +283,9 @@ fn push_event(event: &Event, calls: &mut Vec<Call>) {
         }
         Event::Spindle(turning) => {
             let sign = match turning {
-                Turning::Stopped => 0.0,
-                Turning::Clockwise => 1.0,
-                Turning::CounterClockwise => -1.0,
+                SpindleDirection::Stopped => 0.0,
+                SpindleDirection::Clockwise => 1.0,
+                SpindleDirection::CounterClockwise => -1.0,
             };
             calls.push(Call::Numbers("spindle", vec![sign], 0.0));
         }
@@ -374,8 +374,8 @@ fn move_line(m: &Move) -> String {
         }
     };
     let mut line = format!("{} {kind} {}", m.origin.line, axes(&m.target));
-    for (axis, way) in [Axis::A, Axis::B, Axis::C].into_iter().zip(m.ways) {
-        if way != trueaxis_nc::moves::Way::AsWritten {
+    for (axis, way) in [Axis::A, Axis::B, Axis::C].into_iter().zip(m.rotary_directions) {
+        if way != trueaxis_nc::moves::RotaryDirection::AsWritten {
             line += &format!(" {axis} {way:?}");
         }
     }

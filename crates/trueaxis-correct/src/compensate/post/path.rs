@@ -5,7 +5,7 @@ use trueaxis_cl::{ClCircle, ClCycle, ClFile, ClPoint, Word};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::rotation;
 use trueaxis_input::{Diagnostics, Place};
-use trueaxis_nc::moves::{Coolant, Feed, FeedMode, Turning};
+use trueaxis_nc::moves::{Coolant, Feed, FeedMode, SpindleDirection};
 
 /// Where the tool stands in the workpiece.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,7 +42,7 @@ pub(super) struct Stroke {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Event {
     Tool { number: u32, text: String },
-    Spindle(Turning, f64),
+    Spindle(SpindleDirection, f64),
     Coolant(Coolant),
     Dwell(f64),
     Stop { optional: bool },

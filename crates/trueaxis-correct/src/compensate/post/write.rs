@@ -9,7 +9,7 @@ use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
 use trueaxis_machine::tcp::TipControl;
-use trueaxis_nc::moves::{Axis, Coordinates, Feed, FeedMode, Turning};
+use trueaxis_nc::moves::{Axis, Coordinates, Feed, FeedMode, SpindleDirection};
 use trueaxis_nc::writer::{
     Block, Heading, Target, Templates, TipWords, ToolCall, WriteError, Writer, axis_coordinates,
 };
@@ -120,7 +120,7 @@ impl Post<'_> {
             match event {
                 Event::Tool { number, text } => self.tool(*number, text)?,
                 Event::Spindle(turning, speed) => {
-                    let speed = if *turning == Turning::Stopped { 0.0 } else { *speed };
+                    let speed = if *turning == SpindleDirection::Stopped { 0.0 } else { *speed };
                     self.block(&Block::Spindle(*turning, speed), 0)?;
                 }
                 Event::Coolant(coolant) => self.block(&Block::Coolant(*coolant), 0)?,

@@ -8,7 +8,7 @@ use super::words::{Word, Words};
 use trueaxis_machine::axis::Command;
 use trueaxis_motion::axis_path::{AxisPath, Fault, Straight};
 use trueaxis_nc::Control;
-use trueaxis_nc::moves::{Axis, AxisSet, Coordinates, Move, MoveKind, Position, Way};
+use trueaxis_nc::moves::{Axis, AxisSet, Coordinates, Move, MoveKind, Position, RotaryDirection};
 
 /// A block that is being written.
 pub(super) struct Block<'b> {
@@ -71,7 +71,7 @@ impl Block<'_> {
             kind: self.kind(),
             target: now,
             named: AxisSet::default(),
-            ways: [Way::AsWritten; 3],
+            rotary_directions: [RotaryDirection::AsWritten; 3],
             direction: None,
             ..*self.m
         };
@@ -137,7 +137,7 @@ impl Block<'_> {
             Some(word) if word.increment.unwrap_or(self.incremental) => return rounded - exact,
             Some(_) => {
                 let old = self.m.target[axis];
-                let turns = self.way(axis) != Way::AsWritten;
+                let turns = self.way(axis) != RotaryDirection::AsWritten;
                 old + if turns { 360.0 * ((exact - old) / 360.0).round() } else { 0.0 }
             }
         };
@@ -179,9 +179,9 @@ impl Block<'_> {
             let by = if self.grid.same(by, old, of) { old } else { by };
             (now + by, Some(by).filter(|by| *by != old))
         } else {
-            let turn = self.way(axis) != Way::AsWritten;
+            let turn = self.way(axis) != RotaryDirection::AsWritten;
             if axis.is_rotary() {
-                m.ways[axis as usize - Axis::A as usize] = self.way(axis);
+                m.rotary_directions[axis as usize - Axis::A as usize] = self.way(axis);
             }
             let wanted = if turn { wanted.rem_euclid(360.0) } else { wanted };
             let value = self.grid.round(wanted, of);
@@ -235,10 +235,10 @@ impl Block<'_> {
         refusal(self.m.origin, "no-axis-word", message, hint)
     }
 
-    fn way(&self, axis: Axis) -> Way {
+    fn way(&self, axis: Axis) -> RotaryDirection {
         match axis.is_rotary() {
-            true => self.m.ways[axis as usize - Axis::A as usize],
-            false => Way::AsWritten,
+            true => self.m.rotary_directions[axis as usize - Axis::A as usize],
+            false => RotaryDirection::AsWritten,
         }
     }
 

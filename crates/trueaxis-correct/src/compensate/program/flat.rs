@@ -40,7 +40,7 @@ pub(super) fn unrolled(
     setup: &SetUp,
     problems: &mut Diagnostics,
 ) -> Option<Program> {
-    let settings = Settings { tell_blocks: true, ..setup.settings(false) };
+    let settings = Settings { report_blocks: true, ..setup.settings(false) };
     let mut told: Vec<Told> = Vec::new();
     let outcome = execute(mounted, program, setup, &settings, &mut |step| match step {
         Step::Event(Event::Block { text }, origin) => {

@@ -252,7 +252,7 @@ impl Run<'_> {
         self.core.count(at)?;
         let (program, from) = (self.frame().program, self.frame().at);
         let caller = Rc::clone(&self.core.programs[program]);
-        // The caller goes on behind its block: that byte less one lies within the same program.
+        // The caller continues after its block: that byte less one lies within the same program.
         let found = caller.structure().block_number(number as u64, from.saturating_sub(1));
         let Some((start, line)) = found.filter(|_| number >= 0.0) else {
             return Err(mistakes::missing_label(format_args!("N{number}"), at));

@@ -91,7 +91,7 @@ impl Run<'_> {
     }
 }
 
-/// `%d`, `%f` or `%.nf` at the beginning of a text: the digits behind the point, and the rest.
+/// `%d`, `%f` or `%.nf` at the beginning of a text: the digits after the point, and the rest.
 fn format_digits(text: &str) -> Option<(usize, &str)> {
     let after = text.strip_prefix('%')?;
     if let Some(rest) = after.strip_prefix('d') {

@@ -4,7 +4,7 @@ use super::Parser;
 use crate::text::lexer::{TokenKind, number_value};
 use crate::text::program::{Item, Keyword, Label};
 
-/// The key words behind an O label; longer ones first where one begins another.
+/// The key words after an O label; longer ones first where one begins another.
 const O_WORDS: [(&[u8], Keyword); 15] = [
     (b"SUB", Keyword::Sub),
     (b"ENDSUB", Keyword::EndSub),
@@ -66,7 +66,7 @@ impl Parser<'_, '_> {
             return false;
         };
         if *keyword == Keyword::Sub {
-            // What follows `sub` in its line names its arguments for people.
+            // The text after `sub` in its line only documents its arguments.
             self.give_up();
         }
         let mut arguments = Vec::new();

@@ -1,4 +1,4 @@
-//! Blocks as they are executed, for who unrolls the program.
+//! Reports of blocks as they are executed, for unrolling a program.
 
 use super::execute::is_control;
 use super::{Next, Passage, Run};
@@ -6,8 +6,8 @@ use crate::moves::Event;
 use crate::text::program::{Block, Fault, Item, Keyword, Node, NodeId};
 
 impl Run<'_> {
-    /// The same, with what a flat program of the same path would have to say instead.
-    pub(super) fn told_block(&mut self, passage: Passage<'_>) -> Result<Next, Fault> {
+    /// Executes a block and reports the values that a flat program of the same path would state.
+    pub(super) fn report_block(&mut self, passage: Passage<'_>) -> Result<Next, Fault> {
         self.core.emit(Event::Block { text: passage.block.span.clone() });
         for item in &passage.block.items {
             let end = end_of(item, passage.block);
@@ -34,13 +34,13 @@ impl Run<'_> {
             is_control(item) && !begins
         });
         if steers || next == Next::Jumped {
-            self.tell_steering(passage, steers);
+            self.report_steering(passage, steers);
         }
         Ok(next)
     }
 
     /// M98 and M99 go with their words and leave the others of their block; all else goes as a whole.
-    fn tell_steering(&mut self, passage: Passage<'_>, whole: bool) {
+    fn report_steering(&mut self, passage: Passage<'_>, whole: bool) {
         let letter = |item: &Item, letters: &[u8]| match item {
             Item::Word { letter, .. } => letters.contains(letter),
             _ => false,

@@ -1,0 +1,188 @@
+//! Errors of a machine file replaced by others: their lines, and their columns in the tables of axes.
+
+use super::lines::{Lines, header};
+use crate::errors::{Curve, ErrorName, Harmonic, StatedError};
+use crate::file::Tables;
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// What the file states of an error.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Entry {
+    /// A value in the form of the file.
+    Value(String),
+    /// Nothing, and why.
+    Nothing(String),
+}
+
+/// States an error in the text: the line of its old value is replaced, or becomes a comment. The comment
+/// `origin` says where the value comes from.
+pub fn put(file: &mut Lines, name: ErrorName, entry: &Entry, origin: &str) {
+    match (file.error(name), entry) {
+        (Some(at), Entry::Value(value)) => {
+            file.replace(at, &format!("{name} = {value} # {origin}"));
+        }
+        (Some(at), Entry::Nothing(why)) => {
+            file.comment_out(at);
+            file.insert(at, &format!("# {name}: {why}; {origin}"));
+        }
+        (None, Entry::Value(value)) => {
+            file.add(&header(name), &format!("{name} = {value} # {origin}"));
+        }
+        (None, Entry::Nothing(_)) => {}
+    }
+}
+
+/// Takes an error out of the table of its axis: a new table without its columns, by name and text.
+pub fn take_out_of_table(
+    file: &mut Lines,
+    name: ErrorName,
+    origin: &str,
+    tables: &mut Vec<(String, String)>,
+    beside: &dyn Tables,
+) {
+    let header = header(name);
+    let Some((line, table)) = file.table_of(&header) else { return };
+    let made = tables.iter().position(|(made, _)| *made == table);
+    let text = made.map_or_else(|| beside.text(&table).ok(), |i| Some(tables[i].1.clone()));
+    let Some(left) = text.and_then(|text| without(&text, name)) else { return };
+    let new = new_name(&table);
+    tables.retain(|(made, _)| *made != new);
+    if is_bare(&left) {
+        // How it was read between its rows goes with it.
+        for key in ["table", "interpolation", "outside"] {
+            if let Some(own) = file.key(&header, key) {
+                let why = format!("# {} # nothing is left of it; {origin}", file.line(own));
+                file.replace(own, &why);
+            }
+        }
+        return;
+    }
+    file.replace(line, &format!("table = \"{new}\" # without what stands below; {origin}"));
+    tables.push((new, left));
+}
+
+/// A CSV text without the columns of an error; `None` if it has none.
+fn without(text: &str, name: ErrorName) -> Option<String> {
+    let is_row = |line: &&str| !line.trim().is_empty() && !line.trim_start().starts_with('#');
+    let heading = text.lines().find(is_row)?;
+    let prefix = format!("{name}_");
+    let leaves: Vec<bool> =
+        heading.split(',').map(|cell| cell.trim().starts_with(&prefix)).collect();
+    if !leaves.contains(&true) {
+        return None;
+    }
+    let kept = |line: &str| {
+        let cells = line.split(',').enumerate();
+        let cells = cells.filter(|(i, _)| leaves.get(*i) != Some(&true)).map(|(_, cell)| cell);
+        cells.collect::<Vec<_>>().join(",")
+    };
+    let lines = text.lines().map(|l| if is_row(&l) { kept(l) } else { l.to_owned() });
+    Some(lines.collect::<Vec<_>>().join("\n") + "\n")
+}
+
+/// Whether positions are all that is left.
+fn is_bare(text: &str) -> bool {
+    let rows = text.lines().map(str::trim).filter(|l| !l.is_empty() && !l.starts_with('#'));
+    rows.take(1).all(|heading| heading.split(',').all(|cell| cell.trim().starts_with("position")))
+}
+
+/// `X.csv` becomes `X-identified.csv`.
+fn new_name(table: &str) -> String {
+    let stem = Path::new(table).file_stem().map_or(table.into(), |s| s.to_string_lossy());
+    format!("{}-identified.csv", stem.trim_end_matches("-identified"))
+}
+
+/// A curve with its reversal and its standard uncertainty (mm or rad) in the form of the file, without the
+/// closing brace; `is_rotary`: over a rotary axis. A table of values goes into `tables`.
+pub fn curve_text(
+    name: ErrorName,
+    is_rotary: bool,
+    stated: &StatedError,
+    u: f64,
+    tables: &mut Vec<(String, String)>,
+) -> String {
+    let angle = name.component.is_rotation();
+    let (scale, unit) = if angle { (1e6, "urad") } else { (1e3, "um") };
+    let (position, shown) = if is_rotary { ("deg", 1f64.to_degrees()) } else { ("mm", 1.0) };
+    let quantity = |v: f64| format!("\"{} {unit}\"", plain(v * scale));
+    let mut text = match &stated.mean {
+        Curve::Constant(c) => format!("{{ constant = {}", quantity(*c)),
+        Curve::Polynomial { coefficients, origin, scale } => {
+            let list: Vec<String> = coefficients.iter().map(|c| quantity(*c)).collect();
+            let (origin, length) = (origin * shown, scale * shown);
+            format!(
+                "{{ polynomial = [{}], origin = \"{origin} {position}\", \
+                 scale = \"{length} {position}\"",
+                list.join(", ")
+            )
+        }
+        Curve::Fourier { mean, terms } => {
+            let harmonic = |h: &Harmonic| {
+                format!("[{}, {}, {}]", h.order, quantity(h.cosine), quantity(h.sine))
+            };
+            let list: Vec<String> = terms.iter().map(harmonic).collect();
+            format!("{{ fourier = {{ mean = {}, terms = [{}] }}", quantity(*mean), list.join(", "))
+        }
+        Curve::Table { spline, .. } => {
+            let file = format!("identified-{name}.csv");
+            let mut table = format!("# {name}, identified\nposition_{position},{name}_{unit}\n");
+            for at in spline.knots() {
+                let value = plain(spline.at(*at) * scale);
+                // Writing into a text cannot fail.
+                let _ = writeln!(table, "{},{value}", at * shown);
+            }
+            tables.push((file.clone(), table));
+            format!("{{ table = \"{file}\", interpolation = \"linear\", outside = \"clamp\"")
+        }
+    };
+    if let Some(Curve::Constant(reversal)) = stated.reversal {
+        let _ = write!(text, ", reversal = {}", quantity(reversal));
+    }
+    let _ = write!(text, ", u = {}", quantity(u));
+    text
+}
+
+/// A value in µm or µrad without idle zeros: six decimals of µm or µrad are a picometre.
+pub fn plain(value: f64) -> String {
+    let text = format!("{value:.6}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_the_line_of_the_error_changes() {
+        let mut file = Lines::of(
+            "# mine\n[location] # here\nEC0Y = \"1 urad\" # old\nX0C = \"2 um\"\n\n[tool]\n",
+        );
+        // why: both are names of ISO 230-1
+        let (squareness, offset) =
+            (ErrorName::parse("EC0Y").unwrap(), ErrorName::parse("EX0C").unwrap());
+        put(&mut file, squareness, &Entry::Value("\"3 urad\"".into()), "now");
+        put(&mut file, offset, &Entry::Nothing("unseen".into()), "now");
+        assert_eq!(
+            file.text(),
+            "# mine\n[location] # here\nEC0Y = \"3 urad\" # now\n# EX0C: unseen; now\n# X0C = \"2 um\"\n\n[tool]\n"
+        );
+    }
+
+    #[test]
+    fn the_columns_of_one_error_leave() {
+        let text = "# laser\nposition_mm,EXX_up_um,EXX_down_um,EYX_um\n0,1,2,3\n10,4,5,6\n";
+        let name = ErrorName::parse("EXX").unwrap(); // why: a name of ISO 230-1
+        let left = without(text, name).unwrap();
+        assert_eq!(left, "# laser\nposition_mm,EYX_um\n0,3\n10,6\n");
+        assert!(without(&left, name).is_none() && !is_bare(&left));
+        assert!(is_bare(&without(&left, ErrorName::parse("EYX").unwrap()).unwrap()));
+        assert_eq!(new_name("X.csv"), "X-identified.csv");
+    }
+
+    #[test]
+    fn numbers_have_no_idle_zeros() {
+        assert_eq!((plain(12.5).as_str(), plain(-1e-9).as_str()), ("12.5", "0"));
+    }
+}
