@@ -1,4 +1,4 @@
-//! From programmed moves to axis positions: what the control commands.
+//! From programmed moves to the axis positions that the control commands.
 //!
 //! ```text
 //!     without tool-centre point:   axes = frame(target) + tool length
@@ -40,7 +40,7 @@ pub struct Node {
     pub command: Command,
     /// The block.
     pub origin: Origin,
-    /// The way from the node before along the programmed path: of the tip in mm; degrees of the
+    /// The distance from the previous node along the programmed path: of the tip in mm; degrees of the
     /// rotary axes where only they move.
     pub length: f64,
     /// The programmed speed along the path, mm/s or deg/s; infinite in rapid.
@@ -58,13 +58,13 @@ pub struct Node {
 }
 
 impl Node {
-    /// Whether the machine goes here as fast as it can.
+    /// Whether this is a rapid move.
     pub fn is_rapid(&self) -> bool {
         self.speed.is_infinite()
     }
 }
 
-/// What comes out of the path, in order.
+/// A step of the path, in order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PathStep {
     /// The next place.
@@ -73,7 +73,7 @@ pub enum PathStep {
     Tool(u32),
 }
 
-/// What the control knows while it runs.
+/// The state of the control while it runs.
 pub struct AxisPath<'m> {
     machine: &'m Machine,
     densify: Densify,
@@ -97,17 +97,17 @@ pub struct AxisPath<'m> {
     command: Command,
     /// X, Y and Z of the present place in basic coordinates.
     basic: Vec3,
-    /// Axes whose place the interpreter does not know.
+    /// Axes whose position the interpreter does not know.
     stale: AxisSet,
     /// In which direction the tool axis turned last.
     tangent: Option<Vec3>,
     /// Pieces of the present move so far.
     pieces: u32,
-    /// What could not be commanded.
+    /// Moves that could not be commanded.
     pub faults: Vec<Fault>,
 }
 
-/// More faults say nothing new.
+/// More faults add no information.
 const MOST_FAULTS: usize = 100;
 
 impl<'m> AxisPath<'m> {
@@ -160,7 +160,7 @@ impl<'m> AxisPath<'m> {
         }
     }
 
-    /// Where the axes stand.
+    /// Where the axes are.
     pub fn command(&self) -> &Command {
         &self.command
     }
@@ -237,7 +237,7 @@ impl<'m> AxisPath<'m> {
         }
     }
 
-    /// After a change of what coordinates mean: the axes stay, the program place is another.
+    /// After a change of the coordinate system: the axes stay, the program position changes.
     fn reread(&mut self) {
         self.find_basic();
         self.stale = AxisSet::XYZ;
@@ -292,7 +292,7 @@ impl<'m> AxisPath<'m> {
             self.axis_move(m, &curve, feed, out)?;
         }
         if let MoveKind::RigidTap { .. } = m.kind {
-            // Out again by the same way; the interpreter counts on the place before.
+            // Out again on the same path; the interpreter counts on the place before.
             let back = Curve::Line { from: to, to: from };
             match self.follows_tip() {
                 true => self.tip_move(m, &back, feed, out)?,
@@ -337,8 +337,8 @@ impl<'m> AxisPath<'m> {
             let target = m.target[*axis] + self.frame.shift[*axis];
             end[index] = match axis.is_rotary() {
                 true => {
-                    let way = m.rotary_directions[*axis as usize - Axis::A as usize];
-                    self.turned(index, target.to_radians(), way)
+                    let direction = m.rotary_directions[*axis as usize - Axis::A as usize];
+                    self.turned(index, target.to_radians(), direction)
                 }
                 false => target,
             };
@@ -347,10 +347,10 @@ impl<'m> AxisPath<'m> {
     }
 
     /// The angle that a rotary axis goes to.
-    fn turned(&self, axis: usize, target: f64, way: RotaryDirection) -> f64 {
+    fn turned(&self, axis: usize, target: f64, direction: RotaryDirection) -> f64 {
         let (now, turn) = (self.command[axis], std::f64::consts::TAU);
         let travel = self.machine.axes()[axis].travel;
-        match way {
+        match direction {
             RotaryDirection::AsWritten => target,
             RotaryDirection::Shortest => {
                 let near = target + turn * ((now - target) / turn).round();
@@ -407,7 +407,7 @@ impl<'m> AxisPath<'m> {
         if length_mm.is_finite() && turned.is_finite() {
             return self.bounded(m, count);
         }
-        let message = "the move leads to no finite place".to_owned();
+        let message = "the target of the move is not finite".to_owned();
         Err(fault(m, None, "not-finite", message, "check offsets, scale and coordinates"))
     }
 
@@ -494,7 +494,7 @@ impl<'m> AxisPath<'m> {
     }
 }
 
-/// How fast a move goes.
+/// The speed of a move.
 #[derive(Debug, Clone, Copy)]
 enum Speed {
     Rapid,
@@ -515,7 +515,7 @@ impl Speed {
 }
 
 /// The length that the feed counts along: mm of the tip, or degrees of the
-/// rotary axes where the tip stands.
+/// rotary axes where the tip is.
 fn path_length(length_mm: f64, turned_rad: f64) -> f64 {
     if length_mm > 1e-9 { length_mm } else { turned_rad.to_degrees() }
 }

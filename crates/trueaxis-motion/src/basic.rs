@@ -45,7 +45,7 @@ pub(super) fn choose(machine: &Machine, aimed: &[DirectionSolution], branch: Bra
     inside.find(fits).unwrap_or(aimed[0].command)
 }
 
-/// The place of basic coordinates in the workpiece: where the gauge point of the spindle stands
+/// The place of basic coordinates in the workpiece: where the gauge point of the spindle is
 /// when the linear axes do and all rotary axes are at zero.
 pub(super) fn workpiece_from_basic(machine: &Machine) -> (Mat3, Vec3) {
     let Some(control) = TipControl::of(&machine.clone().with_tip(Vec3::zeros())) else {
@@ -59,18 +59,18 @@ pub(super) fn workpiece_from_basic(machine: &Machine) -> (Mat3, Vec3) {
         }
         control.tip_and_axis(&command).0
     };
-    // The way is long so that the offsets of the machine do not cost digits of the direction.
+    // The distance is long so that the offsets of the machine do not cost digits of the direction.
     const FAR_MM: f64 = 1_048_576.0;
     let columns = [0, 1, 2].map(|i| (at(i, FAR_MM) - at(i, -FAR_MM)) / (2.0 * FAR_MM));
     let turn = Mat3::from_columns(&columns);
-    // Without X, Y and Z basic coordinates say nothing of the workpiece.
+    // Without X, Y and Z basic coordinates do not determine the workpiece.
     match turn.determinant().abs() > 1e-3 {
         true => (turn, at(0, 0.0)),
         false => (Mat3::identity(), Vec3::zeros()),
     }
 }
 
-/// Where the axes stand before the program: as the set-up says, else at zero or the end of the
+/// Where the axes are before the program: as the set-up states, else at zero or the end of the
 /// travel next to it.
 pub(super) fn start(machine: &Machine, setup: &SetUp) -> Command {
     let axis_of = axes_of_programs(machine);
@@ -91,8 +91,8 @@ pub(super) fn start(machine: &Machine, setup: &SetUp) -> Command {
     command
 }
 
-/// A, B and C in degrees at which the tool stands along a direction of the basic frame; what the
-/// interpreter asks for Q120 to Q122 and the like.
+/// A, B and C in degrees at which the tool points along a direction of the basic frame; what the
+/// interpreter needs for Q120 to Q122 and similar parameters.
 pub(super) fn rotary_angles(
     control: &TipControl,
     direction: [f64; 3],
@@ -120,7 +120,7 @@ pub(super) fn mount(machine: &Machine, frame: &Frame) -> Machine {
     let zero = Vec3::new(frame.shift.0[0], frame.shift.0[1], frame.shift.0[2]);
     let linear = Mat3::from_fn(|i, j| frame.linear[i][j]);
     let there = Pose::new(turn * linear, turn * zero + shift);
-    // The workpiece is the first body of the chain; what stands fixed on it is its mounting.
+    // The workpiece is the first body of the chain; what is fixed on it is its mounting.
     let body = &machine.bodies()[0];
     machine.clone().with_workpiece(body.placement, body.mounting * there)
 }

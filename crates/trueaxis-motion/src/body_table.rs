@@ -14,7 +14,7 @@ use trueaxis_machine::errors::ErrorValues;
 pub const BODY_HEADINGS: &str = "time_s,program,line,body,x_mm,y_mm,z_mm,xx,xy,xz,yx,yy,yz,zx,zy,zz,\
                                  dev_x_um,dev_y_um,dev_z_um,dev_a_urad,dev_b_urad,dev_c_urad";
 
-/// Writes the poses of all bodies in the machine frame (the simulation frame of document 002).
+/// Writes the poses of all bodies in the machine frame (the simulation frame of Jiang et al.).
 pub struct BodyTable<W: Write> {
     out: W,
     text: String,
@@ -28,7 +28,7 @@ impl<W: Write> BodyTable<W> {
         Self { out, text: String::new(), failed }
     }
 
-    /// Writes what is still on its way.
+    /// Writes what is still in the buffer.
     ///
     /// # Errors
     /// The first error of the disk.
@@ -64,7 +64,7 @@ impl<W: Write> Observer for BodyTable<W> {
             if self.failed.is_some() {
                 return;
             }
-            // Where the machine file tells no errors, the simulation has told so already.
+            // Where the machine file gives no errors, the simulation has already reported it.
             let errors = batch.machine.errors_at(&node.command, &batch.approach(i));
             let nominal = batch.machine.body_poses(&node.command, &ErrorValues::default());
             let actual = batch.machine.body_poses(&node.command, &errors.unwrap_or_default());

@@ -1,4 +1,4 @@
-//! When each node is passed: by the planner of the control, or by the phases of document 002.
+//! When each node is passed: by the planner of the control, or by the phases of Jiang et al..
 
 use super::axis_path::Node;
 use super::timing;
@@ -14,7 +14,7 @@ pub struct Stamp {
     pub time_s: f64,
     /// Along the path, mm/s or deg/s.
     pub speed: f64,
-    /// What keeps the speed below the programmed one.
+    /// The limit that keeps the speed below the programmed one.
     pub held_by: Option<Limiting>,
 }
 
@@ -37,7 +37,7 @@ pub enum Timing {
 /// 20 rad/s², 350 rad/s³.
 const USUAL: [[f64; 3]; 2] = [[500.0, 3000.0, 50_000.0], [6.0, 20.0, 350.0]];
 
-/// A corner may turn a rotary axis off its way by so much, rad (0.02°).
+/// A corner may turn a rotary axis off its path by so much, rad (0.02°).
 const ROUNDING_RAD: f64 = 3.5e-4;
 
 /// Pieces shorter than this drown in the rounding of a long path, mm or deg.
@@ -90,9 +90,9 @@ impl Clock {
         }
     }
 
-    /// The next node; hands on every stamp that is settled by now.
+    /// The next node; passes on every stamp that is final by now.
     ///
-    /// A node where the axes already stand is a dwell; the caller leaves others out.
+    /// A node where the axes are already at rest is a dwell; the caller leaves others out.
     ///
     /// # Errors
     /// Numbers that no path can have; the node then gets no stamp.
@@ -141,7 +141,7 @@ impl Clock {
         timing::Node { command, length, feed: node.speed, stop: node.stop, tolerance, dwell_s: 0.0 }
     }
 
-    /// The axes come to rest: everything that waits gets its stamp.
+    /// The axes come to rest: every waiting node gets its stamp.
     pub fn finish(&mut self, out: &mut dyn FnMut(Stamp)) {
         if let Timing::ThreePhase { acceleration, smooth } = self.timing {
             self.stamp_block(acceleration, smooth, out);
@@ -159,7 +159,7 @@ impl Clock {
         let length: f64 = nodes.iter().map(|n| n.length).sum();
         let Some(first) = nodes.first() else { return };
         let shape = if smooth { Shape::Smooth } else { Shape::Constant };
-        // Rapid is as fast as a linear axis usually is; the paper knows no rapid.
+        // Rapid is as fast as a linear axis usually is; the paper has no rapid moves.
         let feed = if first.is_rapid() { USUAL[0][0] } else { first.speed };
         let block = Block { length, feed, acceleration, start: 0.0, end: 0.0, shape };
         let phases = block.phases();

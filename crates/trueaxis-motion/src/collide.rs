@@ -1,4 +1,4 @@
-//! What bumps into what: models on the nodes of the chain, their clearances, their collisions.
+//! Collisions: models on the nodes of the chain, their clearances, their contacts.
 //!
 //! ```text
 //!     machine file [[model]] ──load_models──> [BodyModel]
@@ -9,7 +9,7 @@
 //!
 //! Document 002 places models on the nodes of the topology, each with a coordinate system of its
 //! own, and checks their surfaces against each other. Everything here is triangles with a tree of
-//! boxes; docs/decisions/0006-collisions.md says why.
+//! boxes; docs/decisions/0006-collisions.md gives the reasons.
 
 mod load;
 mod mesh;

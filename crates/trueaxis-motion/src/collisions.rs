@@ -9,7 +9,7 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Command;
 use trueaxis_machine::errors::ErrorValues;
 
-/// Watches the bodies of machine, tool, stock and fixtures, each way between two nodes as a whole.
+/// Watches the bodies of machine, tool, stock and fixtures, each path between two nodes as a whole.
 ///
 /// The bodies move as those of the nominal machine: errors are far below any clearance.
 pub struct Collisions {
@@ -23,12 +23,12 @@ pub struct Collisions {
     tool: u32,
     before: Option<(Command, f64)>,
     contacts: Vec<Contact>,
-    /// What it found.
+    /// The issues that were found.
     pub log: Log,
 }
 
 impl Collisions {
-    /// Nothing found yet; `models` are those of the machine.
+    /// Empty; `models` are those of the machine.
     ///
     /// `None` if fewer than two bodies are known: nothing can collide.
     pub fn watch(machine: &Machine, models: Vec<BodyModel>, setup: &SetUp) -> Option<Self> {
@@ -53,7 +53,7 @@ impl Collisions {
         })
     }
 
-    /// The pairs that are not watched because they overlap when all axes stand at zero.
+    /// The pairs that are not watched because they overlap when all axes are at zero.
     pub fn left_out(&self) -> impl Iterator<Item = (&str, &str)> {
         self.scene.excluded().iter().map(|pair| (&*pair.first, &*pair.second))
     }
@@ -93,7 +93,7 @@ impl Collisions {
     }
 }
 
-/// What a contact is to the process; `None` if it is the process.
+/// The kind of issue of a contact; `None` if it belongs to the process.
 fn kind(contact: &Contact) -> Option<TroubleKind> {
     let (first, second) = (contact.first.to_string(), contact.second.to_string());
     let overlap = contact.clearance_mm <= 0.0;

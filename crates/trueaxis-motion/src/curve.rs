@@ -54,7 +54,7 @@ impl Curve {
         let rise = axis.dot(&(to - from));
         let end = to - center - axis * rise;
         let angle = axis.dot(&arm.cross(&end)).atan2(arm.dot(&end));
-        // Rounding must not make a full circle of none: what is nearly nothing is a whole turn.
+        // Rounding must not make a full circle of none: an angle of nearly zero is a full turn.
         let whole = f64::from(turns.max(1) - 1) * std::f64::consts::TAU;
         let first = if ccw { angle } else { -angle };
         let first = if first <= 1e-9 { first + std::f64::consts::TAU } else { first };
@@ -116,7 +116,7 @@ mod tests {
         let half = 10.0 / 2_f64.sqrt();
         assert!((quarter.at(0.5) - Vec3::new(half, half, 5.0)).norm() < 1e-12);
         assert!((quarter.length_mm() - 5.0 * std::f64::consts::PI).abs() < 1e-12);
-        // The other way round: three quarters.
+        // The other direction: three quarters.
         let rest = Curve::arc(from, to, &arc(Plane::Xy, [0.0, 0.0], 1, false));
         assert!((rest.length_mm() - 15.0 * std::f64::consts::PI).abs() < 1e-12);
     }

@@ -22,7 +22,7 @@ pub enum Densify {
         /// The longest piece, mm: errors vary along straight lines too.
         spacing_mm: f64,
     },
-    /// As [`Densify::Tolerance`], for who asks where the tool is and not how the axes go from place
+    /// As [`Densify::Tolerance`], for uses that need the tool and not how the axes move from point
     /// to place: lines of the tip are not cut because straight axes would leave them.
     Places {
         /// Between circles and their chords, mm.
@@ -31,7 +31,7 @@ pub enum Densify {
         angle_rad: f64,
         /// The longest piece, mm.
         spacing_mm: f64,
-        /// Each move at least into so many pieces.
+        /// Each move at least into this number of pieces.
         least: u32,
     },
 }
@@ -42,7 +42,7 @@ impl Default for Densify {
     }
 }
 
-/// Moves are cut into at most so many pieces; more says that a unit is wrong.
+/// Largest number of pieces of a move; more means that a unit is wrong.
 pub(super) const MOST_PIECES: f64 = 1e6;
 
 /// ⌈ratio⌉, at least 1; a ratio within 1e-9 of a whole number counts as that number.
@@ -53,7 +53,7 @@ pub(super) const MOST_PIECES: f64 = 1e6;
 pub fn pieces(ratio: f64) -> f64 {
     let whole = ratio.round();
     let counted = if (ratio - whole).abs() <= 1e-9 { whole } else { ratio.ceil() };
-    // A ratio that is no number (nothing by nothing) needs no cut.
+    // A ratio that is not a number (0/0) needs no cut.
     if counted >= 1.0 { counted.min(MOST_PIECES) } else { 1.0 }
 }
 

@@ -1,4 +1,4 @@
-//! What changing temperatures do to a run: their ranges, and how far the deviation drifts.
+//! The effect of changing temperatures on a run: their ranges, and the drift of the deviation.
 
 use super::summary::Worst;
 use super::{Batch, Observer, SetUp};
@@ -35,16 +35,16 @@ pub struct Drift {
     pub tip: Worst,
     /// The length at the last place with feed, mm.
     pub last_mm: f64,
-    /// Places whose drift is not known: outside an error table.
+    /// Points whose drift is not known: outside an error table.
     pub unknown: u64,
 }
 
 impl Drift {
-    /// Nothing yet; what is wrong with the log is told by the simulation.
+    /// Empty; the simulation reports what is wrong with the log.
     pub fn of(machine: &Machine, setup: &SetUp, run: &TemperatureRun) -> Option<Self> {
-        let told = &mut Diagnostics::new();
+        let problems = &mut Diagnostics::new();
         Some(Self {
-            warming: WarmingMachine::new(&setup.mounted(machine), run, told)?,
+            warming: WarmingMachine::new(&setup.mounted(machine), run, problems)?,
             run: run.clone(),
             start: None,
             poses: DeviationTable::zeros(0),
@@ -110,7 +110,7 @@ impl Observer for Drift {
             self.poses = DeviationTable::zeros(batch.nodes.len());
         }
         let commands = Commands::new(&columns[..axes]).approached(&batch.approaches[..axes]);
-        // Behind a place without errors, which the simulation tells, nothing is known.
+        // After a point without errors, which the simulation reports, nothing is known.
         let done = start.deviations(&commands, &mut self.poses.columns());
         let known = done.err().and_then(|e| e.index()).unwrap_or(batch.nodes.len());
         self.unknown += (batch.nodes.len() - known) as u64;

@@ -1,4 +1,4 @@
-//! From files to findings: what a command and a window both ask of a simulation.
+//! From files to results: used by the command line and by the window.
 
 use super::collide::{BodyModel, load_models};
 use super::program::program_of;
@@ -16,13 +16,13 @@ use trueaxis_nc::{Control, Program};
 pub struct ProgramFiles<'a> {
     /// Where the files are read from.
     pub files: &'a Files,
-    /// The program; its subprograms are looked for beside it.
+    /// The program; its subprograms are looked for in its folder.
     pub program: &'a Path,
     /// Its text if it is not to be read from the disk.
     pub text: Option<&'a [u8]>,
-    /// The set-up; without it the file PROGRAM.setup.toml beside a program on the disk.
+    /// The set-up; without it the file PROGRAM.setup.toml in the folder of a program on the disk.
     pub setup: Option<&'a Path>,
-    /// Whose program it is, if that is known.
+    /// The control that the program is for, if known.
     pub control: Option<Control>,
 }
 
@@ -61,18 +61,18 @@ pub struct Job {
     pub machine: Machine,
     /// The program.
     pub program: Program,
-    /// Whose program it is.
+    /// The control that the program is for.
     pub control: Control,
-    /// What stands on the machine.
+    /// What is on the machine.
     pub setup: SetUp,
     /// How it is simulated.
     pub options: Options,
-    /// What the bodies of the machine look like; empty where nobody asks.
+    /// Shapes of the bodies of the machine; empty where they are not needed.
     pub models: Vec<BodyModel>,
 }
 
 impl Job {
-    /// Reads set-up and program; all that is wrong goes to `problems`.
+    /// Reads set-up and program; everything that is wrong goes to `problems`.
     ///
     /// ```no_run
     /// use trueaxis_input::Diagnostics;
@@ -97,7 +97,7 @@ impl Job {
         Some(Self { machine, program, control, setup, options, models: Vec::new() })
     }
 
-    /// The same with the models of the machine, whose STL files lie beside the machine file.
+    /// The same with the models of the machine, whose STL files are in the folder of the machine file.
     #[must_use]
     pub fn with_models(mut self, machine_file: &Path, problems: &mut Diagnostics) -> Self {
         self.models = load_models(&self.setup.files, &self.machine, machine_file, problems);
@@ -136,31 +136,31 @@ impl Job {
     }
 }
 
-/// What a simulation found.
+/// The results of a simulation.
 pub struct Findings {
     /// How it ended.
     pub run: Run,
-    /// What it comes to.
+    /// Its results.
     pub summary: Summary,
-    /// What went wrong.
+    /// The issues.
     pub troubles: TroubleList,
-    /// What changing temperatures did, where they followed a log.
+    /// The effect of changing temperatures, where they followed a log.
     pub drift: Option<Drift>,
 }
 
-/// Tells how far the main program has come: the part of its lines, 0 to 1. Loops go back; the part
+/// Reports how far the main program has come: the part of its lines, 0 to 1. Loops go back; the part
 /// does not.
 pub struct Progress<'t> {
     lines: f64,
     line: u32,
-    tell: Box<dyn FnMut(f64) + 't>,
+    report: Box<dyn FnMut(f64) + 't>,
 }
 
 impl<'t> Progress<'t> {
     /// From the first line on.
-    pub fn through(program: &Program, tell: impl FnMut(f64) + 't) -> Self {
+    pub fn through(program: &Program, report: impl FnMut(f64) + 't) -> Self {
         let breaks = program.source().iter().filter(|b| **b == b'\n').count();
-        Self { lines: breaks as f64 + 1.0, line: 0, tell: Box::new(tell) }
+        Self { lines: breaks as f64 + 1.0, line: 0, report: Box::new(report) }
     }
 }
 
@@ -169,7 +169,7 @@ impl Observer for Progress<'_> {
         let Some(node) = batch.nodes.last() else { return };
         if node.origin.program == 0 && node.origin.line > self.line {
             self.line = node.origin.line;
-            (self.tell)((f64::from(self.line) / self.lines).min(1.0));
+            (self.report)((f64::from(self.line) / self.lines).min(1.0));
         }
     }
 }

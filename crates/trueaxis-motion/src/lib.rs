@@ -1,4 +1,4 @@
-//! What does the machine do with an NC program? Path, times, nominal and actual tool, collisions.
+//! Simulation of an NC program on a machine: path, times, nominal and actual tool, collisions.
 //!
 //! ```text
 //!     program ──interpret──> moves ──axis_path──> nodes ──clock──> times
@@ -19,7 +19,7 @@
 //! assert!((summary.time_s - 10.0).abs() < 0.5); // 500 mm at 50 mm/s
 //! ```
 //!
-//! [`simulate()`] tells every [`Observer`] what happens, in constant memory; [`Job`] is the same from files;
+//! [`simulate()`] reports what happens to every [`Observer`], in constant memory; [`Job`] is the same from files;
 //! [`Recording`] keeps all of it to go back and forth in. It does not judge a part.
 
 pub mod axis_path;
@@ -94,12 +94,12 @@ pub fn schemas() -> Vec<NamedSchema> {
     vec![named_schema::<report::SimulationDocument<'_>>("simulate")]
 }
 
-/// Takes what the simulation finds, stretch by stretch, in constant memory.
+/// Receives the results of a simulation, stretch by stretch, in constant memory.
 pub trait Observer {
     /// The next stretch of the path.
     fn path(&mut self, batch: &Batch<'_>);
 
-    /// What the interpreter hands out, before the path of it comes.
+    /// A step of the interpreter, before its path.
     fn step(&mut self, _step: &Step) {}
 }
 
@@ -108,17 +108,17 @@ pub trait Observer {
 pub struct Options {
     /// How finely moves are cut.
     pub densify: Densify,
-    /// How far corners may be rounded where the program does not say it, mm.
+    /// How far corners may be rounded where the program does not state it, mm.
     pub rounding_mm: f64,
     /// How time runs.
     pub timing: Timing,
     /// Backward jumps and calls before the program counts as endless.
     pub most_jumps: u64,
-    /// List errors and go on behind them.
+    /// List errors and continue after them.
     pub keep_going: bool,
     /// The log that the temperatures follow; without one the machine keeps those that it has.
     pub temperatures: Option<TemperatureRun>,
-    /// Asked, the simulation ends early; what was found until then is not the whole.
+    /// On request the simulation ends early; its results are then incomplete.
     pub stop: Stop,
 }
 
@@ -147,10 +147,10 @@ pub struct Run {
     pub stopped: bool,
 }
 
-/// Runs an NC program on a machine and tells the observers all that happens.
+/// Runs an NC program on a machine and reports all that happens to the observers.
 ///
 /// Memory does not grow with the program. The workpiece frame of all results is that of the
-/// machine file, or of a work offset if the set-up says so. Where the temperatures follow a log,
+/// machine file, or of a work offset if the set-up states it. Where the temperatures follow a log,
 /// every place is evaluated on the machine of its own time; a program that outlasts its log is an
 /// error at the block where the log ends.
 pub fn simulate(
@@ -166,15 +166,16 @@ pub fn simulate(
         stop: options.stop.clone(),
         ..setup.settings(options.keep_going)
     };
-    let mut told = Diagnostics::new();
-    let Some(present) = Present::of(&machine, options.temperatures.as_ref(), &mut told) else {
-        return Run { problems: told, programs: Vec::new(), stopped: false };
+    let mut log_problems = Diagnostics::new();
+    let Some(present) = Present::of(&machine, options.temperatures.as_ref(), &mut log_problems)
+    else {
+        return Run { problems: log_problems, programs: Vec::new(), stopped: false };
     };
     let mut walk = Walk::new(&machine, present, setup, options, observers);
     let outcome = execute(&machine, program, setup, &settings, &mut |step| walk.take(&step));
     let faults = walk.finish();
     let mut problems = outcome.problems;
-    problems.append(told);
+    problems.append(log_problems);
     setup.warn_of_zeros(program.file(), &mut problems);
     note_assumed_limits(&machine, program, &mut problems);
     for fault in faults {
@@ -184,7 +185,7 @@ pub fn simulate(
     Run { problems, programs: outcome.programs, stopped: options.stop.is_requested() }
 }
 
-/// Executes a program as its control would; subprograms lie beside it.
+/// Executes a program as its control would; subprograms are in its folder.
 pub fn execute(
     mounted: &Machine,
     program: &Program,
@@ -208,15 +209,15 @@ fn note_assumed_limits(machine: &Machine, program: &Program, problems: &mut Diag
         machine.axes().iter().filter(lacks).map(|a| a.name.to_string()).collect();
     if !axes.is_empty() {
         let message = format!(
-            "usual limits are taken where the machine file has none, on {}",
+            "typical limits are used where the machine file states none: {}",
             axes.join(" ")
         );
-        let hint = "state max_velocity, max_acceleration and max_jerk for true times";
+        let hint = "state max_velocity, max_acceleration and max_jerk for realistic times";
         problems.note("assumed-limits", Place::whole(program.file()), message, hint);
     }
 }
 
-/// Where a fault stands: the line, and the column of its word if the text is at hand.
+/// Where a fault is: the line, and the column of its word if the text is available.
 pub fn place(program: &Program, programs: &[String], fault: &Fault) -> Place {
     let index = fault.origin.program as usize;
     let mut place = Place::whole(programs.get(index).map_or(program.file(), String::as_str));
@@ -233,7 +234,7 @@ pub fn place(program: &Program, programs: &[String], fault: &Fault) -> Place {
     place
 }
 
-/// The way of each step through path, clock and poses.
+/// Leads each step through path, clock and poses.
 struct Walk<'w, 'o> {
     path: AxisPath<'w>,
     stretch: Stretch<'w, 'o>,
@@ -258,7 +259,7 @@ impl<'w, 'o> Walk<'w, 'o> {
             present,
             tool: 0,
             at: start,
-            // Where the axes stand before the program.
+            // Where the axes are before the program.
             nodes: vec![path.start()],
             stamps: vec![Stamp::default()],
             observers,
@@ -323,7 +324,7 @@ impl Stretch<'_, '_> {
         }
     }
 
-    /// Everything that has its time, in batches of one temperature.
+    /// All nodes that have their time, in batches of one temperature.
     fn evaluate(&mut self) {
         while let Some(first) = self.stamps.first().filter(|_| !self.stop.is_requested()) {
             match self.present.advance(first.time_s) {

@@ -4,7 +4,7 @@
 //!     d(u) = R(a, u·θ)·d0                                           docs/model.md eq. 36
 //! ```
 //!
-//! On a great circle a stands on both directions; on a cone both lie at the same angle from a.
+//! On a great circle a is perpendicular to both directions; on a cone both lie at the same angle from a.
 
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::rotation;
@@ -43,7 +43,7 @@ pub(super) fn angle(a: &Vec3, b: &Vec3) -> f64 {
 }
 
 impl Swing {
-    /// In the plane of both directions, the shorter way.
+    /// In the plane of both directions, in the shorter direction.
     pub fn great_circle(from: Vec3, to: Vec3) -> Result<Self, NoSwing> {
         let normal = from.cross(&to);
         let angle_rad = angle(&from, &to);

@@ -49,7 +49,7 @@ fn read(bytes: Vec<u8>) -> Result<Vec<(String, Vec<f64>)>, String> {
     }
     let fields = metadata.schema().get_fields();
     if let Some(group) = fields.iter().find(|f| !f.is_primitive()) {
-        return Err(format!("column `{}` is no column of numbers", group.name()));
+        return Err(format!("column `{}` is not a column of numbers", group.name()));
     }
     let mut columns: Vec<(String, Vec<f64>)> =
         fields.iter().map(|f| (f.name().to_owned(), Vec::new())).collect();
@@ -65,7 +65,7 @@ fn read(bytes: Vec<u8>) -> Result<Vec<(String, Vec<f64>)>, String> {
                 Field::ULong(value) => *value as f64,
                 // Told with its row when the table is made.
                 Field::Null => f64::NAN,
-                _ => return Err(format!("column `{name}` is no column of numbers")),
+                _ => return Err(format!("column `{name}` is not a column of numbers")),
             });
         }
     }

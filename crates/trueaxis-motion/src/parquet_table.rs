@@ -50,7 +50,7 @@ impl<W: Write + Send> ParquetTable<W> {
         table
     }
 
-    /// Writes what is still on its way, and the foot of the file.
+    /// Writes what is still in the buffer, and the foot of the file.
     ///
     /// # Errors
     /// The first error of the disk.
@@ -61,7 +61,7 @@ impl<W: Write + Send> ParquetTable<W> {
         };
         let foot = written.and_then(|()| match self.out.take() {
             Some(out) => out.into_inner(),
-            None => Err(ParquetError::General("the file was not begun".to_owned())),
+            None => Err(ParquetError::General("the file was not started".to_owned())),
         });
         foot.map_err(io::Error::other)
     }
@@ -136,7 +136,7 @@ impl<W: Write + Send> Observer for ParquetTable<W> {
         for i in 0..batch.nodes.len() {
             let row = Row::of(&self.machine, batch, i);
             for (column, value) in self.whole.iter_mut().zip(row.whole) {
-                // The bits of an unsigned number; the schema says that it has no sign.
+                // The bits of an unsigned number; the schema states that it has no sign.
                 column.push(value.cast_signed());
             }
             for (column, value) in self.numbers.iter_mut().zip(row.numbers()) {

@@ -9,7 +9,7 @@ use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::moves::{Branch, Position};
 use trueaxis_nc::{Control, Library, Program};
 
-/// Reads an NC program; whose it is comes from the caller, the set-up, the file's extension or its
+/// Reads an NC program; its control comes from the caller, the set-up, the file's extension or its
 /// first lines, in this order.
 pub fn read_program(
     files: &Files,
@@ -22,7 +22,7 @@ pub fn read_program(
     program_of(path, bytes, control.or(setup.control), problems)
 }
 
-/// The program of a text that would stand at a path.
+/// The program of a text as if it were in a file at a path.
 pub(super) fn program_of(
     path: &Path,
     mut bytes: Vec<u8>,
@@ -42,12 +42,18 @@ pub(super) fn program_of(
     }
     if bytes.iter().all(u8::is_ascii_whitespace) {
         let message = "the program is empty".to_owned();
-        problems.error("empty-program", Place::whole(&file), message, "an NC program is due here");
+        problems.error(
+            "empty-program",
+            Place::whole(&file),
+            message,
+            "expected an NC program here",
+        );
         return None;
     }
     let control = control.or_else(|| by_extension(path)).or_else(|| sniff(&bytes));
     let Some(control) = control else {
-        let message = "neither its name nor its first lines say which control it is for".to_owned();
+        let message =
+            "neither its name nor its first lines show which control it is for".to_owned();
         let hint = format!("give --control {CONTROLS}");
         problems.error("unknown-control", Place::whole(&file), message, &hint);
         return None;
@@ -66,7 +72,7 @@ fn by_extension(path: &Path) -> Option<Control> {
     }
 }
 
-/// What only one of the controls writes, in the first lines.
+/// Words in the first lines that only one of the controls uses.
 fn sniff(bytes: &[u8]) -> Option<Control> {
     let head = &bytes[..bytes.len().min(4096)];
     let text = String::from_utf8_lossy(head).to_ascii_uppercase();
@@ -121,7 +127,8 @@ impl<'m> Folder<'m> {
 
 impl Library for Folder<'_> {
     fn text(&self, name: &str) -> Result<Vec<u8>, String> {
-        let path = self.find(name).ok_or("there is no such file beside the main program")?;
+        let path =
+            self.find(name).ok_or("there is no such file in the folder of the main program")?;
         self.files.read(&path).map_err(|e| e.to_string())
     }
 

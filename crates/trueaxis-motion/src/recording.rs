@@ -1,4 +1,4 @@
-//! A whole simulation, kept so that somebody can go back and forth in it.
+//! A whole simulation, kept so that a user can go back and forth in it.
 //!
 //! ```text
 //!     Batch ──Recorder──> Columns (a row for each node) + Pyramid (extents of 4, 16, 64 … nodes)
@@ -36,7 +36,7 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Command, Travel};
 use trueaxis_machine::heat::WarmingMachine;
 
-/// What an axis may do, as people read it: mm or deg.
+/// What an axis may do, in the units of text output: mm or deg.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AxisRange {
     /// Its ISO 841 letter.
@@ -54,7 +54,7 @@ pub struct AxisRange {
 /// One tool at one set of temperatures.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Stretch {
-    /// It holds behind this time, s.
+    /// It is valid after this time, s.
     after_s: f64,
     tool: u32,
     tip_mm: Vec3,
@@ -139,7 +139,7 @@ impl Recording {
     }
 
     fn stretch(&self, time_s: f64) -> Option<&Stretch> {
-        let behind = self.stretches.partition_point(|s| s.after_s < time_s);
-        self.stretches.get(behind.saturating_sub(1))
+        let after = self.stretches.partition_point(|s| s.after_s < time_s);
+        self.stretches.get(after.saturating_sub(1))
     }
 }

@@ -1,4 +1,4 @@
-//! Curves over time and the way of the tip for pictures, in bounded memory.
+//! Curves over time and the path of the tip for pictures, in bounded memory.
 //!
 //! Each stretch of time keeps the lowest and the highest value, so that a short peak stays visible
 //! however long the program is. Between two nodes positions and deviations go straight, and axes
@@ -18,7 +18,7 @@ const POINTS: usize = 100_000;
 /// Positions, then speeds of the axes, then speed of the path and five deviations.
 const COLUMNS: usize = 2 * MAX_AXES + 6;
 
-/// What a curve shows.
+/// The quantity of a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
     /// Position of an axis (its index), mm or deg.
@@ -105,7 +105,7 @@ pub struct Series {
     stretches: Vec<Extent>,
     time_s: f64,
     before: Option<Row>,
-    way: Way,
+    path: TipPath,
 }
 
 impl Series {
@@ -124,7 +124,7 @@ impl Series {
             stretches: Vec::new(),
             time_s: 0.0,
             before: None,
-            way: Way::default(),
+            path: TipPath::default(),
         }
     }
 
@@ -143,9 +143,9 @@ impl Series {
         self.stretch_s
     }
 
-    /// The way of the tip, thinned where it is straight and its deviation even.
+    /// The path of the tip, thinned where it is straight and its deviation even.
     pub fn points(&self) -> &[PathPoint] {
-        &self.way.points
+        &self.path.points
     }
 
     /// The stretch of a time, made if it is not there yet.
@@ -168,7 +168,7 @@ impl Series {
         self.stretches = self.stretches.chunks(2).map(joined).collect();
     }
 
-    /// From the row before straight to this one; the speeds of the axes hold all the way.
+    /// From the row before straight to this one; the speeds of the axes are constant in between.
     fn advance(&mut self, time_s: f64, row: &Row) {
         let to = self.stretch(time_s);
         let Some(before) = self.before.replace(*row) else {
@@ -188,7 +188,7 @@ impl Series {
         self.stretches[to].see(row);
     }
 
-    /// The row of a node that is reached at a time; what stands still has no speed.
+    /// The row of a node that is reached at a time; axes at rest have no speed.
     fn row(&self, batch: &Batch<'_>, i: usize, reached_s: f64) -> (Row, PathPoint) {
         let (node, deviation) = (&batch.nodes[i], batch.deviation(i));
         let mut row = [0.0; COLUMNS];
@@ -229,17 +229,17 @@ impl Observer for Series {
                 row[MAX_AXES..2 * MAX_AXES].fill(0.0);
                 self.advance(stamp.time_s, &row);
             }
-            self.way.add(point);
+            self.path.add(point);
         }
     }
 }
 
-/// The way of the tip; when it has too many points, coarser differences are left out.
+/// The path of the tip; when it has too many points, coarser differences are left out.
 #[derive(Debug, Clone)]
-struct Way {
+struct TipPath {
     points: Vec<PathPoint>,
-    /// How far a left-out point may lie beside the way, mm.
-    beside_mm: f64,
+    /// How far a left-out point may lie from the path, mm.
+    tolerance_mm: f64,
     /// How much the deviation may differ from that at the point before, as a part of the range.
     even: f64,
     /// The least and the greatest deviation with feed.
@@ -252,11 +252,11 @@ struct Way {
     direction: Option<Vec3>,
 }
 
-impl Default for Way {
+impl Default for TipPath {
     fn default() -> Self {
         Self {
             points: Vec::new(),
-            beside_mm: 1e-3,
+            tolerance_mm: 1e-3,
             even: 0.04,
             range_mm: [f64::INFINITY, 0.0],
             extent_mm: None,
@@ -267,7 +267,7 @@ impl Default for Way {
     }
 }
 
-impl Way {
+impl TipPath {
     fn add(&mut self, point: PathPoint) {
         if !point.rapid {
             let [least, greatest] = self.range_mm;
@@ -277,7 +277,7 @@ impl Way {
         (*low, *high) = (low.inf(&point.tip_mm), high.sup(&point.tip_mm));
         let coarsest_mm = (*high - *low).norm() / 200.0;
         self.place(point);
-        while self.points.len() >= POINTS && self.beside_mm < coarsest_mm {
+        while self.points.len() >= POINTS && self.tolerance_mm < coarsest_mm {
             self.coarsen();
         }
         if self.points.len() >= POINTS {
@@ -292,7 +292,7 @@ impl Way {
     }
 
     fn coarsen(&mut self) {
-        self.beside_mm *= 2.0;
+        self.tolerance_mm *= 2.0;
         self.even = (self.even * 1.25).min(0.08);
         self.direction = None;
         let all = std::mem::take(&mut self.points);
@@ -303,22 +303,22 @@ impl Way {
         self.stride = stride;
     }
 
-    /// Appends a point, or moves the last one on to it where the way goes straight on.
+    /// Appends a point, or moves the last one on to it where the path goes straight on.
     fn place(&mut self, point: PathPoint) {
         let [.., anchor, last] = &mut self.points[..] else {
             let first = self.points.last().map(|first| point.tip_mm - first.tip_mm);
-            self.direction = first.and_then(|on| on.try_normalize(self.beside_mm));
+            self.direction = first.and_then(|on| on.try_normalize(self.tolerance_mm));
             return self.points.push(point);
         };
-        let (way, on) = (point.tip_mm - anchor.tip_mm, point.tip_mm - last.tip_mm);
+        let (chord, on) = (point.tip_mm - anchor.tip_mm, point.tip_mm - last.tip_mm);
         let even =
             (point.off_mm - last.off_mm).abs() <= self.even * (self.range_mm[1] - self.range_mm[0]);
         let straight = match &self.direction {
             // Too near the anchor to have a direction yet.
-            None => way.norm() <= self.beside_mm,
+            None => chord.norm() <= self.tolerance_mm,
             Some(along) => {
-                let beside = (way - along * way.dot(along)).norm();
-                beside <= self.beside_mm && on.dot(along) >= -self.beside_mm
+                let offset = (chord - along * chord.dot(along)).norm();
+                offset <= self.tolerance_mm && on.dot(along) >= -self.tolerance_mm
             }
         };
         if straight && even && point.rapid == last.rapid {
@@ -331,7 +331,7 @@ impl Way {
             return;
         }
         // The ray of the new piece begins at what was the last point.
-        self.direction = on.try_normalize(self.beside_mm);
+        self.direction = on.try_normalize(self.tolerance_mm);
         self.points.push(point);
     }
 }
@@ -348,7 +348,7 @@ mod tests {
             stretches: Vec::new(),
             time_s: 0.0,
             before: None,
-            way: Way::default(),
+            path: TipPath::default(),
         }
     }
 
@@ -381,7 +381,7 @@ mod tests {
         for (t, low, high) in series.curve(Quantity::Position(0)) {
             assert!((0.5 * (low + high) - 8.0 * t).abs() < 8.0 * series.stretch_s());
         }
-        // In the first stretch the axis also stands.
+        // In the first stretch the axis is also at rest.
         assert!(series.curve(Quantity::AxisSpeed(0)).skip(1).all(|(_, l, h)| (l, h) == (8.0, 8.0)));
         assert_eq!(series.curve(Quantity::Position(0)).count(), series.stretches.len());
         // Also where stretches were joined that had nothing yet.
@@ -394,24 +394,24 @@ mod tests {
 
     #[test]
     fn straight_ways_are_thinned_corners_and_uneven_deviations_stay() {
-        let mut way = Way::default();
+        let mut chord = TipPath::default();
         for k in 0..=1000 {
-            way.add(point(f64::from(k), 0.0, 0.01));
+            chord.add(point(f64::from(k), 0.0, 0.01));
         }
-        (1..=1000).for_each(|k| way.add(point(1000.0, f64::from(k), 0.01)));
-        way.add(point(1000.0, 1001.0, 0.05));
-        let kept: Vec<_> = way.points.iter().map(|p| (p.tip_mm.x, p.tip_mm.y)).collect();
+        (1..=1000).for_each(|k| chord.add(point(1000.0, f64::from(k), 0.01)));
+        chord.add(point(1000.0, 1001.0, 0.05));
+        let kept: Vec<_> = chord.points.iter().map(|p| (p.tip_mm.x, p.tip_mm.y)).collect();
         assert_eq!(kept, [(0.0, 0.0), (1000.0, 0.0), (1000.0, 1000.0), (1000.0, 1001.0)]);
     }
 
     #[test]
     fn a_wild_way_stays_bounded() {
-        let mut way = Way::default();
+        let mut chord = TipPath::default();
         for k in 0..1_000_000_u32 {
             let wild = f64::from(k.wrapping_mul(2_654_435_769) >> 8);
             let rapid = k % 2 == 0;
-            way.add(PathPoint { rapid, ..point(wild, f64::from(k), wild) });
+            chord.add(PathPoint { rapid, ..point(wild, f64::from(k), wild) });
         }
-        assert!(way.points.len() < POINTS && way.points.len() > POINTS / 8);
+        assert!(chord.points.len() < POINTS && chord.points.len() > POINTS / 8);
     }
 }

@@ -1,4 +1,4 @@
-//! The set-up: what stands on the machine and what the control has been told.
+//! The set-up: what is on the machine and what is set at the control.
 //!
 //! Work offsets, tools and the start of the axes come from a set-up file (TOML), with nothing
 //! assumed but zeros where it is silent.
@@ -31,7 +31,7 @@ pub struct SetUpTool {
 }
 
 impl SetUpTool {
-    /// What it looks like; `None` if neither shape nor diameter is stated.
+    /// Its shape; `None` if neither shape nor diameter is stated.
     pub fn tool_shape(&self) -> Option<ToolShape> {
         let mut segments = self.shape.clone();
         if segments.is_empty() {
@@ -59,7 +59,7 @@ impl Default for Nearness {
     }
 }
 
-/// What stands on the machine and what the control has been told.
+/// What is on the machine and what is set at the control.
 #[derive(Debug, Clone, Default)]
 pub struct SetUp {
     /// Whether there is a set-up file; without one offsets and lengths are 0.
@@ -72,7 +72,7 @@ pub struct SetUp {
     pub work_offsets: BTreeMap<u32, Frame>,
     /// Tools by number.
     pub tools: BTreeMap<u32, SetUpTool>,
-    /// Where the axes stand before the program, mm and degrees.
+    /// Where the axes are before the program, mm and degrees.
     pub start: Option<Position>,
     /// The work offset whose program zero is the workpiece frame of all results.
     pub workpiece_at: Option<u32>,
@@ -123,7 +123,7 @@ fn read(root: &Section<'_>, machine: &Machine, folder: &Path) -> SetUp {
     root.section("work_offset", |section| {
         for (key, place, item) in section.entries() {
             let Some(number) = offset_number(key) else {
-                let message = format!("`{key}` is no work offset");
+                let message = format!("`{key}` is not a work offset");
                 let hint = "G54 to G59, G59.1, G54.1P7, G505 to G599, or its number";
                 section.error_at(place, "bad-work-offset", message, hint);
                 continue;
@@ -136,7 +136,7 @@ fn read(root: &Section<'_>, machine: &Machine, folder: &Path) -> SetUp {
     root.section("tool", |section| {
         for (key, place, item) in section.entries() {
             let Ok(number) = key.parse::<u32>() else {
-                let message = format!("`{key}` is no number of a tool");
+                let message = format!("`{key}` is not a tool number");
                 section.error_at(place, "bad-tool", message, "[tool.1] with name and length");
                 continue;
             };
@@ -156,7 +156,7 @@ fn read(root: &Section<'_>, machine: &Machine, folder: &Path) -> SetUp {
     setup.workpiece_at = root.get("workpiece_at").and_then(|item| {
         let number = offset_number(item.text()?);
         if number.is_none() {
-            item.error("bad-work-offset", "this is no work offset".into(), "write \"G54\"");
+            item.error("bad-work-offset", "this is not a work offset".into(), "write \"G54\"");
         }
         number
     });
@@ -204,7 +204,7 @@ fn read_nearness(section: &Section<'_>) -> Nearness {
     let length = |key: &str, usual: f64| {
         let value = section.quantity(key, Dimension::Length).unwrap_or(usual);
         if value < 0.0 || (key == "resolution" && value < 1e-3) {
-            let message = format!("{value} mm is no {key}");
+            let message = format!("{value} mm is not a {key}");
             section.error("bad-collision", message, "such as clearance = \"1 mm\"");
         }
         value.max(0.0)
@@ -215,7 +215,7 @@ fn read_nearness(section: &Section<'_>) -> Nearness {
     }
 }
 
-/// Work offsets and tools of a SINUMERIK dump; what the set-up file says itself counts more.
+/// Work offsets and tools of a SINUMERIK dump; what the set-up file itself states has priority.
 fn read_archive(root: &Section<'_>, item: &Item<'_>, folder: &Path, setup: &mut SetUp) {
     let Some(name) = item.text() else { return };
     let path = folder.join(name);
@@ -223,7 +223,7 @@ fn read_archive(root: &Section<'_>, item: &Item<'_>, folder: &Path, setup: &mut 
         Ok(bytes) => bytes,
         Err(error) => {
             let message = format!("`{name}` cannot be read: {error}");
-            item.error("unreadable-file", message, "a dump such as INITIAL.INI is due here");
+            item.error("unreadable-file", message, "expected a dump such as INITIAL.INI here");
             return;
         }
     };
@@ -248,7 +248,7 @@ fn read_control(item: &Item<'_>) -> Option<Control> {
     let text = item.text()?;
     let control = control_named(text);
     if control.is_none() {
-        let message = format!("`{text}` is no control that is known");
+        let message = format!("unknown control `{text}`");
         item.error("unknown-control", message, CONTROLS);
     }
     control
@@ -341,7 +341,8 @@ fn read_tool(section: &Section<'_>, machine: &Machine) -> Option<SetUpTool> {
     }
     tool.diameter_mm = section.quantity("diameter", Dimension::Length).or(tool.diameter_mm);
     if tool.diameter_mm.is_some_and(|d| d <= 0.0) || length.is_some_and(|l| l < 0.0) {
-        let message = "a tool has a positive diameter and no negative length".to_owned();
+        let message =
+            "the diameter of a tool is positive and its length is not negative".to_owned();
         section.error("bad-tool", message, "length = \"100 mm\", diameter = \"10 mm\"");
     }
     let corner = section.quantity("corner_radius", Dimension::Length);
@@ -353,7 +354,7 @@ fn read_tool(section: &Section<'_>, machine: &Machine) -> Option<SetUpTool> {
 }
 
 impl SetUp {
-    /// What the interpreter is told.
+    /// The settings of the interpreter.
     pub fn settings(&self, keep_going: bool) -> Settings {
         let length = |t: &SetUpTool| {
             let mut length = Position::default();

@@ -1,4 +1,4 @@
-//! What a run comes to: time, way, extents and the worst deviations.
+//! The results of a run: time, path, extents and the worst deviations.
 
 use super::{Batch, Node, Observer};
 use std::collections::BTreeMap;
@@ -7,7 +7,7 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_nc::moves::{Event, Origin, Step};
 
-/// The largest of something, and where it is.
+/// The largest value, and where it occurs.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Worst {
     /// The value.
@@ -26,14 +26,14 @@ impl Worst {
     }
 }
 
-/// What one axis does.
+/// The motion of one axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxisUse {
     /// The lowest position, mm or rad.
     pub lowest: f64,
     /// The highest position, mm or rad.
     pub highest: f64,
-    /// The way that it goes, mm or rad.
+    /// The distance that it travels, mm or rad.
     pub travelled: f64,
     /// How often it changes its direction.
     pub reversals: u64,
@@ -57,7 +57,7 @@ pub struct Reversal {
 /// Reversals that are kept, the first ones.
 const MOST_REVERSALS: usize = 1000;
 
-/// What a run comes to.
+/// The results of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Summary {
     /// The whole time, s.
@@ -66,7 +66,7 @@ pub struct Summary {
     pub rapid_s: f64,
     /// Of it waiting, s.
     pub dwell_s: f64,
-    /// The way of the tip in the workpiece with feed, mm.
+    /// The path of the tip in the workpiece with feed, mm.
     pub feed_mm: f64,
     /// The same in rapid, mm.
     pub rapid_mm: f64,
@@ -118,7 +118,7 @@ fn band(rotary: bool) -> f64 {
     if rotary { 1e-3_f64.to_radians() } else { 1e-3 }
 }
 
-/// Follows an axis to find where it really turns back.
+/// Follows an axis to find where it actually reverses.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Turning {
     /// +1 rising, −1 falling, 0 not moved yet.
@@ -164,7 +164,7 @@ impl Turning {
 const MOST_MESSAGES: usize = 100;
 
 impl Summary {
-    /// Nothing yet, on a machine.
+    /// Empty, for a machine.
     pub fn of(machine: &Machine) -> Self {
         let unused = AxisUse {
             lowest: f64::INFINITY,
@@ -230,16 +230,16 @@ impl Summary {
     }
 
     fn see_way(&mut self, node: &Node, tip: Vec3, time_s: f64) {
-        let (way, took_s) = match &self.before {
+        let (moved, took_s) = match &self.before {
             Some(before) => ((tip - before.tip).norm(), time_s - before.time_s),
             None => (0.0, time_s),
         };
         self.dwell_s += node.dwell_s;
         if node.is_rapid() {
-            self.rapid_mm += way;
+            self.rapid_mm += moved;
             self.rapid_s += took_s - node.dwell_s;
         } else {
-            self.feed_mm += way;
+            self.feed_mm += moved;
         }
         self.time_s = time_s;
     }
@@ -292,7 +292,7 @@ impl Observer for Summary {
     }
 }
 
-/// A position or speed of an axis as people read it: mm or degrees.
+/// A position or speed of an axis in the units of text output: mm or degrees.
 pub fn shown(machine: &Machine, axis: usize, value: f64) -> f64 {
     let shown = match machine.axes()[axis].kind {
         AxisKind::Linear => value,
@@ -301,7 +301,7 @@ pub fn shown(machine: &Machine, axis: usize, value: f64) -> f64 {
     shown + 0.0 // no minus before a zero
 }
 
-/// The unit of an axis as people read it.
+/// The unit of an axis in text output.
 pub fn unit(machine: &Machine, axis: usize) -> &'static str {
     match machine.axes()[axis].kind {
         AxisKind::Linear => "mm",

@@ -12,7 +12,7 @@ pub struct CsvTable<W: Write> {
     machine: Machine,
     out: W,
     line: String,
-    /// The first error of the disk; nothing is written behind it.
+    /// The first error of the disk; nothing is written after it.
     pub failed: Option<io::Error>,
 }
 
@@ -23,7 +23,7 @@ impl<W: Write> CsvTable<W> {
         Self { machine: machine.clone(), out, line: String::new(), failed }
     }
 
-    /// Writes what is still on its way.
+    /// Writes what is still in the buffer.
     ///
     /// # Errors
     /// The first error of the disk.
@@ -35,7 +35,7 @@ impl<W: Write> CsvTable<W> {
     }
 }
 
-/// The columns that hold whole numbers, behind the time: program, line, tool, rapid (1 or 0).
+/// The columns that hold whole numbers, after the time: program, line, tool, rapid (1 or 0).
 pub(super) const WHOLE: [&str; 4] = ["program", "line", "tool", "rapid"];
 
 /// The columns, each with its unit.

@@ -18,7 +18,7 @@ pub(super) struct Present {
 }
 
 impl Present {
-    /// At the begin of the program; what is wrong with the log goes to `problems`.
+    /// At the start of the program; what is wrong with the log goes to `problems`.
     pub fn of(
         machine: &Machine,
         run: Option<&TemperatureRun>,
@@ -61,7 +61,7 @@ impl Present {
             None => {
                 let run = warming.run();
                 let message = format!(
-                    "the log of temperatures ends here, {:.1} s after the begin of the program \
+                    "the log of temperatures ends here, {:.1} s after the start of the program \
                      (at {} s of {})",
                     run.lasts_s(),
                     run.start_s + run.lasts_s(),
@@ -79,7 +79,7 @@ impl Present {
         stamps.iter().position(|s| s.time_s >= until_s).unwrap_or(stamps.len())
     }
 
-    /// Until when the machine holds; behind its log it does not, even if no sensor moves any more.
+    /// Until when the machine is valid; after the end of its log it is not, even if no sensor moves any more.
     fn until_s(&self) -> f64 {
         let end_s = self.warming.as_ref().map_or(f64::INFINITY, |w| w.run().lasts_s().next_up());
         self.until_s.min(end_s)

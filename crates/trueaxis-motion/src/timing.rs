@@ -1,6 +1,6 @@
 //! Time along the path: two laws.
 //!
-//! - [`three_phase`]: block by block with exact stop, as document 002 has it;
+//! - [`three_phase`]: block by block with exact stop, as in Jiang et al.;
 //! - [`Planner`]: jerk-limited with look-ahead across blocks, within the velocity, acceleration and
 //!   jerk of every axis at every instant.
 //!
@@ -85,7 +85,7 @@ pub struct Node {
     /// Length of the path from the node before, > 0: mm of the tool tip, or an angle where nothing
     /// but the tool axis moves; the caller chooses the unit. Ignored at the first node.
     pub length: f64,
-    /// Largest dσ/dt on the way from the node before; infinite for a rapid move.
+    /// Largest dσ/dt on the path from the previous node; infinite for a rapid move.
     pub feed: f64,
     /// Exact stop: the velocity at this node is zero.
     pub stop: bool,
@@ -131,7 +131,7 @@ pub struct Timed {
     pub sigma_dot: f64,
     /// Half the length of the blend at the node; 0 without one.
     pub blend: f64,
-    /// What keeps the velocity here below the programmed feed; none at a programmed stop.
+    /// The limit that keeps the velocity here below the programmed feed; none at a programmed stop.
     pub limiting: Option<Limiting>,
 }
 

@@ -8,7 +8,7 @@ use trueaxis_machine::batch::{BatchError, Commands, CompiledMachine, DeviationTa
 use trueaxis_machine::errors::ErrorValues;
 use trueaxis_machine::{Deviation, Machine};
 
-/// A motion smaller than this has no direction, mm and rad: where an axis stands the kinematics of the
+/// A motion smaller than this has no direction, mm and rad: where an axis is at rest the kinematics of the
 /// control round, and corrections of other axes reach it through squareness.
 pub const STILL: f64 = 1e-7;
 
@@ -90,7 +90,7 @@ impl ToolPath {
         (self.machine, self.since_s) = (machine, since_s);
     }
 
-    /// Poses and deviations of nodes; what the machine file cannot tell goes to `faults`.
+    /// Poses and deviations of nodes; what the machine file does not determine goes to `faults`.
     pub fn evaluate<'a>(
         &'a mut self,
         tool: u32,
@@ -151,7 +151,7 @@ impl ToolPath {
             let approach = std::array::from_fn(|a| {
                 self.approaches[a].get(from + index).copied().unwrap_or(0.0)
             });
-            // Beyond the travel, which is told as trouble, the errors of its end hold on.
+            // Beyond the travel, which is reported as an issue, the errors of its end hold on.
             let errors = machine.errors_at(&inside, &approach);
             if (errors.is_err() || inside == node.command) && faults.len() < 100 {
                 faults.push(unknown(node, &error));
@@ -222,7 +222,7 @@ fn unknown(node: &Node, error: &BatchError) -> Fault {
         code: "unknown-errors",
         message: match error {
             BatchError::Refused { source, .. } => {
-                format!("the error tables of the machine end before this place: {source}")
+                format!("the error tables of the machine end before this position: {source}")
             }
             other => other.to_string(),
         },

@@ -86,7 +86,7 @@ pub fn block_line(program: &Program, block: usize) -> Option<usize> {
     by_number.or_else(|| (block >= 1 && block <= lines().count()).then_some(block))
 }
 
-/// Simulates the program and keeps what one line of it does.
+/// Simulates the program and keeps the path of one line.
 pub fn trace(
     machine: &Machine,
     program: &Program,

@@ -1,4 +1,4 @@
-//! What goes wrong on the machine: travel, speed, flips, and bodies that meet.
+//! Issues on the machine: travel, speed, flips, and bodies that meet.
 
 use super::timing::LimitKind;
 use super::{Batch, Node, Observer, Stamp};
@@ -8,7 +8,7 @@ use trueaxis_machine::axis::{AxisKind, Command, Travel};
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::moves::Origin;
 
-/// What kind of trouble it is.
+/// The kind of an issue.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub enum TroubleKind {
     /// Two bodies touch or cut into each other.
@@ -18,7 +18,7 @@ pub enum TroubleKind {
         /// The other.
         second: String,
     },
-    /// Two bodies come nearer than the clearance asked for.
+    /// Two bodies come closer than the requested clearance.
     NearMiss {
         /// One of them.
         first: String,
@@ -29,7 +29,7 @@ pub enum TroubleKind {
     RapidInStock {
         /// The part of the tool.
         first: String,
-        /// What it meets.
+        /// The body that it meets.
         second: String,
     },
     /// An axis leaves its travel.
@@ -58,10 +58,10 @@ pub enum TroubleKind {
     },
 }
 
-/// One trouble over a stretch of the path.
+/// One issue over a stretch of the path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trouble {
-    /// What it is.
+    /// Its kind.
     pub kind: TroubleKind,
     /// Whether the part or the machine is in danger; the others cost time only.
     pub grave: bool,
@@ -75,7 +75,7 @@ pub struct Trouble {
     pub to_s: f64,
     /// The worst value: position, speed, speed ratio, angle or clearance; see [`trouble_text`](crate::report::trouble_text).
     pub value: f64,
-    /// What is allowed.
+    /// The limit.
     pub limit: f64,
     /// Nodes in it.
     pub nodes: u64,
@@ -84,7 +84,7 @@ pub struct Trouble {
 /// Kept of each kind; further ones are counted.
 const MOST: usize = 200;
 
-/// Stretches of a trouble that costs only time are one if they are nearer than this.
+/// Stretches of an issue that costs only time are one if they are nearer than this.
 const PAUSE_S: f64 = 1.0;
 
 /// The tool axis counts as near a pole below this sine: 2°.
@@ -93,7 +93,7 @@ const NEAR_POLE: f64 = 0.035;
 /// A rotary axis that turns this much more than the tool axis flips, rad.
 const FLIP_RAD: f64 = std::f64::consts::FRAC_PI_2;
 
-/// Troubles as they come; consecutive ones of a kind are one.
+/// Issues in their order; consecutive ones of a kind are one.
 #[derive(Debug, Default)]
 pub struct Log {
     list: Vec<Trouble>,
@@ -103,7 +103,7 @@ pub struct Log {
 }
 
 impl Log {
-    /// Notes a trouble at a node; the value farthest from its limit is the worst of a stretch.
+    /// Records an issue at a node; the value farthest from its limit is the worst of a stretch.
     pub fn note(&mut self, kind: TroubleKind, node: &Node, stamp: &Stamp, value: f64, limit: f64) {
         use TroubleKind::{Collision, OverTravel, RapidInStock};
         let grave = matches!(kind, Collision { .. } | OverTravel { .. } | RapidInStock { .. });
@@ -126,7 +126,7 @@ impl Log {
         entry.nodes += 1;
     }
 
-    /// What was not noted at this time is over; what costs only time, after a pause.
+    /// An issue that was not recorded at this time has ended; one that costs only time, after a pause.
     pub fn close(&mut self, time_s: f64) {
         let is_over = |t: &Trouble| t.to_s < time_s - if t.grave { 0.0 } else { PAUSE_S };
         if !self.open.values().any(is_over) {
@@ -156,7 +156,7 @@ impl Log {
     }
 }
 
-/// What went wrong in a whole run.
+/// The issues of a whole run.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct TroubleList {
     /// In the order of time.
@@ -189,13 +189,13 @@ impl TroubleList {
 pub struct AxisWatch {
     machine: Machine,
     control: Option<TipControl>,
-    /// What it found.
+    /// The issues that were found.
     pub log: Log,
     before: Option<(Command, trueaxis_geometry::Vec3)>,
 }
 
 impl AxisWatch {
-    /// Nothing found yet, on a machine.
+    /// Empty, for a machine.
     pub fn on(machine: &Machine) -> Self {
         let control = TipControl::of(machine);
         Self { machine: machine.clone(), control, log: Log::default(), before: None }
@@ -231,7 +231,7 @@ impl AxisWatch {
                 slowed = true;
             }
         }
-        // Speeding up and slowing down at rests is no trouble; what an axis cannot follow is.
+        // Speeding up and slowing down at rests is not an issue; what an axis cannot follow is.
         if let (false, Some(held)) = (slowed, stamp.held_by)
             && stamp.speed < 0.999 * node.speed
             && !node.stop

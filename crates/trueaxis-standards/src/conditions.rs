@@ -1,10 +1,10 @@
-//! What is known beside the readings: a small TOML file next to the data.
+//! The conditions of the readings: a small TOML file next to the data.
 
 use std::path::Path;
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{Diagnostics, Dimension, Files, Item, MeasuredValue, Section, SourceText};
 
-/// Air and bodies of a machine are within these, °C; what lies outside is another unit.
+/// Limits for temperatures of air and machine, °C; a value outside is in another unit.
 pub const SOUND_TEMPERATURES_C: std::ops::RangeInclusive<f64> = -10.0..=60.0;
 
 /// A length or an angle, as the instrument needs it.
@@ -16,7 +16,7 @@ pub enum Extent {
     Angle(f64),
 }
 
-/// What is known of the instrument and its set-up, for the measuring uncertainty.
+/// What is known of the instrument and its set-up, for the measurement uncertainty.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Instrument {
     /// Expanded uncertainty (k = 2) of its calibration: absolute, or in proportion to the length.
@@ -38,7 +38,7 @@ pub struct Circle {
     pub radius_mm: Option<f64>,
 }
 
-/// What is known beside the readings.
+/// The conditions of the readings.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Conditions {
     /// What was measured, in words.
@@ -53,7 +53,7 @@ pub struct Conditions {
     pub instrument_name: Option<String>,
     /// Temperature of the machine at the scale, °C, with its standard uncertainty.
     pub temperature_c: Option<MeasuredValue>,
-    /// For the measuring uncertainty.
+    /// For the measurement uncertainty.
     pub instrument: Option<Instrument>,
     /// For circular tests.
     pub circle: Circle,
@@ -92,7 +92,7 @@ fn read_root(root: &Section<'_>) -> Conditions {
     if let (Some(item), Some(value)) = (temperature, measured)
         && let Some(hint) = unsound_temperature(value.value)
     {
-        let message = format!("{} °C is no temperature of a machine", value.value);
+        let message = format!("{} °C is not a possible temperature of a machine", value.value);
         item.error("temperature-range", message, &hint);
     }
     let edges = root.section("volume", |s| s.get("edges").and_then(|item| lengths::<3>(&item)));
@@ -178,7 +178,7 @@ fn lengths<const N: usize>(item: &Item<'_>) -> Option<[f64; N]> {
     values
 }
 
-/// What to say of a temperature that no machine has.
+/// The hint for a temperature that no machine can have.
 pub fn unsound_temperature(value_c: f64) -> Option<String> {
     if SOUND_TEMPERATURES_C.contains(&value_c) {
         return None;

@@ -1,5 +1,5 @@
 //! Readings in the forms of others: each becomes the table that the standards read, with every row on
-//! its own line of the source, so that whatever is wrong with it is told with that line.
+//! its own line of the source, so that a problem is reported with that line.
 //!
 //! A new form is a variant of [`Import`] and a file here; docs/decisions/0010-importers.md.
 
@@ -36,7 +36,7 @@ impl Import {
         }
     }
 
-    /// What it is, for people.
+    /// Its name in text output.
     pub fn title(self) -> &'static str {
         match self {
             Self::Csv => "a table with one line of headings, each with its unit",
@@ -45,7 +45,7 @@ impl Import {
         }
     }
 
-    /// The form that the ending of a file stands for.
+    /// The form that belongs to the extension of a file.
     pub fn of(path: &Path) -> Self {
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
         match &*ending {
@@ -71,7 +71,7 @@ impl Import {
             Self::EcmcMarkdown => ecmc::read(standard, file, text, problems),
         };
         if feature.is_some() && self != Self::Qif {
-            let message = format!("`--feature` says nothing of {}", self.title());
+            let message = format!("`--feature` does not apply to {}", self.title());
             let hint = "only QIF files have features; leave it out";
             problems.warn("unused-argument", Place::whole("--feature"), message, hint);
         }
@@ -105,7 +105,7 @@ impl Imported<'_> {
         &self.table
     }
 
-    /// What is known beside the readings; what the user wrote comes before what the source has.
+    /// The conditions of the readings; what the user wrote has priority over the source.
     pub fn conditions(&self, stated: &Conditions) -> Conditions {
         let circle = Circle {
             centre_mm: stated.circle.centre_mm.or(self.circle.centre_mm),
@@ -114,7 +114,7 @@ impl Imported<'_> {
         Conditions { circle, ..stated.clone() }
     }
 
-    /// Takes out of the result what such readings cannot tell, and says which printed figures of the
+    /// Removes from the result what such readings cannot determine, and reports which printed results of the
     /// source are not those of the standard.
     pub fn finish(&self, evaluated: &mut Evaluated, file: &str, problems: &mut Diagnostics) {
         if let (Evaluated::Circular(circle), true) = (&mut *evaluated, self.of_a_part) {
@@ -141,7 +141,7 @@ impl Imported<'_> {
         }
         if agree > 0 {
             let message = format!(
-                "{agree} of {} printed figures are those of ISO 230-2:2014 within {} µm",
+                "{agree} of {} printed results are those of ISO 230-2:2014 within {} µm",
                 self.printed.len(),
                 PRINTED_MM * 1e3
             );
@@ -150,10 +150,10 @@ impl Imported<'_> {
     }
 }
 
-/// Printed figures are rounded, mm.
+/// Printed parameters are rounded, mm.
 const PRINTED_MM: f64 = 2e-5;
 
-/// A table that is written line by line beside its source.
+/// A table that is written line by line with its source.
 #[derive(Debug, Default)]
 struct Beside {
     text: String,

@@ -3,7 +3,7 @@
 //! [`read`] turns a table into a [`Measurement`], [`evaluate`] that into a [`Positioning`]:
 //! docs/model.md eq. 60 to 66.
 //!
-//! GB/T 17421.2 is the same standard; [`Others`] has the figures of VDI/DGQ 3441 and of the form of
+//! GB/T 17421.2 is the same standard; [`Others`] has the results of VDI/DGQ 3441 and of the form of
 //! ASME B5.54 from the same readings.
 //!
 //! ```
@@ -106,7 +106,7 @@ impl Quantity {
     }
 }
 
-/// What one direction says at one target, mm or rad.
+/// The results of one direction at one target, mm or rad.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Approached {
     /// How many readings.
@@ -203,7 +203,7 @@ pub struct Positioning {
     pub expanded: [Option<f64>; 12],
     /// Where the uncertainty comes from.
     pub budget: Option<Budget>,
-    /// The figures of other standards.
+    /// The results of other standards.
     pub others: Others,
 }
 
@@ -232,7 +232,7 @@ fn largest(values: impl Iterator<Item = f64>) -> Option<f64> {
     values.reduce(f64::max)
 }
 
-/// The figures of the axis; docs/model.md eq. 63.
+/// The results of the axis; docs/model.md eq. 63.
 fn figures(positions: &[Position]) -> [Option<f64>; 12] {
     use Direction::{Down, Up};
     let of = |d: Direction| positions.iter().filter_map(move |p| p.of(d));

@@ -1,6 +1,6 @@
 //! ISO 230-3: environmental temperature variation error (ETVE) and drift; docs/model.md eq. 73.
 //!
-//! The figure of a channel is its range: over the whole record, over the first hour, and the largest
+//! The parameter of a channel is its range: over the whole record, over the first hour, and the largest
 //! over any window of that length.
 
 use super::{check_temperatures, check_times};
@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 use trueaxis_input::sheet::{Cells, Sheet, heading};
 use trueaxis_input::{Diagnostics, Dimension, Place, Unit};
 
-/// The window without another word, s.
+/// The default window, s.
 pub const HOUR_S: f64 = 3600.0;
 
 /// One channel of the record, in mm, rad or °C.
@@ -120,7 +120,7 @@ pub fn evaluate(
             length / 60.0,
             window_s / 60.0
         );
-        let hint = "the ranges hold for the time that there is";
+        let hint = "the ranges hold for the recorded time";
         problems.warn("short-record", Place::whole(file), message, hint);
     }
     Some(Drift { times_s, window_s, channels })

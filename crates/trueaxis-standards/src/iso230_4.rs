@@ -1,4 +1,4 @@
-//! ISO 230-4: circular tests: G, G(b), F, D, and what makes a circle unround.
+//! ISO 230-4: circular tests: G, G(b), F, D, and the causes of the deviations.
 //!
 //! Docs/model.md eq. 68 to 70. G is taken about the least-squares centre, F about the nominal one,
 //! outward positive; what was recorded beyond one whole turn is left out, half at each end.
@@ -29,7 +29,7 @@ use crate::conditions::Circle;
 use trueaxis_input::Diagnostics;
 use trueaxis_part::fit::circle::{Zone, least_squares};
 
-/// No machine is so far off its radius.
+/// No machine deviates so far from its radius.
 const WRONG_RADIUS: f64 = 0.02;
 
 /// One path, evaluated.
@@ -64,7 +64,7 @@ pub struct Circular {
     pub f_both_mm: Option<[f64; 2]>,
     /// D, mean bidirectional radial deviation, mm.
     pub d_mm: Option<f64>,
-    /// What makes the circle unround.
+    /// The causes of the deviations.
     pub causes: Option<Causes>,
 }
 
@@ -114,7 +114,7 @@ pub fn evaluate(
     let both = sense(Sense::Clockwise).zip(sense(Sense::CounterClockwise));
     if both.is_none() {
         let message = "one direction only: no G(b), no D".to_owned();
-        let hint = "servo mismatch and squareness cannot be told apart either; run cw and ccw";
+        let hint = "servo mismatch and squareness cannot be separated either; run cw and ccw";
         problems.warn("one-direction", place, message, hint);
     }
     let g_both_mm = both.and_then(|(a, b)| {
@@ -175,7 +175,7 @@ mod tests {
         near(r.g_both_mm.unwrap(), 6.0, 1e-3);
         near(r.f_both_mm.unwrap()[0], 3.0, 1e-3);
         near(r.d_mm.unwrap(), 0.0, 1e-2);
-        // A shift of 5 µm is no roundness, but F feels it.
+        // A shift of 5 µm is not a roundness error, but F contains it.
         let r = circle(|a, _| 5.0 * a.cos());
         near(r.paths[0].g_mm, 0.0, 1e-2);
         near(r.paths[0].f_mm.unwrap()[1], -5.0, 1e-2);
@@ -186,11 +186,11 @@ mod tests {
     }
 
     #[test]
-    fn causes_are_told_apart() {
+    fn causes_are_separated() {
         // B_x = −4, B_y = −2, scale 8 µm over the diameter, squareness and servo at 2θ.
         let r = circle(|a, s| {
-            let way = |v: f64| if v > 0.0 { 1.0 } else { -1.0 };
-            let backlash = -2.0 * way(-s * a.sin()) * a.cos() - way(s * a.cos()) * a.sin();
+            let sign = |v: f64| if v > 0.0 { 1.0 } else { -1.0 };
+            let backlash = -2.0 * sign(-s * a.sin()) * a.cos() - sign(s * a.cos()) * a.sin();
             let scale = 2.0 * (2.0 * a).cos();
             backlash + scale + (1.5 + 0.75 * s) * (2.0 * a).sin() + 0.5
         });

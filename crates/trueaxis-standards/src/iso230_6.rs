@@ -1,8 +1,8 @@
 //! ISO 230-6: positioning along body and face diagonals; docs/model.md eq. 71, 72.
 //!
-//! Each diagonal is evaluated as an axis of ISO 230-2; the machine's figures are the largest of all
+//! Each diagonal is evaluated as an axis of ISO 230-2; the machine's parameters are the largest of all
 //! diagonals. From how much longer one diagonal is than another follow the angles between the axes,
-//! as a hint: other errors lengthen diagonals too.
+//! as an estimate: other errors change the length of a diagonal too.
 
 use super::conditions::Conditions;
 use super::iso230_2;
@@ -10,7 +10,7 @@ use super::iso230_2::{Budget, Measurement, Positioning, Quantity, role_cells};
 use trueaxis_input::sheet::{Cells, Sheet};
 use trueaxis_input::{Diagnostics, Place};
 
-/// Which way a diagonal goes: +1, −1 or 0 (not moved) for X, Y, Z; the first that moves is +1.
+/// The direction of a diagonal: +1, −1 or 0 (not moved) for X, Y, Z; the first that moves is +1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Diagonal(pub [i8; 3]);
 
@@ -32,12 +32,12 @@ impl Diagonal {
             }
         } else {
             for pair in letters.chunks(2) {
-                let [way, axis] = pair else { return None };
+                let [sign_text, axis] = pair else { return None };
                 let axis = AXES.iter().position(|a| a == &axis.to_ascii_uppercase())?;
                 if signs[axis] != 0 {
                     return None;
                 }
-                signs[axis] = sign(way)?;
+                signs[axis] = sign(sign_text)?;
             }
         }
         let first = *signs.iter().find(|s| **s != 0)?;
@@ -69,7 +69,7 @@ pub struct DiagonalResult {
     pub diagonal: Diagonal,
     /// Its readings.
     pub measurement: Measurement,
-    /// Its figures.
+    /// Its parameters.
     pub result: Positioning,
     /// Slope of the mean deviation: how much it is too long, as a ratio. `None` from one target.
     pub stretch: Option<f64>,
@@ -80,7 +80,7 @@ pub struct DiagonalResult {
 pub struct SquarenessHint {
     /// Such as `XY`.
     pub axes: String,
-    /// Angle by which the axes stand closer than 90°, rad.
+    /// Angle by which the axes are closer than 90°, rad.
     pub closer_rad: f64,
     /// From body diagonals, not from those of the face.
     pub of_body: bool,
@@ -96,7 +96,7 @@ pub struct Diagonals {
 }
 
 impl Diagonals {
-    /// The largest figure of all diagonals, mm.
+    /// The largest value of all diagonals, mm.
     pub fn largest(&self, quantity: Quantity) -> Option<f64> {
         let values = self.diagonals.iter().filter_map(|d| d.result.value(quantity));
         values.reduce(|a, b| if b.abs() > a.abs() { b } else { a })
@@ -128,7 +128,7 @@ pub fn evaluate(
             continue;
         }
         if Diagonal::parse(&sheet.words[*word as usize]).is_none() {
-            let message = format!("`{}` is no diagonal", sheet.words[*word as usize]);
+            let message = format!("`{}` is not a diagonal", sheet.words[*word as usize]);
             let hint = "+++, ++-, +-+, +-- for body diagonals, +X+Y, +X-Y for a face";
             problems.error("bad-diagonal", sheet.row_place(row), message, hint);
             return None;
@@ -156,7 +156,7 @@ pub fn evaluate(
     }
     let squareness = squareness(&diagonals, conditions);
     if squareness.is_empty() {
-        let message = "nothing is said of the squareness of the axes".to_owned();
+        let message = "the squareness of the axes is not evaluated".to_owned();
         let hint = "it needs [volume] edges = \"500 400 300 mm\" in the conditions file, and both \
                     diagonals of a face or all four of the body";
         problems.note("no-squareness", Place::whole(file), message, hint);

@@ -12,10 +12,10 @@ use std::f64::consts::{PI, TAU};
 use trueaxis_input::sheet::{Cells, Sheet, heading};
 use trueaxis_input::{Diagnostics, Dimension, Place};
 
-/// Revolutions that make an asynchronous motion believable (from memory of the standard).
+/// Revolutions that make an asynchronous error motion reliable (from memory of the standard).
 pub const REVOLUTIONS: usize = 20;
 
-/// The direction in which a motion is felt.
+/// The direction in which a motion is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sensitive {
     /// Radial, one direction of the stator: turned parts, or one axis of a table.
@@ -40,7 +40,7 @@ impl Sensitive {
 /// An error motion, evaluated; mm.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ErrorMotion {
-    /// Where it is felt.
+    /// Where it is measured.
     pub sensitive: Sensitive,
     /// Range of all readings about the least-squares centre.
     pub total_mm: f64,
@@ -61,7 +61,7 @@ pub struct Rotation {
     pub revolutions: usize,
     /// The angles of a revolution, rad.
     pub angles_rad: Vec<f64>,
-    /// How many readings behind the last whole revolution were left out.
+    /// How many readings after the last whole revolution were left out.
     pub left_out: usize,
     /// Every motion.
     pub motions: Vec<ErrorMotion>,
@@ -126,8 +126,7 @@ pub fn evaluate(file: &str, text: &str, problems: &mut Diagnostics) -> Option<Ro
     if revolutions < REVOLUTIONS {
         let message =
             format!("{revolutions} whole revolution{}", if revolutions == 1 { "" } else { "s" });
-        let hint =
-            "the asynchronous motion grows with them; 20 are customary, one says nothing of it";
+        let hint = "the asynchronous error motion grows with their number; 20 are usual, one does not show it";
         problems.warn("few-revolutions", Place::whole(file), message, hint);
     }
     let left_out = angles.len() - used;
@@ -136,7 +135,7 @@ pub fn evaluate(file: &str, text: &str, problems: &mut Diagnostics) -> Option<Ro
 
 /// The angles of one revolution and the number of whole revolutions.
 fn indexed(angles: &[f64], sheet: &Sheet, problems: &mut Diagnostics) -> Option<(Vec<f64>, usize)> {
-    // Angles may go on beyond 360° or begin anew.
+    // Angles may continue beyond 360° or start again.
     let mut turned = vec![0.0];
     for pair in angles.windows(2) {
         let step = (pair[1] - pair[0] + PI).rem_euclid(TAU) - PI;
@@ -246,8 +245,8 @@ mod tests {
     }
 
     #[test]
-    fn the_rotating_direction_does_not_feel_the_eccentricity() {
-        // A ball 8 µm off turns with the spindle; the probes stand 3 and −2 µm off; the axis itself
+    fn the_rotating_direction_does_not_contain_the_eccentricity() {
+        // A ball 8 µm off turns with the spindle; the probes are 3 and −2 µm off; the axis itself
         // moves 1 µm along x twice a turn.
         let r = table("x_um,y_um", |a, _| {
             let x = 8.0 * (a + 1.0).cos() + 3.0 + (2.0 * a).cos();

@@ -26,7 +26,7 @@ impl<const N: usize> LeastSquares<N> {
         self.rows += 1;
     }
 
-    /// The solution; unknowns that no row speaks of are 0. `None` if others cannot be told apart.
+    /// The solution; unknowns that occur in no row are 0. `None` if others cannot be separated.
     pub fn solve(&self) -> Option<[f64; N]> {
         let (mut a, mut b) = (self.normal, self.right);
         for (i, row) in a.iter_mut().enumerate() {

@@ -1,11 +1,11 @@
-//! What do readings of instruments say? Their figures by ISO 230 and its relatives, each with its clause;
+//! Evaluation of readings of instruments by ISO 230 and related standards, each result with its clause;
 //! docs/model.md eq. 60 on.
 //!
 //! - [`iso230_2`]: positioning of linear and rotary axes (also GB/T 17421.2, VDI/DGQ 3441 and the form
 //!   of ASME B5.54);
 //! - [`iso230_3`]: drift; [`iso230_4`]: circular tests; [`iso230_6`]: diagonals; [`iso230_7`]: error
 //!   motion of rotary axes;
-//! - [`import`]: files of others become our tables; [`report`]: an evaluation as text, JSON and a page.
+//! - [`import`]: files of other programs are converted to tables; [`report`]: an evaluation as text, JSON and a page.
 //!
 //! ```
 //! use trueaxis_input::Diagnostics;
@@ -26,13 +26,13 @@
 //!     window_s: 900.0,
 //! };
 //! let evaluated = evaluate(&request, &mut Diagnostics::new());
-//! let Some(Evaluated::Positioning(_, figures)) = evaluated else { panic!() };
-//! let reversal_mm = figures.value(trueaxis_standards::iso230_2::Quantity::B).unwrap();
+//! let Some(Evaluated::Positioning(_, parameters)) = evaluated else { panic!() };
+//! let reversal_mm = parameters.value(trueaxis_standards::iso230_2::Quantity::B).unwrap();
 //! assert!((reversal_mm - 0.003).abs() < 1e-12);
 //! ```
 //!
 //! Every standard reads a table of named columns ([`trueaxis_input::sheet`]) and what is known in addition
-//! ([`conditions`]). What a test lacks is a diagnostic with the clause; what can be evaluated is. It knows no
+//! ([`conditions`]). What is missing in a test is a diagnostic with the clause; what can be evaluated is. It knows no
 //! machine file.
 
 pub mod conditions;
@@ -109,11 +109,11 @@ impl Standard {
         }
     }
 
-    /// The name for people.
+    /// The name in text output.
     pub fn title(self) -> &'static str {
         match self {
             Self::Iso230_2 => "ISO 230-2:2014, positioning",
-            Self::Gbt17421_2 => "GB/T 17421.2 (the figures of ISO 230-2:2014), positioning",
+            Self::Gbt17421_2 => "GB/T 17421.2 (the parameters of ISO 230-2:2014), positioning",
             Self::Vdi3441 => "VDI/DGQ 3441, positioning",
             Self::B5_54 => "in the form of ASME B5.54, positioning",
             Self::Iso230_3 => "ISO 230-3, drift and environmental temperature variation error",
@@ -133,9 +133,9 @@ pub struct Request<'a> {
     pub file: &'a str,
     /// Its text.
     pub text: &'a str,
-    /// What is known beside the readings.
+    /// The conditions of the readings.
     pub conditions: &'a Conditions,
-    /// The file that says it.
+    /// The file that states them.
     pub conditions_file: &'a str,
     /// Length of the windows of ISO 230-3, s.
     pub window_s: f64,
@@ -144,7 +144,7 @@ pub struct Request<'a> {
 /// The readings, evaluated.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Evaluated {
-    /// ISO 230-2 and its relatives: the readings and the figures.
+    /// ISO 230-2 and its relatives: the readings and the parameters.
     Positioning(Measurement, Box<Positioning>),
     /// ISO 230-3.
     Drift(Drift),
@@ -183,7 +183,7 @@ pub fn evaluate(request: &Request<'_>, problems: &mut Diagnostics) -> Option<Eva
     }
 }
 
-/// Readings as somebody hands them over.
+/// Readings as a user provides them.
 #[derive(Debug, Clone, Copy)]
 pub struct Readings<'a> {
     /// By which standard.
@@ -196,16 +196,16 @@ pub struct Readings<'a> {
     pub import: Import,
     /// Which feature of a form that holds several.
     pub feature: Option<&'a str>,
-    /// What is known beside the readings.
+    /// The conditions of the readings.
     pub conditions: &'a Conditions,
-    /// The file that says it.
+    /// The file that states them.
     pub conditions_file: &'a str,
     /// Length of the windows of ISO 230-3, s.
     pub window_s: f64,
 }
 
-/// Reads a text of any form and evaluates it; with what is known of the readings in the end: beside
-/// them, and within. No result with errors in `problems`.
+/// Reads a text of any form and evaluates it; also returns the conditions of the readings: those that were given
+/// and those in the text. No result with errors in `problems`.
 pub fn evaluate_text(
     readings: &Readings<'_>,
     problems: &mut Diagnostics,
@@ -224,7 +224,7 @@ pub fn evaluate_text(
     (evaluated, conditions)
 }
 
-/// Temperatures in other units than they say, or under the wrong heading.
+/// Temperatures in other units than stated, or under the wrong heading.
 fn check_temperatures(sheet: &Sheet, problems: &mut Diagnostics) {
     let about =
         |c: &&sheet::Column| c.role() == "temperature" || c.role().ends_with("_temperature");
@@ -240,7 +240,7 @@ fn check_temperatures(sheet: &Sheet, problems: &mut Diagnostics) {
             let more = unsound.count();
             let message = match more {
                 0 => format!("`{}` is {value} °C", column.name),
-                n => format!("`{}` is {value} °C, and {n} more like it", column.name),
+                n => format!("`{}` is {value} °C, and {n} more such readings", column.name),
             };
             problems.error("temperature-range", sheet.row_place(row), message, &hint);
         }

@@ -1,4 +1,4 @@
-//! From axis positions back to the words that lead to them, as things stand in the program.
+//! From axis positions back to the words that lead to them, in the present state of the program.
 
 use super::AxisPath;
 use trueaxis_geometry::frame::inverse3;
@@ -7,7 +7,7 @@ use trueaxis_machine::axis::Command;
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::moves::{Axis, Coordinates, OrientationPath, Position};
 
-/// What the control keeps straight between the ends of a block.
+/// The coordinates that the control interpolates linearly in a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Straight {
     /// Every axis.
@@ -19,7 +19,7 @@ pub enum Straight {
 }
 
 impl AxisPath<'_> {
-    /// What the next straight block keeps straight.
+    /// The coordinates that the next linear block interpolates linearly.
     pub fn straight(&self) -> Straight {
         match (self.follows_tip(), self.orientation) {
             (false, _) => Straight::Axes,
@@ -71,7 +71,7 @@ impl AxisPath<'_> {
         self.frame.inverse_place(&place).unwrap_or(place)
     }
 
-    /// The direction in the program frame along which the tool stands at axis positions.
+    /// The direction in the program frame along which the tool points at axis positions.
     pub fn direction_of(&self, command: &Command) -> Option<[f64; 3]> {
         let (_, axis) = self.control.as_ref()?.tip_and_axis(command);
         let linear = Mat3::from_fn(|i, j| self.frame.linear[i][j]);

@@ -11,13 +11,13 @@ use trueaxis_nc::moves::{Move, Origin};
 pub struct Fault {
     /// The block.
     pub origin: Origin,
-    /// What it is about in the block, to find the column.
+    /// The word of the block that it concerns, to find the column.
     pub word: Option<u8>,
     /// Short name.
     pub code: &'static str,
-    /// What is wrong.
+    /// The message.
     pub message: String,
-    /// What to do.
+    /// The hint.
     pub hint: &'static str,
 }
 
@@ -35,14 +35,14 @@ impl Fault {
 }
 
 impl Fault {
-    /// A place of the path behind the end of the log of temperatures.
+    /// A place of the path after the end of the log of temperatures.
     pub fn untempered(node: &Node, message: String) -> Self {
         Self {
             origin: node.origin,
             word: None,
             code: "log-ends",
             message,
-            hint: "take a longer log or an earlier start, or hold one time of it (--log-time)",
+            hint: "use a longer log or an earlier start, or hold one time of it (--log-time)",
         }
     }
 }
@@ -58,7 +58,7 @@ pub(super) fn fault(
 }
 
 pub(super) fn unreachable(m: &Move, error: &SolveError) -> Fault {
-    let hint = "tilt the part or the tool, or take a machine whose rotary axes reach it";
+    let hint = "tilt the part or the tool, or use a machine whose rotary axes reach it";
     fault(m, None, "unreachable-orientation", error.to_string(), hint)
 }
 

@@ -14,7 +14,7 @@ use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::moves::{Axis, Cone, Move, OrientationPath};
 
 /// A move of the tip while it is being cut into pieces.
-struct TipWay<'a> {
+struct TipMove<'a> {
     control: &'a TipControl,
     m: &'a Move,
     curve: &'a Curve,
@@ -72,7 +72,7 @@ impl AxisPath<'_> {
         let length_mm = curve.length_mm() * self.scale(curve);
         let length = path_length(length_mm, turned);
         let pieces = self.count(m, curve, length_mm, turned)?;
-        let way = TipWay {
+        let tip_move = TipMove {
             control,
             m,
             curve,
@@ -82,7 +82,7 @@ impl AxisPath<'_> {
             speed: feed.along(length),
         };
         for k in 1..=pieces {
-            self.advance(&way, [fraction(k - 1, pieces), fraction(k, pieces)], 0, None, out)?;
+            self.advance(&tip_move, [fraction(k - 1, pieces), fraction(k, pieces)], 0, None, out)?;
         }
         if let Turning::Swing(swing, _) = &turning {
             self.tangent = swing.end_tangent();
@@ -95,36 +95,41 @@ impl AxisPath<'_> {
 
     /// Goes on from u0 to u1, in smaller pieces where the tip would leave the path, or a rotary
     /// axis turn too far, while the axes go straight between nodes. `known` is the pose at u1 as
-    /// seen from u0, if it was looked at before.
+    /// seen from u0, if it was computed before.
     fn advance(
         &mut self,
-        way: &TipWay<'_>,
+        tip_move: &TipMove<'_>,
         [u0, u1]: [f64; 2],
         halvings: u32,
         known: Option<TipPose>,
         out: &mut dyn FnMut(PathStep),
     ) -> Result<(), Fault> {
-        let pose = known.map_or_else(|| self.tip_pose(way, u1), Ok);
-        let (basic, command) = pose.map_err(|error| unreachable(way.m, &error))?;
+        let pose = known.map_or_else(|| self.tip_pose(tip_move, u1), Ok);
+        let (basic, command) = pose.map_err(|error| unreachable(tip_move.m, &error))?;
         if halvings < MOST_HALVINGS {
             let middle = 0.5 * (u0 + u1);
-            if let Some(there) = self.coarse(way, middle, &command) {
-                self.advance(way, [u0, middle], halvings + 1, there, out)?;
-                return self.advance(way, [middle, u1], halvings + 1, None, out);
+            if let Some(there) = self.coarse(tip_move, middle, &command) {
+                self.advance(tip_move, [u0, middle], halvings + 1, there, out)?;
+                return self.advance(tip_move, [middle, u1], halvings + 1, None, out);
             }
         }
         self.pieces += 1;
         if f64::from(self.pieces) > MOST_PIECES {
-            return Err(too_many_pieces(way.m));
+            return Err(too_many_pieces(tip_move.m));
         }
         (self.basic, self.command) = (basic, command);
-        out(self.next(way.m, way.length * (u1 - u0), way.speed, u1 == 1.0));
+        out(self.next(tip_move.m, tip_move.length * (u1 - u0), tip_move.speed, u1 == 1.0));
         Ok(())
     }
 
     /// Whether the piece to `end` is too coarse, then with the pose in its middle where that was
     /// looked at.
-    fn coarse(&self, way: &TipWay<'_>, middle: f64, end: &Command) -> Option<Option<TipPose>> {
+    fn coarse(
+        &self,
+        tip_move: &TipMove<'_>,
+        middle: f64,
+        end: &Command,
+    ) -> Option<Option<TipPose>> {
         let (angle_rad, chord_mm) = self.densify.limits_of_pieces()?;
         let turned = self.rotary_way(&self.command, end);
         if turned == 0.0 {
@@ -140,27 +145,27 @@ impl AxisPath<'_> {
         if chord_mm.is_infinite() {
             return None;
         }
-        let (there, at) = self.tip_pose(way, middle).ok()?;
+        let (there, at) = self.tip_pose(tip_move, middle).ok()?;
         let between = std::array::from_fn(|i| 0.5 * (self.command[i] + end[i]));
-        let tip = way.control.tip_and_axis(&between).0;
+        let tip = tip_move.control.tip_and_axis(&between).0;
         let leaves = (tip - self.place_in_workpiece(there)).norm() > chord_mm;
         leaves.then_some(Some((there, at)))
     }
 
     /// Basic coordinates and axes at u of a move of the tip.
-    fn tip_pose(&self, way: &TipWay<'_>, u: f64) -> Result<TipPose, SolveError> {
-        let begin = &way.begin;
-        let mut command = match way.turning {
+    fn tip_pose(&self, tip_move: &TipMove<'_>, u: f64) -> Result<TipPose, SolveError> {
+        let begin = &tip_move.begin;
+        let mut command = match tip_move.turning {
             Turning::Axes(end) if u == 1.0 => *end,
             Turning::Axes(end) => std::array::from_fn(|i| begin[i] + (end[i] - begin[i]) * u),
             Turning::Swing(_, Some(end)) if u == 1.0 => *end,
             Turning::Swing(swing, _) => {
                 let direction = Direction::of(swing.at(u)).unwrap_or(Direction::Z);
-                nearest(way.control, direction, &self.command)?
+                nearest(tip_move.control, direction, &self.command)?
             }
         };
-        let basic = self.in_basic(way.curve.at(u));
-        if !way.control.place(self.place_in_workpiece(basic), &mut command) {
+        let basic = self.in_basic(tip_move.curve.at(u));
+        if !tip_move.control.place(self.place_in_workpiece(basic), &mut command) {
             let moving = self.machine.axes().iter().filter(|a| a.kind == AxisKind::Linear);
             let moving = moving.map(|a| a.name).collect();
             return Err(SolveError::TipUnreachable { missed_by_mm: f64::NAN, moving });
@@ -216,8 +221,8 @@ fn no_swing(m: &Move, why: NoSwing) -> Fault {
     let (code, message, hint) = match why {
         NoSwing::Opposite => (
             "opposite-directions",
-            "the tool axis turns by 180 deg: no plane is given for it",
-            "put a direction between the two",
+            "the tool axis turns by 180 deg: the plane of the rotation is not determined",
+            "insert a direction between the two",
         ),
         NoSwing::NotOnCone => (
             "not-on-cone",

@@ -1,4 +1,4 @@
-//! Models in and out: what a machine file names becomes meshes, what it describes becomes STL.
+//! Models in and out: files named in a machine file become meshes, shapes described there become STL.
 
 use super::mesh::Mesh;
 use super::scene::{BodyModel, Role};
@@ -11,7 +11,7 @@ use trueaxis_machine::models::Shape;
 
 /// The models of a machine; STL paths are relative to the machine file.
 ///
-/// What cannot be read is left out and said why.
+/// Models that cannot be read are left out, with a diagnostic.
 pub fn load_models(
     files: &Files,
     machine: &Machine,
@@ -28,7 +28,7 @@ pub fn load_models(
                 if mesh.is_none() {
                     let message = format!("the model `{}` has no surface", model.name);
                     let place = Place::whole(&machine_file.display().to_string());
-                    let hint = "its edges differ so much that nothing is left; check its lengths";
+                    let hint = "its edges differ too much in length; check its dimensions";
                     problems.error("empty-model", place, message, hint);
                 }
                 mesh
@@ -58,7 +58,7 @@ pub fn load_stl(
     let mesh = Mesh::new(read_stl(&file, &bytes, unit_mm, problems)?)?;
     if !mesh.is_closed() {
         let message = "the surface has gaps: it has no inside".to_owned();
-        let hint = "what comes near the surface is found; what begins wholly inside it is not";
+        let hint = "bodies that approach the surface are found; bodies that are completely inside from the start are not";
         problems.note("open-surface", Place::whole(&file), message, hint);
     }
     Some(mesh)

@@ -11,7 +11,7 @@ const LEAF: usize = 1;
 /// short cylinder about the mean normal. Boxes fit corners and rods; discs fit the patches of a
 /// smooth surface, where a box along foreign axes is as thick as the patch is wide.
 ///
-/// The left child follows in the list, the right one stands at `next`.
+/// The left child follows in the list, the right one is at `next`.
 #[derive(Debug, Clone, Copy)]
 struct Node {
     disc: Disc,
@@ -86,7 +86,7 @@ pub struct Mesh {
     radius_mm: f64,
 }
 
-/// Where the second of two bodies stands in the frame of the first: rotation and shift.
+/// Where the second of two bodies is in the frame of the first: rotation and shift.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placed {
     /// Columns of the rotation.
@@ -95,7 +95,7 @@ pub struct Placed {
     pub shift_mm: Vec3,
 }
 
-/// What a question for the distance of two meshes found.
+/// The result of a distance query of two meshes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nearest {
     /// 0 where they overlap, mm.
@@ -112,7 +112,7 @@ pub struct Nearest {
 #[derive(Debug, Default)]
 pub struct Scratch {
     open: Vec<(f64, u32, u32)>,
-    /// Pairs of boxes that the last question looked at.
+    /// Pairs of boxes that the last query checked.
     pub visits: usize,
 }
 
@@ -239,7 +239,7 @@ impl Mesh {
     }
 
     /// A point of the other mesh that lies inside this one, in the frame of this one: where the
-    /// surfaces do not meet, it is a piece that is swallowed whole.
+    /// surfaces do not meet, it is a piece that is completely inside.
     pub fn swallows(&self, other: &Self, placed: &Placed) -> Option<Vec3> {
         let moved = other.pieces.iter().map(|p| placed.turn * p + placed.shift_mm);
         moved.into_iter().find(|p| self.contains(*p))
@@ -247,7 +247,7 @@ impl Mesh {
 }
 
 impl Placed {
-    /// The other way round.
+    /// The other direction.
     pub fn inverse(&self) -> Self {
         let turn = self.turn.transpose();
         Self { turn, shift_mm: -(turn * self.shift_mm) }
@@ -442,7 +442,7 @@ fn connect(triangles: &[Triangle]) -> (Vec<Vec3>, bool) {
 
 fn root_of(parent: &mut [u32], mut at: u32) -> u32 {
     while parent[at as usize] != at {
-        // Shortens the way for the next one.
+        // Makes the next one faster.
         parent[at as usize] = parent[parent[at as usize] as usize];
         at = parent[at as usize];
     }

@@ -12,7 +12,7 @@ use trueaxis_machine::errors::ErrorValues;
 use trueaxis_machine::models::ToolSegment;
 use trueaxis_machine::{Machine, ToolAssembly};
 
-/// What a body is to the process.
+/// The role of a body in the process.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Role {
     /// A part of the machine.
@@ -21,11 +21,11 @@ pub enum Role {
     Cutter,
     /// The rest of the tool: shank and holder.
     Holder,
-    /// What is cut, as it was before: the simulation takes no material away.
+    /// The stock before cutting: the simulation removes no material.
     Stock,
-    /// What holds it.
+    /// The fixture that holds it.
     Fixture,
-    /// What shall be left.
+    /// The finished part.
     Part,
 }
 
@@ -38,7 +38,7 @@ pub struct BodyModel {
     pub node: Option<usize>,
     /// Its model coordinate system in that of the node.
     pub placement: Link,
-    /// What it is to the process.
+    /// Its role in the process.
     pub role: Role,
     /// Its surface.
     pub mesh: Mesh,
@@ -108,21 +108,21 @@ impl ToolShape {
     }
 }
 
-/// What is no trouble at this moment.
+/// What is not an issue at this moment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Allowed {
     /// The tool is feeding: its cutter may touch stock and part. In rapid it may not.
     pub cutter_in_stock: bool,
 }
 
-/// Two bodies that are nearer than asked for.
+/// Two bodies that are closer than requested.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contact {
     /// The one body.
     pub first: Arc<str>,
     /// The other body.
     pub second: Arc<str>,
-    /// What they are to the process.
+    /// Their roles in the process.
     pub roles: (Role, Role),
     /// How far they are apart, mm; 0 if they overlap.
     pub clearance_mm: f64,
@@ -132,7 +132,7 @@ pub struct Contact {
     pub at: f64,
 }
 
-/// A pair that is not looked at because it overlaps when all axes stand at zero.
+/// A pair that is not checked because it overlaps when all axes are at zero.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Excluded {
     /// The one body.
@@ -147,7 +147,7 @@ pub(super) struct Member {
     pub(super) node: Option<usize>,
     placement: Link,
     pub(super) mesh: Mesh,
-    /// Where it stands now: `bed_from_model`.
+    /// Where it is now: `bed_from_model`.
     pub(super) now: Placed,
     /// How far its points have moved in all, at most, mm.
     travelled_mm: f64,
@@ -164,7 +164,7 @@ pub(super) struct Pair {
     free_mm: f64,
     travelled_mm: f64,
     seed: Option<(u32, u32)>,
-    /// How much further than asked for the next question looks, mm.
+    /// By how much the next query searches beyond the request, mm.
     margin_mm: f64,
 }
 
@@ -176,17 +176,17 @@ pub(super) enum Distance {
     Exactly(Nearest),
 }
 
-/// The bodies of a simulation, where they stand, and what is known about their distances.
+/// The bodies of a simulation, where they are, and what is known about their distances.
 ///
 /// Left out are pairs that touch by construction: bodies on the same node, on neighbouring nodes
 /// (the bed is the neighbour of the first on each side), and pairs on one side of the bed that
-/// overlap when all axes stand at zero ([`Scene::excluded`] lists them). Bodies on different
+/// overlap when all axes are at zero ([`Scene::excluded`] lists them). Bodies on different
 /// sides are never left out, nor is the tool against the bed.
 pub struct Scene {
     pub(super) members: Vec<Member>,
     pub(super) pairs: Vec<Pair>,
     excluded: Vec<Excluded>,
-    /// Where the bodies of the chain stand now.
+    /// Where the bodies of the chain are now.
     pub(super) nodes_now: Vec<Pose<Bed, Body>>,
     pub(super) axes: Vec<Axis>,
     /// Axis of each body of the chain.
@@ -197,7 +197,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// A scene of a machine, a tool, and what stands on the workpiece node.
+    /// A scene of a machine, a tool, and what is mounted on the workpiece node.
     pub fn new(
         machine: &Machine,
         models: Vec<BodyModel>,
@@ -244,12 +244,12 @@ impl Scene {
         self.pairs.len()
     }
 
-    /// How many times triangles had to be looked at so far.
+    /// How many times triangles had to be checked so far.
     pub fn questions(&self) -> usize {
         self.questions
     }
 
-    /// The pairs that are not watched because they overlap when all axes stand at zero.
+    /// The pairs that are not watched because they overlap when all axes are at zero.
     pub fn excluded(&self) -> &[Excluded] {
         &self.excluded
     }
@@ -305,7 +305,7 @@ impl Scene {
         self.pairs = kept;
     }
 
-    /// Moves every body to where it stands at these poses of [`Machine::body_poses`].
+    /// Moves every body to where it is at these poses of [`Machine::body_poses`].
     pub(super) fn place(&mut self, poses: &[Pose<Bed, Body>]) {
         self.nodes_now.clear();
         self.nodes_now.extend_from_slice(poses);
@@ -321,9 +321,9 @@ impl Scene {
     }
 
     /// Finds every pair that is nearer than `clearance_mm` (or overlaps) at these poses of
-    /// [`Machine::body_poses`], nominal or actual. Poses that are no numbers find nothing.
+    /// [`Machine::body_poses`], nominal or actual. Poses that are not numbers give no result.
     ///
-    /// What is known from the poses before spares most questions: bodies that were 50 mm apart and
+    /// Results of the previous poses avoid most queries: bodies that were 50 mm apart and
     /// have moved by 10 mm since are still 40 mm apart.
     pub fn check(
         &mut self,
@@ -361,7 +361,7 @@ impl Scene {
         allowed.cutter_in_stock && cut && roles.contains(&Role::Cutter)
     }
 
-    /// How far the pair is still apart, at least, whatever the way it went since.
+    /// How far the pair is still apart, at least, whatever path it took since.
     pub(super) fn free_mm(&self, pair: &Pair) -> f64 {
         pair.free_mm - (self.travelled_mm(pair) - pair.travelled_mm)
     }
@@ -375,7 +375,7 @@ impl Scene {
         pair.travelled_mm = self.travelled_mm(pair);
     }
 
-    /// How far the pair is still apart, at least, from where it stands now: no point of one has
+    /// How far the pair is still apart, at least, from where it is now: no point of one has
     /// moved further in the frame of the other since the last question.
     pub(super) fn known_mm(&self, pair: &Pair, placed: &Placed) -> f64 {
         let [first, second] = [pair.first, pair.second].map(|m| &self.members[m].mesh);

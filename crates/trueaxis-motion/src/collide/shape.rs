@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::models::Shape;
 
-/// How far the corners of the polygon stand out of the circle, mm.
+/// How far the corners of the polygon project beyond the circle, mm.
 pub const ROUNDNESS_MM: f64 = 0.02;
 
 /// The triangles of a shape; an STL file has to be read instead.
@@ -121,7 +121,7 @@ fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// Cuts ears off a counter-clockwise outline until nothing is left.
+/// Cuts ears off a counter-clockwise outline until none remains.
 fn cut_into_triangles(outline: &[[f64; 2]]) -> Vec<[usize; 3]> {
     let mut left: Vec<usize> = (0..outline.len()).collect();
     let mut triangles = Vec::new();

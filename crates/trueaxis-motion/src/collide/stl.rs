@@ -2,8 +2,8 @@
 //!
 //! The format has no specification of its own; what is read here is what CAD systems write.
 //! Binary: 80 bytes of heading, the number of facets (u32, little endian), then 50 bytes each:
-//! normal and three corners as f32, and two bytes that mean nothing. Text: `solid`, `facet normal`,
-//! `outer loop`, `vertex`. Normals are not used: the order of the corners says the same.
+//! normal and three corners as f32, and two bytes without meaning. Text: `solid`, `facet normal`,
+//! `outer loop`, `vertex`. Normals are not used: the order of the corners gives the same.
 
 use super::triangle::{Triangle, is_degenerate};
 use trueaxis_geometry::Vec3;
@@ -11,9 +11,9 @@ use trueaxis_input::{Diagnostics, Place};
 
 const HEADING: usize = 84;
 const FACET: usize = 50;
-/// No corner of a machine lies further out, mm: beyond it the squares of lengths lose sense.
+/// No corner of a machine lies further out, mm: beyond it the squares of lengths lose their precision.
 const LARGEST_MM: f64 = 1e9;
-/// After so many faults the rest of the file says nothing new.
+/// After this number of faults the rest of the file adds no information.
 const MOST_FAULTS: usize = 20;
 const HINT: &str = "export the body again as STL; binary is the safer form";
 
@@ -90,7 +90,7 @@ impl Reader<'_> {
             let message = if length == 0 {
                 "the file is empty".to_owned()
             } else {
-                format!("{length} bytes are no STL file: a binary one has at least {HEADING}")
+                format!("{length} bytes are not an STL file: a binary one has at least {HEADING}")
             };
             let code = if length == 0 { "empty-stl" } else { "truncated-stl" };
             self.whole(code, message);
@@ -158,7 +158,7 @@ impl Reader<'_> {
                 ended = false;
                 words.skip_line();
             } else if let Some(word) = words.next() {
-                let message = format!("`{}` where `facet` or `endsolid` is due", shown(word));
+                let message = format!("`{}` where `facet` or `endsolid` is expected", shown(word));
                 self.fault(start, "stl-syntax", message);
                 if self.count >= MOST_FAULTS {
                     return facets;
@@ -192,7 +192,7 @@ impl Reader<'_> {
                 let Some(number) = number else {
                     let found =
                         word.map_or("the end of the file".into(), |w| format!("`{}`", shown(w)));
-                    self.fault(at, "stl-syntax", format!("a number is due here, not {found}"));
+                    self.fault(at, "stl-syntax", format!("expected a number here, found {found}"));
                     return None;
                 };
                 *value = number * self.unit_mm;
@@ -215,7 +215,7 @@ impl Reader<'_> {
         let found = words.next();
         let code = if found.is_none() { "truncated-stl" } else { "stl-syntax" };
         let found = found.map_or("the end of the file".into(), |w| format!("`{}`", shown(w)));
-        self.fault(at, code, format!("`{word}` is due here, not {found}"));
+        self.fault(at, code, format!("expected `{word}` here, found {found}"));
         None
     }
 

@@ -1,7 +1,7 @@
-//! What happens between two commands: nothing that matters is jumped over.
+//! Contacts between two commands: none that matters is skipped.
 //!
-//! Conservative advancement: two bodies that are d apart cannot be nearer than the watched
-//! clearance before they have moved by the difference. How far they can move follows from the way
+//! Conservative advancement: two bodies that are d apart cannot be closer than the watched
+//! clearance before they have moved by the difference. How far they can move follows from the path
 //! of each axis: a linear axis moves all that it carries by |Δq|, a rotary one by at most |Δq|
 //! times the reach of the body from its axis.
 
@@ -12,24 +12,24 @@ use trueaxis_machine::axis::{AxisKind, Command, MAX_AXES};
 
 /// Most questions for one pair in one sweep; beyond, the steps grow longer than the resolution.
 const MOST_STEPS: f64 = 1e5;
-/// Error motions change along the way, by less than a thousandth of it on any machine tool.
+/// Error motions change along the path, by less than a thousandth of it on any machine tool.
 const ERROR_SLOPE: f64 = 1.001;
 
 /// Entry k: how far the points of a body can move in the frame of the body k steps from the bed, mm.
-type Ways = [f64; MAX_AXES + 2];
+type Distances = [f64; MAX_AXES + 2];
 
-/// A straight way in axis space, and what to look for along it.
+/// A straight path in axis space, and what to look for along it.
 #[derive(Debug, Clone, Copy)]
 pub struct Sweep<'a> {
     /// Where it begins.
     pub from: &'a Command,
     /// Where it ends; each axis goes there at a rate of its own, all in proportion.
     pub to: &'a Command,
-    /// What comes nearer than this is reported, mm; at least half the resolution.
+    /// Bodies closer than this are reported, mm; at least half the resolution.
     pub clearance_mm: f64,
     /// See [`Scene::sweep`], mm.
     pub resolution_mm: f64,
-    /// What is no trouble on the way.
+    /// What is not an issue on the path.
     pub allowed: Allowed,
 }
 
@@ -44,17 +44,17 @@ impl Sweep<'_> {
 }
 
 impl Scene {
-    /// Finds every pair that comes nearer than the clearance anywhere between two commands, at the
+    /// Finds every pair that comes closer than the clearance anywhere between two commands, at the
     /// moment when it is nearest (or when it begins to overlap).
     ///
     /// `poses_at` gives the poses of all bodies at a command, such as
     /// `|c| machine.body_poses(c, &ErrorValues::default())`, or with the errors there.
     ///
-    /// Guarantee: a pair that comes nearer than `max(clearance, resolution/2) − resolution/2` is
+    /// Guarantee: a pair that comes closer than `max(clearance, resolution/2) − resolution/2` is
     /// reported, and the stated clearance is at most half a resolution above the least. So with a
     /// clearance of half the resolution or more no wall, however thin, is passed unnoticed. It
-    /// holds for ways up to 10⁵ resolutions, and for axes that move straight in axis space: where
-    /// the path between the two commands is curved, its deviation from the straight way adds to it.
+    /// holds for paths up to 10⁵ resolutions, and for axes that move straight in axis space: where
+    /// the path between the two commands is curved, its deviation from the straight path adds to it.
     pub fn sweep(
         &mut self,
         poses_at: &dyn Fn(&Command) -> Vec<Pose<Bed, Body>>,
@@ -62,32 +62,33 @@ impl Scene {
         contacts: &mut Vec<Contact>,
     ) {
         self.place(&poses_at(sweep.from));
-        let ways: Vec<Ways> = (0..self.members.len()).map(|m| self.ways_mm(m, sweep)).collect();
+        let distances: Vec<Distances> =
+            (0..self.members.len()).map(|m| self.distances_mm(m, sweep)).collect();
         let watch = sweep.clearance_mm.max(0.5 * sweep.resolution_mm);
         let mut pairs = std::mem::take(&mut self.pairs);
         for pair in &mut pairs {
-            let way = self.way_of_pair_mm(pair, &ways);
-            if self.is_allowed(pair, sweep.allowed) || self.free_mm(pair) - way > watch {
+            let distance = self.distance_of_pair_mm(pair, &distances);
+            if self.is_allowed(pair, sweep.allowed) || self.free_mm(pair) - distance > watch {
                 continue;
             }
-            contacts.extend(self.advance(pair, way, watch, poses_at, sweep));
+            contacts.extend(self.advance(pair, distance, watch, poses_at, sweep));
         }
         self.pairs = pairs;
     }
 
-    /// The ways of a member during the sweep in the frame of each body between it and the bed.
-    fn ways_mm(&self, member: usize, sweep: &Sweep<'_>) -> Ways {
+    /// The distances that a member moves during the sweep in the frame of each body between it and the bed.
+    fn distances_mm(&self, member: usize, sweep: &Sweep<'_>) -> Distances {
         let (level, side) = self.level(member);
         let own = &self.members[member];
         let centre = own.now.turn * own.mesh.centre_mm() + own.now.shift_mm;
-        let mut ways = [0.0; MAX_AXES + 2];
+        let mut distances = [0.0; MAX_AXES + 2];
         for step in (1..=level).rev() {
             let body = match side {
                 1 => self.workpiece_side + step - 1,
                 _ => self.workpiece_side - step,
             };
-            let beyond = ways[step];
-            let way = self.axis_of[body].map_or(0.0, |i| {
+            let beyond = distances[step];
+            let distance = self.axis_of[body].map_or(0.0, |i| {
                 let turned = (sweep.to[i] - sweep.from[i]).abs() * ERROR_SLOPE;
                 match self.axes[i].kind {
                     AxisKind::Linear => turned,
@@ -97,25 +98,25 @@ impl Scene {
                     }
                 }
             });
-            ways[step - 1] = beyond + way;
+            distances[step - 1] = beyond + distance;
         }
-        ways
+        distances
     }
 
-    /// How far a point of the bed frame is from a rotary axis where it stands now.
+    /// How far a point of the bed frame is from a rotary axis where it is now.
     fn reach_mm(&self, body: usize, axis: usize, point: &Vec3) -> f64 {
         let node = &self.nodes_now[body];
         let direction = node.linear() * self.axes[axis].direction;
         (point - node.shift_mm()).cross(&direction).norm() / direction.norm()
     }
 
-    fn way_of_pair_mm(&self, pair: &Pair, ways: &[Ways]) -> f64 {
+    fn distance_of_pair_mm(&self, pair: &Pair, distances: &[Distances]) -> f64 {
         let (a, b) = (self.level(pair.first), self.level(pair.second));
-        let (of_a, of_b) = (&ways[pair.first], &ways[pair.second]);
+        let (of_a, of_b) = (&distances[pair.first], &distances[pair.second]);
         if a.1 * b.1 < 0 {
             return of_a[0] + of_b[0];
         }
-        // One stands further out on the same side: it moves in the frame of the other.
+        // One is further out on the same side: it moves in the frame of the other.
         if a.0 > b.0 { of_a[b.0] } else { of_b[a.0] }
     }
 
@@ -162,7 +163,7 @@ impl Scene {
             let poses = poses_at(&sweep.command(t));
             [first, second] = [pair.first, pair.second].map(|m| self.members[m].at(&poses));
         }
-        // Bodies count as standing at the beginning of the way.
+        // Bodies count as standing at the beginning of the path.
         self.remember(pair, free_mm);
         nearest
     }
@@ -182,8 +183,8 @@ mod tests {
     const TEXT: &str = "[machine]\nname = \"m\"\nchain = \"w C' A' b X Y Z B t\"\n\
                         [axis.A]\nplacement = \"50 20 -30 mm\"\n[axis.B]\nplacement = \"0 0 -80 mm\"\n";
 
-    /// On every body of a chain of five axes a block: sampled on the way, no corner of it goes
-    /// further in the frame of any body between it and the bed than its ways say.
+    /// On every body of a chain of five axes a block: sampled on the path, no corner of it goes
+    /// further in the frame of any body between it and the bed than its distances allow.
     #[test]
     fn law_no_corner_goes_further_than_its_way() {
         let machine = Machine::check("m.toml", TEXT, &NoTables).0.unwrap();
@@ -199,23 +200,23 @@ mod tests {
         let poses_at = |c: &Command| machine.body_poses(c, &ErrorValues::default());
         // C A X Y Z B: all at once, then each rotary axis alone.
         let from = [0.4, -0.7, 100.0, -50.0, 20.0, 0.3];
-        for way in [
+        for distance in [
             [0.9, 0.5, 30.0, 40.0, -60.0, -0.8],
             [0.9, 0.0, 0.0, 0.0, 0.0, 0.0],
             [0.0, 0.9, 0.0, 0.0, 0.0, 0.0],
             [0.0, 0.0, 0.0, 0.0, 0.0, 2.0],
         ] {
             let mut to = from;
-            to.iter_mut().zip(way).for_each(|(q, way)| *q += way);
+            to.iter_mut().zip(distance).for_each(|(q, distance)| *q += distance);
             let allowed = Allowed::default();
             let (clearance_mm, resolution_mm) = (1.0, 1.0);
             let sweep = Sweep { from: &from, to: &to, clearance_mm, resolution_mm, allowed };
             scene.place(&poses_at(&from));
             for (m, member) in scene.members.iter().enumerate() {
-                let ways = scene.ways_mm(m, &sweep);
+                let distances = scene.distances_mm(m, &sweep);
                 let (level, _) = scene.level(m);
                 let mut longest = 0.0_f64;
-                for (k, way) in ways[..level].iter().enumerate() {
+                for (k, distance) in distances[..level].iter().enumerate() {
                     let frame = |poses: &[Pose<Bed, Body>]| {
                         let inner = (0..scene.members.len()).find(|i| {
                             let (a, b) = (scene.level(*i), scene.level(m));
@@ -232,11 +233,14 @@ mod tests {
                             let at = |p: &Placed| p.turn * corner + p.shift_mm;
                             let moved = (at(&now) - at(&start)).norm();
                             longest = longest.max(moved);
-                            assert!(moved <= way + 1e-9, "{m} in {k}: {moved} > {way}");
+                            assert!(moved <= distance + 1e-9, "{m} in {k}: {moved} > {distance}");
                         }
                     }
                 }
-                assert!(level < 2 || ways[0] < 4.0 * longest + 1e-9, "{ways:?} for {longest}");
+                assert!(
+                    level < 2 || distances[0] < 4.0 * longest + 1e-9,
+                    "{distances:?} for {longest}"
+                );
             }
         }
     }

@@ -144,7 +144,7 @@ fn segment_gap([p, p_end]: [Vec3; 2], [q, q_end]: [Vec3; 2]) -> Gap {
         s = ((b * f - c * e) / parallel).clamp(0.0, 1.0);
     }
     let t = ((b * s + f) / e).clamp(0.0, 1.0);
-    // Once more from the other side: exact after a clamp, and heals what parallel lines lose.
+    // Once more from the other side: exact after a clamp, and corrects the loss of parallel lines.
     s = ((b * t - c) / a).clamp(0.0, 1.0);
     Gap::between(p + u * s, q + v * t)
 }
@@ -153,7 +153,7 @@ fn segment_gap([p, p_end]: [Vec3; 2], [q, q_end]: [Vec3; 2]) -> Gap {
 pub fn is_degenerate(t: &Triangle) -> bool {
     let (u, v) = (t[1] - t[0], t[2] - t[0]);
     let longest = u.norm_squared().max(v.norm_squared()).max((t[2] - t[1]).norm_squared());
-    // A height below 1e-7 of the length is what a 32-bit coordinate cannot tell from nothing.
+    // A height below 1e-7 of the length is what a 32-bit coordinate cannot distinguish from zero.
     u.cross(&v).norm() <= 1e-7 * longest
 }
 

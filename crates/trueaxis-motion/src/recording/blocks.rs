@@ -27,18 +27,18 @@ impl Blocks {
         Self { ends, lines }
     }
 
-    /// The first end behind a time.
+    /// The first end after a time.
     pub fn next(&self, columns: &Columns, time_s: f64) -> Option<f64> {
         let time = |end: &u32| columns.time_s[*end as usize];
-        let behind = self.ends.partition_point(|end| time(end) <= time_s);
-        self.ends.get(behind).map(time)
+        let after = self.ends.partition_point(|end| time(end) <= time_s);
+        self.ends.get(after).map(time)
     }
 
     /// The last end before a time.
     pub fn previous(&self, columns: &Columns, time_s: f64) -> Option<f64> {
         let time = |end: &u32| columns.time_s[*end as usize];
-        let behind = self.ends.partition_point(|end| time(end) < time_s);
-        behind.checked_sub(1).map(|before| time(&self.ends[before]))
+        let after = self.ends.partition_point(|end| time(end) < time_s);
+        after.checked_sub(1).map(|before| time(&self.ends[before]))
     }
 
     pub fn of_line(&self, columns: &Columns, program: u32, line: u32) -> Option<f64> {

@@ -130,15 +130,15 @@ impl Columns {
         length(self.off_um[i])
     }
 
-    /// The mean speed of an axis on its way to a node, mm/s or rad/s; what takes no time has none.
+    /// The mean speed of an axis while it moves to a node, mm/s or rad/s; what takes no time has none.
     pub fn axis_speed(&self, axis: usize, i: usize) -> f64 {
         let Some(before) = i.checked_sub(1) else { return 0.0 };
         let took_s = self.time_s[i] - self.time_s[before];
-        let way = self.command[axis][i] - self.command[axis][before];
-        if took_s > 0.0 { way / took_s } else { 0.0 }
+        let move_by = self.command[axis][i] - self.command[axis][before];
+        if took_s > 0.0 { move_by / took_s } else { 0.0 }
     }
 
-    /// A quantity at a node, as people read it; the speed of an axis is that of its way there.
+    /// A quantity at a node, in the units of text output; the speed of an axis is that of its move to the node.
     pub fn value(&self, of: Quantity, i: usize) -> f32 {
         match of {
             Quantity::Position(axis) => (self.command[axis][i] * self.scale[axis]) as f32,

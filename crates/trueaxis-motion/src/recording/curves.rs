@@ -5,18 +5,18 @@ use super::Recording;
 use super::pyramid::BUCKET;
 use std::ops::Range;
 
-/// What a curve shows, with its name and what is allowed.
+/// The quantity of a curve, with its name and its limits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct QuantityRange {
-    /// What it is.
+    /// Its kind.
     pub quantity: Quantity,
     /// Its short name: `X`, `X.speed`, `path.speed`, `tip`, `feed`, `normal`, `binormal`, `axis`.
     pub key: String,
-    /// Its name for people.
+    /// Its name in text output.
     pub title: String,
     /// Its unit.
     pub unit: String,
-    /// The ends of the travel, or the greatest velocity both ways, where stated.
+    /// The ends of the travel, or the highest velocity in both directions, where stated.
     pub limits: Option<[f64; 2]>,
 }
 
@@ -37,7 +37,7 @@ pub struct Curves {
 }
 
 impl Recording {
-    /// Everything of which there is a curve.
+    /// All quantities that have a curve.
     pub fn quantities(&self) -> Vec<QuantityRange> {
         let axes = self.axes();
         let range = |quantity: Quantity| {
@@ -94,7 +94,7 @@ impl Recording {
         let column = self.columns.column(of);
         let begin = times.partition_point(|t| *t < from_s);
         if let Quantity::AxisSpeed(_) = of {
-            // The way to a node has its speed.
+            // The move to a node has its speed.
             let begin = times.partition_point(|t| *t <= from_s).min(times.len() - 1);
             let end = times.partition_point(|t| *t < to_s).max(begin);
             return self.pyramid.extent(column, self.whole(begin..end + 1), value);
@@ -105,7 +105,7 @@ impl Recording {
         [low.min(edges[0]).min(edges[1]), high.max(edges[0]).max(edges[1])]
     }
 
-    /// Where nodes were left out, whole buckets, which know them, too: a stretch of time then has the
+    /// Where nodes were left out, whole buckets, which contain them, too: a stretch of time then has the
     /// extremes of a little more than itself, and none is lost.
     fn whole(&self, nodes: Range<usize>) -> Range<usize> {
         if !self.is_thinned() {

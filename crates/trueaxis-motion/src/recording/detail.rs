@@ -69,7 +69,7 @@ impl<'c> Refine<'c> {
     fn refine(&mut self, nodes: &[usize]) {
         self.open.push((0, nodes.len() - 1));
         while let Some((from, to)) = self.open.pop() {
-            let far = |k: usize| (self.beside(nodes[from], nodes[to], nodes[k]) as f32, k);
+            let far = |k: usize| (self.offset(nodes[from], nodes[to], nodes[k]) as f32, k);
             let inner = (from + 1..to).map(far);
             let Some((far, k)) = inner.max_by(|a, b| a.0.total_cmp(&b.0)) else { continue };
             if far > 0.0 {
@@ -80,7 +80,7 @@ impl<'c> Refine<'c> {
     }
 
     /// How far a node is from the line between two others, in the picture.
-    fn beside(&self, from: usize, to: usize, i: usize) -> f64 {
+    fn offset(&self, from: usize, to: usize, i: usize) -> f64 {
         let tip = |k: usize| Vec3::from(self.columns.tip_mm[k]);
         let off = |k: usize| Vec3::from(self.columns.off_um[k].map(f64::from));
         let (beside_mm, part) = from_piece(tip(i), tip(from), tip(to));
@@ -91,8 +91,8 @@ impl<'c> Refine<'c> {
 
 /// The distance of a point from the piece of a line, and at which part of the piece it is nearest.
 pub(super) fn from_piece(point: Vec3, from: Vec3, to: Vec3) -> (f64, f64) {
-    let (way, off) = (to - from, point - from);
-    let square = way.norm_squared();
-    let part = if square > 0.0 { (off.dot(&way) / square).clamp(0.0, 1.0) } else { 0.0 };
-    ((off - way * part).norm(), part)
+    let (move_by, off) = (to - from, point - from);
+    let square = move_by.norm_squared();
+    let part = if square > 0.0 { (off.dot(&move_by) / square).clamp(0.0, 1.0) } else { 0.0 };
+    ((off - move_by * part).norm(), part)
 }

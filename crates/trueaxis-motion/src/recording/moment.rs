@@ -41,14 +41,14 @@ pub struct Moment {
 }
 
 impl Recording {
-    /// Where everything is at a time; before the begin and behind the end as there. Between two
+    /// Where everything is at a time; before the start and after the end as there. Between two
     /// nodes each axis goes evenly:
     ///
     /// ```text
     ///     q(t) = qᵢ₋₁ + (qᵢ − qᵢ₋₁)·(t − tᵢ₋₁)/(tᵢ − tᵢ₋₁)         docs/model.md eq. 157
     /// ```
     ///
-    /// and the machine itself tells tool and deviation at q(t). `None` where nothing was simulated.
+    /// and tool and deviation at q(t) are computed from the machine. `None` where nothing was simulated.
     pub fn at(&self, time_s: f64) -> Option<Moment> {
         let columns = &self.columns;
         let (first_s, last_s) = (*columns.time_s.first()?, self.end_s());
@@ -82,7 +82,7 @@ impl Recording {
         })
     }
 
-    /// The node before another one, and how much of the way between them is gone at a time.
+    /// The node before another one, and which part of the path between them is completed at a time.
     pub(super) fn part(&self, i: usize, time_s: f64) -> (usize, f64) {
         let (before, times) = (i.saturating_sub(1), &self.columns.time_s);
         let took_s = times[i] - times[before];

@@ -14,13 +14,13 @@ pub enum Colour {
     Deviation,
     /// Speed along the path, mm/min.
     Feed,
-    /// The largest part of its velocity limit that any axis uses on the way to a node, %:
+    /// The largest part of its velocity limit that any axis uses on the path to a node, %:
     /// docs/model.md eq. 158.
     Load,
 }
 
 impl Colour {
-    /// Its name for people, and its unit.
+    /// Its name in text output, and its unit.
     pub fn title(self) -> (&'static str, &'static str) {
         match self {
             Self::Deviation => ("Deviation of the tip", "µm"),
@@ -61,7 +61,7 @@ pub struct PathPoints {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Gap {
     /// The distance of the farthest node from the line, mm, by its bits: they order as it does.
-    beside_bits: u64,
+    offset_bits: u64,
     farthest: usize,
     from: usize,
     to: usize,
@@ -71,7 +71,7 @@ struct Gap {
 const ALWAYS: usize = 5;
 
 impl Recording {
-    /// The path between two times, from the node before to the node behind it, with at most so many
+    /// The path between two times, from the node before to the node after it, with at most so many
     /// points (8 at least).
     pub fn path(&self, from_s: f64, to_s: f64, most_points: usize, colour: Colour) -> PathPoints {
         let times = &self.columns.time_s;
@@ -134,7 +134,7 @@ impl Recording {
             drawn.windows(2).map(|pair| self.gap(pair[0], pair[1])).collect();
         // However uneven the gaps are, this takes no longer than a few passes over the path.
         let mut work = 4 * drawn.last().map_or(0, |last| last - drawn[0]);
-        while let Some(gap) = gaps.peek().copied().filter(|gap| gap.beside_bits > 0) {
+        while let Some(gap) = gaps.peek().copied().filter(|gap| gap.offset_bits > 0) {
             let length = gap.to - gap.from;
             if drawn.len() >= most || work < length {
                 break;
@@ -145,15 +145,15 @@ impl Recording {
             gaps.extend([self.gap(gap.from, gap.farthest), self.gap(gap.farthest, gap.to)]);
         }
         drawn.sort_unstable();
-        (drawn, gaps.peek().map_or(0.0, |gap| f64::from_bits(gap.beside_bits)))
+        (drawn, gaps.peek().map_or(0.0, |gap| f64::from_bits(gap.offset_bits)))
     }
 
     fn gap(&self, from: usize, to: usize) -> Gap {
         let tip = |i: usize| Vec3::from(self.columns.tip_mm[i]);
         let (a, b) = (tip(from), tip(to));
-        let beside = |i: usize| (from_piece(tip(i), a, b).0.to_bits(), i);
-        let (beside_bits, farthest) = (from + 1..to).map(beside).max().unwrap_or((0, from));
-        Gap { beside_bits, farthest, from, to }
+        let offset = |i: usize| (from_piece(tip(i), a, b).0.to_bits(), i);
+        let (offset_bits, farthest) = (from + 1..to).map(offset).max().unwrap_or((0, from));
+        Gap { offset_bits, farthest, from, to }
     }
 
     fn points(&self, drawn: &[usize], values: &[f32], mut points: PathPoints) -> PathPoints {

@@ -12,7 +12,7 @@ fn see([low, high]: &mut [f32; 2], other: [f32; 2]) {
     (*low, *high) = (low.min(other[0]), high.max(other[1]));
 }
 
-/// Extents of some quantities; those of a bucket stand together.
+/// Extents of some quantities; those of a bucket are adjacent.
 #[derive(Debug, Default)]
 pub(super) struct Pyramid {
     quantities: usize,
@@ -50,7 +50,7 @@ impl Pyramid {
         all
     }
 
-    /// Builds what stands above the finest buckets.
+    /// Builds the levels above the finest buckets.
     pub fn finish(&mut self) {
         self.levels[0].shrink_to_fit();
         while let Some(top) = self.levels.last().filter(|t| t.len() > BUCKET * self.quantities) {
@@ -59,7 +59,7 @@ impl Pyramid {
         }
     }
 
-    /// The extent of a quantity over some nodes; `value` tells it at one node. Without nodes the
+    /// The extent of a quantity over some nodes; `value` gives it at one node. Without nodes the
     /// lowest is above the highest.
     pub fn extent(
         &self,

@@ -33,15 +33,15 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// Nothing yet; machine, set-up and options are those of the simulation.
+    /// Empty; machine, set-up and options are those of the simulation.
     pub fn of(machine: &Machine, setup: &SetUp, options: &Options) -> Self {
         let machine = setup.mounted(machine);
-        // What is wrong with the log is told by the simulation.
-        let told = &mut Diagnostics::new();
+        // The simulation reports what is wrong with the log.
+        let problems = &mut Diagnostics::new();
         let run = options.temperatures.as_ref();
         let columns = Columns::of(&machine);
         Self {
-            warming: run.and_then(|run| WarmingMachine::new(&machine, run, told)),
+            warming: run.and_then(|run| WarmingMachine::new(&machine, run, problems)),
             pyramid: Pyramid::of(columns.quantities().count()),
             recent: columns.clone(),
             columns,
@@ -55,7 +55,7 @@ impl Recorder {
     }
 
     /// Keeps at most so many nodes (16 at least, 4 million without this); where there are more, they
-    /// are thinned, and [`Recording::is_thinned`] says so.
+    /// are thinned, and [`Recording::is_thinned`] states it.
     #[must_use]
     pub fn at_most(mut self, nodes: usize) -> Self {
         // So that halves are whole buckets.

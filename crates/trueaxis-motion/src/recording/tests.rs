@@ -1,6 +1,6 @@
 //! What is kept against the simulation itself.
 
-// So that whoever reads this file alone, such as the house rules, knows what it is.
+// So that whoever reads this file alone, such as the house rules, can see what it is.
 use super::super::Batch;
 use super::super::Densify;
 use super::super::Observer;
@@ -44,14 +44,14 @@ fn program(blocks: usize) -> Program {
     Program::new("program.nc", text.into_bytes(), Control::Fanuc)
 }
 
-/// Every node as the simulation told it.
+/// Every node as the simulation reported it.
 #[derive(Default)]
-struct Told {
+struct Seen {
     moments: Vec<Moment>,
     flags: Vec<bool>,
 }
 
-impl Observer for Told {
+impl Observer for Seen {
     fn path(&mut self, batch: &Batch<'_>) {
         for (i, (node, stamp)) in batch.nodes.iter().zip(batch.stamps).enumerate() {
             let deviation = batch.deviation(i);
@@ -75,37 +75,37 @@ impl Observer for Told {
     }
 }
 
-fn recorded(blocks: usize, most: usize) -> (Recording, Told, Run) {
+fn recorded(blocks: usize, most: usize) -> (Recording, Seen, Run) {
     let (machine, program, setup) = (machine(), program(blocks), SetUp::default());
     let options = Options::default();
-    let mut told = Told::default();
+    let mut seen = Seen::default();
     let mut recorder = Recorder::of(&machine, &setup, &options).at_most(most);
-    let run = simulate(&machine, &program, &setup, &options, &mut [&mut told, &mut recorder]);
+    let run = simulate(&machine, &program, &setup, &options, &mut [&mut seen, &mut recorder]);
     assert!(!run.problems.has_errors(), "{:?}", run.problems);
-    (recorder.finish(), told, run)
+    (recorder.finish(), seen, run)
 }
 
 #[test]
 fn at_its_nodes_it_is_the_simulation() {
-    let (recording, told, _) = recorded(700, usize::MAX);
-    assert_eq!((recording.nodes(), recording.kept()), (told.moments.len(), told.moments.len()));
-    assert!(!recording.is_thinned() && told.moments.iter().any(|m| m.waits));
-    agree(&recording, &told);
+    let (recording, seen, _) = recorded(700, usize::MAX);
+    assert_eq!((recording.nodes(), recording.kept()), (seen.moments.len(), seen.moments.len()));
+    assert!(!recording.is_thinned() && seen.moments.iter().any(|m| m.waits));
+    agree(&recording, &seen);
 }
 
-fn agree(recording: &Recording, told: &Told) {
-    for told in &told.moments {
-        let found = recording.at(told.time_s).unwrap();
-        assert_eq!((found.command, found.approach), (told.command, told.approach));
-        assert_eq!((found.line, found.rapid, found.waits), (told.line, told.rapid, told.waits));
-        assert_eq!(found.tool, told.tool);
+fn agree(recording: &Recording, seen: &Seen) {
+    for seen in &seen.moments {
+        let found = recording.at(seen.time_s).unwrap();
+        assert_eq!((found.command, found.approach), (seen.command, seen.approach));
+        assert_eq!((found.line, found.rapid, found.waits), (seen.line, seen.rapid, seen.waits));
+        assert_eq!(found.tool, seen.tool);
         let near =
-            |a: Vec3, b: Vec3, most: f64| assert!((a - b).norm() < most, "{found:?} {told:?}");
-        near(found.tip_mm, told.tip_mm, 1e-9);
-        near(found.off_tip_um, told.off_tip_um, 1e-6);
-        near(found.off_axis_urad, told.off_axis_urad, 1e-6);
-        near(found.along_path_um, told.along_path_um, 1e-5);
-        assert!((found.speed - told.speed).abs() < 1e-4);
+            |a: Vec3, b: Vec3, most: f64| assert!((a - b).norm() < most, "{found:?} {seen:?}");
+        near(found.tip_mm, seen.tip_mm, 1e-9);
+        near(found.off_tip_um, seen.off_tip_um, 1e-6);
+        near(found.off_axis_urad, seen.off_axis_urad, 1e-6);
+        near(found.along_path_um, seen.along_path_um, 1e-5);
+        assert!((found.speed - seen.speed).abs() < 1e-4);
     }
 }
 
@@ -125,14 +125,14 @@ fn tools_and_temperatures_are_those_of_the_time() {
     let setup = SetUp { given: true, tools, ..SetUp::default() };
     let text = "O1\nG90 G21 G94\nT1 M6\nG1 X400 Y100 F3000\nT2 M6\nC40\nX10 A5\nG4 P9000\nT1 M6\nZ9\nM30\n";
     let program = Program::new("tools.nc", text.as_bytes().to_vec(), Control::Fanuc);
-    let (machine, mut told) = (machine.unwrap(), Told::default());
+    let (machine, mut seen) = (machine.unwrap(), Seen::default());
     let mut recorder = Recorder::of(&machine, &setup, &options);
-    let run = simulate(&machine, &program, &setup, &options, &mut [&mut told, &mut recorder]);
+    let run = simulate(&machine, &program, &setup, &options, &mut [&mut seen, &mut recorder]);
     assert!(!run.problems.has_errors(), "{:?}", run.problems);
     let recording = recorder.finish();
-    let changes = told.moments.windows(2).filter(|pair| pair[0].tool != pair[1].tool).count();
+    let changes = seen.moments.windows(2).filter(|pair| pair[0].tool != pair[1].tool).count();
     assert!(changes == 3 && recording.stretches.len() > 40, "{changes}");
-    agree(&recording, &told);
+    agree(&recording, &seen);
 }
 
 #[test]
@@ -151,7 +151,7 @@ fn between_its_nodes_it_is_the_machine() {
             assert_eq!((n.linear(), a.linear()), (nominal[i].linear(), actual[i].linear()));
         }
     }
-    // Half of the time between two nodes is half of the way.
+    // Half of the time between two nodes is half of the distance.
     let [a, b] = [40, 41].map(|i| recording.at(recording.columns.time_s[i]).unwrap());
     let middle = recording.at(0.5 * (a.time_s + b.time_s)).unwrap();
     assert!((middle.command[1] - 0.5 * (a.command[1] + b.command[1])).abs() < 1e-9);
@@ -161,7 +161,7 @@ fn between_its_nodes_it_is_the_machine() {
 
 #[test]
 fn extents_are_those_of_all_nodes() {
-    let (recording, told, _) = recorded(900, usize::MAX);
+    let (recording, seen, _) = recorded(900, usize::MAX);
     let end_s = recording.end_s();
     let all: Vec<Quantity> = recording.quantities().iter().map(|q| q.quantity).collect();
     for k in 0..60_u32 {
@@ -170,7 +170,7 @@ fn extents_are_those_of_all_nodes() {
         let (from_s, to_s) = (a.min(b) - 0.1, a.max(b) + 1e-6);
         let curves = recording.curves(from_s, to_s, 1, &all);
         for (i, of) in all.iter().enumerate() {
-            let [low, high] = brute(&recording, &told.moments, *of, from_s, to_s);
+            let [low, high] = brute(&recording, &seen.moments, *of, from_s, to_s);
             let slack = 1e-6 * (1.0 + low.abs().max(high.abs()));
             let found = [curves.low[i], curves.high[i]].map(f64::from);
             assert!(
@@ -180,16 +180,16 @@ fn extents_are_those_of_all_nodes() {
             );
         }
     }
-    let behind = recording.curves(end_s + 1.0, end_s + 2.0, 3, &all[..1]);
-    assert!(behind.low.iter().chain(&behind.high).all(|v| v.is_nan()));
+    let after = recording.curves(end_s + 1.0, end_s + 2.0, 3, &all[..1]);
+    assert!(after.low.iter().chain(&after.high).all(|v| v.is_nan()));
 }
 
 /// Node by node, and the straight lines to the edges.
-fn brute(r: &Recording, told: &[Moment], of: Quantity, from_s: f64, to_s: f64) -> [f64; 2] {
+fn brute(r: &Recording, seen: &[Moment], of: Quantity, from_s: f64, to_s: f64) -> [f64; 2] {
     let value = |i: usize| f64::from(r.columns.value(of, i));
     let mut values = Vec::new();
-    for i in 1..told.len() {
-        let (a, b) = (told[i - 1].time_s, told[i].time_s);
+    for i in 1..seen.len() {
+        let (a, b) = (seen[i - 1].time_s, seen[i].time_s);
         let (from, to) = (from_s.max(a), to_s.min(b));
         if from > to || (a == b && !matches!(of, Quantity::AxisSpeed(_))) {
             continue;
@@ -209,9 +209,9 @@ fn brute(r: &Recording, told: &[Moment], of: Quantity, from_s: f64, to_s: f64) -
 
 #[test]
 fn a_path_with_few_points_keeps_the_extremes_and_its_chord() {
-    let (recording, told, _) = recorded(2000, usize::MAX);
+    let (recording, seen, _) = recorded(2000, usize::MAX);
     let whole = recording.path(0.0, recording.end_s(), usize::MAX, Colour::Deviation);
-    assert!(whole.is_complete && whole.chord_mm == 0.0 && whole.line.len() == told.moments.len());
+    assert!(whole.is_complete && whole.chord_mm == 0.0 && whole.line.len() == seen.moments.len());
     let mut before = f64::INFINITY;
     for most in [8, 50, 300, 1500] {
         for colour in [Colour::Deviation, Colour::Feed, Colour::Load] {
@@ -223,12 +223,12 @@ fn a_path_with_few_points_keeps_the_extremes_and_its_chord() {
             assert_eq!(highest, all.range[1]);
         }
         let drawn = recording.path(0.0, recording.end_s(), most, Colour::Deviation);
-        assert!((chord(&drawn, &told.moments) - drawn.chord_mm).abs() < 1e-3);
+        assert!((chord(&drawn, &seen.moments) - drawn.chord_mm).abs() < 1e-3);
         assert!(drawn.chord_mm < before, "{most}: {}", drawn.chord_mm);
         before = drawn.chord_mm;
     }
     assert!(before < 0.5);
-    // A window begins at the node before it and ends at the node behind it.
+    // A window begins at the node before it and ends at the node after it.
     let window = recording.path(1.0, 1.5, usize::MAX, Colour::Feed);
     let (first, last) = (window.time_s[0], window.time_s[window.time_s.len() - 1]);
     assert!(first <= 1.0 && last >= 1.5 && window.time_s[1] > 1.0);
@@ -255,11 +255,11 @@ fn rows_stay_rows_wherever_their_corners_are() {
 }
 
 /// The greatest distance of a node from the piece that is drawn over it.
-fn chord(drawn: &PathPoints, told: &[Moment]) -> f64 {
+fn chord(drawn: &PathPoints, seen: &[Moment]) -> f64 {
     let origin = Vec3::from(drawn.origin_mm);
     let tip = |i: usize| Vec3::from(drawn.tip_mm[i].map(f64::from)) + origin;
     let mut chord = 0.0_f64;
-    for m in told {
+    for m in seen {
         let to = drawn.time_s.partition_point(|t| *t < m.time_s).max(1);
         if drawn.time_s[to] != m.time_s {
             chord = chord.max(from_piece(m.tip_mm, tip(to - 1), tip(to)).0);
@@ -270,7 +270,7 @@ fn chord(drawn: &PathPoints, told: &[Moment]) -> f64 {
 
 #[test]
 fn it_goes_from_block_to_block() {
-    let (recording, told, _) = recorded(50, usize::MAX);
+    let (recording, seen, _) = recorded(50, usize::MAX);
     let line = |time_s: f64| recording.at(time_s).unwrap().line;
     let mut time_s = 0.0;
     let mut lines = vec![line(time_s)];
@@ -278,7 +278,7 @@ fn it_goes_from_block_to_block() {
         time_s = recording.next_block(time_s);
         lines.push(line(time_s));
     }
-    let mut expected: Vec<u32> = told.moments.iter().map(|m| m.line).collect();
+    let mut expected: Vec<u32> = seen.moments.iter().map(|m| m.line).collect();
     expected.dedup();
     assert_eq!(lines, expected);
     assert_eq!(line(recording.previous_block(time_s)), expected[expected.len() - 2]);
@@ -292,9 +292,9 @@ fn it_goes_from_block_to_block() {
 
 #[test]
 fn memory_is_bounded_and_no_peak_is_lost() {
-    let (whole, told, _) = recorded(3000, usize::MAX);
+    let (whole, seen, _) = recorded(3000, usize::MAX);
     let (thin, _, _) = recorded(3000, 500);
-    assert!(thin.is_thinned() && thin.kept() <= 501 && thin.nodes() == told.moments.len());
+    assert!(thin.is_thinned() && thin.kept() <= 501 && thin.nodes() == seen.moments.len());
     assert_eq!(thin.end_s(), whole.end_s());
     assert!(thin.columns.time_s.windows(2).all(|pair| pair[0] < pair[1]));
     let all: Vec<Quantity> = whole.quantities().iter().map(|q| q.quantity).collect();

@@ -1,4 +1,4 @@
-//! A simulation for people.
+//! A simulation as a report.
 
 use super::simulation_pictures::{axis_pictures, curves, marks_note};
 use super::simulation_views::tool_path;
@@ -22,7 +22,7 @@ pub struct Simulation<'a> {
     pub machine: &'a Machine,
     /// The program file.
     pub program: &'a str,
-    /// Whose program it is.
+    /// The control that the program is for.
     pub control: Control,
     /// Tools, work offsets and bodies.
     pub setup: &'a SetUp,
@@ -159,7 +159,7 @@ pub fn clock(seconds: f64) -> String {
     }
 }
 
-/// A simulation for people; with pictures where `series` holds their curves.
+/// A simulation as a report; with pictures where `series` holds their curves.
 pub fn simulation_report<'a>(s: Simulation<'a>, series: Option<&'a Series>) -> Report<'a> {
     let name = Path::new(s.program).file_name().map_or(s.program.into(), |n| n.to_string_lossy());
     let chain = s.machine.chain_text();
@@ -168,12 +168,13 @@ pub fn simulation_report<'a>(s: Simulation<'a>, series: Option<&'a Series>) -> R
     Report::new(format!("{name} on {}", s.machine.name()))
         .line(format!("{} · {chain} · {}", control_name(s.control), clock(s.summary.time_s)))
         .verdict(standing, word, sentence)
+        .section(issue_section(&s))
         .section(summary_section(s.summary))
         .section(deviation_section(&s))
         .sections(drawn.into_iter().flatten())
         .section(axis_section(s, series))
         .sections(temperature_section(&s))
-        .sections(issue_sections(&s))
+        .section(minor_section(&s))
         .section(tool_section(&s))
         .section(Section::new("Messages of the program").list(s.summary.messages.iter().cloned()))
         .section(diagnostic_section(s.run))
@@ -410,43 +411,59 @@ fn temperature_section(s: &Simulation<'_>) -> Option<Section<'static>> {
     Some(Section::new("Temperatures").paragraph(time).table(table).paragraph(found))
 }
 
-/// Critical issues one by one, the others once for each kind; then all stretches of the others.
-fn issue_sections(s: &Simulation<'_>) -> Vec<Section<'static>> {
-    let row = |t: &Trouble, also: &str| {
-        [
-            if t.grave { "critical" } else { "time" }.to_owned(),
-            s.blocks(t),
-            clock(t.from_s),
-            clock(t.to_s - t.from_s),
-            trouble_text(s.machine, t) + also,
-        ]
-    };
-    let table = || Table::new(["", "block", "from", "for", "issue"]);
-    let (critical, minor): (Vec<&Trouble>, Vec<_>) = s.troubles.list.iter().partition(|t| t.grave);
-    let mut issues = table().most_on_terminal(MOST_ON_TERMINAL);
-    for trouble in critical.iter().take(MOST_ROWS) {
-        issues = issues.bold_row(row(trouble, ""));
+/// A row of a table of issues.
+fn issue_row(s: &Simulation<'_>, t: &Trouble, also: &str) -> [String; 5] {
+    [
+        if t.grave { "critical" } else { "time" }.to_owned(),
+        s.blocks(t),
+        clock(t.from_s),
+        clock(t.to_s - t.from_s),
+        trouble_text(s.machine, t) + also,
+    ]
+}
+
+fn issue_table() -> Table {
+    Table::new(["", "block", "from", "for", "issue"])
+}
+
+/// Issues that cost time only.
+fn minor_issues<'a>(s: &Simulation<'a>) -> Vec<&'a Trouble> {
+    s.troubles.list.iter().filter(|t| !t.grave).collect()
+}
+
+/// Critical issues one by one, the others once for each kind.
+fn issue_section(s: &Simulation<'_>) -> Section<'static> {
+    let critical = || s.troubles.list.iter().filter(|t| t.grave);
+    let mut issues = issue_table().most_on_terminal(MOST_ON_TERMINAL);
+    for trouble in critical().take(MOST_ROWS) {
+        issues = issues.bold_row(issue_row(s, trouble, ""));
     }
-    let kinds = minor_kinds(&minor);
-    for (worst, count) in &kinds {
+    let minor = minor_issues(s);
+    for (worst, count) in minor_kinds(&minor) {
         let also = match count {
             1 => String::new(),
-            n => format!("   ({n} stretches, this is the worst)"),
+            n => format!(" ({n} stretches, this is the worst)"),
         };
-        issues.push(row(worst, &also));
+        issues.push(issue_row(s, worst, &also));
     }
-    let left_out = s.troubles.left_out + critical.len().saturating_sub(MOST_ROWS) as u64;
-    let left_out = left_out + minor.len().saturating_sub(MOST_ROWS) as u64;
+    let unlisted = [critical().count(), minor.len()].map(|n| n.saturating_sub(MOST_ROWS) as u64);
+    let left_out = s.troubles.left_out + unlisted.iter().sum::<u64>();
     let section = Section::new("Issues");
-    let section = match (issues.rows.is_empty(), left_out) {
+    match (issues.rows.is_empty(), left_out) {
         (true, _) => section.paragraph("None found."),
         (_, 0) => section.table(issues),
         (_, n) => section.table(issues.note(format!("… and {n} more of the same kinds."))),
-    };
-    let every = table().rows(minor.iter().take(MOST_ROWS).map(|t| row(t, "")));
-    let every = Section::new("Issues that cost time, every stretch").on_page().table(every);
-    let is_more = minor.len() > kinds.len();
-    [section].into_iter().chain(is_more.then_some(every)).collect()
+    }
+}
+
+/// Every stretch of the issues that cost time, where their kinds do not list them all.
+fn minor_section(s: &Simulation<'_>) -> Section<'static> {
+    let section = Section::new("Issues that cost time, every stretch").on_page();
+    let minor = minor_issues(s);
+    if minor_kinds(&minor).len() == minor.len() {
+        return section;
+    }
+    section.table(issue_table().rows(minor.iter().take(MOST_ROWS).map(|t| issue_row(s, t, ""))))
 }
 
 /// The worst issue of each kind and how many of them there are, the worst first.

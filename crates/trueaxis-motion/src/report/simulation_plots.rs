@@ -1,4 +1,4 @@
-//! Pictures of a simulation: curves over time, with what goes wrong as marks.
+//! Pictures of a simulation: curves over time, with issues as marks.
 
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -65,7 +65,7 @@ pub(super) const GRID: RGBColor = RGBColor(222, 226, 229);
 
 /// Width of the pictures.
 pub(super) const WIDTH: i32 = 1000;
-/// Room for the numbers beside a strip.
+/// Room for the numbers left of a strip.
 const LEFT: i32 = 66;
 pub(super) const RIGHT: i32 = 12;
 /// Room for the title over a strip or a view.
@@ -75,13 +75,13 @@ const STRIP: i32 = 92;
 const FOOT: i32 = 38;
 /// More columns than this cannot be seen.
 const MOST_COLUMNS: usize = 920;
-/// More marks than this cannot be told apart.
+/// More marks than this cannot be distinguished.
 const MOST_MARKS: usize = 150;
 
 /// Curves under each other over the same time, with what went wrong as vertical marks.
 ///
 /// # Errors
-/// What the drawing library says.
+/// What the drawing library reports.
 pub fn strips(strips: &[Strip], end_s: f64, marks: &[Mark]) -> Result<String, DrawingError> {
     let time = TimeAxis::until(end_s);
     let height = strips.len() as i32 * (TITLE + STRIP) + FOOT;

@@ -1,4 +1,4 @@
-//! Pictures of a simulation: the way of the tool in three views and an oblique one.
+//! Pictures of a simulation: the path of the tool in three views and an oblique one.
 
 use super::simulation_plots::{GRID, RIGHT, TITLE, WIDTH};
 use crate::PathPoint;
@@ -44,7 +44,7 @@ impl Colours {
     }
 }
 
-/// A way of looking: what goes to the right and what goes up, from a place.
+/// A view: what goes to the right and what goes up, from a place.
 #[derive(Clone, Copy)]
 struct View {
     title: &'static str,
@@ -91,7 +91,7 @@ struct Panel {
     per_mm: f64,
 }
 
-/// Room beside and under a view for its numbers.
+/// Room left of and under a view for its numbers.
 const BESIDE: i32 = 60;
 const UNDER: i32 = 40;
 /// Room for the colour bar.
@@ -99,11 +99,11 @@ const BAR: i32 = 52;
 /// The views are together at most so high.
 const MOST_HEIGHT: f64 = 620.0;
 
-/// The way of the tip as a technical drawing: top view over front view, side view beside it, all of
+/// The path of the tip as a technical drawing: top view over front view, side view beside it, all of
 /// one scale; an oblique view in the free corner. Feed in the colour of the deviation, rapid thin.
 ///
 /// # Errors
-/// What the drawing library says.
+/// What the drawing library reports.
 pub fn tool_path(points: &[PathPoint]) -> Result<String, DrawingError> {
     let (panels, height) = arrange(feed_box(points));
     let feed = points.iter().filter(|p| !p.rapid && p.off_mm.is_finite());
@@ -303,7 +303,7 @@ impl Ground {
     }
 }
 
-/// The way in one view: rapid below, then from good to bad, so that the worst is seen.
+/// The path in one view: rapid below, then from good to bad, so that the worst is seen.
 fn write_lines(
     out: &mut String,
     number: usize,

@@ -63,7 +63,7 @@ pub(super) enum Corner {
 /// The largest blend that each axis' tolerance and half of both segments allow,
 /// docs/model.md eq. 42.
 ///
-/// `least` is the shortest blend that can be told from none.
+/// `least` is the shortest blend that differs from none.
 pub(super) fn corner(node: &Node, before: &Segment, after: &Segment, least: f64) -> Corner {
     let half = 0.5 * before.length.min(after.length);
     let mut d = half;
@@ -99,7 +99,7 @@ pub(super) struct Piece {
     pub jerk_axis: usize,
 }
 
-/// The largest of some numbers and where it stands.
+/// The largest of some numbers and where it is.
 #[derive(Clone, Copy, Default)]
 struct Largest {
     value: f64,

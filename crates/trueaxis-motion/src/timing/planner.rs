@@ -333,7 +333,7 @@ impl Planner {
     }
 
     fn emit(&mut self, run: &Run, at: &Waiting, t_s: f64, velocity: f64, out: &mut impl Receive) {
-        // Two nodes nearer than the last bit of the clock still come one after the other.
+        // Two nodes closer than the last bit of the clock are still in order.
         self.stamp_s = if t_s > self.stamp_s { t_s } else { self.stamp_s.next_up() };
         let reached = |v: f64| velocity >= v * (1.0 - 1e-9);
         let limiting = match () {

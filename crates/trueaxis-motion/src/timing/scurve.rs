@@ -135,7 +135,7 @@ impl Phases {
     }
 }
 
-/// When a phase is at a place on its way: a safeguarded Newton iteration.
+/// When a phase is at a position on its path: a safeguarded Newton iteration.
 pub(super) fn time_at(phase: &Phase, sigma: f64) -> f64 {
     let distance = sigma - phase.sigma;
     if distance <= 0.0 {

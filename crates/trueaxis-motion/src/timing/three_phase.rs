@@ -1,4 +1,4 @@
-//! The time of one block in three phases with exact stop, document 002.
+//! The time of one block in three phases with exact stop, Jiang et al..
 //!
 //! The text of the document has lost its equations; they are rebuilt here (errata 002-4 … 002-8).
 
@@ -121,7 +121,7 @@ impl ThreePhases {
         (0..=q).map(move |t| self.time_at_s(length * t as f64 / q.max(1) as f64))
     }
 
-    /// The largest acceleration on the way: 1.5 times the mean with [`Shape::Smooth`].
+    /// The largest acceleration on the path: 1.5 times the mean with [`Shape::Smooth`].
     pub fn peak_acceleration(&self) -> f64 {
         let factor = if self.shape == Shape::Smooth { 1.5 } else { 1.0 };
         let mean = |i: usize| {

@@ -21,7 +21,7 @@ pub struct State {
     pub sigma_dot: f64,
 }
 
-/// A path that is held as a whole: for plots, tests and short programs.
+/// A path in memory as a whole: for plots, tests and short programs.
 #[derive(Debug, Clone, Default)]
 pub struct Timeline {
     path: Vec<(Command, f64)>,
@@ -115,7 +115,7 @@ impl Timeline {
         let (at, _) = self.path.get(i)?;
         let mut x = sigma - node.sigma;
         if node.blend == 0.0 {
-            // Close to a stop the way left is lost in the rounding of σ; the time is not.
+            // Close to a stop the remaining distance is lost in the rounding of σ; the time is not.
             x = if t_s < node.t_s { x.min(-f64::MIN_POSITIVE) } else { x.max(0.0) };
         }
         Some(derivatives(at, [&incoming, &outgoing], node.blend, x))

@@ -1,4 +1,4 @@
-//! The Markdown reports of the ECMC motion test scripts: readings and printed figures.
+//! The Markdown reports of the ECMC motion test scripts: readings and printed parameters.
 
 use super::{Beside, Imported, Printed};
 use crate::Standard;
@@ -11,7 +11,7 @@ const DOWN: &str = "### Data backward direction";
 /// More runs than this are another table.
 const MOST_RUNS: usize = 1000;
 
-/// Their figures, and ours of the same name.
+/// Their parameters, and those of ISO 230-2 with the same name.
 const FIGURES: [(&str, Quantity); 12] = [
     ("A", Quantity::A),
     ("A_fwd", Quantity::AUp),
@@ -27,7 +27,7 @@ const FIGURES: [(&str, Quantity); 12] = [
     ("B_avg", Quantity::BMean),
 ];
 
-/// Why a printed figure may differ.
+/// Why a printed value may differ.
 pub(super) fn reason(quantity: Quantity) -> &'static str {
     match quantity {
         Quantity::R => {
@@ -37,7 +37,7 @@ pub(super) fn reason(quantity: Quantity) -> &'static str {
         Quantity::E => {
             "these reports do not take the range of both directions together; the standard's E does"
         }
-        _ => "the figures here are those of the readings in the report",
+        _ => "the results here are those of the readings in the report",
     }
 }
 
@@ -57,8 +57,10 @@ pub(super) fn read(
     let positioning =
         [Standard::Iso230_2, Standard::Gbt17421_2, Standard::Vdi3441, Standard::B5_54];
     if !positioning.contains(&standard) {
-        let message =
-            format!("a report of positions along one axis cannot feed {}", standard.key());
+        let message = format!(
+            "a report of positions along one axis cannot be evaluated by {}",
+            standard.key()
+        );
         let hint = "it has targets, runs and two directions: use iso230-2";
         problems.error("no-such-readings", Place::whole(file), message, hint);
         return None;
@@ -88,14 +90,14 @@ pub(super) fn read(
     }
     let Some(unit) = unit else {
         let message = "the readings of the report are not in a length".to_owned();
-        let hint = "only reports of linear axes in mm are known here; write the readings as CSV";
+        let hint = "only reports of linear axes in mm are supported; write the readings as CSV";
         problems.error("unknown-unit", Place::whole(file), message, hint);
         return None;
     };
     let runs = rows.iter().map(|r| r.cells.len().saturating_sub(2)).max().unwrap_or(0);
     if !(1..=MOST_RUNS).contains(&runs) {
         let message = "the report has no readings".to_owned();
-        let hint = "they stand in tables under `### Data forward direction` and `### Data backward \
+        let hint = "they are expected in tables under `### Data forward direction` and `### Data backward \
                     direction`";
         problems.error("empty-table", Place::whole(file), message, hint);
         return None;
@@ -151,7 +153,7 @@ mod tests {
         let text = format!("{UP}\n0 | 10 | 10.01 |\n1\n");
         let mut problems = Diagnostics::new();
         assert!(read(Standard::Iso230_2, "r.md", &text, &mut problems).is_none());
-        let told = problems.iter().next().map(|d| (d.code, d.place.line));
-        assert_eq!(told, Some(("short-row", 3)));
+        let first = problems.iter().next().map(|d| (d.code, d.place.line));
+        assert_eq!(first, Some(("short-row", 3)));
     }
 }

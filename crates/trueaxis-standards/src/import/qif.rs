@@ -17,10 +17,10 @@ const MOST_POINTS: usize = 2_000_000;
 /// Points further from the plane of their circle than this share of its radius are another feature.
 const FLAT: f64 = 0.05;
 
-/// Points with the lines on which they stand.
+/// Points with the lines on which they are.
 type Lined = Vec<(usize, Vec3)>;
 
-/// A circle with everything that the file says of it.
+/// A circle with everything that the file states about it.
 struct MeasuredValue {
     name: String,
     points_mm: Lined,
@@ -75,7 +75,7 @@ pub(super) fn read(
     flatten(&circle, file, problems)
 }
 
-/// What a standard needs that no QIF file has.
+/// The readings that a standard needs and a QIF file cannot contain.
 fn lacking(standard: Standard) -> &'static str {
     match standard {
         Standard::Iso230_3 => "times",
@@ -104,7 +104,7 @@ impl<'d, 't> Reader<'d, 't> {
     }
 
     fn measurements(&self, kind: &str) -> impl Iterator<Item = Node<'d, 't>> {
-        // QIF 3 says Measurement, QIF 2 said Actual.
+        // The word is Measurement in QIF 3, Actual in QIF 2.
         let names = [format!("{kind}FeatureMeasurement"), format!("{kind}FeatureActual")];
         self.document
             .descendants()
@@ -121,7 +121,7 @@ impl<'d, 't> Reader<'d, 't> {
         });
         let counted: Vec<String> = counted.collect();
         match counted.is_empty() {
-            true => "no measured feature that is known here".to_owned(),
+            true => "no measured feature of a supported kind".to_owned(),
             false => counted.join(", "),
         }
     }
@@ -131,7 +131,7 @@ impl<'d, 't> Reader<'d, 't> {
         self.ids.get(text_of(node, name)?.trim()).copied()
     }
 
-    /// The name that the feature has for people.
+    /// The name of the feature in text output.
     fn name(&self, node: Node<'d, 't>) -> String {
         let item = self.follow(node, "FeatureItemId");
         let name = item.and_then(|i| text_of(i, "FeatureName")).unwrap_or_default().trim();
@@ -183,8 +183,8 @@ impl<'d, 't> Reader<'d, 't> {
     fn unit_mm(&self, problems: &mut Diagnostics) -> Option<f64> {
         let unit = self.document.descendants().find(|n| n.has_tag_name("LinearUnit"));
         let Some(unit) = unit else {
-            let message = "the file does not say its unit of length".to_owned();
-            let hint = "<FileUnits><PrimaryUnits><LinearUnit> is due";
+            let message = "the file does not state its unit of length".to_owned();
+            let hint = "expected <FileUnits><PrimaryUnits><LinearUnit>";
             problems.error("missing-unit", Place::whole(self.file), message, hint);
             return None;
         };
@@ -199,7 +199,7 @@ impl<'d, 't> Reader<'d, 't> {
             ("meter" | "metre", Some(factor)) => Some(factor * 1e3),
             _ => {
                 let message = "the unit of length is not given by the metre".to_owned();
-                let hint = "<SIUnitName>meter</SIUnitName> with a positive <Factor> is due";
+                let hint = "expected <SIUnitName>meter</SIUnitName> with a positive <Factor>";
                 problems.error("unknown-unit", self.place(unit), message, hint);
                 None
             }
@@ -256,7 +256,7 @@ impl<'d, 't> Reader<'d, 't> {
             let set = self.ids.get(reference.text().unwrap_or_default().trim()).copied();
             let Some(set) = set else {
                 let message = "the points that the circle names are not in the file".to_owned();
-                let hint = "a MeasuredPointSet with that id is due";
+                let hint = "expected a MeasuredPointSet with that id";
                 problems.error("missing-points", self.place(reference), message, hint);
                 return None;
             };
@@ -405,12 +405,12 @@ fn probe_correction(
     let Some(probe_mm) = circle.probe_mm else { return 0.0 };
     let off = |outward: f64| circle.radius_mm.map(|r| (radius_mm + outward - r).abs());
     let (internal, why) = match (circle.internal, off(probe_mm).zip(off(-probe_mm))) {
-        (Some(internal), _) => (internal, "as the file says"),
+        (Some(internal), _) => (internal, "as the file states"),
         (None, Some((hole, boss))) => (hole <= boss, "so it comes nearer to the nominal diameter"),
         (None, None) => {
-            let message = format!("{} does not say whether it is a hole", circle.name);
+            let message = format!("{} is not stated to be a hole or a boss", circle.name);
             let hint =
-                "the points are left at the centres of the probe: G stands, the radius does not";
+                "the points remain at the centres of the probe: G is valid, the radius is not";
             problems.warn("unknown-side", place.clone(), message, hint);
             return 0.0;
         }
@@ -434,7 +434,7 @@ fn plane(normal: Vec3) -> (Vec3, Vec3, [&'static str; 2]) {
     };
     let across = (first - normal * normal.dot(&first)).normalize();
     let up = normal.cross(&across);
-    // The second name rises with its axis, whichever way the normal looks.
+    // The second name rises with its axis, whatever the direction of the normal.
     let second = if main == 2 { Vec3::y() } else { Vec3::z() };
     (across, up * up.dot(&second).signum(), names)
 }

@@ -1,7 +1,7 @@
 //! What the standard asks of the test itself: positions, runs, directions; and readings that stand
-//! out. Nothing is dropped; the figures are those of all readings.
+//! out. Nothing is dropped; the parameters are those of all readings.
 //!
-//! The clauses are named from memory of ISO 230-2:2014; its text was not at hand.
+//! The clauses are named from memory of ISO 230-2:2014; its text was not available.
 
 use super::{Direction, Measurement, Reading, Target};
 use std::collections::HashMap;
@@ -20,12 +20,12 @@ const OUTLIER_RUN: f64 = 4.0;
 const OUTLIER_READING: f64 = 6.0;
 /// Outlying readings that are named one by one.
 const MOST_NAMED: usize = 10;
-/// So many times wider than the usual gap is the one between clusters of targets.
+/// So many times wider than the usual gap is the gap between clusters of targets.
 const CLUSTERED: f64 = 100.0;
-/// A deviation larger than this, mm or rad, is more likely a slip.
+/// A deviation larger than this, mm or rad, is more likely a mistake.
 const LARGEST_DEVIATION: f64 = 1.0;
 
-/// Tells what the measurement lacks of the standard's test, and what stands out in it.
+/// Reports what the measurement lacks of the standard's test, and its outliers.
 pub fn check(measurement: &Measurement, file: &str, problems: &mut Diagnostics) {
     let place = Place::whole(file);
     let mut check = Check { m: measurement, place, problems };
@@ -99,7 +99,7 @@ impl Check<'_> {
                 asked.clause,
                 asked.positions
             );
-            let hint = "evaluated as it is; say so beside the figures";
+            let hint = "evaluated as it is; state this with the results";
             self.warn("few-positions", message, hint);
         }
         let runs = least_count(self.m);
@@ -112,7 +112,7 @@ impl Check<'_> {
                 asked.runs
             );
             let hint = match runs {
-                1 => "one reading has no s: where it is alone R and A are left out, E, M, B stand",
+                1 => "one reading has no s: there R and A are left out, E, M, B are valid",
                 _ => "evaluated as it is; s, R and A of few runs are uncertain",
             };
             self.warn("few-runs", message, hint);
@@ -133,7 +133,7 @@ impl Check<'_> {
         let Some(middle) = median(gaps.clone()) else { return };
         if let Some(i) = gaps.iter().position(|gap| *gap < 0.01 * middle) {
             let message = format!(
-                "targets {} and {} are nearly one: the runs have unequal targets",
+                "targets {} and {} nearly coincide: the runs have unequal targets",
                 self.in_words(positions[i]),
                 self.in_words(positions[i + 1])
             );
@@ -145,7 +145,7 @@ impl Check<'_> {
         let alone = self.m.targets.iter().all(|t| t.up.len() <= 1 && t.down.len() <= 1);
         if alone && largest > CLUSTERED * middle {
             let message =
-                format!("{} targets stand in clusters, each with one reading", positions.len());
+                format!("{} targets form clusters, each with one reading", positions.len());
             let hint = "are the columns of targets and actual positions swapped?";
             self.warn("clustered-targets", message, hint);
         }
@@ -164,7 +164,7 @@ impl Check<'_> {
         let some_down = t.iter().any(|t| !t.down.is_empty());
         if some_up != some_down {
             let message = "readings in one direction only: a unidirectional test".to_owned();
-            let hint = "R, E, A of that direction stand; B, B̄, M and the bidirectional A, E, R need \
+            let hint = "R, E, A of that direction are valid; B, B̄, M and the bidirectional A, E, R need \
                         both directions";
             self.warn("one-direction", message, hint);
         } else if let Some(lone) = t.iter().find(|t| t.up.is_empty() != t.down.is_empty()) {
@@ -196,7 +196,7 @@ impl Check<'_> {
             self.warn(
                 "duplicate-reading",
                 message,
-                "both are used; are the runs numbered rightly?",
+                "both are used; are the runs numbered correctly?",
             );
         }
     }
@@ -269,7 +269,7 @@ impl Check<'_> {
                 self.in_words(residual.position),
                 residual.value.abs() / (1.4826 * middle)
             );
-            self.warn("outlier-reading", message, "look at it; it is used like the others");
+            self.warn("outlier-reading", message, "check it; it is used like the others");
         }
     }
 }
@@ -303,7 +303,7 @@ struct Residual {
 
 fn residuals(m: &Measurement, direction: Direction) -> Vec<Residual> {
     let mut all = Vec::new();
-    // The median of less than four readings is no judge.
+    // The median of less than four readings is not significant.
     for t in m.targets.iter().filter(|t| t.of(direction).len() >= 4) {
         let readings = t.of(direction);
         let middle = median(readings.iter().map(|r| r.deviation).collect()).unwrap_or(0.0);

@@ -92,7 +92,7 @@ fn wide_role(role: &str) -> Option<(bool, Direction, u32)> {
     Some((actual, direction, run.parse().ok().filter(|r| *r > 0)?))
 }
 
-/// What may stand under a heading of a positioning test.
+/// What may be under a heading of a positioning test.
 pub fn role_cells(name: &str) -> Cells {
     let (role, _) = heading(name);
     match role {
@@ -136,7 +136,7 @@ pub(crate) fn from_sheet(sheet: &Sheet, problems: &mut Diagnostics) -> Option<Me
     Some(Measurement { kind, targets })
 }
 
-/// Nothing is dropped in silence.
+/// Reports every column that is not used.
 pub(crate) fn warn_of_unused(sheet: &Sheet, used: &[&str], problems: &mut Diagnostics) {
     for column in &sheet.columns {
         let words = matches!(column.cells, Cells::Words | Cells::Unused);
@@ -200,7 +200,7 @@ fn direction_of(word: &str) -> Option<Direction> {
 fn directions(sheet: &Sheet, problems: &mut Diagnostics) -> Option<Vec<Direction>> {
     let Some(column) = sheet.columns.iter().find(|c| c.name == "direction") else {
         let message = "no column `direction`: every reading counts as rising (↑)".to_owned();
-        let hint = "write up or down; a test from one side only says nothing of the reversal";
+        let hint = "write up or down; a test from one side only cannot determine the reversal";
         problems.warn("missing-direction", sheet.headings_place(), message, hint);
         return Some(vec![Direction::Up; sheet.rows()]);
     };
@@ -208,7 +208,7 @@ fn directions(sheet: &Sheet, problems: &mut Diagnostics) -> Option<Vec<Direction
     let mut found = Vec::with_capacity(sheet.rows());
     for (row, value) in column.values.iter().enumerate() {
         let Some(direction) = known.get(*value as usize).copied().flatten() else {
-            let message = format!("`{}` is no direction", sheet.words[*value as usize]);
+            let message = format!("`{}` is not a direction", sheet.words[*value as usize]);
             let place = sheet.row_place(row);
             problems.error("bad-direction", place, message, "write up or down, or + or -");
             return None;
@@ -218,7 +218,7 @@ fn directions(sheet: &Sheet, problems: &mut Diagnostics) -> Option<Vec<Direction
     Some(found)
 }
 
-/// Actual − target, or the deviation as it stands.
+/// Actual − target, or the deviation as it is.
 fn deviations(
     sheet: &Sheet,
     kind: AxisKind,
@@ -234,8 +234,8 @@ fn deviations(
         }
         (found, _) => {
             let (code, message) = match found {
-                Some(_) => ("duplicate-column", "both deviations and actual positions are there"),
-                None => ("missing-column", "neither deviations nor actual positions are there"),
+                Some(_) => ("duplicate-column", "there are both deviations and actual positions"),
+                None => ("missing-column", "there are neither deviations nor actual positions"),
             };
             let hint = "one column: deviation_um, actual_mm, deviation_arcsec, actual_deg …";
             problems.error(code, sheet.headings_place(), message.to_owned(), hint);
@@ -269,7 +269,7 @@ fn run_numbers(sheet: &Sheet, column: &Column, problems: &mut Diagnostics) -> Op
     let mut runs = Vec::with_capacity(column.values.len());
     for (row, value) in column.values.iter().enumerate() {
         if value.fract() != 0.0 || !(0.0..=1e9).contains(value) {
-            let message = format!("{value} is no number of a run");
+            let message = format!("{value} is not a run number");
             problems.error("bad-run", sheet.row_place(row), message, "runs are counted 1, 2, 3 …");
             return None;
         }
@@ -291,7 +291,7 @@ fn wide(
         let values = sheet.inner(column, Measurement::dimension(kind), problems)?;
         for (position, value) in positions.iter().zip(values) {
             let readings = targets.at(*position).of_mut(direction);
-            // An empty cell is a reading that was not taken; the check tells of unequal counts.
+            // An empty cell is a reading that was not taken; the check reports unequal counts.
             if value.is_nan() {
                 continue;
             }

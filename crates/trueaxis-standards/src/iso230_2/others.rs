@@ -1,4 +1,4 @@
-//! Figures of other standards from the same readings, shown beside those of ISO 230-2.
+//! Results by other standards from the same readings, shown for comparison with ISO 230-2.
 
 use super::{Position, largest, range};
 
@@ -16,7 +16,7 @@ pub struct Vdi3441 {
 }
 
 /// In the form of ASME B5.54: ranges of what was read, nothing assumed of its distribution. The
-/// standard's text was not at hand: the form is not verified. mm or rad.
+/// standard's text was not available: the form is not verified. mm or rad.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct B554 {
     /// Range of all readings of both directions.

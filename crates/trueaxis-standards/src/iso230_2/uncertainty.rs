@@ -1,6 +1,6 @@
-//! The expanded uncertainty of the figures from the instrument's data: docs/model.md eq. 65, 66.
+//! The expanded uncertainty of the parameters from the instrument's data: docs/model.md eq. 65, 66.
 //!
-//! Contributions and k = 2 as in ISO/TR 230-9 and ISO 230-2:2014 annex A; how they reach a figure is
+//! Contributions and k = 2 as in ISO/TR 230-9 and ISO 230-2:2014 annex A; how they reach a parameter is
 //! the law of propagation over its definition (GUM 5.1.2). With five runs it gives
 //! U(R↑) = 2·U(EVE), as printed there; the other factors were not compared with the print.
 
@@ -17,7 +17,7 @@ const REFERENCE_C: f64 = 20.0;
 /// One contribution that grows with the measured length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Share {
-    /// What it comes from.
+    /// Its source.
     pub name: &'static str,
     /// Its standard uncertainty over the whole measured length, mm or rad.
     pub u: f64,
@@ -73,7 +73,7 @@ impl Budget {
         }
         if budget.drift_u.is_none() {
             let message = "no `eve_range`: the drift during the test is not known".to_owned();
-            let hint = "watch the standing machine for the time of a test; without it U(R), U(B) \
+            let hint = "observe the machine at rest for the duration of a test; without it U(R), U(B) \
                         and U(B̄) stay open, and the other U are too small";
             problems.warn("missing-drift", place.clone(), message, hint);
         }
@@ -113,7 +113,7 @@ impl Budget {
         if self.length > 0.0 { whole * (distance / self.length).abs() } else { 0.0 }
     }
 
-    /// U (k = 2) of every figure that there is, in the order of [`Quantity::ALL`].
+    /// U (k = 2) of every available parameter, in the order of [`Quantity::ALL`].
     pub(super) fn expanded(
         &self,
         positions: &[Position],

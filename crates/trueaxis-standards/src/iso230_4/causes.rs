@@ -1,21 +1,21 @@
-//! What makes the circle unround, by linear least squares over both directions; docs/model.md eq. 70.
+//! Causes of the deviations of a circle, by linear least squares over both directions; docs/model.md eq. 70.
 
 use super::{PathResult, Sense};
 use crate::least_squares::LeastSquares;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// Behind a reversal the axis may stick: these angles are left out of the fit and searched for a
+/// After a reversal the axis may stick: these angles are left out of the fit and searched for a
 /// spike, rad.
 const SPIKE_WINDOW_RAD: f64 = 10.0 * TAU / 360.0;
 
-/// The largest residual just behind the reversal of an axis.
+/// The largest residual just after the reversal of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spike {
     /// 0 for the first axis, 1 for the second.
     pub axis: usize,
     /// Where the axis reverses: 0°, 90° …, rad.
     pub at_rad: f64,
-    /// Which way round.
+    /// The sense of rotation.
     pub sense: Sense,
     /// Outward positive, mm.
     pub height_mm: f64,
@@ -30,17 +30,17 @@ pub struct Causes {
     pub backlash_mm: [f64; 2],
     /// Scale of the first axis longer than that of the second, over the diameter, mm.
     pub scale_mismatch_mm: f64,
-    /// Angle by which the axes stand closer than 90°, rad; `None` from one direction.
+    /// Angle by which the axes are closer than 90°, rad; `None` from one direction.
     pub squareness_rad: Option<f64>,
     /// Width of the ellipse along ±45° that changes with the direction, mm, over the diameter along
     /// +45° when going counter-clockwise: the first axis lags less or more than the second. `None`
     /// from one direction.
     pub servo_mismatch_mm: Option<f64>,
-    /// Squareness and servo mismatch together, as the second, where one direction cannot part them.
+    /// Squareness and servo mismatch together, as the second, where one direction cannot separate them.
     pub diagonal_ellipse_mm: Option<f64>,
-    /// Largest residuals behind the reversals.
+    /// Largest residuals after the reversals.
     pub spikes: Vec<Spike>,
-    /// What the parts leave, without the spikes, mm.
+    /// Root mean square of the residuals, without the spikes, mm.
     pub residual_rms_mm: f64,
 }
 
@@ -63,7 +63,7 @@ fn row(angle: f64, sense: Sense, both: bool) -> [f64; UNKNOWNS] {
 }
 
 /// How far beyond the last reversal an angle is in the direction of motion, and which reversal.
-fn behind_reversal(angle: f64, sense: Sense) -> (f64, usize) {
+fn after_reversal(angle: f64, sense: Sense) -> (f64, usize) {
     let turned = (sense.sign() * angle).rem_euclid(TAU);
     let quarter = (turned / FRAC_PI_2).floor();
     (turned - quarter * FRAC_PI_2, quarter as usize % 4)
@@ -95,11 +95,11 @@ pub(super) fn separate(
         )
     };
     let doubtful = doubtful_rad(paths);
-    let sure = |behind: f64| (doubtful..=FRAC_PI_2 - doubtful).contains(&behind);
+    let sure = |after: f64| (doubtful..=FRAC_PI_2 - doubtful).contains(&after);
     let mut fit = LeastSquares::<UNKNOWNS>::default();
     for (sense, angle, radial) in all() {
-        let behind = behind_reversal(angle, sense).0;
-        if behind > SPIKE_WINDOW_RAD && sure(behind) {
+        let after = after_reversal(angle, sense).0;
+        if after > SPIKE_WINDOW_RAD && sure(after) {
             fit.add(&row(angle, sense, both), radial);
         }
     }
@@ -109,11 +109,11 @@ pub(super) fn separate(
     for (sense, angle, radial) in all() {
         let model: f64 = row(angle, sense, both).iter().zip(&x).map(|(a, b)| a * b).sum();
         let residual = radial - model;
-        let (behind, quarter) = behind_reversal(angle, sense);
-        if !sure(behind) {
+        let (after, quarter) = after_reversal(angle, sense);
+        if !sure(after) {
             continue;
         }
-        if behind > SPIKE_WINDOW_RAD {
+        if after > SPIKE_WINDOW_RAD {
             squares += residual * residual;
             count += 1;
             continue;
@@ -156,11 +156,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_reversal_behind_is_found_in_the_direction_of_motion() {
-        let (behind, quarter) = behind_reversal(95_f64.to_radians(), Sense::CounterClockwise);
-        assert!((behind.to_degrees() - 5.0).abs() < 1e-9 && quarter == 1);
+    fn the_reversal_before_is_found_in_the_direction_of_motion() {
+        let (after, quarter) = after_reversal(95_f64.to_radians(), Sense::CounterClockwise);
+        assert!((after.to_degrees() - 5.0).abs() < 1e-9 && quarter == 1);
         // Clockwise 85° comes 5° after 90°, which is three quarters of a turn from 0°.
-        let (behind, quarter) = behind_reversal(85_f64.to_radians(), Sense::Clockwise);
-        assert!((behind.to_degrees() - 5.0).abs() < 1e-9 && quarter == 3);
+        let (after, quarter) = after_reversal(85_f64.to_radians(), Sense::Clockwise);
+        assert!((after.to_degrees() - 5.0).abs() < 1e-9 && quarter == 3);
     }
 }

@@ -6,7 +6,7 @@ use trueaxis_input::sheet::{Cells, Sheet, heading};
 use trueaxis_input::{Diagnostics, Dimension};
 use trueaxis_part::fit::circle::least_squares;
 
-/// Which way round.
+/// The sense of rotation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sense {
     /// Counter-clockwise: the angle grows.
@@ -44,7 +44,7 @@ impl Sense {
 /// One turn around.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Path {
-    /// Which way round.
+    /// The sense of rotation.
     pub sense: Sense,
     /// The points of one turn, mm.
     pub points_mm: Vec<[f64; 2]>,
@@ -115,7 +115,7 @@ pub(super) fn read(
     let off = unknown.then(|| centre_off_zero(&points)).flatten();
     if let Some([x, y]) = off {
         let message =
-            format!("the circle stands at {x:.3}, {y:.3} mm, its nominal centre is not stated");
+            format!("the circle is centred at {x:.3}, {y:.3} mm, its nominal centre is not stated");
         let hint = "write [circle] centre = \"100 50 mm\" in the conditions file; without it there is \
                     no F";
         problems.warn("missing-centre", sheet.headings_place(), message, hint);
@@ -156,7 +156,7 @@ fn polar(
             return None;
         }
         _ => {
-            missing("one column beside the angle", "radius_mm or deviation_um");
+            missing("one column in addition to the angle", "radius_mm or deviation_um");
             return None;
         }
     };
@@ -177,7 +177,7 @@ fn senses(sheet: &Sheet, problems: &mut Diagnostics) -> Option<Option<Vec<Sense>
     let mut senses = Vec::with_capacity(sheet.rows());
     for (row, value) in column.values.iter().enumerate() {
         let Some(sense) = known.get(*value as usize).copied().flatten() else {
-            let message = format!("`{}` is no direction", sheet.words[*value as usize]);
+            let message = format!("`{}` is not a direction", sheet.words[*value as usize]);
             problems.error("bad-direction", sheet.row_place(row), message, "write cw or ccw");
             return None;
         };
@@ -219,7 +219,7 @@ fn split(
         let found = if swept < 0.0 { Sense::Clockwise } else { Sense::CounterClockwise };
         let place = sheet.row_place(from);
         if stated.is_some_and(|s| s != found) {
-            let message = format!("the points go round {}, the table says otherwise", found.word());
+            let message = format!("the points run {}, the table states the opposite", found.word());
             let hint = "seen from the positive third axis; are the two axes swapped? the stated \
                         direction is used";
             problems.warn("wrong-direction", place.clone(), message, hint);
@@ -228,7 +228,7 @@ fn split(
             let message =
                 format!("only {:.1}° of a circle were recorded", swept.abs().to_degrees());
             let hint =
-                "the figures hold for this arc; the centre may be wrong (or [circle] centre)";
+                "the results hold for this arc; the centre may be wrong (or [circle] centre)";
             problems.warn("partial-circle", place, message, hint);
         }
         let overlap_rad = (swept.abs() - TAU).max(0.0);

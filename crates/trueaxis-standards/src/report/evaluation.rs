@@ -1,4 +1,4 @@
-//! An evaluation for people.
+//! An evaluation as a report.
 
 use super::{evaluation_circular, evaluation_others, evaluation_positioning};
 use crate::conditions::Conditions;
@@ -11,7 +11,7 @@ pub struct Evaluation<'a> {
     pub standard: Standard,
     /// The file of the readings.
     pub file: &'a str,
-    /// What is known beside them.
+    /// Their conditions.
     pub conditions: &'a Conditions,
     /// The result.
     pub evaluated: &'a Evaluated,
@@ -63,7 +63,7 @@ impl Evaluation<'_> {
     }
 }
 
-/// An evaluation for people.
+/// An evaluation as a report.
 pub fn evaluation_report(evaluation: &Evaluation<'_>) -> Report<'static> {
     let Contents { results, pictures, details } = evaluation.contents();
     let section = |(title, table): (String, Table)| Section::new(title).table(table);
@@ -85,7 +85,7 @@ pub fn evaluation_text(evaluation: &Evaluation<'_>) -> String {
 /// The evaluation as one self-contained page.
 ///
 /// # Errors
-/// What the drawing library says.
+/// What the drawing library reports.
 pub fn evaluation_html(evaluation: &Evaluation<'_>) -> Result<String, DrawingError> {
     evaluation_report(evaluation).html()
 }

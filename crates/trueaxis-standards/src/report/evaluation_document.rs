@@ -64,7 +64,7 @@ pub enum ResultEntry<'a> {
     Rotation(RotationEntry),
 }
 
-/// Positioning of an axis. Deviations of linear axes end in `_um` (µm), those of rotary axes stand twice, in
+/// Positioning of an axis. Deviations of linear axes end in `_um` (µm), those of rotary axes are given twice, in
 /// `_urad` (µrad) and `_arcsec` (arcseconds). For each unit there are the quantities `A`, `A_up`, `A_down`, `R`,
 /// `R_up`, `R_down`, `E`, `E_up`, `E_down`, `M`, `B` and `B_mean` of ISO 230-2, then an object `U` with their
 /// expanded uncertainties (k = 2).

@@ -13,7 +13,7 @@ const UM: f64 = 1e3;
 /// Finer than a picture can show.
 const MOST_POINTS: usize = 2000;
 
-/// Unit for people, unit in JSON, factor from the inner unit.
+/// Unit in text output, unit in JSON, factor from the inner unit.
 pub(super) fn unit(channel: &Channel) -> (&'static str, &'static str, f64) {
     match channel.dimension {
         Dimension::Length => ("µm", "um", 1e3),
@@ -92,7 +92,7 @@ pub(super) fn diagonals(d: &Diagonals) -> Contents {
         [ends.0].into_iter().chain(values).chain([ends.1]).collect::<Vec<_>>()
     }));
     let mut results = vec![
-        ("Figures of the volume".to_owned(), largest),
+        ("Parameters of the volume".to_owned(), largest),
         ("Every diagonal, µm".to_owned(), each),
     ];
     if !d.squareness.is_empty() {

@@ -36,7 +36,7 @@ fn place_unit(kind: AxisKind) -> &'static str {
 }
 
 pub(super) fn contents(standard: Standard, m: &Measurement, r: &Positioning) -> Contents {
-    let iso = vec![titled("Figures of the axis", iso230_2(r))];
+    let iso = vec![titled("Parameters of the axis", iso230_2(r))];
     let vdi3441 = titled("VDI/DGQ 3441", vdi3441(r));
     let b554 = titled("Form of ASME B5.54", b554(r));
     let (results, mut details) = match standard {
