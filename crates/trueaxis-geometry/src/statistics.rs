@@ -1,4 +1,4 @@
-//! Quantiles of distributions for statistical tests.
+//! Quantiles of distributions for statistical tests, and pseudo-random numbers.
 
 use std::f64::consts::TAU;
 
@@ -71,6 +71,31 @@ pub fn robust_deviation(values: impl Iterator<Item = f64>) -> f64 {
     let middle = sizes.len() / 2;
     let (_, median, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
     1.482_602_2 * *median
+}
+
+/// Numbers without a pattern that are the same in every run (splitmix64; Steele, Lea, Flood 2014).
+#[derive(Debug, Clone)]
+pub struct SplitMix64(u64);
+
+impl SplitMix64 {
+    /// The numbers of a seed.
+    pub fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// Any number.
+    pub fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// In 0..1.
+    pub fn unit(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1u64 << 53) as f64
+    }
 }
 
 #[cfg(test)]

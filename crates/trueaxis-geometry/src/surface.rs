@@ -86,6 +86,7 @@ struct Chosen {
 }
 
 impl Chosen {
+    #[expect(clippy::cast_possible_truncation, reason = "cells of the grid are far below 2^63")]
     fn offer(&mut self, point: SurfacePoint) {
         let cell: [i64; 3] = point.point_mm.map(|v| (v / self.spacing_mm).floor() as i64).into();
         let near = |at: &[i64; 3]| {
@@ -108,6 +109,11 @@ impl Chosen {
 }
 
 /// How often the edges of a facet are divided so that no place is far from a candidate.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the quotient is positive, and larger ones are limited to 1000"
+)]
 fn divisions(facet: &Facet, spacing_mm: f64) -> usize {
     let longest = (0..3).map(|i| (facet[i] - facet[(i + 1) % 3]).norm()).fold(0.0, f64::max);
     ((2.0 * longest / spacing_mm).ceil() as usize).clamp(1, 1000)

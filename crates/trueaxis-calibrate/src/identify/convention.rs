@@ -11,6 +11,8 @@ use crate::measure::Readings;
 use crate::unknowns::design::Design;
 use crate::unknowns::fit::Observability;
 use nalgebra::DVector;
+use schemars::JsonSchema;
+use serde::Serialize;
 use trueaxis_machine::axis::AxisKind;
 use trueaxis_machine::twist::Reference;
 
@@ -21,16 +23,19 @@ const FAR_BETTER: f64 = 0.4;
 /// Below this, in units of the noise, there is nothing to explain.
 const FITS: f64 = 3.0;
 
-/// A change of convention, and what it does to the residual.
-#[derive(Debug, Clone, PartialEq)]
+/// A change of convention that fits far better.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Convention {
     /// What to change, in words.
     pub change: String,
-    /// The residual as it is, in units of the noise.
+    /// The residual without the change, in units of the noise.
+    #[serde(rename = "before_times_noise")]
     pub before: f64,
-    /// The residual with the change.
+    /// The residual with the change, in units of the noise.
+    #[serde(rename = "after_times_noise")]
     pub after: f64,
     /// How many changes this is of.
+    #[serde(skip)]
     changes: usize,
 }
 
@@ -44,14 +49,15 @@ impl Convention {
     }
 }
 
-/// What was tried.
-#[derive(Debug, Clone, PartialEq)]
+/// The conventions that were tried.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ConventionCheck {
-    /// How many changes.
+    /// Number of changes tried.
     pub tried: usize,
     /// The residual as the readings are, in units of the noise.
+    #[serde(rename = "residual_times_noise")]
     pub residual: f64,
-    /// Those that fit far better, the best first.
+    /// Changes that fit far better, the best first.
     pub better: Vec<Convention>,
     /// What cannot be checked, or what to look at.
     pub remarks: Vec<String>,

@@ -4,18 +4,16 @@
 //! change: what was found gets its value, what cannot be told or is not supported by the readings
 //! becomes a comment. The file is read back before anybody gets it.
 
-mod columns;
-
 use super::errors::Identification;
 use crate::measure::Campaign;
 use crate::unknowns::term::{Term, stated};
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
-use trueaxis_input::Diagnostic;
+use trueaxis_input::Severity;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::AxisKind;
-use trueaxis_machine::describe::lines::{Lines, header};
-use trueaxis_machine::errors::{Curve, ErrorKind, ErrorName};
+use trueaxis_machine::describe::lines::Lines;
+use trueaxis_machine::describe::replacement::{Entry, curve_text, plain, put, take_out_of_table};
+use trueaxis_machine::errors::{ErrorKind, ErrorName};
 use trueaxis_machine::file::Tables;
 
 /// A machine file and the tables that stand beside it.
@@ -25,12 +23,6 @@ pub struct MachineFile {
     pub text: String,
     /// Name and text of tables that were made for it.
     pub tables: Vec<(String, String)>,
-}
-
-/// What is written of one error.
-enum Entry {
-    Value(String),
-    Nothing(String),
 }
 
 /// Puts what was found into the text of the machine file.
@@ -107,7 +99,9 @@ fn entry(
     }
     let u = curve_u(found, terms);
     let measured = format!(", measured = {{ instrument = {origin:?} }} }}");
-    Entry::Value(curve_text(campaign, name, &values, u, tables) + &measured)
+    let is_rotary =
+        terms[0].1.axis.is_some_and(|i| campaign.machine.axes()[i].kind == AxisKind::Rotary);
+    Entry::Value(curve_text(name, is_rotary, &stated(&values, None), u, tables) + &measured)
 }
 
 /// The greatest standard uncertainty of a curve over its axis.
@@ -125,66 +119,6 @@ fn curve_u(found: &Identification, terms: &[(usize, Term)]) -> f64 {
     };
     let most = (0..=40).map(|i| at(low + (high - low) * f64::from(i) / 40.0)).fold(0.0, f64::max);
     most * found.birge
-}
-
-fn curve_text(
-    campaign: &Campaign,
-    name: ErrorName,
-    values: &[(Term, f64)],
-    u: f64,
-    tables: &mut Vec<(String, String)>,
-) -> String {
-    let angle = name.component.is_rotation();
-    let (scale, unit) = if angle { (1e6, "urad") } else { (1e3, "um") };
-    let axis = values[0].0.axis.map(|i| campaign.machine.axes()[i].kind);
-    let (position, shown) = match axis {
-        Some(AxisKind::Rotary) => ("deg", 1f64.to_degrees()),
-        _ => ("mm", 1.0),
-    };
-    let quantity = |v: f64| format!("\"{} {unit}\"", plain(v * scale));
-    let stated = stated(values, None);
-    let mut text = match &stated.mean {
-        Curve::Constant(c) => format!("{{ constant = {}", quantity(*c)),
-        Curve::Polynomial { coefficients, origin, scale } => {
-            let list: Vec<String> = coefficients.iter().map(|c| quantity(*c)).collect();
-            let (origin, length) = (origin * shown, scale * shown);
-            format!(
-                "{{ polynomial = [{}], origin = \"{origin} {position}\", \
-                 scale = \"{length} {position}\"",
-                list.join(", ")
-            )
-        }
-        Curve::Fourier { mean, terms } => {
-            let harmonic = |h: &trueaxis_machine::errors::Harmonic| {
-                format!("[{}, {}, {}]", h.order, quantity(h.cosine), quantity(h.sine))
-            };
-            let list: Vec<String> = terms.iter().map(harmonic).collect();
-            format!("{{ fourier = {{ mean = {}, terms = [{}] }}", quantity(*mean), list.join(", "))
-        }
-        Curve::Table { spline, .. } => {
-            let file = format!("identified-{name}.csv");
-            let mut table = format!("# {name}, identified\nposition_{position},{name}_{unit}\n");
-            for at in spline.knots() {
-                let value = plain(spline.at(*at) * scale);
-                // Writing into a text cannot fail.
-                let _ = writeln!(table, "{},{value}", at * shown);
-            }
-            tables.push((file.clone(), table));
-            format!("{{ table = \"{file}\", interpolation = \"linear\", outside = \"clamp\"")
-        }
-    };
-    if let Some(Curve::Constant(reversal)) = stated.reversal {
-        let _ = write!(text, ", reversal = {}", quantity(reversal));
-    }
-    let _ = write!(text, ", u = {}", quantity(u));
-    text
-}
-
-/// Six decimals of µm or µrad are a picometre.
-fn plain(value: f64) -> String {
-    let text = format!("{value:.6}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
 /// The text reads as a machine that has the errors that were found.
@@ -206,22 +140,13 @@ fn read_back(
             self.1.display(name)
         }
     }
-    let (machine, problems) = Machine::check("the new machine file", text, &With(tables, beside));
-    let Some(machine) = machine.filter(|_| !problems.has_errors()) else {
-        let first = problems.iter().find(|d| d.severity == trueaxis_input::Severity::Error);
-        return Err(first.map_or_else(String::new, |d| d.message.clone()));
-    };
+    let machine = machine_of(text, &With(tables, beside))?;
     for (k, term) in found.design.terms.iter().enumerate() {
         let Some((value, _)) = found.found[k].value else { continue };
         if term.error.kind != ErrorKind::Location {
             continue;
         }
-        let read =
-            machine.bodies()[term.index.body].stated(ErrorKind::Location, term.index.component);
-        let read = read.and_then(|s| s.at(0.0, 0.0).ok()).unwrap_or(f64::NAN);
-        if (read - value).abs().is_nan() || (read - value).abs() > 2e-9 {
-            return Err(format!("{} would be read as another value", term.error));
-        }
+        check_location(&machine, term.error, value)?;
     }
     Ok(())
 }
@@ -244,90 +169,29 @@ pub fn with_locations(
         put(&mut file, *name, &Entry::Value(text), &origin);
     }
     let text = file.text();
-    let (machine, problems) = Machine::check("the new machine file", &text, beside);
-    let Some(machine) = machine.filter(|_| !problems.has_errors()) else {
-        let is_error = |d: &&Diagnostic| d.severity == trueaxis_input::Severity::Error;
-        return Err(problems.iter().find(is_error).map_or_else(String::new, |d| d.message.clone()));
-    };
+    let machine = machine_of(&text, beside)?;
     for (name, value, _) in errors {
-        let index = machine.error_index(*name);
-        let stated =
-            index.and_then(|i| machine.bodies()[i.body].stated(ErrorKind::Location, i.component));
-        let read = stated.and_then(|s| s.at(0.0, 0.0).ok()).unwrap_or(f64::NAN);
-        if (read - value).abs().is_nan() || (read - value).abs() > 2e-9 {
-            return Err(format!("{name} would be read as another value"));
-        }
+        check_location(&machine, *name, *value)?;
     }
     Ok(text)
 }
 
-fn put(file: &mut Lines, name: ErrorName, entry: &Entry, origin: &str) {
-    match (file.error(name), entry) {
-        (Some(at), Entry::Value(value)) => {
-            file.replace(at, &format!("{name} = {value} # {origin}"));
-        }
-        (Some(at), Entry::Nothing(why)) => {
-            file.comment_out(at);
-            file.insert(at, &format!("# {name}: {why}; {origin}"));
-        }
-        (None, Entry::Value(value)) => {
-            file.add(&header(name), &format!("{name} = {value} # {origin}"));
-        }
-        (None, Entry::Nothing(_)) => {}
-    }
+fn machine_of(text: &str, beside: &dyn Tables) -> Result<Machine, String> {
+    let (machine, problems) = Machine::check("the new machine file", text, beside);
+    machine.filter(|_| !problems.has_errors()).ok_or_else(|| {
+        let first = problems.iter().find(|d| d.severity == Severity::Error);
+        first.map_or_else(String::new, |d| d.message.clone())
+    })
 }
 
-/// An error that stands in the table of its axis leaves it: a new table without its columns.
-fn take_out_of_table(
-    file: &mut Lines,
-    name: ErrorName,
-    origin: &str,
-    tables: &mut Vec<(String, String)>,
-    beside: &dyn Tables,
-) {
-    let header = header(name);
-    let Some((line, table)) = file.table_of(&header) else { return };
-    let made = tables.iter().position(|(made, _)| *made == table);
-    let text = made.map_or_else(|| beside.text(&table).ok(), |i| Some(tables[i].1.clone()));
-    let Some(left) = text.and_then(|text| columns::without(&text, name)) else { return };
-    let new = columns::new_name(&table);
-    tables.retain(|(made, _)| *made != new);
-    if columns::is_bare(&left) {
-        // How it was read between its rows goes with it.
-        for key in ["table", "interpolation", "outside"] {
-            if let Some(own) = file.key(&header, key) {
-                let why = format!("# {} # nothing is left of it; {origin}", file.line(own));
-                file.replace(own, &why);
-            }
-        }
-        return;
-    }
-    file.replace(line, &format!("table = \"{new}\" # without what stands below; {origin}"));
-    tables.push((new, left));
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn only_the_line_of_the_error_changes() {
-        let mut file = Lines::of(
-            "# mine\n[location] # here\nEC0Y = \"1 urad\" # old\nX0C = \"2 um\"\n\n[tool]\n",
-        );
-        // why: both are names of ISO 230-1
-        let (squareness, offset) =
-            (ErrorName::parse("EC0Y").unwrap(), ErrorName::parse("EX0C").unwrap());
-        put(&mut file, squareness, &Entry::Value("\"3 urad\"".into()), "now");
-        put(&mut file, offset, &Entry::Nothing("unseen".into()), "now");
-        assert_eq!(
-            file.text(),
-            "# mine\n[location] # here\nEC0Y = \"3 urad\" # now\n# EX0C: unseen; now\n# X0C = \"2 um\"\n\n[tool]\n"
-        );
-    }
-
-    #[test]
-    fn numbers_have_no_idle_zeros() {
-        assert_eq!((plain(12.5).as_str(), plain(-1e-9).as_str()), ("12.5", "0"));
+/// `Err`: a location error is read as another value.
+fn check_location(machine: &Machine, name: ErrorName, value: f64) -> Result<(), String> {
+    let index = machine.error_index(name);
+    let stated =
+        index.and_then(|i| machine.bodies()[i.body].stated(ErrorKind::Location, i.component));
+    let read = stated.and_then(|s| s.at(0.0, 0.0).ok()).unwrap_or(f64::NAN);
+    match (read - value).abs() <= 2e-9 {
+        true => Ok(()),
+        false => Err(format!("{name} would be read as another value")),
     }
 }

@@ -15,7 +15,10 @@ use crate::measure::Readings;
 use crate::unknowns::design::Design;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::collections::BTreeMap;
+use trueaxis_geometry::statistics::SplitMix64;
 
 /// Thresholds of z-scores; the first lets nothing in, the last everything.
 pub const THRESHOLDS: [f64; 11] = [f64::INFINITY, 8.0, 6.0, 5.0, 4.5, 4.0, 3.5, 3.0, 2.5, 2.0, 0.0];
@@ -161,7 +164,7 @@ pub fn parts_by_place(readings: &Readings, folds: usize) -> (Vec<usize>, usize) 
         distinct.clone_from(&roots);
     }
     // Mixed, always the same way, then dealt out.
-    distinct.sort_by_key(|place| mixed(*place as u64));
+    distinct.sort_by_key(|place| SplitMix64::new(*place as u64).bits());
     let folds = folds.min(distinct.len()).max(1);
     let mut part = vec![0; count];
     for (i, place) in distinct.iter().enumerate() {
@@ -176,13 +179,6 @@ fn root(union: &mut [usize], mut place: usize) -> usize {
         place = union[place];
     }
     place
-}
-
-fn mixed(value: u64) -> u64 {
-    let mut z = value.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }
 
 /// Normal equations with some unknowns solved for: the sweep operator of Gauss and Jordan.
@@ -335,15 +331,19 @@ fn models(sums: &Sums, candidates: &Candidates) -> Vec<Model> {
 }
 
 /// How well a threshold predicts.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct Score {
-    /// The least z-score of a term; ∞: none is let in, 0: all.
+    /// Least |z| of a term that is kept; ∞ (null): none is, 0: all are.
+    #[serde(rename = "least_z")]
+    #[schemars(with = "Option<f64>")]
     pub threshold: f64,
-    /// How many candidates are in.
+    /// Number of candidate terms that are kept.
     pub terms: usize,
-    /// Root mean square of the error on parts that were held out, in units of the noise.
+    /// Root mean square of the residual on parts that were held out, in units of the noise.
+    #[serde(rename = "held_out_times_noise")]
     pub held_out: f64,
     /// The same on the readings themselves.
+    #[serde(rename = "in_sample_times_noise")]
     pub in_sample: f64,
 }
 

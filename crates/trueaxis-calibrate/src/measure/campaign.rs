@@ -10,8 +10,7 @@ use trueaxis_geometry::Vec3;
 use trueaxis_input::{CsvTable, Diagnostics, Dimension, Files, Item, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::errors::{Component, ErrorKind, ErrorName};
-use trueaxis_machine::file::machine_of;
-use trueaxis_machine::file::{read_direction, read_vector_mm};
+use trueaxis_machine::file::{machine_of, read_direction, read_vector_mm};
 use trueaxis_machine::heat::Conditions;
 use trueaxis_machine::twist::Reference;
 

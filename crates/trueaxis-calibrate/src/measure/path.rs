@@ -17,9 +17,7 @@ pub use sphere::{directions_cone, directions_f, directions_s};
 pub use spread::{Poses, read_poses};
 pub use touch::{FreeSide, STAND_OFF_MM, hits};
 
-use super::Campaign;
-use super::Reading;
-use super::Readings;
+use super::{Campaign, Reading, Readings};
 use trueaxis_input::{CsvTable, Diagnostics, Dimension, Item, Section};
 use trueaxis_machine::axis::{AxisKind, Command};
 

@@ -22,10 +22,8 @@ pub use file::read_virtual;
 pub use follow::{Stand, move_time_s};
 pub use summary::{ChannelSummary, Summary, shown_unit, summarise};
 
-use super::Campaign;
-use super::Instrument;
-use super::Readings;
 use super::path::Path;
+use super::{Campaign, Instrument, Readings};
 use crate::instruments::instrument::View;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};

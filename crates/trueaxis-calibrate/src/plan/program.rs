@@ -10,11 +10,8 @@ mod check;
 pub use check::{ProgramCheck, check};
 pub(super) use check::{probe_shape, run};
 
-use crate::measure::Campaign;
-use crate::measure::Kind;
-use crate::measure::path::Path;
-use crate::measure::path::Placing;
-use crate::measure::path::STAND_OFF_MM;
+use crate::measure::path::{Path, Placing, STAND_OFF_MM};
+use crate::measure::{Campaign, Kind};
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{Dimension, Section};
 use trueaxis_machine::Machine;

@@ -15,5 +15,6 @@ mod points;
 mod program;
 
 pub use file::{SurfaceStudy, read_surface};
-pub use points::{Candidates, SurfacePoint, nominal_table, spread};
+pub use points::nominal_table;
 pub use program::{Pose, check_surface, poses, surface_program};
+pub use trueaxis_geometry::surface::{Candidates, SurfacePoint, spread};

@@ -1,7 +1,7 @@
 //! An identification for programs: `trueaxis/identify/1`.
 
 use super::identification::{IdentificationReport, shown};
-use crate::identify::convention::{Convention, ConventionCheck};
+use crate::identify::convention::ConventionCheck;
 use crate::identify::errors::Found;
 use crate::identify::score::Rms;
 use crate::identify::selection::Score;
@@ -67,7 +67,7 @@ pub struct IdentificationDocument<'a> {
     /// Which axes the residual of the held-out places follows.
     pub residual_follows: Vec<FieldEntry>,
     /// How the terms were selected.
-    pub selection: SelectionEntry,
+    pub selection: SelectionEntry<'a>,
     /// Readings beyond the limit of studentised residuals.
     pub outliers: Vec<OutlierEntry>,
     /// That limit, in standard deviations.
@@ -75,7 +75,7 @@ pub struct IdentificationDocument<'a> {
     /// The readings that change the result most if they are left out.
     pub most_influential: Vec<InfluenceEntry>,
     /// The conventions that were tried; null if that was not asked for.
-    pub conventions: Option<ConventionsEntry<'a>>,
+    pub conventions: Option<&'a ConventionCheck>,
 }
 
 /// The result.
@@ -138,26 +138,13 @@ pub struct FieldEntry {
 
 /// How the terms were selected.
 #[derive(Debug, Serialize, JsonSchema)]
-pub struct SelectionEntry {
+pub struct SelectionEntry<'a> {
     /// Number of candidate terms.
     pub candidates: usize,
     /// Least |z| of a term that is kept; null if none is.
     pub least_z: Option<f64>,
     /// The limits that were tried.
-    pub scores: Vec<SelectionScoreEntry>,
-}
-
-/// One limit for the terms.
-#[derive(Debug, Serialize, JsonSchema)]
-pub struct SelectionScoreEntry {
-    /// Least |z| of a term that is kept; null if none is.
-    pub least_z: Option<f64>,
-    /// Number of terms that are kept.
-    pub terms: usize,
-    /// Residual of held-out places, in units of the noise.
-    pub held_out_times_noise: f64,
-    /// Residual in sample, in units of the noise.
-    pub in_sample_times_noise: f64,
+    pub scores: &'a [Score],
 }
 
 /// A reading that does not fit.
@@ -184,30 +171,6 @@ pub struct InfluenceEntry {
     pub leverage: f64,
     /// Cook's distance; null if the result depends on this reading alone.
     pub cook: Option<f64>,
-}
-
-/// The conventions that were tried.
-#[derive(Debug, Serialize, JsonSchema)]
-pub struct ConventionsEntry<'a> {
-    /// Number of changes tried.
-    pub tried: usize,
-    /// The residual as the readings are, in units of the noise.
-    pub residual_times_noise: f64,
-    /// Changes that fit far better, the best first.
-    pub better: Vec<ConventionEntry<'a>>,
-    /// What cannot be checked.
-    pub remarks: &'a [String],
-}
-
-/// A change of convention that fits far better.
-#[derive(Debug, Serialize, JsonSchema)]
-pub struct ConventionEntry<'a> {
-    /// What to change.
-    pub change: &'a str,
-    /// The residual without the change, in units of the noise.
-    pub before_times_noise: f64,
-    /// The residual with the change, in units of the noise.
-    pub after_times_noise: f64,
 }
 
 impl<'a> IdentificationDocument<'a> {
@@ -261,12 +224,12 @@ impl<'a> IdentificationDocument<'a> {
             selection: SelectionEntry {
                 candidates: found.candidates,
                 least_z: finite(found.selection.threshold),
-                scores: found.selection.scores.iter().map(SelectionScoreEntry::from).collect(),
+                scores: &found.selection.scores,
             },
             outliers: outliers(report),
             outlier_limit: found.influences.limit,
             most_influential: report.influential().map(|row| influence(report, row)).collect(),
-            conventions: report.conventions.map(ConventionsEntry::from),
+            conventions: report.conventions,
         }
     }
 }
@@ -317,34 +280,6 @@ impl From<&Rms> for RmsEntry {
             urad: rms.angle_rad.map(|v| v * 1e6),
             times_noise: rms.noise,
         }
-    }
-}
-
-impl From<&Score> for SelectionScoreEntry {
-    fn from(score: &Score) -> Self {
-        Self {
-            least_z: finite(score.threshold),
-            terms: score.terms,
-            held_out_times_noise: score.held_out,
-            in_sample_times_noise: score.in_sample,
-        }
-    }
-}
-
-impl<'a> From<&'a ConventionCheck> for ConventionsEntry<'a> {
-    fn from(check: &'a ConventionCheck) -> Self {
-        Self {
-            tried: check.tried,
-            residual_times_noise: check.residual,
-            better: check.better.iter().map(ConventionEntry::from).collect(),
-            remarks: &check.remarks,
-        }
-    }
-}
-
-impl<'a> From<&'a Convention> for ConventionEntry<'a> {
-    fn from(c: &'a Convention) -> Self {
-        Self { change: &c.change, before_times_noise: c.before, after_times_noise: c.after }
     }
 }
 

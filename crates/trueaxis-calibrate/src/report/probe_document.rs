@@ -27,7 +27,7 @@ pub struct ProbeDocument<'a> {
     /// The length of the probe; null if not measured.
     pub z_datum: Option<ZDatumEntry>,
     /// The plain calibration with four hits; null if not measured.
-    pub xy_datum: Option<XyDatumEntry>,
+    pub xy_datum: Option<XyDatum>,
     /// The results of all styli.
     pub styli: Vec<StylusEntry<'a>>,
 }
@@ -56,15 +56,6 @@ pub struct ZDatumEntry {
     pub u_length_mm: f64,
     /// Range of the triggers, µm.
     pub range_um: f64,
-}
-
-/// The plain calibration with four hits.
-#[derive(Debug, Serialize, JsonSchema)]
-pub struct XyDatumEntry {
-    /// Ball − spindle in x and y, mm.
-    pub offset_mm: [f64; 2],
-    /// The effective diameters of the ball in x and y, mm.
-    pub ball_diameter_mm: [f64; 2],
 }
 
 /// The results of one stylus.
@@ -249,7 +240,7 @@ impl<'a> ProbeDocument<'a> {
             name: &study.name,
             eccentricity: dial.as_ref().map(EccentricityEntry::from),
             z_datum: study.z_datum.as_ref().map(|z| ZDatumEntry::from(&z_datum(z))),
-            xy_datum: study.xy_datum.as_ref().map(|xy| XyDatumEntry::from(&xy_datum(xy))),
+            xy_datum: study.xy_datum.as_ref().map(xy_datum),
             styli: all.iter().map(|found| StylusEntry::of(study, found)).collect(),
         }
     }
@@ -361,12 +352,6 @@ impl From<&ZDatum> for ZDatumEntry {
             u_length_mm: z.u_length_mm,
             range_um: um(z.range_mm),
         }
-    }
-}
-
-impl From<&XyDatum> for XyDatumEntry {
-    fn from(xy: &XyDatum) -> Self {
-        Self { offset_mm: xy.offset_mm, ball_diameter_mm: xy.ball_diameter_mm }
     }
 }
 

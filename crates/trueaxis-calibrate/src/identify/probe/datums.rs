@@ -1,6 +1,8 @@
 //! The steps before the direction table: eccentricity, Z datum, X and Y datum (document 003, 2.3.2).
 
 use nalgebra::{Matrix3, Vector3};
+use schemars::JsonSchema;
+use serde::Serialize;
 use trueaxis_input::MeasuredValue;
 
 /// A dial against the stylus ball while the spindle turns.
@@ -116,11 +118,11 @@ pub struct FourHits {
 }
 
 /// What a control takes over from four hits.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct XyDatum {
-    /// Ball − spindle, mm.
+    /// Ball − spindle in x and y, mm.
     pub offset_mm: [f64; 2],
-    /// Diameter of the ball that X and Y behave like: less the pre-travel, mm.
+    /// The effective diameters of the ball in x and y, less the pre-travel, mm.
     pub ball_diameter_mm: [f64; 2],
 }
 

@@ -2,10 +2,11 @@
 
 use super::placing::turns_about;
 use super::sphere::unreachable_station;
-use super::spread::{Random, read_range};
+use super::spread::read_range;
 use super::{MOST_STATIONS, Placing, read_at, read_count, station};
 use crate::measure::{Campaign, Readings};
 use trueaxis_geometry::Vec3;
+use trueaxis_geometry::statistics::SplitMix64;
 use trueaxis_input::{Dimension, Item, Section};
 use trueaxis_machine::axis::{AxisKind, Command};
 
@@ -159,7 +160,7 @@ pub(super) fn read_targets(
     let (from, to) = range?;
     let count = read_count(section, "count", usual_targets(kind, to - from))?.max(2);
     let (period, runs, seed, start) = (period?, runs?, seed?, start?);
-    let mut random = Random::new(seed as u64);
+    let mut random = SplitMix64::new(seed as u64);
     let p = (to - from) / (count - 1) as f64;
     // The ends stay inside, and the order of the targets is kept.
     let reach = (0.5 * period).abs().min(0.49 * p.abs());

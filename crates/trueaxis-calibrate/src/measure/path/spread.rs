@@ -4,30 +4,12 @@
 use super::{MOST_STATIONS, Placing, leaves_travel, read_count, read_position, station};
 use crate::measure::{Campaign, Kind, Readings};
 use trueaxis_geometry::Vec3;
+use trueaxis_geometry::statistics::SplitMix64;
 use trueaxis_input::{Item, Section};
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
 
 /// Draws per pose that is wanted; more are wasted on a ball that is out of reach.
 const TRIES: usize = 200;
-
-/// Numbers that are the same in every run (splitmix64; Steele, Lea, Flood 2014).
-#[derive(Debug, Clone)]
-pub(crate) struct Random(u64);
-
-impl Random {
-    pub fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    /// In 0..1.
-    pub fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-}
 
 /// Where one axis may stand.
 #[derive(Debug, Clone, Copy)]
@@ -134,7 +116,7 @@ pub fn read_poses(
 }
 
 fn drawn(ranges: &[(usize, Range)], count: usize, seed: u64) -> Poses {
-    let mut random = Random::new(seed);
+    let mut random = SplitMix64::new(seed);
     // Enough for those that turn out to be out of reach.
     let draw = |_| {
         let mut command = Command::default();
@@ -180,7 +162,7 @@ pub(super) fn read_spread(
     };
     let poses = read_poses(section, campaign, random, follows)?;
     let wanted = if random { read_count(section, "count", 50)? } else { poses.commands.len() };
-    let mut directions = Random::new(7);
+    let mut directions = SplitMix64::new(7);
     let mut stations = Readings::default();
     let mut left = 0;
     for rotary in &poses.commands {

@@ -1,13 +1,13 @@
 //! A study of a surface to be probed, read and checked.
 
-use super::points::Candidates;
+use super::points::points_of;
 use std::path::{Path, PathBuf};
 use trueaxis_cl::{ClFile, Reading};
 use trueaxis_geometry::Vec3;
+use trueaxis_geometry::surface::Candidates;
 use trueaxis_input::{Diagnostics, Dimension, Files, Section, SourceText, Unit};
 use trueaxis_machine::Machine;
-use trueaxis_machine::file::machine_of;
-use trueaxis_machine::file::{read_direction, read_tool_shape};
+use trueaxis_machine::file::{machine_of, read_direction, read_tool_shape};
 use trueaxis_machine::models::ToolSegment;
 use trueaxis_motion::collide::{Mesh, load_stl};
 
@@ -248,7 +248,7 @@ fn read_candidates(
                 file
             });
             root.take_over(found);
-            let candidates = Candidates::of_cl(&file?, are_normals);
+            let candidates = points_of(&file?, are_normals);
             if matches!(&candidates, Candidates::Points { points, .. } if points.is_empty()) {
                 item.error("no-points", "the file has no point in feed".to_owned(), "");
                 return None;

@@ -1,13 +1,13 @@
 //! Touch after touch along the normals: poses, program, and what the machine would do with it.
 
 use super::file::SurfaceStudy;
-use super::points::SurfacePoint;
 use crate::measure::path::leaves_travel;
 use crate::plan::program::{
     ProgramCheck, ProgramError, axis_target, probe_shape, run, touch_words,
 };
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Direction, Point};
+use trueaxis_geometry::surface::SurfacePoint;
 use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::Target;
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
