@@ -182,6 +182,11 @@ impl<'s> Item<'s> {
     }
 
     /// A whole number from 0 to 10¹²; `None` and a problem otherwise.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "checked: whole and from 0 to 10^12"
+    )]
     pub fn count(&self) -> Option<usize> {
         let value = self.number()?;
         // Exact in a double, and small enough for a loop over it to end.

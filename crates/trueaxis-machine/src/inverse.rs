@@ -285,7 +285,8 @@ impl<'m> Solver<'m> {
         if !tip.iter().chain(target.axis.vector().iter()).all(|v| v.is_finite()) {
             return Err(SolveError::NotFinite);
         }
-        let aimed = self.aim.at(target.axis.vector()).map_err(|missed| self.unreachable(missed))?;
+        let aimed =
+            self.aim.at(target.axis.vector()).map_err(|missed| self.unreachable(&missed))?;
         let mut missed = None;
         for angles in aimed.branches() {
             let mut command = self.from;
@@ -322,7 +323,7 @@ impl<'m> Solver<'m> {
             .find(|&i| self.serial.axis_in(&frames, i).cross(&tool).norm() <= RESOLUTION_RAD)
     }
 
-    fn unreachable(&self, missed: direction::UnreachableDirection) -> SolveError {
+    fn unreachable(&self, missed: &direction::UnreachableDirection) -> SolveError {
         let turning = self.aim.turning.iter().map(|t| self.machine.axes[t.axis].name).collect();
         let closest = Direction::of(missed.closest).unwrap_or(Direction::Z);
         SolveError::Unreachable { closest, missed_by_rad: missed.by_rad, turning }

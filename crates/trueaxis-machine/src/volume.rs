@@ -9,6 +9,7 @@ const FREE_MM: f64 = 250.0;
 ///
 /// The numbers are 1/g, 1/g², … of the root g of gⁿ⁺¹ = g + 1, which leave no direction sparse
 /// (Roberts 2018, after Kronecker).
+#[expect(clippy::cast_possible_truncation, reason = "a machine has at most six axes")]
 pub fn commands(axes: &[Axis], count: u32) -> Vec<Command> {
     let n = axes.len() as i32;
     let g = (0..60).fold(2.0_f64, |g, _| (1.0 + g).powf(1.0 / f64::from(n + 1)));

@@ -26,7 +26,7 @@ fn target(tip: [f64; 3], axis: [f64; 3]) -> Target {
 
 fn from_text(text: &str) -> Machine {
     let (machine, problems) = Machine::check("machine.toml", text, &NoTables);
-    machine.unwrap_or_else(|| panic!("{:?}\n{text}", problems))
+    machine.unwrap_or_else(|| panic!("{problems:?}\n{text}"))
 }
 
 fn rotary(machine: &Machine) -> Vec<usize> {

@@ -57,6 +57,16 @@
 //! The crate has no model of the machine: axis positions and times are computed elsewhere. It opens
 //! no file: subprograms are read through a [`Library`].
 
+// Readable forms of the same code; on top of the list of the workspace, as this crate has no hits.
+#![warn(
+    clippy::cast_lossless,
+    clippy::explicit_iter_loop,
+    clippy::if_not_else,
+    clippy::redundant_closure_for_method_calls,
+    clippy::semicolon_if_nothing_returned,
+    clippy::uninlined_format_args
+)]
+
 pub mod dialect;
 mod execution;
 mod heidenhain;

@@ -185,7 +185,7 @@ proptest! {
                 let value = value * 10_f64.powi(exponent);
                 match letter {
                     'G' | 'g' => text += &format!("{letter}{} ", i32::from(value > 0.0)),
-                    'N' => text += &format!("N{} ", exponent),
+                    'N' => text += &format!("N{exponent} "),
                     'F' | 'f' => text += &format!("{letter}{:.digits$}", value.abs()),
                     _ => text += &format!("{letter}{value:.digits$}"),
                 }

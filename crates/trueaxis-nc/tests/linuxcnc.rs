@@ -101,7 +101,7 @@ fn skipped_blocks_can_be_left_out() {
     let settings = Settings { skipped_blocks_too: false, ..Settings::default() };
     let mut moves = 0;
     interpret(&program, &NoLibrary, &settings, &mut |s| {
-        moves += u32::from(matches!(s, Step::Move(_)))
+        moves += u32::from(matches!(s, Step::Move(_)));
     });
     assert_eq!(moves, 2);
 }

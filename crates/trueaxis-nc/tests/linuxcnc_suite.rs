@@ -107,7 +107,7 @@ fn oracle_linuxcnc_suite() {
                 println!("agree  {name}: {} calls", theirs.len());
             }
             (Some(_), Some((_, why))) => {
-                println!("differ {name}: {agreeing} of {} calls agree; {why}", theirs.len())
+                println!("differ {name}: {agreeing} of {} calls agree; {why}", theirs.len());
             }
             (None, Some(_)) => wrong.push(format!("{name} agrees now: take it off the list")),
             (Some(text), None) => wrong.push(format!("{name}: {text}\n   {problems}")),

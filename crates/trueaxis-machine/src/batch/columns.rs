@@ -168,10 +168,10 @@ impl DeviationTable {
     pub fn columns(&mut self) -> DeviationColumns<'_> {
         let [nominal_tip_mm, nominal_axis, tip_mm, axis] = &mut self.columns;
         DeviationColumns {
-            nominal_tip_mm: nominal_tip_mm.each_mut().map(|c| c.as_mut_slice()),
-            nominal_axis: nominal_axis.each_mut().map(|c| c.as_mut_slice()),
-            tip_mm: tip_mm.each_mut().map(|c| c.as_mut_slice()),
-            axis: axis.each_mut().map(|c| c.as_mut_slice()),
+            nominal_tip_mm: nominal_tip_mm.each_mut().map(Vec::as_mut_slice),
+            nominal_axis: nominal_axis.each_mut().map(Vec::as_mut_slice),
+            tip_mm: tip_mm.each_mut().map(Vec::as_mut_slice),
+            axis: axis.each_mut().map(Vec::as_mut_slice),
         }
     }
 

@@ -92,8 +92,8 @@ fn last_poses<const W: usize, L: Lanes<W>>(
     let positions = job.inputs.positions.map(padded);
     let approaches = job.inputs.approaches.map(padded);
     let inputs = Inputs {
-        positions: positions.each_ref().map(|c| c.as_slice()),
-        approaches: approaches.each_ref().map(|c| c.as_slice()),
+        positions: positions.each_ref().map(<[f64; W]>::as_slice),
+        approaches: approaches.each_ref().map(<[f64; W]>::as_slice),
     };
     let (state, outside) = poses::<W, L>(job.plan, &inputs, 0);
     let triples = [
@@ -443,6 +443,7 @@ fn errors_at<const W: usize, L: Lanes<W>>(
 
 /// The rows of each lane's approach; lanes whose approach has none.
 #[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "a table has far fewer than 2^32 rows")]
 fn choose_rows<const W: usize, L: Lanes<W>>(approach: L, rows: usize, row: &mut [u32; W]) -> u32 {
     let number = approach + L::splat(1.0);
     let (whole, sets) = number.whole(2.0);
@@ -453,6 +454,7 @@ fn choose_rows<const W: usize, L: Lanes<W>>(approach: L, rows: usize, row: &mut 
 }
 
 #[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "a table has far fewer than 2^32 rows")]
 fn uneven<const W: usize, L: Lanes<W>>(lookup: &super::pieces::Lookup, q: L) -> (L, [u32; W]) {
     let (mut position, mut about, mut rows) = ([0.0; W], [0.0; W], [0; W]);
     q.store(&mut position);

@@ -106,6 +106,11 @@ impl<const W: usize> Lanes<W> for Plain<W> {
     }
 
     #[inline(always)]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "limited to 0 and the number of rows before the cast"
+    )]
     fn whole(self, largest: f64) -> (Self, [u32; W]) {
         let rows = self.0.map(|v| v.max(0.0).min(largest) as u32);
         (Self(rows.map(f64::from)), rows)

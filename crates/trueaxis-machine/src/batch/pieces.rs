@@ -52,6 +52,11 @@ pub(super) struct Lookup {
 }
 
 impl Lookup {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "positive, and limited by the number of cells"
+    )]
     fn new(knots: Vec<f64>) -> Self {
         let (from, to) = (knots[0], knots[knots.len() - 1]);
         let narrowest = knots.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min);
@@ -65,6 +70,11 @@ impl Lookup {
     }
 
     /// The row at a position; any row for NaN.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "positive, and limited by the number of cells"
+    )]
     pub(super) fn row(&self, q: f64) -> usize {
         if q < self.knots[0] {
             return 0;
@@ -102,6 +112,11 @@ impl Knots {
     }
 
     /// Where the powers of each row are counted from.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "the number of rows, which was a whole number"
+    )]
     pub(super) fn about(&self) -> Vec<f64> {
         match self {
             Self::Even { first, step, last_row, .. } => {
@@ -134,6 +149,7 @@ fn knots_of(curve: &Curve, axis: &Axis) -> Vec<f64> {
 }
 
 /// How many periods below and above a table its axis reaches.
+#[expect(clippy::cast_possible_truncation, reason = "limited by the number of knots")]
 fn periods(spline: &Spline, axis: &Axis) -> (i32, i32) {
     if !spline.is_periodic() {
         return (0, 0);

@@ -171,7 +171,7 @@ impl Lanes<4> for FourPoses {
         unsafe {
             let above = _mm256_cmp_pd::<_CMP_NGE_UQ>(self.0, _mm256_set1_pd(from));
             let below = _mm256_cmp_pd::<_CMP_NLE_UQ>(self.0, _mm256_set1_pd(to));
-            _mm256_movemask_pd(_mm256_or_pd(above, below)) as u32
+            _mm256_movemask_pd(_mm256_or_pd(above, below)).cast_unsigned()
         }
     }
 

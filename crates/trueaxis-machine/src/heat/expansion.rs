@@ -109,6 +109,7 @@ const FURTHEST_DEPTHS: f64 = 6.0;
 
 /// The growth of a body from its temperature and the exact integral of it, as cubics that have
 /// value and slope at their ends in common with it.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a constant, 192")]
 pub fn sampled_curve(
     rise_at: impl Fn(f64) -> f64,
     integral_to: impl Fn(f64) -> f64,

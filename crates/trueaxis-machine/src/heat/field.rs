@@ -76,6 +76,11 @@ fn erfc_near(x: f64) -> f64 {
 
 /// iⁿerfc / iⁿ⁻¹erfc for n = 0, 1, 2 (i⁻¹erfc = 2/√π e^(−x²)), backwards from far up:
 /// `rₙ₋₁ = 1/(2x + 2n rₙ)`, all terms positive.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "positive and at most a few thousand terms"
+)]
 fn ratios(x: f64) -> [f64; 3] {
     let terms = (20.0 + 180.0 / (x * x)) as usize;
     // Half the limit for n → ∞ is closer than 0.

@@ -25,6 +25,7 @@ pub(crate) fn nearest(q: f64, near: f64) -> f64 {
 }
 
 /// The other turns of `q` to offer: all inside a travel, the nearest one of an endless axis.
+#[expect(clippy::cast_possible_truncation, reason = "numbers of turns; a cast limits larger ones")]
 pub(crate) fn others(travel: Travel, q: f64, from: f64) -> impl Iterator<Item = f64> + Clone {
     let (first, last) = match travel {
         Travel::Unknown => (0, 0),

@@ -184,7 +184,7 @@ impl Run<'_> {
                     self.text_piece(c)?
                 };
                 let found = first.find(&wanted).map_or(first.len(), |i| i);
-                Some(if index == 2 { found as f64 } else { first.cmp(&wanted) as i8 as f64 })
+                Some(if index == 2 { found as f64 } else { f64::from(first.cmp(&wanted) as i8) })
             }
         };
         if !open || !c.accept_symbol(b')') {

@@ -226,7 +226,8 @@ pub fn our_calls(file: &Path) -> (Vec<Call>, String) {
             }
             Step::Event(event, _) => push_event(&event, &mut calls),
         });
-    let problems = outcome.problems.iter().map(|d| d.to_string()).collect::<Vec<_>>().join("\n   ");
+    let problems =
+        outcome.problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n   ");
     (tidy_end(calls), problems)
 }
 

@@ -511,7 +511,7 @@ mod tests {
         let nan = [[0.0, 0.0], [1.0, f64::NAN], [2.0, 0.0]];
         assert_eq!(least_squares(&nan), Err(Error::NotFinite { index: 1 }));
         assert_eq!(minimum_zone(&[[4.0, 5.0]; 9]), Err(Error::Coincident));
-        let line: Vec<_> = (0..9).map(|i| [0.1 * i as f64, 0.3 * i as f64 + 1.0]).collect();
+        let line: Vec<_> = (0..9).map(|i| [0.1 * f64::from(i), 0.3 * f64::from(i) + 1.0]).collect();
         assert_eq!(maximum_inscribed(&line), Err(Error::Collinear));
         assert_eq!(minimum_circumscribed(&[]), Err(Error::TooFewPoints { found: 0, needed: 3 }));
     }

@@ -27,6 +27,7 @@ struct Square {
 }
 
 impl Square {
+    #[expect(clippy::cast_possible_truncation, reason = "a section has far fewer than 2^32 points")]
     fn root(cloud: &Cloud) -> Self {
         let center = circumscribed::center(cloud);
         let all: Vec<u32> = (0..cloud.len() as u32).collect();
