@@ -16,3 +16,5 @@
 pub mod compensate;
 pub mod predict;
 pub mod report;
+
+pub use report::schemas;

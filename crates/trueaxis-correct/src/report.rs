@@ -1,34 +1,43 @@
 //! Predictions and compensations as text, JSON and pages.
 
 mod adapt;
+mod adapt_document;
 mod adapt_maps;
 mod adapt_page;
 mod compensation;
+mod compensation_document;
 mod holes;
+mod holes_document;
 mod holes_html;
-mod prediction_json;
+mod prediction_document;
 mod prediction_page;
 mod prediction_text;
 mod program;
+mod program_document;
 mod program_page;
 mod tables;
+mod tables_document;
 
-pub use adapt::{AdaptReport, AdaptedProgram, adapt_json, adapt_text};
+pub use adapt::{AdaptReport, AdaptedProgram, adapt_text};
+pub use adapt_document::{AdaptDocument, adapt_json};
 pub use adapt_page::adapt_html;
-pub use compensation::{
-    compensation_csv, compensation_json, compensation_text, compensation_warnings,
-};
-pub use holes::{holes_json, holes_text};
+pub use compensation::{compensation_csv, compensation_text, compensation_warnings};
+pub use compensation_document::{CompensationDocument, compensation_json};
+pub use holes::holes_text;
+pub use holes_document::{HolesDocument, holes_json};
 pub use holes_html::holes_html;
-pub use prediction_json::json;
+pub use prediction_document::{PredictionDocument, json};
 pub use prediction_page::html;
 pub use prediction_text::text;
-pub use program::{ProgramReport, program_json, program_text};
+pub use program::{ProgramReport, program_text};
+pub use program_document::{ProgramDocument, program_json};
 pub use program_page::program_html;
-pub use tables::{TablesReport, tables_json, tables_text};
+pub use tables::{TablesReport, tables_text};
+pub use tables_document::{TablesDocument, tables_json};
 
 use crate::predict::{Index, Prediction, Share};
 use trueaxis_part::testpiece::{Family, Feature, IndexName};
+use trueaxis_report::{NamedSchema, named_schema};
 
 /// The feature in one word.
 pub(crate) fn feature(name: &IndexName) -> &'static str {
@@ -70,4 +79,16 @@ pub(crate) fn ranked<'a, T>(
     ranked.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
     ranked.truncate(most);
     ranked
+}
+
+/// The JSON Schemas of the documents.
+pub fn schemas() -> Vec<NamedSchema> {
+    vec![
+        named_schema::<PredictionDocument>("predict"),
+        named_schema::<HolesDocument>("predict-holes"),
+        named_schema::<CompensationDocument>("compensate"),
+        named_schema::<TablesDocument>("compensate-tables"),
+        named_schema::<ProgramDocument>("compensate-program"),
+        named_schema::<AdaptDocument>("compensate-adapt"),
+    ]
 }

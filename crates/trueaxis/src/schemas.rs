@@ -38,6 +38,7 @@ pub fn schemas() -> Vec<NamedSchema> {
         named_schema::<VerifyDocument<'_>>("verify"),
     ];
     all.extend(trueaxis_calibrate::schemas());
+    all.extend(trueaxis_correct::schemas());
     all.extend(trueaxis_motion::schemas());
     all.extend(trueaxis_standards::schemas());
     all.iter_mut().for_each(|(_, schema)| add_diagnostics(schema));

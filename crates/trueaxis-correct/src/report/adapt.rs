@@ -2,7 +2,6 @@
 
 use super::adapt_maps::Layout;
 use crate::compensate::adapt::{AdaptStudy, Adaptation, MapCell, MovedPlace};
-use serde_json::{Value, json};
 use std::fmt::Write;
 use trueaxis_geometry::Vec3;
 
@@ -231,110 +230,4 @@ fn walls_text(text: &mut String, report: &AdaptReport<'_>) {
             report.adaptation.map.len()
         );
     }
-}
-
-fn xyz(v: &Vec3) -> [f64; 3] {
-    [v.x, v.y, v.z]
-}
-
-/// The document `trueaxis/compensate-adapt/1`.
-pub fn adapt_json(report: &AdaptReport<'_>) -> Value {
-    let (study, adaptation) = (report.study, report.adaptation);
-    let off = Spread::of(adaptation.map.iter().map(|c| report.off_mm(c)));
-    let moved = report.moved();
-    let findings = adaptation.findings.iter().map(
-        |f| json!({ "code": f.code, "line": f.line, "places": f.places, "message": f.message }),
-    );
-    json!({
-        "schema": "trueaxis/compensate-adapt/1",
-        "name": study.name,
-        "machine": study.machine.name(),
-        "path": study.path.name(),
-        "verdict": if report.is_sound() { "good" } else { "not to be cut" },
-        "findings": findings.collect::<Vec<_>>(),
-        "registration": registration_json(report),
-        "field": field_json(report),
-        "places": {
-            "all": adaptation.places.len(),
-            "cut": report.cut_places(),
-            "moved_um": [moved.min * 1e3, moved.max * 1e3],
-            "largest_u_um": report.most_u_mm() * 1e3,
-        },
-        "wall": {
-            "thickness_mm": study.wall.thickness_mm,
-            "layer_mm": study.wall.layer_mm,
-            "least_mm": study.wall.least_mm,
-            "source": report.map_source(),
-            "before": wall_json(report, false),
-            "after": wall_json(report, true),
-            "off_equal_layer_um": [off.min * 1e3, off.max * 1e3],
-        },
-        "map": adaptation.map.iter().map(|c| cell_json(report, c)).collect::<Vec<_>>(),
-        "program": report.program.map(|p| json!({
-            "file": p.file,
-            "written": p.written,
-            "blocks": p.blocks,
-            "tip_on_path_um": p.tip_mm * 1e3,
-            "axis_on_path_deg": p.axis_rad.to_degrees(),
-        })),
-    })
-}
-
-fn registration_json(report: &AdaptReport<'_>) -> Value {
-    let r = &report.adaptation.field.registration;
-    json!({
-        "follow": report.study.follow.name(),
-        "centre_mm": xyz(&r.freedoms.center_mm),
-        "shift_um": xyz(&(r.shift_mm() * 1e3)),
-        "u_shift_um": xyz(&(r.u_shift_mm() * 1e3)),
-        "turn_urad": xyz(&(r.turn_rad() * 1e6)),
-        "u_turn_urad": xyz(&(r.u_turn_rad() * 1e6)),
-        "held": r.held_words(),
-    })
-}
-
-fn field_json(report: &AdaptReport<'_>) -> Value {
-    let (study, field) = (report.study, &report.adaptation.field);
-    let outliers = field.outliers.iter().map(|o| {
-        let point = &study.points[o.index];
-        json!({
-            "point": point.number, "line": point.line,
-            "residual_um": o.residual_mm * 1e3, "z": o.z,
-        })
-    });
-    json!({
-        "points": study.points.len(),
-        "length_mm": field.covariance.length_mm,
-        "form_um": field.covariance.form_mm * 1e3,
-        "noise_um": study.noise_mm * 1e3,
-        "left_out_rms_um": field.left_out_rms_mm * 1e3,
-        "left_out_within_u2": field.share_within(2.0),
-        "raised": field.raised,
-        "outliers": outliers.collect::<Vec<_>>(),
-    })
-}
-
-fn wall_json(report: &AdaptReport<'_>, after: bool) -> Value {
-    let s = report.walls(after);
-    json!({
-        "min_mm": s.min, "mean_mm": s.mean, "max_mm": s.max,
-        "cut_through": report.through(after), "places": report.adaptation.map.len(),
-    })
-}
-
-fn cell_json(report: &AdaptReport<'_>, cell: &MapCell) -> Value {
-    let expected = crate::compensate::adapt::remaining_wall(
-        report.study,
-        cell.field.deviation_mm,
-        cell.field.u_mm,
-    );
-    json!({
-        "at_mm": xyz(&cell.after.at_mm),
-        "blank_um": cell.after.blank_mm * 1e3,
-        "field_um": cell.field.deviation_mm * 1e3,
-        "u_field_um": cell.field.u_mm * 1e3,
-        "wall_before_mm": cell.before.wall_mm,
-        "wall_after_mm": cell.after.wall_mm,
-        "u_wall_mm": expected.u_mm,
-    })
 }

@@ -1,27 +1,26 @@
-//! Compensation values as text, CSV and JSON.
+//! Compensation values as text and CSV.
 
-use crate::compensate::values::{Node, Value, ValueTable};
+use crate::compensate::values::{Value, ValueTable};
 use crate::predict::holes::Compensation;
-use serde_json::{Map, Value as Json, json};
 use std::fmt::Write;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Axis, AxisKind, AxisSide};
 use trueaxis_machine::heat::ErrorPart;
 
 /// The units of an axis: of its positions, and of its errors for people, CSV and JSON.
-struct Units {
-    place: &'static str,
+pub(super) struct Units {
+    pub place: &'static str,
     place_scale: f64,
     shown: &'static str,
     shown_scale: f64,
     /// The suffixes of keys and headings with their factors.
-    keys: &'static [(&'static str, f64)],
+    pub keys: &'static [(&'static str, f64)],
 }
 
 /// 1 rad in arcsec.
 const ARCSEC: f64 = 180.0 * 3600.0 / std::f64::consts::PI;
 
-fn units(axis: &Axis) -> Units {
+pub(super) fn units(axis: &Axis) -> Units {
     match axis.kind {
         AxisKind::Linear => Units {
             place: "mm",
@@ -41,7 +40,7 @@ fn units(axis: &Axis) -> Units {
 }
 
 /// A position without the noise of radians.
-fn place(units: &Units, position: f64) -> f64 {
+pub(super) fn place(units: &Units, position: f64) -> f64 {
     (position * units.place_scale * 1e9).round() / 1e9 + 0.0
 }
 
@@ -50,7 +49,7 @@ fn axis<'a>(machine: &'a Machine, table: &ValueTable) -> &'a Axis {
 }
 
 /// The increment as people write it.
-fn increment(axis: &Axis, table: &ValueTable) -> String {
+pub(super) fn increment(axis: &Axis, table: &ValueTable) -> String {
     let value = match axis.kind {
         AxisKind::Linear => (table.order.increment * 1e3, "µm"),
         AxisKind::Rotary => (table.order.increment.to_degrees(), "deg"),
@@ -191,64 +190,4 @@ pub fn compensation_csv(machine: &Machine, table: &ValueTable) -> String {
         text.push('\n');
     }
     text
-}
-
-/// The values as one document.
-pub fn compensation_json(machine: &Machine, tables: &[ValueTable]) -> Json {
-    let axes = tables.iter().map(|t| one_json(axis(machine, t), t));
-    json!({
-        "schema": "trueaxis/compensate/1",
-        "what": "values",
-        "machine": machine.name(),
-        "added_to": "command",
-        "axes": axes.collect::<Vec<_>>(),
-        "warnings": compensation_warnings(machine, tables),
-    })
-}
-
-fn one_json(axis: &Axis, table: &ValueTable) -> Json {
-    let units = units(axis);
-    let mut map = Map::new();
-    let mut put = |key: &str, value: Json| map.insert(key.to_owned(), value);
-    put("axis", json!(axis.name.to_string()));
-    put("of", json!(table.order.of.name()));
-    put("carries", json!(if axis.carries == AxisSide::Tool { "tool" } else { "workpiece" }));
-    put("increment", json!(increment(axis, table)));
-    for (unit, scale) in units.keys {
-        put(&format!("part_error_{unit}"), three(table.worst, *scale));
-    }
-    let nodes = table.nodes.iter().map(|node| node_json(&units, node));
-    put("positions", nodes.collect());
-    Json::Object(map)
-}
-
-/// Of the part under each compensation.
-fn three(values: [f64; 3], scale: f64) -> Json {
-    let pairs = Compensation::ALL.iter().zip(values);
-    let pairs = pairs.map(|(c, v)| (c.name().to_owned(), json!(v * scale + 0.0)));
-    Json::Object(pairs.collect())
-}
-
-fn node_json(units: &Units, node: &Node) -> Json {
-    let mut map = Map::new();
-    let mut put = |key: String, value: Json| map.insert(key, value);
-    put(format!("position_{}", units.place), json!(place(units, node.position)));
-    put("value_increments".to_owned(), json!(node.value.increments));
-    if let Some([up, down]) = node.by_direction {
-        put("value_up_increments".to_owned(), json!(up.increments));
-        put("value_down_increments".to_owned(), json!(down.increments));
-    }
-    for (unit, scale) in units.keys {
-        let number = |v: f64| json!(v * scale + 0.0);
-        put(format!("value_{unit}"), number(node.value.added));
-        put(format!("remainder_{unit}"), number(node.value.remainder));
-        let split = ErrorPart::ALL.iter().zip(node.split);
-        let split = split.map(|(part, v)| (part.name().to_owned(), number(v)));
-        put(format!("split_{unit}"), Json::Object(split.collect()));
-        put(format!("machine_{unit}"), number(node.machine));
-        put(format!("comprehensive_{unit}"), number(node.comprehensive));
-        put(format!("u_{unit}"), json!(node.u.map(|u| u * scale)));
-        put(format!("part_error_{unit}"), three(node.part, *scale));
-    }
-    Json::Object(map)
 }

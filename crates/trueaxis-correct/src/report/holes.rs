@@ -1,7 +1,6 @@
-//! Holes on a circle as text and JSON.
+//! Holes on a circle as text.
 
-use crate::predict::holes::{Compensation, Hole, HolePrediction, HoleSet, HoleStudy};
-use serde_json::{Value, json};
+use crate::predict::holes::{HolePrediction, HoleSet, HoleStudy};
 use std::fmt::Write;
 
 /// The holes as a table, with the verdict and the warning first.
@@ -53,45 +52,4 @@ fn set_table(text: &mut String, study: &HoleStudy, sets: &[HoleSet; 3], when: &s
         let (name, u_mm) = (set.compensation.name(), set.u_worst_mm);
         let _ = writeln!(text, "  {name:<16} {:>14.4} {u_mm:>8.4}   {verdict}{mark}", set.worst_mm);
     }
-}
-
-/// The holes as one document.
-pub fn holes_json(study: &HoleStudy, prediction: &HolePrediction) -> Value {
-    let vector = |v: &trueaxis_geometry::Vec3, scale: f64| [v.x, v.y, v.z].map(|x| x * scale + 0.0);
-    let hole = |hole: &Hole, i: usize| {
-        json!({
-            "nominal_mm": vector(&study.holes_mm[i], 1.0),
-            "actual_mm": vector(&(study.holes_mm[i] + hole.error_mm), 1.0),
-            "error_um": vector(&hole.error_mm, 1e3),
-            "u_um": vector(&hole.u_mm, 1e3),
-            "compensation_increments": hole.increments,
-            "time_s": prediction.times_s[i],
-        })
-    };
-    let set = |set: &HoleSet| {
-        let holes = set.holes.iter().enumerate().map(|(i, h)| hole(h, i));
-        json!({
-            "compensation": set.compensation.name(),
-            "worst_mm": set.worst_mm,
-            "u_worst_mm": set.u_worst_mm,
-            "in_tolerance": set.in_tolerance,
-            "holes": holes.collect::<Vec<_>>(),
-        })
-    };
-    let applied =
-        &prediction.sets[Compensation::ALL.iter().position(|c| *c == study.applied).unwrap_or(0)];
-    json!({
-        "schema": "trueaxis/predict/1",
-        "name": study.name,
-        "increment_mm": study.increment_mm,
-        "tolerance_mm": study.tolerance_mm,
-        "applied": study.applied.name(),
-        "in_tolerance": applied.in_tolerance,
-        "temperature_log": study.temperatures.as_ref().map(|t| t.run.log.file()),
-        "sets": prediction.sets.iter().map(set).collect::<Vec<_>>(),
-        "sets_at_start": prediction.held.as_ref()
-            .map(|held| held.iter().map(set).collect::<Vec<_>>()),
-        "u_lacks": prediction.without_u,
-        "warnings": prediction.warnings,
-    })
 }

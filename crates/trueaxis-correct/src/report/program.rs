@@ -1,7 +1,6 @@
-//! A compensated program, as text and JSON.
+//! A compensated program, as text.
 
 use crate::compensate::program::{Convention, ProgramOptions, Residual, Rewritten, Wrong};
-use serde_json::{Value, json};
 use std::fmt::Write;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::AxisKind;
@@ -213,70 +212,4 @@ pub(super) fn number(value: f64) -> String {
         a if a == 0.0 || a >= 1e-3 => format!("{value:.3}"),
         _ => format!("{value:.1e}"),
     }
-}
-
-/// The document `trueaxis/compensate-program/1`.
-pub fn program_json(r: &ProgramReport<'_>) -> Value {
-    let (found, proof) = (&r.rewritten.found, &r.rewritten.proof);
-    let residual = |of: &Residual| {
-        let value = |l: crate::compensate::program::Largest, scale: f64| json!({ "value": l.value * scale, "line": l.line });
-        json!({
-            "tip_at_ends_um": value(of.tip_end, 1e3),
-            "axis_at_ends_urad": value(of.axis_end, 1e6),
-            "tip_between_um": value(of.tip, 1e3),
-            "axis_between_urad": value(of.axis, 1e6),
-        })
-    };
-    let worst = proof.worst.iter().map(|b| {
-        json!({
-            "line": b.line,
-            "tip_before_um": b.tip_before_mm * 1e3,
-            "tip_after_um": b.tip_after_mm * 1e3,
-            "axis_before_urad": b.axis_before_rad * 1e6,
-            "axis_after_urad": b.axis_after_rad * 1e6,
-        })
-    });
-    let largest = found.largest.iter().enumerate().map(|(i, l)| {
-        let (scale, unit) = r.unit(i);
-        json!({ "axis": r.axis_name(i), "value": l.value * scale, "unit": unit, "line": l.line })
-    });
-    let conventions = r
-        .conventions()
-        .into_iter()
-        .map(|(name, tip, axis)| json!({ "what": name, "tip_um": tip, "axis_urad": axis }));
-    json!({
-        "schema": "trueaxis/compensate-program/1",
-        "machine": r.machine.name(),
-        "program": r.program,
-        "output": r.output,
-        "blocks": found.blocks,
-        "split": found.split,
-        "pieces": found.pieces,
-        "circles_to_lines": found.circles,
-        "words_added": found.words_added,
-        "feeds_changed": found.feeds_changed,
-        "undecided_reversals": found.undecided,
-        "left": found.left,
-        "axis_left": found.axis_left,
-        "position_only": r.options.position_only,
-        "residual_mm": r.options.residual_mm,
-        "residual_axis_rad": r.options.residual_rad,
-        "increments": r.options.increments.map(|i| json!({
-            "linear_mm": i.linear_mm,
-            "rotary_deg": i.rotary_deg,
-        })),
-        "before": residual(&proof.before),
-        "after": residual(&proof.after),
-        "ends_compared": proof.compared,
-        "worst_blocks": worst.collect::<Vec<_>>(),
-        "largest_corrections": largest.collect::<Vec<_>>(),
-        "way_change_relative": found.length_change,
-        "uncertainty": {
-            "places": r.rewritten.confidence.looked_at,
-            "smaller_than_u": r.rewritten.confidence.weaker,
-            "largest_u_um": r.rewritten.confidence.largest_u_mm * 1e3,
-        },
-        "convention_check": conventions.collect::<Vec<_>>(),
-        "remarks": r.remarks(),
-    })
 }

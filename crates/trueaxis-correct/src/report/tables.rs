@@ -1,19 +1,15 @@
-//! Compensation tables and what they leave, as text and JSON.
+//! Compensation tables and what they leave, as text.
 
-use crate::compensate::tables::content::Line;
 use crate::compensate::tables::grid::{Gridded, Side};
 use crate::compensate::tables::joints::{Joint, Joints};
 use crate::compensate::tables::known::MadeKnown;
 use crate::compensate::tables::proof::{ErrorLoss, IndexLeft, Left};
 use crate::compensate::tables::table::{PER_UNIT, Table, count_of};
 use crate::compensate::tables::{Compiled, LeftOut, Made, What, known, shown};
-use serde_json::{Map, Value as Json, json};
 use std::fmt::Write;
-use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::describe::to_shown;
-use trueaxis_machine::errors::ErrorName;
 
 /// What there is to tell.
 pub struct TablesReport<'a> {
@@ -140,7 +136,7 @@ fn known_text(machine: &Machine, compiled: &Compiled) -> String {
 }
 
 /// The rotary axes as the control has them, beside the nominal ones.
-fn joints_of(machine: &Machine, compiled: &Compiled) -> Vec<(Joint, Joint)> {
+pub(super) fn joints_of(machine: &Machine, compiled: &Compiled) -> Vec<(Joint, Joint)> {
     let Some(joints) = &compiled.joints else { return Vec::new() };
     joints.0.iter().copied().zip(Joints::nominal(machine).0).collect()
 }
@@ -203,166 +199,6 @@ fn place_text(machine: &Machine, command: &Command) -> String {
 }
 
 /// Without the noise of radians.
-fn round(value: f64) -> f64 {
+pub(super) fn round(value: f64) -> f64 {
     (value * 1e6).round() / 1e6 + 0.0
-}
-
-/// The tables as one document.
-pub fn tables_json(report: &TablesReport<'_>) -> Json {
-    let TablesReport { machine, compiled, .. } = report;
-    let (represented, not): (Vec<_>, Vec<_>) = compiled.errors.iter().partition(|e| e.represented);
-    let cannot = not.iter().map(|e| {
-        json!({
-            "error": e.error.to_string(),
-            "before_um": e.before_mm * 1e3,
-            "left_um": e.left_mm * 1e3,
-            "instead": e.instead,
-        })
-    });
-    let piece = report.piece.map(|(study, indices)| {
-        let one = |i: &IndexLeft| {
-            json!({ "index": i.key, "before_um": i.before_mm * 1e3, "left_um": i.left_mm * 1e3 })
-        };
-        json!({ "study": study, "indices": indices.iter().map(one).collect::<Vec<_>>() })
-    });
-    json!({
-        "schema": "trueaxis/compensate-tables/1",
-        "machine": machine.name(),
-        "target": report.target,
-        "files": report.files,
-        "added_to": "command",
-        "reference": place_json(machine, &compiled.reference),
-        "tables": compiled.tables.iter().map(|t| made_json(machine, t)).collect::<Vec<_>>(),
-        "known": compiled.known.iter().map(known_json).collect::<Vec<_>>(),
-        "temperature": compiled.lines.iter().map(|l| line_json(machine, l)).collect::<Vec<_>>(),
-        "kinematics": joints_of(machine, compiled).iter().map(joint_json).collect::<Vec<_>>(),
-        "grid": compiled.grid.as_ref().map(|g| grid_json(machine, g)),
-        "left_out": compiled.left_out.iter().map(|t| out_json(machine, t)).collect::<Vec<_>>(),
-        "represents": represented.iter().map(|e| e.error.to_string()).collect::<Vec<_>>(),
-        "cannot": cannot.collect::<Vec<_>>(),
-        "before_um": left_json(machine, &compiled.before, None),
-        "left_um": left_json(machine, &compiled.after, Some(piece)),
-        "wrong_sign_um": left_json(machine, &compiled.wrong_sign, None),
-        "notes": compiled.advice,
-    })
-}
-
-fn left_json(machine: &Machine, left: &Left, piece: Option<Option<Json>>) -> Json {
-    let mut json = json!({
-        "max": left.max_mm * 1e3,
-        "rms": left.rms_mm * 1e3,
-        "at": place_json(machine, &left.at),
-        "poses": left.poses,
-        "axis_urad": left.axis_rad * 1e6,
-    });
-    if let Some(piece) = piece {
-        json["test_piece"] = piece.unwrap_or(Json::Null);
-    }
-    json
-}
-
-fn place_json(machine: &Machine, command: &Command) -> Json {
-    let one = |(i, axis): (usize, &trueaxis_machine::axis::Axis)| {
-        (axis.name.to_string(), json!(round(to_shown(machine, i, command[i]))))
-    };
-    Json::Object(machine.axes().iter().enumerate().map(one).collect::<Map<_, _>>())
-}
-
-/// The key and the factor of a correction.
-fn unit(machine: &Machine, axis: usize) -> (&'static str, f64) {
-    match machine.axes()[axis].kind {
-        AxisKind::Linear => ("um", 1e3),
-        AxisKind::Rotary => ("urad", 1e6),
-    }
-}
-
-fn made_json(machine: &Machine, made: &Made) -> Json {
-    let Made { table, loss, largest } = made;
-    let (unit, factor) = unit(machine, table.output);
-    let name = |axis: usize| machine.axes()[axis].name.to_string();
-    let mut json = json!({
-        "input": name(table.input),
-        "output": name(table.output),
-        "nodes": table.nodes.len(),
-        "by_direction": table.is_directional(),
-        "modulo": table.modulo,
-    });
-    if let Some(node) = table.largest() {
-        json["check"] = json!({ "position": round(node.at as f64 / PER_UNIT) });
-        let added = node.up as f64 * count_of(machine, table.output);
-        json["check"][format!("added_{unit}")] = json!(added * factor);
-    }
-    json[format!("loss_{unit}")] = json!(loss * factor);
-    json[format!("largest_{unit}")] = json!(largest * factor);
-    json
-}
-
-fn out_json(machine: &Machine, out: &LeftOut) -> Json {
-    let name = |axis: usize| machine.axes()[axis].name.to_string();
-    let (mut json, (unit, factor)) = match out.what {
-        What::Table { input, output } => {
-            (json!({ "input": name(input), "output": name(output) }), unit(machine, output))
-        }
-        What::Error(error) => (json!({ "error": error.to_string() }), unit_of_error(error)),
-    };
-    json["reason"] = json!(out.reason);
-    json[format!("largest_{unit}")] = json!(out.largest * factor);
-    json
-}
-
-fn unit_of_error(error: ErrorName) -> (&'static str, f64) {
-    match error.component.is_rotation() {
-        true => ("urad", 1e6),
-        false => ("um", 1e3),
-    }
-}
-
-fn known_json(made: &MadeKnown) -> Json {
-    let MadeKnown { known, loss, largest, .. } = made;
-    let (unit, factor) = unit_of_error(known.error);
-    let mut json = json!({ "error": known.error.to_string(), "nodes": known.nodes.len() });
-    json[format!("loss_{unit}")] = json!(loss * factor);
-    json[format!("largest_{unit}")] = json!(largest * factor);
-    json
-}
-
-fn line_json(machine: &Machine, line: &Line) -> Json {
-    let (unit, factor) = unit(machine, line.axis);
-    let mut json = json!({
-        "axis": machine.axes()[line.axis].name.to_string(),
-        "reference": line.reference as f64 / PER_UNIT,
-        "slope_um_per_m": line.slope as f64 * 1e-3,
-    });
-    json[format!("offset_{unit}")] =
-        json!(line.offset as f64 * count_of(machine, line.axis) * factor);
-    json
-}
-
-fn joint_json((actual, nominal): &(Joint, Joint)) -> Json {
-    let vector = |v: Vec3| [v.x, v.y, v.z];
-    json!({
-        "axis": actual.axis.to_string(),
-        "point_mm": vector(actual.point_mm()),
-        "direction": vector(actual.along()),
-        "moved_um": vector((actual.point_mm() - nominal.point_mm()) * 1e3),
-        "tilted_urad": vector((actual.along() - nominal.along()) * 1e6),
-    })
-}
-
-fn grid_json(machine: &Machine, gridded: &Gridded) -> Json {
-    let Gridded { grid, loss, largest } = gridded;
-    let side = |s: &Side| {
-        json!({
-            "axis": machine.axes()[s.axis].name.to_string(),
-            "from_mm": s.from as f64 / PER_UNIT,
-            "step_mm": s.step as f64 / PER_UNIT,
-            "points": s.count,
-        })
-    };
-    json!({
-        "sides": grid.sides.each_ref().map(side),
-        "points": grid.values.len(),
-        "loss_um": loss / PER_UNIT * 1e3,
-        "largest_um": *largest as f64 / PER_UNIT * 1e3,
-    })
 }
