@@ -16,7 +16,7 @@ use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
 
 /// The machine as commands meet it: what the control compensates already (`[compensation] active` of the
-/// machine file) is not compensated again, and that is told.
+/// machine file) is not compensated again, and that is reported.
 pub fn not_twice(machine: &Machine, place: Place, problems: &mut Diagnostics) -> Machine {
     let active = machine.active_compensation();
     if !active.is_empty() {

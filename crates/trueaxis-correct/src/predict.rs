@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!     Study ──Cutting::new──> commands ──deviations──> [E_v] ──TestPiece::evaluate──> indices
-//!       │                                     └─ errors changed: blame, sensitivity, Monte Carlo
+//!       │                                     └─ errors changed: budget, sensitivity, Monte Carlo
 //!       └─ tolerances ──judge──> verdict
 //! ```
 
@@ -50,7 +50,7 @@ pub enum Setting {
 }
 
 impl Default for Setting {
-    /// C = A = 0, as in document 000.
+    /// C = A = 0, as in Wu et al. 2022.
     fn default() -> Self {
         Self::Touched { rotary: Command::default() }
     }
@@ -88,7 +88,7 @@ pub enum Error {
         position: usize,
         /// Its time, s.
         time_s: f64,
-        /// How long the log goes on behind the start, s.
+        /// How long the log goes on after the start, s.
         lasts_s: f64,
     },
     /// The program cuts something else.
@@ -180,7 +180,7 @@ pub struct Prediction {
     pub deviations_mm: Vec<Vec3>,
     /// The profiles, from the base upwards.
     pub sections: Vec<SectionResult>,
-    /// Who is to blame.
+    /// The error budget.
     pub blame: Blame,
     /// What each location error does to each index.
     pub sensitivities: Vec<Sensitivity>,
@@ -200,7 +200,7 @@ pub struct Prediction {
 /// A path, setting point or reference hole that the machine cannot do, with its place.
 ///
 /// # Source
-/// Document 000 (Wu et al. 2022) with its errata; docs/model.md eq. 18 to 33.
+/// Wu et al. 2022 with its errata; docs/model.md eq. 18 to 33.
 pub fn predict(study: &Study, progress: &(dyn Fn(usize) + Sync)) -> Result<Prediction, Error> {
     let (machine, piece) = (&study.machine, study.piece());
     let (temperatures, program) = (study.temperatures.as_ref(), study.program.as_ref());
@@ -213,7 +213,7 @@ pub fn predict(study: &Study, progress: &(dyn Fn(usize) + Sync)) -> Result<Predi
     Ok(prediction)
 }
 
-/// The same without the search for corrections: as fast as somebody drags a slider.
+/// The same without the search for corrections: fast enough to follow a slider.
 ///
 /// # Errors
 /// As [`predict`].
@@ -253,7 +253,7 @@ fn verdict(study: &Study, indices: &[Index]) -> Result<Verdict, Error> {
     study.judge(&values, expanded.as_deref()).map_err(Error::Evaluation)
 }
 
-/// Single corrections after which the part would pass by the study's own rule. They are sought with
+/// Single corrections after which the part would pass by the study's own rule. They are searched for with
 /// the uncertainties as they are; those after the correction then decide how much more it takes.
 fn remedies(study: &Study, judge: &Judge<'_>, indices: &[Index]) -> Result<Vec<Correction>, Error> {
     let passes = |values: &[f64], expanded: Option<&[f64]>| {

@@ -1,4 +1,4 @@
-//! Cutting what is really there: the path of a nominal blank, moved onto the blank that was probed.
+//! Cutting the actual blank: the path of a nominal blank, moved onto the blank that was probed.
 //!
 //! ```text
 //!     measured points ──Field::fit──> how the blank lies (registration) + its form + uncertainty
@@ -122,7 +122,7 @@ fn check_set_up(study: &AdaptStudy, field: &Field, problems: &mut Diagnostics) {
     let registration = &field.registration;
     let (shift, turn) = (registration.shift_mm(), registration.turn_rad());
     let place = Place::whole(&study.table);
-    let hint = "probe the blank again as it is clamped now, or set it up anew; larger limits: \
+    let hint = "probe the blank again as it is clamped now, or set it up again; larger limits: \
                 [registration] most_shift, most_turn, most_form";
     let degrees = |v: f64| v.to_degrees();
     // Few points say little of how the blank lies: beyond means beyond with what is certain.
@@ -158,7 +158,7 @@ fn check_set_up(study: &AdaptStudy, field: &Field, problems: &mut Diagnostics) {
         let square = study.points.iter().map(|p| rest(p).powi(2)).sum::<f64>();
         let rms = (square / study.points.len() as f64).sqrt();
         let message = format!(
-            "the blank does not lie as this set-up has it: {:.3} mm (rms {rms:.3} mm) remain at point \
+            "the blank does not lie as this set-up states: {:.3} mm (rms {rms:.3} mm) remain at point \
              {} after the best fit; allowed are {} mm",
             rest(worst),
             worst.number,

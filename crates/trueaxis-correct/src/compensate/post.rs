@@ -135,7 +135,7 @@ pub struct Posted {
 /// options.tip_words = None;
 /// let (posted, problems) = post(&machine, &cl, &options);
 /// let text = String::from_utf8(posted.unwrap().text).unwrap();
-/// // A = 30°: Y = 5 cos 30°, Z = −5 sin 30° (document 003, eq 2 and 3).
+/// // A = 30°: Y = 5 cos 30°, Z = −5 sin 30° (Zhang et al. 2023, eq 2 and 3).
 /// assert!(text.contains("Y4.3301 Z-2.5 A30."), "{text}");
 /// ```
 pub fn post(

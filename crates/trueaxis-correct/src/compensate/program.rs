@@ -5,7 +5,7 @@
 //!     commands ──Compensator──> commands that lead the actual tool there   correct
 //!     ──cut──> straight pieces within the residual                         stand
 //!     ──words──> numbers in the text; everything else stays as it is       block, words, text
-//!     text ──simulate on the machine as it is──> what is left              verify
+//!     text ──simulate on the actual machine──> residual error              verify
 //! ```
 
 mod ahead;
@@ -90,7 +90,7 @@ impl ProgramOptions {
 }
 
 /// Pieces are cut within this share of the residual: rounding and the places between those that
-/// are looked at need the rest.
+/// are examined need the rest.
 const SHARE: f64 = 0.5;
 
 fn residual_share(options: &ProgramOptions) -> [f64; 2] {
@@ -104,21 +104,21 @@ pub struct Rewritten {
     pub text: Vec<u8>,
     /// What was done.
     pub found: Found,
-    /// What it does on the machine as it is.
+    /// What it does on the actual machine.
     pub proof: Proof,
-    /// How sure the corrections are.
+    /// How well the corrections are known.
     pub confidence: Confidence,
     /// What no correction and wrong signs would leave.
     pub conventions: Vec<Convention>,
 }
 
-/// Places are looked at so finely; each further try halves it.
+/// Places are examined so finely; each further try halves it.
 const SPACING_MM: f64 = 5.0;
 const ANGLE_DEG: f64 = 0.6;
 const TRIES: u32 = 5;
 
 /// Rewrites a program so that the actual tool goes where it says, and proves it by simulating the
-/// written text on the machine as it is.
+/// written text on the actual machine.
 ///
 /// No text comes back where a block cannot be corrected; the block, the reason and what to do are
 /// in the diagnostics.
@@ -222,7 +222,7 @@ fn once(
     let (text, numbers) = walk.text.finish(&guard::comment(&options.mark, control));
     let found = walk.found;
     let written = Program::new(program.file(), text, control);
-    // The middle of every block at least is looked at.
+    // The middle of every block at least is examined.
     let finer = densify(options, attempt + 1, 2 * least);
     let proof = verify::prove(machine, [program, &written], setup, &found, &numbers, finer);
     let text = written.source().to_vec();

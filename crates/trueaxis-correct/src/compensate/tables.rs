@@ -1,9 +1,9 @@
 //! Compensation tables of controls: compiled from one machine, read back, applied as the control does, and
-//! what is left.
+//! the residual error.
 //!
 //! ```text
 //!     Machine ──split──┬─ chain: known errors, joints ─┐
-//!                      └─ rest ──lever──> tables, grid ─┴─> content ──write──> files ──read──> emulation ──> what is left
+//!                      └─ rest ──lever──> tables, grid ─┴─> content ──write──> files ──read──> emulation ──> residual error
 //! ```
 //!
 //! - [`known`]: which errors the control's own chain can hold, by [`joints`] or by functions of each link (`link`);

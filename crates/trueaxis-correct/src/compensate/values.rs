@@ -124,7 +124,7 @@ pub fn travel_positions(axis: &Axis, step: f64) -> Option<Vec<f64>> {
 /// The compensation values of an axis.
 ///
 /// Of the errors of the machine those count that this axis can do something about: its own error
-/// motions as the tool feels them, and what heat adds; squareness, mounting and the error motions of
+/// motions as they act on the tool, and what heat adds; squareness, mounting and the error motions of
 /// other axes do not change with its position and stay out. With the compensation on, the error at
 /// the position is the remainder; that the axis then stands a little elsewhere is of second order.
 ///
@@ -132,7 +132,7 @@ pub fn travel_positions(axis: &Axis, step: f64) -> Option<Vec<f64>> {
 /// A position outside an error table; errors too large for a number.
 ///
 /// # Source
-/// Document 001, sections 1.2, 2 and 3.1.
+/// Zhang et al. 2019, sections 1.2, 2 and 3.1.
 pub fn compensation_values(machine: &Machine, order: &Order) -> Result<ValueTable, ValuesError> {
     let nodes = order.positions.iter().map(|q| node(machine, order, *q));
     let nodes = nodes.collect::<Result<Vec<Node>, ValuesError>>()?;

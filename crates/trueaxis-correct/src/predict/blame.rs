@@ -1,4 +1,4 @@
-//! Who is to blame: every error alone, and the part without it.
+//! The error budget: every error alone, and the part without it.
 
 use super::Error;
 use super::judge::Judge;

@@ -6,7 +6,7 @@ use super::sensitivity::{propagate, shifted};
 use trueaxis_machine::Machine;
 use trueaxis_machine::errors::{Component, ErrorIndex, ErrorKind, ErrorName};
 
-/// The search ends here: nobody scrapes a millimetre or a milliradian off a finished machine.
+/// The search ends here: a finished machine is not scraped by a millimetre or a milliradian.
 const LIMIT: f64 = 1.0;
 /// First trial, µm or µrad over 1000.
 const FIRST: f64 = 1e-4;

@@ -13,7 +13,7 @@ use trueaxis_part::testpiece::{Datum, TestPiece, ToolPosition};
 /// Which axis of the part coaxiality and angularity are judged against.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum DatumAxis {
-    /// The ideal z axis of the workpiece through the set zero (document 000).
+    /// The ideal z axis of the workpiece through the set zero (Wu et al. 2022).
     #[default]
     Ideal,
     /// A reference hole bored along that axis on the same machine, to this depth below the zero.
@@ -188,7 +188,7 @@ impl<'a> Cutting<'a> {
     /// ```
     ///
     /// s is the distance of the contact from the tip along the tool axis, q₀ the setting command:
-    /// the zero was set with the same wrong machine, so its error there is taken off once.
+    /// the zero was set with the same wrong machine, so its error there is subtracted once.
     pub fn cut(&self, change: &Change<'_>, deviations_mm: &mut Vec<Vec3>) -> Datum {
         let at = |stop: &Stop| {
             let mut off = self.machine.deviation(&stop.command, &change(&stop.errors, &stop.u));
@@ -255,7 +255,7 @@ fn ideal_passings(
     Ok(commands.into_iter().map(passing).collect())
 }
 
-/// An axis keeps its side until it turns round.
+/// An axis keeps its side until it reverses.
 fn update_approach(approach: &mut Approach, last: &Command, next: &Command) {
     for i in 0..MAX_AXES {
         let step = next[i] - last[i];

@@ -1,6 +1,6 @@
 //! Holes on a circle in a warm hall: where they will be, before and after compensation.
 //!
-//! Document 001: compensating the machine alone can make the part worse, since the growth of the
+//! Zhang et al. 2019: compensating the machine alone can make the part worse, since the growth of the
 //! machine and that of the workpiece no longer cancel.
 
 use super::Error;
@@ -107,7 +107,7 @@ pub struct HolePrediction {
     pub times_s: Vec<f64>,
     /// What the reader must know.
     pub warnings: Vec<String>,
-    /// What grows though nobody says how well its coefficient is known: u lacks it.
+    /// What grows though the uncertainty of its coefficient is not stated: u lacks it.
     pub without_u: Vec<String>,
 }
 
@@ -217,7 +217,7 @@ pub fn compensation_increments(error_mm: f64, increment_mm: f64) -> i64 {
 /// A hole that the machine cannot reach, with its number.
 ///
 /// # Source
-/// Document 001, section 2 and 3.
+/// Zhang et al. 2019, section 2 and 3.
 pub fn predict_holes(study: &HoleStudy) -> Result<HolePrediction, Diagnostics> {
     let running = study.temperatures.as_ref();
     let sets = drill_all(study, running)?;
@@ -263,7 +263,7 @@ fn drill_all(
                 Err(message) if compensation == Compensation::None => {
                     told(i, format!(": {message}"), "move the circle, or extend the table");
                 }
-                // The same hole was told already, or lies at the very end of a table.
+                // The same hole was reported already, or lies at the very end of a table.
                 Err(message) => told(i, format!(", compensated: {message}"), ""),
             }
         }

@@ -42,7 +42,7 @@ pub(super) struct Passing {
 }
 
 impl CutProgram {
-    /// Reads a program and what it commands on a machine; a set-up beside it is taken.
+    /// Reads a program and what it commands on a machine; a set-up file next to it is read.
     pub fn read(
         files: &Files,
         path: &Path,
@@ -71,7 +71,7 @@ impl CutProgram {
                 places.push(PathPlace { command: node.command, approach, tip, cuts });
             });
         });
-        // What the machine makes of the words is told by simulate; here only what stops it.
+        // What the machine makes of the words is reported by simulate; here only what stops it.
         for problem in outcome.problems.iter().filter(|p| is_error(p)) {
             let (message, place) = (problem.message.clone(), problem.place.clone());
             problems.error(problem.code, place, message, &problem.hint);

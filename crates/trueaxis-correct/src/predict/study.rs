@@ -16,7 +16,7 @@ use trueaxis_part::testpiece::TestPiece;
 use trueaxis_part::tolerance::{Acceptance, Tolerances, Verdict};
 use trueaxis_part::{Shape, TestPieceFile};
 
-/// Another way to set the zero or to choose the datum, to be shown beside.
+/// Another way to set the zero or to choose the datum, for comparison.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Variant {
     /// What is different.
@@ -25,7 +25,7 @@ pub struct Variant {
     pub reference: Reference,
 }
 
-/// Figures that somebody published or measured, to be shown beside the prediction.
+/// Figures that were published or measured, to be compared with the prediction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Published {
     /// What they are, and of which part.
@@ -199,7 +199,7 @@ fn read_program(root: &Section<'_>, folder: &Path, machine: &Machine) -> Option<
     program
 }
 
-/// A guard band of nothing would pass what nobody knows.
+/// A guard band of nothing would pass what is not known.
 fn check_uncertainties(root: &Section<'_>, decision: Option<Decision>, machine: &Machine) {
     let Some(Decision::Guarded { .. }) = decision else { return };
     let stated = machine.stated_errors();
@@ -324,7 +324,7 @@ fn read_what_if(root: &Section<'_>, machine: Machine) -> (Machine, Vec<String>) 
 }
 
 /// `[mounting] fixture = "3100 1250 -1200 mm"`: the fixture of the test piece there; without it
-/// the workpiece stands where the machine file has it.
+/// the workpiece stands where the machine file states.
 fn read_mounting(root: &Section<'_>, machine: Machine, piece: &TestPieceFile) -> Option<Machine> {
     if let Some(item) = root.get("mounting") {
         let fixture = item.section("mounting", |s| {

@@ -45,7 +45,7 @@ impl RunningTemperatures {
 pub(super) struct StudyTemperatures {
     /// At the start, or always; none without the section.
     pub conditions: Option<Conditions>,
-    /// The log behind the start.
+    /// The log after the start.
     pub running: Option<RunningTemperatures>,
 }
 
@@ -66,7 +66,7 @@ impl StudyTemperatures {
         let mut problems = Diagnostics::new();
         let warm = machine.at(conditions, &mut problems);
         let can_run = |running: &RunningTemperatures| {
-            // Only what is wrong with the log as a whole: the rest was told above.
+            // Only what is wrong with the log as a whole: the rest was reported above.
             let mut more = Diagnostics::new();
             let can = WarmingMachine::new(&machine, &running.run, &mut more).is_some();
             if !can && !problems.has_errors() {
@@ -159,7 +159,7 @@ impl CuttingClock {
         temperatures: Option<&RunningTemperatures>,
         way_mm: &[f64],
     ) -> Self {
-        // What is wrong with the log was told when the study was read.
+        // What is wrong with the log was reported when the study was read.
         let told = &mut Diagnostics::new();
         let warming = temperatures.and_then(|t| WarmingMachine::new(machine, &t.run, told));
         let times_s = temperatures.map_or(Vec::new(), |t| t.times_s(way_mm));

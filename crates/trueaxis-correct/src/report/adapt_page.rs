@@ -38,7 +38,7 @@ pub fn adapt_html(report: &AdaptReport<'_>) -> Result<String, DrawingError> {
             (walls(report))
         }
         section.long {
-            h2 { "What was found, and what is left" }
+            h2 { "Registration, form and remaining wall" }
             div.grid style="grid-template-columns:repeat(auto-fit,minmax(440px,1fr))" {
                 @for (title, svg) in &maps[2..] { (figure(title, svg)) }
             }

@@ -7,7 +7,7 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Axis, AxisKind, AxisSide};
 use trueaxis_machine::heat::ErrorPart;
 
-/// The units of an axis: of its positions, and of its errors for people, CSV and JSON.
+/// The units of an axis: of its positions, and of its errors in text, CSV and JSON.
 pub(super) struct Units {
     pub place: &'static str,
     place_scale: f64,
@@ -57,7 +57,7 @@ pub(super) fn increment(axis: &Axis, table: &ValueTable) -> String {
     format!("{} {}", (value.0 * 1e9).round() / 1e9, value.1)
 }
 
-/// What must be told aloud: where compensating the machine alone makes the part worse.
+/// Where compensating the machine alone makes the part worse.
 pub fn compensation_warnings(machine: &Machine, tables: &[ValueTable]) -> Vec<String> {
     let worse = tables.iter().filter(|t| t.machine_alone_is_worse());
     let tell = |table: &ValueTable| {

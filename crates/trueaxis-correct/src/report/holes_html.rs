@@ -165,7 +165,7 @@ impl Plan {
         let mut round: Vec<_> = holes.iter().map(|p| self.place(p.x, p.y)).collect();
         round.extend(round.first().copied());
         area.draw(&PathElement::new(round, pen(FAINT, 1))).map_err(drawing_error)?;
-        // All of them only where they can be told apart, and every quarter of them with its number.
+        // All of them only where they can be distinguished, and every quarter of them with its number.
         let every = holes.len().div_ceil(MOST_ARROWS).max(1);
         let numbered = holes.len().div_ceil(4).max(1);
         for (i, hole) in holes.iter().enumerate() {
@@ -211,7 +211,7 @@ impl Plan {
     }
 }
 
-/// More arrows than this cannot be told apart.
+/// More arrows than this cannot be distinguished.
 const MOST_ARROWS: usize = 96;
 /// Holes that the table lists, the first ones.
 const MOST_ROWS: usize = 1000;

@@ -79,7 +79,7 @@ fn index_section(study: &Study, prediction: &Prediction) -> Markup {
         section {
             h2 { "Indices" }
             p.soft { "All in µm; u is a standard uncertainty. The bold indices decide, after ISO; \
-                      those of the paper stand beside them. Rule: " (rule(study)) "." }
+                      those of the paper are for comparison. Rule: " (rule(study)) "." }
             div.scroll { table {
                 thead { tr {
                     th { "index" } th { "value" } th { "u, linear" } th { "u, Monte Carlo" }
@@ -275,7 +275,7 @@ fn blame_section(prediction: &Prediction) -> Result<Markup, DrawingError> {
     let groups = group_table(prediction);
     Ok(html! {
         section {
-            h2 { "Who is to blame" }
+            h2 { "Error budget" }
             p.soft { "Alone: the index if there were only this error. Gain: what the index loses if \
                       the error is removed; a negative gain means that it compensates others." }
             div.grid { @for (name, picture) in &pictures {

@@ -10,12 +10,12 @@ use trueaxis_machine::describe::command_words;
 use trueaxis_machine::errors::ErrorKind;
 use trueaxis_part::tolerance::{Judgement, Outcome};
 
-/// How many errors the table of blame shows.
+/// How many errors the error budget shows.
 const BLAMED: usize = 8;
 /// How many corrections are shown.
 const CORRECTIONS: usize = 5;
 
-/// The prediction as a table with the verdict, the blame and the corrections.
+/// The prediction as a table with the verdict, the error budget and the corrections.
 pub fn text(study: &Study, prediction: &Prediction) -> String {
     let mut out = String::new();
     header(&mut out, study, prediction);
@@ -112,7 +112,7 @@ fn blame_table(out: &mut String, prediction: &Prediction) {
     }
     line(
         out,
-        "who is to blame, µm (alone: this error only; gain: what the index loses without it, − = it helps)",
+        "error budget, µm (alone: this error only; gain: what the index loses without it; negative: it compensates others)",
     );
     let mut head = String::from("  ");
     for (_, index) in decisive(prediction) {

@@ -101,7 +101,7 @@ impl ProgramReport<'_> {
         say(
             n,
             format!(
-                "at {n} places an axis turns round by less than its reversal error: it is left"
+                "at {n} places an axis reverses by less than its reversal error: this is not compensated"
             ),
         );
         for (why, count) in &found.left {
@@ -129,7 +129,10 @@ impl ProgramReport<'_> {
             ));
         }
         if confidence.looked_at > 0 && confidence.largest_u_mm == 0.0 {
-            remarks.push("the machine file states no uncertainties: how sure the corrections are is not known".into());
+            remarks.push(
+                "the machine file states no uncertainties: those of the corrections are not known"
+                    .into(),
+            );
         }
         remarks
     }
@@ -146,7 +149,7 @@ impl ProgramReport<'_> {
     }
 }
 
-/// For people.
+/// As text.
 pub fn program_text(r: &ProgramReport<'_>) -> String {
     let mut text = String::new();
     let found = &r.rewritten.found;
@@ -162,7 +165,7 @@ pub fn program_text(r: &ProgramReport<'_>) -> String {
         r.rounding(),
         r.output
     );
-    let _ = writeln!(text, "read back and simulated on the machine as it is, largest deviation:");
+    let _ = writeln!(text, "read back and simulated on the actual machine, largest deviation:");
     let _ = writeln!(text, "{:36} {:>12} {:>14}   at line", "", "before", "after");
     for row in r.rows() {
         let (before, after) = (number(row.before), number(row.after));

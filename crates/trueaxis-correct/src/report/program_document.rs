@@ -128,7 +128,7 @@ pub struct AxisCorrection {
 /// How well the corrections are known.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct UncertaintyEntry {
-    /// Places that were looked at.
+    /// Places that were examined.
     pub places: usize,
     /// Of these, where the correction is smaller than its standard uncertainty.
     pub smaller_than_u: usize,

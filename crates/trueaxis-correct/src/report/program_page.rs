@@ -25,7 +25,7 @@ pub fn program_html(r: &ProgramReport<'_>) -> String {
                 } } }
             } }
             p.soft {
-                "The written program, read back and simulated on the machine as it is, against the \
+                "The written program, read back and simulated on the actual machine, against the \
                  program as it was on the nominal machine. Lines are those of the program as it was."
                 @if r.rewritten.confidence.largest_u_mm > 0.0 {
                     " The model itself is known to u = "

@@ -28,7 +28,7 @@ pub struct TablesReport<'a> {
 /// More errors than this tell a reader nothing new.
 const MOST_SHOWN: usize = 12;
 
-/// The tables for people.
+/// The tables as text.
 pub fn tables_text(report: &TablesReport<'_>) -> String {
     let TablesReport { machine, compiled, .. } = report;
     let name = |axis: usize| machine.axes()[axis].name;

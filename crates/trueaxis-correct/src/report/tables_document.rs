@@ -117,7 +117,7 @@ pub struct LineEntry {
     pub offset: Keyed<f64>,
 }
 
-/// A rotary axis as the control has it.
+/// A rotary axis as the control holds it.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct JointEntry {
     /// The axis.

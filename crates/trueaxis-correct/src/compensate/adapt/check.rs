@@ -119,7 +119,7 @@ fn gouges(study: &AdaptStudy, places: &[MovedPlace]) -> Option<Finding> {
         .collect();
     worst("gouge", deep, |depth| {
         format!(
-            "the cutter enters the wanted surface beside it by {:.1} µm (allowed {:.1} µm): it is too \
+            "the cutter enters the wanted surface next to it by {:.1} µm (allowed {:.1} µm): it is too \
              large for this hollow, or the path jumps",
             depth * 1e3,
             study.bounds.gouge_mm * 1e3

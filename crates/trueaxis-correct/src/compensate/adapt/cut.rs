@@ -20,7 +20,7 @@ const DEPTH_MM: f64 = 1.5;
 /// Steps of a ray.
 const MOST_STEPS: usize = 200;
 
-/// What is left at one place.
+/// What remains at one place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cell {
     /// On the nominal blank.

@@ -17,7 +17,7 @@ use trueaxis_geometry::statistics::normal_quantile_above;
 pub const MOST_POINTS: usize = 2500;
 /// The length of the field is chosen on so many of them.
 const MOST_CHOSEN_ON: usize = 260;
-/// A reading this many standard deviations off is looked at, whatever their number.
+/// A reading this many standard deviations off is examined, whatever their number.
 const LEAST_OUTLIER: f64 = 4.0;
 /// More outliers than this share are no outliers.
 const MOST_OUTLIERS: f64 = 0.1;

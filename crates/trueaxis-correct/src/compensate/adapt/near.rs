@@ -1,4 +1,4 @@
-//! Places of a tool in runs with a ball around each, so that most of them need not be looked at.
+//! Places of a tool in runs with a ball around each, so that most of them need not be examined.
 
 use super::cutter::Cutter;
 use trueaxis_geometry::Vec3;

@@ -6,7 +6,7 @@ use trueaxis_geometry::frame::rotation;
 use trueaxis_geometry::{Mat3, Vec3};
 
 /// A freedom that moves the surface along its normals by less than this share of itself (rms) cannot
-/// be told from the readings.
+/// be determined from the readings.
 const LEAST_EFFECT: f64 = 0.02;
 
 /// The freedoms of a rigid body that change readings along the normals.
@@ -115,7 +115,7 @@ impl Registration {
         self.rotation() * (p - center) + center + self.shift_mm()
     }
 
-    /// What cannot be told from the readings, in words.
+    /// What cannot be determined from the readings, in words.
     pub fn held_words(&self) -> Vec<String> {
         let f = &self.freedoms;
         f.held.iter().map(|q| words(q, &f.center_mm, f.arm_mm)).collect()

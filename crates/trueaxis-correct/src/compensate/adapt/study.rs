@@ -20,7 +20,7 @@ pub enum Follow {
     /// Every place along its normal by the whole deviation; tool axes are kept.
     #[default]
     Normals,
-    /// The whole path with the blank, tool axes too; what is left along the normals.
+    /// The whole path with the blank, tool axes too; what remains along the normals.
     Blank,
 }
 
@@ -54,7 +54,7 @@ pub enum Inner {
     /// Parallel to the outer one, as on a blank of even thickness.
     #[default]
     Follows,
-    /// Where the nominal part has it, as on a mandrel.
+    /// Where it is on the nominal part, as on a mandrel.
     Nominal,
 }
 
@@ -99,7 +99,7 @@ pub struct Bounds {
 /// Everything that an adaptation needs.
 #[derive(Debug, Clone)]
 pub struct AdaptStudy {
-    /// For people.
+    /// In words.
     pub name: String,
     /// The machine that cuts.
     pub machine: Machine,

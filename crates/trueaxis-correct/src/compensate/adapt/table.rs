@@ -9,7 +9,7 @@ const LEAST_POINTS: usize = 12;
 const LARGEST_DEVIATION_MM: f64 = 5.0;
 /// No part of such a machine is larger, mm.
 const LARGEST_COORDINATE_MM: f64 = 1e5;
-/// A normal whose length is off by more is told.
+/// A normal whose length is off by more is reported.
 const NORM_WARNING: f64 = 1e-4;
 /// A normal whose length is off by more is none.
 const NORM_ERROR: f64 = 0.05;

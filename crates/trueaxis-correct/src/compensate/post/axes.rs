@@ -68,7 +68,7 @@ pub(super) fn pass_poles(path: &mut Path, control: &TipControl, pole_rad: f64) -
         *at = moved[*at];
     }
     path.strokes = strokes;
-    // What is below the digits of programs is no deviation to be told.
+    // What is below the digits of programs is not reported as a deviation.
     if most > POLE_RAD { most } else { 0.0 }
 }
 

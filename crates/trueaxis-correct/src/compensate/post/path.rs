@@ -224,7 +224,7 @@ impl Builder<'_> {
         self.path.strokes.push(stroke);
     }
 
-    /// In mm/min; `None` where the file has none, which is told once.
+    /// In mm/min; `None` where the file has none, which is reported once.
     fn feed(&mut self, rapid: bool, feed: Option<Feed>, line: u32) -> Option<f64> {
         if rapid {
             return Some(0.0);

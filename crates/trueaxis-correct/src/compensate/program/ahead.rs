@@ -1,7 +1,7 @@
 //! The program ahead of what is written: its steps and the places that they lead to, in stretches.
 //!
 //! ```text
-//!     interpreter ──Step──> Ahead ──Stretch──> channel ──> Walk        one thread before, one behind
+//!     interpreter ──Step──> Ahead ──Stretch──> channel ──> Walk        one thread before, one after
 //! ```
 
 use std::ops::Range;
@@ -44,7 +44,7 @@ pub(super) struct Ahead {
 pub(super) struct Gather<'m> {
     nominal: AxisPath<'m>,
     stretch: Stretch,
-    /// `None` as soon as nobody listens.
+    /// `None` as soon as no receiver is left.
     to: Option<SyncSender<Stretch>>,
 }
 

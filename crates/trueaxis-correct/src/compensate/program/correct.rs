@@ -60,7 +60,7 @@ pub(super) struct Corrected {
     pub command: Command,
     /// Why the tool axis is left, if it is.
     pub left: Option<AxisLimitation>,
-    /// An axis turns round by less than its reversal error: no command meets the place.
+    /// An axis reverses by less than its reversal error: no command meets the place.
     pub undecided: bool,
 }
 
@@ -108,7 +108,7 @@ impl Corrector {
         self
     }
 
-    /// The machine as it is.
+    /// The actual machine.
     pub fn machine(&self) -> &Machine {
         self.pose.machine()
     }
@@ -154,7 +154,7 @@ impl Corrector {
         &self.least
     }
 
-    /// From where the axes come behind a motion, as it will be written.
+    /// From where the axes come after a motion, as it will be written.
     pub fn side_behind(&self, side: &Approach, from: &Command, to: &Command) -> Approach {
         turned(side, from, to, &self.least)
     }

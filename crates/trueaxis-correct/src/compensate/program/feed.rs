@@ -42,7 +42,7 @@ impl Block<'_> {
         match word {
             Some(Word { value: None, .. }) => {
                 let message = "the feed is computed, and would have to be changed".to_owned();
-                let hint = "write a number behind F, or unroll the program: --flat";
+                let hint = "write a number after F, or unroll the program: --flat";
                 return Err(refusal(self.m.origin, "computed-feed", message, hint));
             }
             Some(word) => self.edits.put(word.number.clone(), text),

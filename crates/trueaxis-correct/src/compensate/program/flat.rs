@@ -7,7 +7,7 @@
 //! ```
 //!
 //! Subprograms, loops, jumps, repeated parts and variables are gone then; comments of executed blocks
-//! stay. Blocks keep no numbers (nothing jumps to them), those of Klartext are counted anew.
+//! stay. Blocks keep no numbers (nothing jumps to them), those of Klartext are counted again.
 
 use super::number::Grid;
 use super::text::Edits;
@@ -181,7 +181,7 @@ impl Flat<'_> {
         }
     }
 
-    /// Lines behind the end of the execution that belong to every program: `%`, `END PGM`.
+    /// Lines after the end of the execution that belong to every program: `%`, `END PGM`.
     fn close(&mut self) {
         let Some(main) = self.programs.first() else { return };
         let source = String::from_utf8_lossy(main.source());
@@ -221,7 +221,7 @@ fn comments(program: &Program, line: &Range<usize>) -> Vec<u8> {
     each.join(&b' ')
 }
 
-/// A number in full, behind the address that stands before a byte.
+/// A number in full, after the address that stands before a byte.
 fn number(value: f64, source: &[u8], at: usize, program: &Program) -> String {
     let address = source[..at].last().map_or(b' ', u8::to_ascii_uppercase);
     let control = program.dialect().control;
@@ -243,7 +243,7 @@ fn differs(mounted: &Machine, [a, b]: [&Program; 2], setup: &SetUp) -> Option<u3
             execute(mounted, a, setup, &setup.settings(false), &mut |step| {
                 steps.push(step);
                 if steps.len() >= STEPS {
-                    // Nobody listens any more where they differ.
+                    // No receiver is left where they differ.
                     let _ = to.send(std::mem::take(&mut steps));
                 }
             });

@@ -8,7 +8,7 @@ use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
 
-/// Places at which uncertainties are looked at.
+/// Places at which uncertainties are evaluated.
 const PLACES: usize = 100;
 
 /// The largest correction of an axis.
@@ -27,7 +27,7 @@ pub struct LargestCorrection {
 /// What was done, in numbers.
 #[derive(Debug, Clone, Default)]
 pub struct Found {
-    /// Blocks that move the tool and were looked at.
+    /// Blocks that move the tool and were examined.
     pub blocks: u64,
     /// Blocks that became several.
     pub split: u64,
@@ -39,7 +39,7 @@ pub struct Found {
     pub words_added: u64,
     /// Blocks in which only the rotary axes moved, with a new F so that they take the same time.
     pub feeds_changed: u64,
-    /// Places where an axis turns round by less than its reversal error, or by rounding alone.
+    /// Places where an axis reverses by less than its reversal error, or by rounding alone.
     pub undecided: u64,
     /// Blocks that stay as they are, by reason.
     pub left: BTreeMap<&'static str, u64>,

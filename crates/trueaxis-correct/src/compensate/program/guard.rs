@@ -83,10 +83,10 @@ pub fn conventions(machine: &Machine, nominal: &Command, command: &Command) -> V
     rows
 }
 
-/// How sure the corrections are.
+/// How well the corrections are known.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Confidence {
-    /// Places that were looked at.
+    /// Places that were examined.
     pub looked_at: usize,
     /// Where the correction of the tip is smaller than its standard uncertainty.
     pub weaker: usize,

@@ -5,7 +5,7 @@ use std::ops::Range;
 use trueaxis_nc::Control;
 
 impl Block<'_> {
-    /// The block itself: what is added goes behind the words that are there.
+    /// The block itself: what is added goes after the words that are there.
     pub(super) fn first(&mut self, puts: Vec<Put>) {
         let (room, end) = (self.words.room(self.control), self.words.end);
         if self.is_circle() {
@@ -66,7 +66,7 @@ impl Block<'_> {
         self.further.push(line);
     }
 
-    /// M functions that act behind the travel go to the last piece.
+    /// M functions that act after the travel go to the last piece.
     pub(super) fn functions_at_end(&mut self) {
         if self.further.is_empty() {
             return;

@@ -158,7 +158,7 @@ impl Preparation {
                 Err(CompensationError::Batch(_)) => (0, self.open.len() - from),
             };
             self.open[from + known..from + bad].fill(true);
-            // How those before it went is not told.
+            // How those before it went is not recorded.
             by_scalar += 1;
             from += bad;
         }

@@ -63,7 +63,7 @@ pub(super) struct Sample {
     pub believed: Stand,
     /// From where the axes are taken to come.
     pub side: Approach,
-    /// The place before, from the other side: an axis turns round here.
+    /// The place before, from the other side: an axis reverses here.
     pub turns: bool,
 }
 

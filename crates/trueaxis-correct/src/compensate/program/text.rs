@@ -20,7 +20,7 @@ pub(super) struct Text<'p> {
     program: &'p Program,
     starts: Vec<usize>,
     lines: Vec<Line>,
-    /// G91 is in force behind this line.
+    /// G91 is in force after this line.
     incremental: (usize, bool),
     uses_increments: bool,
 }
@@ -146,7 +146,7 @@ impl<'p> Text<'p> {
         self.lines[line as usize - 1] != Line::AsItWas
     }
 
-    /// The new text with a comment behind its heading, and the new number of each line.
+    /// The new text with a comment after its heading, and the new number of each line.
     pub fn finish(self, comment: &str) -> (Vec<u8>, Vec<u32>) {
         let heading = self.heading();
         let ending: &[u8] = match self.starts.len() {

@@ -18,7 +18,7 @@ pub(super) struct Stop {
     pub side: Approach,
     /// The number of its correction that was made ahead.
     pub prepared: Option<usize>,
-    /// An axis turns round here: the same place again, from the other side.
+    /// An axis reverses here: the same place again, from the other side.
     pub turns: bool,
 }
 
@@ -30,14 +30,14 @@ const SAME: f64 = 1e-9;
 pub(super) struct At {
     pub u: f64,
     pub nominal: Command,
-    /// What is commanded for it in the mean of both sides: where that turns round, the axis does.
+    /// What is commanded for it in the mean of both sides: where that reverses, the axis does.
     pub mean: Command,
     /// The number of its correction.
     pub prepared: Option<usize>,
 }
 
-/// The places of a move from `begin` with the sides of their axes, and two stops where an axis turns
-/// round: one from each side. Motions up to `least` have no direction.
+/// The places of a move from `begin` with the sides of their axes, and two stops where an axis
+/// reverses: one from each side. Motions up to `least` have no direction.
 /// `mean_of` tells the mean command of a place between.
 pub(super) fn stops(
     begin: &At,
@@ -82,7 +82,7 @@ pub(super) fn stops(
 struct Turn {
     u: f64,
     axis: usize,
-    /// The side from which the axis comes behind it.
+    /// The side from which the axis comes after it.
     to: f64,
     /// It was not known before it.
     from_unknown: bool,

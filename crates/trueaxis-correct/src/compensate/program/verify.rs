@@ -1,4 +1,4 @@
-//! The proof: both programs simulated on the machine as it is, against what was programmed.
+//! The proof: both programs simulated on the actual machine, against what was programmed.
 
 use super::found::{Found, Want};
 use super::stand::Stand;
@@ -53,14 +53,14 @@ pub struct BlockResidual {
     pub axis_after_rad: f64,
 }
 
-/// What the written program does on the machine as it is.
+/// What the written program does on the actual machine.
 #[derive(Debug, Clone, Default)]
 pub struct Proof {
     /// The program as it was.
     pub before: Residual,
     /// The program that was written.
     pub after: Residual,
-    /// The worst blocks, by what is left of the tip.
+    /// The worst blocks, by the residual error of the tip.
     pub worst: Vec<BlockResidual>,
     /// Pieces compared at their ends.
     pub compared: u64,

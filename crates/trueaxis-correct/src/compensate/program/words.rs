@@ -42,11 +42,11 @@ pub(super) struct Words {
     pub incremental: Option<bool>,
     /// `/`, with its number.
     pub skip: Option<Range<usize>>,
-    /// Behind number and `/` of the block.
+    /// After number and `/` of the block.
     pub front: usize,
-    /// Behind the last word.
+    /// After the last word.
     pub end: usize,
-    /// Behind the last word of an axis or of the tool axis.
+    /// After the last word of an axis or of the tool axis.
     pub behind_axes: Option<usize>,
     /// Goes on in the next line.
     pub torn: bool,

@@ -201,7 +201,7 @@ fn middle(machine: &Machine) -> Command {
     reference
 }
 
-/// The function is first looked at here: size and uncertainty.
+/// The function is examined here first: size and uncertainty.
 const GLANCES: i64 = 32;
 
 /// A table for a pair of axes; or why there should be none, without a reason if there is nothing to do.

@@ -126,7 +126,7 @@ pub trait Control {
         table.at(position, side)
     }
 
-    /// What the control needs besides the files, for people.
+    /// What the control needs besides the files, in words.
     fn advice(&self) -> &'static [&'static str];
 }
 

@@ -23,7 +23,7 @@ impl<'a> Emulation<'a> {
         Self { machine, control, content }
     }
 
-    /// The machine as it is.
+    /// The actual machine.
     pub fn machine(&self) -> &Machine {
         self.machine
     }

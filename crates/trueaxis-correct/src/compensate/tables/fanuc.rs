@@ -129,7 +129,7 @@ impl Control for Fanuc {
             "check the sign with one table and a dial before all are loaded; power off and on, then reference return, before it acts",
             "compare PITCH.TXT and PARAM.TXT with files that the control has punched: lines and parameter numbers are those of 16i manuals and of backups of 31i controls, N10000Q0 is not proved",
             "GRID3D.CSV lists the points of 3-D error compensation (option); its file form is not public: enter the grid with the parameters of the function",
-            "straightness compensation is left off: the grid has it",
+            "straightness compensation is off: the grid contains it",
             "kinematics.csv: the centres belong into the parameters of the 5-axis machine (19700 ff.); their directions stay nominal",
         ]
     }

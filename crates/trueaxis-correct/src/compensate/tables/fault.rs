@@ -21,7 +21,7 @@ pub enum TablesError {
     /// A position that an error table does not cover.
     #[error(transparent)]
     Position(#[from] CommandFault),
-    /// A correction that nobody should load unseen.
+    /// A correction that should not be loaded without being examined.
     #[error("{output} would have to be corrected by {value} at {input} {at}, more than {limit}")]
     TooLarge {
         /// The axis that is moved.
@@ -59,7 +59,7 @@ pub enum TablesError {
         /// What was asked.
         bound: String,
     },
-    /// An error that nobody should load unseen.
+    /// An error that should not be loaded without being examined.
     #[error("{error} is {value} somewhere in the travel, above the limit of {limit}")]
     ErrorTooLarge {
         /// Which.

@@ -142,7 +142,7 @@ impl Grid {
     }
 }
 
-/// Places are looked at between the points, so many along each axis.
+/// Places are checked between the points, so many along each axis.
 const LOOKS: i64 = 13;
 
 /// The grid with few points that loses at most `bound` (counts): along each axis as many as its own curvature

@@ -89,7 +89,7 @@ impl Control for Heidenhain {
     fn advice(&self) -> &'static [&'static str] {
         &[
             "head and columns of .COM are those of a TNC 640 as a program of practice writes them; .CMA and COMPTAB have no public form: enter their rows with the table editor of the control",
-            "BACKLASH holds the values of the negative direction, as the manual of the MANUALplus 620 has it",
+            "BACKLASH holds the values of the negative direction, as in the manual of the MANUALplus 620",
             "values are actual minus nominal, mm and deg; check the sign with one table and a dial before all are switched on",
             "COMPTAB.TXT has the rows that stand in front of each MachAxis of the kinematics table, which has to be in the form with KEY, AXIS, COORD; KinematicsComp is an option",
             "positions are machine positions; location errors stand in the functions of their axis",
@@ -160,7 +160,7 @@ fn rows(machine: &Machine, content: &Content) -> String {
     text + "[END]\n"
 }
 
-/// Rows of numbers behind a head that begins with NR AXISPOS.
+/// Rows of numbers after a head that begins with NR AXISPOS.
 fn cells(file: &File) -> Result<(Vec<&str>, Vec<Vec<f64>>), ReadFault> {
     let fault = |line: usize, expected: &str| {
         ReadFault::new(&file.name, format!("line {}: {expected}", line + 1))
@@ -184,7 +184,7 @@ fn cells(file: &File) -> Result<(Vec<&str>, Vec<Vec<f64>>), ReadFault> {
         let row = row.filter(|r| r.len() == head.len());
         rows.push(row.ok_or_else(|| fault(i, "one number for each column"))?);
     }
-    Err(ReadFault::new(&file.name, "[END] behind the last row"))
+    Err(ReadFault::new(&file.name, "[END] after the last row"))
 }
 
 fn whole(value: f64) -> i64 {

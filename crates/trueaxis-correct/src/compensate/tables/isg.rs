@@ -184,7 +184,7 @@ fn blocks(machine: &Machine, file: &File) -> Result<Vec<Known>, ReadFault> {
     }
     match block.is_empty() {
         true => Ok(known),
-        false => Err(ReadFault::new(&file.name, "`#` behind the last block")),
+        false => Err(ReadFault::new(&file.name, "`#` after the last block")),
     }
 }
 

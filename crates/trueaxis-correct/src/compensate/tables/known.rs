@@ -14,9 +14,9 @@ use trueaxis_machine::chain::{CommandFault, ErrorFrame};
 use trueaxis_machine::errors::{Component, ErrorIndex, ErrorKind, ErrorName, ErrorValues};
 use trueaxis_machine::volume::commands;
 
-/// Poses at which the reach of a rotation is looked at, beside the corners.
+/// Poses at which the reach of a rotation is examined, besides the corners.
 const POSES: u32 = 32;
-/// An error is looked at so often before it is placed.
+/// An error is evaluated so often before it is placed.
 const GLANCES: i64 = 32;
 /// A rotation for the reach, rad.
 const SMALL_RAD: f64 = 1e-6;

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! R and d are the turn and the shift of J(q); to first order. docs/model.md eq. 180. What the products of two
-//! errors add is part of what is left, which is judged on the whole machine.
+//! errors add is part of the residual error, which is judged on the whole machine.
 
 use super::content::Content;
 use super::control::Control;
@@ -36,14 +36,14 @@ impl Joint {
         }
     }
 
-    /// A small motion in front of the joint as one behind it.
+    /// A small motion before the joint as one after it.
     fn moving_from_fixed(&self, six: &SixErrors) -> SixErrors {
         let (shift, turn) = halves(six);
         let back = self.turn.transpose();
         joined(back * (shift + turn.cross(&self.shift)), back * turn)
     }
 
-    /// A small motion behind the joint as one in front of it.
+    /// A small motion after the joint as one before it.
     fn fixed_from_moving(&self, six: &SixErrors) -> SixErrors {
         let (shift, turn) = halves(six);
         let turn = self.turn * turn;

@@ -6,7 +6,7 @@
 //!     motor position = commanded position + trim              straight between the rows, held beyond
 //! ```
 //!
-//! As the source has it: `usrmotLoadComp` (src/emc/motion/usrmotintf.cc) reads triplets until the first
+//! As in the source: `usrmotLoadComp` (src/emc/motion/usrmotintf.cc) reads triplets until the first
 //! line that is none, so there can be no comment; `EMCMOT_SET_JOINT_COMP` (command.c) refuses the 257th and
 //! positions that do not rise, and keeps trims and slopes in single precision; `compute_screw_comp` (control.c)
 //! takes the forward trim while the joint rises and the reverse one while it falls.
@@ -149,7 +149,7 @@ fn joints(ini: &File) -> Result<Vec<Joint>, ReadFault> {
             }
             ("COMP_FILE_TYPE", kind @ ("0" | "1"), Some(joint)) => joint.trims = kind == "1",
             ("COMP_FILE_TYPE", _, _) => {
-                return Err(ReadFault::new(INI, "COMP_FILE_TYPE 0 or 1 behind COMP_FILE"));
+                return Err(ReadFault::new(INI, "COMP_FILE_TYPE 0 or 1 after COMP_FILE"));
             }
             _ => {}
         }

@@ -71,7 +71,7 @@ impl Module {
         Some([find('C')?, find(self.tilt)?])
     }
 
-    /// Whether tool and table of the machine stand to each other as this module has it, and the tool along Z.
+    /// Whether tool and table of the machine stand to each other as in this module, and the tool along Z.
     fn is_of(&self, machine: &Machine, sense: f64) -> Option<bool> {
         let axes = self.axes(machine)?;
         let [p, t] = self.pair(&Joints::nominal(machine))?.map(|j| j.point_mm());
@@ -130,7 +130,7 @@ pub fn write(machine: &Machine, joints: &Joints) -> Option<File> {
     );
     if sense > 0.0 {
         text += &format!(
-            "# {tilt} and C turn as ISO 841 has it: LinuxCNC before 2.10 cannot, from then on it needs this line\n\
+            "# {tilt} and C turn as in ISO 841: LinuxCNC before 2.10 cannot, from then on it needs this line\n\
              # setp {name}.conventional-directions 1\n"
         );
     }
@@ -208,7 +208,7 @@ mod tests {
     }
 
     /// The tool stands 250 mm above the table whose C axis lies 10 µm too far in x and whose A axis, 20 mm below and
-    /// 15 mm behind, 4 µm too high: so x-rot-point is 0.010, z-rot-point −250 + 0.004 because C lies on A, and from C
+    /// 15 mm further back, 4 µm too high: so x-rot-point is 0.010, z-rot-point −250 + 0.004 because C lies on A, and from C
     /// to A it is as it was.
     #[test]
     fn a_centre_moved_by_ten_micrometres() {

@@ -3,7 +3,7 @@
 use super::table::{Node, PER_UNIT, interpolated};
 use trueaxis_machine::chain::CommandFault;
 
-/// The function is looked at so many places between the ends.
+/// The function is evaluated at so many places between the ends.
 const LOOKS: i64 = 1024;
 /// Above this many nodes the search goes on in steps of a 32nd, not one by one.
 const ONE_BY_ONE: usize = 64;

@@ -28,7 +28,7 @@ const SMALL_SHARE: f64 = 0.02;
 /// How far the tool is off over the volume.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Left {
-    /// Poses that were looked at, each in two directions.
+    /// Poses that were evaluated, each in two directions.
     pub poses: usize,
     /// The largest distance of the tips, mm.
     pub max_mm: f64,
@@ -55,7 +55,7 @@ pub struct ErrorLoss {
     pub instead: &'static str,
 }
 
-/// What is left over the volume.
+/// The residual error over the volume.
 ///
 /// # Errors
 /// No pose at all at which the errors are known.
@@ -133,7 +133,7 @@ pub fn error_losses(
 struct Best<'a> {
     /// With what the control's chain knows.
     chain: &'a Machine,
-    /// With what is left to tables and grid.
+    /// With what remains for tables and grid.
     rest: &'a Machine,
     control: &'a dyn Control,
     content: &'a Content,

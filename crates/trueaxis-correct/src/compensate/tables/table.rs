@@ -70,7 +70,7 @@ impl Table {
     }
 }
 
-/// The value between nodes as [`Table::at`] has it.
+/// The value between nodes as in [`Table::at`].
 pub fn interpolated(nodes: &[Node], modulo: bool, position: f64, side: f64) -> f64 {
     let Some((first, last)) = nodes.first().zip(nodes.last()) else { return 0.0 };
     let position = match modulo {

@@ -53,7 +53,7 @@ fn axes(machine: &Machine) -> Option<(Kind, [BodyName; 2])> {
     Some(match (first.carries, second.carries) {
         (AxisSide::Tool, AxisSide::Tool) => (Kind::Head, [first.name, second.name]),
         (AxisSide::Workpiece, AxisSide::Workpiece) => (Kind::Table, [first.name, second.name]),
-        // Those that carry the workpiece were looked at first.
+        // Those that carry the workpiece were treated first.
         _ => (Kind::Both, [second.name, first.name]),
     })
 }

@@ -1,4 +1,4 @@
-//! Places of a move: those that the program passes, and those where an axis turns round.
+//! Places of a move: those that the program passes, and those where an axis reverses.
 
 use super::super::correct::{Corrected, Place, reached};
 use super::super::refuse::refusal;
