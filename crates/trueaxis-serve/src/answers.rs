@@ -8,14 +8,68 @@ mod plan;
 mod predict;
 mod project;
 mod report;
+mod settings;
 mod simulate;
-mod wants;
+mod simulate_document;
 
+pub(crate) use project::ChangeEntry;
 pub(crate) use simulate::Simulated;
 
-use crate::desk::{Desk, Job, Reply};
+use crate::body;
+use crate::desk::{Desk, Job};
+use crate::frame::{Arrays, Frame};
 use crate::refusal::Refusal;
+use schemars::JsonSchema;
+use schemars::generate::SchemaSettings;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use serde_json::Value;
+use std::marker::PhantomData;
+use trueaxis::NamedSchema;
+use trueaxis::report::{DiagnosticEntry, document, named_schema};
+
+/// A request of the page; how it is answered stands with it.
+pub(crate) trait Request: DeserializeOwned + JsonSchema {
+    /// The answer: a document, or the header of a binary piece.
+    type Answer<'a>: Serialize + JsonSchema;
+
+    /// Answers it.
+    fn answer(self, desk: &Desk, job: &Job) -> Result<Reply<Self>, Refusal>;
+}
+
+/// The answer to a request of one type, ready to be sent.
+pub(crate) struct Reply<R> {
+    message: Message,
+    request: PhantomData<R>,
+}
+
+/// An answer on its way.
+#[derive(Debug)]
+pub(crate) enum Message {
+    Json(Value),
+    Frame(Frame),
+}
+
+impl<R: Request> Reply<R> {
+    /// A document.
+    fn json(answer: &R::Answer<'_>) -> Self {
+        Self { message: Message::Json(document(answer)), request: PhantomData }
+    }
+
+    /// A header with its arrays.
+    fn frame(header: &R::Answer<'_>, arrays: Arrays) -> Self {
+        Self { message: Message::Frame(Frame::new(header, arrays)), request: PhantomData }
+    }
+}
+
+/// A document of the command line with the problems of its input.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(crate) struct Diagnosed<'a, T> {
+    #[serde(flatten)]
+    document: T,
+    /// The problems found in the input.
+    diagnostics: Vec<DiagnosticEntry<'a>>,
+}
 
 /// How long a request usually takes.
 #[derive(Debug, Clone, Copy)]
@@ -26,47 +80,58 @@ pub(crate) enum Pace {
     Long,
 }
 
-/// One request.
-pub(crate) struct Answer {
+/// One kind of request.
+pub(crate) struct Question {
     pub(crate) name: &'static str,
     pub(crate) pace: Pace,
-    pub(crate) work: fn(&Desk, &Value, &Job) -> Result<Reply, Refusal>,
+    pub(crate) work: fn(&Desk, Value, &Job) -> Result<Message, Refusal>,
+    pub(crate) schemas: fn() -> [NamedSchema; 2],
 }
 
-const fn quick(
-    name: &'static str,
-    work: fn(&Desk, &Value, &Job) -> Result<Reply, Refusal>,
-) -> Answer {
-    Answer { name, pace: Pace::Quick, work }
+fn work<R: Request>(desk: &Desk, body: Value, job: &Job) -> Result<Message, Refusal> {
+    Ok(body::read::<R>(body)?.answer(desk, job)?.message)
 }
 
-const fn long(
-    name: &'static str,
-    work: fn(&Desk, &Value, &Job) -> Result<Reply, Refusal>,
-) -> Answer {
-    Answer { name, pace: Pace::Long, work }
+/// The JSON Schema of what the server reads, under its name.
+pub(crate) fn request_schema<R: JsonSchema>(name: &'static str) -> NamedSchema {
+    let settings = SchemaSettings::draft2020_12().for_deserialize();
+    (name, settings.into_generator().into_root_schema_for::<R>())
+}
+
+macro_rules! questions {
+    ($($pace:ident $name:literal => $request:ty,)*) => {
+        &[$(Question {
+            name: $name,
+            pace: Pace::$pace,
+            work: work::<$request>,
+            schemas: || [
+                named_schema::<<$request as Request>::Answer<'static>>(concat!("serve-", $name)),
+                request_schema::<$request>(concat!("serve-", $name, "-request")),
+            ],
+        }),*]
+    };
 }
 
 /// All of them.
-pub(crate) const ANSWERS: &[Answer] = &[
-    quick("project", project::project),
-    quick("open", project::open),
-    quick("save", project::save),
-    quick("describe", describe::describe),
-    quick("models", describe::models),
-    quick("pose", describe::pose),
-    quick("set-error", describe::set_error),
-    long("predict", predict::whole),
-    quick("what-if", predict::what_if),
-    long("plan", plan::plan),
-    long("identify", identify::identify),
-    quick("standards", evaluate::standards),
-    quick("evaluate", evaluate::evaluate),
-    long("report", report::report),
-    long("simulate", simulate::simulate),
-    quick("simulation-at", simulate::at),
-    quick("simulation-block", simulate::block),
-    quick("simulation-path", simulate::path),
-    quick("simulation-curves", simulate::curves),
-    quick("simulation-source", simulate::source),
-];
+pub(crate) const QUESTIONS: &[Question] = questions! {
+    Quick "project" => project::ProjectRequest,
+    Quick "open" => project::OpenRequest,
+    Quick "save" => project::SaveRequest,
+    Quick "describe" => describe::DescribeRequest,
+    Quick "models" => describe::ModelsRequest,
+    Quick "pose" => describe::PoseRequest,
+    Quick "set-error" => describe::SetErrorRequest,
+    Long "predict" => predict::PredictRequest,
+    Quick "what-if" => predict::WhatIfRequest,
+    Long "plan" => plan::PlanRequest,
+    Long "identify" => identify::IdentifyRequest,
+    Quick "standards" => evaluate::StandardsRequest,
+    Quick "evaluate" => evaluate::EvaluateRequest,
+    Long "report" => report::ReportRequest,
+    Long "simulate" => simulate_document::SimulateRequest,
+    Quick "simulation-at" => simulate_document::SimulationAtRequest,
+    Quick "simulation-block" => simulate_document::SimulationBlockRequest,
+    Quick "simulation-path" => simulate_document::SimulationPathRequest,
+    Quick "simulation-curves" => simulate_document::SimulationCurvesRequest,
+    Quick "simulation-source" => simulate_document::SimulationSourceRequest,
+};

@@ -1,82 +1,58 @@
-//! The words of a request.
+//! The body of a request: JSON that becomes a type, or a refusal that names the wrong part.
 
 use crate::refusal::Refusal;
-use serde_json::{Map, Value};
+use serde::de::DeserializeOwned;
+use serde_json::Value;
 
-/// The body of a request: a JSON object with known keys.
-pub(crate) struct Body<'a>(&'a Map<String, Value>);
+/// Characters of a message that quotes what was sent.
+const MOST_QUOTED: usize = 300;
 
-impl<'a> Body<'a> {
-    /// Only these keys are understood; any other is refused by name.
-    pub(crate) fn of(value: &'a Value, known: &[&str]) -> Result<Self, Refusal> {
-        let Some(map) = value.as_object() else {
-            return Err(Refusal::bad("the body is no JSON object", "such as {}"));
-        };
-        match map.keys().find(|key| !known.contains(&key.as_str())) {
-            Some(key) => {
-                let hint = format!("known here: {}", known.join(", "));
-                Err(Refusal::bad(format!("`{}` is not understood", short(key)), &hint))
-            }
-            None => Ok(Self(map)),
-        }
+/// The request in a body; unknown names and wrong types are refused by their place.
+pub(crate) fn read<T: DeserializeOwned>(body: Value) -> Result<T, Refusal> {
+    if !body.is_object() {
+        return Err(Refusal::bad("the body is not a JSON object", "such as {}"));
     }
-
-    fn due(key: &str, what: &str) -> Refusal {
-        Refusal::bad(format!("`{key}` is due as {what}"), "")
-    }
-
-    pub(crate) fn optional(&self, key: &str) -> Option<&'a Value> {
-        self.0.get(key).filter(|value| !value.is_null())
-    }
-
-    pub(crate) fn text(&self, key: &str) -> Result<&'a str, Refusal> {
-        self.optional_text(key)?.ok_or_else(|| Self::due(key, "a text"))
-    }
-
-    pub(crate) fn optional_text(&self, key: &str) -> Result<Option<&'a str>, Refusal> {
-        let text = |v: &'a Value| v.as_str().ok_or_else(|| Self::due(key, "a text"));
-        self.optional(key).map(text).transpose()
-    }
-
-    pub(crate) fn number(&self, key: &str) -> Result<f64, Refusal> {
-        self.optional_number(key)?.ok_or_else(|| Self::due(key, "a number"))
-    }
-
-    pub(crate) fn optional_number(&self, key: &str) -> Result<Option<f64>, Refusal> {
-        let number = |v: &Value| v.as_f64().ok_or_else(|| Self::due(key, "a number"));
-        self.optional(key).map(number).transpose()
-    }
-
-    pub(crate) fn count(&self, key: &str) -> Result<usize, Refusal> {
-        let whole = self.optional(key).and_then(Value::as_u64);
-        whole.map(|n| n as usize).ok_or_else(|| Self::due(key, "a whole number"))
-    }
-
-    /// True or false, or what it is if nothing is said.
-    pub(crate) fn flag(&self, key: &str, usual: bool) -> Result<bool, Refusal> {
-        let flag = |v: &Value| v.as_bool().ok_or_else(|| Self::due(key, "true or false"));
-        self.optional(key).map_or(Ok(usual), flag)
-    }
-
-    /// A list of texts.
-    pub(crate) fn texts(&self, key: &str) -> Result<Vec<&'a str>, Refusal> {
-        let texts = |v: &'a Value| v.as_array()?.iter().map(Value::as_str).collect();
-        self.optional(key).and_then(texts).ok_or_else(|| Self::due(key, "a list of texts"))
-    }
-
-    /// Names with numbers; none is an empty list.
-    pub(crate) fn numbers(&self, key: &str) -> Result<Vec<(&'a str, f64)>, Refusal> {
-        let Some(value) = self.optional(key) else { return Ok(Vec::new()) };
-        let what = "names with numbers";
-        let map = value.as_object().ok_or_else(|| Self::due(key, what))?;
-        let one = |(name, value): (&'a String, &Value)| {
-            value.as_f64().map(|x| (name.as_str(), x)).ok_or_else(|| Self::due(key, what))
-        };
-        map.iter().map(one).collect()
-    }
+    serde_path_to_error::deserialize(body).map_err(|error| {
+        let place = short(&error.path().to_string());
+        let problem: String = error.inner().to_string().chars().take(MOST_QUOTED).collect();
+        Refusal::bad(
+            match &*place {
+                "." => problem,
+                place => format!("`{place}`: {problem}"),
+            },
+            "",
+        )
+    })
 }
 
-/// What somebody sent, not longer than a message should be.
+/// A name that the request needs in its present form.
+pub(crate) fn needed<T>(value: Option<T>, name: &str) -> Result<T, Refusal> {
+    value.ok_or_else(|| Refusal::bad(format!("missing field `{name}`"), ""))
+}
+
+/// The beginning of a text from a request, for a message.
 pub(crate) fn short(text: &str) -> String {
     text.chars().take(60).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[derive(serde::Deserialize, Debug)]
+    #[serde(deny_unknown_fields)]
+    struct Position {
+        #[allow(dead_code)]
+        at: std::collections::BTreeMap<String, f64>,
+    }
+
+    #[test]
+    fn the_wrong_part_is_named() {
+        let refused = |body| crate::refusal::tests::message(&read::<Position>(body).unwrap_err());
+        assert!(refused(json!({ "at": { "X": "1" } })).starts_with("`at.X`: invalid type"));
+        assert!(refused(json!({ "at": {}, "to": 1 })).contains("unknown field `to`"));
+        assert_eq!(refused(json!({})), "missing field `at`");
+        assert_eq!(refused(json!([])), "the body is not a JSON object");
+    }
 }

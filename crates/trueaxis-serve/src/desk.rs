@@ -1,8 +1,7 @@
 //! What the server keeps between requests, and how it works on one.
 
-use crate::answers::{ANSWERS, Answer, Pace};
+use crate::answers::{ChangeEntry, Message, Pace, QUESTIONS, Question};
 use crate::body::short;
-use crate::frame::Frame;
 use crate::kept::Kept;
 use crate::project::Project;
 use crate::refusal::Refusal;
@@ -19,13 +18,6 @@ const QUICK_AT_A_TIME: usize = 4;
 const LONG_AT_A_TIME: usize = 2;
 /// How long a request may wait for its turn.
 const TURN: Duration = Duration::from_secs(60);
-
-/// What comes back.
-#[derive(Debug)]
-pub(crate) enum Reply {
-    Json(Value),
-    Frame(Frame),
-}
 
 /// One request at work: whom to tell, and whether anybody still waits for it.
 #[derive(Clone)]
@@ -53,7 +45,7 @@ pub(crate) struct Desk {
     /// One file is saved at a time: between looking at its version and replacing it.
     pub(crate) saving: Mutex<()>,
     /// Files that were saved, for the other windows.
-    pub(crate) changed: broadcast::Sender<Value>,
+    pub(crate) changed: broadcast::Sender<ChangeEntry>,
     quick: Arc<Semaphore>,
     long: Arc<Semaphore>,
 }
@@ -78,10 +70,10 @@ pub(crate) async fn answer(
     name: &str,
     body: Value,
     job: Job,
-) -> Result<Reply, Refusal> {
-    let Some(Answer { pace, work, .. }) = ANSWERS.iter().find(|a| a.name == name) else {
-        let names: Vec<_> = ANSWERS.iter().map(|a| a.name).collect();
-        let message = format!("`{}` is no request", short(name));
+) -> Result<Message, Refusal> {
+    let Some(Question { pace, work, .. }) = QUESTIONS.iter().find(|a| a.name == name) else {
+        let names: Vec<_> = QUESTIONS.iter().map(|a| a.name).collect();
+        let message = format!("`{}` is not a known request", short(name));
         return Err(Refusal::new(404, "unknown-request", message, &names.join(", ")));
     };
     let (turns, most) = match pace {
@@ -95,7 +87,7 @@ pub(crate) async fn answer(
     let stop = job.stop.clone();
     let working = tokio::task::spawn_blocking(move || {
         let _turn = turn;
-        trueaxis::files::within(desk.project.root(), || work(&desk, &body, &job))
+        trueaxis::files::within(desk.project.root(), || work(&desk, body, &job))
     });
     match timeout(most, working).await {
         Ok(Ok(answer)) => answer,

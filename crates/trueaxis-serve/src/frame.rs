@@ -8,7 +8,10 @@
 //!
 //! Every array begins at a multiple of 8, so the page looks at it in place.
 
-use serde_json::{Map, Value, json};
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::Value;
+use trueaxis::report::document;
 
 /// Numbers of one kind.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,41 +43,53 @@ impl Array {
     }
 }
 
+/// The arrays of an answer by name.
+pub(crate) type Arrays = Vec<(&'static str, Array)>;
+
 /// A header and arrays.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Frame {
-    header: Map<String, Value>,
-    arrays: Vec<(&'static str, Array)>,
+    header: Value,
+    arrays: Arrays,
+}
+
+/// The header as it goes over the wire.
+#[derive(Serialize)]
+struct Header<'a> {
+    #[serde(flatten)]
+    answer: &'a Value,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    id: Option<u64>,
+    arrays: Vec<ArrayEntry>,
+}
+
+/// An array of a binary answer.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct ArrayEntry {
+    /// Its name.
+    name: &'static str,
+    /// The type of its numbers, little endian.
+    #[serde(rename = "type")]
+    #[schemars(extend("enum" = ["f64", "f32", "u32", "u8"]))]
+    kind: &'static str,
+    /// How many numbers it has.
+    count: usize,
 }
 
 impl Frame {
-    pub(crate) fn new() -> Self {
-        Self::default()
-    }
-
-    /// A word of the header.
-    pub(crate) fn say(mut self, key: &str, value: Value) -> Self {
-        self.header.insert(key.to_owned(), value);
-        self
-    }
-
-    pub(crate) fn with(mut self, name: &'static str, array: Array) -> Self {
-        self.arrays.push((name, array));
-        self
+    /// An answer, whose fields are the header, with its arrays.
+    pub(crate) fn new(header: &impl Serialize, arrays: Arrays) -> Self {
+        Self { header: document(header), arrays }
     }
 
     /// The piece as it goes over the wire; `id` is that of the request.
-    pub(crate) fn bytes(mut self, id: Option<u64>) -> Vec<u8> {
-        if let Some(id) = id {
-            self.header.insert("id".to_owned(), json!(id));
-        }
-        let list = self.arrays.iter().map(|(name, array)| {
+    pub(crate) fn bytes(&self, id: Option<u64>) -> Vec<u8> {
+        let arrays = self.arrays.iter().map(|(name, array)| {
             let (kind, count) = array.kind();
-            json!({ "name": name, "type": kind, "count": count })
+            ArrayEntry { name, kind, count }
         });
-        let list: Value = list.collect();
-        self.header.insert("arrays".to_owned(), list);
-        let header = Value::Object(self.header).to_string();
+        let header = Header { answer: &self.header, id, arrays: arrays.collect() };
+        let header = document(&header).to_string();
         let mut bytes = (header.len() as u32).to_le_bytes().to_vec();
         bytes.extend(header.as_bytes());
         bytes.resize(bytes.len().next_multiple_of(8), 0);
@@ -86,10 +101,12 @@ impl Frame {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use serde_json::json;
 
     #[test]
     fn arrays_begin_at_multiples_of_eight() {
-        let frame = Frame::new().with("a", Array::U8(vec![7])).with("b", Array::F64(vec![1.5]));
+        let arrays = vec![("a", Array::U8(vec![7])), ("b", Array::F64(vec![1.5]))];
+        let frame = Frame::new(&json!({}), arrays);
         let bytes = frame.bytes(Some(3));
         let length = u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]) as usize;
         let header: Value = serde_json::from_slice(&bytes[4..4 + length]).unwrap();

@@ -24,16 +24,17 @@ impl<T> Kept<T> {
         self.numbered.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Keeps a result; its number.
-    pub(crate) fn put(&self, value: T) -> u64 {
+    /// Keeps a result; its number and the result.
+    pub(crate) fn put(&self, value: T) -> (u64, Arc<T>) {
+        let value = Arc::new(value);
         let mut kept = self.lock();
         kept.last += 1;
         let number = kept.last;
-        kept.results.push_back((number, Arc::new(value)));
+        kept.results.push_back((number, value.clone()));
         if kept.results.len() > self.most {
             kept.results.pop_front();
         }
-        number
+        (number, value)
     }
 
     /// The result of a number, if it is still there.
@@ -50,7 +51,7 @@ mod tests {
     #[test]
     fn the_oldest_goes() {
         let kept = Kept::of(2);
-        let numbers = [kept.put('a'), kept.put('b'), kept.put('c')];
+        let numbers = ['a', 'b', 'c'].map(|result| kept.put(result).0);
         let there = numbers.map(|n| kept.of_number(n).map(|v| *v));
         assert_eq!(there, [None, Some('b'), Some('c')]);
     }

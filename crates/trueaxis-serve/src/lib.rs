@@ -48,6 +48,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 use tokio::sync::Semaphore;
+use trueaxis::NamedSchema;
+use trueaxis::report::named_schema;
 
 /// The port where one looks first.
 pub const USUAL_PORT: u16 = 7841;
@@ -60,6 +62,18 @@ const HEAD: Duration = Duration::from_secs(10);
 
 /// How long somebody may not read what was sent to him.
 const UNREAD: Duration = Duration::from_secs(30);
+
+/// The JSON Schemas of what the server sends and reads, by name, such as `serve-pose` and `serve-pose-request`;
+/// those of the documents in its answers stand in them, too.
+pub fn schemas() -> Vec<NamedSchema> {
+    let mut all: Vec<NamedSchema> = answers::QUESTIONS.iter().flat_map(|q| (q.schemas)()).collect();
+    all.push(named_schema::<frame::ArrayEntry>("serve-array"));
+    all.push(named_schema::<refusal::RefusedAnswer<'_>>("serve-refused"));
+    all.push(named_schema::<socket::SocketAnswer<'_>>("serve-socket"));
+    all.push(answers::request_schema::<socket::SocketRequest>("serve-socket-request"));
+    all.sort_by_key(|(name, _)| *name);
+    all
+}
 
 /// What is shown, and where.
 #[derive(Debug, Clone)]

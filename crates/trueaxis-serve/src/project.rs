@@ -2,11 +2,12 @@
 
 use crate::body::short;
 use crate::refusal::Refusal;
-use serde_json::{Value, json};
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Component, Path, PathBuf};
-use trueaxis::input::{Diagnostics, Section, SourceText};
+use trueaxis::input::{Diagnostics, Item, Section, SourceText};
 
 /// A folder with more files than this is no project; the list ends there and says so.
 const MOST_FILES: usize = 5000;
@@ -19,6 +20,58 @@ const INDEX: &str = "examples/index.toml";
 
 /// What the page may write: the files that people edit in it.
 const WRITTEN: [&str; 2] = ["toml", "csv"];
+
+/// A file that the page has a use for.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(crate) struct FileEntry {
+    /// Its path below the project folder, with `/`.
+    path: String,
+    /// What it contains.
+    kind: FileKind,
+    /// Its size in bytes.
+    bytes: u64,
+}
+
+/// The content of a file, by its ending and, for TOML, by its sections.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum FileKind {
+    /// A machine file.
+    Machine,
+    /// A test piece or holes on a machine.
+    Study,
+    /// Instruments, paths and readings.
+    Campaign,
+    /// An NC program.
+    Program,
+    /// Readings of an instrument.
+    Readings,
+    /// The set-up of a program.
+    Setup,
+    /// Cutter locations.
+    Cl,
+    /// Another TOML file.
+    Other,
+}
+
+/// An example of the project.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(crate) struct ExampleEntry {
+    /// The tab that shows it.
+    tab: String,
+    /// Its title.
+    title: String,
+    /// What it shows, in a sentence.
+    what: String,
+    /// Its file.
+    path: String,
+    /// The machine file that it needs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    machine: Option<String>,
+    /// The standard by which its readings are evaluated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    standard: Option<String>,
+}
 
 /// The folder, and how files in it are named.
 #[derive(Debug, Clone)]
@@ -81,23 +134,21 @@ impl Project {
         Some(path.strip_prefix(&self.root).ok()?.to_string_lossy().replace('\\', "/"))
     }
 
-    /// Everything that the first page shows.
-    pub(crate) fn json(&self) -> Value {
-        let mut files = Vec::new();
-        self.collect(&self.root, DEPTH, &mut files);
-        files.sort_by(|a, b| a["path"].as_str().cmp(&b["path"].as_str()));
-        let (examples, problems) = self.examples();
-        json!({
-            "folder": self.root.file_name().map_or("/".into(), |n| n.to_string_lossy()),
-            "version": env!("CARGO_PKG_VERSION"),
-            "examples": examples,
-            "files": files,
-            "more_files": files.len() >= MOST_FILES,
-            "diagnostics": crate::refusal::diagnostics_json(&problems),
-        })
+    /// The name of the folder.
+    pub(crate) fn name(&self) -> String {
+        self.root.file_name().map_or("/".into(), |n| n.to_string_lossy().into_owned())
     }
 
-    fn collect(&self, folder: &Path, depth: usize, files: &mut Vec<Value>) {
+    /// The files in the order of their paths, and whether there are more than are listed.
+    pub(crate) fn files(&self) -> (Vec<FileEntry>, bool) {
+        let mut files = Vec::new();
+        self.collect(&self.root, DEPTH, &mut files);
+        files.sort_by(|a, b| a.path.cmp(&b.path));
+        let more = files.len() >= MOST_FILES;
+        (files, more)
+    }
+
+    fn collect(&self, folder: &Path, depth: usize, files: &mut Vec<FileEntry>) {
         let Ok(entries) = fs::read_dir(folder) else { return };
         for entry in entries.flatten() {
             let name = entry.file_name().to_string_lossy().into_owned();
@@ -111,67 +162,64 @@ impl Project {
                 self.collect(&path, depth - 1, files);
             } else if let (Some(kind), Ok(shown)) = (kind_of(&path), path.strip_prefix(&self.root))
             {
-                let shown = shown.to_string_lossy().replace('\\', "/");
+                let path = shown.to_string_lossy().replace('\\', "/");
                 let bytes = entry.metadata().map_or(0, |m| m.len());
-                files.push(json!({ "path": shown, "kind": kind, "bytes": bytes }));
+                files.push(FileEntry { path, kind, bytes });
             }
         }
     }
 
     /// The examples of the folder, if it has any.
-    fn examples(&self) -> (Vec<Value>, Diagnostics) {
+    pub(crate) fn examples(&self) -> (Vec<ExampleEntry>, Diagnostics) {
         let Ok(text) = fs::read_to_string(self.root.join(INDEX)) else {
             return (Vec::new(), Diagnostics::new());
         };
         let source = SourceText::new(INDEX, &text);
         let examples = source.read(|root| {
             let list = root.get("example").and_then(|item| item.list()).unwrap_or_default();
-            let one = |item: trueaxis::input::Item<'_>| {
-                item.section("example", |section| example(section))
-            };
-            list.into_iter().filter_map(one).flatten().collect()
+            let one = |item: Item<'_>| item.section("example", ExampleEntry::read).flatten();
+            list.into_iter().filter_map(one).collect()
         });
         (examples, source.finish())
     }
 }
 
-/// One example: the tab that shows it and the files that it needs.
-fn example(section: &Section<'_>) -> Option<Value> {
-    let mut words = serde_json::Map::new();
-    for key in ["tab", "title", "what", "path"] {
-        let text = section.require(key, "a text")?.text()?;
-        words.insert(key.to_owned(), json!(text));
+impl ExampleEntry {
+    fn read(section: &Section<'_>) -> Option<Self> {
+        let text = |key| section.require(key, "a text")?.text().map(str::to_owned);
+        Some(Self {
+            tab: text("tab")?,
+            title: text("title")?,
+            what: text("what")?,
+            path: text("path")?,
+            machine: section.text("machine").map(str::to_owned),
+            standard: section.text("standard").map(str::to_owned),
+        })
     }
-    for key in ["machine", "standard"] {
-        if let Some(text) = section.text(key) {
-            words.insert(key.to_owned(), json!(text));
-        }
-    }
-    Some(Value::Object(words))
 }
 
 /// What a file is, by its ending and, for TOML, by its sections; none if the page has no use for it.
-fn kind_of(path: &Path) -> Option<&'static str> {
+fn kind_of(path: &Path) -> Option<FileKind> {
     let ending = path.extension()?.to_string_lossy().to_ascii_lowercase();
     Some(match &*ending {
-        "csv" | "qif" => "readings",
-        "mpf" | "spf" | "nc" | "ngc" | "h" | "tap" | "eia" | "gcode" => "program",
-        "cls" | "apt" | "cl" => "cl",
+        "csv" | "qif" => FileKind::Readings,
+        "mpf" | "spf" | "nc" | "ngc" | "h" | "tap" | "eia" | "gcode" => FileKind::Program,
+        "cls" | "apt" | "cl" => FileKind::Cl,
         "toml" => kind_of_toml(&path.to_string_lossy(), &fs::read_to_string(path).ok()?),
         _ => return None,
     })
 }
 
-fn kind_of_toml(name: &str, text: &str) -> &'static str {
+fn kind_of_toml(name: &str, text: &str) -> FileKind {
     let begins = |words: &[&str]| {
         text.lines().any(|line| words.iter().any(|word| line.trim_start().starts_with(word)))
     };
     match () {
-        () if name.ends_with(".setup.toml") => "setup",
-        () if begins(&["[machine]"]) => "machine",
-        () if begins(&["test_piece", "[holes]"]) => "study",
-        () if begins(&["[instrument.", "[[path]]"]) => "campaign",
-        () => "other",
+        () if name.ends_with(".setup.toml") => FileKind::Setup,
+        () if begins(&["[machine]"]) => FileKind::Machine,
+        () if begins(&["test_piece", "[holes]"]) => FileKind::Study,
+        () if begins(&["[instrument.", "[[path]]"]) => FileKind::Campaign,
+        () => FileKind::Other,
     }
 }
 

@@ -1,23 +1,45 @@
 //! Why a request is not answered: for the page and for people.
 
-use serde_json::{Value, json};
-use trueaxis::input::{Diagnostics, Severity};
+use schemars::JsonSchema;
+use serde::Serialize;
+use trueaxis::input::{Diagnostic, Diagnostics, Severity};
+use trueaxis::report::DiagnosticEntry;
 
 /// A request that cannot be answered.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub(crate) struct Refusal {
     /// The status of HTTP.
     pub(crate) status: u16,
     code: String,
     message: String,
     hint: String,
-    diagnostics: Vec<Value>,
+    diagnostics: Diagnostics,
+}
+
+/// Why a request is not answered.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(crate) struct RefusalEntry<'a> {
+    /// The code, such as `bad-request`; `trueaxis explain CODE` has its meaning and its remedy.
+    code: &'a str,
+    /// The reason in one sentence.
+    message: &'a str,
+    /// What to do; may be empty.
+    hint: &'a str,
+    /// The problems of the input, if that is the reason.
+    diagnostics: Vec<DiagnosticEntry<'a>>,
+}
+
+/// The answer to a request by POST that is refused.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(crate) struct RefusedAnswer<'a> {
+    /// Why.
+    pub(crate) error: RefusalEntry<'a>,
 }
 
 impl Refusal {
     pub(crate) fn new(status: u16, code: &str, message: impl Into<String>, hint: &str) -> Self {
         let (code, hint) = (code.to_owned(), hint.to_owned());
-        Self { status, code, message: message.into(), hint, diagnostics: Vec::new() }
+        Self { status, code, message: message.into(), hint, diagnostics: Diagnostics::new() }
     }
 
     /// A request that makes no sense.
@@ -25,7 +47,7 @@ impl Refusal {
         Self::new(400, "bad-request", message, hint)
     }
 
-    /// Files that cannot be used; the first error speaks for all.
+    /// Files that cannot be used; the message is that of the first error.
     pub(crate) fn unusable(problems: &Diagnostics) -> Self {
         let first = problems.iter().find(|d| d.severity == Severity::Error);
         let (code, message, hint) = match first {
@@ -33,21 +55,31 @@ impl Refusal {
             None => ("unusable", "this cannot be used".to_owned(), String::new()),
         };
         let mut refusal = Self::new(422, code, message, &hint);
-        refusal.diagnostics = diagnostics_json(problems);
+        refusal.diagnostics = problems.clone();
         refusal
     }
 
-    pub(crate) fn json(&self) -> Value {
-        json!({
-            "code": self.code,
-            "message": self.message,
-            "hint": self.hint,
-            "diagnostics": self.diagnostics,
-        })
+    pub(crate) fn entry(&self) -> RefusalEntry<'_> {
+        RefusalEntry {
+            code: &self.code,
+            message: &self.message,
+            hint: &self.hint,
+            diagnostics: entries(&self.diagnostics),
+        }
     }
 }
 
-/// All diagnostics in the order of their places.
-pub(crate) fn diagnostics_json(problems: &Diagnostics) -> Vec<Value> {
-    problems.clone().sorted().iter().map(trueaxis::report::diagnostic_json).collect()
+/// Diagnostics in the order of their places, as they stand in answers.
+pub(crate) fn entries(problems: &Diagnostics) -> Vec<DiagnosticEntry<'_>> {
+    let mut sorted: Vec<&Diagnostic> = problems.iter().collect();
+    sorted.sort_by(|a, b| a.place.cmp(&b.place));
+    sorted.into_iter().map(DiagnosticEntry::from).collect()
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    /// The message of a refusal.
+    pub(crate) fn message(refusal: &super::Refusal) -> String {
+        refusal.message.clone()
+    }
 }

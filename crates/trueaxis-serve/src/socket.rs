@@ -8,15 +8,72 @@
 //!     {"changed": {"path", "version", "window"}}   another window saved a file
 //! ```
 
-use crate::desk::{Desk, Job, Reply, answer};
-use crate::refusal::Refusal;
+use crate::answers::{ChangeEntry, Message as Answer};
+use crate::body;
+use crate::desk::{Desk, Job, answer};
+use crate::refusal::{Refusal, RefusalEntry};
 use axum::extract::ws::{Message, WebSocket};
 use futures_util::{SinkExt, StreamExt};
-use serde_json::{Value, json};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tokio::sync::{broadcast, mpsc};
+use trueaxis::report::document;
+
+/// What a window sends: a request, or that it no longer waits for one.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SocketRequest {
+    /// The number of the request, chosen by the page; its answers have the same.
+    id: u64,
+    /// The name of the request, such as `pose`.
+    ask: Option<String>,
+    /// The request.
+    body: Option<Value>,
+    /// True if nobody waits for the answer any more.
+    stop: Option<bool>,
+}
+
+/// What a window receives as text; answers with arrays are binary.
+#[derive(Serialize, JsonSchema)]
+#[serde(untagged)]
+pub(crate) enum SocketAnswer<'a> {
+    /// How much of the work is done.
+    Progress {
+        /// The number of the request.
+        id: u64,
+        /// The share that is done, 0 to 1.
+        progress: f64,
+    },
+    /// The answer.
+    Reply {
+        /// The number of the request.
+        id: u64,
+        /// The document; its type depends on the request.
+        reply: &'a Value,
+    },
+    /// The request is refused.
+    Error {
+        /// The number of the request; null if it could not be read.
+        id: Option<u64>,
+        /// Why.
+        error: RefusalEntry<'a>,
+    },
+    /// A file was saved, perhaps by another window.
+    Changed {
+        /// Which; without a path any file may have changed.
+        changed: ChangeEntry,
+    },
+}
+
+impl SocketAnswer<'_> {
+    fn message(&self) -> Message {
+        Message::Text(document(self).to_string().into())
+    }
+}
 
 /// Questions of one window that wait at a time.
 const MOST_OPEN: usize = 32;
@@ -51,13 +108,14 @@ pub(crate) async fn serve(socket: WebSocket, desk: Arc<Desk>) {
         let message = tokio::select! {
             message = stream.next() => message,
             news = changed.recv() => {
-                let news = match news {
-                    Ok(news) => news,
-                    // So many files changed that some news is lost: look at all of them.
-                    Err(broadcast::error::RecvError::Lagged(_)) => json!({ "changed": {} }),
+                let changed = match news {
+                    Ok(change) => change,
+                    // So many files changed that some changes are lost: any file may have changed.
+                    Err(broadcast::error::RecvError::Lagged(_)) => ChangeEntry::default(),
                     Err(broadcast::error::RecvError::Closed) => break,
                 };
-                if out.try_send(text(&news)).is_err() && out.is_closed() { break }
+                let news = SocketAnswer::Changed { changed }.message();
+                if out.try_send(news).is_err() && out.is_closed() { break }
                 continue;
             }
         };
@@ -65,7 +123,7 @@ pub(crate) async fn serve(socket: WebSocket, desk: Arc<Desk>) {
             Some(Ok(Message::Text(words))) => take(&words, &desk, &out, &open).await,
             Some(Ok(Message::Binary(_))) => {
                 let refusal = Refusal::bad("questions are text", r#"{"id": 1, "ask": "project"}"#);
-                send(&out, json!({ "error": refusal.json() })).await;
+                refuse(&out, None, &refusal).await;
             }
             Some(Ok(Message::Ping(_) | Message::Pong(_))) => {}
             Some(Ok(Message::Close(_)) | Err(_)) | None => break,
@@ -80,47 +138,46 @@ pub(crate) async fn serve(socket: WebSocket, desk: Arc<Desk>) {
     writer.abort();
 }
 
-fn text(value: &Value) -> Message {
-    Message::Text(value.to_string().into())
-}
-
 /// To the window; if it is gone, nobody reads it.
-async fn send(out: &mpsc::Sender<Message>, value: Value) {
-    let _ = out.send(text(&value)).await;
+async fn refuse(out: &mpsc::Sender<Message>, id: Option<u64>, refusal: &Refusal) {
+    let _ = out.send(SocketAnswer::Error { id, error: refusal.entry() }.message()).await;
 }
 
 /// One message of the page.
 async fn take(words: &str, desk: &Arc<Desk>, out: &mpsc::Sender<Message>, open: &Arc<Open>) {
     let message: Value = serde_json::from_str(words).unwrap_or(Value::Null);
     let id = message["id"].as_u64();
-    if let (Some(id), Some(true)) = (id, message["stop"].as_bool()) {
-        if let Some(stop) = open.lock().get(&id) {
-            stop.store(true, Ordering::Relaxed);
+    let (id, name, body) = match body::read::<SocketRequest>(message) {
+        Ok(SocketRequest { id, stop: Some(true), .. }) => {
+            if let Some(stop) = open.lock().get(&id) {
+                stop.store(true, Ordering::Relaxed);
+            }
+            return;
         }
-        return;
-    }
-    let (Some(id), Some(name)) = (id, message["ask"].as_str()) else {
-        let refusal =
-            Refusal::bad("this is no question", r#"{"id": 1, "ask": "project", "body": {}}"#);
-        return send(out, json!({ "id": id, "error": refusal.json() })).await;
+        Ok(SocketRequest { id, ask: Some(name), body, .. }) => (id, name, body),
+        Ok(_) => {
+            let example = r#"{"id": 1, "ask": "project", "body": {}}"#;
+            return refuse(out, id, &Refusal::bad("missing field `ask`", example)).await;
+        }
+        Err(refusal) => return refuse(out, id, &refusal).await,
     };
     if open.lock().len() >= MOST_OPEN {
         let refusal = Refusal::new(429, "busy", "too many open questions", "wait for an answer");
-        return send(out, json!({ "id": id, "error": refusal.json() })).await;
+        return refuse(out, Some(id), &refusal).await;
     }
     let news = out.clone();
     // A window that is slow misses some of them, no more.
-    let job = Job::new(move |done| {
-        let _ = news.try_send(text(&json!({ "id": id, "progress": done })));
+    let job = Job::new(move |progress| {
+        let _ = news.try_send(SocketAnswer::Progress { id, progress }.message());
     });
     open.lock().insert(id, job.stop.clone());
-    let body = message.get("body").cloned().unwrap_or_else(|| json!({}));
-    let (desk, out, open, name) = (desk.clone(), out.clone(), open.clone(), name.to_owned());
+    let body = body.unwrap_or_else(|| Value::Object(serde_json::Map::new()));
+    let (desk, out, open) = (desk.clone(), out.clone(), open.clone());
     tokio::spawn(async move {
         let message = match answer(desk, &name, body, job).await {
-            Ok(Reply::Json(value)) => text(&json!({ "id": id, "reply": value })),
-            Ok(Reply::Frame(frame)) => Message::Binary(frame.bytes(Some(id)).into()),
-            Err(refusal) => text(&json!({ "id": id, "error": refusal.json() })),
+            Ok(Answer::Json(reply)) => SocketAnswer::Reply { id, reply: &reply }.message(),
+            Ok(Answer::Frame(frame)) => Message::Binary(frame.bytes(Some(id)).into()),
+            Err(refusal) => SocketAnswer::Error { id: Some(id), error: refusal.entry() }.message(),
         };
         let _ = out.send(message).await;
         open.lock().remove(&id);

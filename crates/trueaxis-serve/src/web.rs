@@ -1,8 +1,9 @@
 //! The ways in: the page, requests by POST, the socket, reports.
 
-use crate::desk::{Desk, Job, Reply, answer};
+use crate::answers::Message;
+use crate::desk::{Desk, Job, answer};
 use crate::guard::{Guard, add_headers};
-use crate::refusal::Refusal;
+use crate::refusal::{Refusal, RefusedAnswer};
 use crate::{page, socket};
 use axum::Router;
 use axum::body::{Body, Bytes, HttpBody, to_bytes};
@@ -11,11 +12,12 @@ use axum::http::{StatusCode, header};
 use axum::middleware::{Next, from_fn_with_state};
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::sync::Arc;
 use std::time::Duration;
 use tokio::sync::Semaphore;
 use tokio::time::timeout;
+use trueaxis::report::document;
 
 /// No question is longer: an NC program of a million lines fits.
 const MOST_BYTES: usize = 64 << 20;
@@ -103,8 +105,8 @@ async fn ask(State(shared): State<Shared>, Path(name): Path<String>, body: Body)
         Err(e) => return refused(&Refusal::bad(format!("the body is no JSON: {e}"), "such as {}")),
     };
     match answer(shared.desk, &name, body, Job::new(|_| ())).await {
-        Ok(Reply::Json(value)) => json_response(StatusCode::OK, &value),
-        Ok(Reply::Frame(frame)) => {
+        Ok(Message::Json(value)) => json_response(StatusCode::OK, &value),
+        Ok(Message::Frame(frame)) => {
             let kind = [(header::CONTENT_TYPE, "application/octet-stream")];
             (kind, frame.bytes(None)).into_response()
         }
@@ -144,5 +146,5 @@ fn json_response(status: StatusCode, value: &Value) -> Response {
 
 fn refused(refusal: &Refusal) -> Response {
     let status = StatusCode::from_u16(refusal.status).unwrap_or(StatusCode::BAD_REQUEST);
-    json_response(status, &json!({ "error": refusal.json() }))
+    json_response(status, &document(&RefusedAnswer { error: refusal.entry() }))
 }

@@ -1,24 +1,164 @@
-//! Readings judged by the standards.
+//! Readings evaluated by the standards.
 
-use crate::body::{Body, short};
-use crate::desk::{Desk, Job, Reply};
-use crate::frame::{Array, Frame};
-use crate::refusal::{Refusal, diagnostics_json};
-use serde_json::{Value, json};
+use super::{Diagnosed, Reply, Request};
+use crate::body::{needed, short};
+use crate::desk::{Desk, Job};
+use crate::frame::Array;
+use crate::refusal::{Refusal, entries};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use trueaxis::files;
 use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Dimension, parse_quantity};
-use trueaxis::report::{Evaluation, Picture, Table, evaluation_json, evaluation_text, remarks};
+use trueaxis::report::{
+    DiagnosticEntry, Evaluation, EvaluationDocument, Picture, Table, evaluation_text, remarks,
+};
 use trueaxis::verify::conditions::{Conditions, read_conditions};
 use trueaxis::verify::import::Import;
 use trueaxis::verify::{Evaluated, Readings, Standard, evaluate_text, iso230_3};
 
 /// The standards.
-pub(super) fn standards(_: &Desk, body: &Value, _: &Job) -> Result<Reply, Refusal> {
-    Body::of(body, &[])?;
-    let list = Standard::ALL.iter().map(|s| json!({ "key": s.key(), "title": s.title() }));
-    Ok(Reply::Json(list.collect()))
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct StandardsRequest {}
+
+/// A standard.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct StandardEntry {
+    /// Its name in requests and on the command line.
+    key: &'static str,
+    /// Its title.
+    title: &'static str,
+}
+
+impl Request for StandardsRequest {
+    type Answer<'a> = [StandardEntry; Standard::ALL.len()];
+
+    fn answer(self, _: &Desk, _: &Job) -> Result<Reply<Self>, Refusal> {
+        let standards = Standard::ALL.map(|s| StandardEntry { key: s.key(), title: s.title() });
+        Ok(Reply::json(&standards))
+    }
+}
+
+/// Evaluates readings: `path` names their file, or `name` and `text` are a file that was dropped.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct EvaluateRequest {
+    /// The standard, such as `iso230-2`.
+    standard: String,
+    /// The file of the readings.
+    path: Option<String>,
+    /// The name of a file that was dropped.
+    name: Option<String>,
+    /// Its text.
+    text: Option<String>,
+    /// The format of the file; by its ending if it is left out.
+    import: Option<String>,
+    /// The feature of a QIF file.
+    feature: Option<String>,
+    /// The file of the conditions; the one beside the readings if it is left out.
+    conditions: Option<String>,
+    /// The radius of a circular test, a length with its unit.
+    radius: Option<String>,
+    /// The window of a drift test, a time with its unit.
+    window: Option<String>,
+}
+
+/// An evaluation. Arrays: `line` (f64: x, y and half the width of the band for each point of the bands), `points`
+/// (f64: x and y of each point; in polar pictures angle, rad, and radial deviation, µm).
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct EvaluateAnswer<'a> {
+    /// The document of `trueaxis evaluate`.
+    document: Diagnosed<'a, EvaluationDocument<'a>>,
+    /// The text of `trueaxis evaluate`.
+    text: String,
+    /// The file of the conditions below the project folder; null if there is none.
+    conditions_file: Option<String>,
+    /// The tables of the results.
+    figures: Vec<TableEntry<'a>>,
+    /// Further tables.
+    details: Vec<TableEntry<'a>>,
+    /// The pictures.
+    pictures: Vec<PictureEntry<'a>>,
+    /// Warnings and notes, each as one text.
+    remarks: Vec<String>,
+    /// The same with code and place.
+    diagnostics: Vec<DiagnosticEntry<'a>>,
+}
+
+/// A table of a report.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct TableEntry<'a> {
+    /// Its title.
+    title: &'a str,
+    /// The text below it; may be empty.
+    note: &'a str,
+    /// The headings with their units.
+    headings: &'a [String],
+    /// The cells, row by row.
+    rows: Vec<&'a [String]>,
+    /// For each column, whether it contains words.
+    words: Vec<bool>,
+}
+
+/// A part of an array: its first point and the number of points.
+type Part = [usize; 2];
+
+/// A picture of a report.
+#[derive(Debug, Serialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "lowercase")]
+pub(super) enum PictureEntry<'a> {
+    /// Curves, bands and points over a straight axis.
+    Scatter {
+        /// Its title.
+        title: &'a str,
+        /// The text below it.
+        note: &'a str,
+        /// The name of the x axis with its unit.
+        x: &'a str,
+        /// The name of the y axis with its unit.
+        y: &'a str,
+        /// Whether the y axis contains 0.
+        from_zero: bool,
+        /// The series.
+        bands: Vec<BandEntry<'a>>,
+        /// A dashed line, as a part of `points`.
+        dashed: Part,
+    },
+    /// Radial deviations around a circle, magnified.
+    Polar {
+        /// Its title.
+        title: &'a str,
+        /// The text below it.
+        note: &'a str,
+        /// The curves.
+        lines: Vec<PolarLineEntry<'a>>,
+    },
+}
+
+/// A series of a picture.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct BandEntry<'a> {
+    /// Its name in the legend.
+    label: &'a str,
+    /// Its colour, from 0.
+    colour: usize,
+    /// Its line, as a part of `line`.
+    line: Part,
+    /// Its points, as a part of `points`.
+    points: Part,
+}
+
+/// A curve around a circle.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct PolarLineEntry<'a> {
+    /// Its name in the legend.
+    label: &'a str,
+    /// Its colour, from 0.
+    colour: usize,
+    /// Its points, as a part of `points`.
+    points: Part,
 }
 
 /// Readings with their result.
@@ -31,10 +171,64 @@ pub(super) struct Judged {
     problems: Diagnostics,
 }
 
+impl EvaluateRequest {
+    /// The readings of a file.
+    pub(super) fn of(standard: String, path: String) -> Self {
+        Self { standard, path: Some(path), ..Self::default() }
+    }
+}
+
 impl Judged {
-    pub(super) fn told<T>(&self, tell: impl FnOnce(&Evaluation<'_>) -> T) -> T {
+    /// Evaluates what the request names.
+    pub(super) fn read(desk: &Desk, request: &EvaluateRequest) -> Result<Self, Refusal> {
+        let standard = standard(&request.standard)?;
+        let mut problems = Diagnostics::new();
+        let in_project = |name: &String| desk.project.path(name);
+        let path = request.path.as_ref().map(in_project).transpose()?;
+        let (file, text) = match &path {
+            Some(path) => {
+                let text = disk().text(path, "a table of readings (CSV)", &mut problems);
+                (path.display().to_string(), text)
+            }
+            None => {
+                (needed(request.name.clone(), "name")?, Some(needed(request.text.clone(), "text")?))
+            }
+        };
+        let named = request.conditions.as_ref().map(in_project).transpose()?;
+        let beside = path.as_deref().map(|path| path.with_extension("toml"));
+        let conditions_file = named.or(beside.filter(|beside| files::is_file(beside)));
+        let mut conditions = read_conditions(&disk(), conditions_file.as_deref(), &mut problems);
+        if let Some(radius_mm) = quantity("radius", &request.radius, Dimension::Length)? {
+            conditions.circle.radius_mm = Some(radius_mm);
+        }
+        let window_s = quantity("window", &request.window, Dimension::Time)?;
+        let import = import(request.import.as_deref(), Path::new(&file))?;
+        let conditions_name = conditions_file.as_ref().map(|p| p.display().to_string());
+        let result = text.map(|text| {
+            let readings = Readings {
+                standard,
+                file: &file,
+                text: &text,
+                import,
+                feature: request.feature.as_deref(),
+                conditions: &conditions,
+                conditions_file: conditions_name.as_deref().unwrap_or("the conditions"),
+                window_s: window_s.unwrap_or(iso230_3::HOUR_S),
+            };
+            evaluate_text(&readings, &mut problems)
+        });
+        match result.filter(|_| !problems.has_errors()) {
+            Some((Some(evaluated), conditions)) => {
+                Ok(Self { standard, file, conditions, conditions_file, evaluated, problems })
+            }
+            _ => Err(Refusal::unusable(&problems)),
+        }
+    }
+
+    /// What a function makes of the evaluation.
+    pub(super) fn with<T>(&self, make: impl FnOnce(&Evaluation<'_>) -> T) -> T {
         let remarks = remarks(&self.problems);
-        tell(&Evaluation {
+        make(&Evaluation {
             standard: self.standard,
             file: &self.file,
             conditions: &self.conditions,
@@ -44,110 +238,77 @@ impl Judged {
     }
 }
 
-/// Evaluates what the request names.
-pub(super) fn judged(desk: &Desk, body: &Body<'_>) -> Result<Judged, Refusal> {
-    let standard = standard(body.text("standard")?)?;
-    let mut problems = Diagnostics::new();
-    let path = body.optional_text("path")?.map(|name| desk.project.path(name)).transpose()?;
-    let (file, text) = match &path {
-        Some(path) => {
-            let text = disk().text(path, "a table of readings (CSV)", &mut problems);
-            (path.display().to_string(), text)
-        }
-        None => (body.text("name")?.to_owned(), Some(body.text("text")?.to_owned())),
-    };
-    let named = body.optional_text("conditions")?.map(|n| desk.project.path(n)).transpose()?;
-    let beside = path.as_deref().map(|path| path.with_extension("toml"));
-    let conditions_file = named.or(beside.filter(|beside| files::is_file(beside)));
-    let mut conditions = read_conditions(&disk(), conditions_file.as_deref(), &mut problems);
-    if let Some(radius_mm) = quantity(body, "radius", Dimension::Length)? {
-        conditions.circle.radius_mm = Some(radius_mm);
-    }
-    let window_s = quantity(body, "window", Dimension::Time)?.unwrap_or(iso230_3::HOUR_S);
-    let import = import(body, Path::new(&file))?;
-    let conditions_name = conditions_file.as_ref().map(|p| p.display().to_string());
-    let result = text.map(|text| {
-        let readings = Readings {
-            standard,
-            file: &file,
-            text: &text,
-            import,
-            feature: body.optional_text("feature").ok().flatten(),
-            conditions: &conditions,
-            conditions_file: conditions_name.as_deref().unwrap_or("the conditions"),
-            window_s,
-        };
-        evaluate_text(&readings, &mut problems)
-    });
-    match result.filter(|_| !problems.has_errors()) {
-        Some((Some(evaluated), conditions)) => {
-            Ok(Judged { standard, file, conditions, conditions_file, evaluated, problems })
-        }
-        _ => Err(Refusal::unusable(&problems)),
-    }
-}
-
 fn standard(key: &str) -> Result<Standard, Refusal> {
     Standard::ALL.into_iter().find(|s| s.key() == key).ok_or_else(|| {
         let all = Standard::ALL.map(Standard::key).join(", ");
-        Refusal::bad(format!("`{}` is no standard that is known", short(key)), &all)
+        Refusal::bad(format!("unknown standard `{}`", short(key)), &all)
     })
 }
 
-fn import(body: &Body<'_>, file: &Path) -> Result<Import, Refusal> {
-    let Some(key) = body.optional_text("import")? else { return Ok(Import::of(file)) };
+fn import(key: Option<&str>, file: &Path) -> Result<Import, Refusal> {
+    let Some(key) = key else { return Ok(Import::of(file)) };
     Import::ALL.into_iter().find(|import| import.key() == key).ok_or_else(|| {
         let all = Import::ALL.map(Import::key).join(", ");
-        Refusal::bad(format!("`{}` is no form that is known", short(key)), &all)
+        Refusal::bad(format!("unknown format `{}`", short(key)), &all)
     })
 }
 
-fn quantity(body: &Body<'_>, key: &str, dimension: Dimension) -> Result<Option<f64>, Refusal> {
-    let Some(text) = body.optional_text(key)? else { return Ok(None) };
+fn quantity(
+    key: &str,
+    text: &Option<String>,
+    dimension: Dimension,
+) -> Result<Option<f64>, Refusal> {
+    let Some(text) = text else { return Ok(None) };
     match parse_quantity(text, dimension) {
         Ok(value) if value > 0.0 => Ok(Some(value)),
-        Ok(_) => Err(Refusal::bad(format!("`{key}` is due as a positive quantity"), "")),
+        Ok(_) => Err(Refusal::bad(format!("`{key}` must be a positive quantity"), "")),
         Err(e) => Err(Refusal::new(400, e.code(), format!("{key}: {e}"), &e.hint())),
     }
 }
 
-/// Tables and pictures as data.
-pub(super) fn evaluate(desk: &Desk, body: &Value, _: &Job) -> Result<Reply, Refusal> {
-    let known =
-        ["standard", "path", "name", "text", "import", "feature", "conditions", "radius", "window"];
-    let judged = judged(desk, &Body::of(body, &known)?)?;
-    let mut drawn = Drawn::default();
-    let (mut document, text, contents) =
-        judged.told(|e| (evaluation_json(e), evaluation_text(e), e.contents()));
-    document["diagnostics"] = diagnostics_json(&judged.problems).into();
-    let pictures: Value = contents.pictures.iter().map(|picture| drawn.picture(picture)).collect();
-    let file = judged.conditions_file.as_ref().and_then(|path| desk.project.name_of(path));
-    let frame = Frame::new()
-        .say("document", document)
-        .say("text", json!(text))
-        .say("conditions_file", json!(file))
-        .say("figures", contents.results.iter().map(table_json).collect())
-        .say("details", contents.details.iter().map(table_json).collect())
-        .say("pictures", pictures)
-        .say("remarks", remarks(&judged.problems).into())
-        .say("diagnostics", diagnostics_json(&judged.problems).into())
-        .with("line", Array::F64(drawn.line))
-        .with("points", Array::F64(drawn.points));
-    Ok(Reply::Frame(frame))
+impl Request for EvaluateRequest {
+    type Answer<'a> = EvaluateAnswer<'a>;
+
+    fn answer(self, desk: &Desk, _: &Job) -> Result<Reply<Self>, Refusal> {
+        let judged = Judged::read(desk, &self)?;
+        let problems = &judged.problems;
+        let file = judged.conditions_file.as_ref();
+        judged.with(|evaluation| {
+            let contents = evaluation.contents();
+            let mut drawn = Drawn::default();
+            let answer = EvaluateAnswer {
+                document: Diagnosed {
+                    document: EvaluationDocument::of(evaluation),
+                    diagnostics: entries(problems),
+                },
+                text: evaluation_text(evaluation),
+                conditions_file: file.and_then(|path| desk.project.name_of(path)),
+                figures: contents.results.iter().map(TableEntry::from).collect(),
+                details: contents.details.iter().map(TableEntry::from).collect(),
+                pictures: contents.pictures.iter().map(|p| drawn.picture(p)).collect(),
+                remarks: remarks(problems),
+                diagnostics: entries(problems),
+            };
+            let arrays =
+                vec![("line", Array::F64(drawn.line)), ("points", Array::F64(drawn.points))];
+            Ok(Reply::frame(&answer, arrays))
+        })
+    }
 }
 
-fn table_json((title, table): &(String, Table)) -> Value {
-    let words: Vec<bool> = (0..table.headings.len()).map(|i| table.has_words(i)).collect();
-    json!({
-        "title": title,
-        "note": table.note,
-        "headings": table.headings,
-        "rows": table.rows.iter().map(|row| &row.cells).collect::<Vec<_>>(),
-        "words": words,
-    })
+impl<'a> From<&'a (String, Table)> for TableEntry<'a> {
+    fn from((title, table): &'a (String, Table)) -> Self {
+        Self {
+            title,
+            note: &table.note,
+            headings: &table.headings,
+            rows: table.rows.iter().map(|row| &*row.cells).collect(),
+            words: (0..table.headings.len()).map(|i| table.has_words(i)).collect(),
+        }
+    }
 }
 
-/// The numbers of all pictures, and where each piece of them stands.
+/// The numbers of all pictures, one after the other.
 #[derive(Default)]
 struct Drawn {
     /// x, y and half the width of the band.
@@ -157,51 +318,45 @@ struct Drawn {
 }
 
 impl Drawn {
-    fn line(&mut self, line: &[(f64, f64, f64)]) -> Value {
+    fn line(&mut self, line: &[(f64, f64, f64)]) -> Part {
         let first = self.line.len() / 3;
         self.line.extend(line.iter().flat_map(|(x, y, half)| [x, y, half]));
-        json!([first, line.len()])
+        [first, line.len()]
     }
 
-    fn points(&mut self, points: &[(f64, f64)]) -> Value {
+    fn points(&mut self, points: &[(f64, f64)]) -> Part {
         let first = self.points.len() / 2;
         self.points.extend(points.iter().flat_map(|(x, y)| [x, y]));
-        json!([first, points.len()])
+        [first, points.len()]
     }
 
-    fn picture(&mut self, picture: &Picture) -> Value {
+    fn picture<'a>(&mut self, picture: &'a Picture) -> PictureEntry<'a> {
         match picture {
             Picture::Scatter(s) => {
-                let bands = s.bands.iter().map(|band| {
-                    json!({
-                        "label": band.label,
-                        "colour": band.colour,
-                        "line": self.line(&band.line),
-                        "points": self.points(&band.points),
-                    })
+                let bands = s.bands.iter().map(|band| BandEntry {
+                    label: &band.label,
+                    colour: band.colour,
+                    line: self.line(&band.line),
+                    points: self.points(&band.points),
                 });
-                let bands: Value = bands.collect();
-                json!({
-                    "kind": "scatter",
-                    "title": s.title,
-                    "note": s.note,
-                    "x": s.x,
-                    "y": s.y,
-                    "from_zero": s.from_zero,
-                    "bands": bands,
-                    "dashed": self.points(&s.dashed),
-                })
+                let bands = bands.collect();
+                PictureEntry::Scatter {
+                    title: &s.title,
+                    note: &s.note,
+                    x: &s.x,
+                    y: &s.y,
+                    from_zero: s.from_zero,
+                    bands,
+                    dashed: self.points(&s.dashed),
+                }
             }
             Picture::Polar(p) => {
-                let lines = p.lines.iter().map(|line| {
-                    json!({
-                        "label": line.label,
-                        "colour": line.colour,
-                        "points": self.points(&line.points),
-                    })
+                let lines = p.lines.iter().map(|line| PolarLineEntry {
+                    label: &line.label,
+                    colour: line.colour,
+                    points: self.points(&line.points),
                 });
-                let lines: Value = lines.collect();
-                json!({ "kind": "polar", "title": p.title, "note": p.note, "lines": lines })
+                PictureEntry::Polar { title: &p.title, note: &p.note, lines: lines.collect() }
             }
         }
     }

@@ -1,6 +1,5 @@
-//! The machine that a request names: as it stands on the disk, or as somebody is editing it.
+//! The machine that a request names: as it is on the disk, or as somebody is editing it.
 
-use crate::body::Body;
 use crate::desk::Desk;
 use crate::refusal::Refusal;
 use std::path::PathBuf;
@@ -18,20 +17,16 @@ pub(super) struct Draft {
     pub(super) problems: Diagnostics,
 }
 
-/// `machine` names the file, `text` is its text if it is being edited.
-pub(super) fn draft(desk: &Desk, body: &Body<'_>) -> Result<Draft, Refusal> {
-    let path = desk.project.path(body.text("machine")?)?;
-    let mut problems = Diagnostics::new();
-    let text = match body.optional_text("text")? {
-        Some(text) => Some(text.to_owned()),
-        None => disk().text(&path, "a machine file (TOML)", &mut problems),
-    };
-    let Some(text) = text else { return Err(Refusal::unusable(&problems)) };
-    let (machine, problems) = Machine::check(
-        &path.display().to_string(),
-        &text,
-        &Folder::of(&trueaxis::files::disk(), &path),
-    );
-    let machine = machine.filter(|_| !problems.has_errors());
-    Ok(Draft { machine, path, text, problems })
+impl Draft {
+    /// The file of this name, with this text if it is being edited.
+    pub(super) fn read(desk: &Desk, name: &str, text: Option<String>) -> Result<Self, Refusal> {
+        let path = desk.project.path(name)?;
+        let mut problems = Diagnostics::new();
+        let text = text.or_else(|| disk().text(&path, "a machine file (TOML)", &mut problems));
+        let Some(text) = text else { return Err(Refusal::unusable(&problems)) };
+        let folder = Folder::of(&disk(), &path);
+        let (machine, problems) = Machine::check(&path.display().to_string(), &text, &folder);
+        let machine = machine.filter(|_| !problems.has_errors());
+        Ok(Self { machine, path, text, problems })
+    }
 }

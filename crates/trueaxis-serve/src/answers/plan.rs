@@ -1,22 +1,100 @@
-//! What a measurement will tell.
+//! What a measurement will show, before it is made.
 
-use super::wants::control;
-use crate::body::Body;
-use crate::desk::{Desk, Job, Reply};
-use crate::frame::{Array, Frame};
-use crate::refusal::{Refusal, diagnostics_json};
-use serde_json::{Value, json};
+use super::settings::control;
+use super::{Reply, Request};
+use crate::desk::{Desk, Job};
+use crate::frame::Array;
+use crate::refusal::{Refusal, entries};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::path::Path;
 use trueaxis::files::disk;
 use trueaxis::input::Diagnostics;
 use trueaxis::machine::Machine;
-use trueaxis::machine::axis::AxisKind;
+use trueaxis::machine::axis::{Axis, AxisKind};
 use trueaxis::measure::Readings;
-use trueaxis::plan::PlanReport;
-use trueaxis::plan::{Plan, PlannedPath, chosen, planned, read_plan, tools};
-use trueaxis::report::plan_json;
+use trueaxis::plan::{Plan, PlanReport, PlannedPath, chosen, planned, read_plan, tools};
+use trueaxis::report::{DiagnosticEntry, PlanDocument};
 
-/// A plan that may be asked, and what was found in its file.
+/// The plan of a campaign: paths, programs, expected uncertainties.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PlanRequest {
+    /// The campaign file.
+    campaign: String,
+    /// The control that the programs are for, as `--control` of the command line; `sinumerik` if it is left out.
+    dialect: Option<String>,
+}
+
+/// A plan. Arrays: `commands` (f64: the axis positions of all stations of all paths, mm and degrees), `tools`
+/// (f64: for each station the tip, mm, then the tool axis, both in the workpiece frame).
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct PlanAnswer<'a> {
+    /// The document of `trueaxis plan`.
+    document: PlanDocument<'a>,
+    /// The machine file below the project folder; null if it is outside.
+    machine: Option<String>,
+    /// The axes in the order of the commands.
+    axes: Vec<AxisUnitEntry>,
+    /// The paths, in the order of the arrays.
+    paths: Vec<PlannedPathEntry<'a>>,
+    /// The problems found in the campaign.
+    diagnostics: Vec<DiagnosticEntry<'a>>,
+}
+
+/// An axis with the unit of its positions.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct AxisUnitEntry {
+    /// Its name.
+    name: String,
+    /// The unit.
+    #[schemars(extend("enum" = ["mm", "deg"]))]
+    unit: &'static str,
+}
+
+/// A path of the plan.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct PlannedPathEntry<'a> {
+    /// Its name.
+    name: &'a str,
+    /// Its instrument.
+    instrument: &'a str,
+    /// The kind of the instrument.
+    kind: &'static str,
+    /// How many stations it has.
+    stations: usize,
+    /// Its programs.
+    files: Vec<TextEntry<'a>>,
+}
+
+/// A file by name and text.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct TextEntry<'a> {
+    /// Its name.
+    pub(super) name: &'a str,
+    /// Its text.
+    pub(super) text: Cow<'a, str>,
+}
+
+impl Request for PlanRequest {
+    type Answer<'a> = PlanAnswer<'a>;
+
+    fn answer(self, desk: &Desk, job: &Job) -> Result<Reply<Self>, Refusal> {
+        let control = control(self.dialect.as_deref())?;
+        let (plan, mut problems) = read(&desk.project.path(&self.campaign)?)?;
+        job.tell(0.1);
+        let chosen = chosen(&plan, &mut problems);
+        if problems.has_errors() {
+            return Err(Refusal::unusable(&problems));
+        }
+        let design = plan.campaign.design();
+        let report = planned(&plan, &design, chosen, control);
+        Ok(reply(desk, &report, &problems))
+    }
+}
+
+/// A plan without errors, and the warnings and notes of its file.
 pub(super) fn read(path: &Path) -> Result<(Plan, Diagnostics), Refusal> {
     let (plan, problems) = read_plan(&disk(), path);
     match plan.filter(|_| !problems.has_errors()) {
@@ -25,62 +103,54 @@ pub(super) fn read(path: &Path) -> Result<(Plan, Diagnostics), Refusal> {
     }
 }
 
-/// The whole plan: paths, programs, what to expect.
-pub(super) fn plan(desk: &Desk, body: &Value, job: &Job) -> Result<Reply, Refusal> {
-    let body = Body::of(body, &["campaign", "dialect"])?;
-    let control = control(&body)?;
-    let (plan, mut problems) = read(&desk.project.path(body.text("campaign")?)?)?;
-    job.tell(0.1);
-    let chosen = chosen(&plan, &mut problems);
-    if problems.has_errors() {
-        return Err(Refusal::unusable(&problems));
-    }
-    let design = plan.campaign.design();
-    let report = planned(&plan, &design, chosen, control);
-    Ok(Reply::Frame(frame(desk, &report, &problems)))
-}
-
-fn frame(desk: &Desk, report: &PlanReport<'_>, problems: &Diagnostics) -> Frame {
+fn reply(desk: &Desk, report: &PlanReport<'_>, problems: &Diagnostics) -> Reply<PlanRequest> {
     let campaign = &report.plan.campaign;
     let machine = &campaign.machine;
     let stations = || report.paths.iter().map(|path| &path.path.stations);
     let commands = stations().flat_map(|readings| commands(machine, readings));
     let tools = stations().flat_map(|readings| tools(campaign, readings));
     let tools = tools.flat_map(|(point, axis)| [point, axis]).flat_map(|v| [v.x, v.y, v.z]);
-    Frame::new()
-        .say("document", plan_json(report))
-        .say("machine", json!(desk.project.name_of(&campaign.machine_path)))
-        .say("axes", axes(machine))
-        .say("paths", report.paths.iter().map(|path| path_json(report, path)).collect())
-        .say("diagnostics", diagnostics_json(problems).into())
-        .with("commands", Array::F64(commands.collect()))
-        .with("tools", Array::F64(tools.collect()))
+    let arrays =
+        vec![("commands", Array::F64(commands.collect())), ("tools", Array::F64(tools.collect()))];
+    let answer = PlanAnswer {
+        document: PlanDocument::of(report),
+        machine: desk.project.name_of(&campaign.machine_path),
+        axes: machine.axes().iter().map(AxisUnitEntry::from).collect(),
+        paths: report.paths.iter().map(|path| PlannedPathEntry::of(report, path)).collect(),
+        diagnostics: entries(problems),
+    };
+    Reply::frame(&answer, arrays)
 }
 
-fn path_json(report: &PlanReport<'_>, planned: &PlannedPath) -> Value {
-    let stations = &planned.path.stations;
-    let index = stations.instruments.first().copied().unwrap_or(0);
-    let instrument = &report.plan.campaign.instruments[index as usize];
-    let file = |(name, text): &(String, Vec<u8>)| json!({ "name": name, "text": String::from_utf8_lossy(text) });
-    json!({
-        "name": planned.path.name,
-        "instrument": instrument.name,
-        "kind": instrument.kind.name(),
-        "stations": stations.len(),
-        "files": planned.files.iter().map(file).collect::<Vec<_>>(),
-    })
+impl From<&Axis> for AxisUnitEntry {
+    fn from(axis: &Axis) -> Self {
+        let unit = if axis.kind == AxisKind::Rotary { "deg" } else { "mm" };
+        Self { name: axis.name.to_string(), unit }
+    }
 }
 
-/// Names of the axes with the units of their positions.
-pub(super) fn axes(machine: &Machine) -> Value {
-    let unit = |kind| if kind == AxisKind::Rotary { "deg" } else { "mm" };
-    let axes = machine.axes().iter();
-    axes.map(|a| json!({ "name": a.name.to_string(), "unit": unit(a.kind) })).collect()
+impl<'a> PlannedPathEntry<'a> {
+    fn of(report: &PlanReport<'a>, planned: &'a PlannedPath) -> Self {
+        let stations = &planned.path.stations;
+        let index = stations.instruments.first().copied().unwrap_or(0);
+        let instrument = &report.plan.campaign.instruments[index as usize];
+        let file = |(name, text): &'a (String, Vec<u8>)| TextEntry {
+            name,
+            text: String::from_utf8_lossy(text),
+        };
+        Self {
+            name: &planned.path.name,
+            instrument: &instrument.name,
+            kind: instrument.kind.name(),
+            stations: stations.len(),
+            files: planned.files.iter().map(file).collect(),
+        }
+    }
 }
 
 /// The positions of all axes at all stations, mm and deg.
 fn commands(machine: &Machine, readings: &Readings) -> Vec<f64> {
-    let shown = |(axis, q): (&trueaxis::machine::axis::Axis, &f64)| match axis.kind {
+    let shown = |(axis, q): (&Axis, &f64)| match axis.kind {
         AxisKind::Linear => *q,
         AxisKind::Rotary => q.to_degrees(),
     };

@@ -1,58 +1,183 @@
-//! The test piece before it is cut, and what it would be if.
+//! The test piece before it is cut, and what changes of the machine would do to it.
 
-use super::wants::{errors, setting};
-use crate::body::Body;
-use crate::desk::{Desk, Job, Reply};
-use crate::frame::{Array, Frame};
-use crate::refusal::{Refusal, diagnostics_json};
-use serde_json::{Value, json};
+use super::settings::{ErrorChangeEntry, errors};
+use super::{Reply, Request};
+use crate::desk::{Desk, Job};
+use crate::frame::{Array, Arrays};
+use crate::refusal::{Refusal, entries};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::collections::BTreeMap;
 use std::path::Path;
 use trueaxis::files::disk;
 use trueaxis::input::Diagnostics;
 use trueaxis::machine::axis::AxisKind;
+use trueaxis::machine::errors::ErrorName;
 use trueaxis::machine::heat::Conditions;
 use trueaxis::part::fit::circle::Zone;
-use trueaxis::predict::holes::{is_hole_study, predict_holes, read_hole_study};
+use trueaxis::predict::holes::{
+    HolePrediction, HoleStudy, is_hole_study, predict_holes, read_hole_study,
+};
 use trueaxis::predict::{
     Error, Prediction, SectionResult, Study, WhatIf, predict, preview, read_study,
 };
-use trueaxis::report;
+use trueaxis::report::{self, DiagnosticEntry};
 
-/// The whole prediction, as `trueaxis predict --no-report` computes it.
-pub(super) fn whole(desk: &Desk, body: &Value, job: &Job) -> Result<Reply, Refusal> {
-    let body = Body::of(body, &["study"])?;
-    let path = desk.project.path(body.text("study")?)?;
-    if is_hole_study(&disk(), &path) {
-        return holes(&path);
+/// The whole prediction of a study, as `trueaxis predict --no-report` computes it.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PredictRequest {
+    /// The study file: a test piece or holes.
+    study: String,
+}
+
+/// The same for a changed machine, without Monte Carlo, as fast as somebody drags a slider.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct WhatIfRequest {
+    /// The study file: a test piece.
+    study: String,
+    /// Changes of errors by ISO 230-1 name.
+    errors: Option<BTreeMap<String, ErrorChangeEntry>>,
+    /// The setting angles of rotary axes by name, degrees; those of the study if left out.
+    setting_deg: Option<BTreeMap<String, f64>>,
+    /// The length of the tool, mm.
+    tool_length_mm: Option<f64>,
+    /// Temperatures, as `--temperature` of the command line.
+    temperature: Option<String>,
+}
+
+/// A prediction.
+#[derive(Debug, Serialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub(super) enum PredictAnswer<'a> {
+    /// Of a test piece.
+    TestPiece(PieceEntry<'a>),
+    /// Of holes.
+    Holes(HolesEntry<'a>),
+}
+
+/// The prediction of a test piece. Arrays: for each point of all sections `azimuth_rad` (f32), `error_um` (f32:
+/// the radial deviation) and `profile_mm` (f64: two, the actual point in the section).
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct PieceEntry<'a> {
+    /// The document of `trueaxis predict`.
+    document: Value,
+    /// The machine file below the project folder; null if it is outside.
+    machine: Option<String>,
+    /// The names of the rotary axes.
+    rotary: Vec<String>,
+    /// The length of the tool, mm.
+    tool_length_mm: f64,
+    /// The stated errors.
+    errors: Vec<ErrorUnitEntry>,
+    /// The names of the temperature sensors.
+    sensors: Vec<&'a str>,
+    /// The sections, in the order of the arrays.
+    sections: Vec<SectionEntry>,
+    /// The problems of the study.
+    diagnostics: Vec<DiagnosticEntry<'a>>,
+}
+
+/// A stated error with the unit of its values.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct ErrorUnitEntry {
+    /// Its ISO 230-1 name.
+    name: String,
+    /// `µm` or `µrad`.
+    unit: &'static str,
+}
+
+/// A measured section of the test piece.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct SectionEntry {
+    /// Its height in the workpiece frame, mm.
+    z_mm: f64,
+    /// Its height above the base of the cone, mm.
+    height_mm: f64,
+    /// Its nominal radius, mm.
+    radius_mm: f64,
+    /// How many points it has.
+    points: usize,
+    /// The reference circles.
+    circles: [CircleEntry; 4],
+}
+
+/// A reference circle of a section.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct CircleEntry {
+    /// `least squares`, `minimum zone`, `maximum inscribed` or `minimum circumscribed`.
+    name: &'static str,
+    /// Its centre, mm.
+    centre_mm: [f64; 2],
+    /// Its radius, mm.
+    radius_mm: f64,
+    /// The distance of the nearest point from the centre, mm.
+    inner_mm: f64,
+    /// The distance of the farthest point from the centre, mm.
+    outer_mm: f64,
+}
+
+/// The prediction of holes. Arrays: `holes_mm` (f64: the three nominal coordinates of each hole), `error_um` (f32:
+/// the three errors of each hole, set after set).
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct HolesEntry<'a> {
+    /// The document of `trueaxis predict`.
+    document: Value,
+    /// The names of the temperature sensors.
+    sensors: Vec<&'a str>,
+    /// The problems of the study.
+    diagnostics: Vec<DiagnosticEntry<'a>>,
+}
+
+impl Request for PredictRequest {
+    type Answer<'a> = PredictAnswer<'a>;
+
+    fn answer(self, desk: &Desk, job: &Job) -> Result<Reply<Self>, Refusal> {
+        let path = desk.project.path(&self.study)?;
+        if is_hole_study(&disk(), &path) {
+            let (study, prediction, problems) = holes(&path)?;
+            let answer = PredictAnswer::Holes(HolesEntry {
+                document: report::holes_json(&study, &prediction),
+                sensors: study.machine.heat().sensors(),
+                diagnostics: entries(&problems),
+            });
+            return Ok(Reply::frame(&answer, hole_arrays(&study, &prediction)));
+        }
+        let (study, problems) = study(&path)?;
+        let prediction = predicted(&study, job)?;
+        let answer = PredictAnswer::TestPiece(piece(desk, &study, &prediction, &problems));
+        Ok(Reply::frame(&answer, section_arrays(&prediction)))
     }
-    let (study, problems) = study(&path)?;
-    let prediction = predicted(&study, job)?;
-    Ok(Reply::Frame(frame(desk, &study, &prediction, &problems)))
 }
 
-/// The same without drawing machines and seeking corrections, and with changes: as fast as somebody drags a slider.
-pub(super) fn what_if(desk: &Desk, body: &Value, _: &Job) -> Result<Reply, Refusal> {
-    let known = ["study", "errors", "setting_deg", "tool_length_mm", "temperature"];
-    let body = Body::of(body, &known)?;
-    let (mut study, mut problems) = study(&desk.project.path(body.text("study")?)?)?;
-    study.sampling = None;
-    let conditions = match body.optional_text("temperature")? {
-        Some(text) => Conditions::typed("temperature", text, &mut problems),
-        None => None,
-    };
-    let changes = WhatIf {
-        errors: errors(&body, "errors")?,
-        setting_rad: setting(&body, "setting_deg")?,
-        tool_length_mm: body.optional_number("tool_length_mm")?,
-        conditions,
-    };
-    let study = changes.put(study, &mut problems).filter(|_| !problems.has_errors());
-    let Some(study) = study else { return Err(Refusal::unusable(&problems)) };
-    let prediction = preview(&study).map_err(|e| refused(&e))?;
-    Ok(Reply::Frame(frame(desk, &study, &prediction, &problems)))
+impl Request for WhatIfRequest {
+    type Answer<'a> = PredictAnswer<'a>;
+
+    fn answer(self, desk: &Desk, _: &Job) -> Result<Reply<Self>, Refusal> {
+        let (mut study, mut problems) = study(&desk.project.path(&self.study)?)?;
+        study.sampling = None;
+        let conditions = match &self.temperature {
+            Some(text) => Conditions::typed("temperature", text, &mut problems),
+            None => None,
+        };
+        let angles = self.setting_deg.into_iter().flatten();
+        let changes = WhatIf {
+            errors: errors(self.errors)?,
+            setting_rad: angles.map(|(name, deg)| (name, deg.to_radians())).collect(),
+            tool_length_mm: self.tool_length_mm,
+            conditions,
+        };
+        let study = changes.put(study, &mut problems).filter(|_| !problems.has_errors());
+        let Some(study) = study else { return Err(Refusal::unusable(&problems)) };
+        let prediction = preview(&study).map_err(|e| refused(&e))?;
+        let answer = PredictAnswer::TestPiece(piece(desk, &study, &prediction, &problems));
+        Ok(Reply::frame(&answer, section_arrays(&prediction)))
+    }
 }
 
-/// A study that may be predicted, and what was found in its file.
+/// A study without errors, and the warnings and notes of its file.
 pub(super) fn study(path: &Path) -> Result<(Study, Diagnostics), Refusal> {
     let (study, problems) = read_study(&disk(), path);
     match study.filter(|_| !problems.has_errors()) {
@@ -73,82 +198,92 @@ fn refused(error: &Error) -> Refusal {
     Refusal::new(422, error.code(), error.to_string(), hint)
 }
 
-fn frame(desk: &Desk, study: &Study, prediction: &Prediction, problems: &Diagnostics) -> Frame {
+fn piece<'a>(
+    desk: &Desk,
+    study: &'a Study,
+    prediction: &Prediction,
+    problems: &'a Diagnostics,
+) -> PieceEntry<'a> {
     let machine = &study.machine;
     let rotary = machine.axes().iter().filter(|a| a.kind == AxisKind::Rotary);
-    let errors = machine.stated_errors().into_iter().map(|(_, name)| {
-        json!({ "name": name.to_string(), "unit": if name.component.is_rotation() { "µrad" } else { "µm" } })
-    });
-    let frame = Frame::new()
-        .say("kind", json!("test-piece"))
-        .say("document", report::json(study, prediction))
-        .say("machine", json!(desk.project.name_of(&study.machine_path)))
-        .say("rotary", rotary.map(|a| a.name.to_string()).collect())
-        .say("tool_length_mm", json!(-machine.tip_mm().z))
-        .say("errors", errors.collect())
-        .say("sensors", machine.heat().sensors().into())
-        .say("sections", prediction.sections.iter().map(section_json).collect())
-        .say("diagnostics", diagnostics_json(problems).into());
-    with_sections(frame, prediction)
+    let errors = machine.stated_errors().into_iter().map(|(_, name)| name);
+    PieceEntry {
+        document: report::json(study, prediction),
+        machine: desk.project.name_of(&study.machine_path),
+        rotary: rotary.map(|a| a.name.to_string()).collect(),
+        tool_length_mm: -machine.tip_mm().z,
+        errors: errors.map(ErrorUnitEntry::from).collect(),
+        sensors: machine.heat().sensors(),
+        sections: prediction.sections.iter().map(SectionEntry::from).collect(),
+        diagnostics: entries(problems),
+    }
 }
 
-/// Height and fitted circles; the points of all sections stand in the arrays, one after the other.
-fn section_json(result: &SectionResult) -> Value {
-    let section = &result.section;
-    let circles = &section.circles;
-    let zones = [
-        ("least squares", circles.lsc),
-        ("minimum zone", circles.mzc),
-        ("maximum inscribed", circles.mic),
-        ("minimum circumscribed", circles.mcc),
-    ];
-    let zone = |(name, zone): (&str, Zone)| {
-        json!({
-            "name": name,
-            "centre_mm": zone.center_mm,
-            "radius_mm": zone.radius_mm,
-            "inner_mm": zone.inner_mm,
-            "outer_mm": zone.outer_mm,
-        })
-    };
-    json!({
-        "z_mm": section.z_mm,
-        "height_mm": section.height_mm,
-        "radius_mm": section.radius_mm,
-        "points": section.azimuth_rad.len(),
-        "circles": zones.map(zone),
-    })
+impl From<ErrorName> for ErrorUnitEntry {
+    fn from(name: ErrorName) -> Self {
+        let unit = if name.component.is_rotation() { "µrad" } else { "µm" };
+        Self { name: name.to_string(), unit }
+    }
 }
 
-fn with_sections(frame: Frame, prediction: &Prediction) -> Frame {
+impl From<&SectionResult> for SectionEntry {
+    fn from(result: &SectionResult) -> Self {
+        let section = &result.section;
+        let circles = &section.circles;
+        Self {
+            z_mm: section.z_mm,
+            height_mm: section.height_mm,
+            radius_mm: section.radius_mm,
+            points: section.azimuth_rad.len(),
+            circles: [
+                CircleEntry::of("least squares", &circles.lsc),
+                CircleEntry::of("minimum zone", &circles.mzc),
+                CircleEntry::of("maximum inscribed", &circles.mic),
+                CircleEntry::of("minimum circumscribed", &circles.mcc),
+            ],
+        }
+    }
+}
+
+impl CircleEntry {
+    fn of(name: &'static str, zone: &Zone) -> Self {
+        Self {
+            name,
+            centre_mm: zone.center_mm,
+            radius_mm: zone.radius_mm,
+            inner_mm: zone.inner_mm,
+            outer_mm: zone.outer_mm,
+        }
+    }
+}
+
+/// The points of all sections, one after the other.
+fn section_arrays(prediction: &Prediction) -> Arrays {
     let sections = || prediction.sections.iter().map(|s| &s.section);
     let azimuth = sections().flat_map(|s| s.azimuth_rad.iter().map(|a| *a as f32)).collect();
     let error_um = sections().flat_map(|s| s.deviation_mm.iter().map(|e| (e * 1e3) as f32));
     let profile = sections().flat_map(|s| s.profile_mm.iter().flatten().copied());
-    frame
-        .with("azimuth_rad", Array::F32(azimuth))
-        .with("error_um", Array::F32(error_um.collect()))
-        .with("profile_mm", Array::F64(profile.collect()))
+    vec![
+        ("azimuth_rad", Array::F32(azimuth)),
+        ("error_um", Array::F32(error_um.collect())),
+        ("profile_mm", Array::F64(profile.collect())),
+    ]
 }
 
-fn holes(path: &Path) -> Result<Reply, Refusal> {
+/// A study of holes without errors, and its prediction.
+pub(super) fn holes(path: &Path) -> Result<(HoleStudy, HolePrediction, Diagnostics), Refusal> {
     let (study, problems) = read_hole_study(&disk(), path);
     let Some(study) = study.filter(|_| !problems.has_errors()) else {
         return Err(Refusal::unusable(&problems));
     };
     let prediction = predict_holes(&study).map_err(|problems| Refusal::unusable(&problems))?;
-    let frame = Frame::new()
-        .say("kind", json!("holes"))
-        .say("document", report::holes_json(&study, &prediction))
-        .say("sensors", study.machine.heat().sensors().into())
-        .say("diagnostics", diagnostics_json(&problems).into());
+    Ok((study, prediction, problems))
+}
+
+fn hole_arrays(study: &HoleStudy, prediction: &HolePrediction) -> Arrays {
     let places = study.holes_mm.iter().flat_map(|p| [p.x, p.y, p.z]);
     let of_sets = prediction.sets.iter().flat_map(|set| &set.holes);
     let error_um =
         of_sets.flat_map(|h| [h.error_mm.x, h.error_mm.y, h.error_mm.z].map(|e| (e * 1e3) as f32));
-    Ok(Reply::Frame(
-        frame
-            .with("holes_mm", Array::F64(places.collect()))
-            .with("error_um", Array::F32(error_um.collect())),
-    ))
+    vec![("holes_mm", Array::F64(places.collect())), ("error_um", Array::F32(error_um.collect()))]
 }

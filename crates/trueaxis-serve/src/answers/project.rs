@@ -1,51 +1,147 @@
 //! Files of the project: which there are, their text, and saving it.
 
-use crate::body::Body;
-use crate::desk::{Desk, Job, Reply};
-use crate::project::version;
-use crate::refusal::Refusal;
-use serde_json::{Value, json};
+use super::{Reply, Request};
+use crate::desk::{Desk, Job};
+use crate::project::{ExampleEntry, FileEntry, version};
+use crate::refusal::{Refusal, entries};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::path::Path;
 use trueaxis::files;
+use trueaxis::report::DiagnosticEntry;
 
 /// Which files and examples there are.
-pub(super) fn project(desk: &Desk, body: &Value, _: &Job) -> Result<Reply, Refusal> {
-    Body::of(body, &[])?;
-    Ok(Reply::Json(desk.project.json()))
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ProjectRequest {}
+
+/// The project folder.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct ProjectAnswer<'a> {
+    /// The name of the folder.
+    folder: String,
+    /// The version of TrueAxis.
+    version: &'static str,
+    /// The examples of the folder.
+    examples: Vec<ExampleEntry>,
+    /// Its files in the order of their paths.
+    files: Vec<FileEntry>,
+    /// Whether there are more files than are listed.
+    more_files: bool,
+    /// Problems of the list of examples.
+    diagnostics: Vec<DiagnosticEntry<'a>>,
 }
 
-/// The text of a file and its version.
-pub(super) fn open(desk: &Desk, body: &Value, _: &Job) -> Result<Reply, Refusal> {
-    let body = Body::of(body, &["path"])?;
-    let name = body.text("path")?;
-    let content = read(&desk.project.path(name)?)?;
-    // Programs of old controls are no UTF-8; what is none shows as a replacement character.
-    let text = String::from_utf8_lossy(&content);
-    Ok(Reply::Json(json!({ "path": name, "text": text, "version": version(&content) })))
+impl Request for ProjectRequest {
+    type Answer<'a> = ProjectAnswer<'a>;
+
+    fn answer(self, desk: &Desk, _: &Job) -> Result<Reply<Self>, Refusal> {
+        let (files, more_files) = desk.project.files();
+        let (examples, problems) = desk.project.examples();
+        Ok(Reply::json(&ProjectAnswer {
+            folder: desk.project.name(),
+            version: env!("CARGO_PKG_VERSION"),
+            examples,
+            files,
+            more_files,
+            diagnostics: entries(&problems),
+        }))
+    }
+}
+
+/// The text of a file.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct OpenRequest {
+    /// Its path below the project folder.
+    path: String,
+}
+
+/// A file as it is on the disk.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct OpenAnswer<'a> {
+    /// Its path below the project folder.
+    path: &'a str,
+    /// Its text; what is not UTF-8 is shown as replacement characters.
+    text: &'a str,
+    /// The version of the text, for `save`.
+    version: String,
+}
+
+impl Request for OpenRequest {
+    type Answer<'a> = OpenAnswer<'a>;
+
+    fn answer(self, desk: &Desk, _: &Job) -> Result<Reply<Self>, Refusal> {
+        let content = read(&desk.project.path(&self.path)?)?;
+        // Programs of old controls are not UTF-8.
+        let text = String::from_utf8_lossy(&content);
+        Ok(Reply::json(&OpenAnswer { path: &self.path, text: &text, version: version(&content) }))
+    }
 }
 
 /// Replaces the text of a file, if it is still the one that was opened.
-pub(super) fn save(desk: &Desk, body: &Value, _: &Job) -> Result<Reply, Refusal> {
-    let body = Body::of(body, &["path", "text", "version", "window"])?;
-    let (name, text) = (body.text("path")?, body.text("text")?);
-    let path = desk.project.writable_path(name)?;
-    let known = body.optional_text("version")?;
-    let _one = desk.saving.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-    let there = path.exists().then(|| read(&path)).transpose()?;
-    if there.as_deref().map(version).as_deref() != known {
-        let message = format!("{name} was changed by somebody else since it was opened");
-        let hint = "open it again, or save under another name";
-        return Err(Refusal::new(409, "conflict", message, hint));
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SaveRequest {
+    /// Its path below the project folder: TOML or CSV.
+    path: String,
+    /// The new text.
+    text: String,
+    /// The version that was opened; null for a new file.
+    version: Option<String>,
+    /// The window that saves it, so that it recognises its own changes.
+    window: Option<String>,
+}
+
+/// A file that was saved.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct SaveAnswer<'a> {
+    /// Its path.
+    path: &'a str,
+    /// The version of its new text.
+    version: &'a str,
+}
+
+/// A change of a file; without a path any file may have changed.
+#[derive(Debug, Clone, Default, Serialize, JsonSchema)]
+pub(crate) struct ChangeEntry {
+    /// Its path below the project folder.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    path: Option<String>,
+    /// The version of its new text.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    version: Option<String>,
+    /// The window that saved it; absent if that is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    window: Option<String>,
+}
+
+impl Request for SaveRequest {
+    type Answer<'a> = SaveAnswer<'a>;
+
+    fn answer(self, desk: &Desk, _: &Job) -> Result<Reply<Self>, Refusal> {
+        let (name, text) = (&self.path, self.text.as_bytes());
+        let path = desk.project.writable_path(name)?;
+        let _one = desk.saving.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let current = path.exists().then(|| read(&path)).transpose()?;
+        if current.as_deref().map(version) != self.version {
+            let message = format!("{name} was changed by somebody else since it was opened");
+            let hint = "open it again, or save under another name";
+            return Err(Refusal::new(409, "conflict", message, hint));
+        }
+        files::write(&path, text).map_err(|e| {
+            Refusal::new(422, "unwritable-file", format!("{name} cannot be written: {e}"), "")
+        })?;
+        let version = version(text);
+        let change = ChangeEntry {
+            path: Some(name.clone()),
+            version: Some(version.clone()),
+            window: self.window.clone(),
+        };
+        // It fails if no other window is open.
+        let _ = desk.changed.send(change);
+        Ok(Reply::json(&SaveAnswer { path: name, version: &version }))
     }
-    files::write(&path, text.as_bytes()).map_err(|e| {
-        Refusal::new(422, "unwritable-file", format!("{name} cannot be written: {e}"), "")
-    })?;
-    let version = version(text.as_bytes());
-    let window = body.optional_text("window")?;
-    let news = json!({ "changed": { "path": name, "version": version, "window": window } });
-    // Nobody else may be looking.
-    let _ = desk.changed.send(news);
-    Ok(Reply::Json(json!({ "path": name, "version": version })))
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, Refusal> {

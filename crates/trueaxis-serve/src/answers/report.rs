@@ -1,59 +1,120 @@
 //! The pages of the command line, kept for the page to show.
 
-use super::evaluate::judged;
+use super::evaluate::{EvaluateRequest, Judged};
 use super::identify::identified;
-use super::predict::study;
-use super::wants::control;
-use crate::body::{Body, short};
-use crate::desk::{Desk, Job, Reply};
+use super::predict::{holes, predicted, study};
+use super::settings::control;
+use super::simulate_document::SimulateRequest;
+use super::{Reply, Request};
+use crate::body::needed;
+use crate::desk::{Desk, Job};
 use crate::refusal::Refusal;
-use serde_json::{Value, json};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::path::Path;
 use trueaxis::files::disk;
 use trueaxis::input::Place;
 use trueaxis::plan::{chosen, planned};
-use trueaxis::predict::holes::{is_hole_study, predict_holes, read_hole_study};
+use trueaxis::predict::holes::is_hole_study;
 use trueaxis::report::{
     self, DrawingError, comparison_html, evaluation_html, holes_html, identification_html,
     plan_html,
 };
 use trueaxis::verify::compare::{compare, read_comparison};
 
-const VERBS: &str = "predict, simulate, plan, identify, evaluate or verify";
+/// Makes a report.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ReportRequest {
+    /// The command whose report it is.
+    verb: Verb,
+    /// The file that the command takes.
+    file: String,
+    /// The machine file, for `simulate`.
+    machine: Option<String>,
+    /// The standard, for `evaluate`.
+    standard: Option<String>,
+    /// The control of the programs, for `plan`.
+    dialect: Option<String>,
+}
 
-/// Makes a report and says where it is.
-pub(super) fn report(desk: &Desk, body: &Value, job: &Job) -> Result<Reply, Refusal> {
-    let body = Body::of(body, &["verb", "file", "machine", "standard", "dialect"])?;
-    let verb = body.text("verb")?;
-    let name = body.text("file")?;
-    let path = desk.project.path(name)?;
-    let page = match verb {
-        "predict" => prediction(&path, job)?,
-        "simulate" => {
-            let request = json!({ "machine": body.text("machine")?, "program": name });
-            super::simulate::page(desk, &request, job)?
+/// A command that has a report.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+enum Verb {
+    /// A test piece or holes.
+    Predict,
+    /// An NC program.
+    Simulate,
+    /// A plan of measurements.
+    Plan,
+    /// The errors of a machine.
+    Identify,
+    /// Readings by a standard.
+    Evaluate,
+    /// Prediction and measurement compared.
+    Verify,
+}
+
+impl Verb {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Predict => "predict",
+            Self::Simulate => "simulate",
+            Self::Plan => "plan",
+            Self::Identify => "identify",
+            Self::Evaluate => "evaluate",
+            Self::Verify => "verify",
         }
-        "plan" => plan(&body, &path)?,
-        "identify" => {
-            let identified = identified(&path, |_| Ok(None), job)?;
-            identification_html(&identified.report()).map_err(undrawn)?
+    }
+}
+
+/// A report that was made.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct ReportAnswer {
+    /// Its address on the server; only the last few reports are kept.
+    url: String,
+    /// Its size in bytes.
+    bytes: usize,
+    /// A name for the file.
+    name: String,
+}
+
+impl Request for ReportRequest {
+    type Answer<'a> = ReportAnswer;
+
+    fn answer(self, desk: &Desk, job: &Job) -> Result<Reply<Self>, Refusal> {
+        let path = desk.project.path(&self.file)?;
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        let name = format!("{stem}-{}.html", self.verb.name());
+        let page = self.page(desk, &path, job)?;
+        let bytes = page.len();
+        let (number, _) = desk.reports.put(page);
+        Ok(Reply::json(&ReportAnswer { url: format!("/report/{number}"), bytes, name }))
+    }
+}
+
+impl ReportRequest {
+    fn page(self, desk: &Desk, path: &Path, job: &Job) -> Result<String, Refusal> {
+        match self.verb {
+            Verb::Predict => prediction(path, job),
+            Verb::Simulate => {
+                let machine = needed(self.machine, "machine")?;
+                SimulateRequest::of(machine, self.file).page(desk, job)
+            }
+            Verb::Plan => plan(self.dialect.as_deref(), path),
+            Verb::Identify => {
+                let identified = identified(path, |_| Ok(None), job)?;
+                identification_html(&identified.report()).map_err(undrawn)
+            }
+            Verb::Evaluate => {
+                let standard = needed(self.standard, "standard")?;
+                let judged = Judged::read(desk, &EvaluateRequest::of(standard, self.file))?;
+                judged.with(evaluation_html).map_err(undrawn)
+            }
+            Verb::Verify => comparison(path),
         }
-        "evaluate" => {
-            let request = json!({ "standard": body.text("standard")?, "path": name });
-            let judged = judged(desk, &Body::of(&request, &["standard", "path"])?)?;
-            judged.told(evaluation_html).map_err(undrawn)?
-        }
-        "verify" => comparison(&path)?,
-        _ => return Err(Refusal::bad(format!("`{}` has no report", short(verb)), VERBS)),
-    };
-    let bytes = page.len();
-    let number = desk.reports.put(page);
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    Ok(Reply::Json(json!({
-        "url": format!("/report/{number}"),
-        "bytes": bytes,
-        "name": format!("{stem}-{verb}.html"),
-    })))
+    }
 }
 
 pub(super) fn undrawn(error: DrawingError) -> Refusal {
@@ -62,20 +123,16 @@ pub(super) fn undrawn(error: DrawingError) -> Refusal {
 
 fn prediction(path: &Path, job: &Job) -> Result<String, Refusal> {
     if is_hole_study(&disk(), path) {
-        let (study, problems) = read_hole_study(&disk(), path);
-        let Some(study) = study.filter(|_| !problems.has_errors()) else {
-            return Err(Refusal::unusable(&problems));
-        };
-        let found = predict_holes(&study).map_err(|problems| Refusal::unusable(&problems))?;
+        let (study, found, _) = holes(path)?;
         return holes_html(&study, &found).map_err(undrawn);
     }
     let (study, _) = study(path)?;
-    let prediction = super::predict::predicted(&study, job)?;
+    let prediction = predicted(&study, job)?;
     report::html(&study, &prediction).map_err(undrawn)
 }
 
-fn plan(body: &Body<'_>, path: &Path) -> Result<String, Refusal> {
-    let control = control(body)?;
+fn plan(dialect: Option<&str>, path: &Path) -> Result<String, Refusal> {
+    let control = control(dialect)?;
     let (plan, mut problems) = super::plan::read(path)?;
     let chosen = chosen(&plan, &mut problems);
     if problems.has_errors() {

@@ -19,7 +19,7 @@ use trueaxis_report::{Keyed, document};
 
 /// The links, errors, sensors, tools and models of a machine. A pose is 12 numbers: its rotation row by row, then
 /// its origin in mm. Bodies are given by their index among the links; null is the bed.
-#[derive(Debug, Serialize, JsonSchema)]
+#[derive(Debug, Default, Serialize, JsonSchema)]
 pub struct DescriptionDocument<'a> {
     /// The bodies of the kinematic chain.
     pub links: Vec<LinkEntry>,
@@ -27,8 +27,9 @@ pub struct DescriptionDocument<'a> {
     pub errors: Vec<ErrorEntry<'a>>,
     /// Its temperature sensors.
     pub sensors: Vec<SensorEntry<'a>>,
-    /// The tool in the spindle.
-    pub tool: MountedToolEntry,
+    /// The tool in the spindle; absent where there is no machine.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tool: Option<MountedToolEntry>,
     /// The tools of the machine file.
     pub tools: Vec<ToolAssemblyEntry<'a>>,
     /// The models of its bodies.
@@ -212,7 +213,7 @@ impl<'a> From<&'a Description<'_>> for DescriptionDocument<'a> {
                 .map(|e| ErrorEntry::of(e, description.links[e.index.body].axis))
                 .collect(),
             sensors: description.sensors.iter().map(SensorEntry::from).collect(),
-            tool: MountedToolEntry::from(machine),
+            tool: Some(MountedToolEntry::from(machine)),
             tools: machine.tools().iter().map(ToolAssemblyEntry::from).collect(),
             models: machine.models().iter().map(ModelEntry::from).collect(),
         }
