@@ -14,7 +14,6 @@ mod prediction_page;
 mod prediction_text;
 mod program;
 mod program_document;
-mod program_page;
 mod tables;
 mod tables_document;
 
@@ -29,9 +28,8 @@ pub use holes_html::holes_html;
 pub use prediction_document::{PredictionDocument, json};
 pub use prediction_page::html;
 pub use prediction_text::text;
-pub use program::{ProgramReport, program_text};
+pub use program::{ProgramReport, program_html, program_text};
 pub use program_document::{ProgramDocument, program_json};
-pub use program_page::program_html;
 pub use tables::{TablesReport, tables_text};
 pub use tables_document::{TablesDocument, tables_json};
 

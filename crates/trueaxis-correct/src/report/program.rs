@@ -1,10 +1,9 @@
-//! A compensated program, as text.
+//! A compensated program, in text and on a page.
 
 use crate::compensate::program::{Convention, ProgramOptions, Residual, Rewritten, Wrong};
-use std::fmt::Write;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::AxisKind;
-use trueaxis_report::numbers;
+use trueaxis_report::{DrawingError, Report, Section, Standing, Table, numbers};
 
 /// Everything that there is to tell.
 #[derive(Debug, Clone, Copy)]
@@ -22,16 +21,16 @@ pub struct ProgramReport<'a> {
 }
 
 /// One line of the table before and after: what, unit, before, after, and their lines.
-pub(super) struct Row {
-    pub name: &'static str,
-    pub unit: &'static str,
-    pub before: f64,
-    pub after: f64,
-    pub lines: [u32; 2],
+struct Row {
+    name: &'static str,
+    unit: &'static str,
+    before: f64,
+    after: f64,
+    lines: [u32; 2],
 }
 
 impl ProgramReport<'_> {
-    pub(super) fn rows(&self) -> [Row; 4] {
+    fn rows(&self) -> [Row; 4] {
         let proof = &self.rewritten.proof;
         let row =
             |name, unit, scale: f64, of: fn(&Residual) -> crate::compensate::program::Largest| {
@@ -63,7 +62,7 @@ impl ProgramReport<'_> {
         self.machine.axes()[axis].name.to_string()
     }
 
-    pub(super) fn rounding(&self) -> String {
+    fn rounding(&self) -> String {
         match self.options.increments {
             Some(i) => {
                 let [um, deg] = [i.linear_mm * 1e3, i.rotary_deg].map(numbers::rounded);
@@ -149,68 +148,122 @@ impl ProgramReport<'_> {
     }
 }
 
-/// As text.
-pub fn program_text(r: &ProgramReport<'_>) -> String {
-    let mut text = String::new();
-    let found = &r.rewritten.found;
-    // Writing to a String cannot fail.
-    let _ = writeln!(
-        text,
-        "{} on {}: {} blocks -> {} ({} split), {}, written to {}\n",
-        r.program,
-        r.machine.name(),
-        found.blocks,
-        found.pieces,
-        found.split,
-        r.rounding(),
-        r.output
+/// The answer in text and on a page.
+fn report<'a>(r: &ProgramReport<'a>) -> Report<'a> {
+    let proof = &r.rewritten.proof;
+    let tip_um = |of: &Residual| number(of.tip_end.value * 1e3);
+    let sentence = format!(
+        "the tip misses its block ends by up to {} µm instead of {} µm, and is within {} µm of its path \
+         between them",
+        tip_um(&proof.after),
+        tip_um(&proof.before),
+        number(proof.after.tip.value * 1e3)
     );
-    let _ = writeln!(text, "read back and simulated on the actual machine, largest deviation:");
-    let _ = writeln!(text, "{:36} {:>12} {:>14}   at line", "", "before", "after");
-    for row in r.rows() {
+    Report::new(format!("{} compensated for {}", r.program, r.machine.name()))
+        .line(format!("{}, written to {}, {}", r.machine.chain_text(), r.output, r.rounding()))
+        .verdict(Standing::Good, "WRITTEN", sentence)
+        .section(deviations(r))
+        .section(work(r))
+        .section(corrections(r))
+        .section(worst(r))
+        .section(conventions(r))
+}
+
+fn deviations<'a>(r: &ProgramReport<'_>) -> Section<'a> {
+    let rows = r.rows().map(|row| {
+        let [before_line, after_line] = row.lines.map(|line| line.to_string());
         let (before, after) = (number(row.before), number(row.after));
-        let _ = writeln!(
-            text,
-            "  {:34} {before:>12} {after:>14} {:4} {}, {}",
-            row.name, row.unit, row.lines[0], row.lines[1]
-        );
-    }
-    let c = &r.rewritten.confidence;
-    if c.largest_u_mm > 0.0 {
-        let u = number(c.largest_u_mm * 1e3);
-        let _ = writeln!(
-            text,
-            "  {:34} {u:>12}                µm   (k = 1)",
-            "standard uncertainty of the tip"
-        );
-    }
-    let _ = writeln!(text, "\nlargest correction of each axis:");
-    for (i, largest) in found.largest.iter().enumerate() {
+        [row.name.to_owned(), row.unit.to_owned(), before, before_line, after, after_line]
+    });
+    let confidence = &r.rewritten.confidence;
+    let u = match confidence.largest_u_mm > 0.0 {
+        true => format!(
+            " Standard uncertainty of the tip by the model: {} µm (k = 1) at the worst of {} places.",
+            number(confidence.largest_u_mm * 1e3),
+            confidence.looked_at
+        ),
+        false => String::new(),
+    };
+    let note = format!(
+        "The written program, read back and simulated on the actual machine, against the program as it was \
+         on the nominal machine. Lines are those of the program as it was.{u}"
+    );
+    let table = Table::new(["largest deviation", "unit", "before", "at line", "after", "at line"]);
+    Section::new("Deviation of the actual tool, before and after")
+        .table(table.rows(rows).note(note))
+}
+
+fn work<'a>(r: &ProgramReport<'_>) -> Section<'a> {
+    let found = &r.rewritten.found;
+    let counts = [
+        ("blocks that move the tool", found.blocks),
+        ("of these divided into several", found.split),
+        ("blocks written for them", found.pieces),
+        ("circles that became lines", found.circles),
+        ("words added", found.words_added),
+        ("feeds changed where only rotary axes turn", found.feeds_changed),
+    ];
+    let change = format!(
+        "The feed is kept; the path length of the tip in a block changes by up to {:+.1} µm/m.",
+        found.length_change * 1e6
+    );
+    let counts = counts.map(|(name, count)| (name, count.to_string()));
+    Section::new("Changes").table(Table::pairs(counts)).paragraph(change).list(r.remarks())
+}
+
+fn corrections<'a>(r: &ProgramReport<'_>) -> Section<'a> {
+    let rows = r.rewritten.found.largest.iter().enumerate().map(|(i, largest)| {
         let (scale, unit) = r.unit(i);
         let value = format!("{:+.3}", largest.value * scale);
-        let _ =
-            writeln!(text, "  {:2} {value:>12} {unit:4} at line {}", r.axis_name(i), largest.line);
-    }
-    let change = found.length_change * 1e6;
-    let _ = writeln!(
-        text,
-        "\nfeed kept; the way of the tip in a block changes by up to {change:+.1} µm/m"
-    );
-    let rows = r.conventions();
-    if !rows.is_empty() {
-        let _ = writeln!(text, "\nconvention check at the block with the largest correction:");
-    }
-    for (name, tip, axis) in rows {
-        let _ = writeln!(text, "  {name:20} leaves {tip:10.3} µm and {axis:10.3} µrad");
-    }
-    for remark in r.remarks() {
-        let _ = writeln!(text, "note: {remark}");
-    }
-    text
+        [r.axis_name(i), value, unit.to_owned(), largest.line.to_string()]
+    });
+    let table = Table::new(["axis", "correction", "unit", "at line"]).rows(rows);
+    Section::new("Largest correction of each axis").table(table)
+}
+
+fn worst<'a>(r: &ProgramReport<'_>) -> Section<'a> {
+    let rows = r.rewritten.proof.worst.iter().map(|block| {
+        let [before, after] = [block.tip_before_mm, block.tip_after_mm].map(|v| number(v * 1e3));
+        let [from, to] = [block.axis_before_rad, block.axis_after_rad].map(|v| number(v * 1e6));
+        [block.line.to_string(), before, after, from, to]
+    });
+    let headings = [
+        "line",
+        "tip before, µm",
+        "tip after, µm",
+        "tool axis before, µrad",
+        "tool axis after, µrad",
+    ];
+    Section::new("Blocks with the largest residual deviation")
+        .on_page()
+        .table(Table::new(headings).rows(rows))
+}
+
+fn conventions<'a>(r: &ProgramReport<'_>) -> Section<'a> {
+    let rows =
+        r.conventions().into_iter().map(|(name, tip, axis)| [name, number(tip), number(axis)]);
+    let note = "What would be left at the block with the largest correction without any, and if the control \
+                took it with a wrong sign: a wrong sign makes it about twice as bad as no correction. Try \
+                one pose on the machine before the first part.";
+    let table = Table::new(["", "tip, µm", "tool axis, µrad"]).rows(rows).note(note);
+    Section::new("Convention check").table(table)
+}
+
+/// The answer as text.
+pub fn program_text(answer: &ProgramReport<'_>) -> String {
+    report(answer).text()
+}
+
+/// The answer as a page.
+///
+/// # Errors
+/// What the drawing library says.
+pub fn program_html(answer: &ProgramReport<'_>) -> Result<String, DrawingError> {
+    report(answer).html()
 }
 
 /// Small numbers keep their digits.
-pub(super) fn number(value: f64) -> String {
+fn number(value: f64) -> String {
     match value.abs() {
         a if a == 0.0 || a >= 1e-3 => format!("{value:.3}"),
         _ => format!("{value:.1e}"),

@@ -178,7 +178,7 @@ impl Answer for ProgramAnswer {
     }
 
     fn page(&self) -> Result<String, DrawingError> {
-        Ok(report::program_html(&self.shown()))
+        report::program_html(&self.shown())
     }
 
     fn files(&self) -> Vec<NewFile> {
