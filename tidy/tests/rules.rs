@@ -231,7 +231,7 @@ fn disk_sockets_and_clocks() -> Vec<String> {
 const ROOMS: [(&str, &[&str]); 3] = [
     ("trueaxis-calibrate", &["instruments", "unknowns", "measure", "plan", "identify", "report"]),
     ("trueaxis-correct", &["predict", "compensate", "report"]),
-    ("trueaxis", &["files", "verify", "report"]),
+    ("trueaxis", &["files", "verify", "explain", "report", "questions", "schemas"]),
 ];
 
 fn modules_of(crate_name: &str) -> Modules {

@@ -1,10 +1,10 @@
 //! What do the readings show by a standard?
 
 use super::{Answer, NewFile, Question, with_diagnostics};
+use crate::files::output::{Kind, may_write};
 use crate::report;
 use crate::verify::write_back::{FIRST_LINE, write_back};
 use serde_json::Value;
-use std::fs;
 use std::path::{Path, PathBuf};
 use trueaxis_input::{Diagnostics, Dimension, Files, Place, parse_quantity};
 use trueaxis_machine::Machine;
@@ -63,7 +63,7 @@ pub struct EvaluateAnswer {
     pub standard: Standard,
     /// The readings' file or name.
     pub name: String,
-    /// What is known beside them.
+    /// The conditions of the readings.
     pub conditions: Conditions,
     /// The file of the conditions, if there is one.
     pub conditions_file: Option<PathBuf>,
@@ -87,7 +87,10 @@ impl EvaluateAnswer {
     }
 }
 
-/// An error motion as a table beside the machine file.
+/// What a table may replace: one of this kind.
+const TABLE: Kind = Kind::file("--write-back", "a table of this command", &[FIRST_LINE.as_bytes()]);
+
+/// An error motion as a table next to the machine file.
 #[derive(Debug)]
 struct Table {
     file: NewFile,
@@ -147,14 +150,7 @@ impl Evaluate {
         let stem = self.path().file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let name = format!("{stem}-{}.csv", back.error);
         let path = machine_path.with_file_name(&name);
-        let is_ours = |text: String| text.is_empty() || text.starts_with(FIRST_LINE);
-        if path.exists() && !fs::read_to_string(&path).is_ok_and(is_ours) {
-            let message = "is there, and was not written by this command".to_owned();
-            let place = Place::whole(&path.display().to_string());
-            let hint = "it is not overwritten; move it away";
-            problems.error("unwritable-file", place, message, hint);
-            return None;
-        }
+        may_write(&path, &TABLE, problems);
         let sign = match back.negated {
             true => "sign changed: this body moves against its command (ISO 841)\n",
             false => "",
