@@ -1,10 +1,10 @@
-//! Plan: what a measurement will tell, before anybody measures.
+//! Plan: what a measurement will determine, before it is made.
 //!
 //! ```text
 //!     campaign.toml ──read_plan──> Plan {campaign, paths, candidates}
-//!     [Path] + Design ──expect──> Expectation: u of every unknown, what cannot be told, what helps
-//!     candidates + limit ──choose──> Chosen: the poses that tell most in the time
-//!     Path ──program──> NC text ──check──> duration, troubles
+//!     [Path] + Design ──expect──> Expectation: u of every unknown, what is not observable, what helps
+//!     candidates + limit ──choose──> Chosen: the most informative poses in the time
+//!     Path ──program──> NC text ──check──> duration, issues
 //!     all of it ──planned──> PlanReport
 //! ```
 

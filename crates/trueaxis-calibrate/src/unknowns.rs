@@ -1,6 +1,6 @@
-//! What is sought, how readings follow it, and what they can tell apart.
+//! The unknowns, how readings follow them, and which of them are separable.
 //!
-//! [`term`] says what is sought, a [`design`] how readings follow it, a [`fit`] finds it, [`confusion`] says what
+//! [`term`] describes an unknown, a [`design`] how readings follow it, a [`fit`] finds it, [`confusion`] says what
 //! cannot be separated.
 
 pub mod confusion;

@@ -14,14 +14,14 @@ use trueaxis_machine::errors::{Component, ErrorIndex, ErrorKind, ErrorValues};
 
 /// An axis of rotation that passes so near to the ball says nothing by turning, mm.
 const ON_AXIS_MM: f64 = 0.5;
-/// Readings further from the nominal one than this, and than twenty times what is usual, are told.
+/// Readings further from the nominal one than this, and than twenty times what is usual, are reported.
 const FAR_MM: f64 = 0.5;
-/// Powers of three and more are told where less than this share of their range was measured.
+/// Powers of three and more are reported where less than this share of their range was measured.
 const LEAST_RANGE: f64 = 0.4;
-/// Rows that are told one by one.
-const MOST_TOLD: usize = 10;
+/// Rows that are reported one by one.
+const MOST_REPORTED: usize = 10;
 
-/// Reading minus nominal reading of the machine without the errors that are sought, mm or rad.
+/// Reading minus nominal reading of the machine without the unknown errors, mm or rad.
 pub fn deviations(design: &Design, readings: &Readings) -> Vec<[f64; 3]> {
     let nominal = |i: usize| {
         let instrument = &design.instruments[readings.instruments[i] as usize];
@@ -84,7 +84,7 @@ fn check_ranges(
     campaign: &Place,
     problems: &mut Diagnostics,
 ) {
-    let mut told = Vec::new();
+    let mut reported = Vec::new();
     for term in &design.terms {
         let (Basis::Legendre { degree, half, .. }, Some(axis)) = (term.basis, term.axis) else {
             continue;
@@ -92,10 +92,10 @@ fn check_ranges(
         let positions = readings.commands.iter().map(|c| c[axis]);
         let (low, high) = positions.fold((f64::MAX, f64::MIN), |(l, h), q| (l.min(q), h.max(q)));
         // A parabola over a quarter of its range bends by a sixteenth of its size.
-        if degree < 3 || high - low >= LEAST_RANGE * 2.0 * half || told.contains(&term.error) {
+        if degree < 3 || high - low >= LEAST_RANGE * 2.0 * half || reported.contains(&term.error) {
             continue;
         }
-        told.push(term.error);
+        reported.push(term.error);
         let machine_axis = &design.machine.axes()[axis];
         let (unit, by) = match machine_axis.kind {
             AxisKind::Linear => ("mm", 1.0),
@@ -141,7 +141,7 @@ fn check_size(design: &Design, records: &Records, problems: &mut Diagnostics) {
             (0..channels).any(|c| deviations[**i][c].abs() > limit.max(20.0 * usual[c]))
         };
         let far: Vec<usize> = rows.iter().filter(far).copied().collect();
-        for i in far.iter().take(MOST_TOLD) {
+        for i in far.iter().take(MOST_REPORTED) {
             let off = deviations[*i].iter().fold(0.0_f64, |m, v| m.max(v.abs()));
             if instrument.kind.triggers() {
                 let message = format!(
@@ -159,9 +159,10 @@ fn check_size(design: &Design, records: &Records, problems: &mut Diagnostics) {
                 problems.warn("far-off", records.place(*i), message, hint);
             }
         }
-        if far.len() > MOST_TOLD {
-            let message = format!("{}: {} more like these", instrument.name, far.len() - MOST_TOLD);
-            problems.note("far-off", records.place(far[MOST_TOLD]), message, "");
+        if far.len() > MOST_REPORTED {
+            let message =
+                format!("{}: {} more like these", instrument.name, far.len() - MOST_REPORTED);
+            problems.note("far-off", records.place(far[MOST_REPORTED]), message, "");
         }
     }
 }
@@ -178,7 +179,7 @@ fn check_lost_rows(records: &Records, problems: &mut Diagnostics) {
     if *usual < 2 || *times * 10 < groups.len() * 8 || groups.len() < 5 {
         return;
     }
-    for (size, first) in groups.values().filter(|(size, _)| size != usual).take(MOST_TOLD) {
+    for (size, first) in groups.values().filter(|(size, _)| size != usual).take(MOST_REPORTED) {
         let message = format!("{size} readings in this group, {usual} in most");
         let hint = "were rows lost, or measured twice? the rest counts as it is";
         problems.warn("uneven-groups", records.place(*first), message, hint);

@@ -2,7 +2,7 @@
 //!
 //! A wrong convention leaves a residual that no error of a machine explains. Every change that people
 //! make by mistake is tried on a sample of the readings with the linear model, and the one is named
-//! that fits far better. One instrument alone cannot tell the sign of all its channels together: the
+//! that fits far better. One instrument alone does not determine the common sign of all its channels: the
 //! errors would only change theirs.
 
 use super::checks::deviations;
@@ -139,7 +139,7 @@ fn unit_remarks(
         (25.4, "mm written as inch", "inch written as mm"),
         (25_400.0, "µm written as inch", "inch written as µm"),
     ];
-    // The model must explain most of what there is: else the unit is not the trouble.
+    // The model must explain most of what there is: else the unit is not the cause.
     let explained = residual < 0.3 * size;
     factors
         .iter()
@@ -324,7 +324,7 @@ fn changed(
     (design, sample)
 }
 
-/// What is left of deviations after a linear fit, root mean square in units of the noise.
+/// The residual of deviations after a linear fit, root mean square in units of the noise.
 ///
 /// `with` are the deviations that the other errors of the machine file are taken from.
 fn misfit(design: &Design, sample: &Readings, with: &[[f64; 3]], values: &[[f64; 3]]) -> f64 {

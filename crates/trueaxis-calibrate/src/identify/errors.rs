@@ -35,7 +35,7 @@ const LEAST_SHARE: f64 = 0.15;
 const ROBUST_PASSES: usize = 12;
 /// Huber's bound: 82.14 % of normal numbers are within 1.345 standard deviations.
 const HUBER_TAIL: f64 = 0.1786;
-/// The residual from which on the conventions are looked at unasked, in units of the noise.
+/// The residual from which on the conventions are checked unasked, in units of the noise.
 const SUSPICIOUS: f64 = 5.0;
 
 /// An unknown and what was found of it.
@@ -49,7 +49,7 @@ pub struct Found {
     pub is_angle: bool,
     /// Whether it belongs to a set-up and not to the machine.
     pub is_setup: bool,
-    /// Value and standard uncertainty, mm, rad or 1; none if it cannot be told from others.
+    /// Value and standard uncertainty, mm, rad or 1; none if it is not observable.
     pub value: Option<(f64, f64)>,
 }
 
@@ -67,11 +67,11 @@ pub enum Verdict {
     Explained,
     /// It is better on its own readings than on others.
     OverFitted,
-    /// What is left is a smooth function of X, Y, Z; the share of its squares.
+    /// The residual is a smooth function of X, Y, Z; the share of its squares.
     FollowsPlaces(f64),
-    /// What is left turns with a rotary axis: its letter and the share of the squares.
+    /// The residual turns with a rotary axis: its letter and the share of the squares.
     TurnsWith(String, f64),
-    /// What is left follows neither.
+    /// The residual follows neither.
     Unexplained,
 }
 
@@ -125,7 +125,7 @@ pub struct Identification {
     pub found: Vec<Found>,
     /// Candidates that the readings do not support.
     pub left_out: Vec<String>,
-    /// What cannot be told apart, of all candidates.
+    /// Combinations of all candidates that are not observable.
     pub unobservable: Vec<Unobservable>,
     /// How the terms were chosen.
     pub selection: Selection,
@@ -149,7 +149,7 @@ pub struct Identification {
     pub places: usize,
     /// From where to where each axis went, mm or rad.
     pub reach: [[f64; 2]; MAX_AXES],
-    /// The conventions, if they were looked at.
+    /// The conventions, if they were checked.
     pub conventions: Option<ConventionCheck>,
 }
 
@@ -166,7 +166,7 @@ pub fn identify(
     if readings.is_empty() || whole.unknowns() == 0 {
         let message = match readings.is_empty() {
             true => "there are no readings",
-            false => "nothing is sought",
+            false => "there are no unknowns",
         };
         let hint = "[instrument.NAME] readings = \"FILE.csv\"; [unknown] location = \"minimal\"";
         problems.error("nothing-to-identify", place, message.to_owned(), hint);

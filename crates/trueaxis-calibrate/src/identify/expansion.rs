@@ -22,7 +22,7 @@ const SENSOR_U_K: f64 = 0.1;
 /// One strange run of m leaves (m − 1)² times as much in itself as, by the common geometry, in each
 /// of the others; from this share of it on a run is named.
 const OUTLIER_SHARE: f64 = 0.6;
-/// Among fewer runs a strange one cannot be told from the others.
+/// Among fewer runs an inconsistent one cannot be identified.
 const RUNS_TO_JUDGE: usize = 4;
 
 /// One laser run.
@@ -134,7 +134,7 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Runs> {
             problems.warn("unused-column", column.place.clone(), message, &hint);
         }
     }
-    // Where some could not be read, that was told; they are not too few besides.
+    // Where some could not be read, that was reported; they are not too few besides.
     if runs.len() == stated {
         check(root, &positions_mm, &runs);
     }
@@ -171,11 +171,12 @@ fn check(root: &Section<'_>, positions_mm: &[f64], runs: &[Run]) {
         high - low
     };
     if positions_mm.len() < 3 || spread(positions_mm) <= 0.0 {
-        let message = format!("{} positions cannot tell a slope from noise", positions_mm.len());
+        let message =
+            format!("{} positions cannot separate a slope from noise", positions_mm.len());
         root.error("too-few-positions", message, "measure at three positions or more");
     }
     if runs.len() < 2 {
-        let message = "one temperature tells nothing about expansion".to_owned();
+        let message = "expansion cannot be determined at one temperature".to_owned();
         root.error("too-few-runs", message, "measure at two temperatures or more");
         return;
     }
@@ -214,7 +215,7 @@ fn check(root: &Section<'_>, positions_mm: &[f64], runs: &[Run]) {
 /// ```
 ///
 /// # Source
-/// Document 001, section 1.4.2 (two runs); the uncertainty by GUM, first order.
+/// Zhang et al. 2019, section 1.4.2 (two runs); the uncertainty by GUM, first order.
 pub fn identify_expansion(data: &Runs) -> Expansion {
     let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
     let p_mean = mean(&data.positions_mm);
@@ -263,7 +264,7 @@ fn ends(celsius: &[f64]) -> (usize, usize) {
     (coldest, warmest)
 }
 
-/// What is left of each run when geometry, zero and expansion are taken away.
+/// The residual of each run when geometry, zero and expansion are subtracted.
 fn residuals(data: &Runs, p: &[f64], t: &[f64], per_k: f64) -> Vec<Vec<f64>> {
     let (n, m) = (p.len() as f64, t.len() as f64);
     let left: Vec<Vec<f64>> = data

@@ -13,7 +13,7 @@ use trueaxis_machine::twist::Reference;
 
 /// More rows than this say nothing more.
 const MOST_ROWS: usize = 20_000;
-/// Against fields that the poses do not tell apart.
+/// Against fields that the poses do not separate.
 const RIDGE: f64 = 1e-6;
 
 /// How much of the residual a field explains.

@@ -1,7 +1,7 @@
 //! The machine file with the errors that were found.
 //!
-//! The text of the file stays as it is, comments too; only the lines of the errors that were sought
-//! change: what was found gets its value, what cannot be told or is not supported by the readings
+//! The text of the file stays as it is, comments too; only the lines of the unknown errors
+//! change: what was found gets its value, what is not observable or not supported by the readings
 //! becomes a comment. The file is read back before anybody gets it.
 
 use super::errors::Identification;
@@ -16,7 +16,7 @@ use trueaxis_machine::describe::replacement::{Entry, curve_text, plain, put, tak
 use trueaxis_machine::errors::{ErrorKind, ErrorName};
 use trueaxis_machine::file::Tables;
 
-/// A machine file and the tables that stand beside it.
+/// A machine file and the tables that it names.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MachineFile {
     /// The text.
@@ -47,7 +47,7 @@ pub fn machine_file(
         one_line(&campaign.name),
         date.map(|d| format!(", {}", one_line(d))).unwrap_or_default()
     );
-    for (name, terms) in sought(campaign, found) {
+    for (name, terms) in unknowns(campaign, found) {
         let entry = entry((campaign, found), (name, &terms), &origin, &mut tables);
         take_out_of_table(&mut file, name, &origin, &mut tables, beside);
         put(&mut file, name, &entry, &origin);
@@ -61,8 +61,11 @@ fn one_line(text: &str) -> String {
     text.replace(['\n', '\r'], " ")
 }
 
-/// Every error that was sought, with the terms of the result and their numbers.
-fn sought(campaign: &Campaign, found: &Identification) -> BTreeMap<ErrorName, Vec<(usize, Term)>> {
+/// Every unknown error, with the terms of the result and their numbers.
+fn unknowns(
+    campaign: &Campaign,
+    found: &Identification,
+) -> BTreeMap<ErrorName, Vec<(usize, Term)>> {
     let mut all: BTreeMap<ErrorName, Vec<(usize, Term)>> = BTreeMap::new();
     for term in &campaign.terms {
         all.entry(term.error).or_default();
@@ -87,7 +90,7 @@ fn entry(
         .map(|(k, term)| found.found[*k].value.map(|(value, _)| (*term, value)))
         .collect();
     let Some(values) = values else {
-        return Entry::Nothing("cannot be told from others by these readings".to_owned());
+        return Entry::Nothing("not observable with these readings".to_owned());
     };
     let angle = name.component.is_rotation();
     if name.kind == ErrorKind::Location {

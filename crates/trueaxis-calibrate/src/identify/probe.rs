@@ -1,4 +1,4 @@
-//! Calibration of a touch probe on a ring or a sphere (document 003, 2.3.2).
+//! Calibration of a touch probe on a ring or a sphere (Zhang et al. 2023, 2.3.2).
 //!
 //! [`read_study`] reads a study with its hits, [`identify_probe`] finds the offset of the stylus ball
 //! and how the pre-travel follows the direction, [`correct`] applies it to other hits.
@@ -69,12 +69,12 @@ impl Spread {
 /// The offset of the stylus ball, or why there is none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Offset {
-    /// Ball − spindle in the frame of the probe (spindle at 0), mm. What hits tell is the place of
-    /// the ball less the first degree of the pre-travel: no hit can tell these two apart.
+    /// Ball − spindle in the frame of the probe (spindle at 0), mm. Hits determine the place of
+    /// the ball less the first degree of the pre-travel: no hit separates these two.
     pub value_mm: Vec3,
     /// Standard uncertainty of each coordinate, mm.
     pub u_mm: Vec3,
-    /// How many coordinates the hits tell: x, y; on a sphere of known centre also z.
+    /// How many coordinates the hits determine: x, y; on a sphere of known centre also z.
     pub coordinates: usize,
 }
 
@@ -122,9 +122,9 @@ pub struct Calibration {
     pub ball_radius_mm: f64,
     /// Offset, pre-travel and centre.
     pub fit: Fit,
-    /// Every size of the model that was tried, with the model that was not asked for beside it.
+    /// Every size of the model that was tried, and of the model that was not asked for.
     pub scores: Vec<Score>,
-    /// The offset; `None` if nothing tells it from the centre of the gauge.
+    /// The offset; `None` if it is not separable from the centre of the gauge.
     pub offset: Option<Offset>,
     /// Hit by hit: deviation as measured, mm.
     pub before_mm: Vec<f64>,
@@ -165,7 +165,7 @@ pub struct TableRow {
 
 /// Calibrates every stylus of a study.
 ///
-/// `None` with errors among the problems: these hits tell no calibration.
+/// `None` with errors among the problems: these hits determine no calibration.
 pub fn identify_probe(study: &Study, problems: &mut Diagnostics) -> Option<Vec<Calibration>> {
     let found: Vec<_> = study.styli.iter().map(|s| calibrate(study, s, problems)).collect();
     found.into_iter().collect()
@@ -180,7 +180,7 @@ fn calibrate(study: &Study, stylus: &Stylus, problems: &mut Diagnostics) -> Opti
     let chosen = choose(&sample, study.model, study.most_harmonics, gap_rad);
     let Some((fit, mut scores)) = chosen else {
         let message = format!(
-            "the {} hits of stylus `{}` tell no calibration",
+            "the {} hits of stylus `{}` determine no calibration",
             stylus.hits.len(),
             stylus.name
         );
@@ -354,7 +354,7 @@ impl Calibration {
         (0..steps).map(row).collect()
     }
 
-    /// Where the ball touched: offset and pre-travel taken off, ball radius put on.
+    /// Where the ball touched: offset and pre-travel subtracted, ball radius added.
     ///
     /// ```text
     ///     x = p + R(φ)·o + (r − t)·u                                             docs/model.md eq. 141
@@ -416,7 +416,7 @@ fn fresh_check(found: &Calibration, hits: &[Hit]) -> Option<FreshCheck> {
 fn warn(found: &Calibration, stylus: &Stylus, place: &Place, problems: &mut Diagnostics) {
     if found.offset.is_none() {
         let message = format!(
-            "stylus `{}`: the offset cannot be told from the centre of the gauge; the table has the \
+            "stylus `{}`: the offset cannot be separated from the centre of the gauge; the table has the \
              harmonics from the second on",
             stylus.name
         );

@@ -4,15 +4,15 @@
 //!     RtcpStudy ──rows──> readings ──fit──> offsets, true − nominal ──Slots──> numbers of the control
 //! ```
 //!
-//! Document 003 measures one centre after the other, each with the machine standing and with RTCP on.
+//! Zhang et al. 2023 measure one centre after the other, each with the machine standing and with RTCP on.
 //! Both are one reading: the tool against a ball (a mandrel, a ring) on the other side of the machine,
 //!
 //! ```text
 //!     r = n · (P(q; x) − Q)                                                docs/model.md eq. 132
 //! ```
 //!
-//! P the tip with the offsets x, Q the ball, which nobody needs to know. With RTCP off the axes q stand
-//! where they were told; with RTCP on the control has put them where, by the centres that stand in it,
+//! P the tip with the offsets x, Q the ball, which need not be known. With RTCP off the axes q stand
+//! where they were commanded; with RTCP on the control has put them where, by the centres that stand in it,
 //! P would be on Q. So all steps are solved at once, and the answer does not depend on their order.
 
 pub mod centres;
@@ -49,7 +49,7 @@ const SAME_RAD: f64 = 1e-6;
 /// A flipped sign is suspected where χ² falls at least to this share.
 const SUSPICIOUS: f64 = 0.1;
 
-/// One row of a table: where the axes were told to stand, and what was read.
+/// One row of a table: the commanded positions of the axes, and the readings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
     /// Axis positions, mm and rad; with RTCP on only the rotary ones count.
@@ -92,7 +92,7 @@ pub struct RtcpStudy {
     pub machine_path: PathBuf,
     /// The machine; what it states of the centres is what stands in the control.
     pub machine: Machine,
-    /// What is sought.
+    /// The unknowns.
     pub centres: Centres,
     /// The names of the control, if one is named.
     pub slots: Option<Slots>,
@@ -126,7 +126,7 @@ pub struct Offset {
     pub name: String,
     /// In the words of the shop.
     pub words: String,
-    /// True − machine file and its standard uncertainty, mm; `None` where no reading tells.
+    /// True − machine file and its standard uncertainty, mm; `None` where not observable.
     pub found_mm: Option<(f64, f64)>,
 }
 
@@ -137,7 +137,7 @@ pub struct NewSlot {
     pub slot: Slot,
     /// What stands there, mm.
     pub old_mm: f64,
-    /// What shall stand there and its standard uncertainty, mm; `None` where no reading tells.
+    /// What shall stand there and its standard uncertainty, mm; `None` where not observable.
     pub new_mm: Option<(f64, f64)>,
 }
 
@@ -161,7 +161,7 @@ pub struct WorstReading {
 pub struct Calibration {
     /// The offsets in chain order.
     pub offsets: Vec<Offset>,
-    /// The offsets found, mm; of what no reading tells the shortest.
+    /// The offsets found, mm; of unobservable combinations the shortest.
     pub values_mm: Vec<f64>,
     /// Their covariance, mm²: noise (as large as the residuals say) and tool.
     pub covariance: DMatrix<f64>,
@@ -169,7 +169,7 @@ pub struct Calibration {
     pub null_space: DMatrix<f64>,
     /// The numbers of the control.
     pub new: Vec<NewSlot>,
-    /// What no reading tells.
+    /// Unobservable combinations.
     pub unseen: Vec<Unseen>,
     /// χ² of the readings.
     pub chi_square: f64,
@@ -190,7 +190,7 @@ pub struct Calibration {
 }
 
 impl Calibration {
-    /// Whether the readings fit the machine, and tell something.
+    /// Whether the readings fit the machine, and determine an offset.
     pub fn is_good(&self) -> bool {
         self.birge == 1.0 && self.offsets.iter().any(|o| o.found_mm.is_some())
     }
@@ -205,7 +205,7 @@ impl Calibration {
         let (all, found) =
             (self.offsets.len(), self.offsets.iter().filter(|o| o.found_mm.is_some()).count());
         if found == 0 {
-            return "no: the readings tell none of the centres".to_owned();
+            return "no: the readings determine none of the centres".to_owned();
         }
         if self.birge > 1.0 {
             return format!(
@@ -220,7 +220,7 @@ impl Calibration {
     }
 }
 
-/// A sense that somebody may have mixed up.
+/// A sense that may have been mixed up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Flip {
     Set(usize),
@@ -264,7 +264,7 @@ fn rows(study: &RtcpStudy, flip: Option<Flip>) -> Rows {
             if let Some(Flip::Sense(axis)) = flip {
                 wanted[axis] = -wanted[axis];
             }
-            // The file was read with the same placing: a row that cannot be placed was told there.
+            // The file was read with the same placing: a row that cannot be placed was reported there.
             let Some(command) = command_of(study, set, &wanted) else { continue };
             for (c, read) in row.read_mm.iter().enumerate() {
                 let Some(mut value) = *read else { continue };
@@ -383,15 +383,15 @@ fn new_slots(
         let at = |offsets: &[f64]| slopes.dot(&DVector::from_column_slice(offsets));
         let stated = study.now.iter().find(|(s, _)| *s == k).map(|(_, mm)| *mm);
         let old_mm = stated.unwrap_or(slot.nominal_mm + at(&study.set_for_mm));
-        let hidden = null_space.tr_mul(&slopes).amax() > 1e-6;
+        let is_unobservable = null_space.tr_mul(&slopes).amax() > 1e-6;
         let u = slopes.dot(&(covariance * &slopes)).max(0.0).sqrt();
         let new = old_mm + at(values_mm) - at(&study.set_for_mm);
-        NewSlot { slot: slot.clone(), old_mm, new_mm: (!hidden).then_some((new, u)) }
+        NewSlot { slot: slot.clone(), old_mm, new_mm: (!is_unobservable).then_some((new, u)) }
     };
     slots.slots.iter().enumerate().map(one).collect()
 }
 
-/// What no reading tells, and which axis was not turned.
+/// Unobservable combinations, and which axis was not turned.
 fn unseen(study: &RtcpStudy, design: &Design, fit: &Fit) -> Vec<Unseen> {
     let n = design.terms.len();
     let still: Vec<String> = study

@@ -57,7 +57,7 @@ impl Mean {
 /// The residuals, mm or rad.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Residuals {
-    /// Of the machine without the errors sought; only the set-ups were fitted.
+    /// Of the machine without the unknown errors; only the set-ups were fitted.
     pub before: Vec<[f64; 3]>,
     /// Of the model on the readings that it was found from.
     pub after: Vec<[f64; 3]>,
@@ -76,7 +76,7 @@ pub struct Score {
     pub floor: Rms,
     /// Whether the floor was measured.
     pub floor_is_measured: bool,
-    /// Without the errors sought; only the set-ups were fitted.
+    /// Without the unknown errors; only the set-ups were fitted.
     pub before: Rms,
 }
 

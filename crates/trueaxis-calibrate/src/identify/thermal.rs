@@ -5,7 +5,7 @@
 //! ```
 //!
 //! The rows of a cycle are no independent witnesses: neighbours are minutes apart and err together,
-//! so a model that has seen a cycle knows its other rows as well. What a model is worth is told by
+//! so a model that has seen a cycle knows its other rows as well. The quality of a model is shown by
 //! whole cycles that it has not seen.
 //!
 //! ```text
@@ -32,7 +32,7 @@ use subsets::best_subsets;
 pub const FEWEST_CYCLES: usize = 3;
 /// Less than this is rounding, mm.
 const NOTHING_MM: f64 = 1e-12;
-/// From here on two coefficients cannot be told without the correlation of both.
+/// From here on two coefficients are not usable without the correlation of both.
 const CORRELATED: f64 = 0.5;
 
 /// What is free in every cycle.
@@ -222,7 +222,7 @@ pub fn identify_thermal(logs: &Logs) -> ThermalModel {
     for (size, subset) in subsets.iter().enumerate() {
         let fits: Option<Vec<_>> =
             by_cycle.iter().map(|(others, found)| found.get(size).map(|s| others.fit(s))).collect();
-        // Without some cycle fewer terms can be told apart: no score, no candidate.
+        // Without some cycle fewer terms are separable: no score, no candidate.
         let Some(fits) = fits else { break };
         scores.push(score(&design, &everything.fit(subset), &fits));
     }
@@ -360,7 +360,7 @@ fn refusal(logs: &Logs, model: &ThermalModel) -> Option<String> {
     let (cycles, um) = (logs.cycles.len(), |mm: f64| mm * 1e3);
     if cycles < FEWEST_CYCLES {
         return Some(format!(
-            "{cycles} cycles cannot tell a model from chance: what fits one is judged by one other; \
+            "{cycles} cycles cannot separate a model from chance: what fits one is judged by one other; \
              measure {FEWEST_CYCLES} or more, at different speeds and on different days"
         ));
     }
@@ -372,7 +372,7 @@ fn refusal(logs: &Logs, model: &ThermalModel) -> Option<String> {
             false => ("no sensor that moves".to_owned(), um(none.held_out_mm)),
         };
         return Some(format!(
-            "no sensor foretells a cycle that it has not seen by more than chance: {none:.2} µm \
+            "no sensor predicts a held-out cycle by more than chance: {none:.2} µm \
              without a model, at best {best} with one"
         ));
     }
@@ -387,7 +387,7 @@ fn refusal(logs: &Logs, model: &ThermalModel) -> Option<String> {
     (mean + doubt >= 0.0).then(|| {
         format!(
             "what the model leaves of the mean square drift of a cycle that it has not seen is {:.0} %, \
-             but it may be {:.0} %: not surer than chance; more cycles may tell",
+             but it may be {:.0} %: not significant; more cycles may show more",
             mean.exp() * 100.0,
             (mean + doubt).exp() * 100.0
         )
@@ -412,7 +412,7 @@ fn warnings(logs: &Logs, design: &Design, model: &ThermalModel) -> Vec<String> {
     for (a, b) in design.twins() {
         warnings.push(format!(
             "`{}` and `{}` move together in all cycles: one of them stands for both, and the logs \
-             cannot tell which",
+             cannot show which",
             a.name(logs),
             b.name(logs)
         ));

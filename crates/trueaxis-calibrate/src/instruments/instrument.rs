@@ -125,7 +125,7 @@ impl Wrench {
     }
 }
 
-/// A set-up as it really is: its unknowns with their values.
+/// An actual set-up: its unknowns with their values.
 #[derive(Debug, Clone, Copy, Default)]
 struct Setup {
     tool_point_mm: Vec3,

@@ -5,7 +5,7 @@ use super::instrument::{SetupError, Sight};
 /// An instrument of the shop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// A 3-D probe in the spindle, its socket on a ball on the table (document 004), or an R-test.
+    /// A 3-D probe in the spindle, its socket on a ball on the table (Lei and Hsu 2003), or an R-test.
     ProbeBall,
     /// A telescoping bar between two balls.
     BallBar,
@@ -122,7 +122,7 @@ impl Kind {
         }
     }
 
-    /// What nobody knows of its set-up unless the campaign says so.
+    /// What is unknown of its set-up unless the campaign states it.
     pub fn usual_unknowns(self) -> Vec<SetupError> {
         let point = [0, 1, 2].map(SetupError::ReferencePoint);
         let turn = [0, 1, 2].map(SetupError::ReferenceTurn);

@@ -324,7 +324,7 @@ impl<'t> Columns<'t> {
         }
         let names = instrument.kind.channels();
         let channel = names.iter().position(|n| *n == name);
-        // A distance may also be told as its deviation.
+        // A distance may also be given as its deviation.
         let channel = channel.or((absolute(instrument) && name == "deviation").then_some(0));
         let Some(channel) = channel.filter(|c| channels(instrument).contains(c)) else {
             let hint = "known here: the axes, the channels of the instrument, group, time_s, n_x n_y \

@@ -1,4 +1,4 @@
-//! The campaign file: on which machine, with which instruments, what is sought.
+//! The campaign file: on which machine, with which instruments, which unknowns.
 
 use super::{Kind, Readings};
 use crate::instruments::instrument::{Instrument, SetupError, SetupUnknown};
@@ -26,11 +26,11 @@ pub struct Campaign {
     pub files: Files,
     /// The campaign file.
     pub path: PathBuf,
-    /// The machine as its file states it, with the errors that are sought.
+    /// The machine as its file states it, with the unknown errors.
     pub machine: Machine,
     /// The machine file.
     pub machine_path: PathBuf,
-    /// What is sought of the machine.
+    /// The unknown errors of the machine.
     pub terms: Vec<Term>,
     /// The instruments as they are set up.
     pub instruments: Vec<Instrument>,
@@ -39,7 +39,7 @@ pub struct Campaign {
 }
 
 impl Campaign {
-    /// What follows what: the machine without the errors that are sought.
+    /// What follows what: the machine without the unknown errors.
     pub fn design(&self) -> Design {
         Design::new(&self.machine, self.terms.clone(), self.instruments.clone())
     }
@@ -239,7 +239,7 @@ fn read_motion(item: &Item<'_>, key: &str, machine: &Machine) -> Vec<Term> {
 fn read_prior(item: &Item<'_>, key: &str, terms: &mut [Term]) {
     let error = ErrorName::parse(key).filter(|e| e.kind == ErrorKind::Location);
     let Some(term) = terms.iter_mut().find(|t| Some(t.error) == error) else {
-        let message = format!("`{key}` is not among the location errors that are sought");
+        let message = format!("`{key}` is not among the unknown location errors");
         return item.error("unknown-error-name", message, "name it in `location` too");
     };
     let angle = term.error.component.is_rotation();
@@ -357,7 +357,7 @@ fn read_tables(item: &Item<'_>, folder: &Path) -> Vec<PathBuf> {
     items.iter().filter_map(|i| i.text()).map(|p| folder.join(p)).collect()
 }
 
-/// What nobody knows of a set-up unless the campaign says so.
+/// What is unknown of a set-up unless the campaign states it.
 pub fn usual_setup(kind: Kind) -> Vec<SetupUnknown> {
     let free = |error| SetupUnknown { name: kind.unknown_name(error), error, prior_u: None };
     kind.usual_unknowns().into_iter().map(free).collect()

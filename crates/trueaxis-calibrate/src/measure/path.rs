@@ -27,7 +27,7 @@ const MOST_PATHS: usize = 200;
 pub(crate) const MOST_STATIONS: usize = 200_000;
 
 /// What a path may be.
-const KINDS: &str = "\"A\", \"B\", \"C\" (one rotary axis turns), \"F\", \"S\" (document 004), \
+const KINDS: &str = "\"A\", \"B\", \"C\" (one rotary axis turns), \"F\", \"S\" (Lei and Hsu 2003), \
                      \"cone\", \"BK1\" … (ISO 10791-6), \"circle\", \"diagonal\", \"targets\", \"touch\", \"grid\", \"random\", \"table\"";
 
 /// One test path.
@@ -35,7 +35,7 @@ const KINDS: &str = "\"A\", \"B\", \"C\" (one rotary axis turns), \"F\", \"S\" (
 pub struct Path {
     /// Its name.
     pub name: String,
-    /// The stations in order; their values are 0 until somebody reads.
+    /// The stations in order; their values are 0 until they are measured.
     pub stations: Readings,
     /// Standing still at every station, or going through them at this feed of the tool point
     /// against the workpiece, mm/s.

@@ -53,7 +53,7 @@ pub struct VirtualCampaign {
     pub paths: Vec<Path>,
     /// The machine and the set-ups as they are.
     pub truth: Truth,
-    /// What readings have that nobody wants.
+    /// Disturbances of readings.
     pub disturb: Disturb,
 }
 
@@ -86,7 +86,7 @@ pub struct Truth {
     pub errors: Vec<(ErrorName, f64)>,
     /// By how many standard uncertainties each error is away from its file; `None`: by none.
     pub factors: Option<Drawn>,
-    /// The instruments; their unknowns are those of which [`Truth::setups`] tells the value.
+    /// The instruments; their unknowns are those of which [`Truth::setups`] has the values.
     pub instruments: Vec<Instrument>,
     /// How each instrument really stands, mm, rad or 1.
     pub setups: Vec<Vec<f64>>,
@@ -96,7 +96,7 @@ pub struct Truth {
     pub seed: u64,
 }
 
-/// What readings have that nobody wants.
+/// Disturbances of readings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Disturb {
     /// Times the noise of the instruments; 0: none.
@@ -115,7 +115,7 @@ pub struct Disturb {
     pub axes: [AxisDisturb; MAX_AXES],
 }
 
-/// How an axis goes where it is told to.
+/// How an axis follows its command.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct AxisDisturb {
     /// Standard deviation of where it stops, mm or rad.

@@ -1,4 +1,4 @@
-//! From candidates to the poses that are measured, and a plain grid beside them.
+//! From candidates to the poses that are measured, and a plain grid to compare with.
 
 use super::expect::{Expectation, expect};
 use super::file::{Candidates, Plan};
@@ -32,9 +32,9 @@ pub struct Chosen {
     pub time_s: f64,
     /// The criterion from the greedy start through every swap.
     pub history: Vec<f64>,
-    /// What fixed paths and these poses will tell.
+    /// What fixed paths and these poses will determine.
     pub expectation: Expectation,
-    /// As many poses of a plain grid, and what they would tell.
+    /// As many poses of a plain grid, and what they would determine.
     pub grid: Option<(usize, Expectation)>,
 }
 
@@ -72,7 +72,7 @@ pub fn choose(plan: &Plan, candidates: &Candidates) -> Result<Chosen, String> {
     let commands: Vec<Command> =
         poses.iter().map(|rows| candidates.stations.commands[rows[0]]).collect();
     let ordered = in_order(plan, &commands, &selection.poses);
-    let told = |numbers: &[usize]| {
+    let expected = |numbers: &[usize]| {
         let mut all = fixed.clone();
         all.append(&stations_of(candidates, &poses, numbers));
         expect(&plan.campaign, &design, &all)
@@ -85,12 +85,12 @@ pub fn choose(plan: &Plan, candidates: &Candidates) -> Result<Chosen, String> {
         blocked: all - poses.len(),
         time_s: selection.cost_s,
         history: selection.history,
-        expectation: told(&ordered),
-        grid: grid.map(|numbers| (numbers.len(), told(&numbers))),
+        expectation: expected(&ordered),
+        grid: grid.map(|numbers| (numbers.len(), expected(&numbers))),
     })
 }
 
-/// Whether nothing is in the way of one pose; where no program can be written nobody knows.
+/// Whether nothing is in the way of one pose; not known where no program can be written.
 fn is_free(plan: &Plan, stations: &Readings) -> bool {
     let path = Path {
         name: "pose".to_owned(),
@@ -98,7 +98,7 @@ fn is_free(plan: &Plan, stations: &Readings) -> bool {
         feed_mm_per_s: None,
         dwell_s: 1.0,
     };
-    // Any dialect will do; this one knows probing.
+    // Any control is sufficient; this one knows probing.
     let control = Control::LinuxCnc;
     program(&plan.campaign, &path, &plan.program, control)
         .map_or(true, |text| check(&plan.campaign, &path, &plan.program, &text, control).is_sound())

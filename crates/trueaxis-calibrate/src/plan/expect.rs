@@ -1,4 +1,4 @@
-//! What readings will tell: the uncertainty of every unknown, and what stays hidden.
+//! What readings will determine: the uncertainty of every unknown, and what is not observable.
 
 use super::remedy::remedies;
 use crate::measure::{Campaign, Readings};
@@ -52,7 +52,7 @@ impl Unobservable {
 pub struct Expectation {
     /// Every unknown, the machine's first.
     pub unknowns: Vec<Expected>,
-    /// The combinations that stay hidden.
+    /// The combinations that are not observable.
     pub unobservable: Vec<Unobservable>,
     /// How many combinations are seen.
     pub rank: usize,

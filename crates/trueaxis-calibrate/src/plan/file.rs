@@ -26,7 +26,7 @@ pub struct Candidates {
     pub stations: Readings,
     /// What the choice may cost.
     pub limit: Limit,
-    /// What it shall tell.
+    /// What it shall determine.
     pub want: Want,
 }
 
@@ -73,7 +73,7 @@ pub fn read_plan(files: &Files, path: &std::path::Path) -> (Option<Plan>, Diagno
             return None;
         }
         if campaign.terms.is_empty() {
-            let message = "nothing of the machine is sought".to_owned();
+            let message = "no error of the machine is unknown".to_owned();
             root.error("missing-key", message, "[unknown] location = \"minimal\"");
             return None;
         }

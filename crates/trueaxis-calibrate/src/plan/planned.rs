@@ -17,7 +17,7 @@ pub struct PlanReport<'a> {
     pub plan: &'a Plan,
     /// The unknowns.
     pub design: &'a Design,
-    /// What all paths together will tell.
+    /// What all paths together will determine.
     pub expectation: Expectation,
     /// The paths, the chosen poses last.
     pub paths: Vec<PlannedPath>,
@@ -40,7 +40,7 @@ pub struct PlannedPath {
     pub files: Vec<(String, Vec<u8>)>,
 }
 
-/// The poses that tell most, if the campaign asks for a choice; why there is none goes to `problems`.
+/// The most informative poses, if the campaign asks for a choice; why there is none goes to `problems`.
 pub fn chosen(plan: &Plan, problems: &mut Diagnostics) -> Option<Chosen> {
     match choose(plan, plan.candidates.as_ref()?) {
         Ok(chosen) => Some(chosen),

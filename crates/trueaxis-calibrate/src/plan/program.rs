@@ -255,7 +255,7 @@ impl Written<'_> {
                 self.arrive(command)?;
                 pose = Some(stations.groups[i]);
             }
-            // Over the ball, beside it, down, hit, and back the same way.
+            // Over the ball, to its side, down, hit, and back the same way.
             let [above, beside] = placing.beside(side, up);
             let feed = self.settings.feed_mm_per_min;
             self.to(&placing, above, command, feed)?;

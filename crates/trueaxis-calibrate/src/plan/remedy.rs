@@ -1,4 +1,4 @@
-//! The cheapest further set-up that tells what a measurement cannot.
+//! The cheapest further set-up that makes a combination observable.
 
 use super::trial::{Trial, trials};
 use crate::measure::Campaign;
@@ -9,14 +9,14 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 /// Seen less than this share of what each member alone would show is rounding.
 const NOTHING: f64 = 1e-6;
 
-/// What would tell a combination that the readings of a campaign cannot, in words; `None` if no
+/// A set-up that makes a combination observable, in words; `None` if no
 /// set-up of the list does.
 ///
 /// A second tool, a turned spindle, the ball at another place, more turned poses, and instruments that the campaign
 /// does not have are tried in the order of their minutes.
 pub fn remedies(campaign: &Campaign, design: &Design, confusion: &Confusion) -> Option<String> {
     let trials = trials(campaign, design);
-    let found = trials.iter().find(|trial| tells(trial, design.unknowns(), confusion))?;
+    let found = trials.iter().find(|trial| separates(trial, design.unknowns(), confusion))?;
     Some(format!("{} (about {} min)", found.words, found.minutes))
 }
 
@@ -25,7 +25,7 @@ pub fn remedies(campaign: &Campaign, design: &Design, confusion: &Confusion) -> 
 /// ```text
 ///     |(1 − F F⁺) J c| > 0        F: columns of the unknowns that are others there   docs/model.md eq. 113
 /// ```
-fn tells(trial: &Trial, known: usize, confusion: &Confusion) -> bool {
+fn separates(trial: &Trial, known: usize, confusion: &Confusion) -> bool {
     let columns = trial.design.columns(&trial.stations, 0..trial.stations.len());
     let is_fresh = |k: usize| k >= known || trial.fresh.contains(&k);
     let mut along = DVector::zeros(trial.design.unknowns());

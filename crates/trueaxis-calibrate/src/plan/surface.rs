@@ -4,7 +4,7 @@
 //!     study.toml ──read_surface──> SurfaceStudy {machine, candidates, probe}
 //!     candidates ──spread──> points at least a spacing apart
 //!     points ──poses──> reachable points with their rotary axes
-//!     poses ──surface_program──> NC text ──check_surface──> duration, troubles
+//!     poses ──surface_program──> NC text ──check_surface──> duration, issues
 //! ```
 //!
 //! The table of the points, with an empty column `deviation`, is what the measured offsets along the

@@ -1,4 +1,4 @@
-//! Further set-ups that might tell what a measurement cannot.
+//! Further set-ups that may make a combination observable.
 
 use crate::instruments::instrument::{SetupError, SetupUnknown};
 use crate::measure::path::{FreeSide, Placing, hits, leaves_travel};
@@ -22,7 +22,7 @@ pub(super) struct Trial {
     pub words: String,
     /// About how long it takes, setting up included.
     pub minutes: u32,
-    /// The same unknowns, and behind them those of a further instrument.
+    /// The same unknowns, and after them those of a further instrument.
     pub design: Design,
     /// Where it reads.
     pub stations: Readings,

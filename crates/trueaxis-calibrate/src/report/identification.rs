@@ -1,4 +1,4 @@
-//! An identification for people.
+//! An identification in text and on a page.
 
 use super::identification_arrows::{Arrow, arrow_picture, longest, magnification};
 use super::identification_pictures::{Bar, bars, correlation_map};
@@ -12,7 +12,7 @@ use crate::unknowns::fit::Model;
 use std::rc::Rc;
 use trueaxis_report::{Columns, DrawingError, Figure, Report, Section, Standing, Table};
 
-/// Everything of an identification that is told.
+/// What a report of an identification shows.
 pub struct IdentificationReport<'a> {
     /// The campaign.
     pub campaign: &'a Campaign,
@@ -26,11 +26,11 @@ pub struct IdentificationReport<'a> {
     pub conventions: Option<&'a ConventionCheck>,
 }
 
-/// How many outliers and influential poses are told.
-const MOST_TOLD: usize = 10;
+/// How many outliers are shown.
+const MOST_REPORTED: usize = 10;
 /// Most unknowns of the correlation map.
 const MOST_MAPPED: usize = 60;
-/// Correlations from here on are told.
+/// Correlations from here on are reported.
 const STRONG: f64 = 0.9;
 
 /// µm or µrad of mm or rad.
@@ -58,7 +58,7 @@ impl IdentificationReport<'_> {
             false => "noise as stated (nothing was repeated)",
         };
         vec![
-            ("without the errors sought, set-up only", score.before),
+            ("without the unknown errors, set-up only", score.before),
             ("in sample", score.in_sample),
             ("held out, by place", score.held_out),
             (floor, score.floor),
@@ -114,7 +114,7 @@ impl IdentificationReport<'_> {
         let size = |p: &[usize; 2]| self.correlation(p[0], p[1]).abs();
         pairs.retain(|p| size(p) > STRONG);
         pairs.sort_by(|a, b| size(b).total_cmp(&size(a)));
-        pairs.truncate(MOST_TOLD);
+        pairs.truncate(MOST_REPORTED);
         pairs
     }
 
@@ -132,11 +132,11 @@ impl IdentificationReport<'_> {
     }
 }
 
-/// The result for people.
-fn report<'a>(told: &'a IdentificationReport<'_>) -> Report<'a> {
-    let (found, records, campaign) = (told.found, told.records, told.campaign);
-    let linear = if told.options.model == Model::Linear { ", linear model" } else { "" };
-    let date = told.options.date.as_ref().map_or(String::new(), |date| format!(", {date}"));
+/// The result in text and on a page.
+fn report<'a>(answer: &'a IdentificationReport<'_>) -> Report<'a> {
+    let (found, records, campaign) = (answer.found, answer.records, answer.campaign);
+    let linear = if answer.options.model == Model::Linear { ", linear model" } else { "" };
+    let date = answer.options.date.as_ref().map_or(String::new(), |date| format!(", {date}"));
     let standing = if found.verdict.is_good() { Standing::Good } else { Standing::Bad };
     Report::new(&campaign.name)
         .line(format!("{}{date}", campaign.machine.name()))
@@ -149,21 +149,22 @@ fn report<'a>(told: &'a IdentificationReport<'_>) -> Report<'a> {
             found.fit.sight.condition(),
         ))
         .verdict(standing, found.verdict.words(), "")
-        .section(score_section(told))
-        .sections(told.conventions.map(conventions_section))
-        .section(arrow_section(told))
-        .section(error_section(told))
-        .section(unobservable_section("What these readings cannot tell apart", &found.unobservable))
-        .section(correlation_section(told))
-        .section(outlier_section(told))
-        .section(influence_section(told))
+        .section(score_section(answer))
+        .sections(answer.conventions.map(conventions_section))
+        .section(arrow_section(answer))
+        .section(error_section(answer))
+        .section(unobservable_section("Not observable with these readings", &found.unobservable))
+        .section(correlation_section(answer))
+        .section(outlier_section(answer))
+        .section(influence_section(answer))
 }
 
-fn score_section<'a>(told: &IdentificationReport<'_>) -> Section<'a> {
-    let found = told.found;
+fn score_section<'a>(answer: &IdentificationReport<'_>) -> Section<'a> {
+    let found = answer.found;
     let axes = found.design.machine.axes();
     let table = Table::new(["root mean square of the residual", "", "times the noise"]).rows(
-        told.scores()
+        answer
+            .scores()
             .iter()
             .map(|(words, rms)| [(*words).to_owned(), rms_words(rms), format!("{:.2}", rms.noise)]),
     );
@@ -178,7 +179,7 @@ fn score_section<'a>(told: &IdentificationReport<'_>) -> Section<'a> {
             "Held out: every place was predicted by a model that had not seen it{choice}."
         )))
         .paragraph(format!("The residual that is held out follows {fields} of its squares."))
-        .list(told.remarks())
+        .list(answer.remarks())
 }
 
 fn conventions_section<'a>(check: &ConventionCheck) -> Section<'a> {
@@ -194,11 +195,11 @@ fn conventions_section<'a>(check: &ConventionCheck) -> Section<'a> {
     section.list(better.into_iter().chain(check.remarks.iter().cloned()))
 }
 
-fn arrow_section<'a>(told: &IdentificationReport<'_>) -> Section<'a> {
+fn arrow_section<'a>(answer: &IdentificationReport<'_>) -> Section<'a> {
     let section =
         Section::new("Residuals where the linear axes stand, in the frame of the machine")
             .on_page();
-    let arrows = Rc::new(told.arrows());
+    let arrows = Rc::new(answer.arrows());
     let (before, after) = (|a: &Arrow| a.before_mm, |a: &Arrow| a.after_mm);
     let sizes = [longest(&arrows, before), longest(&arrows, after)];
     if sizes[0] <= 0.0 {
@@ -215,7 +216,7 @@ fn arrow_section<'a>(told: &IdentificationReport<'_>) -> Section<'a> {
         format!("{what}, enlarged {by} times; the longest is {:.2} µm.", longest_mm * 1e3)
     };
     section
-        .paragraph(words("Without the errors sought", large, sizes[0]))
+        .paragraph(words("Without the unknown errors", large, sizes[0]))
         .grid(Columns::Three, views(before, large))
         .paragraph(words("After identification", small, sizes[1]))
         .grid(Columns::Three, views(after, small))
@@ -223,8 +224,8 @@ fn arrow_section<'a>(told: &IdentificationReport<'_>) -> Section<'a> {
         .grid(Columns::Three, views(after, large))
 }
 
-fn error_section<'a>(told: &'a IdentificationReport<'_>) -> Section<'a> {
-    let found = &told.found.found;
+fn error_section<'a>(answer: &'a IdentificationReport<'_>) -> Section<'a> {
+    let found = &answer.found.found;
     let figure = |angle: bool| {
         let machine = found.iter().filter(move |f| !f.is_setup && f.is_angle == angle);
         let all: Vec<Bar<'_>> = machine.filter_map(bar).collect();
@@ -235,12 +236,12 @@ fn error_section<'a>(told: &'a IdentificationReport<'_>) -> Section<'a> {
         let number = |v: f64| format!("{:.3}", shown(f, v));
         let [value, u, unit] = match f.value {
             Some((value, u)) => [number(value), number(u), unit(f).to_owned()],
-            None => ["cannot be told from others", "", ""].map(str::to_owned),
+            None => ["not observable", "", ""].map(str::to_owned),
         };
         let z = f.z().map_or(String::new(), |z| format!("{z:.1}"));
         [f.name.clone(), value, u, unit, z]
     };
-    let left_out = &told.found.left_out;
+    let left_out = &answer.found.left_out;
     let note = match left_out.is_empty() {
         true => String::new(),
         false => format!("Not supported by the readings: {}.", left_out.join(", ")),
@@ -266,21 +267,21 @@ pub(super) fn unobservable_section<'a>(title: &str, list: &[Unobservable]) -> Se
     Section::new(title).list(list.iter().map(line))
 }
 
-fn correlation_section<'a>(told: &'a IdentificationReport<'_>) -> Section<'a> {
-    let seen = told.found.found.iter().filter(|f| f.value.is_some());
+fn correlation_section<'a>(answer: &'a IdentificationReport<'_>) -> Section<'a> {
+    let seen = answer.found.found.iter().filter(|f| f.value.is_some());
     let seen: Vec<&Found> = seen.take(MOST_MAPPED).collect();
     let caption =
         "Red +1, white 0, blue −1. Strongly correlated errors are known together better than each.";
     let figures = (seen.len() > 1).then(|| {
-        let mut figure = Figure::new(caption, move || Ok(correlation_map(told, &seen)));
+        let mut figure = Figure::new(caption, move || Ok(correlation_map(answer, &seen)));
         figure.round = true;
         figure
     });
     Section::new("Correlation").on_page().grid(Columns::One, figures)
 }
 
-fn outlier_section<'a>(told: &IdentificationReport<'_>) -> Section<'a> {
-    let (outliers, limit) = (&told.found.influences.outliers, told.found.influences.limit);
+fn outlier_section<'a>(answer: &IdentificationReport<'_>) -> Section<'a> {
+    let (outliers, limit) = (&answer.found.influences.outliers, answer.found.influences.limit);
     let section = Section::new("Readings that do not fit");
     if outliers.is_empty() {
         return section.paragraph(format!(
@@ -288,8 +289,8 @@ fn outlier_section<'a>(told: &IdentificationReport<'_>) -> Section<'a> {
              Bonferroni)."
         ));
     }
-    let rows = outliers.iter().take(MOST_TOLD).map(|o| {
-        [told.place(o.row), (o.channel + 1).to_string(), format!("{:+.1}", o.studentised)]
+    let rows = outliers.iter().take(MOST_REPORTED).map(|o| {
+        [answer.place(o.row), (o.channel + 1).to_string(), format!("{:+.1}", o.studentised)]
     });
     section
         .paragraph(format!(
@@ -300,25 +301,25 @@ fn outlier_section<'a>(told: &IdentificationReport<'_>) -> Section<'a> {
         .table(Table::new(["reading", "channel", "studentised residual"]).rows(rows))
 }
 
-fn influence_section<'a>(told: &IdentificationReport<'_>) -> Section<'a> {
-    let rows = told.influential().map(|row| {
-        let influence = &told.found.influences.rows[row];
+fn influence_section<'a>(answer: &IdentificationReport<'_>) -> Section<'a> {
+    let rows = answer.influential().map(|row| {
+        let influence = &answer.found.influences.rows[row];
         let (leverage, cook) = (influence.leverage, influence.cook);
-        [told.place(row), format!("{leverage:.3}"), format!("{cook:.4}")]
+        [answer.place(row), format!("{leverage:.3}"), format!("{cook:.4}")]
     });
     Section::new("Readings that move the result most if they are left out")
         .table(Table::new(["reading", "leverage", "Cook's distance"]).rows(rows))
 }
 
 /// The result as text.
-pub fn identification_text(told: &IdentificationReport<'_>) -> String {
-    report(told).text()
+pub fn identification_text(answer: &IdentificationReport<'_>) -> String {
+    report(answer).text()
 }
 
 /// The result as one page.
 ///
 /// # Errors
 /// What the drawing library says.
-pub fn identification_html(told: &IdentificationReport<'_>) -> Result<String, DrawingError> {
-    report(told).html()
+pub fn identification_html(answer: &IdentificationReport<'_>) -> Result<String, DrawingError> {
+    report(answer).html()
 }

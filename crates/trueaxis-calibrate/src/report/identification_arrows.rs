@@ -15,7 +15,7 @@ const MOST_ARROWS: usize = 400;
 pub struct Arrow {
     /// Where the linear axes stand.
     pub at_mm: Vec3,
-    /// The residual without the errors sought, along what the instrument sees.
+    /// The residual without the unknown errors, along what the instrument reads.
     pub before_mm: Vec3,
     /// The residual after identification.
     pub after_mm: Vec3,

@@ -42,7 +42,7 @@ pub struct IdentificationDocument<'a> {
     pub repeatability_um: Option<f64>,
     /// Whether the repeatability comes from repeated readings; if not, it is the stated noise.
     pub repeatability_is_measured: bool,
-    /// Root mean square without the errors sought, set-up only, µm.
+    /// Root mean square without the unknown errors, set-up only, µm.
     pub rms_without_model_um: Option<f64>,
     /// The same figures for lengths and angles.
     pub rms: RmsEntries,
@@ -112,7 +112,7 @@ pub struct RmsEntries {
     pub held_out: RmsEntry,
     /// Of repeated readings, or the stated noise.
     pub repeatability: RmsEntry,
-    /// Without the errors sought, set-up only.
+    /// Without the unknown errors, set-up only.
     pub without_model: RmsEntry,
 }
 

@@ -11,7 +11,7 @@ pub(super) struct Bar<'a> {
     pub value: f64,
     /// Half the interval.
     pub half: f64,
-    /// Beside it.
+    /// Next to it.
     pub text: String,
 }
 

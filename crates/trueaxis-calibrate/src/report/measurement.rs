@@ -1,4 +1,4 @@
-//! A virtual measurement for people.
+//! A virtual measurement in text and on a page.
 
 use crate::measure::virtual_campaign::{
     ChannelSummary, Measurement, Summary, VirtualCampaign, shown_unit, summarise,
@@ -86,22 +86,22 @@ impl MeasuredReport<'_> {
     }
 }
 
-fn report<'a>(told: &MeasuredReport<'_>, summary: &Summary) -> Report<'a> {
-    let instruments = told.campaign.instruments.iter().enumerate();
+fn report<'a>(answer: &MeasuredReport<'_>, summary: &Summary) -> Report<'a> {
+    let instruments = answer.campaign.instruments.iter().enumerate();
     // What has been written to files need not be shown.
-    let first = instruments.filter(|_| told.files.is_empty()).map(|(of, instrument)| {
+    let first = instruments.filter(|_| answer.files.is_empty()).map(|(of, instrument)| {
         let title = format!("The first rows of {}; -o FOLDER writes all", instrument.name);
-        Section::new(title).on_terminal().code(told.first_rows(of))
+        Section::new(title).on_terminal().code(answer.first_rows(of))
     });
-    let mut report = Report::new(&told.campaign.name);
-    report.lines = told.lines();
+    let mut report = Report::new(&answer.campaign.name);
+    report.lines = answer.lines();
     report
-        .section(Section::new("Readings less nominal").table(told.table(summary)))
+        .section(Section::new("Readings less nominal").table(answer.table(summary)))
         .sections(first)
-        .section(Section::new("Written").on_terminal().list(told.files.iter().cloned()))
+        .section(Section::new("Written").on_terminal().list(answer.files.iter().cloned()))
 }
 
-/// Readings over stations, path after path, as in Figs 10–12 of document 004; circles of a ball-bar
+/// Readings over stations, path after path, as in Figs 10–12 of Lei and Hsu 2003; circles of a ball-bar
 /// round their centre.
 fn pictures(report: &MeasuredReport<'_>, summary: &Summary) -> Vec<Picture> {
     let mut pictures = Vec::new();
@@ -121,18 +121,18 @@ fn pictures(report: &MeasuredReport<'_>, summary: &Summary) -> Vec<Picture> {
 }
 
 /// The measurement as text.
-pub fn measurement_text(told: &MeasuredReport<'_>) -> String {
-    report(told, &told.summary()).text()
+pub fn measurement_text(answer: &MeasuredReport<'_>) -> String {
+    report(answer, &answer.summary()).text()
 }
 
 /// The measurement as one page.
 ///
 /// # Errors
 /// What the drawing library says.
-pub fn measurement_html(told: &MeasuredReport<'_>) -> Result<String, DrawingError> {
-    let summary = told.summary();
-    let pictures = pictures(told, &summary).into_iter().map(Section::from);
-    report(told, &summary).sections(pictures).html()
+pub fn measurement_html(answer: &MeasuredReport<'_>) -> Result<String, DrawingError> {
+    let summary = answer.summary();
+    let pictures = pictures(answer, &summary).into_iter().map(Section::from);
+    report(answer, &summary).sections(pictures).html()
 }
 
 /// Rows of an instrument on a path, thinned out for the eye.

@@ -1,4 +1,4 @@
-//! A plan for people.
+//! A plan in text and on a page.
 
 use super::identification::unobservable_section;
 use super::identification_pictures::{Bar, bars};
@@ -36,31 +36,31 @@ fn figure(value: f64) -> String {
     format!("{value:.digits$}")
 }
 
-/// The plan for people.
-fn report<'a>(told: &'a PlanReport<'_>) -> Report<'a> {
-    let campaign = &told.plan.campaign;
+/// The plan in text and on a page.
+fn report<'a>(answer: &'a PlanReport<'_>) -> Report<'a> {
+    let campaign = &answer.plan.campaign;
     let machine = &campaign.machine;
-    let e = &told.expectation;
+    let e = &answer.expectation;
     let unobservable = match e.unobservable.is_empty() {
-        true => Section::new("").paragraph("Everything sought is observable."),
+        true => Section::new("").paragraph("All unknowns are observable."),
         false => unobservable_section("Not observable", &e.unobservable),
     };
     Report::new(&campaign.name)
         .line(format!("{}, {}", machine.name(), machine.chain_text()))
-        .section(path_section(told))
-        .section(seen_section(told))
-        .section(expected_section(told))
-        .sections(told.chosen.as_ref().map(|chosen| chosen_section(told, chosen)))
+        .section(path_section(answer))
+        .section(seen_section(answer))
+        .section(expected_section(answer))
+        .sections(answer.chosen.as_ref().map(|chosen| chosen_section(answer, chosen)))
         .section(unobservable)
-        .sections(told.paths.iter().map(|planned| {
+        .sections(answer.paths.iter().map(|planned| {
             let tools = tools(campaign, &planned.path.stations);
             views(format!("Path {}", planned.path.name), &tools).on_page()
         }))
 }
 
-fn path_section<'a>(told: &PlanReport<'_>) -> Section<'a> {
+fn path_section<'a>(answer: &PlanReport<'_>) -> Section<'a> {
     let mut lines = Vec::new();
-    let rows = told.paths.iter().map(|planned| {
+    let rows = answer.paths.iter().map(|planned| {
         let path = &planned.path;
         let how = match path.feed_mm_per_s {
             Some(feed) => format!("moving at {:.0} mm/min", feed * 60.0),
@@ -80,14 +80,14 @@ fn path_section<'a>(told: &PlanReport<'_>) -> Section<'a> {
     Section::new("Paths and their programs").table(table).list(lines)
 }
 
-fn seen_section<'a>(told: &PlanReport<'_>) -> Section<'a> {
-    let heads = told.paths.iter().map(|planned| {
+fn seen_section<'a>(answer: &PlanReport<'_>) -> Section<'a> {
+    let heads = answer.paths.iter().map(|planned| {
         let name: String = planned.path.name.chars().take(16).collect();
         format!("{name} ({})", planned.channels.join(", "))
     });
-    let names = told.paths.first().into_iter().flat_map(|p| &p.seen).map(|s| s.name.clone());
+    let names = answer.paths.first().into_iter().flat_map(|p| &p.seen).map(|s| s.name.clone());
     let rows = names.enumerate().map(|(k, name)| {
-        let readings = told.paths.iter().map(|planned| readings(planned, k));
+        let readings = answer.paths.iter().map(|planned| readings(planned, k));
         std::iter::once(name).chain(readings).collect::<Vec<_>>()
     });
     Section::new("Largest reading, µm or µrad, for 10 µm or 10 µrad of each error").table(
@@ -108,11 +108,11 @@ fn readings(planned: &PlannedPath, k: usize) -> String {
     largest.map_or_else(String::new, |all: Vec<String>| all.join(" "))
 }
 
-fn expected_section<'a>(told: &'a PlanReport<'_>) -> Section<'a> {
-    let e = &told.expectation;
+fn expected_section<'a>(answer: &'a PlanReport<'_>) -> Section<'a> {
+    let e = &answer.expectation;
     let figures = ["µm", "µrad", "µm/m"].into_iter().filter_map(|unit| {
         let bar = |e: &'a Expected| {
-            let (its, scale) = shown_unit(told.design, e);
+            let (its, scale) = shown_unit(answer.design, e);
             let value = e.u.filter(|_| its == unit)? * 2.0 * scale;
             let text = format!("{} {unit}", figure(value));
             Some(Bar { name: &e.name, value, half: 0.0, text })
@@ -121,7 +121,7 @@ fn expected_section<'a>(told: &'a PlanReport<'_>) -> Section<'a> {
         (!all.is_empty()).then(|| Figure::new(format!("U (k = 2), {unit}"), move || Ok(bars(&all))))
     });
     let rows = e.unknowns.iter().map(|expected| {
-        let (unit, scale) = shown_unit(told.design, expected);
+        let (unit, scale) = shown_unit(answer.design, expected);
         let [u, expanded, unit] = match expected.u {
             Some(u) => [figure(u * scale), figure(2.0 * u * scale), unit.to_owned()],
             None => ["–", "not observable", ""].map(str::to_owned),
@@ -139,7 +139,7 @@ fn expected_section<'a>(told: &'a PlanReport<'_>) -> Section<'a> {
         .table(Table::new(["", "u", "U (k = 2)", ""]).rows(rows).most_on_terminal(usize::MAX))
 }
 
-fn chosen_section<'a>(told: &PlanReport<'_>, chosen: &Chosen) -> Section<'a> {
+fn chosen_section<'a>(answer: &PlanReport<'_>, chosen: &Chosen) -> Section<'a> {
     let mut section = Section::new("Chosen poses").paragraph(format!(
         "{} of {} poses, {} readings, {} (by per_hit and per_pose), {} exchanges",
         chosen.poses,
@@ -156,7 +156,7 @@ fn chosen_section<'a>(told: &PlanReport<'_>, chosen: &Chosen) -> Section<'a> {
     }
     let Some((count, grid)) = &chosen.grid else { return section };
     let rows = chosen.expectation.unknowns.iter().zip(&grid.unknowns).map(|(a, b)| {
-        let (unit, scale) = shown_unit(told.design, a);
+        let (unit, scale) = shown_unit(answer.design, a);
         let one =
             |u: Option<f64>| u.map_or("not observable".to_owned(), |u| figure(2.0 * u * scale));
         [a.name.clone(), one(a.u), one(b.u), unit.to_owned()]
@@ -207,14 +207,14 @@ fn views<'a>(title: String, tools: &[(Vec3, Vec3)]) -> Section<'a> {
 }
 
 /// The plan as text.
-pub fn plan_text(told: &PlanReport<'_>) -> String {
-    report(told).text()
+pub fn plan_text(answer: &PlanReport<'_>) -> String {
+    report(answer).text()
 }
 
 /// The plan as one page.
 ///
 /// # Errors
 /// What the drawing library says.
-pub fn plan_html(told: &PlanReport<'_>) -> Result<String, DrawingError> {
-    report(told).html()
+pub fn plan_html(answer: &PlanReport<'_>) -> Result<String, DrawingError> {
+    report(answer).html()
 }

@@ -1,4 +1,4 @@
-//! The calibration of a probe for people, and its tables.
+//! The calibration of a probe in text and on a page, and its tables.
 
 use super::probe_pictures::{hits_picture, latitudes_picture, scores_picture};
 use crate::identify::probe::datums::{eccentricity, xy_datum, z_datum};
@@ -156,7 +156,8 @@ fn scatter_words(found: &Calibration) -> String {
 
 fn offset_words(found: &Calibration) -> String {
     let Some(offset) = &found.offset else {
-        return "offset: not told by these hits (centre unknown, one orientation)".to_owned();
+        return "offset: not observable with these hits (centre unknown, one orientation)"
+            .to_owned();
     };
     let names = ["x", "y", "z"].into_iter().enumerate().take(offset.coordinates);
     let parts: Vec<String> = names
@@ -190,7 +191,7 @@ pub(super) fn form_name(found: &Calibration) -> (&'static str, usize) {
     }
 }
 
-/// The study with the calibration of each stylus, for people.
+/// The study with the calibration of each stylus, in text and on a page.
 fn report<'a>(study: &Study, all: &[Calibration]) -> Report<'a> {
     Report::new(&study.name)
         .section(Section::new("Datums").list(datums(study)))
@@ -264,7 +265,7 @@ fn spreads(found: &Calibration) -> Table {
     };
     let table = Table::new(["µm", "range", "rms"])
         .row(row("as measured", &found.before))
-        .row(row("offset alone taken off", &found.offset_only))
+        .row(row("offset alone subtracted", &found.offset_only))
         .row(row("corrected, hits of the calibration", &found.after))
         .row(row("corrected, directions held out", &found.held_out));
     table.rows(found.check.iter().flat_map(|check| {
@@ -286,8 +287,8 @@ fn harmonics_table(found: &Calibration) -> Table {
     };
     let headings = ["order", "amplitude, µm", "u, µm", "first lobe, deg"];
     Table::new(headings).rows(harmonics(found).into_iter().map(row)).note(
-        "Directions of motion as the probe sees them. The first harmonic is the offset: no hit can tell \
-         the two apart.",
+        "Directions of motion as the probe sees them. The first harmonic is the offset: no hit \
+         separates the two.",
     )
 }
 

@@ -82,7 +82,7 @@ pub(super) fn scores_picture(found: &Calibration) -> Picture {
     Picture::Scatter(Scatter {
         title: format!("Stylus `{}`: how large a model the hits support", found.stylus),
         note: format!(
-            "Chosen: {}, the smallest that foretells directions it has not seen as well as the best.",
+            "Chosen: {}, the smallest that predicts directions it has not seen as well as the best.",
             chosen.unwrap_or_default()
         ),
         x: size.to_owned(),

@@ -1,4 +1,4 @@
-//! An RTCP calibration for people.
+//! An RTCP calibration in text and on a page.
 
 use crate::identify::rtcp::forecast::{Forecast, Strays};
 use crate::identify::rtcp::{Calibration, NewSlot, RtcpStudy};
@@ -16,8 +16,8 @@ pub struct RtcpReport<'a> {
     pub forecast: Option<&'a Forecast>,
 }
 
-fn report<'a>(told: &RtcpReport<'_>) -> Report<'a> {
-    let (study, found) = (told.study, told.found);
+fn report<'a>(answer: &RtcpReport<'_>) -> Report<'a> {
+    let (study, found) = (answer.study, answer.found);
     let verdict = found.verdict();
     let (word, sentence) = verdict.split_once(": ").unwrap_or((&verdict, ""));
     let standing = match word {
@@ -41,20 +41,20 @@ fn report<'a>(told: &RtcpReport<'_>) -> Report<'a> {
                 .table(Table::new(["true − machine file", "", "µm", "u (k = 1), µm"]).rows(offsets))
                 .list(unseen),
         )
-        .sections(numbers(told))
+        .sections(numbers(answer))
         .section(fit(found))
-        .section(told.forecast.map_or_else(
+        .section(answer.forecast.map_or_else(
             || Section::new("Forecast").paragraph("no forecast: not all offsets are known"),
             forecast,
         ))
 }
 
 /// The numbers of the control.
-fn numbers<'a>(told: &RtcpReport<'_>) -> Option<Section<'a>> {
-    let slots = told.study.slots.as_ref()?;
-    let decimals = usize::from(told.study.decimals);
+fn numbers<'a>(answer: &RtcpReport<'_>) -> Option<Section<'a>> {
+    let slots = answer.study.slots.as_ref()?;
+    let decimals = usize::from(answer.study.decimals);
     let mm = |value: f64| format!("{:.decimals$}", value + 0.0);
-    let rows = told.found.new.iter().map(|new| {
+    let rows = answer.found.new.iter().map(|new| {
         let [value, u] = match new.new_mm {
             Some((value, u)) if is_known(new) => [mm(value), format!("{:.2}", u * 1e3)],
             Some((value, _)) => [mm(value), "unchanged".to_owned()],
@@ -64,7 +64,7 @@ fn numbers<'a>(told: &RtcpReport<'_>) -> Option<Section<'a>> {
     });
     let table = Table::new(["number", "old, mm", "new, mm", "u, µm", "meaning"]).rows(rows);
     let without = slots.without_slot.iter().map(|k| {
-        let words = told.study.centres.words(&told.study.machine, *k);
+        let words = answer.study.centres.words(&answer.study.machine, *k);
         let title = slots.names.title();
         format!("no number of {title} takes in {words}: correct it at the machine or in its zero")
     });
@@ -130,14 +130,14 @@ fn forecast<'a>(f: &Forecast) -> Section<'a> {
 }
 
 /// The calibration as text.
-pub fn rtcp_text(told: &RtcpReport<'_>) -> String {
-    report(told).text()
+pub fn rtcp_text(answer: &RtcpReport<'_>) -> String {
+    report(answer).text()
 }
 
 /// The calibration as one page.
 ///
 /// # Errors
 /// What the drawing library says.
-pub fn rtcp_html(told: &RtcpReport<'_>) -> Result<String, DrawingError> {
-    report(told).html()
+pub fn rtcp_html(answer: &RtcpReport<'_>) -> Result<String, DrawingError> {
+    report(answer).html()
 }

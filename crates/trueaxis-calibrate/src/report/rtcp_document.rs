@@ -38,7 +38,7 @@ pub struct RtcpDocument<'a> {
     pub degrees_of_freedom: usize,
     /// By how much the uncertainties are enlarged, 1 or more.
     pub birge: f64,
-    /// Root mean square of what is left, µm.
+    /// Root mean square of the residual, µm.
     pub rms_residual_um: f64,
     /// The reading that fits worst.
     pub worst_reading: Option<WorstEntry<'a>>,

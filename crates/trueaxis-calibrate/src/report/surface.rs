@@ -1,4 +1,4 @@
-//! A probing path over a surface for people.
+//! A probing path over a surface in text and on a page.
 
 use crate::plan::program::ProgramCheck;
 use crate::plan::surface::{Pose, SurfaceStudy};

@@ -1,4 +1,4 @@
-//! A thermal model for people.
+//! A thermal model in text and on a page.
 
 use super::thermal_pictures::{cycle_picture, scores_picture};
 use crate::identify::thermal::{Logs, Score, ThermalModel, Zero};
@@ -112,7 +112,7 @@ fn u_of_root(score: &Score) -> f64 {
     if score.held_out_mm > 0.0 { score.u_held_out_mm2 / (2.0 * score.held_out_mm) } else { 0.0 }
 }
 
-/// The model for people.
+/// The model in text and on a page.
 fn report<'a>(logs: &'a Logs, model: &'a ThermalModel) -> Report<'a> {
     let rows: usize = logs.cycles.iter().map(|c| c.displacement_mm.len()).sum();
     let (standing, word) = match model.refusal.is_some() {
@@ -172,7 +172,7 @@ fn score_section<'a>(logs: &Logs, model: &ThermalModel) -> Section<'a> {
              one row at a time claims; its neighbours are still there. Whole cycles out: sensors chosen \
              and coefficients fitted without the cycle, ± standard uncertainty; this one counts. Again: \
              without how many cycles the same sensors were chosen. Condition: from 30 on the columns \
-             cannot be told apart.",
+             are not separable.",
         ))
         .paragraph(format!(
             "Repeatability of a reading {:.2} µm ({stated}); held out and counted from the first row of \
@@ -211,7 +211,7 @@ fn cycle_section<'a>(logs: &'a Logs, model: &'a ThermalModel) -> Section<'a> {
         let caption = format!("{}: {:.2} µm left", cycle.name, with[g] * 1e3);
         Figure::new(caption, move || cycle_picture(cycle, g, model))
     });
-    Section::new("Each cycle, foretold by a model that has not seen it")
+    Section::new("Each cycle, predicted by a model that has not seen it")
         .table(Table::new(["cycle", "without a model, rms, µm", "held out, rms, µm"]).rows(rows))
         .grid(Columns::AsFit, figures)
 }

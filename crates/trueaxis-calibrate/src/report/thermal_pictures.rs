@@ -51,8 +51,9 @@ pub(super) fn cycle_picture(
             .map(|i| (at(i), values[i] * 1e3))
             .collect(),
     };
-    let (measured, foretold) = (&model.measured_mm[g], &model.predicted_mm[g]);
-    let left: Vec<f64> = measured.iter().zip(foretold).map(|(m, p)| m - p).collect();
-    let lines = [curve("measured", measured), curve("foretold", foretold), curve("left", &left)];
+    let (measured, predicted) = (&model.measured_mm[g], &model.predicted_mm[g]);
+    let left: Vec<f64> = measured.iter().zip(predicted).map(|(m, p)| m - p).collect();
+    let lines =
+        [curve("measured", measured), curve("predicted", predicted), curve("residual", &left)];
     curves((500, 300), &Labels { x, y: "µm" }, &lines)
 }

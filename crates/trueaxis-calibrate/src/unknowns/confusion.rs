@@ -1,4 +1,4 @@
-//! What readings cannot tell apart, in words.
+//! Unknowns that readings cannot separate, in words.
 //!
 //! The null space of a design is a space; people want sentences with few names. So the basis is
 //! turned until its columns have as few members as we can find.
@@ -55,9 +55,9 @@ impl Confusion {
         let sentence = match &names[..] {
             [] => return String::new(),
             [alone] => return format!("no reading depends on {alone}: {NOT_MOVED}"),
-            [first, second] => format!("{first} cannot be told from {second}"),
+            [first, second] => format!("{first} cannot be separated from {second}"),
             [first, rest @ .., last] => {
-                format!("{first} cannot be told from {} and {last} together", rest.join(", "))
+                format!("{first} cannot be separated from {} and {last} together", rest.join(", "))
             }
         };
         format!(

@@ -13,14 +13,14 @@ use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_machine::chain::CommandFault;
 use trueaxis_machine::errors::{ErrorIndex, ErrorValues};
 
-/// What is sought with which instruments on which machine.
+/// The unknowns, the instruments and the machine.
 ///
 /// The unknowns are numbered: first the terms of the machine, then the unknowns of each set-up.
 #[derive(Debug, Clone)]
 pub struct Design {
-    /// The machine; of the errors that are sought it states nothing.
+    /// The machine; the unknown errors are zero in it.
     pub machine: Machine,
-    /// What is sought of it.
+    /// The unknown errors.
     pub terms: Vec<Term>,
     /// The instruments as they are set up.
     pub instruments: Vec<Instrument>,
@@ -75,7 +75,7 @@ impl Unknown<'_> {
 }
 
 impl Design {
-    /// A design; the machine forgets what it states of the errors that are sought.
+    /// A design; what the machine states of the unknown errors is not used.
     pub fn new(machine: &Machine, terms: Vec<Term>, instruments: Vec<Instrument>) -> Self {
         let mut machine = machine.clone();
         let mut runs: Vec<(ErrorIndex, std::ops::Range<usize>)> = Vec::new();

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! J is that of the nominal machine in every pass: errors of 100 µrad change it by 1e-4, so each
-//! pass gains four digits, and what cannot be told apart stays exactly so (the rank is a property
+//! pass gains four digits, and what is not separable stays exactly so (the rank is a property
 //! of the plan, not of the noise).
 
 use super::design::Design;
@@ -77,7 +77,7 @@ pub struct Fit {
     pub passes: usize,
 }
 
-/// What a set of readings can tell about the unknowns.
+/// Which unknowns a set of readings determines.
 #[derive(Debug, Clone)]
 pub struct Observability {
     /// Singular values of J with columns scaled to 1, in units of the noise, greatest first.
@@ -393,7 +393,7 @@ pub fn fit_by(
     Err(FitError::NotConverged { passes: MOST_PASSES })
 }
 
-/// What is left of linearised readings with these values.
+/// The residuals of linearised readings with these values.
 pub(crate) fn linear_residuals<'v>(
     design: &Design,
     readings: &Readings,

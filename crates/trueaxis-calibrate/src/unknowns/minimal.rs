@@ -8,15 +8,15 @@ use trueaxis_machine::axis::{AxisKind, Command, MAX_AXES, Travel};
 use trueaxis_machine::errors::{Component, ErrorIndex, ErrorKind, ErrorName, ErrorValues};
 use trueaxis_machine::twist::Reference;
 
-/// How many commands are looked at; the motion of six axes has far fewer parameters.
+/// How many commands are examined; the motion of six axes has far fewer parameters.
 const COMMANDS: usize = 48;
 /// What is seen less than this is rounding.
 const NOTHING: f64 = 1e-9;
 
-/// The smallest set of location errors that tells every constant deviation of tip and tool axis,
+/// The smallest set of location errors that determines every constant deviation of tip and tool axis,
 /// where the workpiece may sit anywhere and the tool is as it was measured.
 ///
-/// The mounting of the workpiece takes six freedoms; of what is left the rotary axes take first,
+/// The mounting of the workpiece takes six freedoms; of the remaining ones the rotary axes take first,
 /// then the linear ones, each only what no error before it can do. Three linear and two rotary axes
 /// leave thirteen: four for each rotary axis, three squarenesses, and two of the spindle.
 ///
@@ -88,7 +88,7 @@ fn column(machine: &Machine, index: ErrorIndex) -> DVector<f64> {
     }
     let column = DVector::from_vec(values);
     let length = column.norm();
-    // What is left of an error without effect is rounding, and must not be scaled to 1.
+    // What remains of an error without effect is rounding, and must not be scaled to 1.
     if length > NOTHING { column / length } else { column }
 }
 

@@ -13,8 +13,8 @@ pub const MOST_HITS: usize = 10_000;
 const FAR_MM: f64 = 1.0;
 /// Position and direction of motion may differ by this, rad.
 const ASIDE_RAD: f64 = 0.09;
-/// No more hits than these are told one by one.
-const MOST_TOLD: usize = 20;
+/// No more hits than these are reported one by one.
+const MOST_REPORTED: usize = 20;
 /// Directions nearer than this are one, rad.
 const SAME_RAD: f64 = 0.005;
 
@@ -26,7 +26,7 @@ pub fn check_hits(study: &Study, stylus: &Stylus, problems: &mut Diagnostics) ->
     let place = || hits.first().map_or(Place::whole(&study.file), |h| h.place.clone());
     if hits.len() < fewest {
         let message = format!("stylus `{}` has {} hits", stylus.name, hits.len());
-        let hint = format!("{fewest} at least tell offset and mean, 12 three lobes");
+        let hint = format!("{fewest} at least determine offset and mean, 12 three lobes");
         problems.error("too-few-hits", place(), message, &hint);
         return None;
     }
@@ -38,14 +38,14 @@ pub fn check_hits(study: &Study, stylus: &Stylus, problems: &mut Diagnostics) ->
         return None;
     };
     let before = problems.iter().count();
-    let told = |problems: &Diagnostics| {
+    let has_new = |problems: &Diagnostics| {
         let errors =
             |d: &&trueaxis_input::Diagnostic| d.severity == trueaxis_input::Severity::Error;
         problems.iter().skip(before).any(|d| errors(&d))
     };
     let sight = Sight { gauge, ball_radius_mm: stylus.ball_radius_mm, centre };
     sight.check_size(hits, problems);
-    if told(problems) {
+    if has_new(problems) {
         return None;
     }
     sight.check_directions(hits, problems);
@@ -53,11 +53,11 @@ pub fn check_hits(study: &Study, stylus: &Stylus, problems: &mut Diagnostics) ->
         sight.check_one(hit, problems);
     }
     tell_copies(hits, problems);
-    if told(problems) {
+    if has_new(problems) {
         return None;
     }
     let gap = check_gaps(hits, gauge, problems);
-    (!told(problems)).then_some(gap)
+    (!has_new(problems)).then_some(gap)
 }
 
 /// A gauge with the place where it stands, or seems to.
@@ -103,7 +103,7 @@ impl Sight<'_> {
                 "they are touched points, not spindle positions: state reading = \"point\"",
             )
         } else if near(due - self.gauge.side.sign() * ball) {
-            ("wrong-reading", "the ball radius was taken off twice: state reading = \"spindle\"")
+            ("wrong-reading", "the ball radius was subtracted twice: state reading = \"spindle\"")
         } else if like(1.0 / 25.4) {
             ("wrong-unit", "are they inches? then the heading says x_in")
         } else if like(25.4) || like(1e3) || like(1e-3) {
@@ -180,7 +180,7 @@ impl Sight<'_> {
             problems.error(code, hits[0].place.clone(), message, hint);
             return;
         }
-        for hit in hits.iter().filter(|h| aside(h) > ASIDE_RAD).take(MOST_TOLD) {
+        for hit in hits.iter().filter(|h| aside(h) > ASIDE_RAD).take(MOST_REPORTED) {
             let angle = aside(hit).to_degrees();
             let message = format!("direction of motion and position differ by {angle:.1} deg");
             let hint = "a hit lies where its motion leads; is a sign or an angle wrong?";
@@ -202,11 +202,11 @@ fn tell_copies(hits: &[Hit], problems: &mut Diagnostics) {
         (all.map(f64::to_bits), h.direction.z.to_bits(), h.orientation_rad.to_bits())
     };
     let mut first = std::collections::BTreeMap::new();
-    let mut told = 0;
+    let mut reported = 0;
     for hit in hits {
         let line = first.entry(key(hit)).or_insert(hit.place.line).to_owned();
-        if line != hit.place.line && told < MOST_TOLD {
-            told += 1;
+        if line != hit.place.line && reported < MOST_REPORTED {
+            reported += 1;
             let message = format!("this row is the same as line {line} to the last digit");
             let hint = "if it is a copy, take it out: it makes the uncertainty too small";
             problems.warn("duplicate-row", hit.place.clone(), message, hint);

@@ -1,4 +1,4 @@
-//! The steps before the direction table: eccentricity, Z datum, X and Y datum (document 003, 2.3.2).
+//! The steps before the direction table: eccentricity, Z datum, X and Y datum (Zhang et al. 2023, 2.3.2).
 
 use nalgebra::{Matrix3, Vector3};
 use schemars::JsonSchema;

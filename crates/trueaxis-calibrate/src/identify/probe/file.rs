@@ -13,7 +13,7 @@ use trueaxis_input::{
 
 /// Harmonics that are tried unless the study says otherwise.
 const MOST_HARMONICS: usize = 12;
-/// Directions of the table of the control, as in document 003.
+/// Directions of the table of the control, as in Zhang et al. 2023.
 const STEPS: usize = 60;
 /// More than these are a slip.
 const LARGEST_COUNT: usize = 3600;
@@ -340,7 +340,7 @@ fn read_dial(section: &Section<'_>, tables: &Tables<'_>) -> Option<DialTurn> {
     section.take_over(found);
     let turn = DialTurn { at_rad, readings: readings? };
     if super::datums::eccentricity(&turn).is_none() {
-        let message = format!("{} readings tell no eccentricity", turn.readings.len());
+        let message = format!("{} readings do not determine the eccentricity", turn.readings.len());
         section.error("too-few-hits", message, "four readings or more around a whole turn");
         return None;
     }
@@ -377,7 +377,8 @@ fn read_four(section: &Section<'_>, gauge: Option<&Gauge>) -> Option<FourHits> {
     let [Some(a), Some(b), Some(c), Some(d)] = hits else { return None };
     let gauge = gauge?;
     let Some(centre) = gauge.centre_mm.filter(|_| gauge.kind == GaugeKind::Ring) else {
-        let message = "four hits tell the offset only from a known centre of a ring".to_owned();
+        let message =
+            "four hits determine the offset only with a known centre of a ring".to_owned();
         section.error("missing-key", message, "[ring] centre = \"0 0 mm\"");
         return None;
     };

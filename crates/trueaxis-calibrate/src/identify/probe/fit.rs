@@ -5,9 +5,9 @@ use super::lobing::{Lobing, LobingModel};
 use nalgebra::{DMatrix, DVector};
 use trueaxis_geometry::Vec3;
 
-/// Columns that differ by less than this, relative, cannot be told apart.
+/// Columns that differ by less than this, relative, are not separable.
 const ALIKE: f64 = 1e-7;
-/// What is left of exact hits is rounding, mm.
+/// The residual of exact hits is rounding, mm.
 const NOTHING_MM: f64 = 1e-7;
 /// Steps of Gauss and Newton; three are enough for real probes.
 const MOST_STEPS: usize = 30;
@@ -26,14 +26,14 @@ pub struct Free {
 }
 
 impl Free {
-    /// What these hits can tell: a known centre, or several orientations of the spindle.
+    /// What these hits determine: a known centre, or several orientations of the spindle.
     pub fn of(hits: &[Hit], gauge: &Gauge) -> Self {
         let dimensions = gauge.dimensions();
         if gauge.centre_mm.is_some() {
             return Self { offset: dimensions, centre: 0 };
         }
         let first = hits.first().map_or(0.0, |h| h.orientation_rad);
-        // Nearer orientations tell offset and centre apart too badly.
+        // Nearer orientations separate offset and centre too badly.
         let turned = hits.iter().any(|h| (0.5 * (h.orientation_rad - first)).sin().abs() > 0.1);
         Self { offset: if turned { 2 } else { 0 }, centre: dimensions }
     }
@@ -108,7 +108,7 @@ pub struct Score {
     pub size: usize,
     /// Parameters in all.
     pub parameters: usize,
-    /// Root mean square of what is left, mm.
+    /// Root mean square of the residual, mm.
     pub in_sample_mm: f64,
     /// Root mean square of what was held out, mm.
     pub held_out_mm: f64,
@@ -169,7 +169,7 @@ fn solve(mut a: DMatrix<f64>, b: &DVector<f64>) -> Option<Solved> {
 ///     Σ b_j φ_j(u) − g·R(φ)·δo + g·δc = t(o, c)        g = ∂t/∂w                 docs/model.md eq. 138
 /// ```
 ///
-/// `None`: these hits cannot tell so many parameters.
+/// `None`: these hits do not determine so many parameters.
 pub fn fit(sample: &Sample<'_>, free: Free, lobing: Lobing) -> Option<Fit> {
     let (hits, count) = (sample.hits, lobing.terms.len());
     let known = sample.gauge.centre_mm;
@@ -240,7 +240,7 @@ fn held_out(hits: &[Hit], left_mm: &[f64], q: &DMatrix<f64>) -> Option<Vec<f64>>
         let block = DMatrix::identity(group.len(), group.len()) - &rows * rows.transpose();
         let r = DVector::from_iterator(group.len(), group.iter().map(|i| left_mm[*i]));
         let e = block.lu().solve(&r)?;
-        // A direction that alone tells a parameter cannot be held out.
+        // A direction that alone determines a parameter cannot be held out.
         if e.iter().any(|v| !v.is_finite() || v.abs() > 1e3) {
             return None;
         }
@@ -266,7 +266,7 @@ fn sizes(sample: &Sample<'_>, model: LobingModel, most: usize, gap_rad: f64) -> 
     }
 }
 
-/// Fits all sizes and chooses the smallest that foretells as well as the best.
+/// Fits all sizes and chooses the smallest that predicts as well as the best.
 ///
 /// The mean over the hits of e² − e²(best) must not exceed its standard uncertainty.
 ///

@@ -224,7 +224,7 @@ fn from_centre(
     let all: Option<Vec<Vec3>> =
         positions.iter().map(|p| direction(p).map(|u| u * outwards)).collect();
     if all.is_none() {
-        let message = "the directions of motion cannot be told from the positions".to_owned();
+        let message = "the directions of motion cannot be derived from the positions".to_owned();
         let hint = "add a column angle_deg (or i,j,k), or hits all around";
         problems.error("missing-column", sheet.headings_place(), message, hint);
     }

@@ -16,7 +16,7 @@ use trueaxis_machine::twist::Reference;
 
 /// An offset that is seen less than this beside those before it does what they do.
 const NOTHING: f64 = 1e-9;
-/// How many poses tell offsets apart.
+/// How many poses are used to separate offsets.
 const POSES: usize = 48;
 /// A component of an offset that lies along its own axis by more than this only slides on it.
 const ALONG: f64 = 0.9;
@@ -33,7 +33,7 @@ pub enum Topology {
 }
 
 impl Topology {
-    /// For people.
+    /// In text output.
     pub fn words(self) -> &'static str {
         match self {
             Self::TableTable => "two rotary axes in the table",
@@ -52,7 +52,7 @@ impl Topology {
     }
 }
 
-/// What is sought of a machine with two rotary axes.
+/// The unknown centres of a machine with two rotary axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Centres {
     /// Where the rotary axes stand.

@@ -14,7 +14,7 @@ use trueaxis_machine::errors::ErrorValues;
 /// Whose names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Names {
-    /// The Chinese i5 control of document 003: RTCP_OFFSET1, RTCP_OFFSET2.
+    /// The Chinese i5 control of Zhang et al. 2023: RTCP_OFFSET1, RTCP_OFFSET2.
     I5,
     /// SINUMERIK 840D sl: machine data of the five-axis transformation TRAFO5.
     Sinumerik,
@@ -55,7 +55,7 @@ impl Names {
         ALL.into_iter().find(|(n, ..)| *n == self).map_or("", |(_, key, _)| key)
     }
 
-    /// The name for people.
+    /// The name in text output.
     pub fn title(self) -> &'static str {
         // why: every one stands in the table
         ALL.into_iter().find(|(n, ..)| *n == self).map_or("", |(.., title)| title)
@@ -271,7 +271,7 @@ fn named(
     }
 }
 
-/// Document 003, 2.1.2, and errata 003-10.
+/// Zhang et al. 2023, 2.1.2, and errata 003-10.
 fn i5(topology: Topology, letters: &Letters, g: &Geometry) -> Result<Vec<Value>, String> {
     if topology != Topology::TableTable || letters.table != ['A', 'C'] {
         return Err("RTCP_OFFSET1 and 2 of the i5 control are known for a C table on an A table \
@@ -361,7 +361,7 @@ fn fanuc(topology: Topology, letters: &Letters, g: &Geometry) -> Vec<Value> {
 }
 
 /// The kinematics table begins at the tool reference point (iTNC 530 HSCI, technical manual, KEY
-/// Trans and MachAxis; CfgKinSimpleTrans of the TNC 640 in kind).
+/// Trans and MachAxis; in the manner of CfgKinSimpleTrans of the TNC 640).
 fn heidenhain(letters: &Letters, g: &Geometry) -> Vec<Value> {
     let lines = |axis: char, v: Vec3| {
         (0..3).map(move |i| {

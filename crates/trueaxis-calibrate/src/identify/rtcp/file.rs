@@ -25,7 +25,7 @@ const MOST_ROWS: usize = 20_000;
 const LARGE_MM: f64 = 5.0;
 /// A tool that stands farther from its ball than this reads something else, mm.
 const FAR_MM: f64 = 10.0;
-/// Poses that are turned by less tell little; perhaps they were meant in rad.
+/// Poses that are turned by less give little information; perhaps they were meant in rad.
 const LITTLE_RAD: f64 = 0.2;
 
 /// What a file is read for.
@@ -339,7 +339,7 @@ fn set_for(study: &RtcpStudy, slots: &Slots, own: &[(usize, f64)]) -> Vec<f64> {
     slots.offsets_of(&all)
 }
 
-/// The tool against a ball whose place nobody needs to know.
+/// The tool against a ball whose place need not be known.
 fn instrument(name: &str, machine: &Machine, ball_mm: Vec3, noise_mm: f64) -> Instrument {
     let free = |i: usize| SetupUnknown {
         name: format!("ball_{}", ['x', 'y', 'z'][i]),
@@ -561,7 +561,7 @@ fn check(root: &Section<'_>, study: &RtcpStudy) {
     if turned.iter().all(|(_, by)| *by < SAME_RAD) {
         let message = "no rotary axis is turned within any set of readings".to_owned();
         let hint = "read at poses that are turned, half a turn apart if the axis can; one pose \
-                    tells nothing of a centre";
+                    determines no centre";
         root.error("no-turned-poses", message, hint);
         return;
     }

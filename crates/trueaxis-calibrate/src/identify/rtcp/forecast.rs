@@ -40,7 +40,7 @@ pub struct Strays {
     pub rms_mm: f64,
 }
 
-/// What the new centres will do; `None` where some of them were not found.
+/// The effect of the new centres; `None` where some of them were not found.
 pub fn forecast(study: &RtcpStudy, found: &Calibration) -> Option<Forecast> {
     if !found.is_complete() {
         return None;

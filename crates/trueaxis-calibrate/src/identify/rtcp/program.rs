@@ -133,7 +133,7 @@ impl Written<'_> {
         leaves_travel(&self.study.machine, &above).is_none().then_some(place)
     }
 
-    /// RTCP off: the axes as they are told.
+    /// RTCP off: the axes as commanded.
     fn standing(&mut self) -> Result<(), WriteError> {
         let feed = Feed { mode: FeedMode::PerMinute, value: FEED_PER_MINUTE };
         let axes = self.study.machine.axes();

@@ -20,7 +20,7 @@ const JITTER_K: f64 = 0.3;
 /// Nothing that drifts does so by more, mm.
 const LARGE_MM: f64 = 2.0;
 
-/// Looks at one cycle; `place` tells where a row of it stands.
+/// Checks one cycle; `place` gives the place of a row of it.
 pub fn check_cycle(
     cycle: &Cycle,
     logs: &Logs,
@@ -108,7 +108,7 @@ pub fn check_cycles(logs: &Logs, problems: &mut Diagnostics) {
     if cycles.len() < 2 && !problems.has_errors() {
         let place = Place::whole(cycles.first().map_or("", |c| &c.name));
         let message = "one cycle can be fitted by anything and judged by nothing".to_owned();
-        let hint = "three cycles or more, each a log of its own or told by a cycle column";
+        let hint = "three cycles or more, each a log of its own or named by a cycle column";
         problems.error("too-few-cycles", place, message, hint);
     }
     for (i, cycle) in cycles.iter().enumerate() {

@@ -3,7 +3,7 @@
 use super::{Logs, Term, Zero};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-/// Columns whose condition number at equal length exceeds this cannot be told apart (Belsley, Kuh &
+/// Columns whose condition number at equal length exceeds this are not separable (Belsley, Kuh &
 /// Welsch 1980: from 30 on).
 pub const COLLINEAR: f64 = 30.0;
 /// A direction of less weight than this is rounding.
@@ -148,7 +148,7 @@ impl Design {
         Training { gram, right, lengths, rows, x_mean, y_mean, one_zero }
     }
 
-    /// What a fit foretells of a cycle, in the zero of [`Design::measured`], mm.
+    /// What a fit predicts for a cycle, in the zero of [`Design::measured`], mm.
     pub fn predict(&self, cycle: usize, fit: &Fit) -> Vec<f64> {
         let x = &self.blocks[cycle].x;
         let row = |i: usize| {
@@ -196,7 +196,7 @@ impl Design {
                 fit.subset.iter().enumerate().map(|(k, j)| x[(i + first, *j)] - fit.x_mean[k]),
             );
             let own = of_zero + row.dot(&(&fit.inverse * &row));
-            // A row that only it speaks of cannot be foretold at all.
+            // A row that alone determines a coefficient cannot be predicted.
             residual / (1.0 - own).max(1e-9)
         };
         self.residuals(cycle, fit).into_iter().enumerate().map(miss).collect()
@@ -216,7 +216,7 @@ impl Design {
         self.ranges_celsius[term]
     }
 
-    /// Pairs of sensors (without lag) that cannot be told apart.
+    /// Pairs of sensors (without lag) that are not separable.
     pub fn twins(&self) -> Vec<(Term, Term)> {
         let all = self.train(None);
         let plain = |j: &usize| self.terms[*j].lag_s.is_none();
@@ -272,7 +272,7 @@ impl Training {
         if subset.is_empty() { 1.0 } else { condition(scaled.symmetric_eigenvalues().as_slice()) }
     }
 
-    /// Least squares on some columns; directions that cannot be told get the shortest solution.
+    /// Least squares on some columns; directions that are not observable get the shortest solution.
     pub fn fit(&self, subset: &[usize]) -> Fit {
         if subset.is_empty() {
             return self.fit_of(subset, DMatrix::zeros(0, 0), 1.0);

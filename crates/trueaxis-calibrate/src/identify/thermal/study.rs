@@ -244,7 +244,7 @@ fn check_search(root: &Section<'_>, logs: &Logs) {
     }
 }
 
-/// Reads one log into one cycle, or as many as its cycle column tells.
+/// Reads one log into one cycle, or as many as its cycle column states.
 fn read_file(
     name: &str,
     tables: &Tables<'_>,
@@ -321,7 +321,7 @@ fn find<'t>(table: &'t CsvTable, name: &str, problems: &mut Diagnostics) -> Opti
     column
 }
 
-/// What stands behind the last underscore, if it is a unit of anything.
+/// What stands after the last underscore, if it is a unit of anything.
 fn unit_suffix(column: &CsvColumn) -> Option<&str> {
     let (_, unit) = column.name.rsplit_once('_')?;
     let of = [Dimension::Temperature, Dimension::Length, Dimension::Angle, Dimension::Time];

@@ -3,8 +3,8 @@
 use super::design::{COLLINEAR, Training};
 use nalgebra::{Cholesky, DVector};
 
-/// For 0, 1, 2 … terms the columns with the smallest sum of squares left, of those that can be told
-/// apart; the list ends where none can.
+/// For 0, 1, 2 … terms the columns with the smallest sum of squares left, of those that are
+/// separable; the list ends where none can.
 ///
 /// All combinations are tried: `k terms of p` is small for models that anybody should use, and no
 /// step of a search can miss a pair that only works together.

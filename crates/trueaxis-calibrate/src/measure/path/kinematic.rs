@@ -1,7 +1,7 @@
-//! The kinematic tests of ISO 10791-6 for five-axis machining centres, in kind: A…, B… and C… by where
+//! The kinematic tests of ISO 10791-6 for five-axis machining centres, in the manner of the standard: A…, B… and C… by where
 //! the rotary axes sit, 1 and 2 one rotary axis each, 3 both on a cone, 4 both on a sphere.
 //!
-//! The text of the standard was not at hand. That one axis at a time is followed by the linear ones and
+//! The text of the standard was not available. That one axis at a time is followed by the linear ones and
 //! read radially, tangentially and axially (AK1, AK2, BK1, BK2, CK1, CK2) is how the open literature
 //! describes it; which number the tests with both rotary axes bear is our choice.
 

@@ -239,7 +239,7 @@ fn there_and_back(
 ) -> Option<Readings> {
     let own = &campaign.instruments[instrument];
     let commands = runs.commands;
-    // What the instrument is told counts: straightness is read across the way.
+    // What the instrument is set to counts: straightness is read across the way.
     let direction = match section.get("direction") {
         Some(item) => trueaxis_machine::file::read_direction(&item)?,
         None => runs.direction.unwrap_or(own.direction),

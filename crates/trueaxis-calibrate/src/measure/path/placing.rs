@@ -13,7 +13,7 @@ use trueaxis_machine::tcp::TipControl;
 use trueaxis_machine::twist::Reference;
 
 /// More stations outside the travel are counted, not listed.
-const MOST_TOLD: usize = 3;
+const MOST_REPORTED: usize = 3;
 
 /// Puts the tool point of an instrument to a place while the rotary axes stand where they shall.
 #[derive(Debug, Clone)]
@@ -48,13 +48,13 @@ impl Placing {
         instrument: usize,
     ) -> Option<Self> {
         let placing = Self::of(&campaign.machine, &campaign.instruments[instrument]);
-        let told = |why: &str| {
+        let reported = |why: &str| {
             let hint = "kind = \"grid\", \"random\", \"targets\" or \"table\" name the axes";
             section.error("cannot-follow", format!("the tool cannot follow: {why}"), hint);
             // The other keys are of no use now.
             section.entries();
         };
-        placing.map_err(told).ok()
+        placing.map_err(reported).ok()
     }
 
     /// The command with the tool point at a place of the workpiece; `None` where the linear axes
@@ -70,7 +70,7 @@ impl Placing {
         self.place(self.reference_point_mm + direction * self.reach_mm, rotary)
     }
 
-    /// Where the stylus goes before a hit: above the ball's height on that side, then beside it.
+    /// Where the stylus goes before a hit: above the ball's height on that side, then next to it.
     pub fn beside(&self, side: Vec3, tool_axis: Vec3) -> [Vec3; 2] {
         let off = self.reach_mm + STAND_OFF_MM;
         let beside = self.reference_point_mm + side * off;
@@ -146,7 +146,7 @@ pub fn leaves_travel(machine: &Machine, command: &Command) -> Option<Strayed> {
     })
 }
 
-/// Tells the stations that the machine cannot reach.
+/// Reports the stations that the machine cannot reach.
 pub(crate) fn check_travel(
     section: &Section<'_>,
     name: &str,
@@ -157,12 +157,12 @@ pub(crate) fn check_travel(
     let outside: Vec<(usize, Strayed)> = outside
         .filter_map(|(i, c)| leaves_travel(&campaign.machine, c).map(|strayed| (i, strayed)))
         .collect();
-    for (i, strayed) in outside.iter().take(MOST_TOLD) {
+    for (i, strayed) in outside.iter().take(MOST_REPORTED) {
         let message = format!("path {name}, station {} of {}: {strayed}", i + 1, stations.len());
         let hint = "move the ball, shorten the path, or take another tool length";
         section.error("outside-travel", message, hint);
     }
-    if outside.len() > MOST_TOLD {
+    if outside.len() > MOST_REPORTED {
         let message = format!("path {name}: {} stations are outside in all", outside.len());
         section.error("outside-travel", message, "see above");
     }

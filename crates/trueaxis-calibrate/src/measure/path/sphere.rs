@@ -1,4 +1,4 @@
-//! Paths that keep the tool point on a ball while rotary axes turn: document 004, section 4.
+//! Paths that keep the tool point on a ball while rotary axes turn: Lei and Hsu 2003, section 4.
 //!
 //! The radius of its sphere is the bar between programmed point and socket; the tool point of the
 //! instrument is the socket, which stays on the ball, so that no radius is left here.
@@ -15,7 +15,7 @@ use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::file::read_direction;
 
 /// One rotary axis turns, all other rotary axes stand, linear axes follow: paths A and C of
-/// document 004; a ball-bar lies along, across or beside the axis.
+/// Lei and Hsu 2003; a ball-bar lies along, across or next to the axis.
 pub(super) fn read_rotary(
     section: &Section<'_>,
     kind: &Item<'_>,
@@ -87,7 +87,7 @@ fn bar_direction(
 ) -> Option<Vec3> {
     let machine = placing.machine();
     let (moved, about) = turns_about(machine, axis, at_ball, placing.reference_point_mm);
-    // A ball on the axis does not move: any direction across will do.
+    // A ball on the axis does not move: any direction across is sufficient.
     let across = [Vec3::x(), Vec3::y()].map(|v| about.cross(&v)).into_iter();
     let across = across.max_by(|a, b| a.norm().total_cmp(&b.norm())).unwrap_or_else(Vec3::x);
     let tangential = moved.try_normalize(1e-6).unwrap_or_else(|| across.normalize());
@@ -140,7 +140,7 @@ pub(super) fn read_s(
     campaign: &Campaign,
     instrument: usize,
 ) -> Option<Readings> {
-    let tilt = section.require("tilt", "tilt = \"30 deg\", the angle ψ of document 004");
+    let tilt = section.require("tilt", "tilt = \"30 deg\", the angle ψ of Lei and Hsu 2003");
     let count = read_count(section, "count", 37);
     let (tilt, count) = (tilt?.quantity(Dimension::Angle)?, count?);
     // At 45 deg the circle meets the pole.
@@ -178,7 +178,7 @@ pub(super) fn read_cone(
 ///     u = (cos λ cos φ, cos λ sin φ, sin λ)      λ = λ₀ + rise φ/φ_end            docs/model.md eq. 109
 /// ```
 ///
-/// *Source:* document 004, Eq 14 (λ₀ = 0, rise 90°, one turn).
+/// *Source:* Lei and Hsu 2003, Eq 14 (λ₀ = 0, rise 90°, one turn).
 pub fn directions_f(lowest_rad: f64, rise_rad: f64, turns: f64, count: usize) -> Vec<Vec3> {
     let along = |k: usize| k as f64 / (count.max(2) - 1) as f64;
     let normal = |t: f64| {
@@ -195,7 +195,7 @@ pub fn directions_f(lowest_rad: f64, rise_rad: f64, turns: f64, count: usize) ->
 ///     u = (1 + sin²ψ (cos θ − 1), sin ψ sin θ, sin ψ cos ψ (1 − cos θ))          docs/model.md eq. 110
 /// ```
 ///
-/// *Source:* document 004, Eq 17 with Rp = Rw sin ψ. DIFFERENCE: (004-9) only with this Rp is the
+/// *Source:* Lei and Hsu 2003, Eq 17 with Rp = Rw sin ψ. DIFFERENCE: (004-9) only with this Rp is the
 /// circle on the sphere.
 pub fn directions_s(tilt_rad: f64, count: usize) -> Vec<Vec3> {
     let (s, c) = tilt_rad.sin_cos();

@@ -189,7 +189,7 @@ pub(super) fn read_spread(
     Some(stations)
 }
 
-/// What of a grid lies outside the travel is left out, and told.
+/// What of a grid lies outside the travel is left out, and reported.
 pub(super) fn tell_left(section: &Section<'_>, left: usize, kept: usize, random: bool) {
     if left > 0 && !random {
         let message = format!("{left} of {} poses are outside the travel", left + kept);

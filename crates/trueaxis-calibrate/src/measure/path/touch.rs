@@ -12,7 +12,7 @@ use trueaxis_machine::file::read_direction;
 const MOST_HITS: usize = 100;
 /// How far a hit stays from the stem of the ball: the cosine of 60°.
 const NEAR_STEM: f64 = 0.5;
-/// How many places round the ball are looked at.
+/// How many places around the ball are tried.
 const ROUND: usize = 72;
 /// How far the stylus stands off before a hit, mm.
 pub const STAND_OFF_MM: f64 = 2.0;

@@ -111,12 +111,12 @@ fn read_machine(item: &Item<'_>, campaign: &Campaign, truth: &mut Truth) {
     let path = campaign.path.parent().unwrap_or(std::path::Path::new("")).join(name);
     let (machine, problems) = Machine::read(item.files(), &path);
     let sound = !problems.has_errors();
-    let mut told = Diagnostics::new();
+    let mut found = Diagnostics::new();
     // What is only worth a warning was said of the machine of the campaign already.
     if !sound {
-        told = problems;
+        found = problems;
     }
-    for problem in told.iter() {
+    for problem in found.iter() {
         item.error("truth-machine", problem.to_string(), &problem.hint);
     }
     let Some(machine) = machine.filter(|_| sound) else { return };
@@ -443,7 +443,7 @@ fn check_paths(root: &Section<'_>, campaign: &Campaign, paths: &[Path]) {
             item.error("bad-feed", message, "such as feed = \"150 mm/min\"");
         }
         if path.dwell_s < 0.0 {
-            let message = format!("path `{}`: nobody waits a negative time", path.name);
+            let message = format!("path `{}`: a dwell time is not negative", path.name);
             item.error("bad-dwell", message, "such as dwell = \"2 s\"");
         }
     }

@@ -92,7 +92,7 @@ pub fn deviations(campaign: &Campaign, readings: &Readings) -> Vec<[f64; 3]> {
     (0..readings.len()).map(one).collect()
 }
 
-/// The unit of a channel for people, and the factor from mm or rad.
+/// The unit of a channel in text output, and the factor from mm or rad.
 pub fn shown_unit(instrument: &Instrument) -> (&'static str, f64) {
     if instrument.sight.is_angle() { ("µrad", 1e6) } else { ("µm", 1e3) }
 }

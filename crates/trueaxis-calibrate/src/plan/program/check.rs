@@ -18,7 +18,7 @@ use trueaxis_motion::{
 };
 use trueaxis_nc::{Control, Program};
 
-/// A ball is hit and held; what is looked at for collisions is what lies inside its surface.
+/// A ball is hit and held; collisions are checked with what lies inside its surface.
 const INSIDE: f64 = 0.6;
 
 /// What came of a program.

@@ -5,7 +5,7 @@ use trueaxis_cl::ClFile;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::surface::{Candidates, SurfacePoint};
 
-/// The points of cutter locations, without those in rapid; the tool axis tells the outer side.
+/// The points of cutter locations, without those in rapid; the tool axis shows the outer side.
 pub(super) fn points_of(file: &ClFile, are_normals: bool) -> Candidates {
     let points = file.points().filter(|(_, p)| !p.rapid).map(|(line, p)| SurfacePoint {
         point_mm: Vec3::from(p.tip_mm),

@@ -26,7 +26,7 @@ const NEAR_SPACINGS: f64 = 3.0;
 /// Where the travel is not stated the tool goes so far above the highest touch, mm.
 const ABOVE_MM: f64 = 50.0;
 /// No more points than these are named one by one.
-const MOST_TOLD: usize = 5;
+const MOST_REPORTED: usize = 5;
 
 /// A point with the axis positions to touch it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,7 +41,7 @@ pub struct Pose {
     pub beyond: Command,
 }
 
-/// The points that the machine can touch along their normals; the others are told and left out.
+/// The points that the machine can touch along their normals; the others are reported and left out.
 ///
 /// A machine without rotary axes touches with the probe upright.
 pub fn poses(
@@ -69,7 +69,7 @@ pub fn poses(
             None => left_out.push(*point),
         }
     }
-    for point in left_out.iter().take(MOST_TOLD) {
+    for point in left_out.iter().take(MOST_REPORTED) {
         let p = point.point_mm;
         let message = format!(
             "({:.3}, {:.3}, {:.3}) cannot be touched along its normal within the travel",
@@ -80,7 +80,7 @@ pub fn poses(
         let hint = "the point is left out";
         problems.warn("unreachable-point", place, message, hint);
     }
-    if left_out.len() > MOST_TOLD || found.is_empty() {
+    if left_out.len() > MOST_REPORTED || found.is_empty() {
         let message = format!("{} of {} points cannot be touched", left_out.len(), points.len());
         let hint = "does the workpiece of the machine file stand where it stands?";
         match found.is_empty() {
