@@ -52,7 +52,7 @@ pub fn take_out_of_table(
         // How it was read between its rows goes with it.
         for key in ["table", "interpolation", "outside"] {
             if let Some(own) = file.key(&header, key) {
-                let why = format!("# {} # nothing is left of it; {origin}", file.line(own));
+                let why = format!("# {} # no columns remain in it; {origin}", file.line(own));
                 file.replace(own, &why);
             }
         }
