@@ -23,15 +23,15 @@ pub struct MachineArguments {
     /// A tool assembly of the machine file, by its name
     #[arg(long, value_name = "NAME", conflicts_with = "tool_length")]
     tool: Option<String>,
-    /// What the sensors of the machine file say, degC; without it every body stands at the
-    /// temperature of its error table and the workpiece at 20 degC
+    /// Readings of the sensors of the machine file, degC; without them every body has the
+    /// temperature of its error table and the workpiece 20 degC
     #[arg(long, value_name = "\"scale_x=30.5 workpiece=31\"")]
     temperature: Option<String>,
     /// The same from a log: a file (CSV, or Parquet) with time_s and one column per sensor
     /// (scale_x_degC)
     #[arg(long, value_name = "LOG.csv", conflicts_with = "temperature")]
     temperature_log: Option<PathBuf>,
-    /// Held at this time of the log, s; without it at its end
+    /// The time in the log, s; default: its end
     #[arg(long, value_name = "S", requires = "temperature_log", allow_negative_numbers = true)]
     log_time: Option<String>,
 }
@@ -69,7 +69,7 @@ impl MachineArguments {
         }
     }
 
-    /// Reads the machine and puts the tool in; what is wrong goes to `problems`.
+    /// Reads the machine and mounts the tool; problems go to `problems`.
     pub fn read(&self, problems: &mut Diagnostics) -> Option<Machine> {
         self.choice(None).read(&disk(), problems)
     }
@@ -196,7 +196,7 @@ pub fn approach(machine: &Machine, text: &str, problems: &mut Diagnostics) -> Op
     sound.then_some(approach)
 }
 
-/// Reads plain finite numbers; every one that is none is told.
+/// Reads plain finite numbers; every one that is not is reported.
 pub fn numbers(name: &str, text: &str, hint: &str, problems: &mut Diagnostics) -> Option<Vec<f64>> {
     let read = words(text).into_iter().map(|word| {
         let refuse = |e: QuantityError| {
@@ -204,7 +204,7 @@ pub fn numbers(name: &str, text: &str, hint: &str, problems: &mut Diagnostics) -
         };
         parse_quantity(word, Dimension::Ratio).map_err(refuse).ok()
     });
-    // All of them first, so that every problem is told.
+    // All of them first, so that every problem is reported.
     let read: Vec<Option<f64>> = read.collect();
     read.into_iter().collect()
 }

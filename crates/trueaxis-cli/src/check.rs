@@ -1,4 +1,4 @@
-//! `trueaxis check`: what a machine file says and what it lacks.
+//! `trueaxis check`: what a machine file describes and what is missing in it.
 
 use crate::output::{Answer, Format, Outcome, report, show};
 use clap::Args;
@@ -17,15 +17,15 @@ Examples:
   trueaxis check machines/i5-engraver/machine.toml --models stl
 
 Exit status: 0 the file can be used (also with warnings), 2 it cannot. With --format json the
-document is printed in both cases: its \"usable\" says which, its \"diagnostics\" say why.")]
+document is printed in both cases: \"usable\" is the result, \"diagnostics\" the reasons.")]
 pub struct Arguments {
     /// The machine file
     #[arg(value_name = "MACHINE.toml")]
     machine: PathBuf,
-    /// Write the models that the machine file describes by numbers as STL files into this folder
+    /// Write the models that the machine file describes by dimensions as STL files into this folder
     #[arg(long, value_name = "FOLDER")]
     models: Option<PathBuf>,
-    /// For people or for programs
+    /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }

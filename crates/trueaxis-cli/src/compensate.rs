@@ -21,26 +21,26 @@ use trueaxis::report::{
     compensation_csv, compensation_json, compensation_text, compensation_warnings,
 };
 
-/// What to compensate with.
+/// The form of the compensation.
 #[derive(Args)]
 pub struct Arguments {
     #[command(subcommand)]
-    what: What,
+    command: CompensateCommand,
 }
 
 #[derive(Subcommand)]
-enum What {
-    /// Move a path onto the blank that was probed, and show what wall it leaves
+enum CompensateCommand {
+    /// Adapt a path to the blank that was probed, and show the wall thickness that remains
     Adapt(adapt::AdaptArguments),
-    /// Rewrite an NC program so that the actual tool goes where it says
+    /// Rewrite an NC program so that the actual tool follows the programmed path
     Program(Box<program::ProgramArguments>),
-    /// Tables of a control, read back, and what they leave
+    /// Tables of a control, read back, with the residual errors
     Tables(tables::TablesArguments),
     /// Values per axis and position, in least increments, to be added to the command
     Values(ValuesArguments),
 }
 
-/// Which values.
+/// The values to calculate.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -49,41 +49,41 @@ Examples:
   trueaxis compensate values machines/xkas2525/machine.toml --axis C --step 30 --format csv -o c.csv
 
 value = - error of the axis in its own direction, rounded to whole increments, halves away from zero;
-the control adds it to the command. Without temperatures there is no thermal part and machine and
-comprehensive are one. Exit status: 0 done, 2 unusable input.")]
+the control adds it to the command. Without temperatures there is no thermal part and the
+machine and the comprehensive error are equal. Exit status: 0 done, 2 unusable input.")]
 struct ValuesArguments {
     #[command(flatten)]
     machine: MachineArguments,
     /// The axis of a table over the travel
     #[arg(long, value_name = "X", required_unless_present = "at")]
     axis: Option<String>,
-    /// Without --axis: one position, with a value for each axis named; with it: where the others stand
+    /// Without --axis: one position, with a value for each axis named; with it: the position of the other axes
     #[arg(long, value_name = "\"X=.. Y=..\"")]
     at: Option<String>,
-    /// Distance of the positions over the travel, mm or degrees: 100 and 10 unless told
+    /// Distance of the positions over the travel, mm or degrees (default: 100 and 10)
     #[arg(long, value_name = "STEP", requires = "axis", allow_negative_numbers = true)]
     step: Option<String>,
     /// These positions instead, mm or degrees
     #[arg(long, value_name = "\"0 500 1000\"", requires = "axis", conflicts_with = "step")]
     #[arg(allow_hyphen_values = true)]
     targets: Option<String>,
-    /// The least increment of the control: "1 um" for linear, "0.0001 deg" for rotary axes unless told
+    /// The least increment of the control: "1 um" for linear, "0.0001 deg" for rotary axes by default
     #[arg(long, value_name = "\"1 um\"")]
     increment: Option<String>,
     /// Which error is compensated
     #[arg(long, value_enum, default_value = "comprehensive")]
-    of: Of,
-    /// For people, for programs, or as a table of one axis
+    of: CompensatedError,
+    /// Output as text, as one JSON document, or as a CSV table of one axis
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
-    /// Into a file instead of standard output
+    /// Write to this file instead of standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
 
 /// Which error is compensated.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Of {
+enum CompensatedError {
     /// That of the machine alone, as a laser shows it
     Machine,
     /// machine - workpiece: what the part has at 20 degC
@@ -92,7 +92,7 @@ enum Of {
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Format {
-    /// Tables for people
+    /// Text with tables
     Text,
     /// One JSON document
     Json,
@@ -101,11 +101,11 @@ enum Format {
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
-    let arguments = match &arguments.what {
-        What::Adapt(arguments) => return adapt::run(arguments),
-        What::Program(arguments) => return program::run(arguments),
-        What::Tables(arguments) => return tables::run(arguments),
-        What::Values(arguments) => arguments,
+    let arguments = match &arguments.command {
+        CompensateCommand::Adapt(arguments) => return adapt::run(arguments),
+        CompensateCommand::Program(arguments) => return program::run(arguments),
+        CompensateCommand::Tables(arguments) => return tables::run(arguments),
+        CompensateCommand::Values(arguments) => arguments,
     };
     let mut problems = Diagnostics::new();
     if let Some(path) = &arguments.output {
@@ -114,12 +114,12 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     let found = tables(arguments, &mut problems);
     // The text says it itself, on top.
-    let told = arguments.format == Format::Text && arguments.output.is_none();
-    if let (Some((machine, tables)), false) = (&found, told) {
+    let is_listed = arguments.format == Format::Text && arguments.output.is_none();
+    if let (Some((machine, tables)), false) = (&found, is_listed) {
         for warning in compensation_warnings(machine, tables) {
             let hint = match arguments.of {
-                Of::Machine => "use --of comprehensive",
-                Of::Comprehensive => "these values are of the comprehensive error",
+                CompensatedError::Machine => "use --of comprehensive",
+                CompensatedError::Comprehensive => "these values are of the comprehensive error",
             };
             problems.warn("machine-alone-is-worse", Place::whole("--of"), warning, hint);
         }
@@ -186,7 +186,7 @@ fn tables(
         return None;
     }
     if arguments.format == Format::Csv && axes.len() > 1 {
-        let message = format!("{} axes do not stand in one CSV table", axes.len());
+        let message = format!("{} axes do not fit in one CSV table", axes.len());
         problems.error("one-axis", argument("--format"), message, "name one axis, or use json");
         return None;
     }
@@ -229,8 +229,8 @@ fn table(
         positions,
         increment: increment(arguments, machine, axis, problems)?,
         of: match arguments.of {
-            Of::Machine => Compensation::Machine,
-            Of::Comprehensive => Compensation::Comprehensive,
+            CompensatedError::Machine => Compensation::Machine,
+            CompensatedError::Comprehensive => Compensation::Comprehensive,
         },
     };
     let refuse = |e: ValuesError| {
@@ -275,7 +275,7 @@ fn positions(
     let step = match arguments::numbers("--step", text, hint, problems)?[..] {
         [step] if step > 0.0 => arguments::to_inner(machine, axis, step),
         _ => {
-            let message = format!("`{text}` is no step");
+            let message = format!("`{text}` is not a step");
             problems.error("not-positive", argument("--step"), message, hint);
             return None;
         }
@@ -306,7 +306,7 @@ fn increment(
     let text = arguments.increment.as_deref().unwrap_or(usual);
     let (code, message) = match parse_quantity(text, dimension) {
         Ok(value) if value > 0.0 => return Some(value),
-        Ok(_) => ("not-positive", format!("`{text}` is no increment")),
+        Ok(_) => ("not-positive", format!("`{text}` is not an increment")),
         Err(e) => (e.code(), e.to_string()),
     };
     let hint = format!("above zero, with its unit, such as \"{usual}\"");

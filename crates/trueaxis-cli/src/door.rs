@@ -1,4 +1,4 @@
-//! A question of the library as a command: read, look at the outputs, compute, write, show.
+//! A question of the library as a command: read, check the outputs, compute, write, show.
 
 use crate::output::{Answer as Shown, Format, Outcome, report, show, tell};
 use crate::report_file::{unusable, write_report};
@@ -9,11 +9,11 @@ use trueaxis::files::{self, disk};
 use trueaxis::input::Diagnostics;
 use trueaxis::questions::{Answer, NewFile, Question};
 
-/// In which form the answer leaves.
+/// The form of the answer.
 pub struct Door<'a> {
     /// On standard output.
     pub format: Format,
-    /// Where an HTML report goes.
+    /// The file of the HTML report.
     pub report: Option<&'a Path>,
 }
 
@@ -55,7 +55,7 @@ impl Door<'_> {
     }
 }
 
-/// Computes behind a progress bar, where there is something to wait for.
+/// Computes with a progress bar, where there is something to wait for.
 fn answer<Q: Question>(
     question: &Q,
     input: Q::Input,
@@ -66,7 +66,8 @@ fn answer<Q: Question>(
         return question.answer(input, &|_| {}, problems);
     }
     let bar = ProgressBar::new(STEPS as u64).with_message(Q::PROGRESS);
-    if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {percent} %, {eta} left") {
+    if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {percent} %, {eta} remaining")
+    {
         bar.set_style(style);
     }
     let answer = question.answer(input, &|part| bar.set_position((part * STEPS) as u64), problems);

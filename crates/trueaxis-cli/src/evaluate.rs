@@ -1,4 +1,4 @@
-//! `trueaxis evaluate`: readings by ISO 230 and its relatives.
+//! `trueaxis evaluate`: readings by ISO 230 and related standards.
 
 use crate::door::Door;
 use crate::output::{Format, Outcome};
@@ -18,24 +18,24 @@ Examples:
   trueaxis evaluate iso230-4 PART.qif --feature \"Circle 1\"
   trueaxis evaluate iso230-2 REPORT.md --import ecmc-md
 
-What is known beside the readings (instrument, temperature, nominal circle) stands in a TOML file of
-the same name beside the data, or in the one that --conditions names.
+The conditions (instrument, temperature, nominal circle) are in a TOML file with the name of the data
+file in its folder, or in the file that --conditions names.
 
 Exit status: 0 done, 2 unusable input; then no report is written.")]
 pub struct Arguments {
     /// The standard
     #[arg(value_name = "STANDARD")]
     standard: Name,
-    /// The readings: CSV with one line of headings, each with its unit; or a form of --import
+    /// The readings: CSV with one line of headings, each with its unit; or a format of --import
     #[arg(value_name = "DATA.csv")]
     data: PathBuf,
-    /// The form of the readings; without it by the ending: .qif and .md, else csv
+    /// The format of the readings; default by the extension: .qif and .md, else csv
     #[arg(long, value_name = "FORM")]
     import: Option<Form>,
-    /// Which feature of a QIF file: its name or its id
+    /// The feature of a QIF file: its name or its id
     #[arg(long, value_name = "NAME")]
     feature: Option<String>,
-    /// Instrument, temperature, nominal circle …, instead of the TOML file beside the data
+    /// Instrument, temperature, nominal circle …, instead of the TOML file of the data
     #[arg(long, value_name = "FILE.toml")]
     conditions: Option<PathBuf>,
     /// Radius of the nominal circle (iso230-4), mm, instead of that of the conditions
@@ -44,18 +44,18 @@ pub struct Arguments {
     /// Length of the windows of iso230-3, such as "30 min"
     #[arg(long, value_name = "TIME", default_value = "60 min")]
     window: String,
-    /// Write the error motion (iso230-2) as a table beside the machine file, for one of its axes
+    /// Write the error motion (iso230-2) as a table into the folder of the machine file, for one of its axes
     #[arg(long, num_args = 2, value_names = ["MACHINE.toml", "AXIS"])]
     write_back: Option<Vec<String>>,
-    /// Where an HTML report goes
+    /// Write an HTML report to this file
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
-    /// For people or for programs
+    /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }
 
-/// The forms by their names.
+/// The formats by their names.
 #[derive(Clone, Copy)]
 struct Form(Import);
 

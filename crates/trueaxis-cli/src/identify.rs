@@ -13,7 +13,7 @@ use trueaxis::identify::expansion::{Runs, identify_expansion, read_runs};
 use trueaxis::input::{Diagnostics, Place};
 use trueaxis::report::{expansion_json, expansion_text};
 
-/// What to identify.
+/// The errors to identify.
 #[derive(Args)]
 #[command(
     args_conflicts_with_subcommands = true,
@@ -24,17 +24,17 @@ Examples:
   trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml
   trueaxis identify rtcp examples/05_identify/rtcp-engraver.toml
 
-Exit status: 0 the model explains what can be explained, 1 it does not, 2 unusable input."
+Exit status: 0 the model fits the readings, 1 it does not, 2 unusable input."
 )]
 pub struct Arguments {
     #[command(subcommand)]
-    what: Option<What>,
+    command: Option<IdentifyCommand>,
     #[command(flatten)]
     errors: errors::CampaignArguments,
 }
 
 #[derive(Subcommand)]
-enum What {
+enum IdentifyCommand {
     /// The coefficient of expansion of a scale, from laser runs at two or more temperatures
     Expansion(ExpansionArguments),
     /// The rotary centres for RTCP, from dial or probe readings at turned poses
@@ -56,18 +56,18 @@ struct ExpansionArguments {
     /// The file of the runs: table, temperatures
     #[arg(value_name = "FILE.toml")]
     file: PathBuf,
-    /// For people or for programs
+    /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
-    match &arguments.what {
+    match &arguments.command {
         None => errors::run(&arguments.errors),
-        Some(What::Expansion(arguments)) => run_expansion(arguments),
-        Some(What::Rtcp(arguments)) => rtcp::run(arguments),
-        Some(What::Thermal(arguments)) => thermal::run(arguments),
-        Some(What::Probe(arguments)) => probe::run(arguments),
+        Some(IdentifyCommand::Expansion(arguments)) => run_expansion(arguments),
+        Some(IdentifyCommand::Rtcp(arguments)) => rtcp::run(arguments),
+        Some(IdentifyCommand::Thermal(arguments)) => thermal::run(arguments),
+        Some(IdentifyCommand::Probe(arguments)) => probe::run(arguments),
     }
 }
 

@@ -31,7 +31,7 @@ use clap::{Parser, Subcommand};
 use output::Outcome;
 use std::process::ExitCode;
 
-/// TrueAxis: where is the tool really, and is the part good?
+/// TrueAxis: accuracy of multi-axis machine tools: the actual tool pose, and its effect on the part
 #[derive(Parser)]
 #[command(name = "trueaxis", version, max_term_width = 100, arg_required_else_help = true)]
 #[command(after_help = "\
@@ -61,37 +61,37 @@ struct Command {
 
 #[derive(Subcommand)]
 enum Verb {
-    /// Describe: check a machine file and say what the machine is and what it lacks
+    /// Describe: check a machine file and show what it describes and what is missing
     Check(check::Arguments),
-    /// Describe: nominal and actual pose of the tool, and the share of every error
+    /// Describe: nominal and actual pose of the tool, and the contribution of every error
     Pose(pose::Arguments),
     /// Describe: axis positions for a wanted tool tip and direction
     Solve(solve::Arguments),
-    /// Simulate: run an NC program on the machine as it is: time, travel, deviations, troubles
+    /// Simulate: run an NC program on the actual machine: time, travel, deviations, issues
     Simulate(simulate::Arguments),
-    /// Simulate: one block of a program through every stage, with the share of each error
+    /// Simulate: one block of a program through every stage, with the contribution of each error
     Trace(trace::Arguments),
-    /// Measure: what instruments would read on a machine whose errors are known
+    /// Measure: readings of instruments on a virtual machine with known errors
     Measure(measure::Arguments),
-    /// Plan: what a measurement will tell, its NC programs, the poses that tell most
+    /// Plan: which errors a measurement determines, its NC programs, the most informative poses
     Plan(plan::Arguments),
-    /// Identify: what the machine is like, from measurements
+    /// Identify: the errors of the machine from measurements
     Identify(identify::Arguments),
-    /// Predict: will the test piece be good, and which error costs how much of it
+    /// Predict: is the test piece within tolerance, and what does each error contribute
     Predict(predict::Arguments),
-    /// Compensate: what the control has to add to its commands
+    /// Compensate: the values, programs and tables that correct the errors
     Compensate(compensate::Arguments),
-    /// Compensate: cutter locations into an NC program of one control, with its proof
+    /// Compensate: cutter locations to the NC program of one control, verified by simulation
     Post(post::Arguments),
     /// Verify: readings of instruments by ISO 230: positioning, circles, diagonals, drift, spindles
     Evaluate(evaluate::Arguments),
-    /// Verify: readings against what a machine file predicts, or against other readings
+    /// Verify: readings against the prediction of a machine file, or against other readings
     Verify(verify::Arguments),
-    /// What a diagnostic means and what to do: explain table-too-short
+    /// Explain: the meaning of a diagnostic and what to do: explain table-too-short
     Explain(explain::Arguments),
-    /// The JSON documents that --format json prints: their keys, types, meanings and units
+    /// Schema: the JSON documents of --format json: keys, types, meanings and units
     Schema(schema::Arguments),
-    /// See it all in a browser, offline: a local server with the page in it
+    /// All of this in a browser, offline: a local server with a built-in page
     #[cfg(feature = "serve")]
     Serve(serve::Arguments),
 }

@@ -1,4 +1,4 @@
-//! `trueaxis measure`: what the instruments of a campaign would read.
+//! `trueaxis measure`: readings of the instruments of a campaign on a virtual machine.
 
 use crate::door::Door;
 use crate::output::{Format, Outcome};
@@ -6,7 +6,7 @@ use clap::Args;
 use std::path::PathBuf;
 use trueaxis::questions::Measure;
 
-/// What to measure.
+/// The campaign to simulate.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -14,7 +14,7 @@ Examples:
   trueaxis measure examples/04_plan/probe-ball.toml -o readings --truth truth.toml --report m.html
 
 The machine of the campaign, or that of its [truth], is measured by its instruments on its [[path]]s,
-with what [disturb] says: noise, drift, axes that lag. The readings do not tell the truth; --truth does.
+with the disturbances of [disturb]: noise, drift, following errors. The true errors are in --truth only.
 
 Exit status: 0 done, 2 unusable input.")]
 pub struct Arguments {
@@ -24,16 +24,16 @@ pub struct Arguments {
     /// Write one table of readings for each instrument into this folder
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
-    /// Write what is true into this file: machine, errors, set-ups, rows that are wrong on purpose
+    /// Write the true values into this file: machine, errors, set-ups, rows that are wrong on purpose
     #[arg(long, value_name = "FILE.toml")]
     truth: Option<PathBuf>,
-    /// The seed of chance, instead of that of [truth]
+    /// The random seed, instead of that of [truth]
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// Where an HTML report goes
+    /// Write an HTML report to this file
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
-    /// For people or for programs
+    /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }

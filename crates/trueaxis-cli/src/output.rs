@@ -1,15 +1,15 @@
-//! What goes to standard output and standard error.
+//! Standard output and standard error.
 
 use clap::ValueEnum;
 use serde_json::Value;
 use std::io::{ErrorKind, Write};
 use trueaxis::input::{Diagnostics, Severity};
 
-/// More diagnostics than this say nothing new to a reader; a table of a million rows can have a
+/// More diagnostics than this are of no use to a reader; a table of a million rows can have a
 /// million of them.
 const MOST_SHOWN: usize = 100;
 
-/// How a command ended.
+/// The result of a command.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
     /// Done; where there is a verdict, it is "yes".
@@ -20,18 +20,18 @@ pub enum Outcome {
     Unusable,
 }
 
-/// For people or for programs.
+/// The form of the output.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Format {
-    /// Tables for people
+    /// Text with tables
     Text,
     /// One JSON document on standard output, nothing else there
     Json,
 }
 
-/// What a command found out.
+/// The answer of a command.
 pub enum Answer {
-    /// For people, or a CSV table.
+    /// Text, or a CSV table.
     Text(String),
     /// One document.
     Json(Value),
@@ -65,11 +65,11 @@ pub fn show(answer: &Answer) -> Outcome {
 
 /// Writes a line to standard error.
 pub fn tell(line: &str) {
-    // Nobody is left to tell if standard error is gone.
+    // Nothing can be reported if standard error is gone.
     let _ = writeln!(std::io::stderr(), "{}", visible(line));
 }
 
-/// Text from files and arguments must not steer the terminal.
+/// Text from files and arguments must not control the terminal.
 fn visible(text: &str) -> String {
     let mut shown = String::with_capacity(text.len());
     for c in text.chars() {
@@ -87,7 +87,7 @@ pub fn report(problems: Diagnostics) -> bool {
     report_and(problems, "nothing was written")
 }
 
-/// The same with what became of the work in spite of errors.
+/// The same with the outcome of the work in spite of errors.
 pub fn report_and(problems: Diagnostics, outcome: &str) -> bool {
     let mut sorted = problems.sorted();
     let errors = sorted.iter().filter(|d| d.severity == Severity::Error).count();

@@ -1,4 +1,4 @@
-//! The path of a simulation as a file: CSV, or Parquet by its name.
+//! The path of a simulation as a file: CSV, or Parquet by its extension.
 
 use crate::report_file::{Written, may_write};
 use std::fs::File;
@@ -59,7 +59,7 @@ impl<'f> PathTable<'f> {
         Self::Csv(Box::new(CsvTable::new(machine, out)))
     }
 
-    /// The one that the simulation tells.
+    /// The observer of the simulation.
     pub fn observer(&mut self) -> &mut dyn Observer {
         match self {
             Self::Csv(table) => &mut **table,
@@ -68,7 +68,7 @@ impl<'f> PathTable<'f> {
         }
     }
 
-    /// Writes what is still on its way.
+    /// Writes what is still buffered.
     pub fn finish(self) -> io::Result<()> {
         match self {
             Self::Csv(table) => table.finish().map(drop),

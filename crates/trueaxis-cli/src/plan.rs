@@ -1,4 +1,4 @@
-//! `trueaxis plan`: what a measurement will show, and its programs.
+//! `trueaxis plan`: the errors that a measurement determines, and its programs.
 
 mod surface;
 
@@ -8,7 +8,7 @@ use clap::{Args, Subcommand};
 use std::path::PathBuf;
 use trueaxis::questions::PlanMeasurement;
 
-/// What to plan.
+/// The measurement to plan.
 #[derive(Args)]
 #[command(
     args_conflicts_with_subcommands = true,
@@ -19,19 +19,19 @@ Examples:
   trueaxis plan CAMPAIGN.toml --format json
   trueaxis plan probe-surface examples/04_plan/probe-surface.toml -o programs
 
-Says before anybody measures what each path sees, how well every error will be known, what cannot be
-told apart and what would tell it. Exit status: 0 done, 1 a program would run into something or leave
-the travel, 2 unusable input."
+Shows before the measurement which errors each path responds to, with what uncertainty they will be
+determined, which combinations are not observable, and which measurement separates them. Exit status:
+0 done, 1 a program would cause a collision or leave the travel, 2 unusable input."
 )]
 pub struct Arguments {
     #[command(subcommand)]
-    what: Option<What>,
+    command: Option<PlanCommand>,
     #[command(flatten)]
     campaign: CampaignArguments,
 }
 
 #[derive(Subcommand)]
-enum What {
+enum PlanCommand {
     /// A probing path over a surface, from cutter locations or an STL file
     ProbeSurface(surface::Arguments),
 }
@@ -42,7 +42,7 @@ struct CampaignArguments {
     /// The campaign: machine, unknowns, instruments, paths
     #[arg(value_name = "CAMPAIGN.toml", required = true)]
     file: Option<PathBuf>,
-    /// Whose NC programs: sinumerik, fanuc, linuxcnc or heidenhain
+    /// The control of the NC programs: sinumerik, fanuc, linuxcnc or heidenhain
     #[arg(long, alias = "dialect", value_name = "NAME", default_value = "sinumerik")]
     control: String,
     /// Write one program and one table of poses per path into this folder
@@ -51,14 +51,14 @@ struct CampaignArguments {
     /// Write a report
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
-    /// For people or for programs
+    /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
-    match &arguments.what {
-        Some(What::ProbeSurface(arguments)) => surface::run(arguments),
+    match &arguments.command {
+        Some(PlanCommand::ProbeSurface(arguments)) => surface::run(arguments),
         None => run_campaign(&arguments.campaign),
     }
 }

@@ -30,13 +30,13 @@ pub struct Arguments {
     /// Many positions: a CSV file whose columns are named by axis (mm, deg)
     #[arg(long, value_name = "POSITIONS.csv", conflicts_with = "at")]
     at_file: Option<PathBuf>,
-    /// From which side each axis comes, where backlash is stated; without it the mean
+    /// The direction of approach of each axis, where backlash is stated; without it the mean
     #[arg(long, value_name = "\"X=+ C=-\"")]
     approach: Option<String>,
     /// Also the nominal and actual place of every body in the machine frame
     #[arg(long, conflicts_with = "at_file")]
     bodies: bool,
-    /// For people or for programs
+    /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }

@@ -33,10 +33,10 @@ pub struct Arguments {
     /// The cutter-location file: APT of Creo, NCL, CATIA, SolidWorks CAM, or a table x y z i j k
     #[arg(value_name = "FILE.cls")]
     file: PathBuf,
-    /// For which control: sinumerik, fanuc, linuxcnc or heidenhain
+    /// The control of the program: sinumerik, fanuc, linuxcnc or heidenhain
     #[arg(long, alias = "dialect", value_name = "NAME")]
     control: String,
-    /// Whether the control keeps the tip of the tool on the path
+    /// Whether the control keeps the tool tip on the path (RTCP, TRAORI, TCPM)
     #[arg(long, value_enum, default_value = "on")]
     tcp: OnOff,
     /// How the tool axis is written with --tcp on
@@ -48,7 +48,7 @@ pub struct Arguments {
     /// Largest angle of the tool axis between blocks, deg
     #[arg(long, value_name = "DEG", default_value = "0.05", allow_negative_numbers = true)]
     axis_tolerance: String,
-    /// A tool axis nearer to a pole than this passes through it, deg
+    /// A tool axis nearer to a pole than this angle passes through it, deg
     #[arg(long, value_name = "DEG", default_value = "0", allow_negative_numbers = true)]
     pole_tolerance: String,
     /// How feeds are written
@@ -57,10 +57,10 @@ pub struct Arguments {
     /// Feed of the tip where the file has none, mm/min
     #[arg(long, value_name = "MM_PER_MIN", allow_negative_numbers = true)]
     feed: Option<String>,
-    /// How far the tool goes back along its axis before it is turned elsewhere, mm
+    /// Retraction of the tool along its axis before a reorientation, mm
     #[arg(long, value_name = "MM", default_value = "50", allow_negative_numbers = true)]
     retract: String,
-    /// The unit of the file, whatever it says
+    /// The unit of the file, in place of the one it states
     #[arg(long, value_enum)]
     units: Option<Units>,
     /// Decimals of mm and of degrees
@@ -69,19 +69,19 @@ pub struct Arguments {
     /// Start, tool call and end of programs (Jinja); without it those of the control
     #[arg(long, value_name = "FILE.j2")]
     template: Option<PathBuf>,
-    /// Print the template of the control, to be edited, and end
+    /// Print the template of the control, to be edited, and exit
     #[arg(long)]
     show_template: bool,
     /// Number of the program
     #[arg(long, value_name = "N", default_value = "1")]
     number: u32,
-    /// Where the program goes
+    /// Write the program to this file
     #[arg(short, long, value_name = "FILE", required_unless_present = "show_template")]
     output: Option<PathBuf>,
-    /// Read the program back, simulate it, and state the largest differences from the file
+    /// Read the program back, simulate it, and show the largest deviations from the file
     #[arg(long)]
     verify: bool,
-    /// For people or for programs
+    /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }
@@ -104,7 +104,7 @@ enum Orientation {
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum FeedMode {
-    /// mm/min, so that the tip goes as the file says
+    /// mm/min, so that the tip has the feed of the file
     Tip,
     /// Inverse time, G93
     InverseTime,
@@ -168,7 +168,7 @@ impl Arguments {
             let value = parse_quantity(text, Dimension::Ratio).ok();
             let value = value.filter(|v| (low..1e6).contains(v));
             if value.is_none() {
-                let message = format!("`{text}` is not a number that is of use here");
+                let message = format!("`{text}` is not a possible value");
                 problems.error("bad-number", Place::whole(name), message, "such as 0.01");
             }
             value

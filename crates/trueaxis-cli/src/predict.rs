@@ -1,4 +1,4 @@
-//! `trueaxis predict`: test pieces and holes before they are cut.
+//! `trueaxis predict`: accuracy of test pieces and holes before they are cut.
 
 use crate::door::Door;
 use crate::output::{Format, Outcome};
@@ -14,13 +14,13 @@ Examples:
   trueaxis predict examples/03_predict/torque-arm.toml
   trueaxis predict examples/03_predict/nas979-on-xkas2525.toml --format json --no-report
 
-Exit status: 0 the part will be in tolerance, 1 it will not (or that cannot be decided within the
+Exit status: 0 the part is predicted within tolerance, 1 it is not (or that is undecided within the
 uncertainty), 2 unusable input; then no report is written.")]
 pub struct Arguments {
     /// The study file: machine, test piece, setting point
     #[arg(value_name = "STUDY.toml")]
     study: PathBuf,
-    /// Where the HTML report goes
+    /// File of the HTML report
     #[arg(long, value_name = "FILE", default_value = "report.html")]
     report: PathBuf,
     /// Write no report
@@ -32,7 +32,7 @@ pub struct Arguments {
     /// Monte Carlo seed, instead of the study's
     #[arg(long, value_name = "SEED")]
     seed: Option<u64>,
-    /// For people or for programs
+    /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }

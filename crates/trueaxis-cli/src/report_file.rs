@@ -1,4 +1,4 @@
-//! Files that a command leaves behind: what may be replaced, and how it is told.
+//! Files that a command writes: what may be replaced, and how it is reported.
 
 use crate::output::{Outcome, report, tell};
 use std::path::Path;

@@ -18,9 +18,9 @@ Examples:
   trueaxis serve --listen 0.0.0.0 --port 8080
 
 Prints the address and serves until Ctrl-C. Nothing outside the folder is read or written, and
-only this computer can ask, unless --listen says otherwise: then the printed address has a
-token, and without it nobody is answered. There is no encryption: beyond a trusted network put
-a TLS proxy before it. Exit status: 2 if the folder or the port cannot be used.")]
+only this computer has access, unless --listen is given: then the printed address has a
+token, and requests without it are refused. There is no encryption: outside a trusted network use
+a TLS proxy. Exit status: 2 if the folder or the port cannot be used.")]
 pub struct Arguments {
     /// The project folder: machine files, programs, studies, readings
     #[arg(value_name = "FOLDER", default_value = ".")]
@@ -49,7 +49,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     };
     let address = server.address();
     let mut stdout = std::io::stdout().lock();
-    // Nobody may be reading what is printed; the server serves all the same.
+    // The output may not be read by anyone; the server runs all the same.
     let _ = writeln!(stdout, "{address}").and_then(|()| stdout.flush());
     drop(stdout);
     tell(&format!("serving {folder}; Ctrl-C ends it"));
@@ -59,7 +59,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     match server.run() {
         Ok(()) => Outcome::Done,
         Err(error) => {
-            let message = format!("cannot be served any longer: {error}");
+            let message = format!("the server stopped: {error}");
             unusable("cannot-serve", &folder, &message, "start it again")
         }
     }

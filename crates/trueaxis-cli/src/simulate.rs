@@ -29,40 +29,41 @@ Examples:
   trueaxis simulate MACHINE.toml PART.ngc --setup PART.setup.toml --path path.csv --chord 0.002
   trueaxis simulate MACHINE.toml PART.mpf --temperature-log hall.csv --log-start \"2 h\"
 
-With --log-start every place of the path is evaluated at the temperatures of its own time (within
-0.01 K), and the summary tells the drift: how far the deviation has moved since the start. A program
-that outlasts its log is an error. Without --setup work offsets and tool lengths are 0; a file PROGRAM.setup.toml beside the program is
-taken by itself. Exit status: 0 no grave trouble, 1 a collision, a rapid move through stock or an
-axis beyond its travel, 2 unusable input; then nothing is written.")]
+With --log-start every point of the path is evaluated at the temperatures of its own time (within
+0.01 K), and the summary shows the drift: the change of the deviation since the start. A program
+that is longer than its log is an error. Without --setup work offsets and tool lengths are 0; a file
+PROGRAM.setup.toml in the folder of the program is used automatically. Exit status: 0 no critical
+issue, 1 a collision, a rapid move through stock or an axis beyond its travel, 2 unusable input; then
+nothing is written.")]
 pub struct Arguments {
     #[command(flatten)]
     machine: MachineArguments,
     #[command(flatten)]
     program: ProgramArguments,
-    /// Write every place of the path to this file: CSV, or Parquet if it ends in .parquet
+    /// Write every point of the path to this file: CSV, or Parquet if its name ends in .parquet
     #[arg(long, value_name = "FILE")]
     path: Option<PathBuf>,
-    /// Write where every body is, nominal and actual, at every place of the path to this CSV file
+    /// Write the nominal and actual pose of every body at every point of the path to this CSV file
     #[arg(long, value_name = "FILE.csv")]
     bodies: Option<PathBuf>,
-    /// Where the HTML report goes
+    /// File of the HTML report
     #[arg(long, value_name = "FILE", default_value = "simulation.html")]
     report: PathBuf,
     /// Write no report
     #[arg(long, conflicts_with = "report")]
     no_report: bool,
-    /// Do not look for collisions
+    /// Without the collision check
     #[arg(long)]
     no_collisions: bool,
-    /// List errors of the program and go on behind them
+    /// List errors of the program and continue after them
     #[arg(long)]
     keep_going: bool,
-    /// For people or for programs
+    /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }
 
-/// The program, its set-up, and how finely it is cut.
+/// The program, its set-up, and the division of its moves.
 #[derive(Args)]
 pub struct ProgramArguments {
     #[command(flatten)]
@@ -73,32 +74,32 @@ pub struct ProgramArguments {
     /// Work offsets, tools, stock, fixtures
     #[arg(long, value_name = "SETUP.toml")]
     setup: Option<PathBuf>,
-    /// Whose program it is: sinumerik, fanuc, linuxcnc or heidenhain
+    /// The control of the program: sinumerik, fanuc, linuxcnc or heidenhain
     #[arg(long, value_name = "NAME")]
     control: Option<String>,
     /// Largest distance between path and chord, mm
     #[arg(long, value_name = "MM", default_value = "0.005", allow_negative_numbers = true)]
     chord: String,
-    /// Longest piece of a move, mm (λ of document 002)
+    /// Longest piece of a move, mm (λ of Jiang et al.)
     #[arg(long, value_name = "MM", default_value = "10", allow_negative_numbers = true)]
     spacing: String,
-    /// Largest turn of a piece, deg (φ of document 002)
+    /// Largest rotation in a piece, deg (φ of Jiang et al.)
     #[arg(long, value_name = "DEG", default_value = "1", allow_negative_numbers = true)]
     angle: String,
-    /// Cut moves by spacing and angle alone, as document 002 does
+    /// Divide moves by spacing and angle alone, as Jiang et al. do
     #[arg(long)]
     by_count: bool,
-    /// Do not cut moves at all, except circles
+    /// Do not divide moves, except circles
     #[arg(long, conflicts_with = "by_count")]
     no_densify: bool,
-    /// How far corners may be rounded where the program does not say it, mm
+    /// Corner rounding tolerance where the program states none, mm
     #[arg(long, value_name = "MM", default_value = "0.01", allow_negative_numbers = true)]
     rounding: String,
-    /// Time each block by the three phases of document 002, with this mean acceleration, mm/s^2,
+    /// Time each block by the three phases of Jiang et al., with this mean acceleration, mm/s^2,
     /// and exact stop, instead of looking ahead within the limits of the axes
     #[arg(long, value_name = "MM_PER_S2", allow_negative_numbers = true)]
     three_phase: Option<String>,
-    /// Backward jumps and calls before the program counts as endless
+    /// Backward jumps and calls after which the program counts as an endless loop
     #[arg(long, value_name = "N", default_value = "1000000")]
     most_jumps: u64,
     /// With --three-phase: the velocity changes smoothly
@@ -130,7 +131,7 @@ impl ProgramArguments {
         };
         let options = self.options(keep_going, problems);
         let files = ProgramFiles { files: &disk(), control, ..files };
-        // Also with bad options all that is wrong with the files is told.
+        // With bad options all problems of the files are reported as well.
         let job = Job::read(machine, &files, options.clone().unwrap_or_default(), problems);
         let options = Options { temperatures, ..options? };
         job.map(|job| Job { options, ..job })
@@ -140,7 +141,7 @@ impl ProgramArguments {
         let mut read = |name: &str, text: &str| {
             let value = parse_quantity(text, Dimension::Ratio).ok().filter(|v| *v > 0.0);
             if value.is_none() {
-                let message = format!("`{text}` is no positive number");
+                let message = format!("`{text}` is not a positive number");
                 problems.error("bad-number", Place::whole(name), message, "such as 0.005");
             }
             value
@@ -223,7 +224,11 @@ impl Arguments {
             None => None,
         };
         let (found, series, table) = self.walk(job, part.as_ref(), bodies.as_ref());
-        let end = if self.keep_going { "simulated on behind them" } else { "nothing was written" };
+        let end = if self.keep_going {
+            "the simulation continued after them"
+        } else {
+            "nothing was written"
+        };
         let errors = report_and(found.run.problems.clone(), end);
         if errors && !self.keep_going {
             return Err(Outcome::Unusable);
@@ -254,7 +259,7 @@ impl Arguments {
         })
     }
 
-    /// Simulates, and writes the path into a file beside its place, if one is asked for.
+    /// Simulates, and writes the path into a temporary file, if one is asked for.
     fn walk(
         &self,
         job: &Job,
@@ -309,23 +314,26 @@ fn unwritable(path: &Path, error: &std::io::Error) -> Outcome {
     unusable("unwritable-file", &shown, &message, "name another --path")
 }
 
-/// Watches the bodies; what cannot be watched is told.
+/// The collision check; bodies that cannot be checked are reported.
 fn watched(job: &Job) -> Option<Collisions> {
     let collisions = job.collisions()?;
     for (first, second) in collisions.left_out() {
-        tell(&format!("note: {first} and {second} overlap with all axes at 0: not watched"));
+        tell(&format!(
+            "note: {first} and {second} overlap with all axes at 0: not checked for collisions"
+        ));
     }
     Some(collisions)
 }
 
-/// How far the main program has come; only a terminal sees it, and only if it takes a while.
+/// The progress of the main program; shown on a terminal only, and only if it takes a while.
 fn progress_bar(program: &Program) -> ProgressBar {
     if !std::io::stderr().is_terminal() {
         return ProgressBar::hidden();
     }
     let lines = program.source().iter().filter(|b| **b == b'\n').count();
     let bar = ProgressBar::new(lines as u64 + 1);
-    if let Ok(style) = ProgressStyle::with_template("{wide_bar} line {pos}/{len}, {eta} left") {
+    if let Ok(style) = ProgressStyle::with_template("{wide_bar} line {pos}/{len}, {eta} remaining")
+    {
         bar.set_style(style);
     }
     bar

@@ -41,13 +41,13 @@ pub struct Arguments {
         allow_hyphen_values = true
     )]
     axis: Option<String>,
-    /// Where the axes stand now; the nearest way from there is best
+    /// The present axis positions; the solution nearest to them is the best
     #[arg(long, value_name = "\"A=.. C=..\"", allow_hyphen_values = true)]
     from: Option<String>,
-    /// A whole path: CSV with tip_x_mm,tip_y_mm,tip_z_mm,axis_i,axis_j,axis_k; one best branch
+    /// A path: CSV with tip_x_mm,tip_y_mm,tip_z_mm,axis_i,axis_j,axis_k; one best branch
     #[arg(long, value_name = "PATH.csv", conflicts_with_all = ["tip", "axis"])]
     path: Option<PathBuf>,
-    /// For people or for programs
+    /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }

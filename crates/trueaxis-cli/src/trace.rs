@@ -15,7 +15,7 @@ Examples:
   trueaxis trace machines/wyxzcat-gantry/machine.toml examples/02_simulate/impeller-840d.mpf --block 120
   trueaxis trace MACHINE.toml PART.ngc --block 42 --format json
 
---block takes the number behind N; where no block has it, the line. Exit status: 0 done, 2 unusable
+--block is the block number N; if no block has it, the line number. Exit status: 0 done, 2 unusable
 input.")]
 pub struct Arguments {
     #[command(flatten)]
@@ -25,7 +25,7 @@ pub struct Arguments {
     /// The block: its number N, else its line
     #[arg(long, value_name = "N")]
     block: usize,
-    /// For people or for programs
+    /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }
@@ -41,7 +41,7 @@ fn answer(arguments: &Arguments, problems: &mut Diagnostics) -> Option<Answer> {
     let job = arguments.program.read(machine, false, problems)?;
     let Some(line) = block_line(&job.program, arguments.block) else {
         let message = format!("the program has no block {}", arguments.block);
-        let hint = "give the number behind N, or a line of the program";
+        let hint = "give a block number N, or a line of the program";
         problems.error("no-such-block", argument("--block"), message, hint);
         return None;
     };

@@ -6,7 +6,7 @@ use clap::Args;
 use std::path::PathBuf;
 use trueaxis::questions::{Certify, CompareCalibrations, VerifyReadings};
 
-/// What to verify.
+/// The comparison to make.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -14,21 +14,21 @@ Examples:
   trueaxis verify --diff machines/xkas2525/machine.toml examples/07_verify/xkas2525-after-a-year.toml
   trueaxis verify --certificate examples/07_verify/certificate.toml --report certificate.html
 
-Exit status: 0 pass, or nothing moved; 1 fail or undecided, or something moved; 2 unusable input.")]
+Exit status: 0 pass, or no change; 1 fail or undecided, or a significant change; 2 unusable input.")]
 pub struct Arguments {
-    /// What is compared with what, and how it is decided
+    /// The readings, what they are compared with, and the decision rule
     #[arg(value_name = "FILE.toml", required_unless_present_any = ["diff", "certificate"])]
     file: Option<PathBuf>,
-    /// Compare two calibrations of one machine: what moved, and is it significant?
+    /// Compare two calibrations of one machine: which errors changed significantly
     #[arg(long, num_args = 2, value_names = ["OLD.toml", "NEW.toml"], conflicts_with = "file")]
     diff: Option<Vec<PathBuf>>,
-    /// Certify a compensation: what it leaves on poses that the identification has not used
+    /// Certify a compensation: the residual errors at poses that the identification has not used
     #[arg(long, value_name = "STUDY.toml", conflicts_with_all = ["file", "diff"])]
     certificate: Option<PathBuf>,
-    /// Where an HTML report goes
+    /// Write an HTML report to this file
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
-    /// For people or for programs
+    /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }

@@ -129,7 +129,11 @@ fn nothing_is_left_behind_after_an_error() {
     // Who wants to see what is behind the error gets it, and is told that it is not complete.
     let ran = run(&all, &["--keep-going"]);
     assert_eq!(ran.status, 2);
-    assert!(ran.err.contains("1 error found; simulated on behind them\n"), "{}", ran.err);
+    assert!(
+        ran.err.contains("1 error found; the simulation continued after them\n"),
+        "{}",
+        ran.err
+    );
     let html = std::fs::read_to_string(&page).expect("a report");
     assert!(html.contains("NOT COMPLETE"));
     assert_eq!(folder.names(), ["broken.nc", "p.csv", "p.html"]);

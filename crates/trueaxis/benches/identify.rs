@@ -20,7 +20,7 @@ fn main() {
     divan::main();
 }
 
-/// The mill of document 004 with a probe-ball: 13 location errors, 27 factors of error motions, and
+/// The mill of Lei and Hsu 2003 with a probe-ball: 13 location errors, 27 factors of error motions, and
 /// the place of the ball: 43 unknowns.
 fn design() -> Design {
     let path =

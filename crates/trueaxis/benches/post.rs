@@ -1,6 +1,6 @@
 //! Cutter locations to text, as ratios to a plain loop with the standard library's formatting.
 //!
-//! The loop is what a spreadsheet or a script does: equations 1 to 3 of document 003 point by point,
+//! The loop is what a spreadsheet or a script does: equations 1 to 3 of Zhang et al. 2023 point by point,
 //! one branch, no travel, no tolerance, `write!`. Target of the writer: at least 5 times the loop.
 //! The whole post-processor also looks for the best branch and turn of the whole path, checks travel
 //! and chords: its ratio is stated, not asked for.

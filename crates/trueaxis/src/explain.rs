@@ -139,7 +139,7 @@ pub fn codes_json(all: &[Explanation]) -> Value {
     document(&ExplainListDocument { schema: "trueaxis/explain/1", codes: codes.collect() })
 }
 
-/// The list of all codes for people, one line each.
+/// The list of all codes, one line each.
 pub fn codes_report(all: &[Explanation]) -> Report<'static> {
     let pages = all.chunk_by(|a, b| a.page == b.page).map(|page| {
         let rows = page.iter().map(|e| (e.code, e.title()));

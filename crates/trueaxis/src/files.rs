@@ -66,7 +66,7 @@ pub fn is_file(path: &Path) -> bool {
     readable(path).is_ok_and(|path| path.is_file())
 }
 
-/// Writes a file whole or not at all: into a temporary file beside it, then renamed.
+/// Writes a file whole or not at all: into a temporary file in the same folder, then renamed.
 ///
 /// # Errors
 /// Whatever the disk says; an older file of that name is then still there. What is no ordinary
@@ -86,7 +86,7 @@ pub fn write(path: &Path, content: &[u8]) -> io::Result<()> {
 pub fn write_folder(place: &Path, files: &[(&str, &str)]) -> io::Result<()> {
     let place = &*writable(place)?;
     let Some(name) = place.file_name() else {
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, "the path names no folder"));
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "the path does not name a folder"));
     };
     let hidden = format!(".trueaxis-{}-{}.part", std::process::id(), name.display());
     let part = place.with_file_name(hidden);
@@ -136,17 +136,17 @@ impl Part {
         let refuse = |message| Err(io::Error::new(io::ErrorKind::InvalidInput, message));
         let place = &*writable(place)?;
         let Some(name) = place.file_name() else {
-            return refuse("the path names no file");
+            return refuse("the path does not name a file");
         };
         if fs::metadata(place).is_ok_and(|found| !found.is_file()) {
-            return refuse("what stands there is no ordinary file");
+            return refuse("what stands there is not an ordinary file");
         }
         // Two threads may write the same file: each has a part of its own, the last one in place stays.
         static COUNT: AtomicUsize = AtomicUsize::new(0);
         let (process, count) = (std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
         let hidden = format!(".trueaxis-{process}-{count}-{}.part", name.display());
         let part = place.with_file_name(hidden);
-        // What somebody left under that name, a link perhaps, is not written through.
+        // A file that another process left under that name, a link perhaps, is not followed.
         let _ = fs::remove_file(&part);
         let file = fs::File::create_new(&part)?;
         if let Ok(mut parts) = PARTS.lock() {
@@ -183,7 +183,7 @@ impl Drop for Part {
 /// The parts that are being written.
 static PARTS: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// Removes whatever is half written; for a program that is told to end at once.
+/// Removes files that are half written; for a program that is interrupted.
 pub fn remove_parts() {
     if let Ok(parts) = PARTS.lock() {
         for part in parts.iter() {

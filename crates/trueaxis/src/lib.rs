@@ -6,17 +6,18 @@
 //!   (the machine as data, one error put into its file) and [`files`];
 //! - *simulate*: [`simulate`](mod@simulate): an NC program on the actual machine: path, time, poses,
 //!   deviations, issues;
-//! - *predict*: [`predict`](mod@predict): is the test piece that this machine cuts within its
-//!   tolerances, with what uncertainty, and what does each error contribute;
-//! - *plan*: [`plan`](mod@plan): what a measurement will show, its programs, the most informative poses;
+//! - *predict*: [`predict`](mod@predict): the deviations of a test piece with their uncertainty, its verdict and
+//!   error budget;
+//! - *plan*: [`plan`](mod@plan): the errors that a measurement determines, its programs, the most informative poses;
 //! - *identify*: [`identify`]: errors of the machine from any mix of instruments, the expansion of
-//!   a scale, thermal models from logs; [`measure`]: what instruments read;
-//! - *compensate*: [`compensate`]: what the control has to add to its commands, and cutter
-//!   locations into programs for one machine;
+//!   a scale, thermal models from logs; [`measure`]: readings of instruments on a virtual machine;
+//! - *compensate*: [`compensate`]: values and tables for the control, corrected programs, and
+//!   programs from cutter locations;
 //! - *verify*: [`verify`]: readings of instruments evaluated by ISO 230, compared and certified;
-//! - [`report`]: all that as text, JSON and self-contained HTML pages.
+//! - [`report`]: all of it as text, JSON and self-contained HTML pages; [`schemas`] of the JSON documents;
+//! - [`questions`]: one question with its answer for each command; [`explain`]: the meaning of diagnostics.
 //!
-//! This crate reads and writes files ([`files`]); the others, which it hands on under the names of the verbs,
+//! This crate reads and writes files ([`files`]); the others, which it re-exports under the names of the verbs,
 //! do not.
 //!
 //! ```no_run

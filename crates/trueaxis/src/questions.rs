@@ -64,12 +64,12 @@ pub trait Question {
     /// Reads the files; what is wrong with them goes to `problems`.
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input>;
 
-    /// Files that the answer will write: looked at before the work, not after it.
+    /// Files that the answer will write: checked before the work, not after it.
     fn outputs(&self, _input: Option<&Self::Input>) -> Vec<(PathBuf, &'static Kind)> {
         Vec::new()
     }
 
-    /// Computes; `progress` is told the part that is done, 0 to 1.
+    /// Computes; `progress` receives the part that is done, 0 to 1.
     fn answer(
         &self,
         input: Self::Input,

@@ -23,10 +23,10 @@ use trueaxis::measure::{Campaign, Kind, Reading, Readings};
 use trueaxis::predict::{Cutting, Judge, Sampling, Study, read_study};
 use trueaxis::unknowns::minimal::minimal_location_errors;
 use trueaxis::unknowns::term::{Basis, Shape, Term, stated};
-use trueaxis::verify::certificate::applied::Applied;
-use trueaxis::verify::certificate::known::Known;
-use trueaxis::verify::certificate::left::{Left, Off};
+use trueaxis::verify::certificate::applied::AppliedCompensation;
+use trueaxis::verify::certificate::residual::{Residual, ToolDeviation};
 use trueaxis::verify::certificate::spread::lengths;
+use trueaxis::verify::certificate::uncertainties::UncertaintyFactors;
 
 const STILL: Approach = [0.0; 6];
 /// Standard deviation of a reading, mm.
@@ -189,19 +189,20 @@ impl Coverage {
     fn add(
         &mut self,
         real: &Machine,
-        (machine, known): (&Machine, &Known),
+        (machine, known): (&Machine, &UncertaintyFactors),
         (zero, poses): (&Command, &[Command]),
     ) {
         let compensator = Compensator::of(machine, Scope::Pose).expect("three axes");
-        let applied = Applied::Program(Box::new(compensator));
-        let told = |q: &Command| Left::at(machine, (known, &applied), q, &STILL).expect("a pose");
+        let applied = AppliedCompensation::Program(Box::new(compensator));
+        let told =
+            |q: &Command| Residual::at(machine, (known, &applied), q, &STILL).expect("a pose");
         let true_off = |q: &Command| {
             let (at, _) = applied.go(machine, q, &STILL).expect("a pose");
             let errors = real.errors_at(&at, &STILL).expect("no tables");
-            Off::of(real, &at, &errors, q)
+            ToolDeviation::of(real, &at, &errors, q)
         };
         let (at_zero, true_at_zero) = (told(zero), true_off(zero));
-        let predicted: Vec<Left> = poses.iter().map(|q| told(q).against(&at_zero)).collect();
+        let predicted: Vec<Residual> = poses.iter().map(|q| told(q).against(&at_zero)).collect();
         let within = lengths(&predicted, Sampling { samples: 2000, seed: 3 }).within_mm;
         for ((q, predicted), within_mm) in poses.iter().zip(&predicted).zip(within) {
             let truth = true_off(q) - true_at_zero;
@@ -217,7 +218,11 @@ impl Coverage {
 }
 
 /// k = 2 is 95.45 % of a normal coordinate, the bound of a length is made for 95 %.
-fn covers(name: &str, machines: usize, known: fn(&Trial) -> (Machine, Known)) -> [f64; 3] {
+fn covers(
+    name: &str,
+    machines: usize,
+    known: fn(&Trial) -> (Machine, UncertaintyFactors),
+) -> [f64; 3] {
     let machine = bare(name);
     let mut random = Random(31);
     let bench = Bench::new(&machine, 80, &mut random);
@@ -241,7 +246,7 @@ fn covers(name: &str, machines: usize, known: fn(&Trial) -> (Machine, Known)) ->
 #[test]
 fn law_the_interval_of_a_certificate_covers_the_truth() {
     let known = |trial: &Trial| {
-        let known = Known::identified(&trial.identified, &trial.found);
+        let known = UncertaintyFactors::identified(&trial.identified, &trial.found);
         (trial.identified.clone(), known)
     };
     for name in ["lei-hsu-mill", "xkas2525", "head-table"] {
@@ -255,7 +260,7 @@ fn law_the_interval_of_a_certificate_covers_the_truth() {
 #[test]
 fn law_without_correlations_the_interval_is_too_long() {
     let known = |trial: &Trial| {
-        let whole = Known::identified(&trial.identified, &trial.found);
+        let whole = UncertaintyFactors::identified(&trial.identified, &trial.found);
         let mut stated_alone = trial.identified.clone();
         for (index, _) in trial.identified.stated_errors() {
             let body = &trial.identified.bodies()[index.body];
@@ -269,7 +274,7 @@ fn law_without_correlations_the_interval_is_too_long() {
             error.u = Some(Uncertainty::Constant(u));
             stated_alone = stated_alone.with_error(index, Some(error));
         }
-        let known = Known::stated(&stated_alone);
+        let known = UncertaintyFactors::stated(&stated_alone);
         (stated_alone, known)
     };
     let [tip, ..] = covers("lei-hsu-mill", 60, known);

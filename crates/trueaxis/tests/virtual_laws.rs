@@ -16,7 +16,7 @@ use trueaxis::measure::virtual_campaign::{
     AxisDisturb, Disturb, Drawn, Measurement, Truth, VirtualCampaign, measure, summarise,
 };
 use trueaxis::measure::{Campaign, Kind, Readings};
-use trueaxis::verify::compare::{Against, Comparison, Decision, Rule, compare, pair};
+use trueaxis::verify::compare::{Comparison, ComparisonBasis, Decision, Rule, compare, pair};
 
 fn command(random: &mut Random, machine: &Machine) -> Command {
     let mut command = Command::default();
@@ -417,7 +417,7 @@ fn with_uncertainties(machine: &Machine) -> Machine {
     })
 }
 
-fn comparison(campaign: &Campaign, measured: Readings, against: Against) -> Comparison {
+fn comparison(campaign: &Campaign, measured: Readings, against: ComparisonBasis) -> Comparison {
     let decision = Decision { rule: Rule::Coverage, coverage_factor: 2.0, tolerance: vec![None] };
     Comparison { name: "test".into(), campaign: campaign.clone(), measured, against, decision }
 }
@@ -449,7 +449,7 @@ fn law_u_covers_what_it_should_over_many_campaigns() {
         let normal = || (0..12).map(|_| random.unit()).sum::<f64>() - 6.0;
         real.truth.factors = Some(Drawn::new(&stated, normal));
         let measured = read(&campaign, &real).readings;
-        let against = Against::Prediction(Box::new(stated.clone()));
+        let against = ComparisonBasis::Prediction(Box::new(stated.clone()));
         let found = compare(&comparison(&campaign, measured.clone(), against)).expect("a fit");
         inside += found.coverage.inside;
         count += found.coverage.count;
@@ -459,7 +459,7 @@ fn law_u_covers_what_it_should_over_many_campaigns() {
             let here = stated.errors_at(&[0.0; 6], &[0.0; 6]).expect("no tables");
             m.with_error(*index, Some(StatedError::constant(here.get(*index), None)))
         });
-        let against = Against::Prediction(Box::new(sure));
+        let against = ComparisonBasis::Prediction(Box::new(sure));
         let found = compare(&comparison(&campaign, measured, against)).expect("a fit");
         noise_only += found.coverage.inside;
     }
@@ -487,13 +487,14 @@ fn law_two_sets_of_the_same_machine_agree_and_lost_rows_are_left_out() {
     let second = read(&campaign, &real);
     let pairs = pair(&campaign, &first, &second.readings);
     assert_eq!((pairs.alone_in_first, pairs.alone_in_second), (second.lost, 0));
-    let task = comparison(&campaign, first.clone(), Against::Readings(pairs));
+    let task = comparison(&campaign, first.clone(), ComparisonBasis::Readings(pairs));
     let found = compare(&task).expect("readings");
     assert!(found.coverage.is_enough() && found.coverage.share() < 0.99, "{:?}", found.coverage);
     // Shifted by 10 µm in one channel it is another machine.
     let mut shifted = second.readings;
     shifted.values.iter_mut().for_each(|v| v[1] += 0.01);
     let pairs = pair(&campaign, &first, &shifted);
-    let found = compare(&comparison(&campaign, first, Against::Readings(pairs))).expect("readings");
+    let found =
+        compare(&comparison(&campaign, first, ComparisonBasis::Readings(pairs))).expect("readings");
     assert!(!found.coverage.is_enough());
 }

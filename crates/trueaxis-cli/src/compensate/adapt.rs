@@ -16,35 +16,35 @@ Examples:
       --cl bangle-adapted.cls --format json
 
 The blank is registered, its form becomes a smooth field, the path is moved along its normals, and a
-virtual cut shows what wall it leaves. A program is written only if the wall holds everywhere, nothing
+virtual cut shows the wall thickness that remains. A program is written only if the wall holds everywhere, nothing
 gouges, and the program, read back and simulated, follows the adapted path within the travel.
 Exit status: 0 done, 1 it must not be cut (then no program is written), 2 unusable input.")]
 pub struct AdaptArguments {
     /// The study
     #[arg(value_name = "STUDY.toml")]
     file: PathBuf,
-    /// Where the HTML report goes
+    /// File of the HTML report
     #[arg(long, value_name = "FILE", default_value = "report.html")]
     report: PathBuf,
     /// Write no report
     #[arg(long, conflicts_with = "report")]
     no_report: bool,
-    /// Where the program of the adapted path goes
+    /// Write the program of the adapted path to this file
     #[arg(short, long, value_name = "FILE", requires = "control")]
     output: Option<PathBuf>,
-    /// For which control: sinumerik, fanuc, linuxcnc or heidenhain
+    /// The control of the program: sinumerik, fanuc, linuxcnc or heidenhain
     #[arg(long, alias = "dialect", value_name = "NAME", requires = "output")]
     control: Option<String>,
-    /// Whether the control keeps the tip of the tool on the path
+    /// Whether the control keeps the tool tip on the path (RTCP, TRAORI, TCPM)
     #[arg(long, value_enum, default_value = "on")]
     tcp: OnOff,
     /// Largest distance between adapted path and program, mm
     #[arg(long, value_name = "MM", default_value = "0.001", allow_negative_numbers = true)]
     tolerance: String,
-    /// Where the adapted cutter locations go
+    /// Write the adapted cutter locations to this file
     #[arg(long, value_name = "FILE.cls")]
     cl: Option<PathBuf>,
-    /// For people or for programs
+    /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }

@@ -7,7 +7,7 @@ use clap::Args;
 use std::path::PathBuf;
 use trueaxis::questions::CompensateProgram;
 
-/// The machine, the program and what may be left.
+/// The machine, the program and the residual error that is allowed.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -18,7 +18,7 @@ Examples:
   trueaxis compensate program MACHINE.toml LOOPS.ngc --flat -o LOOPS-comp.ngc
 
 Words, comments and blocks that need no change stay as they are, byte by byte. The written program is
-read back and simulated on the machine as it is before it is written. Loops, subprograms and computed
+read back and simulated on the actual machine before it is written. Loops, subprograms and computed
 coordinates are refused with their line; --flat unrolls them (the lines of the report are then those of
 the unrolled program). Cycles are refused. Exit status: 0 done, 2 unusable input or a block
 that cannot be corrected; then nothing is written.")]
@@ -28,13 +28,13 @@ pub struct ProgramArguments {
     /// The NC program
     #[arg(value_name = "PROGRAM")]
     program: PathBuf,
-    /// Where the compensated program goes
+    /// Write the compensated program to this file
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// Work offsets and tools; without it PROGRAM.setup.toml if it is there
     #[arg(long, value_name = "SETUP.toml")]
     setup: Option<PathBuf>,
-    /// Whose program it is: sinumerik, fanuc, linuxcnc or heidenhain
+    /// The control of the program: sinumerik, fanuc, linuxcnc or heidenhain
     #[arg(long, value_name = "NAME")]
     control: Option<String>,
     /// Unroll the program first: loops, subprograms, repeated parts and computed numbers become one
@@ -44,10 +44,10 @@ pub struct ProgramArguments {
     /// Only the tip, with the linear axes
     #[arg(long)]
     position_only: bool,
-    /// How far the tip may be missed between the ends of blocks
+    /// Largest residual error of the tip between the ends of blocks
     #[arg(long, value_name = "\"1 um\"", default_value = "1 um", allow_negative_numbers = true)]
     residual: String,
-    /// How far the tool axis may be missed there
+    /// Largest residual error of the tool axis there
     #[arg(
         long,
         value_name = "\"10 urad\"",
@@ -80,10 +80,10 @@ pub struct ProgramArguments {
         allow_negative_numbers = true
     )]
     limit_axis: String,
-    /// Where the HTML report goes; without it none is written
+    /// Write an HTML report to this file
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
-    /// For people or for programs
+    /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }

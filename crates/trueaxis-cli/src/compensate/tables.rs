@@ -15,7 +15,7 @@ use trueaxis::machine::Machine;
 use trueaxis::predict::read_study;
 use trueaxis::report::{TablesReport, tables_json, tables_text};
 
-/// The machine, the control, and how fine.
+/// The machine, the control, and the resolution.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -25,7 +25,7 @@ Examples:
 
 Each table holds what the control has to add; it is made with the other axes at a reference (--at). Rotary
 centres and tilts, grids and errors of whole links go where the control has a place for them. The files
-are read back, applied as the control does, and what is left over the travel of all axes is told.
+are read back and applied as the control does; the residual errors over the travel of all axes are shown.
 The folder must be new or empty. Exit status: 0 done, 2 unusable input (then nothing is written).")]
 pub struct TablesArguments {
     #[command(flatten)]
@@ -33,14 +33,14 @@ pub struct TablesArguments {
     /// For which control
     #[arg(long, value_enum)]
     target: Control,
-    /// Where the files go: a folder that is new or empty
+    /// The folder of the files: new or empty
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// Where the other axes stand, axes not named at 0; without it in the middle of linear travels,
+    /// The position of the other axes, axes not named at 0; default: the middle of linear travels,
     /// rotary axes at 0
     #[arg(long, value_name = "\"X=.. Y=..\"", allow_hyphen_values = true)]
     at: Option<String>,
-    /// The most that interpolation and rounding of one table of a linear axis may lose
+    /// Largest error of interpolation and rounding of one table of a linear axis
     #[arg(long, value_name = "\"1 um\"", default_value = "1 um", allow_hyphen_values = true)]
     bound: String,
     /// The same of a rotary axis
@@ -60,13 +60,13 @@ pub struct TablesArguments {
     /// Leave rotary centres and tilts to the tables, for a control without a transformation (TCP)
     #[arg(long)]
     no_kinematics: bool,
-    /// Of linuxcnc: 0 for actual positions (unless told), 1 for trims
+    /// Of linuxcnc: 0 for actual positions (default), 1 for trims
     #[arg(long, value_enum)]
     comp_file_type: Option<CompFileType>,
     /// A study of `predict`: its test piece is cut with the tables
     #[arg(long, value_name = "STUDY.toml")]
     piece: Option<PathBuf>,
-    /// For people or for programs
+    /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }

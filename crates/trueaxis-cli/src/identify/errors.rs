@@ -6,22 +6,22 @@ use clap::Args;
 use std::path::PathBuf;
 use trueaxis::questions::Identify;
 
-/// What to identify the errors from.
+/// The campaign to evaluate.
 #[derive(Args)]
 pub struct CampaignArguments {
-    /// The campaign file: machine, instruments with their readings, what is sought
+    /// The campaign file: machine, instruments with their readings, unknown errors
     #[arg(value_name = "CAMPAIGN.toml", required = true)]
     file: Option<PathBuf>,
-    /// A machine file with the errors that were found, their uncertainties and where they come from
+    /// Write a machine file with the identified errors, their uncertainties and sources
     #[arg(short, long, value_name = "MACHINE.toml")]
     output: Option<PathBuf>,
-    /// Where an HTML report goes
+    /// Write an HTML report to this file
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
-    /// Try sign, order, sense, side and unit of the readings, and name what fits far better
+    /// Try other signs, orders, senses, sides and units of the readings, and name those that fit far better
     #[arg(long)]
     check_conventions: bool,
-    /// For people or for programs
+    /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }

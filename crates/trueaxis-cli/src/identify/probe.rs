@@ -6,7 +6,7 @@ use clap::Args;
 use std::path::PathBuf;
 use trueaxis::questions::IdentifyProbe;
 
-/// The study and what is made of it.
+/// The study and its outputs.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -23,22 +23,22 @@ pub struct Arguments {
     /// Raw hits to be corrected (columns as in the study, with directions)
     #[arg(long, value_name = "HITS.csv", requires = "output")]
     correct: Option<PathBuf>,
-    /// Where the corrected hits go
+    /// Write the corrected hits to this file
     #[arg(short, long, value_name = "FILE.csv", requires = "correct")]
     output: Option<PathBuf>,
-    /// Where the direction table goes: angle, dR, dX, dY, u
+    /// Write the table by direction to this file: angle, dR, dX, dY, u
     #[arg(long, value_name = "FILE.csv")]
     table: Option<PathBuf>,
-    /// Of which stylus (the first)
+    /// The stylus of the table (default: the first)
     #[arg(long, value_name = "NAME")]
     stylus: Option<String>,
-    /// How far the spindle is turned for the table, and for hits that do not say so
+    /// Spindle orientation of the table, and of hits that state none
     #[arg(long, value_name = "ANGLE", allow_negative_numbers = true)]
     orientation: Option<String>,
-    /// Where an HTML report goes
+    /// Write an HTML report to this file
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
-    /// For people or for programs
+    /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }

@@ -16,9 +16,9 @@ Examples:
 
 Readings of an indicator or a probe at turned poses, with RTCP on or off, on machines with two rotary
 axes in table or head: the offsets of the rotary centres with their uncertainty, the new numbers of
-the control, and what they will be worth.
+the control, and the residual error to be expected with them.
 
-Exit status: 0 done, 1 the readings do not fit the machine or tell nothing, 2 unusable input.")]
+Exit status: 0 done, 1 the readings do not fit the machine or determine nothing, 2 unusable input.")]
 pub struct Arguments {
     /// The file: machine, control, readings
     #[arg(value_name = "FILE.toml")]
@@ -26,7 +26,7 @@ pub struct Arguments {
     /// Write one NC program for each set of readings into this folder; the tables then need poses only
     #[arg(long, value_name = "FOLDER")]
     programs: Option<PathBuf>,
-    /// Whose programs: sinumerik, fanuc, linuxcnc or heidenhain
+    /// The control of the programs: sinumerik, fanuc, linuxcnc or heidenhain
     #[arg(
         long,
         alias = "dialect",
@@ -35,10 +35,10 @@ pub struct Arguments {
         requires = "programs"
     )]
     control: String,
-    /// A machine file with the centres as they were found
+    /// Write a machine file with the identified centres
     #[arg(short, long, value_name = "MACHINE.toml")]
     output: Option<PathBuf>,
-    /// For people or for programs
+    /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }

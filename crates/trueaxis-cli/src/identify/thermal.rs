@@ -13,17 +13,17 @@ Example:
   trueaxis identify thermal examples/05_identify/lathe-thermal.toml --report drift.html
 
 The study names the logs (one cycle each), the column of the displacement, the candidate sensors and
-lags. Sensors are chosen, and the model is judged, on whole cycles that it has not seen.
+lags. Sensors are selected, and the model is validated, on whole cycles that the fit has not used.
 
-Exit status: 0 a model, 1 refused: the logs support none, 2 unusable input.")]
+Exit status: 0 a model was found, 1 the logs do not support a model, 2 unusable input.")]
 pub struct Arguments {
     /// The study: logs, displacement, candidate sensors
     #[arg(value_name = "STUDY.toml")]
     file: PathBuf,
-    /// Where an HTML report goes
+    /// Write an HTML report to this file
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
-    /// For people or for programs
+    /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }

@@ -1,4 +1,4 @@
-//! `trueaxis plan probe-surface FILE.toml`: touch after touch over a surface.
+//! `trueaxis plan probe-surface FILE.toml`: a probing path over a surface.
 
 use crate::door::Door;
 use crate::output::{Format, Outcome};
@@ -13,19 +13,19 @@ Example:
   trueaxis plan probe-surface examples/04_plan/probe-surface.toml --control fanuc -o programs
 
 Writes the NC program of the touches along the normals, and surface.csv: point, x_mm .. z_mm, i, j, k,
-deviation_um (empty: what is measured goes there; um along the normal, positive outside).
-Exit status: 0 done, 1 the program would run into something or leave the travel, 2 unusable input.")]
+deviation_um (empty, for the readings: um along the normal, positive outwards).
+Exit status: 0 done, 1 the program would cause a collision or leave the travel, 2 unusable input.")]
 pub struct Arguments {
     /// The study: machine, surface, spacing, probe
     #[arg(value_name = "FILE.toml")]
     file: PathBuf,
-    /// Whose NC program: sinumerik, fanuc or linuxcnc
+    /// The control of the NC program: sinumerik, fanuc or linuxcnc
     #[arg(long, alias = "dialect", value_name = "NAME", default_value = "sinumerik")]
     control: String,
     /// Write the program and the table of the points into this folder
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
-    /// For people or for programs
+    /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }

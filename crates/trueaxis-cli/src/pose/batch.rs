@@ -39,7 +39,7 @@ pub fn answer(
     let commands: Vec<Command> =
         (0..table.rows()).map(|row| command(machine, &table, &columns, row)).collect();
     warn_beyond_travel(machine, &table, &commands, problems);
-    // Every row is tried, so that all rows with problems are told at once.
+    // Every row is tried, so that all rows with problems are reported at once.
     let mut rows = Vec::with_capacity(commands.len());
     for (row, command) in commands.iter().enumerate() {
         let place = table.row_place(row);

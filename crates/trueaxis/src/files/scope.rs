@@ -22,8 +22,8 @@ thread_local! {
 /// - *other threads*, those of rayon among them: none of this crate's parallel work opens files, so it is
 ///   enough to call this where the work is asked for; but not within a job of a rayon pool, which may
 ///   take up other work meanwhile;
-/// - *races*: between the look at a path and its use somebody who may write below `root` can put a link
-///   there that leads outside; hard links, which have no outside, are files like others;
+/// - *races*: between the check of a path and its use another process that may write below `root` can put a
+///   link there that leads outside; hard links, which have no outside, are files like others;
 /// - *other crates*: what does not go through [`crate::files`] is not seen.
 ///
 /// ```
@@ -58,7 +58,7 @@ pub(super) fn readable(path: &Path) -> io::Result<Cow<'_, Path>> {
     inside(&real)?;
     match fs::metadata(&real)?.is_file() {
         true => Ok(Cow::Owned(real)),
-        false => Err(io::Error::new(io::ErrorKind::InvalidInput, "is no ordinary file")),
+        false => Err(io::Error::new(io::ErrorKind::InvalidInput, "is not an ordinary file")),
     }
 }
 
@@ -71,7 +71,7 @@ pub(super) fn writable(path: &Path) -> io::Result<Cow<'_, Path>> {
         return Ok(Cow::Borrowed(path));
     }
     let Some(name) = path.file_name() else {
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"));
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "the path does not name a file"));
     };
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -105,7 +105,7 @@ fn outside() -> io::Error {
     io::Error::new(io::ErrorKind::PermissionDenied, "lies outside the project folder")
 }
 
-/// What is not there is told only of places inside: what there is outside is nobody's business.
+/// A missing file is reported only inside; nothing is disclosed about places outside.
 fn unless_outside(path: &Path, error: io::Error) -> io::Error {
     let here = Path::new(".").canonicalize().unwrap_or_default();
     let absolute = here.join(path);
@@ -124,7 +124,7 @@ mod tests {
     use std::os::unix::fs::symlink;
     use trueaxis_input::Diagnostics;
 
-    /// `in/` is the project, with `sub/` and a machine; `out/` stands beside it.
+    /// `in/` is the project, with `sub/` and a machine; `out/` is next to it.
     struct Tree(PathBuf);
 
     const MACHINE: &str = "machine = { name = \"m\", chain = \"w b X Y Z t\" }\n";
@@ -178,11 +178,11 @@ mod tests {
         for outer in outer.iter().chain(&["in/door/b.txt", "in/sub/../door/../out/b.txt"]) {
             assert_eq!(tree.reads(outer).unwrap_err(), OUTSIDE, "{outer}");
         }
-        // Nobody learns what there is outside, and what is missing inside is missing.
+        // Nothing outside is disclosed, and what is missing inside is missing.
         assert_eq!(tree.reads("out/none.txt").unwrap_err(), OUTSIDE);
         assert_eq!(tree.reads("out/none/none.txt").unwrap_err(), OUTSIDE);
         assert!(tree.reads("in/none.txt").unwrap_err().contains("os error 2"));
-        assert_eq!(tree.reads("in/sub").unwrap_err(), "is no ordinary file");
+        assert_eq!(tree.reads("in/sub").unwrap_err(), "is not an ordinary file");
         within(&tree.path("in"), || {
             assert!(!files::is_file(&tree.path("in/link.txt")));
             assert!(files::is_file(&tree.path("in/a.txt")));

@@ -20,7 +20,7 @@ use trueaxis_report::DrawingError;
 /// The errors of a machine from a campaign of measurements.
 #[derive(Debug, Clone, Default)]
 pub struct Identify {
-    /// The campaign: machine, instruments with their readings, what is sought.
+    /// The campaign: machine, instruments with their readings, unknown errors.
     pub campaign: PathBuf,
     /// A table of readings in place of those of one instrument.
     pub table: Option<DroppedTable>,

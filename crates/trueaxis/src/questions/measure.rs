@@ -46,9 +46,14 @@ const READINGS: Kind = Kind {
     contains: "",
     makes_folder: true,
 };
-const TRUTH_BEGIN: &str = "# the truth behind virtual readings";
-const TRUTH: Kind =
-    Kind::file("--truth", "the truth of a virtual measurement", &[TRUTH_BEGIN.as_bytes()]);
+const TRUTH_BEGIN: &str = "# true values of virtual readings";
+/// The first line of older files.
+const OLD_TRUTH_BEGIN: &[u8] = b"# the truth behind virtual readings";
+const TRUTH: Kind = Kind::file(
+    "--truth",
+    "the truth of a virtual measurement",
+    &[TRUTH_BEGIN.as_bytes(), OLD_TRUTH_BEGIN],
+);
 
 impl Measure {
     /// Where the table of each instrument goes.

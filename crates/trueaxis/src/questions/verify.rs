@@ -1,10 +1,10 @@
-//! Is the machine as its file says, has it moved, does a compensation hold?
+//! Does the machine agree with its file, have its errors changed, is a compensation valid?
 
 use super::{Answer, Question, with_diagnostics};
 use crate::report::{self, CalibrationsReport};
 use crate::verify::calibrations::{Calibrations, calibrations};
 use crate::verify::certificate::{Certificate, PoseFault, Study, certify, read_certificate};
-use crate::verify::compare::{Comparison, Verified, compare, read_comparison};
+use crate::verify::compare::{Comparison, ComparisonResult, compare, read_comparison};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use trueaxis_input::{Diagnostics, Files, Place};
@@ -27,7 +27,7 @@ pub struct VerifyReadings {
 #[derive(Debug)]
 pub struct VerifyAnswer {
     task: Comparison,
-    verified: Verified,
+    verified: ComparisonResult,
 }
 
 impl Question for VerifyReadings {
@@ -76,7 +76,7 @@ impl Answer for VerifyAnswer {
     }
 }
 
-/// Two calibrations of one machine: what moved, and is it significant?
+/// Two calibrations of one machine: significant changes.
 #[derive(Debug, Clone, Default)]
 pub struct CompareCalibrations {
     /// The older machine file.
@@ -151,7 +151,7 @@ impl Answer for CalibrationsAnswer {
     }
 }
 
-/// What a compensation leaves on poses that the identification has not used.
+/// The residual errors of a compensation at poses that the identification has not used.
 #[derive(Debug, Clone, Default)]
 pub struct Certify {
     /// The study: machine, poses, limit.

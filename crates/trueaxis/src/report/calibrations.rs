@@ -1,6 +1,6 @@
-//! Two calibrations of one machine, for people.
+//! Two calibrations of one machine, as text and page.
 
-use crate::verify::calibrations::{Calibrations, ErrorChange, Moved};
+use crate::verify::calibrations::{Calibrations, ErrorChange, Significance};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Travel;
 use trueaxis_machine::describe::{command_words, shown, unit};
@@ -30,9 +30,10 @@ impl CalibrationsReport<'_> {
     fn verdict(&self) -> String {
         let names: Vec<_> = self.found.moved().map(|e| e.error.to_string()).collect();
         match names.len() {
-            0 => "nothing has moved beyond the uncertainty of the two calibrations".to_owned(),
-            1 => format!("{} has moved", names[0]),
-            n => format!("{n} errors have moved: {}", names.join(", ")),
+            0 => "no error has changed by more than the uncertainty of the two calibrations"
+                .to_owned(),
+            1 => format!("{} has changed", names[0]),
+            n => format!("{n} errors have changed: {}", names.join(", ")),
         }
     }
 
@@ -97,16 +98,16 @@ impl CalibrationsReport<'_> {
                 words(e.moved).to_owned(),
             ]
         });
-        let note = "where the change is clearest; U of the change, k = 2; moved: beyond what chance does \
-                    anywhere among all errors (5 %); perhaps: E_n above 1";
-        let headings = ["error", "unit", "old", "new", "change", "U", "E_n", "at", "moved"];
+        let note = "where the change is clearest; U of the change, k = 2; significant: with 5 % of false alarms \
+                    among all errors together; perhaps: E_n above 1";
+        let headings = ["error", "unit", "old", "new", "change", "U", "E_n", "at", "significant"];
         Table::new(headings).rows(rows).note(note)
     }
 
     fn shares(&self) -> Table {
         let shares = self.found.tip.shares.iter().take(MOST_SHARES);
         let rows = shares.map(|s| [s.error.to_string(), format!("{:.2}", s.largest_mm * 1e3)]);
-        let note = "how far the change of this error alone moves the tip at most";
+        let note = "largest displacement of the tip by the change of this error alone";
         Table::new(["error", "µm"]).rows(rows).note(note)
     }
 
@@ -144,14 +145,14 @@ impl CalibrationsReport<'_> {
     }
 }
 
-fn words(moved: Moved) -> &'static str {
+fn words(moved: Significance) -> &'static str {
     match moved {
-        Moved::Yes => "yes",
-        Moved::Perhaps => "perhaps",
-        Moved::No => "no",
-        Moved::Unknown => "no u stated",
-        Moved::New => "only in new",
-        Moved::Gone => "only in old",
+        Significance::Yes => "yes",
+        Significance::Perhaps => "perhaps",
+        Significance::No => "no",
+        Significance::Unknown => "no u stated",
+        Significance::New => "only in new",
+        Significance::Gone => "only in old",
     }
 }
 
@@ -159,7 +160,7 @@ fn scale_of(error: ErrorName) -> (&'static str, f64) {
     if error.component.is_rotation() { ("µrad", 1e6) } else { ("µm", 1e3) }
 }
 
-/// Two calibrations for people.
+/// Two calibrations as text and page.
 pub fn calibrations_report(report: &CalibrationsReport<'_>) -> Report<'static> {
     let (standing, word) = match report.found.moved().next() {
         None => (Standing::Good, "UNCHANGED"),

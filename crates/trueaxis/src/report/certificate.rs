@@ -1,10 +1,10 @@
-//! A certificate for people, in the order of the topics of ISO/TR 16907.
+//! A certificate as text and page, in the order of the topics of ISO/TR 16907.
 
 use super::certificate_pictures::{after_figure, before_and_after_figure};
-use crate::verify::certificate::applied::Applied;
+use crate::verify::certificate::applied::AppliedCompensation;
 use crate::verify::certificate::inputs::Input;
 use crate::verify::certificate::{
-    Agreement, Certificate, Circumstances, Determined, PoseResult, Rule, Study,
+    Agreement, Certificate, Circumstances, PoseResult, Rule, Study, UncertaintySource,
 };
 use std::f64::consts::PI;
 use trueaxis_correct::compensate::tables::{Compiled, shown};
@@ -17,7 +17,7 @@ use trueaxis_part::tolerance::Outcome;
 use trueaxis_report::numbers::{fixed, rounded};
 use trueaxis_report::{Columns, DrawingError, Report, Section, Standing, Table};
 
-/// A word for programs and people.
+/// An outcome in one word.
 pub(super) fn word(outcome: Outcome) -> &'static str {
     match outcome {
         Outcome::Pass => "pass",
@@ -45,7 +45,7 @@ pub(super) fn rule(study: &Study) -> String {
     format!("at every pose {kept}; limit {limit:.1} µm, d the length of the measured tip deviation")
 }
 
-/// A certificate for people.
+/// A certificate as text and page.
 pub fn certificate_report<'a>(study: &'a Study, certificate: &'a Certificate) -> Report<'a> {
     let topics: [(&str, Topic<'a>); 7] = [
         ("Kinematic representation", |study, _, section| kinematics(study, section)),
@@ -193,10 +193,10 @@ fn circumstances(c: &Circumstances) -> Vec<String> {
 fn determination<'a>(study: &Study, section: Section<'a>) -> Section<'a> {
     let mut lines = circumstances(&study.determination);
     lines.push(match &study.determined {
-        Determined::Stated => "uncertainties as the machine file states them: errors independent of each \
+        UncertaintySource::Stated => "uncertainties as the machine file states them: errors independent of each \
                                other, each wrong by one factor along its whole curve"
             .to_owned(),
-        Determined::Campaign { name, readings, terms, left_out, verdict } => format!(
+        UncertaintySource::Campaign { name, readings, terms, left_out, verdict } => format!(
             "uncertainties with all that the results have in common, from the campaign \"{name}\": {terms} \
              terms from {readings} readings, {left_out} more were not supported by them and count as nothing; \
              {verdict}"
@@ -216,14 +216,14 @@ pub(super) fn scope(scope: Scope) -> &'static str {
 
 fn compensation<'a>(study: &Study, section: Section<'a>) -> Section<'a> {
     match &study.applied {
-        Applied::Program(compensator) => {
+        AppliedCompensation::Program(compensator) => {
             let what = scope(compensator.scope());
             let line = format!(
                 "NC program: {what} of every pose solved with the identified errors, in all axes"
             );
             section.paragraph(line)
         }
-        Applied::Tables { compiled, control, .. } => {
+        AppliedCompensation::Tables { compiled, control, .. } => {
             let machine = &study.machine;
             let headings = ["axis", "moves", "nodes", "largest", "lost between the nodes"];
             let mut table = Table::new(headings);
@@ -279,8 +279,10 @@ fn application<'a>(study: &Study, section: Section<'a>) -> Section<'a> {
         (Some(folder), _) => {
             format!("loaded tables ({folder}): SHA-256 of every file is that of the compiled one")
         }
-        (None, Applied::Tables { .. }) => "what the control has loaded was not compared".to_owned(),
-        (None, Applied::Program(_)) => {
+        (None, AppliedCompensation::Tables { .. }) => {
+            "what the control has loaded was not compared".to_owned()
+        }
+        (None, AppliedCompensation::Program(_)) => {
             "the control runs the compensated program as it is".to_owned()
         }
     });
@@ -415,7 +417,7 @@ fn documentation<'a>(study: &Study, section: Section<'a>) -> Section<'a> {
             "made by trueaxis {}; {} draws with seed {} (JCGM 101); the same inputs and version give the same bytes",
             trueaxis_report::VERSION, study.sampling.samples, study.sampling.seed
         ),
-        "the temperatures are told, not corrected for; the uncertainties hold at the temperature of the determination"
+        "the temperatures are stated, not corrected for; the uncertainties hold at the temperature of the determination"
             .to_owned(),
     ];
     paragraphs(section, lines).table(hashes(&study.inputs))

@@ -2,10 +2,10 @@
 
 use super::certificate::{largest, rule, scope, word};
 use super::trace_document::{MachineEntry, axes};
-use crate::verify::certificate::applied::Applied;
+use crate::verify::certificate::applied::AppliedCompensation;
 use crate::verify::certificate::inputs::Input;
 use crate::verify::certificate::{
-    Agreement, Certificate, Circumstances, Determined, PoseResult, Study, spread,
+    Agreement, Certificate, Circumstances, PoseResult, Study, UncertaintySource, spread,
 };
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -365,17 +365,19 @@ impl<'a> From<&'a Circumstances> for CircumstancesEntry<'a> {
     }
 }
 
-impl<'a> From<&'a Determined> for SourceEntry<'a> {
-    fn from(determined: &'a Determined) -> Self {
+impl<'a> From<&'a UncertaintySource> for SourceEntry<'a> {
+    fn from(determined: &'a UncertaintySource) -> Self {
         match determined {
-            Determined::Stated => Self::Stated("machine file"),
-            Determined::Campaign { name, readings, terms, left_out, verdict } => Self::Campaign {
-                campaign: name,
-                readings: *readings,
-                terms: *terms,
-                left_out: *left_out,
-                verdict,
-            },
+            UncertaintySource::Stated => Self::Stated("machine file"),
+            UncertaintySource::Campaign { name, readings, terms, left_out, verdict } => {
+                Self::Campaign {
+                    campaign: name,
+                    readings: *readings,
+                    terms: *terms,
+                    left_out: *left_out,
+                    verdict,
+                }
+            }
         }
     }
 }
@@ -384,10 +386,10 @@ impl<'a> From<&'a Study> for CompensationEntry<'a> {
     fn from(study: &'a Study) -> Self {
         let files = files(&study.application.files);
         match &study.applied {
-            Applied::Program(compensator) => {
+            AppliedCompensation::Program(compensator) => {
                 Self::Program { scope: scope(compensator.scope()), files }
             }
-            Applied::Tables { compiled, control, .. } => {
+            AppliedCompensation::Tables { compiled, control, .. } => {
                 Self::Tables { target: control.key(), tables: compiled.tables.len(), files }
             }
         }

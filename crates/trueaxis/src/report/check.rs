@@ -1,4 +1,4 @@
-//! A machine file, checked: what the machine is and what it lacks.
+//! A machine file, checked: what the machine is and what is missing in its file.
 
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Axis, AxisKind, AxisSide, Travel};
@@ -6,7 +6,7 @@ use trueaxis_machine::errors::{Component, Curve, ErrorKind, ErrorName};
 use trueaxis_report::numbers::{fixed, rounded};
 use trueaxis_report::{Report, Section, Table};
 
-/// What the machine is and what it lacks, for people.
+/// What the machine is and what is missing in its file, as text and page.
 pub fn check_report(machine: &Machine) -> Report<'static> {
     let tools = machine.tools().iter();
     let tools: Vec<_> =
@@ -22,9 +22,9 @@ pub fn check_report(machine: &Machine) -> Report<'static> {
         .rows(machine.axes().iter().map(axis_row));
     let lacks = match lacks(machine) {
         none if none.is_empty() => {
-            Section::new("").paragraph("It lacks nothing that a prediction needs.")
+            Section::new("").paragraph("Nothing that a prediction needs is missing.")
         }
-        lacks => Section::new("It lacks").list(lacks),
+        lacks => Section::new("Missing").list(lacks),
     };
     Report::new(machine.name())
         .line(format!("chain   {}", machine.chain_text()))
@@ -34,7 +34,7 @@ pub fn check_report(machine: &Machine) -> Report<'static> {
         .section(lacks)
 }
 
-/// What the machine is and what it lacks, for the terminal.
+/// What the machine is and what is missing in its file, for the terminal.
 pub fn check_text(machine: &Machine) -> String {
     check_report(machine).text()
 }
@@ -127,7 +127,7 @@ fn motions_line(machine: &Machine, axis: &Axis) -> String {
     if parts.is_empty() { "none stated".to_owned() } else { parts.join(", ") }
 }
 
-/// What a prediction or a simulation would miss.
+/// Data that a prediction or a simulation needs.
 pub(super) fn lacks(machine: &Machine) -> Vec<String> {
     let mut lacking = Vec::new();
     let list = |wanted: &dyn Fn(&Axis) -> bool| {
@@ -137,17 +137,19 @@ pub(super) fn lacks(machine: &Machine) -> Vec<String> {
     };
     let travel = list(&|a| a.travel == Travel::Unknown);
     if !travel.is_empty() {
-        lacking.push(format!("the travel of {travel}: a path that leaves it will not be noticed"));
+        lacking.push(format!("the travel of {travel}: a path that leaves it is not detected"));
     }
     let limits = list(&|a| {
         let l = a.limits;
         l.velocity.is_none() || l.acceleration.is_none() || l.jerk.is_none()
     });
     if !limits.is_empty() {
-        lacking.push(format!("maximum velocity, acceleration or jerk of {limits}: no true timing"));
+        lacking.push(format!(
+            "maximum velocity, acceleration or jerk of {limits}: no realistic timing"
+        ));
     }
     if machine.models().is_empty() {
-        lacking.push("models of its bodies: no collision will be noticed".to_owned());
+        lacking.push("models of its bodies: collisions are not detected".to_owned());
     }
     if machine.tip_mm().norm() == 0.0 {
         lacking.push("the length of the tool, taken as 0".to_owned());

@@ -1,7 +1,9 @@
-//! A comparison of readings with a prediction, for people.
+//! A comparison of readings with a prediction, as text and page.
 
 use super::certificate::{standing, word};
-use crate::verify::compare::{Against, Comparison, Coverage, Part, Rule, Verified};
+use crate::verify::compare::{
+    Comparison, ComparisonBasis, ComparisonResult, Coverage, Rule, Summary,
+};
 use trueaxis_calibrate::measure::virtual_campaign::shown_unit;
 use trueaxis_report::{Band, DrawingError, Picture, Report, Scatter, Section, Table};
 
@@ -37,7 +39,7 @@ fn coverage_words(coverage: &Coverage) -> String {
     )
 }
 
-fn reason(task: &Comparison, verified: &Verified) -> String {
+fn reason(task: &Comparison, verified: &ComparisonResult) -> String {
     let [pass, fail, open] = verified.counts;
     match task.decision.rule {
         Rule::Coverage => coverage_words(&verified.coverage),
@@ -45,11 +47,13 @@ fn reason(task: &Comparison, verified: &Verified) -> String {
     }
 }
 
-/// A comparison for people.
-pub fn comparison_report<'a>(task: &'a Comparison, verified: &'a Verified) -> Report<'a> {
+/// A comparison as text and page.
+pub fn comparison_report<'a>(task: &'a Comparison, verified: &'a ComparisonResult) -> Report<'a> {
     let against = match &task.against {
-        Against::Prediction(machine) => format!("against the prediction of {}", machine.name()),
-        Against::Readings(_) => "against other readings of the same places".to_owned(),
+        ComparisonBasis::Prediction(machine) => {
+            format!("against the prediction of {}", machine.name())
+        }
+        ComparisonBasis::Readings(_) => "against other readings of the same places".to_owned(),
     };
     let channels = verified.instruments.iter().flat_map(|part| {
         let instrument = &task.campaign.instruments[part.index as usize];
@@ -67,7 +71,7 @@ pub fn comparison_report<'a>(task: &'a Comparison, verified: &'a Verified) -> Re
         .sections(pictures.map(|p| Section::from(Picture::Scatter(p))))
 }
 
-fn instruments(task: &Comparison, verified: &Verified) -> Table {
+fn instruments(task: &Comparison, verified: &ComparisonResult) -> Table {
     let headings =
         ["instrument", "numbers", "rms nominal", "rms", "unit", "within U", "largest |r|/U"];
     let rows = verified.instruments.iter().map(|part| {
@@ -81,7 +85,7 @@ fn instruments(task: &Comparison, verified: &Verified) -> Table {
     Table::new(headings).rows(rows).note(note)
 }
 
-fn places(task: &Comparison, verified: &Verified) -> Table {
+fn places(task: &Comparison, verified: &ComparisonResult) -> Table {
     let headings =
         ["place", "instrument", "line", "numbers", "rms", "unit", "within U", "largest |r|/U"];
     let rows = verified.places.iter().take(WORST_PLACES).map(|place| {
@@ -94,7 +98,7 @@ fn places(task: &Comparison, verified: &Verified) -> Table {
 }
 
 /// Numbers, rms with its unit, share within U, largest ratio.
-fn figures(part: &Part, (unit, scale): (&str, f64)) -> [String; 5] {
+fn figures(part: &Summary, (unit, scale): (&str, f64)) -> [String; 5] {
     [
         part.count.to_string(),
         format!("{:.2}", part.rms_after * scale),
@@ -105,7 +109,7 @@ fn figures(part: &Part, (unit, scale): (&str, f64)) -> [String; 5] {
 }
 
 /// A comparison for the terminal.
-pub fn comparison_text(task: &Comparison, verified: &Verified) -> String {
+pub fn comparison_text(task: &Comparison, verified: &ComparisonResult) -> String {
     comparison_report(task, verified).text()
 }
 
@@ -113,12 +117,15 @@ pub fn comparison_text(task: &Comparison, verified: &Verified) -> String {
 ///
 /// # Errors
 /// What the drawing library says.
-pub fn comparison_html(task: &Comparison, verified: &Verified) -> Result<String, DrawingError> {
+pub fn comparison_html(
+    task: &Comparison,
+    verified: &ComparisonResult,
+) -> Result<String, DrawingError> {
     comparison_report(task, verified).html()
 }
 
 /// Deviations of one channel as dots, in the band of U.
-fn picture(task: &Comparison, verified: &Verified, of: u32, channel: usize) -> Scatter {
+fn picture(task: &Comparison, verified: &ComparisonResult, of: u32, channel: usize) -> Scatter {
     let instrument = &task.campaign.instruments[of as usize];
     let (unit, scale) = shown_unit(instrument);
     let mine: Vec<_> = verified

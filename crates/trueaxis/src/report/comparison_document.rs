@@ -2,7 +2,9 @@
 
 use super::certificate::word;
 use super::comparison::rule;
-use crate::verify::compare::{Against, Comparison, Coverage, Deviation, Part, Verified};
+use crate::verify::compare::{
+    Comparison, ComparisonBasis, ComparisonResult, Coverage, Deviation, Summary,
+};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
@@ -105,8 +107,8 @@ pub struct DifferenceEntry<'a> {
 
 impl<'a> VerifyDocument<'a> {
     /// The document of a comparison.
-    pub fn of(task: &'a Comparison, verified: &'a Verified) -> Self {
-        let part = |p: &Part, instrument: u32| {
+    pub fn of(task: &'a Comparison, verified: &'a ComparisonResult) -> Self {
+        let part = |p: &Summary, instrument: u32| {
             PartEntry::of(&task.campaign.instruments[instrument as usize], p)
         };
         let places = verified.places.iter().map(|place| PlacePartEntry {
@@ -124,8 +126,8 @@ impl<'a> VerifyDocument<'a> {
             schema: "trueaxis/verify/1",
             name: &task.name,
             against: match task.against {
-                Against::Prediction(_) => "prediction",
-                Against::Readings(_) => "readings",
+                ComparisonBasis::Prediction(_) => "prediction",
+                ComparisonBasis::Readings(_) => "readings",
             },
             readings: verified.readings.len(),
             coverage_factor: task.decision.coverage_factor,
@@ -160,7 +162,7 @@ fn key_unit(instrument: &Instrument) -> &'static str {
 }
 
 impl<'a> PartEntry<'a> {
-    fn of(instrument: &'a Instrument, part: &Part) -> Self {
+    fn of(instrument: &'a Instrument, part: &Summary) -> Self {
         let (unit, (_, scale)) = (key_unit(instrument), shown_unit(instrument));
         let rms = [
             (format!("rms_nominal_{unit}"), part.rms_before.map(|v| v * scale)),
@@ -192,6 +194,6 @@ impl<'a> DifferenceEntry<'a> {
 }
 
 /// The document `trueaxis/verify/1`.
-pub fn comparison_json(task: &Comparison, verified: &Verified) -> Value {
+pub fn comparison_json(task: &Comparison, verified: &ComparisonResult) -> Value {
     document(&VerifyDocument::of(task, verified))
 }

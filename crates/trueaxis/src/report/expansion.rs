@@ -1,9 +1,9 @@
-//! The coefficient of expansion of a scale, for people.
+//! The coefficient of expansion of a scale, as text and page.
 
 use trueaxis_calibrate::identify::expansion::{Expansion, Runs};
 use trueaxis_report::{Report, Section, Table};
 
-/// A coefficient of expansion for people.
+/// A coefficient of expansion as text and page.
 pub fn expansion_report(data: &Runs, found: &Expansion) -> Report<'static> {
     let (alpha, u) = (found.per_k * 1e6, found.u_per_k * 1e6);
     let material = match found.materials.is_empty() {

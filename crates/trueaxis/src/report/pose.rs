@@ -63,7 +63,7 @@ impl<'m> PoseReport<'m> {
     }
 }
 
-/// The tool at one position, for people.
+/// The tool at one position, as text and page.
 pub fn pose_report(report: &PoseReport<'_>) -> Report<'static> {
     let PoseReport { machine, deviation, .. } = report;
     let (tip, axis) = (deviation.nominal_tip.vector(), deviation.nominal_axis.vector());

@@ -35,7 +35,7 @@ impl PostReport<'_> {
     }
 }
 
-/// A program for people.
+/// A program as text and page.
 pub fn post_report(report: &PostReport<'_>) -> Report<'static> {
     let PostReport { file, posted, verification, output, .. } = report;
     let mut answer = Report::new(format!(

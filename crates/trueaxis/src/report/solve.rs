@@ -5,7 +5,7 @@ use trueaxis_machine::{Machine, Solutions};
 use trueaxis_report::numbers::fixed;
 use trueaxis_report::{Report, Section, Table};
 
-/// All solutions for people.
+/// All solutions as text and page.
 pub fn solve_report(machine: &Machine, solved: &Solutions) -> Report<'static> {
     let axes = machine.axes().iter().map(|axis| axis.name.to_string());
     let numbers = (1..).map(|n: u32| n.to_string());

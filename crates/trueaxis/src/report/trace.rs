@@ -102,7 +102,7 @@ fn on_off(on: bool) -> &'static str {
     if on { "on" } else { "off" }
 }
 
-/// A traced block for people.
+/// A traced block as text and page.
 pub fn trace_report(report: &TraceReport<'_>) -> Report<'static> {
     let TraceReport { job, found, at_end, .. } = report;
     let machine = &job.machine;

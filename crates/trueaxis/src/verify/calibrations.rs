@@ -1,4 +1,4 @@
-//! Two calibrations of one machine: what moved between them, and is it significant?
+//! Two calibrations of one machine: significant changes of its errors.
 //!
 //! ```text
 //!     Δ(q) = E_new(q) − E_old(q)      u²(Δ) = u²_new + u²_old      E_n = |Δ| / (2 u(Δ))
@@ -18,14 +18,14 @@ use trueaxis_machine::errors::{Component, ErrorKind, ErrorName, StatedError};
 
 /// Places along an axis that curves are compared at.
 const PLACES: usize = 101;
-/// The chance that anything is said to have moved though nothing has.
+/// The probability of any false alarm among all errors.
 const FALSE_ALARM: f64 = 0.05;
 /// The expanded uncertainty of E_n.
 const COVERAGE: f64 = 2.0;
 
-/// What is known of the change of one error.
+/// The significance of the change of one error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Moved {
+pub enum Significance {
     /// Beyond what chance does anywhere among all errors.
     Yes,
     /// E_n > 1, but one of so many errors may well be.
@@ -40,7 +40,7 @@ pub enum Moved {
     Gone,
 }
 
-impl Moved {
+impl Significance {
     /// A word for programs.
     pub fn key(self) -> &'static str {
         match self {
@@ -71,8 +71,8 @@ pub struct ErrorChange {
     pub rms: f64,
     /// Standard uncertainty of the change there; none if a file does not state it.
     pub u: Option<f64>,
-    /// What that means.
-    pub moved: Moved,
+    /// Its significance.
+    pub moved: Significance,
 }
 
 impl ErrorChange {
@@ -92,16 +92,16 @@ impl ErrorChange {
 pub struct Calibrations {
     /// Every error that a file states, in the order of the chain.
     pub errors: Vec<ErrorChange>,
-    /// |Δ| / u(Δ) from which an error has moved: 5 % of false alarms for all errors together.
+    /// |Δ| / u(Δ) above which a change is significant: 5 % of false alarms for all errors together.
     pub limit: f64,
     /// What it does to the tool tip.
     pub tip: TipChange,
 }
 
 impl Calibrations {
-    /// The errors that moved.
+    /// The errors that changed significantly.
     pub fn moved(&self) -> impl Iterator<Item = &ErrorChange> {
-        self.errors.iter().filter(|e| e.moved == Moved::Yes)
+        self.errors.iter().filter(|e| e.moved == Significance::Yes)
     }
 }
 
@@ -113,7 +113,7 @@ impl Calibrations {
 /// # Example
 /// ```
 /// use trueaxis::machine::{Machine, file::NoTables};
-/// use trueaxis::verify::calibrations::{Moved, calibrations};
+/// use trueaxis::verify::calibrations::{Significance, calibrations};
 /// let mill = |squareness: &str| {
 ///     let text = format!("[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n\
 ///                         [location]\nEC0Y = \"{squareness}\"");
@@ -122,7 +122,7 @@ impl Calibrations {
 /// // 10 µrad more, each known to 3 µrad: u(Δ) = 4.24 µrad, E_n = 10 / 8.49 = 1.18.
 /// let found = calibrations(&mill("20 ± 3 urad"), &mill("30 ± 3 urad")).unwrap();
 /// assert!((found.errors[0].e_n().unwrap() - 1.1785).abs() < 1e-4);
-/// assert_eq!(found.errors[0].moved, Moved::Yes); // one error only: the limit is 1.96 u
+/// assert_eq!(found.errors[0].moved, Significance::Yes); // one error only: the limit is 1.96 u
 /// ```
 ///
 /// # Source
@@ -168,15 +168,15 @@ fn same_machine(old: &Machine, new: &Machine) -> Result<(), String> {
     }
 }
 
-fn judged(error: &ErrorChange, limit: f64) -> Moved {
+fn judged(error: &ErrorChange, limit: f64) -> Significance {
     match (error.change(), error.u) {
-        (None, _) if error.old.is_none() => Moved::New,
-        (None, _) => Moved::Gone,
-        (Some(0.0), _) => Moved::No,
-        (Some(_), None) => Moved::Unknown,
-        (Some(change), Some(u)) if change.abs() > limit * u => Moved::Yes,
-        (Some(change), Some(u)) if change.abs() > COVERAGE * u => Moved::Perhaps,
-        _ => Moved::No,
+        (None, _) if error.old.is_none() => Significance::New,
+        (None, _) => Significance::Gone,
+        (Some(0.0), _) => Significance::No,
+        (Some(_), None) => Significance::Unknown,
+        (Some(change), Some(u)) if change.abs() > limit * u => Significance::Yes,
+        (Some(change), Some(u)) if change.abs() > COVERAGE * u => Significance::Perhaps,
+        _ => Significance::No,
     }
 }
 
@@ -207,7 +207,7 @@ fn compared(
             let weight = change.abs() / u.filter(|u| *u > 0.0).unwrap_or(1.0);
             if best.as_ref().is_none_or(|(most, _)| weight > *most) {
                 let at = travel.map(|_| q);
-                let (rms, moved) = (0.0, Moved::Unknown);
+                let (rms, moved) = (0.0, Significance::Unknown);
                 let here =
                     ErrorChange { error, at, approach: *side, old: a, new: b, rms, u, moved };
                 best = Some((weight, here));
@@ -218,7 +218,7 @@ fn compared(
     Some(ErrorChange { rms: (sum / count as f64).sqrt(), ..change })
 }
 
-/// Where an error is looked at.
+/// The positions at which an error is compared.
 fn places(error: &StatedError, travel: Option<Travel>) -> Vec<f64> {
     use trueaxis_machine::errors::Curve;
     let (from, to) = match (travel, &error.mean) {
@@ -253,7 +253,7 @@ mod tests {
         let found = calibrations(&same, &same).expect("one machine");
         assert_eq!(found.moved().count(), 0);
         assert_eq!((found.tip.largest_mm, found.errors.len()), (0.0, 2));
-        assert!(found.errors.iter().all(|e| e.moved == Moved::No));
+        assert!(found.errors.iter().all(|e| e.moved == Significance::No));
     }
 
     #[test]
@@ -263,7 +263,11 @@ mod tests {
         let found = calibrations(&old, &new).expect("one machine");
         let moved: Vec<_> = found.errors.iter().map(|e| (e.error.to_string(), e.moved)).collect();
         let is = |name: &str, moved| (name.to_owned(), moved);
-        let known = [is("EC0Y", Moved::Yes), is("EA0Z", Moved::New), is("EB0Z", Moved::Gone)];
+        let known = [
+            is("EC0Y", Significance::Yes),
+            is("EA0Z", Significance::New),
+            is("EB0Z", Significance::Gone),
+        ];
         assert_eq!(moved, known);
         // 10 µrad over Y = 400 mm, and what EB0Z and EA0Z do over Z: below 2 µm.
         assert!((0.003..0.006).contains(&found.tip.largest_mm), "{}", found.tip.largest_mm);
@@ -290,7 +294,7 @@ mod tests {
         let alarms = (0..2000)
             .filter(|_| {
                 let (errors, _) = error_changes(&machine(), &machine()).expect("one machine");
-                errors.iter().any(|e| e.moved == Moved::Yes)
+                errors.iter().any(|e| e.moved == Significance::Yes)
             })
             .count();
         // 1 − (1 − 0.05/9)⁹ = 4.89 %: 97.8 of 2000, standard deviation 9.6; three of them.
@@ -319,6 +323,9 @@ mod tests {
             all.find(|e| e.error.to_string() == name).map(|e| e.moved)
         };
         assert!((found.limit - 2.638).abs() < 1e-3, "{}", found.limit);
-        assert_eq!((of("EA0Y"), of("EC0X")), (Some(Moved::Perhaps), Some(Moved::Yes)));
+        assert_eq!(
+            (of("EA0Y"), of("EC0X")),
+            (Some(Significance::Perhaps), Some(Significance::Yes))
+        );
     }
 }

@@ -1,13 +1,15 @@
-//! Certificate of a volumetric compensation: what was wrong, what was done, what is left, and how sure that is.
+//! Certificate of a volumetric compensation: the errors, their compensation, the residual errors and their
+//! uncertainty.
 //!
 //! ```text
-//!     study.toml ──read_certificate──> Study {machine, what is known of it, compensation, readings, rule}
+//!     study.toml ──read_certificate──> Study {machine, uncertainties, compensation, readings, rule}
 //!                ──certify──> Certificate {per pose: before, after, predicted ± U, measured ± U; verdict}
 //! ```
 //!
-//! - [`known`]: the errors and how well they are known, as independent factors;
-//! - [`applied`]: where the compensation sends the axes; [`left`]: what is left there, with its covariance;
-//! - [`spread`]: lengths, which are not normal; `decide`: the rule, and whether the prediction is right;
+//! - [`uncertainties`]: the uncertainties of the errors, as independent factors;
+//! - [`applied`]: the axis positions with the compensation; [`residual`]: the residual error there, with its
+//!   covariance;
+//! - [`spread`]: lengths, which are not normally distributed; `decide`: the rule, and the test of the prediction;
 //! - [`inputs`]: SHA-256 of every file, so that the certificate can be made again.
 //!
 //! It follows the topics of ISO/TR 16907 in their order: kinematic representation, errors, determination,
@@ -19,19 +21,19 @@ mod decide;
 mod file;
 mod identified;
 pub mod inputs;
-pub mod known;
-pub mod left;
 mod loaded;
+pub mod residual;
 pub mod spread;
+pub mod uncertainties;
 mod used;
 mod validation;
 
 pub use decide::{Agreement, Decision, Rule, e_n};
 pub use file::{Application, Circumstances, Study, read_certificate};
-pub use used::Used;
+pub use used::UsedPose;
 pub use validation::{MeasuredValue, Validation};
 
-use left::Left;
+use residual::Residual;
 use spread::{Lengths, lengths};
 use trueaxis_geometry::Vec3;
 use trueaxis_input::Place;
@@ -43,9 +45,9 @@ use trueaxis_part::tolerance::Outcome;
 /// Poses over the zone beside its corners.
 const POSES: u32 = 512;
 
-/// Where the uncertainties of the errors are from.
+/// The source of the uncertainties of the errors.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Determined {
+pub enum UncertaintySource {
     /// The machine file states one for each error, independent of each other.
     Stated,
     /// A campaign was evaluated again: with all that its results have in common.
@@ -58,7 +60,7 @@ pub enum Determined {
         terms: usize,
         /// How many were left out, because the readings do not support them: they count as nothing.
         left_out: usize,
-        /// What the identification says of itself.
+        /// The verdict of the identification.
         verdict: String,
     },
 }
@@ -69,9 +71,9 @@ pub struct PoseResult {
     /// What was measured.
     pub measured: MeasuredValue,
     /// What was predicted.
-    pub predicted: Left,
-    /// The length of what is left is below this in 95 % of the machines that the errors' uncertainties
-    /// allow, mm.
+    pub predicted: Residual,
+    /// The length of the residual error is below this in 95 % of the machines that the uncertainties of the
+    /// errors allow, mm.
     pub within_mm: f64,
     /// Measured against predicted, without and with the compensation.
     pub e_n: [f64; 2],
@@ -80,16 +82,16 @@ pub struct PoseResult {
 }
 
 impl PoseResult {
-    /// How far the tip is off, measured without and with the compensation, mm.
+    /// Length of the measured tip deviation without and with the compensation, mm.
     pub fn lengths_mm(&self) -> [f64; 2] {
         [self.measured.before_mm.norm(), self.measured.after_mm.norm()]
     }
 }
 
-/// What the identified machine predicts over the zone of the certificate.
+/// The prediction of the identified machine for the zone of the certificate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Volume {
-    /// Poses that were looked at; those that cannot be compensated are left out.
+    /// Poses that were evaluated; those that cannot be compensated are left out.
     pub poses: usize,
     /// Root mean square of the tip without and with the compensation, mm.
     pub rms_mm: [f64; 2],
@@ -99,14 +101,14 @@ pub struct Volume {
     pub at: Command,
 }
 
-/// What is certified.
+/// A certificate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Certificate {
     /// Pose after pose.
     pub poses: Vec<PoseResult>,
     /// k·u_m of one coordinate of a reading, mm.
     pub expanded_mm: f64,
-    /// What the lengths of all poses may be.
+    /// The distribution of the lengths of all poses.
     pub lengths: Lengths,
     /// Measured root mean square of the tip without and with the compensation, mm.
     pub rms_mm: [f64; 2],
@@ -134,13 +136,13 @@ pub struct PoseFault {
     pub fault: Fault,
 }
 
-/// Certifies.
+/// Evaluates the readings of a study.
 ///
 /// # Errors
 /// A pose that the compensation cannot reach, or at which the errors are not known.
 pub fn certify(study: &Study) -> Result<Certificate, PoseFault> {
     let left = |command: &Command, approach: &Approach| {
-        Left::at(&study.machine, (&study.known, &study.applied), command, approach)
+        Residual::at(&study.machine, (&study.known, &study.applied), command, approach)
     };
     let zero = match &study.validation.zero {
         None => None,
@@ -155,14 +157,14 @@ pub fn certify(study: &Study) -> Result<Certificate, PoseFault> {
         let here = here.map_err(|fault| PoseFault { place, fault })?;
         Ok(zero.as_ref().map_or_else(|| here.clone(), |zero| here.against(zero)))
     });
-    let predicted = predicted.collect::<Result<Vec<Left>, PoseFault>>()?;
+    let predicted = predicted.collect::<Result<Vec<Residual>, PoseFault>>()?;
     let lengths = lengths(&predicted, study.sampling);
     let volume = over_the_zone(study, zero.as_ref());
     let poses = judged(study, &predicted, &lengths);
     Ok(concluded(study, poses, lengths, volume))
 }
 
-fn judged(study: &Study, predicted: &[Left], lengths: &Lengths) -> Vec<PoseResult> {
+fn judged(study: &Study, predicted: &[Residual], lengths: &Lengths) -> Vec<PoseResult> {
     let (u_mm, decision) = (study.validation.u_mm, study.decision);
     let k = decision.coverage_factor;
     let poses = study.validation.poses.iter().zip(predicted).zip(&lengths.within_mm);
@@ -182,16 +184,16 @@ fn judged(study: &Study, predicted: &[Left], lengths: &Lengths) -> Vec<PoseResul
 }
 
 /// Measured less predicted tip without and with the compensation, mm.
-fn differences(measured: &MeasuredValue, predicted: &Left) -> [Vec3; 2] {
+fn differences(measured: &MeasuredValue, predicted: &Residual) -> [Vec3; 2] {
     let before = measured.before_mm - predicted.before.tip_mm;
     [before, measured.after_mm - predicted.after.tip_mm]
 }
 
-fn over_the_zone(study: &Study, zero: Option<&Left>) -> Volume {
+fn over_the_zone(study: &Study, zero: Option<&Residual>) -> Volume {
     let mut volume = Volume { poses: 0, rms_mm: [0.0; 2], largest_mm: 0.0, at: Command::default() };
     for command in commands(&study.zone, POSES) {
         let applied = (&study.known, &study.applied);
-        let Ok(here) = Left::at(&study.machine, applied, &command, &Approach::default()) else {
+        let Ok(here) = Residual::at(&study.machine, applied, &command, &Approach::default()) else {
             continue;
         };
         let here = zero.map_or_else(|| here.clone(), |zero| here.against(zero));
@@ -217,7 +219,7 @@ fn concluded(
     let expanded_mm = study.decision.coverage_factor * study.validation.u_mm;
     let count = |outcome| poses.iter().filter(|p| p.outcome == outcome).count();
     let counts = [Outcome::Pass, Outcome::Fail, Outcome::Undecided].map(count);
-    let lists: Vec<&Left> = poses.iter().map(|p| &p.predicted).collect();
+    let lists: Vec<&Residual> = poses.iter().map(|p| &p.predicted).collect();
     let agreement = [0, 1].map(|state| {
         let r: Vec<Vec3> =
             poses.iter().map(|p| differences(&p.measured, &p.predicted)[state]).collect();
@@ -244,7 +246,7 @@ fn concluded(
     }
 }
 
-/// The poses decide; but where readings and prediction disagree, nothing is known of all other poses.
+/// The poses decide; where readings and prediction disagree, nothing is known about other poses.
 fn verdict(
     study: &Study,
     volume: &Volume,
@@ -260,7 +262,7 @@ fn verdict(
     }
     if decision.is_blind(expanded_mm) {
         let why = format!(
-            "U = {expanded} is no smaller than the limit of {limit}: these readings can prove nothing"
+            "U = {expanded} is not smaller than the limit of {limit}: these readings cannot prove conformity"
         );
         return (Outcome::Undecided, why);
     }
@@ -270,8 +272,8 @@ fn verdict(
     }
     if !agreement.is_some_and(|a| a.holds()) {
         let why = format!(
-            "all {all} poses are within {limit}, but not as predicted: the machine is not what was identified, \
-             and of other poses nothing is known"
+            "all {all} poses are within {limit}, but not as predicted: the machine is not the identified one, \
+             and nothing is known about other poses"
         );
         return (Outcome::Undecided, why);
     }

@@ -1,4 +1,4 @@
-//! Is the prediction true? Measured readings against a machine file, or against other readings.
+//! Comparison of readings with a machine file, or with other readings.
 //!
 //! ```text
 //!     verify.toml ──read_comparison──> Comparison {campaign, measured, against, decision}
@@ -10,8 +10,8 @@
 //!     u² = u_noise² − j C jᵀ + Σ_e (s_e − j C JᵀW S_e)²         E_n = |r|/(k u)
 //! ```
 //!
-//! Nobody knows to a micrometre where an instrument stands, so its set-up is fitted on both sides;
-//! what that takes away is taken from u too.
+//! The set-up of an instrument is not known to a micrometre, so it is fitted on both sides; the uncertainty
+//! of the residuals is reduced accordingly.
 
 mod file;
 mod pairs;
@@ -36,32 +36,32 @@ use trueaxis_part::tolerance::Outcome;
 /// Quantile of the normal distribution for 95 %, two-sided.
 const NORMAL_95: f64 = 1.959_963_985;
 
-/// What shall be compared.
+/// A comparison to be made.
 #[derive(Debug, Clone)]
 pub struct Comparison {
     /// Its name.
     pub name: String,
-    /// The instruments, and the machine as its file states it.
+    /// The instruments, and the machine of the machine file.
     pub campaign: Campaign,
     /// What was measured.
     pub measured: Readings,
-    /// What it is compared with.
-    pub against: Against,
-    /// How it is decided.
+    /// The reference.
+    pub against: ComparisonBasis,
+    /// The decision rule with its figures.
     pub decision: Decision,
 }
 
-/// What readings are compared with.
+/// The reference that readings are compared with.
 #[derive(Debug, Clone)]
-pub enum Against {
-    /// What this machine would read.
+pub enum ComparisonBasis {
+    /// The readings that this machine predicts.
     Prediction(Box<Machine>),
     /// Other readings of the same places, as differences: the places of the second set, less the
     /// first.
     Readings(Pairs),
 }
 
-/// How it is decided.
+/// The decision rule with its figures.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Decision {
     /// The rule.
@@ -83,7 +83,7 @@ pub enum Rule {
     Coverage,
 }
 
-/// One number of one reading against what was expected.
+/// One number of one reading against the expected one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deviation {
     /// The row of the readings.
@@ -114,9 +114,9 @@ pub struct Coverage {
     pub count: usize,
     /// How many of them lie within U.
     pub inside: usize,
-    /// As many independent numbers say as much: errors of the machine move many readings at once.
+    /// The equivalent number of independent ones: errors of the machine change many readings at once.
     pub independent: f64,
-    /// The share that should.
+    /// The expected share.
     pub expected: f64,
     /// Where the true share lies, by Wilson's interval for the independent numbers.
     pub interval: [f64; 2],
@@ -136,7 +136,7 @@ impl Coverage {
 
 /// The deviations of one instrument or one place.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Part {
+pub struct Summary {
     /// Which instrument or group.
     pub index: u32,
     /// How many numbers.
@@ -153,18 +153,18 @@ pub struct Part {
 
 /// A place with its instrument.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PlaceOf {
+pub struct PlaceSummary {
     /// The instrument.
     pub instrument: u32,
     /// A row of that place.
     pub row: usize,
     /// Its figures; `index` is the group.
-    pub part: Part,
+    pub part: Summary,
 }
 
-/// What the comparison says.
+/// The result of a comparison.
 #[derive(Debug, Clone)]
-pub struct Verified {
+pub struct ComparisonResult {
     /// The rows that were compared.
     pub readings: Readings,
     /// Row after row, channel after channel.
@@ -172,30 +172,30 @@ pub struct Verified {
     /// All of them.
     pub coverage: Coverage,
     /// By instrument.
-    pub instruments: Vec<Part>,
+    pub instruments: Vec<Summary>,
     /// By place, the worst first.
-    pub places: Vec<PlaceOf>,
-    /// How many numbers pass, fail, or can neither be said to.
+    pub places: Vec<PlaceSummary>,
+    /// How many numbers pass, fail, or are undecided.
     pub counts: [usize; 3],
     /// The verdict.
     pub outcome: Outcome,
 }
 
-/// Holds the readings against what was expected.
+/// Compares the readings with their reference.
 ///
 /// # Errors
 /// No readings, readings outside the tables of the machine, readings of another set-up.
-pub fn compare(task: &Comparison) -> Result<Verified, FitError> {
+pub fn compare(task: &Comparison) -> Result<ComparisonResult, FitError> {
     let k = task.decision.coverage_factor;
     let (readings, after, before, spread) = match &task.against {
-        Against::Prediction(machine) => {
+        ComparisonBasis::Prediction(machine) => {
             let instruments = &task.campaign.instruments;
             let after = Fitted::new(machine, instruments, &task.measured)?;
             let before = Fitted::new(&nominal(machine), instruments, &task.measured)?;
             let spread = after.spread(machine, &task.measured);
             (&task.measured, after, Some(before), spread)
         }
-        Against::Readings(pairs) => {
+        ComparisonBasis::Readings(pairs) => {
             let machine = nominal(&task.campaign.machine);
             // Both sets have noise, and each its own set-up.
             let doubled: Vec<Instrument> = task.campaign.instruments.iter().map(twice).collect();
@@ -214,19 +214,19 @@ pub fn compare(task: &Comparison) -> Result<Verified, FitError> {
     }
     let before = before.map(|b| b.residuals);
     let judged = Judged { k, independent: spread.independent, before: before.as_deref() };
-    Ok(Verified::new(task, readings.clone(), deviations, &judged))
+    Ok(ComparisonResult::new(task, readings.clone(), deviations, &judged))
 }
 
-/// What all parts are judged by.
+/// The basis on which all summaries are evaluated.
 struct Judged<'a> {
     k: f64,
-    /// The share of the numbers that says as much as all of them.
+    /// The equivalent share of independent numbers.
     independent: f64,
     /// Residuals with the nominal machine.
     before: Option<&'a [[f64; 3]]>,
 }
 
-impl Verified {
+impl ComparisonResult {
     fn new(
         task: &Comparison,
         readings: Readings,
@@ -240,13 +240,13 @@ impl Verified {
             by_instrument.entry(of).or_default().push(*deviation);
             by_place.entry((of, readings.groups[deviation.row])).or_default().push(*deviation);
         }
-        let instruments: Vec<Part> =
+        let instruments: Vec<Summary> =
             by_instrument.iter().map(|(of, some)| part(*of, some, judged)).collect();
-        let mut places: Vec<PlaceOf> = by_place
+        let mut places: Vec<PlaceSummary> = by_place
             .iter()
             .filter_map(|((of, group), some)| {
                 let part = part(*group, some, judged);
-                Some(PlaceOf { instrument: *of, row: some.first()?.row, part })
+                Some(PlaceSummary { instrument: *of, row: some.first()?.row, part })
             })
             .collect();
         places.sort_by(|a, b| b.part.worst.total_cmp(&a.part.worst));
@@ -286,11 +286,11 @@ fn judge(decision: &Decision, of: usize, deviation: &Deviation) -> Outcome {
     }
 }
 
-fn part(index: u32, some: &[Deviation], judged: &Judged<'_>) -> Part {
+fn part(index: u32, some: &[Deviation], judged: &Judged<'_>) -> Summary {
     let mean = |square: &dyn Fn(&Deviation) -> f64| {
         (some.iter().map(square).sum::<f64>() / some.len().max(1) as f64).sqrt()
     };
-    Part {
+    Summary {
         index,
         count: some.len(),
         rms_before: judged.before.map(|b| mean(&|d| b[d.row][d.channel].powi(2))),
@@ -330,7 +330,7 @@ fn normal_share(k: f64) -> f64 {
     sum * (2.0 / std::f64::consts::PI).sqrt() * (-0.5 * k * k).exp()
 }
 
-/// The machine as it would be without errors.
+/// The machine without errors.
 fn nominal(machine: &Machine) -> Machine {
     let bare = machine.without_heat();
     let stated = bare.stated_errors();
@@ -348,7 +348,7 @@ fn twice(instrument: &Instrument) -> Instrument {
     twice
 }
 
-/// Readings less what a machine reads with the set-up that fits best.
+/// Readings minus the prediction of a machine with the best-fitting set-up.
 struct Fitted {
     residuals: Vec<[f64; 3]>,
     /// Of the set-up.
@@ -383,7 +383,7 @@ impl Fitted {
     }
 
     /// The standard uncertainty of every residual: noise, and the stated errors of the machine,
-    /// each less what the fitted set-up takes of it.
+    /// each reduced by the part that the fitted set-up absorbs.
     fn spread(&self, machine: &Machine, readings: &Readings) -> Spread {
         let terms = uncertain(machine, readings);
         let errors: Vec<ErrorIndex> = terms.iter().map(|t| t.index).collect();
@@ -402,7 +402,7 @@ impl Fitted {
             }
             (channels, self.instruments[readings.instruments[row] as usize].noise)
         };
-        // JᵀW S: how each error pulls at the set-up.
+        // JᵀW S: the effect of each error on the fitted set-up.
         let mut pull = DMatrix::zeros(n, e);
         for row in 0..readings.len() {
             let (channels, noise) = slopes(row, &mut rows);
@@ -439,11 +439,11 @@ impl Fitted {
     }
 }
 
-/// How uncertain residuals are.
+/// The uncertainty of residuals.
 struct Spread {
     /// Of each, mm or rad.
     u: Vec<[f64; 3]>,
-    /// The share of them that says as much as all.
+    /// The equivalent share of independent ones.
     independent: f64,
 }
 

@@ -1,4 +1,4 @@
-//! What a change of errors does to the tool over the travel of all axes.
+//! The effect of a change of errors on the tool over the travel of all axes.
 
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
@@ -9,7 +9,7 @@ use trueaxis_machine::volume::commands;
 /// Poses over the travel of all axes.
 const POSES: u32 = 4096;
 
-/// What one error adds to the change.
+/// The contribution of one error to the change.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Share {
     /// Which.
@@ -18,10 +18,10 @@ pub struct Share {
     pub largest_mm: f64,
 }
 
-/// How the actual tool of the new calibration lies off that of the old.
+/// The change of the actual tool from the old calibration to the new one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TipChange {
-    /// Poses that were looked at; those that a table does not cover are left out.
+    /// Poses that were evaluated; those that a table does not cover are left out.
     pub poses: usize,
     /// The largest distance of the two tips, mm.
     pub largest_mm: f64,
@@ -35,7 +35,7 @@ pub struct TipChange {
     pub axis_rad: f64,
     /// How far the nominal tips of the two files lie apart at most: other placements, another tool, mm.
     pub nominal_mm: f64,
-    /// The errors by what their change alone does, the largest first; those without a change left out.
+    /// The errors by the effect of their change alone, the largest first; those without a change left out.
     pub shares: Vec<Share>,
 }
 

@@ -1,4 +1,4 @@
-//! What is done against the errors, pose by pose.
+//! The compensation of the errors, pose by pose.
 
 use trueaxis_correct::compensate::tables::Compiled;
 use trueaxis_correct::compensate::tables::content::Content;
@@ -10,12 +10,12 @@ use trueaxis_machine::compensate::{Compensator, Fault};
 use trueaxis_machine::errors::ErrorValues;
 
 /// A compensation as the machine executes it.
-pub enum Applied {
+pub enum AppliedCompensation {
     /// A program whose every pose was solved with the identified errors.
     Program(Box<Compensator>),
     /// Tables in the control.
     Tables {
-        /// What was compiled, with its files.
+        /// The compiled tables with their files.
         compiled: Box<Compiled>,
         /// How the control interpolates.
         control: Box<dyn Control + Sync>,
@@ -24,14 +24,14 @@ pub enum Applied {
     },
 }
 
-impl Applied {
+impl AppliedCompensation {
     /// Tables that were compiled.
     pub fn tables(compiled: Compiled) -> Self {
         let (content, control) = (Box::new(compiled.content()), compiled.order.target.control());
         Self::Tables { compiled: Box::new(compiled), control, content }
     }
 
-    /// Where the axes go when this command is programmed, and the identified errors there.
+    /// The axis positions when this command is programmed, and the identified errors there.
     ///
     /// # Errors
     /// A pose that cannot be compensated, or at which the errors are not known.

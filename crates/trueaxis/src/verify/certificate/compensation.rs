@@ -1,6 +1,6 @@
-//! `[compensation]`: what is done against the errors, and the files of it.
+//! `[compensation]`: the compensation of the errors, and its files.
 
-use super::applied::Applied;
+use super::applied::AppliedCompensation;
 use super::file::{Application, above_zero};
 use super::inputs::{Input, Inputs};
 use super::loaded::check_loaded;
@@ -10,12 +10,12 @@ use trueaxis_input::{Diagnostics, Dimension, Section};
 use trueaxis_machine::Machine;
 use trueaxis_machine::compensate::{Compensator, Fault, Scope};
 
-/// Reads `[compensation]`; tables are compiled anew and compared with what is loaded.
+/// Reads `[compensation]`; tables are compiled again and compared with the loaded ones.
 pub fn read_compensation(
     section: &Section<'_>,
     machine: &Machine,
     inputs: &mut Inputs,
-) -> Option<(Applied, Application)> {
+) -> Option<(AppliedCompensation, Application)> {
     let text = |key| section.text(key).map(str::to_owned);
     let (method, by) = (text("method"), text("by"));
     let date = section.get("date").and_then(|i| i.date_or_text());
@@ -32,7 +32,7 @@ pub fn read_compensation(
             (applied, files, loaded)
         }
         other => {
-            let message = format!("no compensation is called `{other}`");
+            let message = format!("unknown compensation `{other}`");
             kind.error("unknown-kind", message, "\"program\" or \"tables\"");
             return None;
         }
@@ -40,14 +40,14 @@ pub fn read_compensation(
     Some((applied, Application { method, date, by, files, loaded }))
 }
 
-fn read_program_scope(section: &Section<'_>, machine: &Machine) -> Option<Applied> {
+fn read_program_scope(section: &Section<'_>, machine: &Machine) -> Option<AppliedCompensation> {
     let scope = match section.get("scope") {
         None => Scope::Pose,
         Some(item) => match item.text()? {
             "pose" => Scope::Pose,
             "position" => Scope::Position,
             other => {
-                let message = format!("no scope is called `{other}`");
+                let message = format!("unknown scope `{other}`");
                 item.error("unknown-scope", message, "\"pose\" (usual) or \"position\"");
                 return None;
             }
@@ -57,7 +57,7 @@ fn read_program_scope(section: &Section<'_>, machine: &Machine) -> Option<Applie
         section.error("cannot-compensate", e.to_string(), "is it the right machine?");
     };
     let compensator = Compensator::of(machine, scope).map_err(refuse).ok()?;
-    Some(Applied::Program(Box::new(compensator)))
+    Some(AppliedCompensation::Program(Box::new(compensator)))
 }
 
 /// `programs`: the compensated programs that the certificate goes with, by their SHA-256.
@@ -73,7 +73,7 @@ fn read_programs(section: &Section<'_>, inputs: &mut Inputs) -> Option<Vec<Input
     Some(found)
 }
 
-fn read_tables(section: &Section<'_>, machine: &Machine) -> Option<Applied> {
+fn read_tables(section: &Section<'_>, machine: &Machine) -> Option<AppliedCompensation> {
     let target = section.require("target", "target = \"sinumerik\", or another control")?;
     let target = match target.text()? {
         "sinumerik" => Target::Sinumerik,
@@ -84,7 +84,7 @@ fn read_tables(section: &Section<'_>, machine: &Machine) -> Option<Applied> {
         "heidenhain" => Target::Heidenhain,
         "isg" => Target::Isg,
         other => {
-            let message = format!("no control is called `{other}`");
+            let message = format!("unknown control `{other}`");
             let hint = "\"sinumerik\", \"fanuc\", \"heidenhain\", \"isg\", \"linuxcnc\", \"linuxcnc-trims\" or \"csv\"";
             target.error("unknown-target", message, hint);
             return None;
@@ -112,9 +112,9 @@ fn read_tables(section: &Section<'_>, machine: &Machine) -> Option<Applied> {
         ..usual
     };
     match compile(machine, &order) {
-        Ok(compiled) => Some(Applied::tables(compiled)),
+        Ok(compiled) => Some(AppliedCompensation::tables(compiled)),
         Err(error) => {
-            let hint = "trueaxis compensate tables MACHINE.toml --target … says more";
+            let hint = "trueaxis compensate tables MACHINE.toml --target … shows details";
             section.error("no-tables", error.to_string(), hint);
             None
         }

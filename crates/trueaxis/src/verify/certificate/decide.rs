@@ -1,4 +1,4 @@
-//! What is concluded from the readings: every pose against the limit, and all of them against the prediction.
+//! The conclusions from the readings: every pose against the limit, and all of them against the prediction.
 //!
 //! ```text
 //!     d = |m|,  U = k u_m                d + U ≤ limit: inside;  d − U > limit: outside       docs/model.md eq. 176
@@ -6,13 +6,13 @@
 //!     χ² = rᵀ (u_m² I + S Sᵀ)⁻¹ r,   r = m − l̂ of all poses                                  docs/model.md eq. 177
 //! ```
 
-use super::left::Left;
+use super::residual::Residual;
 use nalgebra::{DMatrix, DVector};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::statistics::chi_square_above;
 use trueaxis_part::tolerance::Outcome;
 
-/// A prediction that is right is called wrong once in a hundred certificates.
+/// A correct prediction is rejected once in a hundred certificates.
 const FALSE_ALARM: f64 = 0.01;
 
 /// The decision rule.
@@ -20,24 +20,24 @@ const FALSE_ALARM: f64 = 0.01;
 pub enum Rule {
     /// d ≤ limit.
     Simple,
-    /// ISO 14253-1: U is taken off the limit to prove that it is kept, and added to prove that it is not.
+    /// ISO 14253-1: conformity is proved below limit − U, non-conformity above limit + U.
     GuardBand,
 }
 
-/// How it is decided.
+/// The decision rule with its figures.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Decision {
     /// The rule.
     pub rule: Rule,
-    /// How far the tip may be off at any pose of the validation, mm.
+    /// Largest permissible tip deviation at any pose of the validation, mm.
     pub limit_mm: f64,
     /// k of U = k·u.
     pub coverage_factor: f64,
 }
 
 impl Decision {
-    /// Whether a length that was measured with this U is within the limit. A U of the size of the limit can
-    /// prove nothing, by any rule.
+    /// Whether a length that was measured with this U is within the limit. With a U of the size of the limit
+    /// nothing can be proved by any rule.
     ///
     /// ```
     /// use trueaxis::part::tolerance::Outcome;
@@ -67,12 +67,12 @@ impl Decision {
 /// How a reading and its prediction agree: |difference| over its expanded uncertainty, the worst coordinate.
 ///
 /// *Source:* E_n of ISO/IEC 17043:2010, B.3.1.3.
-pub fn e_n(difference_mm: &Vec3, predicted: &Left, u_measured_mm: f64, k: f64) -> f64 {
+pub fn e_n(difference_mm: &Vec3, predicted: &Residual, u_measured_mm: f64, k: f64) -> f64 {
     let u = predicted.u_mm().map(|u| u.hypot(u_measured_mm));
     difference_mm.abs().component_div(&u).max() / k
 }
 
-/// All readings against all predictions, with what the predictions have in common.
+/// All readings against all predictions, with the correlations of the predictions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Agreement {
     /// χ².
@@ -85,7 +85,11 @@ pub struct Agreement {
 
 impl Agreement {
     /// Of the differences of all poses, mm; none if their covariance cannot be inverted (u_m = 0).
-    pub fn of(differences_mm: &[Vec3], predicted: &[&Left], u_measured_mm: f64) -> Option<Self> {
+    pub fn of(
+        differences_mm: &[Vec3],
+        predicted: &[&Residual],
+        u_measured_mm: f64,
+    ) -> Option<Self> {
         let numbers = 3 * differences_mm.len();
         let factors = predicted.first()?.slopes.len();
         let slopes = DMatrix::from_fn(numbers, factors, |row, factor| {
@@ -99,7 +103,7 @@ impl Agreement {
         Some(Self { chi_square: r.dot(&solved), numbers, limit })
     }
 
-    /// Whether the machine is what the certificate takes it for.
+    /// Whether the machine agrees with its identified errors.
     pub fn holds(&self) -> bool {
         self.chi_square <= self.limit
     }

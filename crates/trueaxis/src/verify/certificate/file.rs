@@ -1,13 +1,13 @@
 //! The study file of a certificate.
 
-use super::applied::Applied;
+use super::applied::AppliedCompensation;
 use super::compensation::read_compensation;
 use super::decide::{Decision, Rule};
 use super::inputs::{Input, Inputs};
-use super::known::Known;
-use super::used::{Used, read_used};
-use super::validation::{Allowed, Validation, read_validation};
-use super::{Determined, identified};
+use super::uncertainties::UncertaintyFactors;
+use super::used::{UsedPose, read_used};
+use super::validation::{AllowedPoses, Validation, read_validation};
+use super::{UncertaintySource, identified};
 use std::path::Path;
 use trueaxis_correct::compensate::not_twice;
 use trueaxis_correct::predict::Sampling;
@@ -17,29 +17,29 @@ use trueaxis_machine::axis::{Axis, AxisKind, Travel};
 use trueaxis_machine::describe::axis_index;
 use trueaxis_standards::conditions::SOUND_TEMPERATURES_C;
 
-/// What a certificate is made from.
+/// The study of a certificate.
 pub struct Study {
     /// Its name.
     pub name: String,
-    /// The identified machine; what the control compensates already is taken out.
+    /// The identified machine without the errors that the control compensates already.
     pub machine: Machine,
     /// How its errors were found.
     pub determination: Circumstances,
-    /// How well they are known.
-    pub known: Known,
-    /// Where that is from.
-    pub determined: Determined,
+    /// Their uncertainties.
+    pub known: UncertaintyFactors,
+    /// The source of the uncertainties.
+    pub determined: UncertaintySource,
     /// Poses that were used for it.
-    pub used: Vec<Used>,
-    /// What is done against the errors.
-    pub applied: Applied,
+    pub used: Vec<UsedPose>,
+    /// The compensation.
+    pub applied: AppliedCompensation,
     /// When, by whom and how it was put into the control.
     pub application: Application,
     /// The axes with the ends between which the certificate holds: those of the travels, or `[zone]`.
     pub zone: Vec<Axis>,
     /// The readings.
     pub validation: Validation,
-    /// How it is decided.
+    /// The decision rule with its figures.
     pub decision: Decision,
     /// The draws of the lengths.
     pub sampling: Sampling,
@@ -120,7 +120,7 @@ fn read(root: &Section<'_>, folder: &Path, mut inputs: Inputs) -> Option<Study> 
         [Some(determination), Some(compensation), Some(validation), Some(decision)],
     ) = (machine, sections)
     else {
-        // The rest needs all of them; do not call it unknown.
+        // The rest needs all of them; it must not be reported as unknown.
         root.entries();
         return None;
     };
@@ -138,7 +138,7 @@ fn read(root: &Section<'_>, folder: &Path, mut inputs: Inputs) -> Option<Study> 
     let compensation =
         compensation.section("compensation", |s| read_compensation(s, &machine, &mut inputs));
     let used = determined.as_ref().and_then(|d| Some(d.as_ref()?.used.as_slice()));
-    let allowed = Allowed { used: used.unwrap_or(&[]), zone: zone.as_deref().unwrap_or(&[]) };
+    let allowed = AllowedPoses { used: used.unwrap_or(&[]), zone: zone.as_deref().unwrap_or(&[]) };
     let validation =
         validation.section("validation", |s| read_validation(s, &machine, &allowed, &mut inputs));
     let found = determined.flatten()?;
@@ -183,7 +183,7 @@ fn read_zone(section: &Section<'_>, machine: &Machine) -> Option<Vec<Axis>> {
                 zone[index].travel = Travel::Between(*from, *to);
             }
             Some(_) => {
-                let message = "two rising ends within the travel are due".to_owned();
+                let message = "expected two increasing ends within the travel here".to_owned();
                 item.error("bad-range", message, "A = [\"-30 deg\", \"30 deg\"]");
                 sound = false;
             }
@@ -197,12 +197,12 @@ fn is_in(axis: &Axis, from: &f64, to: &f64) -> bool {
     axis.travel.contains(*from) && axis.travel.contains(*to)
 }
 
-/// What `[determination]` says.
+/// The content of `[determination]`.
 struct Determination {
     circumstances: Circumstances,
-    known: Known,
-    determined: Determined,
-    used: Vec<Used>,
+    known: UncertaintyFactors,
+    determined: UncertaintySource,
+    used: Vec<UsedPose>,
 }
 
 fn read_determination(
@@ -215,7 +215,7 @@ fn read_determination(
     let mut used = read_used(section, machine, inputs);
     let campaign = section.get("campaign");
     let (known, determined) = match &campaign {
-        None => (Some(Known::stated(machine)), Determined::Stated),
+        None => (Some(UncertaintyFactors::stated(machine)), UncertaintySource::Stated),
         Some(item) => {
             let found = identified::read(section, item, machine, (folder, inputs));
             match found {
@@ -225,7 +225,7 @@ fn read_determination(
                     }
                     (Some(found.known), found.determined)
                 }
-                None => (None, Determined::Stated),
+                None => (None, UncertaintySource::Stated),
             }
         }
     };
@@ -233,15 +233,15 @@ fn read_determination(
         check_known(section, machine, known);
     }
     if used.as_ref().is_some_and(Vec::is_empty) && campaign.is_none() {
-        let message = "nobody says which poses the identification has used".to_owned();
-        let hint = "used = [\"poses.csv\"], or campaign = \"campaign.toml\": the validation must stand on others";
+        let message = "the poses that the identification has used are not stated".to_owned();
+        let hint = "used = [\"poses.csv\"], or campaign = \"campaign.toml\": the validation needs other poses";
         section.error("no-used-poses", message, hint);
     }
     Some(Determination { circumstances: circumstances?, known: known?, determined, used: used? })
 }
 
 /// Errors without uncertainty would be certified as exact.
-fn check_known(section: &Section<'_>, machine: &Machine, known: &Known) {
+fn check_known(section: &Section<'_>, machine: &Machine, known: &UncertaintyFactors) {
     let names = known.unknown(machine);
     if !names.is_empty() {
         let message = format!("a certificate needs u of every error; none for {}", names.join(" "));
@@ -250,7 +250,7 @@ fn check_known(section: &Section<'_>, machine: &Machine, known: &Known) {
     }
 }
 
-/// Reads who measured when with what; all of it is due.
+/// Reads who measured when with what; all entries are required.
 pub(super) fn read_circumstances(section: &Section<'_>) -> Option<Circumstances> {
     let text = |key, hint: &str| Some(section.require(key, hint)?.text()?.to_owned());
     let method = text("method", "method = \"laser interferometer along X, Y, Z; …\"");
@@ -263,7 +263,7 @@ pub(super) fn read_circumstances(section: &Section<'_>) -> Option<Circumstances>
         let found = item.measured(Dimension::Temperature)?;
         let sound = SOUND_TEMPERATURES_C.contains(&found.value);
         if !sound {
-            let message = format!("{} °C is no temperature of a machine", found.value);
+            let message = format!("{} °C is not a temperature of a machine", found.value);
             item.error("temperature-range", message, "is the unit right? -10 to 60 degC");
         }
         sound.then_some(found)
@@ -299,7 +299,7 @@ fn read_decision(section: &Section<'_>) -> Option<Decision> {
             Some("simple") => Some(Rule::Simple),
             Some("ISO 14253-1") => Some(Rule::GuardBand),
             Some(other) => {
-                let message = format!("no decision rule is called `{other}`");
+                let message = format!("unknown decision rule `{other}`");
                 item.error("unknown-rule", message, "\"ISO 14253-1\" (usual) or \"simple\"");
                 None
             }

@@ -1,10 +1,10 @@
-//! What the identification knows: the campaign is evaluated again, so that the covariance of all that was
-//! found is at hand, and not only one uncertainty for each error.
+//! Uncertainties from an identification: the campaign is evaluated again, which gives the covariance of all
+//! results and not only one uncertainty for each error.
 
-use super::Determined;
+use super::UncertaintySource;
 use super::inputs::Inputs;
-use super::known::Known;
-use super::used::Used;
+use super::uncertainties::UncertaintyFactors;
+use super::used::UsedPose;
 use std::path::Path;
 use trueaxis_calibrate::identify::errors::{Identification, identify};
 use trueaxis_calibrate::identify::records::{read_options, read_records};
@@ -14,26 +14,26 @@ use trueaxis_input::{Diagnostics, Item, Section};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Approach;
 
-/// The machine file may be rounded: so much of an uncertainty is no difference.
+/// The machine file may be rounded: a difference below this part of an uncertainty is allowed.
 const ROUNDING: f64 = 0.02;
 
-/// What a campaign knows.
-pub struct Found {
+/// The result of a campaign.
+pub struct CampaignResult {
     /// The factors.
-    pub known: Known,
-    /// What is told of it.
-    pub determined: Determined,
+    pub known: UncertaintyFactors,
+    /// Its description.
+    pub determined: UncertaintySource,
     /// Its poses.
-    pub used: Vec<Used>,
+    pub used: Vec<UsedPose>,
 }
 
-/// Evaluates `campaign = "campaign.toml"` and holds it against the machine file.
+/// Evaluates `campaign = "campaign.toml"` and compares it with the machine file.
 pub fn read(
     section: &Section<'_>,
     item: &Item<'_>,
     machine: &Machine,
     (folder, inputs): (&Path, &mut Inputs),
-) -> Option<Found> {
+) -> Option<CampaignResult> {
     let name = item.text()?;
     let path = folder.join(name);
     let mut problems = Diagnostics::new();
@@ -48,7 +48,7 @@ pub fn read(
             Path::new(name).with_file_name(file).display().to_string()
         };
         let machine = here(&campaign.machine_path);
-        // What is wrong with it was told when the campaign was read.
+        // Its problems were reported when the campaign was read.
         inputs.machine("machine file of the campaign", &machine, &mut Diagnostics::new());
         for table in campaign.tables.iter().flatten() {
             inputs.bytes("readings of the identification", &here(table), &mut problems);
@@ -56,12 +56,13 @@ pub fn read(
         let records = read_records(&campaign, &mut problems)?;
         let found = identify(&campaign, &options, &records, &mut problems)?;
         let commands = records.readings.commands.iter().enumerate();
-        let used = commands.map(|(i, c)| Used { command: *c, place: records.place(i) }).collect();
+        let used =
+            commands.map(|(i, c)| UsedPose { command: *c, place: records.place(i) }).collect();
         Some((campaign, found, used))
     });
     let failed = problems.has_errors();
     section.take_over(problems);
-    let (campaign, found, used): (_, Identification, Vec<Used>) = found.filter(|_| !failed)?;
+    let (campaign, found, used): (_, Identification, Vec<UsedPose>) = found.filter(|_| !failed)?;
     if campaign.machine.chain_text() != machine.chain_text() {
         let message = "the campaign is of a machine with another chain".to_owned();
         item.error("other-machine", message, "name the campaign that this machine file came from");
@@ -69,34 +70,40 @@ pub fn read(
     }
     if let Some(first) = found.unobservable.first() {
         let all: Vec<&str> = found.unobservable.iter().map(|u| u.combination.as_str()).collect();
-        let message =
-            format!("the campaign cannot tell {}: nobody knows what that leaves", all.join("; "));
+        let message = format!(
+            "not observable in the campaign, so that its uncertainty is unknown: {}",
+            all.join("; ")
+        );
         let hint = first.resolve_with.as_ref().map_or_else(
-            || "measure what tells them apart; trueaxis plan shows it".to_owned(),
+            || "add a measurement that separates them; trueaxis plan shows it".to_owned(),
             |remedy| format!("resolved by: {remedy}"),
         );
         item.error("not-identified", message, &hint);
         return None;
     }
     if let Some(differs) = difference(machine, &found) {
-        let hint = "write the machine file anew: trueaxis identify CAMPAIGN.toml -o MACHINE.toml";
+        let hint = "write the machine file again: trueaxis identify CAMPAIGN.toml -o MACHINE.toml";
         item.error("other-identification", differs, hint);
         return None;
     }
-    let determined = Determined::Campaign {
+    let determined = UncertaintySource::Campaign {
         name: campaign.name.clone(),
         readings: used.len(),
         terms: found.design.terms.len(),
         left_out: found.left_out.len(),
         verdict: found.verdict.words(),
     };
-    Some(Found { known: Known::identified(machine, &found), determined, used })
+    Some(CampaignResult {
+        known: UncertaintyFactors::identified(machine, &found),
+        determined,
+        used,
+    })
 }
 
-/// The error of the machine file that is not what the campaign finds, in words.
+/// The error of the machine file that differs from the campaign, in words.
 fn difference(machine: &Machine, found: &Identification) -> Option<String> {
     let terms = &found.design.terms;
-    let known = Known::identified(machine, found);
+    let known = UncertaintyFactors::identified(machine, found);
     for (k, term) in terms.iter().enumerate() {
         if k > 0 && terms[k - 1].index == term.index {
             continue;

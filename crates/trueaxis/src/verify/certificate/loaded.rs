@@ -1,6 +1,6 @@
 //! Are the tables in the control those of this machine? By SHA-256, file by file.
 
-use super::applied::Applied;
+use super::applied::AppliedCompensation;
 use super::inputs::{Input, Inputs, sha256};
 use trueaxis_input::{Diagnostics, Section};
 
@@ -8,10 +8,12 @@ use trueaxis_input::{Diagnostics, Section};
 /// what the control has loaded. A file that is missing or has another content is an error.
 pub fn check_loaded(
     section: &Section<'_>,
-    applied: &Applied,
+    applied: &AppliedCompensation,
     inputs: &mut Inputs,
 ) -> Option<(Vec<Input>, Option<String>)> {
-    let Applied::Tables { compiled, .. } = applied else { return Some((Vec::new(), None)) };
+    let AppliedCompensation::Tables { compiled, .. } = applied else {
+        return Some((Vec::new(), None));
+    };
     let made: Vec<Input> = compiled
         .files
         .iter()
@@ -35,7 +37,7 @@ pub fn check_loaded(
         };
         if read.sha256 != file.sha256 {
             let message = format!(
-                "{name} is not what this machine file compiles to: SHA-256 {}, and {} is due",
+                "{name} is not what this machine file compiles to: SHA-256 {}, expected {}",
                 read.sha256, file.sha256
             );
             let hint =

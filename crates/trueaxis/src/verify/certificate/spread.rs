@@ -1,4 +1,4 @@
-//! How long the left-over may be: lengths of vectors are not normal, so they are drawn.
+//! The distribution of the length of the residual error: not normal, so it is sampled.
 //!
 //! ```text
 //!     d = |l̂ + Σ z_j s_j|,  z drawn;  its 95 % quantile; the largest d of all poses of one draw     docs/model.md eq. 174
@@ -6,7 +6,7 @@
 //!
 //! One draw moves all poses together: errors of the machine do.
 
-use super::left::Left;
+use super::residual::Residual;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
@@ -14,10 +14,10 @@ use rayon::prelude::*;
 use trueaxis_correct::predict::Sampling;
 use trueaxis_geometry::Vec3;
 
-/// What is within this share of all draws is told.
+/// The bound that is reported is that of this share of all draws.
 pub const SHARE: f64 = 0.95;
 
-/// How long the left-over is over the draws.
+/// The length of the residual error over the draws.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lengths {
     /// Below it lies the length at each pose in 95 % of the draws, mm.
@@ -28,11 +28,11 @@ pub struct Lengths {
     pub rms_mm: f64,
 }
 
-/// Draws the factors and measures the left-over of every pose.
+/// Draws the factors and evaluates the residual error of every pose.
 ///
 /// # Source
 /// JCGM 101:2008, clause 7; ChaCha8 with one stream per draw, as [`trueaxis_correct::predict::monte_carlo`].
-pub fn lengths(poses: &[Left], sampling: Sampling) -> Lengths {
+pub fn lengths(poses: &[Residual], sampling: Sampling) -> Lengths {
     let factors = poses.first().map_or(0, |p| p.slopes.len());
     let draws: Vec<Vec<f64>> = (0..sampling.samples)
         .into_par_iter()
@@ -54,7 +54,7 @@ pub fn lengths(poses: &[Left], sampling: Sampling) -> Lengths {
     }
 }
 
-fn length_mm(pose: &Left, z: &[f64]) -> f64 {
+fn length_mm(pose: &Residual, z: &[f64]) -> f64 {
     let moved: Vec3 = pose.slopes.iter().zip(z).map(|(s, z)| s.tip_mm * *z).sum();
     (pose.after.tip_mm + moved).norm()
 }
@@ -67,16 +67,16 @@ fn quantile(mut values: Vec<f64>) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::left::Off;
+    use super::super::residual::ToolDeviation;
     use super::*;
 
     /// Three equal independent coordinates: |l|/u has χ with 3 degrees of freedom, 95 % below 2.7955; one
     /// coordinate alone: 1.95996.
     #[test]
     fn law_lengths_of_normal_vectors_are_those_of_chi() {
-        let off = |v| Off { tip_mm: v, axis: Vec3::zeros() };
+        let off = |v| ToolDeviation { tip_mm: v, axis: Vec3::zeros() };
         let none = off(Vec3::zeros());
-        let pose = |slopes: &[Vec3]| Left {
+        let pose = |slopes: &[Vec3]| Residual {
             before: none,
             after: none,
             slopes: slopes.iter().map(|s| off(*s)).collect(),
@@ -84,7 +84,7 @@ mod tests {
         let ball = pose(&[Vec3::x(), Vec3::y(), Vec3::z()]);
         let line = pose(&[Vec3::x(), Vec3::zeros(), Vec3::zeros()]);
         let found = lengths(&[ball, line], Sampling { samples: 100_000, seed: 5 });
-        // The density there is 0.13 and 0.12: 100 000 draws tell the quantile to 0.006.
+        // The density there is 0.13 and 0.12: 100 000 draws give the quantile to 0.006.
         assert!((found.within_mm[0] - 2.7955).abs() < 0.02, "{found:?}");
         assert!((found.within_mm[1] - 1.9600).abs() < 0.02, "{found:?}");
         // The line is never longer than the ball, which it shares its draws with.

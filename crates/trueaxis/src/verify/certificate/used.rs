@@ -6,23 +6,23 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::describe::{axis_index, command, to_inner};
 
-/// Nearer than this in all axes, two poses are one: mm.
+/// Poses nearer than this in all axes are the same: mm.
 const SAME_MM: f64 = 1.0;
 /// The same of rotary axes, rad.
 const SAME_RAD: f64 = 0.1 * std::f64::consts::PI / 180.0;
 
-/// A pose that was used, and where it is told.
+/// A pose that was used, and its place in the file.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Used {
+pub struct UsedPose {
     /// The command.
     pub command: Command,
     /// File and line.
     pub place: Place,
 }
 
-/// The used pose that a pose falls together with.
-pub fn twin<'u>(machine: &Machine, used: &'u [Used], pose: &Command) -> Option<&'u Used> {
-    let same = |used: &&Used| {
+/// The used pose that coincides with a pose.
+pub fn twin<'u>(machine: &Machine, used: &'u [UsedPose], pose: &Command) -> Option<&'u UsedPose> {
+    let same = |used: &&UsedPose| {
         machine.axes().iter().enumerate().all(|(i, axis)| {
             let near = if axis.kind == AxisKind::Linear { SAME_MM } else { SAME_RAD };
             (used.command[i] - pose[i]).abs() < near
@@ -38,7 +38,7 @@ pub fn read_used(
     section: &Section<'_>,
     machine: &Machine,
     inputs: &mut Inputs,
-) -> Option<Vec<Used>> {
+) -> Option<Vec<UsedPose>> {
     let mut all = Vec::new();
     let Some(item) = section.get("used") else { return Some(all) };
     for item in item.list()? {
@@ -51,7 +51,11 @@ pub fn read_used(
     Some(all)
 }
 
-fn read_line(section: &Section<'_>, machine: &Machine, inputs: &mut Inputs) -> Option<Vec<Used>> {
+fn read_line(
+    section: &Section<'_>,
+    machine: &Machine,
+    inputs: &mut Inputs,
+) -> Option<Vec<UsedPose>> {
     let table =
         section.require("table", "table = \"X.csv\": a table whose first column is positions");
     let axis = section.require("axis", "axis = \"X\": the axis that moved")?;
@@ -70,7 +74,7 @@ fn read_line(section: &Section<'_>, machine: &Machine, inputs: &mut Inputs) -> O
     let pose = |(row, q): (usize, &f64)| {
         let mut command = start;
         command[index] = to_inner(machine, index, *q);
-        Used { command, place: table.row_place(row) }
+        UsedPose { command, place: table.row_place(row) }
     };
     Some(positions.iter().enumerate().map(pose).collect())
 }
@@ -80,7 +84,7 @@ fn read_table(
     item: &Item<'_>,
     machine: &Machine,
     inputs: &mut Inputs,
-) -> Option<Vec<Used>> {
+) -> Option<Vec<UsedPose>> {
     let name = item.text()?;
     let table = csv(section, name, inputs)?;
     let axes: Vec<(usize, &[f64])> = table
@@ -97,7 +101,7 @@ fn read_table(
     let pose = |row: usize| {
         let mut command = Command::default();
         axes.iter().for_each(|(i, values)| command[*i] = to_inner(machine, *i, values[row]));
-        Used { command, place: table.row_place(row) }
+        UsedPose { command, place: table.row_place(row) }
     };
     Some((0..table.rows()).map(pose).collect())
 }

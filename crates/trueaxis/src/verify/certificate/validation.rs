@@ -2,7 +2,7 @@
 
 use super::file::{Circumstances, above_zero, read_circumstances};
 use super::inputs::Inputs;
-use super::used::{Used, read_at, twin};
+use super::used::{UsedPose, read_at, twin};
 use trueaxis_calibrate::instruments::instrument::Instrument;
 use trueaxis_calibrate::measure::{Kind, Readings};
 use trueaxis_geometry::Vec3;
@@ -14,7 +14,7 @@ use trueaxis_machine::twist::Reference;
 /// Commands that differ by less are the same row of both tables, mm and rad.
 const SAME: f64 = 1e-9;
 
-/// What was measured to prove the compensation.
+/// The readings that prove the compensation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Validation {
     /// Who measured when with what.
@@ -42,10 +42,10 @@ pub struct MeasuredValue {
     pub place: Place,
 }
 
-/// Where a validation may stand.
-pub struct Allowed<'a> {
-    /// Not on these.
-    pub used: &'a [Used],
+/// The poses that a validation may use.
+pub struct AllowedPoses<'a> {
+    /// Not these.
+    pub used: &'a [UsedPose],
     /// Between the ends of these axes.
     pub zone: &'a [Axis],
 }
@@ -54,7 +54,7 @@ pub struct Allowed<'a> {
 pub fn read_validation(
     section: &Section<'_>,
     machine: &Machine,
-    allowed: &Allowed<'_>,
+    allowed: &AllowedPoses<'_>,
     inputs: &mut Inputs,
 ) -> Option<Validation> {
     let circumstances = read_circumstances(section);
@@ -126,7 +126,7 @@ fn rows(
     Some(Rows { readings, deviations_mm, table })
 }
 
-/// What reads the place of the tip in the workpiece, whatever the instrument was.
+/// An instrument that reads the position of the tip in the workpiece frame.
 fn tip_in_workpiece(machine: &Machine) -> Instrument {
     Instrument {
         name: "tip".to_owned(),
@@ -179,7 +179,7 @@ fn pairs(before: Rows, after: Rows, problems: &mut Diagnostics) -> Vec<MeasuredV
 
 fn check_unused(
     machine: &Machine,
-    used: &[Used],
+    used: &[UsedPose],
     pose: &MeasuredValue,
     problems: &mut Diagnostics,
 ) {
@@ -188,7 +188,7 @@ fn check_unused(
         "this pose was used for the identification ({}:{}): nearer than 1 mm and 0.1 deg in all axes",
         twin.place.file, twin.place.line
     );
-    let hint = "a validation stands on poses that the identification has not seen: leave it out";
+    let hint = "a validation uses poses that the identification has not used: leave it out";
     problems.error("used-pose", pose.place.clone(), message, hint);
 }
 
@@ -197,7 +197,7 @@ fn check_zone(zone: &[Axis], pose: &MeasuredValue, problems: &mut Diagnostics) {
     let names: Vec<String> = outside.map(|(axis, _)| axis.name.to_string()).collect();
     if !names.is_empty() {
         let message = format!("{} is outside the zone of the certificate", names.join(" "));
-        let hint = "the zone is the travel of the axes, or what [zone] says";
+        let hint = "the zone is the travel of the axes, or as stated in [zone]";
         problems.error("outside-zone", pose.place.clone(), message, hint);
     }
 }

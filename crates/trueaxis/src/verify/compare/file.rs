@@ -1,6 +1,6 @@
 //! The file of a comparison.
 
-use super::{Against, Comparison, Decision, Rule, pair};
+use super::{Comparison, ComparisonBasis, Decision, Rule, pair};
 use std::path::{Path, PathBuf};
 use trueaxis_calibrate::measure::{Campaign, Readings, read_campaign};
 use trueaxis_input::{Diagnostics, Dimension, Files, Item, Section, SourceText};
@@ -42,7 +42,10 @@ fn read(root: &Section<'_>, folder: &Path) -> Option<Comparison> {
     Some(Comparison { name: name?.to_owned(), campaign, measured, against, decision })
 }
 
-fn read_compare(section: &Section<'_>, folder: &Path) -> Option<(Campaign, Readings, Against)> {
+fn read_compare(
+    section: &Section<'_>,
+    folder: &Path,
+) -> Option<(Campaign, Readings, ComparisonBasis)> {
     let hint = "the campaign file, relative to this one";
     let item = section.require("campaign", hint);
     let [machine, readings, with] = ["machine", "readings", "with"].map(|key| section.get(key));
@@ -82,9 +85,9 @@ fn read_compare(section: &Section<'_>, folder: &Path) -> Option<(Campaign, Readi
         }
         (Some(item), None) => {
             let machine = read_machine(&item, section, &campaign, conditions.as_ref(), folder)?;
-            Against::Prediction(Box::new(machine))
+            ComparisonBasis::Prediction(Box::new(machine))
         }
-        (None, None) => Against::Prediction(Box::new(campaign.machine.clone())),
+        (None, None) => ComparisonBasis::Prediction(Box::new(campaign.machine.clone())),
     };
     Some((campaign, measured, against))
 }
@@ -101,7 +104,7 @@ fn against_readings(
     campaign: &Campaign,
     first: &Readings,
     second: &Readings,
-) -> Option<Against> {
+) -> Option<ComparisonBasis> {
     let pairs = pair(campaign, first, second);
     if pairs.differences.is_empty() {
         let message = "no reading of one set stands where one of the other does".to_owned();
@@ -115,7 +118,7 @@ fn against_readings(
         );
         item.warn("unpaired", message, "they are left out");
     }
-    Some(Against::Readings(pairs))
+    Some(ComparisonBasis::Readings(pairs))
 }
 
 fn read_machine(
@@ -165,7 +168,7 @@ fn read_tables(item: &Item<'_>, campaign: &Campaign, folder: &Path) -> Option<Ve
             match (campaign.instrument(key), paths(&item)) {
                 (Some(of), Some(found)) => tables[of] = found,
                 (None, _) => {
-                    let message = format!("no instrument is called `{key}`");
+                    let message = format!("unknown instrument `{key}`");
                     item.error("unknown-instrument", message, "as in the campaign file");
                 }
                 _ => {}
@@ -194,7 +197,7 @@ fn read_decision(section: &Section<'_>, campaign: &Campaign) -> Option<Decision>
                     match campaign.instrument(key) {
                         Some(of) => tolerance[of] = limit(&item, of),
                         None => {
-                            let message = format!("no instrument is called `{key}`");
+                            let message = format!("unknown instrument `{key}`");
                             item.error("unknown-instrument", message, "as in the campaign file");
                         }
                     }
@@ -215,7 +218,7 @@ fn read_decision(section: &Section<'_>, campaign: &Campaign) -> Option<Decision>
             "ISO 14253-1" => Rule::GuardBand,
             "coverage" => Rule::Coverage,
             other => {
-                let message = format!("no decision rule is called `{other}`");
+                let message = format!("unknown decision rule `{other}`");
                 item.error("unknown-rule", message, "\"simple\", \"ISO 14253-1\" or \"coverage\"");
                 return None;
             }

@@ -8,7 +8,7 @@ use trueaxis_machine::axis::{AxisKind, Command};
 const SAME_MM: f64 = 0.5;
 const SAME_RAD: f64 = 1e-3;
 
-/// What two sets have in common.
+/// The pairs of two sets.
 #[derive(Debug, Clone)]
 pub struct Pairs {
     /// The rows of the first set; their values are nominal readings plus second less first.
@@ -61,7 +61,7 @@ fn cell(campaign: &Campaign, command: &Command, step: [i64; 6]) -> [i64; 6] {
     cell
 }
 
-/// The first unused row of the second set at the same place, in this cell or one beside it.
+/// The first unused row of the second set at the same place, in this cell or a neighbouring one.
 fn take_partner(
     campaign: &Campaign,
     first: &Readings,

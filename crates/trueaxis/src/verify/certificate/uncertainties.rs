@@ -1,13 +1,13 @@
-//! How well the errors of a machine are known: independent factors, each of which moves some errors.
+//! The uncertainties of the errors of a machine: independent factors, each of which changes some errors.
 //!
 //! ```text
 //!     E(q) = Ê(q) + Σ_j z_j e_j(q)          z_j independent, standard normal             docs/model.md eq. 172
-//!     e_j = u_j(q) of one stated error                         what a machine file states
-//!     e_j = Σ_k L_kj φ_k(q),   L Lᵀ = covariance of the terms     what an identification knows
+//!     e_j = u_j(q) of one stated error                         from a machine file
+//!     e_j = Σ_k L_kj φ_k(q),   L Lᵀ = covariance of the terms     from an identification
 //! ```
 //!
-//! A machine file states one u per error and says nothing of what they have in common; an
-//! identification knows that two errors which look alike can only be wrong together.
+//! A machine file states one u per error without correlations; an identification has the covariance of errors
+//! that its readings can hardly separate.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 use trueaxis_calibrate::identify::errors::Identification;
@@ -18,9 +18,9 @@ use trueaxis_machine::errors::{ErrorIndex, ErrorValues, Uncertainties};
 
 /// The factors of a machine.
 #[derive(Debug, Clone)]
-pub struct Known {
+pub struct UncertaintyFactors {
     quantities: Vec<String>,
-    /// Those of the quantities whose part of the covariance an identification tells.
+    /// The quantities with a covariance from an identification.
     is_fitted: Vec<bool>,
     terms: Vec<Term>,
     /// L: one row per term, one column per factor.
@@ -29,45 +29,44 @@ pub struct Known {
 
 /// The factors at a command.
 #[derive(Debug)]
-pub struct Here<'a> {
-    known: &'a Known,
+pub struct LocalFactors<'a> {
+    known: &'a UncertaintyFactors,
     stated: Uncertainties,
     /// φ of every term.
     shapes: Vec<f64>,
 }
 
-impl Known {
-    /// What the machine file states: errors that are independent of each other, each one factor for its
-    /// whole curve.
+impl UncertaintyFactors {
+    /// From the machine file: errors that are independent of each other, each one factor for its whole curve.
     pub fn stated(machine: &Machine) -> Self {
         let quantities = machine.uncertain_quantities();
         let is_fitted = vec![false; quantities.len()];
         Self { quantities, is_fitted, terms: Vec::new(), root: DMatrix::zeros(0, 0) }
     }
 
-    /// What an identification of this machine knows; of errors that it did not seek, what the file states.
-    /// Terms that its selection left out count as nothing, without an uncertainty.
+    /// From an identification of this machine; for errors that it did not determine, from the machine file.
+    /// Terms that its selection left out count as 0, without an uncertainty.
     pub fn identified(machine: &Machine, found: &Identification) -> Self {
         let covariance = &found.fit.covariance * (found.birge * found.birge);
         Self::of_fit(machine, &found.design.terms, &covariance)
     }
 
-    /// The same of terms and their covariance (mm², mm·rad, rad²); what stands behind the terms in it
-    /// belongs to the set-up and is left out.
+    /// The same from terms and their covariance (mm², mm·rad, rad²); rows after those of the terms
+    /// belong to the set-up and are left out.
     ///
     /// # Example
     /// ```
     /// use nalgebra::DMatrix;
     /// use trueaxis::machine::{Machine, errors::ErrorName, file::NoTables};
     /// use trueaxis::unknowns::term::Term;
-    /// use trueaxis::verify::certificate::known::Known;
+    /// use trueaxis::verify::certificate::uncertainties::UncertaintyFactors;
     /// let text = "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n[location]\nEX0X = \"0 ± 9 um\"";
     /// let machine = Machine::check("m.toml", text, &NoTables).0.unwrap();
     /// let names = ["EX0X", "EX0Y"].map(|n| ErrorName::parse(n).unwrap());
     /// let terms = names.map(|name| Term::location(&machine, name).unwrap());
     /// // Both known to 1 µm, but only their sum: they are wrong by opposite amounts.
     /// let c = DMatrix::from_row_slice(2, 2, &[1e-6, -1e-6, -1e-6, 1e-6]);
-    /// let known = Known::of_fit(&machine, &terms, &c);
+    /// let known = UncertaintyFactors::of_fit(&machine, &terms, &c);
     /// assert_eq!(known.factors(), 2); // that of EX0X in the file, which counts no more, and one
     /// let errors = known.at(&machine, &[0.0; 6], &[0.0; 6]).displaced(&Default::default(), 1, 1.0);
     /// let moved = terms.map(|t| errors.get(t.index));
@@ -83,7 +82,7 @@ impl Known {
         known
     }
 
-    /// The errors and coefficients of which nobody says how well they are known.
+    /// The errors and coefficients without a stated uncertainty.
     pub fn unknown(&self, machine: &Machine) -> Vec<String> {
         let stated = machine.stated_errors().into_iter().zip(&self.is_fitted);
         let without = stated.filter(|((index, _), is_fitted)| {
@@ -102,14 +101,19 @@ impl Known {
     }
 
     /// The factors at a command.
-    pub fn at(&self, machine: &Machine, command: &Command, approach: &Approach) -> Here<'_> {
+    pub fn at(
+        &self,
+        machine: &Machine,
+        command: &Command,
+        approach: &Approach,
+    ) -> LocalFactors<'_> {
         let stated = machine.uncertainties_at(command, &self.quantities);
         let shapes = self.terms.iter().map(|t| t.value(command, approach)).collect();
-        Here { known: self, stated, shapes }
+        LocalFactors { known: self, stated, shapes }
     }
 }
 
-impl Here<'_> {
+impl LocalFactors<'_> {
     /// The errors where one factor is `z`.
     pub fn displaced(&self, errors: &ErrorValues, factor: usize, z: f64) -> ErrorValues {
         let stated = self.known.quantities.len();
@@ -140,9 +144,9 @@ impl Here<'_> {
     }
 }
 
-/// L with L·Lᵀ = C, without the columns that are zero: what cannot be told has none.
+/// L with L·Lᵀ = C, without the columns that are zero.
 ///
-/// C mixes mm and rad, so its correlations are taken apart, not C itself.
+/// C mixes mm and rad, so its correlations are decomposed, not C itself.
 fn root(covariance: &DMatrix<f64>) -> DMatrix<f64> {
     let u = covariance.diagonal().map(|v| v.max(0.0).sqrt());
     let scale = u.map(|u| if u > 0.0 { u } else { 1.0 });

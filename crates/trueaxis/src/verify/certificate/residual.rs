@@ -1,15 +1,15 @@
-//! What a compensation leaves at a pose, and how well that is known.
+//! The residual error of a compensation at a pose, and its uncertainty.
 //!
 //! ```text
-//!     l(q) = pose(q_c, E) − nominal pose(q)                     q_c: where the compensation sends the axes
+//!     l(q) = pose(q_c, E) − nominal pose(q)                     q_c: the axis positions with the compensation
 //!     l̂ = l(E = Ê)        s_j = ½ (l(z_j = +1) − l(z_j = −1))        V = Σ s_j s_jᵀ      docs/model.md eq. 173
 //! ```
 //!
-//! Both are told against the pose where the instrument was set to zero, if there is one: l̂(q) − l̂(q₀) and
+//! Both are relative to the pose where the instrument was set to zero, if there is one: l̂(q) − l̂(q₀) and
 //! s_j(q) − s_j(q₀), so that an error that both poses share adds nothing.
 
-use super::applied::Applied;
-use super::known::Known;
+use super::applied::AppliedCompensation;
+use super::uncertainties::UncertaintyFactors;
 use std::ops::Sub;
 use trueaxis_geometry::{Mat3, Vec3};
 use trueaxis_machine::Machine;
@@ -17,16 +17,16 @@ use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_machine::compensate::Fault;
 use trueaxis_machine::errors::ErrorValues;
 
-/// How far a tool is off, in the workpiece frame.
+/// A deviation of the tool in the workpiece frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Off {
+pub struct ToolDeviation {
     /// Of the tip, mm.
     pub tip_mm: Vec3,
     /// Of the unit vector of the tool axis.
     pub axis: Vec3,
 }
 
-impl Off {
+impl ToolDeviation {
     /// The tool at `at` with these errors against the nominal one at `programmed`.
     pub fn of(machine: &Machine, at: &Command, errors: &ErrorValues, programmed: &Command) -> Self {
         let there = machine.deviation(at, errors);
@@ -37,7 +37,7 @@ impl Off {
     }
 }
 
-impl Sub for Off {
+impl Sub for ToolDeviation {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
@@ -45,18 +45,18 @@ impl Sub for Off {
     }
 }
 
-/// What the identified machine predicts at a pose.
+/// The prediction of the identified machine at a pose.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Left {
+pub struct Residual {
     /// Without the compensation.
-    pub before: Off,
+    pub before: ToolDeviation,
     /// With it.
-    pub after: Off,
-    /// What one standard uncertainty of each factor of [`Known`] moves.
-    pub slopes: Vec<Off>,
+    pub after: ToolDeviation,
+    /// The effect of one standard uncertainty of each factor of [`UncertaintyFactors`].
+    pub slopes: Vec<ToolDeviation>,
 }
 
-impl Left {
+impl Residual {
     /// At a programmed command.
     ///
     /// # Errors
@@ -66,13 +66,13 @@ impl Left {
     /// ```
     /// use trueaxis::machine::compensate::{Compensator, Scope};
     /// use trueaxis::machine::{Machine, file::NoTables};
-    /// use trueaxis::verify::certificate::{applied::Applied, known::Known, left::Left};
+    /// use trueaxis::verify::certificate::{applied::AppliedCompensation, uncertainties::UncertaintyFactors, residual::Residual};
     /// let text = "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n[location]\nEC0Y = \"20 ± 3 urad\"";
     /// let mill = Machine::check("m.toml", text, &NoTables).0.unwrap();
-    /// let program = Applied::Program(Box::new(Compensator::of(&mill, Scope::Pose)?));
+    /// let program = AppliedCompensation::Program(Box::new(Compensator::of(&mill, Scope::Pose)?));
     /// let y500 = [0.0, 500.0, 0.0, 0.0, 0.0, 0.0];
-    /// let left = Left::at(&mill, (&Known::stated(&mill), &program), &y500, &[0.0; 6])?;
-    /// // 500 mm · 20 µrad before, nothing after; 500 mm · 3 µrad nobody knows.
+    /// let left = Residual::at(&mill, (&UncertaintyFactors::stated(&mill), &program), &y500, &[0.0; 6])?;
+    /// // 500 mm · 20 µrad before, nothing after; 500 mm · 3 µrad uncertain.
     /// assert!((left.before.tip_mm.x + 0.010).abs() < 1e-8);
     /// assert!(left.after.tip_mm.norm() < 1e-9);
     /// assert!((left.u_mm().x - 0.0015).abs() < 1e-9);
@@ -80,7 +80,7 @@ impl Left {
     /// ```
     pub fn at(
         machine: &Machine,
-        (known, applied): (&Known, &Applied),
+        (known, applied): (&UncertaintyFactors, &AppliedCompensation),
         command: &Command,
         approach: &Approach,
     ) -> Result<Self, Fault> {
@@ -88,18 +88,19 @@ impl Left {
         let (at, errors) = applied.go(machine, command, approach)?;
         let here = known.at(machine, &at, approach);
         let slope = |factor| {
-            let off = |z| Off::of(machine, &at, &here.displaced(&errors, factor, z), command);
+            let off =
+                |z| ToolDeviation::of(machine, &at, &here.displaced(&errors, factor, z), command);
             let twice = off(1.0) - off(-1.0);
-            Off { tip_mm: twice.tip_mm * 0.5, axis: twice.axis * 0.5 }
+            ToolDeviation { tip_mm: twice.tip_mm * 0.5, axis: twice.axis * 0.5 }
         };
         Ok(Self {
-            before: Off::of(machine, command, &plain, command),
-            after: Off::of(machine, &at, &errors, command),
+            before: ToolDeviation::of(machine, command, &plain, command),
+            after: ToolDeviation::of(machine, &at, &errors, command),
             slopes: (0..known.factors()).map(slope).collect(),
         })
     }
 
-    /// The same as an instrument tells it that was set to zero at another pose.
+    /// The same relative to another pose, where the instrument was set to zero.
     pub fn against(&self, zero: &Self) -> Self {
         Self {
             before: self.before - zero.before,
