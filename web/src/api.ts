@@ -1,229 +1,85 @@
 /** The server's answers, typed, over one WebSocket that reconnects by itself. */
 
+import type {
+  CheckDocument,
+  DiagnosticEntry,
+  Documents,
+  LinkEntry,
+  ModelEntry,
+  MountedToolEntry,
+  ServeDescribe,
+  ServePose,
+  ServeProject,
+  ServeRefused,
+  ServeSocket,
+  SurfaceEntry,
+} from "../types.d.ts";
 import { decodeFrame, type Frame } from "./frame.ts";
 
 export { latestOnly } from "./latest.ts";
 
-// ---- documents -------------------------------------------------------------------------------
+// ---- documents: the types of the server, by the names of the page ------------------------------
 
 export type Vector = [number, number, number];
-export type FileKind = "machine" | "study" | "campaign" | "program" | "readings" | "setup" | "cl" | "other";
-
-export interface Diagnostic {
-  code: string;
-  severity: "error" | "warning" | "notice" | string;
-  file?: string | null;
-  line?: number | null;
-  column?: number | null;
-  message: string;
-  hint?: string | null;
-}
-
-export interface Example {
-  tab: string;
-  title: string;
-  what: string;
-  path: string;
-  machine?: string | null;
-  program?: string | null;
-  standard?: string | null;
-}
-
-export interface ProjectFile {
-  path: string;
-  kind: FileKind;
-  bytes: number;
-}
-
-export interface Project {
-  folder: string;
-  version: string;
-  examples: Example[];
-  files: ProjectFile[];
-}
-
-export interface OpenFile {
-  path: string;
-  text: string;
-  version: string;
-}
-
+export type Diagnostic = DiagnosticEntry;
+export type Project = ServeProject;
+export type Example = ServeProject["examples"][number];
+export type ProjectFile = ServeProject["files"][number];
+export type FileKind = ProjectFile["kind"];
 /** `[from, to]` in mm or deg; "unlimited"; null where the machine file states none. */
-export type Travel = [number, number] | "unlimited" | null;
-
-/** One link of the chain, in chain order without the bed: w, axes, t. */
-export interface Link {
-  name: string;
-  kind: "workpiece" | "linear" | "rotary" | "tool";
-  carries: "workpiece" | "tool";
-  direction: Vector;
-  /** +1: a positive command moves the body in `direction`; default by ISO 841: −1 if it carries the workpiece. */
-  sense?: number | null;
-  /** Index in `links`; null is the bed. */
-  parent: number | null;
-  /** Rotation row by row, then origin mm: parent_from_body with the axis at 0. */
-  placement: number[];
-  travel: Travel;
-}
-
-export type Shape =
-  | { box: Vector }
-  | { cone: { base_diameter_mm: number; top_diameter_mm: number; length_mm: number } }
-  | { prism: { outline_mm: [number, number][]; length_mm: number } }
-  /** Its surface comes with `models` (scene/models.ts). */
-  | { stl: { path: string; unit_mm: number } }
-  | { mesh: ArrayLike<number> };
-
-export interface Model {
-  name: string;
-  /** Index in `links`; null is the bed. */
-  body: number | null;
-  placement: number[];
-  shape: Shape;
-}
-
-export interface ToolShape {
-  length_mm: number;
-  diameter_mm: number | null;
-  /** The tip in the body t; without it straight below, at the length. */
+export type Travel = LinkEntry["travel"];
+export type Link = Pick<
+  LinkEntry,
+  "name" | "kind" | "carries" | "direction" | "sense" | "parent" | "placement" | "travel"
+>;
+/** Also the surfaces that come with `models` (scene/models.ts). */
+export type Shape = ModelEntry["shape"] | { mesh: ArrayLike<number> };
+export type Model = Omit<ModelEntry, "shape"> & { shape: Shape };
+export type SurfaceModel = SurfaceEntry;
+export type ToolShape = Omit<MountedToolEntry, "tip_mm"> & {
   tip_mm?: Vector | null;
   /** Diameter and length of its cylinders, from the tip upwards, if they are known. */
   segments_mm?: readonly [number, number][];
-}
-
-/** A surface as its triangles: the answer has their corners one after the other, model after model. */
-export interface SurfaceModel {
-  name: string;
-  /** Index in `links`; null is the bed. */
-  body: number | null;
-  placement: number[];
-  triangles: number;
-}
+};
 
 /** What the 3-D scene needs of a machine. */
 export interface MachineDescription {
   links: Link[];
   models: Model[];
-  tool: ToolShape;
+  /** Absent where the machine cannot be used. */
+  tool?: ToolShape | null;
 }
 
-export interface AxisDocument {
-  name: string;
-  carries: "workpiece" | "tool";
-  direction: Vector;
-  sense: number;
-  travel_mm?: Travel;
-  travel_deg?: Travel;
-}
+export type { CheckDocument };
+export type AxisDocument = NonNullable<CheckDocument["axes"]>[number];
+export type ErrorEntry = ServeDescribe["errors"][number];
+export type ErrorCurve = NonNullable<ErrorEntry["curve"]>;
+export type Sensor = ServeDescribe["sensors"][number];
+export type ToolEntry = ServeDescribe["tools"][number];
+export type Description = ServeDescribe;
+export type PoseHeader = ServePose;
+export type PoseDocument = ServePose["pose"];
+export type PoseBudgetEntry = PoseDocument["budget"][number];
 
-export interface CheckDocument {
-  schema: string;
-  usable: boolean;
-  diagnostics: Diagnostic[];
-  /** What follows stands there of a usable machine only. */
-  name?: string;
-  chain?: string;
-  source?: string | null;
-  axes?: AxisDocument[];
-  errors?: string[];
-  lacks?: string[];
-  [more: string]: unknown;
-}
-
-/** An error motion over the travel of its axis, in the unit of its error. */
-export interface ErrorCurve {
-  at: number[];
-  at_unit: "mm" | "deg";
-  /** The mean of both directions. */
-  values: number[];
-  reversal: number[] | null;
-  /** Standard uncertainty. */
-  u: number[] | null;
-}
-
-/** One error that the machine has or could have. */
-export interface ErrorEntry {
-  name: string;
-  /** Index in `links`. */
-  body: number;
-  kind: "location" | "motion";
-  unit: "um" | "urad";
-  stated: boolean;
-  shape: "constant" | "polynomial" | "fourier" | "table" | null;
-  /** As people write it, if it has an entry of its own. */
-  text: string | null;
-  line: number | null;
-  /** The table of its axis, if it stands in that. */
-  table: string | null;
-  /** The value if it is the same everywhere. */
-  value: number | null;
-  /** Standard uncertainty; the greatest of a curve. */
-  u: number | null;
-  curve: ErrorCurve | null;
-  measured: { instrument: string | null; date: string | null; temperature_celsius: number | null } | null;
-}
-
-export interface Sensor {
-  name: string;
-  /** What it tells of: "scale of X", "EZ0t", "workpiece". */
-  drives: string[];
-}
-
-/** A tool assembly of the machine file. */
-export interface ToolEntry {
-  name: string;
-  length_mm: number;
-  diameter_mm: number | null;
-  [more: string]: unknown;
-}
-
-export interface Description extends MachineDescription {
-  check: CheckDocument;
-  version: string;
-  text: string;
-  errors: ErrorEntry[];
-  sensors: Sensor[];
-  tools: ToolEntry[];
-}
-
-export interface PoseBudgetEntry {
-  error: string;
-  tip_um: Vector;
-  axis_urad: Vector;
-}
-
-/** The document of `trueaxis pose --format json`. */
-export interface PoseDocument {
-  schema: string;
-  nominal: { tip_mm: Vector; axis: Vector };
-  actual: { tip_mm: Vector; axis: Vector };
-  deviation: { tip_um: Vector; axis_urad: Vector };
-  budget: PoseBudgetEntry[];
-  [more: string]: unknown;
-}
-
-export interface PoseHeader {
-  pose: PoseDocument;
-  bodies: string[];
-  diagnostics: Diagnostic[];
-}
-
-/** With `corners_mm`: nine numbers per triangle, model after model. */
-export interface ModelsHeader {
-  models: SurfaceModel[];
-  diagnostics: Diagnostic[];
-}
-
-/** Names whose replies have a type; every other name may be asked with a type of the caller. */
-export interface Replies {
-  project: Project;
-  open: OpenFile;
-  save: { path: string; version: string };
-  describe: Description;
-  "set-error": { text: string; diagnostics: Diagnostic[] };
-  pose: Frame<PoseHeader>;
-  models: Frame<ModelsHeader>;
-}
+type Named<K> = K extends `serve-${infer Name}-request` ? Exclude<Name, "socket"> : never;
+/** What can be asked. */
+export type Question = Named<keyof Documents>;
+export type Request<N extends Question> = Documents[`serve-${N}-request`];
+export type Answer<N extends Question> = Documents[`serve-${N}` & keyof Documents];
+/** Questions whose answers have arrays. */
+type WithArrays =
+  | "models"
+  | "pose"
+  | "predict"
+  | "what-if"
+  | "plan"
+  | "identify"
+  | "evaluate"
+  | "simulate"
+  | "simulation-at"
+  | "simulation-path"
+  | "simulation-curves";
+export type Reply<N extends Question> = N extends WithArrays ? Frame<Answer<N>> : Answer<N>;
 
 // ---- errors ----------------------------------------------------------------------------------
 
@@ -247,12 +103,7 @@ export class Refusal extends Error {
   }
 }
 
-interface RefusalDocument {
-  code?: string;
-  message?: string;
-  hint?: string | null;
-  diagnostics?: Diagnostic[];
-}
+type RefusalDocument = Partial<ServeRefused["error"]>;
 
 function refusal(doc: RefusalDocument | undefined): Refusal {
   return new Refusal(
@@ -270,13 +121,8 @@ export interface AskOptions {
   signal?: AbortSignal;
 }
 
-/** A file was saved. Without a path some news was missed: any file may have changed. */
-export interface Change {
-  path?: string;
-  version?: string;
-  /** The window that saved it. */
-  window?: string | null;
-}
+/** A file was saved. Without a path some changes were missed: any file may have changed. */
+export type Change = Extract<ServeSocket, { changed: unknown }>["changed"];
 
 interface Pending {
   resolve: (value: unknown) => void;
@@ -304,14 +150,12 @@ export class Api {
   readonly window = windowName();
 
   /** Asks `name`; resolves with the reply, or with a `Frame` where the reply is binary. */
-  ask<N extends keyof Replies>(name: N, body: object, options?: AskOptions): Promise<Replies[N]>;
-  ask<T>(name: string, body: object, options?: AskOptions): Promise<T>;
-  async ask(name: string, body: object, options: AskOptions = {}): Promise<unknown> {
+  async ask<N extends Question>(name: N, body: Request<N>, options: AskOptions = {}): Promise<Reply<N>> {
     options.signal?.throwIfAborted();
     const socket = await this.connect();
     const id = this.next_id++;
     return new Promise((resolve, reject) => {
-      this.pending.set(id, { resolve, reject, onProgress: options.onProgress });
+      this.pending.set(id, { resolve: resolve as (reply: unknown) => void, reject, onProgress: options.onProgress });
       options.signal?.addEventListener("abort", () => {
         if (!this.pending.delete(id)) return;
         if (socket.readyState === WebSocket.OPEN) socket.send(JSON.stringify({ id, stop: true }));

@@ -14,8 +14,8 @@ export interface ChainSpec {
 /** "0 … 6200 mm", "±135 °". */
 export function travelText(link: Pick<Link, "kind" | "travel">): string {
   if (link.kind !== "linear" && link.kind !== "rotary") return "";
-  if (link.travel === "unlimited") return "unlimited";
   if (!link.travel) return "no travel stated";
+  if (typeof link.travel === "string") return link.travel;
   const [from, to] = link.travel;
   const unit = (v: number, digits: number): string => (link.kind === "linear" ? mm(v, digits) : deg(v, digits));
   const digits = Number.isInteger(from) && Number.isInteger(to) ? 0 : 1;

@@ -97,7 +97,7 @@ export class Bodies {
 
   private roleOf(index: number | null): Role {
     const kind = index === null ? undefined : this.links[index]?.kind;
-    return kind === undefined ? "bed" : kind === "workpiece" ? "part" : kind;
+    return kind === undefined ? "bed" : kind === "workpiece" ? "part" : (kind as "linear" | "rotary" | "tool");
   }
 
   /** Index of the body that carries the workpiece or the tool; −1 without one. */

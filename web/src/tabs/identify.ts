@@ -28,7 +28,7 @@ class IdentifyTab implements TabHandle {
   private readonly map = h("section", { class: "panel" });
   private readonly pairs = h("ul", { class: "note" });
   private readonly open_file: HTMLElement;
-  private readonly question: Question<IdentifyHeader>;
+  private readonly question: Question<"identify">;
   private figures: Figure<never>[] = [];
   private heat: Figure<HeatmapSpec> | null = null;
   private campaign: string | null = null;
@@ -258,7 +258,7 @@ class IdentifyTab implements TabHandle {
     const { header } = frame;
     const { document } = header;
     this.instruments = header.instruments;
-    this.files = [header.machine, ...header.instruments.flatMap((one) => one.tables)];
+    this.files = [...(header.machine ? [header.machine] : []), ...header.instruments.flatMap((one) => one.tables)];
     this.clear();
     this.shown = this.campaign;
     this.showForm();

@@ -42,7 +42,7 @@ class PlanTab implements TabHandle {
   private readonly open_file: HTMLElement;
   private readonly slider: HTMLInputElement;
   private readonly where = h("output", { class: "station-now" });
-  private readonly question: Question<PlanHeader>;
+  private readonly question: Question<"plan">;
   private figures: Figure<never>[] = [];
   private frame: Frame<PlanHeader> | null = null;
   private campaign: string | null = null;
@@ -202,10 +202,10 @@ class PlanTab implements TabHandle {
     const { header } = frame;
     const { document } = header;
     if (header.machine !== this.machine) {
-      const described = await this.app.api.ask("describe", { machine: header.machine });
+      const described = await this.app.api.ask("describe", { machine: header.machine ?? "" });
       this.view.setMachine(described);
       this.view.setArrowsVisible(false);
-      this.tool_mm = described.tool.length_mm;
+      this.tool_mm = described.tool?.length_mm ?? this.tool_mm;
       this.machine = header.machine;
       this.come_close = true;
     }

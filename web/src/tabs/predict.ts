@@ -49,7 +49,8 @@ class PredictTab implements TabHandle {
   /** The prediction of the file; what is shown may be changed. */
   private base: PieceFrame | null = null;
   private readonly ask = latestOnly<Wanted, PieceFrame>(
-    ({ study, changes }) => this.app.api.ask("what-if", { study, ...changes }),
+    ({ study, changes }) =>
+      this.app.api.ask("what-if", { study, ...changes }) as Promise<unknown> as Promise<PieceFrame>,
     (frame, wanted) => this.showChanged(frame, wanted),
     (error) => this.piece?.what_if.refuse(Refusal.from(error)),
   );
@@ -96,11 +97,8 @@ class PredictTab implements TabHandle {
     this.study = study;
     const progress = this.app.progress(`predicting ${study}`);
     try {
-      const frame = await this.app.api.ask<Answer>(
-        "predict",
-        { study },
-        { onProgress: progress.report, signal: stop.signal },
-      );
+      const options = { onProgress: progress.report, signal: stop.signal };
+      const frame = (await this.app.api.ask("predict", { study }, options)) as unknown as Answer;
       progress.done();
       this.empty.hidden = true;
       this.holes_page.hidden = frame.header.kind !== "holes";

@@ -1,12 +1,13 @@
 /** The pages of the other tabs as one file: made by the server, shown, saved, printed. */
 
+import type { ServeReport, ServeReportRequest } from "../../types.d.ts";
 import type { App, Tab, TabHandle } from "../app.ts";
 import type { FileKind } from "../api.ts";
 import { download, fill, h } from "../dom.ts";
 import { bytes } from "../format.ts";
 
 interface Verb {
-  name: string;
+  name: ServeReportRequest["verb"];
   title: string;
   /** What the verb reads. */
   file: readonly FileKind[];
@@ -22,16 +23,7 @@ const VERBS: readonly Verb[] = [
   { name: "verify", title: "Verify: readings against the machine file", file: ["other"], needs_machine: false },
 ];
 
-interface Standard {
-  key: string;
-  title: string;
-}
-
-interface Made {
-  url: string;
-  bytes: number;
-  name: string;
-}
+type Made = ServeReport;
 
 class ReportTab implements TabHandle {
   private readonly app: App;
@@ -87,7 +79,7 @@ class ReportTab implements TabHandle {
   /** The standards that the server knows, once. */
   private async loadStandards(): Promise<void> {
     if (this.standard.options.length > 0) return;
-    const list = await this.app.api.ask<Standard[]>("standards", {});
+    const list = await this.app.api.ask("standards", {});
     fill(
       this.standard,
       list.map(({ key, title }) => h("option", { value: key }, title)),
@@ -162,7 +154,7 @@ class ReportTab implements TabHandle {
     this.make.disabled = true;
     this.take(null);
     try {
-      this.take(await this.app.api.ask<Made>("report", body, { onProgress: progress.report, signal: stop.signal }));
+      this.take(await this.app.api.ask("report", body, { onProgress: progress.report, signal: stop.signal }));
     } catch (error) {
       if (!stop.signal.aborted) this.app.fail(error);
     } finally {

@@ -1,7 +1,8 @@
 /** Readings of instruments judged by ISO 230: charts, figures with their uncertainty, every target. */
 
+import type { ServeEvaluate, StandardEntry } from "../../types.d.ts";
+import type { Request } from "../api.ts";
 import { diagnosticList, split, type App, type Tab, type TabHandle } from "../app.ts";
-import type { Diagnostic } from "../api.ts";
 import { fill, h } from "../dom.ts";
 import type { Figure } from "../figure/index.ts";
 import type { Frame } from "../frame.ts";
@@ -10,22 +11,13 @@ import { fileSelect, isAbort, Question, reportButton, showRefusal } from "./meas
 import { dropOn, type TextFile } from "./measure/drop.ts";
 import { sheetTable } from "./measure/table.ts";
 import { as, kindOf, type Circular, type EvaluateDocument } from "./standards/documents.ts";
-import { drawPictures, type Picture } from "./standards/pictures.ts";
+import { drawPictures } from "./standards/pictures.ts";
 import { sheetsOf, tilesOf } from "./standards/tables.ts";
 import { takeDropped } from "./start.ts";
 
-interface Header {
-  document: EvaluateDocument;
-  text: string;
-  conditions_file: string | null;
-  pictures: Picture[];
-  diagnostics: Diagnostic[];
-}
+type Header = ServeEvaluate;
 
-interface Standard {
-  key: string;
-  title: string;
-}
+type Standard = StandardEntry;
 
 /** What the headings of a table say about the test that it is of. */
 const BY_HEADING: readonly [RegExp, string][] = [
@@ -54,7 +46,7 @@ class StandardsTab implements TabHandle {
   private readonly result = h("div", { class: "result" });
   private readonly charts: HTMLElement;
   private readonly open_file: HTMLElement;
-  private readonly question: Question<Header>;
+  private readonly question: Question<"evaluate">;
   private figures: Figure<never>[] = [];
   private standards: Standard[] = [];
   private dropped: TextFile | null = null;
@@ -109,7 +101,7 @@ class StandardsTab implements TabHandle {
 
   private async run(): Promise<void> {
     try {
-      if (this.standards.length === 0) this.standards = await this.app.api.ask<Standard[]>("standards", {});
+      if (this.standards.length === 0) this.standards = await this.app.api.ask("standards", {});
       const params = this.params;
       const path = this.dropped ? null : (params.path ?? null);
       const standard = params.standard ?? (await this.standardIn(path)) ?? "iso230-2";
@@ -159,7 +151,7 @@ class StandardsTab implements TabHandle {
     return guess(text);
   }
 
-  private body(path: string | null): object {
+  private body(path: string | null): Request<"evaluate"> {
     const { standard } = this;
     const { radius, window, conditions, feature } = this.params;
     const from = this.dropped

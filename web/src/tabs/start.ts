@@ -38,7 +38,6 @@ const PARAMETER: Record<string, string> = {
 function openExample(app: App, example: Example): void {
   const params: Record<string, string | null | undefined> = {
     machine: example.machine,
-    program: example.program,
     standard: example.standard,
   };
   params[PARAMETER[example.tab] ?? "path"] ??= example.path;

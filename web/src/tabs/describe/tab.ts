@@ -320,7 +320,7 @@ export class DescribeTab implements TabHandle {
     this.usable_text = draft.text;
     this.showLinks(description);
     this.errors.show(description.errors, description.links);
-    this.conditions.show(description.tool, description.tools, description.sensors);
+    if (description.tool) this.conditions.show(description.tool, description.tools, description.sensors);
     await this.showScene();
     this.askPose();
   }
@@ -351,7 +351,10 @@ export class DescribeTab implements TabHandle {
     const draft = this.draft;
     if (!description || !draft) return;
     const length = this.conditions.now.tool_length_mm;
-    const tool = length === null ? description.tool : { ...description.tool, length_mm: length, tip_mm: null };
+    const tool =
+      length === null || !description.tool
+        ? description.tool
+        : { ...description.tool, length_mm: length, tip_mm: null };
     const { links, models } = description;
     const key = JSON.stringify([draft.path, links, models, tool]);
     if (key === this.scene_key) return;

@@ -250,5 +250,5 @@ export function outlierPanel(doc: IdentifyDocument): HTMLElement {
 
 /** "machine-identified.toml" of "machines/lei-hsu-mill/machine.toml". */
 export function identifiedName({ machine }: IdentifyHeader): string {
-  return machine.replace(/^.*\//, "").replace(/(\.[^.]*)?$/, "-identified.toml");
+  return (machine ?? "machine.toml").replace(/^.*\//, "").replace(/(\.[^.]*)?$/, "-identified.toml");
 }

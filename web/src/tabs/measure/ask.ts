@@ -1,18 +1,17 @@
 /** One long question at a time, with its progress in the status line; and what stands at the head of a tab. */
 
 import { diagnosticList, type App } from "../../app.ts";
-import { Refusal, type Diagnostic, type ProjectFile } from "../../api.ts";
+import { Refusal, type Diagnostic, type ProjectFile, type Reply, type Request } from "../../api.ts";
 import { fill, h, type Child } from "../../dom.ts";
-import type { Frame } from "../../frame.ts";
 import { count } from "./words.ts";
 
 /** Asks; a newer question drops the older one. */
-export class Question<H> {
+export class Question<N extends "plan" | "identify" | "evaluate"> {
   private readonly app: App;
-  private readonly name: string;
+  private readonly name: N;
   private running: AbortController | null = null;
 
-  constructor(app: App, name: string) {
+  constructor(app: App, name: N) {
     this.app = app;
     this.name = name;
   }
@@ -22,13 +21,13 @@ export class Question<H> {
     this.running = null;
   }
 
-  async ask(body: object, text: string): Promise<Frame<H>> {
+  async ask(body: Request<N>, text: string): Promise<Reply<N>> {
     this.stop();
     const own = new AbortController();
     this.running = own;
     const progress = this.app.progress(text);
     try {
-      return await this.app.api.ask<Frame<H>>(this.name, body, {
+      return await this.app.api.ask(this.name, body, {
         signal: own.signal,
         onProgress: (share, note) => progress.report(share, note || text),
       });

@@ -5,7 +5,15 @@ import { bars, heatmap, type Figure } from "../../figure/index.ts";
 import { number } from "../../format.ts";
 import { sheetTable } from "../measure/table.ts";
 import { count, duration, significant, unitText } from "../measure/words.ts";
-import type { Chosen, Expected, PathDocument, PlanDocument, PlanHeader, Program } from "./documents.ts";
+import {
+  programOf,
+  type Chosen,
+  type Expected,
+  type PathDocument,
+  type PlanDocument,
+  type PlanHeader,
+  type Program,
+} from "./documents.ts";
 
 interface Drawn {
   panel: HTMLElement;
@@ -18,10 +26,10 @@ function troubles(program: Program): string[] {
 }
 
 export function summaryPanel(doc: PlanDocument): HTMLElement {
-  const unsound = doc.paths.filter((path) => path.program && !path.program.sound).length;
+  const unsound = doc.paths.filter((path) => programOf(path)?.sound === false).length;
   const seen = doc.expected.length;
   const told = doc.expected.filter((one) => one.u !== null).length;
-  const time_s = doc.paths.reduce((sum, path) => sum + (path.program?.duration_s ?? 0), 0);
+  const time_s = doc.paths.reduce((sum, path) => sum + (programOf(path)?.duration_s ?? 0), 0);
   const [state, word] = unsound > 0 ? ["bad", "Not sound"] : doc.rank < seen ? ["warn", "Not all"] : ["", "Tells all"];
   const words = [
     unsound > 0 ? `${count(unsound, "program")} would run into something or leave the travel` : null,
@@ -51,11 +59,11 @@ export function summaryPanel(doc: PlanDocument): HTMLElement {
 /** One row for each path; a click shows it on the machine. */
 export function pathsPanel({ document, paths }: PlanHeader, now: number, choose: (path: number) => void): HTMLElement {
   const row = (path: PathDocument, i: number): HTMLElement => {
-    const { program } = path;
+    const program = programOf(path);
     const trouble = program ? troubles(program) : [];
     const minor = program?.minor ?? [];
     const state = !program
-      ? h("span", { class: "muted" }, "no program")
+      ? h("span", { class: "muted" }, path.program && "missing" in path.program ? path.program.missing : "no program")
       : h("span", { class: program.sound ? "sound" : "unsound" }, program.sound ? "sound" : "not sound");
     const notes = [
       ...trouble.map((text) => h("p", { class: "unsound" }, text)),

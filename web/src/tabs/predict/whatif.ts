@@ -1,5 +1,6 @@
 /** The panel of changes: switch errors off or drag them, set the part up otherwise. */
 
+import type { Request } from "../../api.ts";
 import type { Refusal } from "../../api.ts";
 import { fill, h } from "../../dom.ts";
 import { deg, mm, number } from "../../format.ts";
@@ -7,12 +8,7 @@ import { ErrorRow } from "./errorrow.ts";
 import type { PieceDocument, PieceHeader } from "./types.ts";
 
 /** The body of `what-if` without the study. */
-export interface Changes {
-  errors?: Record<string, { factor?: number; add?: string }>;
-  setting_deg?: Record<string, number>;
-  tool_length_mm?: number;
-  temperature?: string;
-}
+export type Changes = Omit<Request<"what-if">, "study">;
 
 /** Rows that are shown before somebody asks for all. */
 const SHOWN = 10;

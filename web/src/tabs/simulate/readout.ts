@@ -4,7 +4,7 @@ import { fill, h } from "../../dom.ts";
 import { number, withUnit } from "../../format.ts";
 import type { Moment, SimulatedAxis } from "./answers.ts";
 
-const DEVIATIONS: readonly [string, string, (m: Moment) => number | undefined][] = [
+const DEVIATIONS: readonly [string, string, (m: Moment) => number | null | undefined][] = [
   ["dev-X", "X", (m) => m.off_tip_um[0]],
   ["dev-Y", "Y", (m) => m.off_tip_um[1]],
   ["dev-Z", "Z", (m) => m.off_tip_um[2]],

@@ -23,15 +23,15 @@ export function toolOf(
   const tip = tipInHolder(machine, moment, nominal);
   const length = tip.length();
   const own = machine.tool;
-  return Math.abs(length - own.length_mm) < 1e-3
+  return own && Math.abs(length - own.length_mm) < 1e-3
     ? own
-    : { length_mm: length, diameter_mm: own.diameter_mm, tip_mm: tip.toArray() };
+    : { length_mm: length, diameter_mm: own?.diameter_mm ?? null, tip_mm: tip.toArray() };
 }
 
 /** What must be said about the picture of the tool. */
 export function toolNote(machine: MachineDescription, tools: readonly SetUpTool[], moment: Moment): string | null {
   const stated = tools.find((tool) => tool.tool === moment.tool);
-  if (stated ? stated.segments_mm.length > 0 : machine.tool.diameter_mm !== null) return null;
+  if (stated ? stated.segments_mm.length > 0 : machine.tool?.diameter_mm != null) return null;
   return `${moment.tool === null ? "tool" : `T${moment.tool}`} of unknown diameter`;
 }
 

@@ -1,6 +1,6 @@
 /** The document of `trueaxis evaluate --format json`, as far as tables and tiles need it. */
 
-import type { Diagnostic } from "../../api.ts";
+import type { ServeEvaluate } from "../../../types.d.ts";
 
 export interface Positioning {
   kind: "linear" | "rotary";
@@ -64,18 +64,7 @@ export interface Rotation {
   }[];
 }
 
-export interface EvaluateDocument {
-  standard: string;
-  file: string;
-  name: string | null;
-  machine: string | null;
-  axis: string | null;
-  instrument: string | null;
-  date: string | null;
-  temperature_degC: number | null;
-  diagnostics: Diagnostic[];
-  [key: string]: unknown;
-}
+export type EvaluateDocument = ServeEvaluate["document"];
 
 export type Kind = "positioning" | "circular" | "drift" | "diagonals" | "rotation";
 

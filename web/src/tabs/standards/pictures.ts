@@ -1,5 +1,6 @@
 /** The charts of the standards, from what the server says is in them. */
 
+import type { PictureEntry } from "../../../types.d.ts";
 import {
   lineChart,
   polar,
@@ -14,25 +15,9 @@ import type { Frame } from "../../frame.ts";
 
 type Slice = [first: number, count: number];
 
-export interface ScatterPicture {
-  kind: "scatter";
-  title: string;
-  note: string;
-  x: string;
-  y: string;
-  from_zero: boolean;
-  bands: { label: string; colour: number; line: Slice; points: Slice }[];
-  dashed: Slice;
-}
-
-export interface PolarPicture {
-  kind: "polar";
-  title: string;
-  note: string;
-  lines: { label: string; colour: number; points: Slice }[];
-}
-
-export type Picture = ScatterPicture | PolarPicture;
+export type Picture = PictureEntry;
+export type ScatterPicture = Extract<Picture, { kind: "scatter" }>;
+export type PolarPicture = Extract<Picture, { kind: "polar" }>;
 
 interface Arrays {
   line: Float64Array;

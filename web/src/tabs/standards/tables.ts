@@ -339,7 +339,7 @@ export function tilesOf(document: EvaluateDocument): Tile[] {
         symbol: key,
         word: WORDS[key] ?? "",
         title,
-        value: value(document, `${key}_um`),
+        value: value({ ...document }, `${key}_um`),
         unit: "µm",
       }));
     case "rotation":

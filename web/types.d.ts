@@ -1,0 +1,9308 @@
+// Made by `npm run types` from docs/schemas; not edited by hand.
+
+/**
+ * The source of the uncertainties.
+ */
+export type SourceEntry =
+  | string
+  | {
+      /**
+       * Its name.
+       */
+      campaign: string;
+      /**
+       * How many readings.
+       */
+      readings: number;
+      /**
+       * How many terms were found.
+       */
+      terms: number;
+      /**
+       * How many terms were left out because the readings do not support them.
+       */
+      left_out: number;
+      /**
+       * The verdict of the identification.
+       */
+      verdict: string;
+    };
+/**
+ * How the errors are compensated.
+ */
+export type CompensationEntry =
+  | {
+      kind: "program";
+      /**
+       * What of each pose: `position` or `position and orientation`.
+       */
+      scope: string;
+      /**
+       * The files of the compensation.
+       */
+      files: FileEntry[];
+    }
+  | {
+      kind: "tables";
+      /**
+       * Their form.
+       */
+      target: string;
+      /**
+       * How many.
+       */
+      tables: number;
+      /**
+       * The files of the compensation.
+       */
+      files: FileEntry[];
+    };
+/**
+ * The travel of an axis.
+ */
+export type TravelEntry = [number, number] | string;
+/**
+ * A table or an error that was left out.
+ */
+export type LeftOutEntry = {
+  /**
+   * Why.
+   */
+  reason: string;
+} & (
+  | {
+      /**
+       * The axis by whose position it would be read.
+       */
+      input: string;
+      /**
+       * The axis to which it would add.
+       */
+      output: string;
+    }
+  | {
+      /**
+       * Its ISO 230-1 name.
+       */
+      error: string;
+    }
+);
+/**
+ * The shape of a model.
+ */
+export type ShapeEntry =
+  | {
+      stl: {
+        /**
+         * The file, relative to the machine file.
+         */
+        path: string;
+        /**
+         * The length of its unit, mm.
+         */
+        unit_mm: number;
+      };
+    }
+  | {
+      /**
+       * @minItems 3
+       * @maxItems 3
+       */
+      box: [number, number, number];
+    }
+  | {
+      cone: {
+        /**
+         * Diameter at its base, mm.
+         */
+        base_diameter_mm: number;
+        /**
+         * Diameter at its top, mm.
+         */
+        top_diameter_mm: number;
+        /**
+         * Its length, mm.
+         */
+        length_mm: number;
+      };
+    }
+  | {
+      prism: {
+        /**
+         * Its outline in x and y, mm.
+         */
+        outline_mm: [number, number][];
+        /**
+         * Its length along z, mm.
+         */
+        length_mm: number;
+      };
+    };
+/**
+ * An evaluation of readings by a standard: `trueaxis/evaluate/1`.
+ */
+export type Evaluate = {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/evaluate/1";
+  /**
+   * The version of the program.
+   */
+  version: string;
+  /**
+   * The standard, such as `iso230-2`.
+   */
+  standard: string;
+  /**
+   * The file of the readings.
+   */
+  file: string;
+  /**
+   * The name of the measurement; null if none is stated.
+   */
+  name: string | null;
+  /**
+   * The machine; null if none is stated.
+   */
+  machine: string | null;
+  /**
+   * The axis; null if none is stated.
+   */
+  axis: string | null;
+  /**
+   * The instrument; null if none is stated.
+   */
+  instrument: string | null;
+  /**
+   * The date of the measurement; null if none is stated.
+   */
+  date: string | null;
+  /**
+   * The temperature, °C; null if none is stated.
+   */
+  temperature_degC: number | null;
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+} & (PositioningEntry | CircularEntry | DriftEntry | DiagonalsEntry | RotationEntry);
+/**
+ * A quantity of ISO 230-2, or the expanded uncertainties of all of them.
+ */
+export type QuantityEntry =
+  | (number | null)
+  | {
+      [k: string]: number | null;
+    };
+/**
+ * The check of a program, or why there is none.
+ */
+export type PlanProgramEntry =
+  | {
+      /**
+       * Why.
+       */
+      missing: string;
+    }
+  | {
+      /**
+       * How long it runs, s.
+       */
+      duration_s: number;
+      /**
+       * Whether it has neither errors nor critical issues.
+       */
+      sound: boolean;
+      /**
+       * Errors of the program itself.
+       */
+      errors: string[];
+      /**
+       * Critical issues, such as collisions.
+       */
+      grave: string[];
+      /**
+       * Minor issues, such as lost time.
+       */
+      minor: string[];
+    };
+/**
+ * One value, or those of a family (`iso`, `paper`) by their keys.
+ */
+export type Grouped =
+  | IndexEntry
+  | {
+      [k: string]: IndexEntry;
+    };
+/**
+ * One value, or those of a family (`iso`, `paper`) by their keys.
+ */
+export type Grouped2 =
+  | PositionIndex
+  | {
+      [k: string]: PositionIndex;
+    };
+/**
+ * A document of the command line with the problems of its input.
+ */
+export type Diagnosed = {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/evaluate/1";
+  /**
+   * The version of the program.
+   */
+  version: string;
+  /**
+   * The standard, such as `iso230-2`.
+   */
+  standard: string;
+  /**
+   * The file of the readings.
+   */
+  file: string;
+  /**
+   * The name of the measurement; null if none is stated.
+   */
+  name: string | null;
+  /**
+   * The machine; null if none is stated.
+   */
+  machine: string | null;
+  /**
+   * The axis; null if none is stated.
+   */
+  axis: string | null;
+  /**
+   * The instrument; null if none is stated.
+   */
+  instrument: string | null;
+  /**
+   * The date of the measurement; null if none is stated.
+   */
+  date: string | null;
+  /**
+   * The temperature, °C; null if none is stated.
+   */
+  temperature_degC: number | null;
+  /**
+   * The problems found in the input.
+   */
+  diagnostics: DiagnosticEntry[];
+} & (PositioningEntry | CircularEntry | DriftEntry | DiagonalsEntry | RotationEntry);
+/**
+ * A picture of a report.
+ */
+export type PictureEntry =
+  | {
+      kind: "scatter";
+      /**
+       * Its title.
+       */
+      title: string;
+      /**
+       * The text below it.
+       */
+      note: string;
+      /**
+       * The name of the x axis with its unit.
+       */
+      x: string;
+      /**
+       * The name of the y axis with its unit.
+       */
+      y: string;
+      /**
+       * Whether the y axis contains 0.
+       */
+      from_zero: boolean;
+      /**
+       * The series.
+       */
+      bands: BandEntry[];
+      /**
+       * A dashed line, as a part of `points`.
+       *
+       * @minItems 2
+       * @maxItems 2
+       */
+      dashed: [number, number];
+    }
+  | {
+      kind: "polar";
+      /**
+       * Its title.
+       */
+      title: string;
+      /**
+       * The text below it.
+       */
+      note: string;
+      /**
+       * The curves.
+       */
+      lines: PolarLineEntry[];
+    };
+/**
+ * The check of a program, or why there is none.
+ */
+export type ServePlanProgramEntry =
+  | {
+      /**
+       * Why.
+       */
+      missing: string;
+    }
+  | {
+      /**
+       * How long it runs, s.
+       */
+      duration_s: number;
+      /**
+       * Whether it has neither errors nor critical issues.
+       */
+      sound: boolean;
+      /**
+       * Errors of the program itself.
+       */
+      errors: string[];
+      /**
+       * Critical issues, such as collisions.
+       */
+      grave: string[];
+      /**
+       * Minor issues, such as lost time.
+       */
+      minor: string[];
+    };
+/**
+ * A prediction.
+ */
+export type ServePredict =
+  | (ServePredictPieceEntry & {
+      kind: "test-piece";
+    })
+  | (HolesEntry & {
+      kind: "holes";
+    });
+/**
+ * The content of a file, by its ending and, for TOML, by its sections.
+ */
+export type FileKind = "machine" | "study" | "campaign" | "program" | "readings" | "setup" | "cl" | "other";
+/**
+ * A command that has a report.
+ */
+export type Verb = "predict" | "simulate" | "plan" | "identify" | "evaluate" | "verify";
+/**
+ * An issue over a stretch of the path.
+ */
+export type TroubleEntry = {
+  /**
+   * `collision`, `near-miss`, `rapid-in-stock`, `over-travel`, `over-speed`, `slowed-down` or `rotary-flip`.
+   */
+  code: string;
+  /**
+   * Whether part or machine are in danger; other issues cost time only.
+   */
+  grave: boolean;
+  /**
+   * The issue in one sentence.
+   */
+  text: string;
+  /**
+   * The line where it begins.
+   */
+  line: number;
+  /**
+   * The program, an index into `programs`.
+   */
+  program: number;
+  /**
+   * The line where it ends.
+   */
+  last_line: number;
+  /**
+   * When it begins, s.
+   */
+  from_s: number;
+  /**
+   * When it ends, s.
+   */
+  to_s: number;
+  /**
+   * How many points of the path are in it.
+   */
+  nodes: number;
+} & (
+  | {
+      /**
+       * The two bodies.
+       *
+       * @minItems 2
+       * @maxItems 2
+       */
+      bodies: [string, string];
+      /**
+       * Their smallest distance, mm.
+       */
+      clearance_mm: number;
+    }
+  | {
+      /**
+       * The axis.
+       */
+      axis: string;
+      /**
+       * The worst value: a position in mm or degrees, or a speed in mm/s or degrees/s.
+       */
+      value: number;
+      /**
+       * The limit, in the same unit.
+       */
+      limit: number;
+    }
+  | {
+      /**
+       * The axis.
+       */
+      axis: string;
+      /**
+       * Lowest ratio of the actual feed to the programmed one.
+       */
+      feed_ratio: number;
+    }
+  | {
+      /**
+       * The axis.
+       */
+      axis: string;
+      /**
+       * By how much it turns, degrees.
+       */
+      turned_deg: number;
+    }
+);
+/**
+ * From one block to another.
+ */
+export type BlockStep = "next" | "previous";
+/**
+ * A quantity that colours a path.
+ */
+export type PathColour = "deviation" | "feed" | "load";
+/**
+ * What a window receives as text; answers with arrays are binary.
+ */
+export type ServeSocket =
+  | {
+      /**
+       * The number of the request.
+       */
+      id: number;
+      /**
+       * The share that is done, 0 to 1.
+       */
+      progress: number;
+    }
+  | {
+      /**
+       * The number of the request.
+       */
+      id: number;
+      /**
+       * The document; its type depends on the request.
+       */
+      reply: {
+        [k: string]: unknown;
+      };
+    }
+  | {
+      /**
+       * The number of the request; null if it could not be read.
+       */
+      id: number | null;
+      /**
+       * Why.
+       */
+      error: RefusalEntry;
+    }
+  | {
+      /**
+       * Which; without a path any file may have changed.
+       */
+      changed: ChangeEntry;
+    };
+/**
+ * @minItems 8
+ * @maxItems 8
+ */
+export type ServeStandards = [
+  StandardEntry,
+  StandardEntry,
+  StandardEntry,
+  StandardEntry,
+  StandardEntry,
+  StandardEntry,
+  StandardEntry,
+  StandardEntry
+];
+/**
+ * A prediction.
+ */
+export type ServeWhatIf =
+  | (ServeWhatIfPieceEntry & {
+      kind: "test-piece";
+    })
+  | (HolesEntry & {
+      kind: "holes";
+    });
+
+/**
+ * All documents by name.
+ */
+export interface Documents {
+  certificate: Certificate;
+  check: Check;
+  "compensate-adapt": CompensateAdapt;
+  "compensate-program": CompensateProgram;
+  "compensate-tables": CompensateTables;
+  compensate: Compensate;
+  description: Description;
+  diagnostic: Diagnostic;
+  diff: Diff;
+  evaluate: Evaluate;
+  "explain-list": ExplainList;
+  explain: Explain;
+  "identify-errors": IdentifyErrors;
+  "identify-expansion": IdentifyExpansion;
+  "identify-probe": IdentifyProbe;
+  "identify-rtcp-programs": IdentifyRtcpPrograms;
+  "identify-rtcp": IdentifyRtcp;
+  "identify-thermal": IdentifyThermal;
+  measure: Measure;
+  "plan-probe-surface": PlanProbeSurface;
+  plan: Plan;
+  "pose-rows": PoseRows;
+  pose: Pose;
+  post: Post;
+  "predict-holes": PredictHoles;
+  predict: Predict;
+  "serve-array": ServeArray;
+  "serve-describe-request": ServeDescribeRequest;
+  "serve-describe": ServeDescribe;
+  "serve-evaluate-request": ServeEvaluateRequest;
+  "serve-evaluate": ServeEvaluate;
+  "serve-identify-request": ServeIdentifyRequest;
+  "serve-identify": ServeIdentify;
+  "serve-models-request": ServeModelsRequest;
+  "serve-models": ServeModels;
+  "serve-open-request": ServeOpenRequest;
+  "serve-open": ServeOpen;
+  "serve-plan-request": ServePlanRequest;
+  "serve-plan": ServePlan;
+  "serve-pose-request": ServePoseRequest;
+  "serve-pose": ServePose;
+  "serve-predict-request": ServePredictRequest;
+  "serve-predict": ServePredict;
+  "serve-project-request": ServeProjectRequest;
+  "serve-project": ServeProject;
+  "serve-refused": ServeRefused;
+  "serve-report-request": ServeReportRequest;
+  "serve-report": ServeReport;
+  "serve-save-request": ServeSaveRequest;
+  "serve-save": ServeSave;
+  "serve-set-error-request": ServeSetErrorRequest;
+  "serve-set-error": ServeSetError;
+  "serve-simulate-request": ServeSimulateRequest;
+  "serve-simulate": ServeSimulate;
+  "serve-simulation-at-request": ServeSimulationAtRequest;
+  "serve-simulation-at": ServeSimulationAt;
+  "serve-simulation-block-request": ServeSimulationBlockRequest;
+  "serve-simulation-block": ServeSimulationBlock;
+  "serve-simulation-curves-request": ServeSimulationCurvesRequest;
+  "serve-simulation-curves": ServeSimulationCurves;
+  "serve-simulation-path-request": ServeSimulationPathRequest;
+  "serve-simulation-path": ServeSimulationPath;
+  "serve-simulation-source-request": ServeSimulationSourceRequest;
+  "serve-simulation-source": ServeSimulationSource;
+  "serve-socket-request": ServeSocketRequest;
+  "serve-socket": ServeSocket;
+  "serve-standards-request": ServeStandardsRequest;
+  "serve-standards": ServeStandards;
+  "serve-what-if-request": ServeWhatIfRequest;
+  "serve-what-if": ServeWhatIf;
+  simulate: Simulate;
+  "solve-path": SolvePath;
+  solve: Solve;
+  trace: Trace;
+  verify: Verify;
+}
+/**
+ * The certificate of a volumetric compensation.
+ */
+export interface Certificate {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/certificate/1";
+  /**
+   * The version of TrueAxis.
+   */
+  version: string;
+  /**
+   * The name of the study.
+   */
+  name: string;
+  /**
+   * `pass`, `fail` or `undecided`.
+   */
+  verdict: string;
+  /**
+   * The reason in one sentence.
+   */
+  reason: string;
+  /**
+   * The machine.
+   */
+  machine: MachineEntry;
+  /**
+   * Its identified errors.
+   */
+  errors: CertifiedErrorEntry[];
+  /**
+   * How they were determined.
+   */
+  determination: DeterminationEntry;
+  /**
+   * How they are compensated.
+   */
+  compensation: CompensationEntry;
+  /**
+   * How the compensation was put into the control.
+   */
+  application: ApplicationEntry;
+  /**
+   * The measurement with the compensation in effect, at poses that the determination did not use.
+   */
+  validation: ValidationEntry;
+  /**
+   * The prediction for the zone in which the certificate holds.
+   */
+  zone: ZoneEntry;
+  /**
+   * The decision.
+   */
+  decision: DecisionEntry;
+  /**
+   * Every file that was read.
+   */
+  inputs: FileEntry[];
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * A machine by its name.
+ */
+export interface MachineEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * Its kinematic chain from the workpiece to the tool.
+   */
+  chain: string;
+}
+/**
+ * An identified error: `value_at_0_um`, its value at position 0 of its axis, and `u_um`, its largest standard
+ * uncertainty, µm; `…_urad`, µrad, of an angle.
+ */
+export interface CertifiedErrorEntry {
+  /**
+   * Its ISO 230-1 name.
+   */
+  error: string;
+  [k: string]: number | null;
+}
+/**
+ * How the errors were determined.
+ */
+export interface DeterminationEntry {
+  /**
+   * The method in words.
+   */
+  method: string;
+  /**
+   * The date, as written.
+   */
+  date: string;
+  /**
+   * Who measured.
+   */
+  by: string;
+  /**
+   * The instrument.
+   */
+  instrument: string;
+  /**
+   * Its calibration.
+   */
+  calibration: string;
+  /**
+   * The temperature, °C.
+   */
+  temperature_c: number;
+  /**
+   * Its standard uncertainty, K; null if it is not stated.
+   */
+  u_temperature_c: number | null;
+  /**
+   * The source of their uncertainties: `machine file`, or a campaign of measurements.
+   */
+  uncertainties_from: SourceEntry;
+  /**
+   * How many poses were used.
+   */
+  poses_used: number;
+}
+/**
+ * A file with its hash.
+ */
+export interface FileEntry {
+  /**
+   * What it is.
+   */
+  role: string;
+  /**
+   * Its name, relative to the study.
+   */
+  name: string;
+  /**
+   * Its SHA-256, hexadecimal.
+   */
+  sha256: string;
+}
+/**
+ * How the compensation was put into the control.
+ */
+export interface ApplicationEntry {
+  /**
+   * In words.
+   */
+  method: string | null;
+  /**
+   * The date, as written.
+   */
+  date: string | null;
+  /**
+   * Who did it.
+   */
+  by: string | null;
+  /**
+   * The folder with what the control has loaded; null if that was not compared.
+   */
+  loaded: string | null;
+}
+/**
+ * The measurement with the compensation in effect.
+ */
+export interface ValidationEntry {
+  /**
+   * The method in words.
+   */
+  method: string;
+  /**
+   * The date, as written.
+   */
+  date: string;
+  /**
+   * Who measured.
+   */
+  by: string;
+  /**
+   * The instrument.
+   */
+  instrument: string;
+  /**
+   * Its calibration.
+   */
+  calibration: string;
+  /**
+   * The temperature, °C.
+   */
+  temperature_c: number;
+  /**
+   * Its standard uncertainty, K; null if it is not stated.
+   */
+  u_temperature_c: number | null;
+  /**
+   * Where the instrument was set to zero, mm and degrees; null if it was not.
+   */
+  zero: {
+    [k: string]: number;
+  } | null;
+  /**
+   * Standard uncertainty of one coordinate of a reading, µm.
+   */
+  u_um: number;
+  /**
+   * Expanded uncertainty U = k·u of one coordinate of a reading, µm.
+   */
+  expanded_um: number;
+  /**
+   * Root mean square of the tip deviation, µm.
+   */
+  rms_um: StatesEntry;
+  /**
+   * Largest tip deviation, µm.
+   */
+  largest_um: StatesEntry;
+  /**
+   * What was predicted.
+   */
+  predicted: PredictedEntry;
+  /**
+   * Whether readings and prediction agree.
+   */
+  agreement: StatesEntry2;
+  /**
+   * The poses.
+   */
+  poses: CertifiedPoseEntry[];
+}
+/**
+ * A figure without and with the compensation.
+ */
+export interface StatesEntry {
+  /**
+   * Without the compensation.
+   */
+  before: number;
+  /**
+   * With it.
+   */
+  after: number;
+}
+/**
+ * The prediction of the residual error at the poses of the validation.
+ */
+export interface PredictedEntry {
+  /**
+   * All poses together are below this with the probability `share`, µm.
+   */
+  largest_within_um: number;
+  /**
+   * Root mean square, µm.
+   */
+  rms_um: number;
+  /**
+   * The probability.
+   */
+  share: number;
+  /**
+   * Monte Carlo samples.
+   */
+  samples: number;
+  /**
+   * Their random seed.
+   */
+  seed: number;
+}
+/**
+ * A figure without and with the compensation.
+ */
+export interface StatesEntry2 {
+  /**
+   * Without the compensation.
+   */
+  before: AgreementEntry | null;
+  /**
+   * With it.
+   */
+  after: AgreementEntry | null;
+}
+/**
+ * A χ² test of readings against the prediction.
+ */
+export interface AgreementEntry {
+  /**
+   * χ² of the readings.
+   */
+  chi_square: number;
+  /**
+   * How many numbers.
+   */
+  numbers: number;
+  /**
+   * The value that chance exceeds once in a hundred times.
+   */
+  limit: number;
+  /**
+   * Whether χ² is within it.
+   */
+  holds: boolean;
+}
+/**
+ * A pose of the validation.
+ */
+export interface CertifiedPoseEntry {
+  /**
+   * Its line in the table of readings.
+   */
+  line: number;
+  /**
+   * The positions of the axes, mm and degrees.
+   */
+  at: {
+    [k: string]: number;
+  };
+  /**
+   * The side of approach by axis, +1 or −1, where it is stated.
+   */
+  approach: {
+    [k: string]: number;
+  };
+  /**
+   * Measured deviation of the tip without the compensation, µm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  before_um: [number, number, number];
+  /**
+   * With it, µm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  after_um: [number, number, number];
+  /**
+   * Predicted deviation of the tip without the compensation, µm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  predicted_before_um: [number, number, number];
+  /**
+   * With it, µm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  predicted_after_um: [number, number, number];
+  /**
+   * Expanded uncertainty of the prediction, µm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  expanded_predicted_um: [number, number, number];
+  /**
+   * Predicted deviation of the tool axis with the compensation, µrad.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  predicted_axis_urad: [number, number, number];
+  /**
+   * Its expanded uncertainty, µrad.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  expanded_axis_urad: [number, number, number];
+  /**
+   * Length of `before_um`, µm.
+   */
+  length_before_um: number;
+  /**
+   * Length of `after_um`, µm.
+   */
+  length_after_um: number;
+  /**
+   * The predicted length is below this with 95 %, µm.
+   */
+  predicted_within_um: number;
+  /**
+   * |measured − predicted| over its expanded uncertainty, of the worst coordinate.
+   */
+  E_n: StatesEntry;
+  /**
+   * `pass`, `fail` or `undecided`.
+   */
+  verdict: string;
+}
+/**
+ * The prediction for the zone in which the certificate holds.
+ */
+export interface ZoneEntry {
+  /**
+   * The ends by axis, mm or degrees.
+   */
+  ends: {
+    /**
+     * @minItems 2
+     * @maxItems 2
+     */
+    [k: string]: [number, number];
+  };
+  /**
+   * How many poses were evaluated.
+   */
+  poses: number;
+  /**
+   * Root mean square of the tip deviation without the compensation, µm.
+   */
+  rms_before_um: number;
+  /**
+   * With it, µm.
+   */
+  rms_after_um: number;
+  /**
+   * The largest with its uncertainty, µm.
+   */
+  largest_um: number;
+  /**
+   * The positions of the axes there, mm and degrees.
+   */
+  at: {
+    [k: string]: number;
+  };
+}
+/**
+ * The decision.
+ */
+export interface DecisionEntry {
+  /**
+   * The rule in words.
+   */
+  rule: string;
+  /**
+   * The limit of the tip deviation, µm.
+   */
+  limit_um: number;
+  /**
+   * The coverage factor k of U = k·u.
+   */
+  coverage_factor: number;
+  /**
+   * How many poses pass.
+   */
+  pass: number;
+  /**
+   * How many fail.
+   */
+  fail: number;
+  /**
+   * How many are neither.
+   */
+  undecided: number;
+}
+/**
+ * A machine file, checked.
+ */
+export interface Check {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/check/1";
+  /**
+   * Whether the file can be used, perhaps with warnings.
+   */
+  usable: boolean;
+  /**
+   * The name of the machine.
+   */
+  name?: string;
+  /**
+   * Its kinematic chain from the workpiece to the tool.
+   */
+  chain?: string;
+  /**
+   * Where its data are from.
+   */
+  source?: string;
+  /**
+   * Its axes in chain order.
+   */
+  axes?: AxisEntry[];
+  /**
+   * The names of its tools.
+   */
+  tools?: string[];
+  /**
+   * The ISO 230-1 names of the errors that are stated.
+   */
+  errors?: string[];
+  /**
+   * The measurements that the errors are from.
+   */
+  measured?: MeasurementEntry[];
+  /**
+   * What a prediction or a simulation would need in addition, in words.
+   */
+  lacks?: string[];
+  /**
+   * The problems of the file.
+   */
+  diagnostics: DiagnosticEntry[];
+}
+/**
+ * An axis; its travel is `travel_mm` or `travel_deg`.
+ */
+export interface AxisEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * `tool` or `workpiece`.
+   */
+  carries: string;
+  /**
+   * Its direction in the machine frame, a unit vector.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  direction: [number, number, number];
+  /**
+   * +1 where a positive command moves the body along the direction, −1 against it (ISO 841).
+   */
+  sense: number;
+  [k: string]: TravelEntry | null;
+}
+/**
+ * A measurement with the errors that it determined.
+ */
+export interface MeasurementEntry {
+  /**
+   * Instrument, date and temperature.
+   */
+  by: string;
+  /**
+   * The names of the errors.
+   */
+  errors: string[];
+}
+/**
+ * A problem found in the input.
+ */
+export interface DiagnosticEntry {
+  /**
+   * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+   */
+  code: string;
+  /**
+   * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+   */
+  severity: string;
+  /**
+   * The file as the user named it, or an argument such as `--at`.
+   */
+  file: string;
+  /**
+   * The line, from 1; 0 for the file as a whole.
+   */
+  line: number;
+  /**
+   * The column in characters, from 1; 0 for the file as a whole.
+   */
+  column: number;
+  /**
+   * The problem in one sentence.
+   */
+  message: string;
+  /**
+   * What to do; empty if it follows from the message.
+   */
+  hint: string;
+}
+/**
+ * A path moved onto a measured blank: `trueaxis/compensate-adapt/1`.
+ */
+export interface CompensateAdapt {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/compensate-adapt/1";
+  /**
+   * The name of the study.
+   */
+  name: string;
+  /**
+   * The name of the machine.
+   */
+  machine: string;
+  /**
+   * The file of the path.
+   */
+  path: string;
+  /**
+   * `good` or `not to be cut`.
+   */
+  verdict: string;
+  /**
+   * What speaks against the path.
+   */
+  findings: FindingEntry[];
+  /**
+   * How the blank lies.
+   */
+  registration: RegistrationEntry;
+  /**
+   * The form of the blank.
+   */
+  field: FieldEntry;
+  /**
+   * The places of the path.
+   */
+  places: PlacesEntry;
+  /**
+   * The wall that remains.
+   */
+  wall: WallEntry;
+  /**
+   * The wall place by place.
+   */
+  map: CellEntry[];
+  /**
+   * The program of the adapted path; null if none was asked for.
+   */
+  program: ProgramEntry | null;
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * What speaks against the path.
+ */
+export interface FindingEntry {
+  /**
+   * Its name for programs.
+   */
+  code: string;
+  /**
+   * The line of the path where it is worst.
+   */
+  line: number;
+  /**
+   * At how many places it is so.
+   */
+  places: number;
+  /**
+   * What was found.
+   */
+  message: string;
+}
+/**
+ * How the blank lies, with standard uncertainties.
+ */
+export interface RegistrationEntry {
+  /**
+   * Which of its freedoms the path follows.
+   */
+  follow: string;
+  /**
+   * The point about which it turns, mm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  centre_mm: [number, number, number];
+  /**
+   * The shift, µm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  shift_um: [number, number, number];
+  /**
+   * Its standard uncertainty, µm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  u_shift_um: [number, number, number];
+  /**
+   * The turn, µrad.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  turn_urad: [number, number, number];
+  /**
+   * Its standard uncertainty, µrad.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  u_turn_urad: [number, number, number];
+  /**
+   * The freedoms that no reading determines, held at zero.
+   */
+  held: string[];
+}
+/**
+ * The form of the blank as a smooth field.
+ */
+export interface FieldEntry {
+  /**
+   * How many points were probed.
+   */
+  points: number;
+  /**
+   * The length over which the form changes, mm.
+   */
+  length_mm: number;
+  /**
+   * The standard deviation of the form, µm.
+   */
+  form_um: number;
+  /**
+   * The standard deviation of a reading, µm.
+   */
+  noise_um: number;
+  /**
+   * Each point predicted by all others: root mean square of the difference, µm.
+   */
+  left_out_rms_um: number;
+  /**
+   * The share of these differences within U (k = 2).
+   */
+  left_out_within_u2: number;
+  /**
+   * The factor by which the uncertainty was raised.
+   */
+  raised: number;
+  /**
+   * Points that do not fit.
+   */
+  outliers: OutlierEntry[];
+}
+/**
+ * A point that does not fit.
+ */
+export interface OutlierEntry {
+  /**
+   * Its number.
+   */
+  point: number;
+  /**
+   * Its line in the table.
+   */
+  line: number;
+  /**
+   * Reading − field, µm.
+   */
+  residual_um: number;
+  /**
+   * The same in its standard uncertainty.
+   */
+  z: number;
+}
+/**
+ * The places of the path.
+ */
+export interface PlacesEntry {
+  /**
+   * How many there are.
+   */
+  all: number;
+  /**
+   * At how many the cutter touches the part.
+   */
+  cut: number;
+  /**
+   * The smallest and the largest move along the normal, µm.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  moved_um: [number, number];
+  /**
+   * The largest standard uncertainty of the move, µm.
+   */
+  largest_u_um: number;
+}
+/**
+ * The wall that remains.
+ */
+export interface WallEntry {
+  /**
+   * The nominal thickness, mm.
+   */
+  thickness_mm: number;
+  /**
+   * The layer to be removed, mm.
+   */
+  layer_mm: number;
+  /**
+   * The least thickness, mm.
+   */
+  least_mm: number;
+  /**
+   * Where the map comes from.
+   */
+  source: string;
+  /**
+   * As programmed.
+   */
+  before: WallSpread;
+  /**
+   * Adapted.
+   */
+  after: WallSpread;
+  /**
+   * The smallest and the largest distance from an equal layer, µm.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  off_equal_layer_um: [number, number];
+}
+/**
+ * The wall over all places of the map.
+ */
+export interface WallSpread {
+  /**
+   * The thinnest, mm.
+   */
+  min_mm: number;
+  /**
+   * The mean, mm.
+   */
+  mean_mm: number;
+  /**
+   * The thickest, mm.
+   */
+  max_mm: number;
+  /**
+   * At how many places it is cut through.
+   */
+  cut_through: number;
+  /**
+   * How many places the map has.
+   */
+  places: number;
+}
+/**
+ * One place of the map.
+ */
+export interface CellEntry {
+  /**
+   * Where it is, mm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  at_mm: [number, number, number];
+  /**
+   * The blank there, µm along the normal.
+   */
+  blank_um: number;
+  /**
+   * The field there, µm along the normal.
+   */
+  field_um: number;
+  /**
+   * Its standard uncertainty, µm.
+   */
+  u_field_um: number;
+  /**
+   * The wall as programmed, mm.
+   */
+  wall_before_mm: number;
+  /**
+   * The wall adapted, mm.
+   */
+  wall_after_mm: number;
+  /**
+   * Its standard uncertainty, mm.
+   */
+  u_wall_mm: number;
+}
+/**
+ * The program of the adapted path.
+ */
+export interface ProgramEntry {
+  /**
+   * Where it goes.
+   */
+  file: string;
+  /**
+   * Whether it was written: only if its proof holds and nothing speaks against the path.
+   */
+  written: boolean;
+  /**
+   * Blocks that move the tool along the path.
+   */
+  blocks: number;
+  /**
+   * The largest distance of the tip, read back, from the adapted path, µm.
+   */
+  tip_on_path_um: number;
+  /**
+   * Of the tool axis, deg.
+   */
+  axis_on_path_deg: number;
+}
+/**
+ * A program rewritten for the actual machine, with its proof: `trueaxis/compensate-program/1`.
+ */
+export interface CompensateProgram {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/compensate-program/1";
+  /**
+   * The name of the machine.
+   */
+  machine: string;
+  /**
+   * The program as it was.
+   */
+  program: string;
+  /**
+   * The compensated program.
+   */
+  output: string;
+  /**
+   * Blocks that move the tool.
+   */
+  blocks: number;
+  /**
+   * Blocks of these that were divided.
+   */
+  split: number;
+  /**
+   * Blocks that were written for all of them.
+   */
+  pieces: number;
+  /**
+   * Circles that became lines.
+   */
+  circles_to_lines: number;
+  /**
+   * Words that were added to blocks.
+   */
+  words_added: number;
+  /**
+   * Blocks of rotary axes alone with a new F, so that they take the same time.
+   */
+  feeds_changed: number;
+  /**
+   * Places where an axis reverses by less than its reversal error.
+   */
+  undecided_reversals: number;
+  /**
+   * Blocks that stay as they are, by reason.
+   */
+  left: {
+    [k: string]: number;
+  };
+  /**
+   * Places where the tool axis keeps its deviation, by reason.
+   */
+  axis_left: {
+    [k: string]: number;
+  };
+  /**
+   * Whether only the tip was corrected.
+   */
+  position_only: boolean;
+  /**
+   * How far the tip may be missed between the ends of blocks, mm.
+   */
+  residual_mm: number;
+  /**
+   * How far the tool axis may be missed there, rad.
+   */
+  residual_axis_rad: number;
+  /**
+   * The least increments; null if numbers were not rounded.
+   */
+  increments: IncrementsEntry | null;
+  /**
+   * The largest deviations of the program as it was.
+   */
+  before: ResidualEntry;
+  /**
+   * Of the compensated program, read back.
+   */
+  after: ResidualEntry;
+  /**
+   * How many ends of blocks were compared.
+   */
+  ends_compared: number;
+  /**
+   * The blocks with the largest deviations after compensation.
+   */
+  worst_blocks: BlockEntry[];
+  /**
+   * The largest correction of each axis.
+   */
+  largest_corrections: AxisCorrection[];
+  /**
+   * The largest relative change of the path length of the tip in a block.
+   */
+  way_change_relative: number;
+  /**
+   * How well the corrections are known.
+   */
+  uncertainty: UncertaintyEntry;
+  /**
+   * What would be left without correction and with a wrong sign.
+   */
+  convention_check: ConventionEntry[];
+  /**
+   * What to know of this program.
+   */
+  remarks: string[];
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * The least increments.
+ */
+export interface IncrementsEntry {
+  /**
+   * Of linear axes, mm.
+   */
+  linear_mm: number;
+  /**
+   * Of rotary axes, deg.
+   */
+  rotary_deg: number;
+}
+/**
+ * The largest deviations of the actual tool.
+ */
+export interface ResidualEntry {
+  /**
+   * Of the tip at the ends of blocks, µm.
+   */
+  tip_at_ends_um: LineValue;
+  /**
+   * Of the tool axis at the ends of blocks, µrad.
+   */
+  axis_at_ends_urad: LineValue;
+  /**
+   * Of the tip between the ends, µm.
+   */
+  tip_between_um: LineValue;
+  /**
+   * Of the tool axis between the ends, µrad.
+   */
+  axis_between_urad: LineValue;
+}
+/**
+ * A value and the line of the program where it occurs.
+ */
+export interface LineValue {
+  /**
+   * The value.
+   */
+  value: number;
+  /**
+   * The line of the program as it was, from 1.
+   */
+  line: number;
+}
+/**
+ * One block.
+ */
+export interface BlockEntry {
+  /**
+   * The line of the program as it was, from 1.
+   */
+  line: number;
+  /**
+   * Deviation of the tip before, µm.
+   */
+  tip_before_um: number;
+  /**
+   * Deviation of the tip after, µm.
+   */
+  tip_after_um: number;
+  /**
+   * Deviation of the tool axis before, µrad.
+   */
+  axis_before_urad: number;
+  /**
+   * Deviation of the tool axis after, µrad.
+   */
+  axis_after_urad: number;
+}
+/**
+ * The largest correction of one axis.
+ */
+export interface AxisCorrection {
+  /**
+   * The axis.
+   */
+  axis: string;
+  /**
+   * The correction.
+   */
+  value: number;
+  /**
+   * Its unit.
+   */
+  unit: string;
+  /**
+   * The line of the program as it was, from 1.
+   */
+  line: number;
+}
+/**
+ * How well the corrections are known.
+ */
+export interface UncertaintyEntry {
+  /**
+   * Places that were looked at.
+   */
+  places: number;
+  /**
+   * Of these, where the correction is smaller than its standard uncertainty.
+   */
+  smaller_than_u: number;
+  /**
+   * The largest standard uncertainty of the tip, µm.
+   */
+  largest_u_um: number;
+}
+/**
+ * The block with the largest correction under another convention.
+ */
+export interface ConventionEntry {
+  /**
+   * Which convention.
+   */
+  what: string;
+  /**
+   * Deviation of the tip, µm.
+   */
+  tip_um: number;
+  /**
+   * Deviation of the tool axis, µrad.
+   */
+  axis_urad: number;
+}
+/**
+ * Tables of one control, and what they leave of the errors: `trueaxis/compensate-tables/1`.
+ */
+export interface CompensateTables {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/compensate-tables/1";
+  /**
+   * The name of the machine.
+   */
+  machine: string;
+  /**
+   * The control, as `--target` names it.
+   */
+  target: string;
+  /**
+   * The files that were written.
+   */
+  files: string[];
+  /**
+   * The values are added to the command.
+   */
+  added_to: string;
+  /**
+   * Where the other axes stand for each table, mm and deg.
+   */
+  reference: {
+    [k: string]: number;
+  };
+  /**
+   * The tables.
+   */
+  tables: TableEntry[];
+  /**
+   * Errors that the control's own chain holds.
+   */
+  known: KnownEntry[];
+  /**
+   * Lines by which the control follows temperatures.
+   */
+  temperature: LineEntry[];
+  /**
+   * Rotary axes in the control's kinematics.
+   */
+  kinematics: JointEntry[];
+  /**
+   * The grid of corrections in space; null if there is none.
+   */
+  grid: GridEntry | null;
+  /**
+   * What was left out, and why.
+   */
+  left_out: LeftOutEntry[];
+  /**
+   * The errors that the tables represent.
+   */
+  represents: string[];
+  /**
+   * The errors that they cannot represent.
+   */
+  cannot: LossEntry[];
+  /**
+   * Deviation of the tool over the travel without tables, µm.
+   */
+  before_um: CompensateTablesResidualEntry;
+  /**
+   * The same with the tables, µm.
+   */
+  left_um: ProvedEntry;
+  /**
+   * The same if the control took them with the wrong sign, µm.
+   */
+  wrong_sign_um: CompensateTablesResidualEntry;
+  /**
+   * What to do at the control.
+   */
+  notes: string[];
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * One table: what is added to one axis by the position of another.
+ */
+export interface TableEntry {
+  /**
+   * The axis by whose position the table is read.
+   */
+  input: string;
+  /**
+   * The axis to which it adds.
+   */
+  output: string;
+  /**
+   * How many nodes it has.
+   */
+  nodes: number;
+  /**
+   * Whether the two directions of travel have values of their own.
+   */
+  by_direction: boolean;
+  /**
+   * Whether it repeats after a turn.
+   */
+  modulo: boolean;
+  /**
+   * The node that adds most; absent if there is none.
+   */
+  check?: CheckEntry | null;
+  [k: string]: number;
+}
+/**
+ * A node to check the sign by.
+ */
+export interface CheckEntry {
+  /**
+   * Its position, mm or deg.
+   */
+  position: number;
+  [k: string]: number;
+}
+/**
+ * An error that the control's own chain holds.
+ */
+export interface KnownEntry {
+  /**
+   * Its ISO 230-1 name.
+   */
+  error: string;
+  /**
+   * How many nodes; 1 if it is constant.
+   */
+  nodes: number;
+  [k: string]: number;
+}
+/**
+ * A line by which the control follows the temperature of a scale.
+ */
+export interface LineEntry {
+  /**
+   * The axis.
+   */
+  axis: string;
+  /**
+   * The position at which only the offset is added, mm or deg.
+   */
+  reference: number;
+  /**
+   * The slope, µm/m or µrad/rad.
+   */
+  slope_um_per_m: number;
+  [k: string]: number;
+}
+/**
+ * A rotary axis as the control has it.
+ */
+export interface JointEntry {
+  /**
+   * The axis.
+   */
+  axis: string;
+  /**
+   * A point on it, mm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  point_mm: [number, number, number];
+  /**
+   * Its direction, a unit vector.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  direction: [number, number, number];
+  /**
+   * By how much the point is off the nominal one, µm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  moved_um: [number, number, number];
+  /**
+   * By how much the direction is off the nominal one, µrad.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  tilted_urad: [number, number, number];
+}
+/**
+ * A grid of corrections in space.
+ */
+export interface GridEntry {
+  /**
+   * Its sides.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  sides: [SideEntry, SideEntry, SideEntry];
+  /**
+   * How many points.
+   */
+  points: number;
+  /**
+   * What is lost between the points, µm.
+   */
+  loss_um: number;
+  /**
+   * The largest correction, µm.
+   */
+  largest_um: number;
+}
+/**
+ * A side of the grid.
+ */
+export interface SideEntry {
+  /**
+   * The axis.
+   */
+  axis: string;
+  /**
+   * The first point, mm.
+   */
+  from_mm: number;
+  /**
+   * The distance of two points, mm.
+   */
+  step_mm: number;
+  /**
+   * How many points.
+   */
+  points: number;
+}
+/**
+ * An error that the tables cannot represent, alone on the machine.
+ */
+export interface LossEntry {
+  /**
+   * Its ISO 230-1 name.
+   */
+  error: string;
+  /**
+   * Deviation of the tip without tables, µm.
+   */
+  before_um: number;
+  /**
+   * With the tables, µm.
+   */
+  left_um: number;
+  /**
+   * Where it could be compensated.
+   */
+  instead: string;
+}
+/**
+ * Deviation of the tool over the travel of all axes.
+ */
+export interface CompensateTablesResidualEntry {
+  /**
+   * The largest of the tip, µm.
+   */
+  max: number;
+  /**
+   * Root mean square of the tip, µm.
+   */
+  rms: number;
+  /**
+   * Where the largest is, mm and deg.
+   */
+  at: {
+    [k: string]: number;
+  };
+  /**
+   * How many poses, each from both sides.
+   */
+  poses: number;
+  /**
+   * The largest of the tool axis, µrad.
+   */
+  axis_urad: number;
+}
+/**
+ * The same with the files read back, and on a test piece.
+ */
+export interface ProvedEntry {
+  /**
+   * The largest of the tip, µm.
+   */
+  max: number;
+  /**
+   * Root mean square of the tip, µm.
+   */
+  rms: number;
+  /**
+   * Where the largest is, mm and deg.
+   */
+  at: {
+    [k: string]: number;
+  };
+  /**
+   * How many poses, each from both sides.
+   */
+  poses: number;
+  /**
+   * The largest of the tool axis, µrad.
+   */
+  axis_urad: number;
+  /**
+   * The test piece; null if none was asked for.
+   */
+  test_piece: PieceEntry | null;
+}
+/**
+ * A test piece cut with the tables.
+ */
+export interface PieceEntry {
+  /**
+   * The study.
+   */
+  study: string;
+  /**
+   * Its indices.
+   */
+  indices: PieceIndex[];
+}
+/**
+ * One index of the test piece.
+ */
+export interface PieceIndex {
+  /**
+   * Its key.
+   */
+  index: string;
+  /**
+   * Without tables, µm.
+   */
+  before_um: number;
+  /**
+   * With the tables, µm.
+   */
+  left_um: number;
+}
+/**
+ * Values that the control has to add to its commands: `trueaxis/compensate/1`.
+ */
+export interface Compensate {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/compensate/1";
+  /**
+   * `values`.
+   */
+  what: string;
+  /**
+   * The name of the machine.
+   */
+  machine: string;
+  /**
+   * The values are added to the command.
+   */
+  added_to: string;
+  /**
+   * One entry for each axis.
+   */
+  axes: AxisValues[];
+  /**
+   * Where compensating the machine alone makes the part worse.
+   */
+  warnings: string[];
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * The values of one axis.
+ */
+export interface AxisValues {
+  /**
+   * The axis.
+   */
+  axis: string;
+  /**
+   * Which error is compensated: `comprehensive` or `machine`.
+   */
+  of: string;
+  /**
+   * What the axis carries: `tool` or `workpiece`.
+   */
+  carries: string;
+  /**
+   * The least increment, with its unit.
+   */
+  increment: string;
+  /**
+   * The values by position.
+   */
+  positions: PositionValue[];
+  [k: string]: {
+    [k: string]: number;
+  };
+}
+/**
+ * The value at one position.
+ */
+export interface PositionValue {
+  /**
+   * The value in least increments.
+   */
+  value_increments: number;
+  /**
+   * The value of rising positions; absent if both directions have one value.
+   */
+  value_up_increments?: number | null;
+  /**
+   * The value of falling positions; absent if both directions have one value.
+   */
+  value_down_increments?: number | null;
+  [k: string]: number;
+}
+/**
+ * The links, errors, sensors, tools and models of a machine. A pose is 12 numbers: its rotation row by row, then
+ * its origin in mm. Bodies are given by their index among the links; null is the bed.
+ */
+export interface Description {
+  /**
+   * The bodies of the kinematic chain.
+   */
+  links: LinkEntry[];
+  /**
+   * The errors of the machine, those without a stated value too.
+   */
+  errors: ErrorEntry[];
+  /**
+   * Its temperature sensors.
+   */
+  sensors: SensorEntry[];
+  /**
+   * The tool in the spindle; absent where there is no machine.
+   */
+  tool?: MountedToolEntry | null;
+  /**
+   * The tools of the machine file.
+   */
+  tools: ToolAssemblyEntry[];
+  /**
+   * The models of its bodies.
+   */
+  models: ModelEntry[];
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * A body of the chain. An axis has `max_velocity_mm_per_s`, `max_acceleration_mm_per_s2` and `max_jerk_mm_per_s3`
+ * (`deg` in place of `mm` for a rotary one), null where they are not stated.
+ */
+export interface LinkEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * `linear`, `rotary`, `workpiece` or `tool`.
+   */
+  kind: string;
+  /**
+   * `tool` or `workpiece`: the side of the chain on which it stands.
+   */
+  carries: string;
+  /**
+   * The direction of its axis in its own frame; (0 0 1) for workpiece and tool.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  direction: [number, number, number];
+  /**
+   * +1 where a positive command moves it along the direction, −1 against it (ISO 841); null for no axis.
+   */
+  sense: number | null;
+  /**
+   * The body that carries it.
+   */
+  parent: number | null;
+  /**
+   * Its pose on that body with all axes at 0.
+   */
+  placement: number[];
+  /**
+   * The pose of what is mounted on it.
+   */
+  mounting: number[];
+  /**
+   * The unit of its positions, `mm` or `deg`; null for no axis.
+   */
+  unit: string | null;
+  /**
+   * Its travel in that unit; null if it is not stated.
+   */
+  travel: TravelEntry | null;
+  [k: string]: number | null;
+}
+/**
+ * An error of the machine.
+ */
+export interface ErrorEntry {
+  /**
+   * Its ISO 230-1 name.
+   */
+  name: string;
+  /**
+   * The body that it belongs to.
+   */
+  body: number;
+  /**
+   * `location` (constant) or `motion` (varies with the position of the axis).
+   */
+  kind: string;
+  /**
+   * The unit of its values.
+   */
+  unit: string;
+  /**
+   * Whether the machine file states it.
+   */
+  stated: boolean;
+  /**
+   * The shape of its curve; null if it is not stated.
+   */
+  shape: string | null;
+  /**
+   * Its text in the machine file.
+   */
+  text: string | null;
+  /**
+   * Its line there.
+   */
+  line: number | null;
+  /**
+   * The file of its table.
+   */
+  table: string | null;
+  /**
+   * Its value, if it is constant.
+   */
+  value: number | null;
+  /**
+   * Its standard uncertainty, if that is constant.
+   */
+  u: number | null;
+  /**
+   * Its curve, sampled over the travel.
+   */
+  curve: CurveEntry | null;
+  /**
+   * How it was measured.
+   */
+  measured: MeasuredEntry | null;
+}
+/**
+ * The curve of an error motion.
+ */
+export interface CurveEntry {
+  /**
+   * Positions of the axis.
+   */
+  at: number[];
+  /**
+   * Their unit, `mm` or `deg`.
+   */
+  at_unit: string;
+  /**
+   * The mean of both directions there.
+   */
+  values: number[];
+  /**
+   * Positive minus negative direction there; null without reversal.
+   */
+  reversal: number[] | null;
+  /**
+   * The standard uncertainty there; null if it is not stated.
+   */
+  u: number[] | null;
+}
+/**
+ * How an error was measured.
+ */
+export interface MeasuredEntry {
+  /**
+   * The instrument.
+   */
+  instrument: string | null;
+  /**
+   * The date, as written.
+   */
+  date: string | null;
+  /**
+   * The temperature, °C.
+   */
+  temperature_celsius: number | null;
+}
+/**
+ * A temperature sensor.
+ */
+export interface SensorEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * What its temperature is used for.
+   */
+  drives: string[];
+}
+/**
+ * The tool in the spindle.
+ */
+export interface MountedToolEntry {
+  /**
+   * Its tip from the gauge line of the spindle, mm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  tip_mm: [number, number, number];
+  /**
+   * Its length, mm.
+   */
+  length_mm: number;
+  /**
+   * Its diameter, mm, where a tool of the machine file has this length.
+   */
+  diameter_mm: number | null;
+}
+/**
+ * A tool of the machine file.
+ */
+export interface ToolAssemblyEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * From the gauge line of the spindle to the tip, mm.
+   */
+  length_mm: number;
+  /**
+   * Its cutting diameter, mm.
+   */
+  diameter_mm: number | null;
+  /**
+   * Its corner radius, mm.
+   */
+  corner_radius_mm: number | null;
+  /**
+   * Its holder, in words.
+   */
+  holder: string | null;
+  /**
+   * Its outline from the tip upwards: diameter and length of each cylinder, mm.
+   */
+  segments_mm: [number, number][];
+}
+/**
+ * The model of a body.
+ */
+export interface ModelEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * The body that it moves with.
+   */
+  body: number | null;
+  /**
+   * Its pose on that body.
+   */
+  placement: number[];
+  /**
+   * Its shape.
+   */
+  shape: ShapeEntry;
+}
+/**
+ * A problem found in the input.
+ */
+export interface Diagnostic {
+  /**
+   * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+   */
+  code: string;
+  /**
+   * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+   */
+  severity: string;
+  /**
+   * The file as the user named it, or an argument such as `--at`.
+   */
+  file: string;
+  /**
+   * The line, from 1; 0 for the file as a whole.
+   */
+  line: number;
+  /**
+   * The column in characters, from 1; 0 for the file as a whole.
+   */
+  column: number;
+  /**
+   * The problem in one sentence.
+   */
+  message: string;
+  /**
+   * What to do; empty if it follows from the message.
+   */
+  hint: string;
+}
+/**
+ * Two calibrations of one machine: which errors have changed.
+ */
+export interface Diff {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/diff/1";
+  /**
+   * The version of TrueAxis.
+   */
+  version: string;
+  /**
+   * The name of the newer machine.
+   */
+  machine: string;
+  /**
+   * Its kinematic chain from the workpiece to the tool.
+   */
+  chain: string;
+  /**
+   * The older file.
+   */
+  old: string;
+  /**
+   * The newer file.
+   */
+  new: string;
+  /**
+   * The names of the errors that have changed significantly.
+   */
+  moved: string[];
+  /**
+   * The bound of the change of one error in its standard uncertainty, so that among all errors none is
+   * above it by chance with 95 %.
+   */
+  limit_u: number;
+  /**
+   * All errors.
+   */
+  errors: ErrorChangeEntry[];
+  /**
+   * What the changes do to the tip.
+   */
+  tip: TipChangeEntry;
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * How one error has changed, where the change is clearest.
+ */
+export interface ErrorChangeEntry {
+  /**
+   * Its ISO 230-1 name.
+   */
+  error: string;
+  /**
+   * The unit of its values: `um` or `urad`.
+   */
+  unit: string;
+  /**
+   * Its old value; null if the old file does not state it.
+   */
+  old: number | null;
+  /**
+   * Its new value; null if the new file does not state it.
+   */
+  new: number | null;
+  /**
+   * New − old.
+   */
+  change: number | null;
+  /**
+   * Root mean square of the change over the travel.
+   */
+  rms_change: number;
+  /**
+   * Standard uncertainty of the change; null if a file states none.
+   */
+  u_change: number | null;
+  /**
+   * |change| over its expanded uncertainty (k = 2), ISO 13528.
+   */
+  E_n: number | null;
+  /**
+   * The position; null for location errors.
+   */
+  at: AxisPositionEntry | null;
+  /**
+   * `yes`, `perhaps`, `no`, `unknown`, `new` (only in the new file) or `gone` (only in the old one).
+   */
+  moved: string;
+}
+/**
+ * A position of one axis.
+ */
+export interface AxisPositionEntry {
+  /**
+   * The name of the axis.
+   */
+  axis: string;
+  /**
+   * Its position.
+   */
+  position: number;
+  /**
+   * `mm` or `deg`.
+   */
+  unit: string;
+  /**
+   * The side from which it is approached: +1, −1, or 0 for the mean of both.
+   */
+  approach: number;
+}
+/**
+ * What the changes do to the tip.
+ */
+export interface TipChangeEntry {
+  /**
+   * How many poses were evaluated.
+   */
+  poses: number;
+  /**
+   * The largest change of the tip, µm.
+   */
+  largest_um: number;
+  /**
+   * Its standard uncertainty, µm.
+   */
+  u_um: number;
+  /**
+   * The axis positions of the largest change, mm and degrees.
+   */
+  at: {
+    [k: string]: number;
+  };
+  /**
+   * Root mean square over the poses, µm.
+   */
+  rms_um: number;
+  /**
+   * The largest change of the tool axis, µrad.
+   */
+  axis_largest_urad: number;
+  /**
+   * The largest difference of the nominal machines at the tip, mm; 0 if they are the same.
+   */
+  nominal_difference_mm: number;
+  /**
+   * The change of each error alone, the largest first.
+   */
+  shares: TipShareEntry[];
+}
+/**
+ * The change of one error alone.
+ */
+export interface TipShareEntry {
+  /**
+   * Its ISO 230-1 name.
+   */
+  error: string;
+  /**
+   * How far it moves the tip at most, µm.
+   */
+  largest_um: number;
+}
+/**
+ * Positioning of an axis. Deviations of linear axes end in `_um` (µm), those of rotary axes are given twice, in
+ * `_urad` (µrad) and `_arcsec` (arcseconds). For each unit there are the quantities `A`, `A_up`, `A_down`, `R`,
+ * `R_up`, `R_down`, `E`, `E_up`, `E_down`, `M`, `B` and `B_mean` of ISO 230-2, then an object `U` with their
+ * expanded uncertainties (k = 2).
+ */
+export interface PositioningEntry {
+  /**
+   * `linear` or `rotary`.
+   */
+  kind: string;
+  /**
+   * The measured length of a linear axis, mm.
+   */
+  travel_mm?: number | null;
+  /**
+   * The measured angle of a rotary axis, degrees.
+   */
+  travel_deg?: number | null;
+  /**
+   * Every target position.
+   */
+  positions: PositionEntry[];
+  /**
+   * Standard uncertainties by ISO/TR 230-9, each key with its unit; null if nothing is known of the
+   * instrument. An entry is null where it does not apply.
+   */
+  budget: {
+    [k: string]: number | null;
+  } | null;
+  /**
+   * `P`, `Pa`, `Ps` and `U` of VDI/DGQ 3441, each key with its unit; null where the readings do not allow it.
+   */
+  vdi3441: {
+    [k: string]: number | null;
+  };
+  /**
+   * The quantities in the form of ASME B5.54, each key with its unit; null where the readings do not allow it.
+   */
+  b5_54_form: {
+    [k: string]: number | null;
+  };
+  [k: string]: QuantityEntry;
+}
+/**
+ * One target position. For each unit there are the means `mean_up`, `mean_down` and `mean`, the standard
+ * deviations `s_up` and `s_down`, the reversal value `B` and the repeatabilities `R_up`, `R_down` and `R`.
+ */
+export interface PositionEntry {
+  /**
+   * The target of a linear axis, mm.
+   */
+  target_mm?: number | null;
+  /**
+   * The target of a rotary axis, degrees.
+   */
+  target_deg?: number | null;
+  /**
+   * How many readings were approached in the positive direction.
+   */
+  n_up: number;
+  /**
+   * How many readings were approached in the negative direction.
+   */
+  n_down: number;
+  [k: string]: number | null;
+}
+/**
+ * A circular test by ISO 230-4. For each sense (`ccw`, `cw`) there are `G_ccw_um`, `F_ccw_max_um` and
+ * `F_ccw_min_um`, then the same over all paths: `G_um`, `G_b_um`, `F_max_um`, `F_min_um` and `D_um`.
+ */
+export interface CircularEntry {
+  /**
+   * The two axes.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  axes: [string, string];
+  /**
+   * The nominal radius, mm; null if none is stated.
+   */
+  radius_mm: number | null;
+  /**
+   * The centre that deviations are counted from, mm.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  centre_mm: [number, number];
+  /**
+   * Every path.
+   */
+  paths: PathEntry[];
+  /**
+   * The causes of the deviations; null if they cannot be separated.
+   */
+  causes: CausesEntry | null;
+  [k: string]: number | null;
+}
+/**
+ * One path of a circular test.
+ */
+export interface PathEntry {
+  /**
+   * `ccw` or `cw`.
+   */
+  direction: string;
+  /**
+   * How many points it has.
+   */
+  points: number;
+  /**
+   * The overlap that was left out, degrees.
+   */
+  overlap_left_out_deg: number;
+  /**
+   * Circular deviation, µm.
+   */
+  G_um: number;
+  /**
+   * Largest radial deviation, µm; null without a nominal radius.
+   */
+  F_max_um: number | null;
+  /**
+   * Smallest radial deviation, µm; null without a nominal radius.
+   */
+  F_min_um: number | null;
+  /**
+   * Mean radial deviation, µm; null without a nominal radius.
+   */
+  mean_radial_um: number | null;
+  /**
+   * Centre of the least-squares circle, mm.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  centre_mm: [number, number];
+  /**
+   * Its radius, mm.
+   */
+  mean_radius_mm: number;
+}
+/**
+ * The causes of the deviations of a circular test, by least squares.
+ */
+export interface CausesEntry {
+  /**
+   * Reversal error of each axis, µm.
+   */
+  backlash_um: {
+    [k: string]: number;
+  };
+  /**
+   * Scale of the first axis − that of the second, over the diameter, µm.
+   */
+  scale_mismatch_um: number;
+  /**
+   * Squareness, positive if closer than 90°, µrad; null if one sense alone cannot separate it.
+   */
+  squareness_urad: number | null;
+  /**
+   * Servo mismatch, counterclockwise along +45°, µm; null if one sense alone cannot separate it.
+   */
+  servo_mismatch_um: number | null;
+  /**
+   * Squareness and servo mismatch together, µm; null if they are separated.
+   */
+  diagonal_ellipse_um: number | null;
+  /**
+   * The centre, µm.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  centre_um: [number, number];
+  /**
+   * The spikes at the reversals.
+   */
+  spikes: SpikeEntry[];
+  /**
+   * Root mean square of the residuals, µm.
+   */
+  residual_rms_um: number;
+}
+/**
+ * A spike after a reversal.
+ */
+export interface SpikeEntry {
+  /**
+   * The axis that reverses.
+   */
+  axis: string;
+  /**
+   * Where on the circle, degrees.
+   */
+  at_deg: number;
+  /**
+   * `ccw` or `cw`.
+   */
+  direction: string;
+  /**
+   * Largest residual after the reversal, outward positive, µm.
+   */
+  height_um: number;
+}
+/**
+ * Drift by ISO 230-3.
+ */
+export interface DriftEntry {
+  /**
+   * Length of the windows, s.
+   */
+  window_s: number;
+  /**
+   * How long the test lasts, s.
+   */
+  duration_s: number | null;
+  /**
+   * Every channel.
+   */
+  channels: ChannelEntry[];
+}
+/**
+ * One channel: `range`, `first_window`, `largest_window` and `end`, each with the unit `_um`, `_urad` or `_degC`.
+ */
+export interface ChannelEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * Where the window of the largest range begins, s.
+   */
+  largest_window_from_s: number;
+  [k: string]: number;
+}
+/**
+ * Diagonals by ISO 230-6: the largest of all, then each. A value is null if the readings do not allow it.
+ */
+export interface DiagonalsEntry {
+  /**
+   * Bidirectional systematic deviation, µm.
+   */
+  E_d_um: number | null;
+  /**
+   * Systematic deviation in the positive direction, µm.
+   */
+  E_d_up_um: number | null;
+  /**
+   * Systematic deviation in the negative direction, µm.
+   */
+  E_d_down_um: number | null;
+  /**
+   * Bidirectional repeatability, µm.
+   */
+  R_d_um: number | null;
+  /**
+   * Reversal value, µm.
+   */
+  B_d_um: number | null;
+  /**
+   * Bidirectional accuracy, µm.
+   */
+  A_d_um: number | null;
+  /**
+   * Every diagonal.
+   */
+  diagonals: DiagonalEntry[];
+  /**
+   * Squareness from pairs of diagonals.
+   */
+  squareness: SquarenessEntry[];
+}
+/**
+ * One diagonal.
+ */
+export interface DiagonalEntry {
+  /**
+   * Its name by the signs of the axes.
+   */
+  diagonal: string;
+  /**
+   * Its elongation, µm/m; null if the readings do not allow it.
+   */
+  stretch_um_per_m: number | null;
+  /**
+   * `linear` or `rotary`.
+   */
+  kind: string;
+  /**
+   * The measured length of a linear axis, mm.
+   */
+  travel_mm?: number | null;
+  /**
+   * The measured angle of a rotary axis, degrees.
+   */
+  travel_deg?: number | null;
+  /**
+   * Every target position.
+   */
+  positions: PositionEntry[];
+  /**
+   * Standard uncertainties by ISO/TR 230-9, each key with its unit; null if nothing is known of the
+   * instrument. An entry is null where it does not apply.
+   */
+  budget: {
+    [k: string]: number | null;
+  } | null;
+  /**
+   * `P`, `Pa`, `Ps` and `U` of VDI/DGQ 3441, each key with its unit; null where the readings do not allow it.
+   */
+  vdi3441: {
+    [k: string]: number | null;
+  };
+  /**
+   * The quantities in the form of ASME B5.54, each key with its unit; null where the readings do not allow it.
+   */
+  b5_54_form: {
+    [k: string]: number | null;
+  };
+  [k: string]: QuantityEntry;
+}
+/**
+ * Squareness of two axes, as their diagonals suggest it.
+ */
+export interface SquarenessEntry {
+  /**
+   * The two axes.
+   */
+  axes: string;
+  /**
+   * By how much they are closer than 90°, µrad.
+   */
+  closer_urad: number;
+  /**
+   * `body` or `face` diagonals.
+   */
+  from: string;
+}
+/**
+ * Error motions of a rotary axis by ISO 230-7.
+ */
+export interface RotationEntry {
+  /**
+   * How many full revolutions were evaluated.
+   */
+  revolutions: number;
+  /**
+   * Readings in each revolution.
+   */
+  readings_per_revolution: number;
+  /**
+   * Readings outside the full revolutions.
+   */
+  readings_left_out: number;
+  /**
+   * The error motions.
+   */
+  motions: MotionEntry[];
+}
+/**
+ * One error motion.
+ */
+export interface MotionEntry {
+  /**
+   * The sensitive direction.
+   */
+  sensitive: string;
+  /**
+   * Total error motion, µm.
+   */
+  total_um: number;
+  /**
+   * Synchronous error motion, µm.
+   */
+  synchronous_um: number;
+  /**
+   * Asynchronous error motion, µm; null for one revolution.
+   */
+  asynchronous_um: number | null;
+  /**
+   * The part once per revolution, µm.
+   */
+  fundamental_um: number;
+}
+/**
+ * The codes of all diagnostics.
+ */
+export interface ExplainList {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/explain/1";
+  /**
+   * All codes.
+   */
+  codes: CodeEntry[];
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * One code.
+ */
+export interface CodeEntry {
+  /**
+   * The code.
+   */
+  code: string;
+  /**
+   * The part of the program that reports it.
+   */
+  room: string;
+  /**
+   * Its meaning in one sentence.
+   */
+  title: string;
+}
+/**
+ * The meaning of one diagnostic.
+ */
+export interface Explain {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/explain/1";
+  /**
+   * The code.
+   */
+  code: string;
+  /**
+   * Its meaning in one sentence.
+   */
+  title: string;
+  /**
+   * Its meaning, its cause and what to do, Markdown.
+   */
+  text: string;
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * Errors identified from the readings of a campaign.
+ */
+export interface IdentifyErrors {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/identify/1";
+  /**
+   * Name of the campaign.
+   */
+  name: string;
+  /**
+   * Name of the machine.
+   */
+  machine: string;
+  /**
+   * Date of the measurement as written; null if none is stated.
+   */
+  date: string | null;
+  /**
+   * Whether the model explains the readings.
+   */
+  verdict: VerdictEntry;
+  /**
+   * The errors of the machine.
+   */
+  errors: FoundEntry[];
+  /**
+   * The errors of the set-up of the instruments.
+   */
+  setup: FoundEntry[];
+  /**
+   * Combinations of errors that change no reading.
+   */
+  unobservable: Unobservable[];
+  /**
+   * Candidate terms that the readings do not support.
+   */
+  left_out: string[];
+  /**
+   * Root mean square of the residual of length readings, in sample, µm; null without such readings.
+   */
+  rms_in_um: number | null;
+  /**
+   * The same on places that the model had not seen, µm.
+   */
+  rms_held_out_um: number | null;
+  /**
+   * Repeatability of the readings, µm.
+   */
+  repeatability_um: number | null;
+  /**
+   * Whether the repeatability comes from repeated readings; if not, it is the stated noise.
+   */
+  repeatability_is_measured: boolean;
+  /**
+   * Root mean square without the errors sought, set-up only, µm.
+   */
+  rms_without_model_um: number | null;
+  /**
+   * The same figures for lengths and angles.
+   */
+  rms: RmsEntries;
+  /**
+   * Number of readings.
+   */
+  readings: number;
+  /**
+   * Number of places.
+   */
+  places: number;
+  /**
+   * Rank of the design matrix.
+   */
+  rank: number;
+  /**
+   * Its condition number.
+   */
+  condition: number;
+  /**
+   * Relative singular value below which a combination counts as unobservable.
+   */
+  threshold: number;
+  /**
+   * `full` or `linear`.
+   */
+  model: string;
+  /**
+   * χ² of the fit.
+   */
+  chi_square: number;
+  /**
+   * Its degrees of freedom.
+   */
+  degrees_of_freedom: number;
+  /**
+   * Factor by which the uncertainties are enlarged, 1 or more.
+   */
+  birge_ratio: number;
+  /**
+   * Which axes the residual of the held-out places follows.
+   */
+  residual_follows: IdentifyErrorsFieldEntry[];
+  /**
+   * How the terms were selected.
+   */
+  selection: SelectionEntry;
+  /**
+   * Readings beyond the limit of studentised residuals.
+   */
+  outliers: IdentifyErrorsOutlierEntry[];
+  /**
+   * That limit, in standard deviations.
+   */
+  outlier_limit: number;
+  /**
+   * The readings that change the result most if they are left out.
+   */
+  most_influential: InfluenceEntry[];
+  /**
+   * The conventions that were tried; null if that was not asked for.
+   */
+  conventions: ConventionCheck | null;
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * The result.
+ */
+export interface VerdictEntry {
+  /**
+   * `explained`, `over-fitted`, `follows-xyz`, `turns-with-axis` or `unexplained`.
+   */
+  key: string;
+  /**
+   * In words.
+   */
+  words: string;
+  /**
+   * Whether the model may be trusted.
+   */
+  good: boolean;
+}
+/**
+ * One unknown.
+ */
+export interface FoundEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * The standard uncertainty again, in the same unit.
+   */
+  u: number | null;
+  /**
+   * Value divided by its standard uncertainty.
+   */
+  z: number | null;
+  [k: string]: number | null;
+}
+/**
+ * A combination of unknowns that changes no reading.
+ */
+export interface Unobservable {
+  /**
+   * As a sum.
+   */
+  combination: string;
+  /**
+   * In words.
+   */
+  words: string;
+  /**
+   * A set-up that makes it observable; null if none of those tried does.
+   */
+  resolve_with: string | null;
+}
+/**
+ * Root mean squares of the residual.
+ */
+export interface RmsEntries {
+  /**
+   * Of the readings that the model was fitted to.
+   */
+  in_sample: RmsEntry;
+  /**
+   * Of places that the model had not seen.
+   */
+  held_out: RmsEntry;
+  /**
+   * Of repeated readings, or the stated noise.
+   */
+  repeatability: RmsEntry;
+  /**
+   * Without the errors sought, set-up only.
+   */
+  without_model: RmsEntry;
+}
+/**
+ * A root mean square.
+ */
+export interface RmsEntry {
+  /**
+   * Of lengths, µm; null without such readings.
+   */
+  um: number | null;
+  /**
+   * Of angles, µrad; null without such readings.
+   */
+  urad: number | null;
+  /**
+   * In units of the stated noise.
+   */
+  times_noise: number;
+}
+/**
+ * A part of the residual.
+ */
+export interface IdentifyErrorsFieldEntry {
+  /**
+   * `XYZ`, or the letter of a rotary axis.
+   */
+  what: string;
+  /**
+   * The share of the squares of the residual, 0 to 1.
+   */
+  share: number;
+}
+/**
+ * How the terms were selected.
+ */
+export interface SelectionEntry {
+  /**
+   * Number of candidate terms.
+   */
+  candidates: number;
+  /**
+   * Least |z| of a term that is kept; null if none is.
+   */
+  least_z: number | null;
+  /**
+   * The limits that were tried.
+   */
+  scores: Score[];
+}
+/**
+ * How well a threshold predicts.
+ */
+export interface Score {
+  /**
+   * Least |z| of a term that is kept; ∞ (null): none is, 0: all are.
+   */
+  least_z: number | null;
+  /**
+   * Number of candidate terms that are kept.
+   */
+  terms: number;
+  /**
+   * Root mean square of the residual on parts that were held out, in units of the noise.
+   */
+  held_out_times_noise: number;
+  /**
+   * The same on the readings themselves.
+   */
+  in_sample_times_noise: number;
+}
+/**
+ * A reading that does not fit.
+ */
+export interface IdentifyErrorsOutlierEntry {
+  /**
+   * Its file.
+   */
+  file: string;
+  /**
+   * Its line there.
+   */
+  line: number;
+  /**
+   * Its channel, from 1.
+   */
+  channel: number;
+  /**
+   * Its studentised residual.
+   */
+  studentised: number;
+}
+/**
+ * A reading and its influence on the result.
+ */
+export interface InfluenceEntry {
+  /**
+   * Its file.
+   */
+  file: string;
+  /**
+   * Its line there.
+   */
+  line: number;
+  /**
+   * Its leverage, 0 to 1.
+   */
+  leverage: number;
+  /**
+   * Cook's distance; null if the result depends on this reading alone.
+   */
+  cook: number | null;
+}
+/**
+ * The conventions that were tried.
+ */
+export interface ConventionCheck {
+  /**
+   * Number of changes tried.
+   */
+  tried: number;
+  /**
+   * The residual as the readings are, in units of the noise.
+   */
+  residual_times_noise: number;
+  /**
+   * Changes that fit far better, the best first.
+   */
+  better: Convention[];
+  /**
+   * What cannot be checked, or what to look at.
+   */
+  remarks: string[];
+}
+/**
+ * A change of convention that fits far better.
+ */
+export interface Convention {
+  /**
+   * What to change, in words.
+   */
+  change: string;
+  /**
+   * The residual without the change, in units of the noise.
+   */
+  before_times_noise: number;
+  /**
+   * The residual with the change, in units of the noise.
+   */
+  after_times_noise: number;
+}
+/**
+ * The coefficient of expansion of a scale.
+ */
+export interface IdentifyExpansion {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/identify/1";
+  /**
+   * The name of the study.
+   */
+  name: string;
+  /**
+   * The coefficient of expansion by least squares over all runs, µm/(m·K).
+   */
+  expansion_um_per_m_k: number;
+  /**
+   * Its standard uncertainty, µm/(m·K).
+   */
+  u_um_per_m_k: number;
+  /**
+   * The coefficient from the slopes of the coldest and the warmest run alone, µm/(m·K).
+   */
+  slope_difference_um_per_m_k: number;
+  /**
+   * Standard deviation of the residual error, µm.
+   */
+  residual_um: number;
+  /**
+   * Materials of scales that the coefficient allows within ± 2 u.
+   */
+  materials: string[];
+  /**
+   * The runs.
+   */
+  runs: RunEntry[];
+  /**
+   * What the reader should know.
+   */
+  warnings: string[];
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * A run of the laser.
+ */
+export interface RunEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * The temperature of the scale, °C.
+   */
+  temperature_celsius: number;
+  /**
+   * The slope of its straight line, µm/m.
+   */
+  slope_um_per_m: number;
+}
+/**
+ * The calibration of a touch probe.
+ */
+export interface IdentifyProbe {
+  /**
+   * Its name.
+   */
+  stylus?: string;
+  /**
+   * Range of the radii as measured, µm.
+   */
+  range_before_um?: number;
+  /**
+   * The same with only the offset corrected, µm.
+   */
+  range_offset_only_um?: number;
+  /**
+   * The same corrected, µm.
+   */
+  range_after_um?: number;
+  /**
+   * The same corrected, directions held out, µm.
+   */
+  range_held_out_um?: number;
+  /**
+   * Root mean square as measured, µm.
+   */
+  rms_before_um?: number;
+  /**
+   * The same corrected, µm.
+   */
+  rms_after_um?: number;
+  /**
+   * The same corrected, directions held out, µm.
+   */
+  rms_held_out_um?: number;
+  /**
+   * The least and the greatest measured radius, mm.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  radius_before_mm?: [number, number];
+  /**
+   * Ball − spindle with the spindle at 0, mm; null if not observable.
+   */
+  offset_mm?: number[] | null;
+  /**
+   * Its standard uncertainties, mm.
+   */
+  u_offset_mm?: number[] | null;
+  /**
+   * Centre of the gauge, mm.
+   */
+  centre_mm?: number[];
+  /**
+   * Whether that is stated.
+   */
+  centre_known?: boolean;
+  /**
+   * By how much an offset from four hits alone differs, µm.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  four_hit_bias_um?: [number, number];
+  /**
+   * The model of the pre-travel: `fourier` or `spline`.
+   */
+  model?: string;
+  /**
+   * Its highest harmonic, or its number of knots.
+   */
+  size?: number;
+  /**
+   * Harmonics of the pre-travel; the first is part of the offset.
+   */
+  harmonics?: HarmonicEntry[];
+  /**
+   * The sizes of model that were tried.
+   */
+  scores?: ProbeScoreEntry[];
+  /**
+   * Number of hits.
+   */
+  hits?: number;
+  /**
+   * Standard deviation of one hit, µm.
+   */
+  s_um?: number;
+  /**
+   * Degrees of freedom of the fit.
+   */
+  degrees_of_freedom?: number;
+  /**
+   * Factor from u to U (95 %).
+   */
+  coverage_factor?: number;
+  /**
+   * Orientations of the spindle, degrees.
+   */
+  orientations_deg?: number[];
+  /**
+   * Widest gap between directions, degrees.
+   */
+  widest_gap_deg?: number;
+  /**
+   * Repeated hits; null if there are none.
+   */
+  repeatability?: RepeatsEntry | null;
+  /**
+   * Form error after ISO 230-10; null if the hits do not allow it.
+   */
+  iso230_10?: FormEntry | null;
+  /**
+   * Fresh hits that were not used in the fit; null if there are none.
+   */
+  check?: FreshCheckEntry | null;
+  /**
+   * Orientation of the spindle for the table below, degrees.
+   */
+  table_orientation_deg?: number;
+  /**
+   * Deviations by direction of motion.
+   */
+  table?: DirectionEntry[];
+  /**
+   * Deviation of each hit as measured, µm.
+   */
+  deviations_um?: number[];
+  /**
+   * Residual of each hit, µm.
+   */
+  left_um?: number[];
+  /**
+   * Residual of each hit, its direction held out, µm.
+   */
+  held_out_um?: number[];
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/identify-probe/1";
+  /**
+   * Name of the study.
+   */
+  name: string;
+  /**
+   * The dial gauge on the turning ball; null if not measured.
+   */
+  eccentricity: EccentricityEntry | null;
+  /**
+   * The length of the probe; null if not measured.
+   */
+  z_datum: ZDatumEntry | null;
+  /**
+   * The plain calibration with four hits; null if not measured.
+   */
+  xy_datum: XyDatum | null;
+  /**
+   * The results of all styli.
+   */
+  styli: StylusEntry[];
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * A harmonic of the pre-travel.
+ */
+export interface HarmonicEntry {
+  /**
+   * Its order.
+   */
+  order: number;
+  /**
+   * Power of the sine of the latitude (spheres).
+   */
+  axial: number;
+  /**
+   * Its amplitude, µm.
+   */
+  amplitude_um: number;
+  /**
+   * Direction of its first lobe, degrees.
+   */
+  phase_deg: number;
+  /**
+   * Its cosine term, µm.
+   */
+  cosine_um: number;
+  /**
+   * Its sine term, µm.
+   */
+  sine_um: number;
+  /**
+   * Standard uncertainty of each of the two, µm.
+   */
+  u_um: number;
+}
+/**
+ * One size of model.
+ */
+export interface ProbeScoreEntry {
+  /**
+   * `fourier` or `spline`.
+   */
+  model: string;
+  /**
+   * Its highest harmonic, or its number of knots.
+   */
+  size: number;
+  /**
+   * Number of its parameters.
+   */
+  parameters: number;
+  /**
+   * Root mean square of the residual in sample, µm.
+   */
+  rms_in_um: number;
+  /**
+   * The same with directions held out, µm.
+   */
+  rms_held_out_um: number;
+  /**
+   * Whether it was chosen.
+   */
+  chosen: boolean;
+}
+/**
+ * Repeated hits.
+ */
+export interface RepeatsEntry {
+  /**
+   * Number of directions with repeated hits.
+   */
+  directions: number;
+  /**
+   * Their standard deviation, µm.
+   */
+  s_um: number;
+  /**
+   * Their largest range, µm.
+   */
+  range_um: number;
+}
+/**
+ * A form error after ISO 230-10.
+ */
+export interface FormEntry {
+  /**
+   * Its symbol.
+   */
+  figure: string;
+  /**
+   * The number of hits that the standard asks for.
+   */
+  hits_of_the_standard: number;
+  /**
+   * As measured, µm.
+   */
+  before_um: number;
+  /**
+   * Corrected, µm.
+   */
+  after_um: number;
+  /**
+   * Whether the clause was checked in the text of the standard.
+   */
+  checked_on_the_page: boolean;
+}
+/**
+ * Fresh hits that were not used in the fit.
+ */
+export interface FreshCheckEntry {
+  /**
+   * Number of hits.
+   */
+  hits: number;
+  /**
+   * As measured.
+   */
+  before: SpreadEntry;
+  /**
+   * Corrected.
+   */
+  after: SpreadEntry;
+  /**
+   * Share of the hits within U (95 %), 0 to 1.
+   */
+  within_U: number;
+}
+/**
+ * The spread of radii.
+ */
+export interface SpreadEntry {
+  /**
+   * Greatest − least, µm.
+   */
+  range_um: number;
+  /**
+   * Root mean square, µm.
+   */
+  rms_um: number;
+}
+/**
+ * The deviation in one direction of motion.
+ */
+export interface DirectionEntry {
+  /**
+   * The direction of motion, degrees.
+   */
+  angle_deg: number;
+  /**
+   * Deviation along it, µm.
+   */
+  dR_um: number;
+  /**
+   * Its part in X, µm.
+   */
+  dX_um: number;
+  /**
+   * Its part in Y, µm.
+   */
+  dY_um: number;
+  /**
+   * Its standard uncertainty, µm.
+   */
+  u_um: number;
+}
+/**
+ * The dial gauge on the turning ball.
+ */
+export interface EccentricityEntry {
+  /**
+   * Ball − spindle in x and y, mm.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  offset_mm: [number, number];
+  /**
+   * Its standard uncertainties, mm.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  u_offset_mm: [number, number];
+  /**
+   * Run-out of the ball, µm.
+   */
+  runout_um: number;
+  /**
+   * Root mean square of the residual, µm.
+   */
+  left_rms_um: number;
+}
+/**
+ * The length of the probe.
+ */
+export interface ZDatumEntry {
+  /**
+   * Height of the ring, mm.
+   */
+  ring_top_mm: number;
+  /**
+   * Length of the probe, mm.
+   */
+  length_mm: number;
+  /**
+   * Its standard uncertainty, mm.
+   */
+  u_length_mm: number;
+  /**
+   * Range of the triggers, µm.
+   */
+  range_um: number;
+}
+/**
+ * What a control takes over from four hits.
+ */
+export interface XyDatum {
+  /**
+   * Ball − spindle in x and y, mm.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  offset_mm: [number, number];
+  /**
+   * The effective diameters of the ball in x and y, less the pre-travel, mm.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  ball_diameter_mm: [number, number];
+}
+/**
+ * The results of one stylus.
+ */
+export interface StylusEntry {
+  /**
+   * Its name.
+   */
+  stylus: string;
+  /**
+   * Range of the radii as measured, µm.
+   */
+  range_before_um: number;
+  /**
+   * The same with only the offset corrected, µm.
+   */
+  range_offset_only_um: number;
+  /**
+   * The same corrected, µm.
+   */
+  range_after_um: number;
+  /**
+   * The same corrected, directions held out, µm.
+   */
+  range_held_out_um: number;
+  /**
+   * Root mean square as measured, µm.
+   */
+  rms_before_um: number;
+  /**
+   * The same corrected, µm.
+   */
+  rms_after_um: number;
+  /**
+   * The same corrected, directions held out, µm.
+   */
+  rms_held_out_um: number;
+  /**
+   * The least and the greatest measured radius, mm.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  radius_before_mm: [number, number];
+  /**
+   * Ball − spindle with the spindle at 0, mm; null if not observable.
+   */
+  offset_mm: number[] | null;
+  /**
+   * Its standard uncertainties, mm.
+   */
+  u_offset_mm: number[] | null;
+  /**
+   * Centre of the gauge, mm.
+   */
+  centre_mm: number[];
+  /**
+   * Whether that is stated.
+   */
+  centre_known: boolean;
+  /**
+   * By how much an offset from four hits alone differs, µm.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  four_hit_bias_um: [number, number];
+  /**
+   * The model of the pre-travel: `fourier` or `spline`.
+   */
+  model: string;
+  /**
+   * Its highest harmonic, or its number of knots.
+   */
+  size: number;
+  /**
+   * Harmonics of the pre-travel; the first is part of the offset.
+   */
+  harmonics: HarmonicEntry[];
+  /**
+   * The sizes of model that were tried.
+   */
+  scores: ProbeScoreEntry[];
+  /**
+   * Number of hits.
+   */
+  hits: number;
+  /**
+   * Standard deviation of one hit, µm.
+   */
+  s_um: number;
+  /**
+   * Degrees of freedom of the fit.
+   */
+  degrees_of_freedom: number;
+  /**
+   * Factor from u to U (95 %).
+   */
+  coverage_factor: number;
+  /**
+   * Orientations of the spindle, degrees.
+   */
+  orientations_deg: number[];
+  /**
+   * Widest gap between directions, degrees.
+   */
+  widest_gap_deg: number;
+  /**
+   * Repeated hits; null if there are none.
+   */
+  repeatability: RepeatsEntry | null;
+  /**
+   * Form error after ISO 230-10; null if the hits do not allow it.
+   */
+  iso230_10: FormEntry | null;
+  /**
+   * Fresh hits that were not used in the fit; null if there are none.
+   */
+  check: FreshCheckEntry | null;
+  /**
+   * Orientation of the spindle for the table below, degrees.
+   */
+  table_orientation_deg: number;
+  /**
+   * Deviations by direction of motion.
+   */
+  table: DirectionEntry[];
+  /**
+   * Deviation of each hit as measured, µm.
+   */
+  deviations_um: number[];
+  /**
+   * Residual of each hit, µm.
+   */
+  left_um: number[];
+  /**
+   * Residual of each hit, its direction held out, µm.
+   */
+  held_out_um: number[];
+}
+/**
+ * `trueaxis/identify-rtcp-programs/1`.
+ */
+export interface IdentifyRtcpPrograms {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/identify-rtcp-programs/1";
+  /**
+   * The programs.
+   */
+  programs: IdentifyRtcpProgramsProgramEntry[];
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * One program.
+ */
+export interface IdentifyRtcpProgramsProgramEntry {
+  /**
+   * Its file in the folder.
+   */
+  file: string;
+  /**
+   * The set of readings.
+   */
+  set: string;
+  /**
+   * How far its poses, read back, lie from those of the set, µm.
+   */
+  off_poses_um: number;
+}
+/**
+ * An RTCP calibration.
+ */
+export interface IdentifyRtcp {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/identify-rtcp/1";
+  /**
+   * The name of the study.
+   */
+  name: string;
+  /**
+   * The name of the machine.
+   */
+  machine: string;
+  /**
+   * Which rotary axes carry the tool and which the workpiece.
+   */
+  topology: string;
+  /**
+   * The offsets of the rotary axes in chain order.
+   */
+  offsets: OffsetEntry[];
+  /**
+   * The control whose numbers follow; null if none is stated.
+   */
+  control: string | null;
+  /**
+   * The numbers of the control.
+   */
+  numbers: NumberEntry[];
+  /**
+   * Offsets that no number of the control takes in.
+   */
+  without_number: string[];
+  /**
+   * Combinations of offsets that change no reading.
+   */
+  unobservable: Unseen[];
+  /**
+   * How many numbers were read.
+   */
+  readings: number;
+  /**
+   * χ² of the readings.
+   */
+  chi_square: number;
+  /**
+   * Its degrees of freedom.
+   */
+  degrees_of_freedom: number;
+  /**
+   * By how much the uncertainties are enlarged, 1 or more.
+   */
+  birge: number;
+  /**
+   * Root mean square of what is left, µm.
+   */
+  rms_residual_um: number;
+  /**
+   * The reading that fits worst.
+   */
+  worst_reading: WorstEntry | null;
+  /**
+   * Wrong signs that would explain a bad fit.
+   */
+  suspicions: string[];
+  /**
+   * The tip before and after; null if not all offsets are known.
+   */
+  forecast: ForecastEntry | null;
+  /**
+   * The result in one sentence.
+   */
+  verdict: string;
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * One offset of a rotary axis.
+ */
+export interface OffsetEntry {
+  /**
+   * Its ISO 230-1 name.
+   */
+  name: string;
+  /**
+   * The same in words.
+   */
+  words: string;
+  /**
+   * True − machine file, µm; null if no reading determines it.
+   */
+  value_um: number | null;
+  /**
+   * Its standard uncertainty, µm.
+   */
+  u_um: number | null;
+}
+/**
+ * One number of the control.
+ */
+export interface NumberEntry {
+  /**
+   * Its name at the control.
+   */
+  name: string;
+  /**
+   * What it means.
+   */
+  words: string;
+  /**
+   * As it is entered today, mm.
+   */
+  old_mm: number;
+  /**
+   * As it is to be entered, mm; null if no reading determines it.
+   */
+  new_mm: number | null;
+  /**
+   * Standard uncertainty of the new one, µm.
+   */
+  u_um: number | null;
+  /**
+   * Whether the offsets change it at all.
+   */
+  changes: boolean;
+}
+/**
+ * A combination of offsets that changes no reading.
+ */
+export interface Unseen {
+  /**
+   * As a sum.
+   */
+  combination: string;
+  /**
+   * What that means.
+   */
+  words: string;
+}
+/**
+ * The reading that fits worst.
+ */
+export interface WorstEntry {
+  /**
+   * File of the reading.
+   */
+  file: string;
+  /**
+   * Its line there.
+   */
+  line: number;
+  /**
+   * Its direction: x, y or z.
+   */
+  channel: string;
+  /**
+   * Reading − model, µm.
+   */
+  residual_um: number;
+  /**
+   * The same in its standard uncertainty.
+   */
+  standardised: number;
+  /**
+   * Whether that is more than chance.
+   */
+  is_outlier: boolean;
+}
+/**
+ * The tip over all poses, before and after.
+ */
+export interface ForecastEntry {
+  /**
+   * How many poses.
+   */
+  poses: number;
+  /**
+   * With the old numbers.
+   */
+  before: StraysEntry;
+  /**
+   * With the new numbers as entered, if the centres are right.
+   */
+  after: StraysEntry;
+  /**
+   * Expanded uncertainty (k = 2) at the worst pose, µm.
+   */
+  U_after_um: number;
+  /**
+   * The root mean square to be expected, µm.
+   */
+  expected_rms_um: number;
+}
+/**
+ * How far the tip strays.
+ */
+export interface StraysEntry {
+  /**
+   * The longest deviation, µm.
+   */
+  worst_um: number;
+  /**
+   * The root mean square of all, µm.
+   */
+  rms_um: number;
+  /**
+   * The rotary axes at the longest deviation, degrees.
+   */
+  at_deg: {
+    [k: string]: number;
+  };
+}
+/**
+ * A thermal model of one error, from logs of temperatures and displacements.
+ */
+export interface IdentifyThermal {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/identify/1";
+  /**
+   * Which form of it: `thermal`.
+   */
+  what: "thermal";
+  /**
+   * Name of the study.
+   */
+  name: string;
+  /**
+   * The error, such as `EZ0t`.
+   */
+  error: string;
+  /**
+   * Where the displacement is zero: `cycle`, `start` or `common`.
+   */
+  zero: string;
+  /**
+   * `model` or `refused`.
+   */
+  verdict: string;
+  /**
+   * Why the model is refused; null if it is not.
+   */
+  refusal: string | null;
+  /**
+   * Share of the mean square drift of held-out cycles that the model explains, at most 1.
+   */
+  explained: number;
+  /**
+   * Root mean square without a model, µm.
+   */
+  no_model_um: number;
+  /**
+   * Root mean square of the residual on the rows of the fit, µm.
+   */
+  in_sample_um: number;
+  /**
+   * The same with single rows held out, µm.
+   */
+  row_wise_um: number;
+  /**
+   * The same with whole cycles held out, µm.
+   */
+  held_out_um: number;
+  /**
+   * The same, counted from the first row of each cycle, µm.
+   */
+  held_out_since_start_um: number;
+  /**
+   * Standard uncertainty of one reading, µm.
+   */
+  repeatability_um: number;
+  /**
+   * Whether it is stated; if not, it comes from neighbouring readings.
+   */
+  repeatability_stated: boolean;
+  /**
+   * Number of terms of the chosen model.
+   */
+  chosen_terms: number;
+  /**
+   * The coefficients of the chosen model.
+   */
+  coefficients: CoefficientEntry[];
+  /**
+   * Correlations of the coefficients, −1 to 1, row by row.
+   */
+  correlation: number[][];
+  /**
+   * The displacement where all sensors read the reference, µm; null if the zero is free.
+   */
+  intercept_um: number | null;
+  /**
+   * Where the model is zero, °C.
+   */
+  reference_celsius: number;
+  /**
+   * The models tried, from no term on.
+   */
+  scores: ThermalScoreEntry[];
+  /**
+   * The model of all terms at once.
+   */
+  all_terms: ThermalScoreEntry;
+  /**
+   * The cycles.
+   */
+  cycles: CycleEntry[];
+  /**
+   * The lines for the machine file; null if there are none.
+   */
+  machine_file: string | null;
+  /**
+   * Why there are no such lines; else null.
+   */
+  no_machine_file_because: string | null;
+  /**
+   * What to observe when the model is used.
+   */
+  warnings: string[];
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * A coefficient.
+ */
+export interface CoefficientEntry {
+  /**
+   * The sensor.
+   */
+  sensor: string;
+  /**
+   * Time constant of its lag, s; null without lag.
+   */
+  lag_s: number | null;
+  /**
+   * The coefficient, µm/K.
+   */
+  um_per_k: number;
+  /**
+   * Its standard uncertainty, µm/K.
+   */
+  u_um_per_k: number;
+  /**
+   * The least and the greatest temperature in the logs, °C.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  range_celsius: [number, number];
+}
+/**
+ * How well a model of some terms does.
+ */
+export interface ThermalScoreEntry {
+  /**
+   * Its terms.
+   */
+  terms: TermEntry[];
+  /**
+   * Root mean square of the residual on the rows of the fit, µm.
+   */
+  in_sample_um: number;
+  /**
+   * The same with single rows held out, µm.
+   */
+  row_wise_um: number;
+  /**
+   * The same with whole cycles held out, µm.
+   */
+  held_out_um: number;
+  /**
+   * Its square, µm².
+   */
+  held_out_um2: number;
+  /**
+   * Standard uncertainty of the square, µm².
+   */
+  u_held_out_um2: number;
+  /**
+   * Root mean square of each cycle, held out, µm.
+   */
+  by_cycle_um: number[];
+  /**
+   * How many times the same terms were chosen with one cycle held out.
+   */
+  chosen_again: number;
+  /**
+   * Condition number of the columns; null if they are linearly dependent.
+   */
+  condition: number | null;
+}
+/**
+ * A term of a model.
+ */
+export interface TermEntry {
+  /**
+   * The sensor.
+   */
+  sensor: string;
+  /**
+   * Time constant of its lag, s; null without lag.
+   */
+  lag_s: number | null;
+}
+/**
+ * A cycle of the logs.
+ */
+export interface CycleEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * Number of its rows.
+   */
+  rows: number;
+  /**
+   * Root mean square without a model, µm.
+   */
+  no_model_um: number;
+  /**
+   * Root mean square of the residual, predicted without this cycle, µm.
+   */
+  held_out_um: number;
+}
+/**
+ * The readings of a virtual machine.
+ */
+export interface Measure {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/measure/1";
+  /**
+   * Name of the campaign.
+   */
+  name: string;
+  /**
+   * Name of the machine.
+   */
+  machine: string;
+  /**
+   * Seed of the random numbers.
+   */
+  seed: number;
+  /**
+   * Duration of the measurement, s.
+   */
+  time_s: number;
+  /**
+   * Number of readings.
+   */
+  readings: number;
+  /**
+   * Number of readings that were lost.
+   */
+  lost: number;
+  /**
+   * The instruments of the campaign.
+   */
+  instruments: InstrumentEntry[];
+  /**
+   * Every channel of every instrument on every path.
+   */
+  channels: MeasureChannelEntry[];
+  /**
+   * The files that were written.
+   */
+  files: string[];
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * An instrument.
+ */
+export interface InstrumentEntry {
+  /**
+   * Its name in the campaign.
+   */
+  name: string;
+  /**
+   * What kind of instrument it is.
+   */
+  kind: string;
+  /**
+   * Number of its readings.
+   */
+  readings: number;
+}
+/**
+ * Reading less nominal reading of one channel on one path.
+ */
+export interface MeasureChannelEntry {
+  /**
+   * The path.
+   */
+  path: string;
+  /**
+   * The instrument.
+   */
+  instrument: string;
+  /**
+   * The channel.
+   */
+  channel: string;
+  /**
+   * Number of readings.
+   */
+  count: number;
+  /**
+   * Row of the largest deviation, from 0.
+   */
+  largest_row: number;
+  [k: string]: number;
+}
+/**
+ * A probing path over a surface.
+ */
+export interface PlanProbeSurface {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/plan-probe-surface/1";
+  /**
+   * Name of the study.
+   */
+  name: string;
+  /**
+   * Number of points that were spread over the surface.
+   */
+  asked: number;
+  /**
+   * The points that the probe touches, in their order.
+   */
+  points: PointEntry[];
+  /**
+   * Least distance of two points, mm.
+   */
+  spacing_mm: number;
+  /**
+   * How long the program runs, s.
+   */
+  duration_s: number;
+  /**
+   * Whether the program has neither errors nor critical issues.
+   */
+  sound: boolean;
+  /**
+   * Errors of the program itself.
+   */
+  errors: string[];
+  /**
+   * Critical issues, such as collisions.
+   */
+  troubles: string[];
+  /**
+   * Minor issues, such as lost time.
+   */
+  notes: string[];
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * A point that the probe touches.
+ */
+export interface PointEntry {
+  /**
+   * Where it is, workpiece frame, mm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  point_mm: [number, number, number];
+  /**
+   * The normal of the surface there, out of the material.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  normal: [number, number, number];
+  /**
+   * Its line in the file of the surface.
+   */
+  line: number;
+}
+/**
+ * What a campaign will show before anybody measures.
+ */
+export interface Plan {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/plan/1";
+  /**
+   * Name of the campaign.
+   */
+  name: string;
+  /**
+   * Name of the machine.
+   */
+  machine: string;
+  /**
+   * The kinematic chain of the machine.
+   */
+  chain: string;
+  /**
+   * The paths and their programs.
+   */
+  paths: PlanPathEntry[];
+  /**
+   * The uncertainty to expect of each unknown.
+   */
+  expected: ExpectedEntry[];
+  /**
+   * Combinations of unknowns that change no reading.
+   */
+  unobservable: Unobservable[];
+  /**
+   * Number of combinations of unknowns that are observable.
+   */
+  rank: number;
+  /**
+   * Condition number of the design matrix.
+   */
+  condition: number;
+  /**
+   * The choice of poses; null if none was asked for.
+   */
+  chosen: ChosenEntry | null;
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * A path and its program.
+ */
+export interface PlanPathEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * Number of stations.
+   */
+  stations: number;
+  /**
+   * Feed if it is read while moving, mm/min; else null.
+   */
+  feed_mm_per_min: number | null;
+  /**
+   * Dwell at each station, s.
+   */
+  dwell_s: number;
+  /**
+   * Channels of the instrument.
+   */
+  channels: string[];
+  /**
+   * Unit of the readings below: `um` or `urad`.
+   */
+  unit: string;
+  /**
+   * The largest reading that 10 µm or 10 µrad of each error causes.
+   */
+  seen_of_10_um_or_urad: SeenEntry[];
+  /**
+   * The check of its program, or why there is none.
+   */
+  program: PlanProgramEntry;
+}
+/**
+ * The readings that an error causes.
+ */
+export interface SeenEntry {
+  /**
+   * The error.
+   */
+  error: string;
+  /**
+   * The largest reading of each channel, in the unit of the path.
+   */
+  largest: number[];
+}
+/**
+ * The uncertainty to expect of an unknown.
+ */
+export interface ExpectedEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * `um`, `urad`, or `um/m` for a scale.
+   */
+  unit: string;
+  /**
+   * Standard uncertainty in this unit; null if not observable.
+   */
+  u: number | null;
+  /**
+   * Expanded uncertainty (k = 2) in this unit; null if not observable.
+   */
+  expanded_k2: number | null;
+}
+/**
+ * The chosen poses.
+ */
+export interface ChosenEntry {
+  /**
+   * Number of poses.
+   */
+  poses: number;
+  /**
+   * Number of poses to choose from.
+   */
+  candidates: number;
+  /**
+   * Candidates left out because of collisions or travel limits.
+   */
+  blocked: number;
+  /**
+   * Number of readings.
+   */
+  readings: number;
+  /**
+   * Duration of the measurement, s.
+   */
+  time_s: number;
+  /**
+   * The criterion at the start and after every exchange.
+   */
+  criterion: number[];
+  /**
+   * The uncertainties to expect.
+   */
+  expected: ExpectedEntry[];
+  /**
+   * A plain grid of as many poses, to compare with; null if there is none.
+   */
+  grid: ServePlanGridEntry | null;
+}
+/**
+ * A plain grid of poses.
+ */
+export interface ServePlanGridEntry {
+  /**
+   * Number of poses.
+   */
+  poses: number;
+  /**
+   * The uncertainties to expect.
+   */
+  expected: ExpectedEntry[];
+}
+/**
+ * The tool at many positions of the axes.
+ */
+export interface PoseRows {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/pose/1";
+  /**
+   * One object for each row of the input: its columns as they were given, then `tip_x_mm` … `axis_k` (the
+   * nominal tool in the workpiece frame), `dev_x_um` … `dev_k_urad` (actual − nominal).
+   */
+  rows: {
+    [k: string]: number;
+  }[];
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * The tool at one position of the axes.
+ */
+export interface Pose {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/pose/1";
+  /**
+   * As the control commands it.
+   */
+  nominal: ToolPoseEntry;
+  /**
+   * As the machine with its errors moves it.
+   */
+  actual: ToolPoseEntry;
+  /**
+   * Actual − nominal.
+   */
+  deviation: DeviationEntry;
+  /**
+   * The deviation under each error alone.
+   */
+  budget: ShareEntry[];
+  /**
+   * Nominal and actual place of every body; absent unless it was asked for.
+   */
+  bodies?: BodyEntry[] | null;
+  /**
+   * By the name of the cause: `geometric`, `scale`, `structure`, `workpiece`.
+   */
+  split?: {
+    [k: string]: TipEntry;
+  };
+  /**
+   * Of the machine without the growth of the workpiece.
+   */
+  machine?: TipEntry;
+  /**
+   * Of all together.
+   */
+  comprehensive?: ComprehensiveEntry;
+  /**
+   * How fast the workpiece takes the temperature of the air; absent where that is not stated.
+   */
+  settling?: SettlingEntry | null;
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * A tool in the workpiece frame.
+ */
+export interface ToolPoseEntry {
+  /**
+   * Its tip, mm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  tip_mm: [number, number, number];
+  /**
+   * Its axis from the tip to the spindle, a unit vector.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  axis: [number, number, number];
+}
+/**
+ * A deviation of the tool.
+ */
+export interface DeviationEntry {
+  /**
+   * Of the tip, µm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  tip_um: [number, number, number];
+  /**
+   * Of the axis, µrad.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  axis_urad: [number, number, number];
+}
+/**
+ * One error alone.
+ */
+export interface ShareEntry {
+  /**
+   * The ISO 230-1 name of the error; `EXX(scale)`, `workpiece` and the like for the parts of temperatures.
+   */
+  error: string;
+  /**
+   * Of the tip, µm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  tip_um: [number, number, number];
+  /**
+   * Of the axis, µrad.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  axis_urad: [number, number, number];
+}
+/**
+ * A body of the machine.
+ */
+export interface BodyEntry {
+  /**
+   * Its name.
+   */
+  body: string;
+  /**
+   * Its nominal place in the machine frame.
+   */
+  nominal: PlaceEntry;
+  /**
+   * Its actual place there.
+   */
+  actual: PlaceEntry;
+}
+/**
+ * The place of a body.
+ */
+export interface PlaceEntry {
+  /**
+   * Its origin, mm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  origin_mm: [number, number, number];
+  /**
+   * Its rotation, row by row.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  rotation: [[number, number, number], [number, number, number], [number, number, number]];
+}
+/**
+ * A deviation of the tip.
+ */
+export interface TipEntry {
+  /**
+   * Deviation of the tip, µm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  tip_um: [number, number, number];
+}
+/**
+ * The deviation of the tip from all causes.
+ */
+export interface ComprehensiveEntry {
+  /**
+   * Deviation of the tip, µm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  tip_um: [number, number, number];
+  /**
+   * How it is made up.
+   */
+  formula: string;
+}
+/**
+ * How fast the workpiece takes the temperature of the air.
+ */
+export interface SettlingEntry {
+  /**
+   * Its time constant, s.
+   */
+  time_constant_s: number;
+  /**
+   * The time until a tenth of a difference remains, s.
+   */
+  time_to_a_tenth_s: number;
+}
+/**
+ * An NC program from cutter locations.
+ */
+export interface Post {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/post/1";
+  /**
+   * The name of the machine.
+   */
+  machine: string;
+  /**
+   * The file of the cutter locations.
+   */
+  file: string;
+  /**
+   * The file of the program.
+   */
+  program: string;
+  /**
+   * Whether the program was written: not where the verification found it out of tolerance.
+   */
+  written: boolean;
+  /**
+   * Points of the cutter-location file.
+   */
+  points: number;
+  /**
+   * Strokes of the tool in the file.
+   */
+  strokes: number;
+  /**
+   * Blocks that move the tool along them.
+   */
+  blocks: number;
+  /**
+   * Lines of the program.
+   */
+  lines: number;
+  /**
+   * How often the tool retracts so that an axis can rewind.
+   */
+  rewinds: number;
+  /**
+   * How far the tool axis was turned to pass through a pole, degrees.
+   */
+  pole_deviation_deg: number;
+  /**
+   * The tolerance of the tip, mm.
+   */
+  tolerance_mm: number;
+  /**
+   * The tolerance of the tool axis, degrees.
+   */
+  axis_tolerance_deg: number;
+  /**
+   * The program read back and simulated; null if that was not asked for.
+   */
+  verify: VerificationEntry | null;
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * A program read back and simulated on the nominal machine.
+ */
+export interface VerificationEntry {
+  /**
+   * Whether it is within the tolerances and every axis within its travel.
+   */
+  within_tolerance: boolean;
+  /**
+   * How many blocks were compared at their ends.
+   */
+  blocks_compared: number;
+  /**
+   * Largest deviation of the tip at the ends of blocks, µm.
+   */
+  tip_at_blocks_um: LargestEntry;
+  /**
+   * Largest deviation of the tool axis at the ends of blocks, µrad.
+   */
+  axis_at_blocks_urad: LargestEntry;
+  /**
+   * Largest distance of the tip from the path, µm.
+   */
+  tip_on_path_um: LargestEntry;
+  /**
+   * Largest angle of the tool axis from the path, degrees.
+   */
+  axis_on_path_deg: LargestEntry;
+  /**
+   * Whether an axis leaves its travel.
+   */
+  axes_beyond_travel: boolean;
+}
+/**
+ * The largest deviation and where it is.
+ */
+export interface LargestEntry {
+  /**
+   * Its value, in the unit of its name.
+   */
+  value: number;
+  /**
+   * The line of the program.
+   */
+  program_line: number;
+  /**
+   * The line of the cutter-location file.
+   */
+  file_line: number;
+}
+/**
+ * Holes before they are made, under each compensation: `trueaxis/predict/1`.
+ */
+export interface PredictHoles {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/predict/1";
+  /**
+   * The name of the study.
+   */
+  name: string;
+  /**
+   * The least increment of the control, mm.
+   */
+  increment_mm: number;
+  /**
+   * The tolerance of the place of a hole; null if none is stated, mm.
+   */
+  tolerance_mm: number | null;
+  /**
+   * The compensation that is applied: `none`, `machine` or `comprehensive`.
+   */
+  applied: string;
+  /**
+   * Whether all holes are in tolerance with it; null if none is stated.
+   */
+  in_tolerance: boolean | null;
+  /**
+   * The log that the temperatures follow; null if there is none.
+   */
+  temperature_log: string | null;
+  /**
+   * The holes under each compensation.
+   */
+  sets: SetEntry[];
+  /**
+   * The same at the temperatures of the start, held; null where no log runs.
+   */
+  sets_at_start: SetEntry[] | null;
+  /**
+   * What grows with the temperature though the uncertainty of its coefficient is not stated: u lacks it.
+   */
+  u_lacks: string[];
+  /**
+   * What to know of this prediction.
+   */
+  warnings: string[];
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * The holes under one compensation.
+ */
+export interface SetEntry {
+  /**
+   * `none`, `machine` or `comprehensive`.
+   */
+  compensation: string;
+  /**
+   * The largest distance of a hole from its place in X and Y, mm.
+   */
+  worst_mm: number;
+  /**
+   * Its standard uncertainty, mm.
+   */
+  u_worst_mm: number;
+  /**
+   * Whether all are in tolerance; null if none is stated.
+   */
+  in_tolerance: boolean | null;
+  /**
+   * The holes in the order of the study.
+   */
+  holes: HoleEntry[];
+}
+/**
+ * One hole.
+ */
+export interface HoleEntry {
+  /**
+   * Where it should be in the workpiece frame, mm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  nominal_mm: [number, number, number];
+  /**
+   * Where it is at 20 °C, mm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  actual_mm: [number, number, number];
+  /**
+   * The difference, µm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  error_um: [number, number, number];
+  /**
+   * Its standard uncertainty, µm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  u_um: [number, number, number];
+  /**
+   * What the control adds, in least increments along X, Y, Z.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  compensation_increments: [number, number, number];
+  /**
+   * When it is made, from the start, s.
+   */
+  time_s: number;
+}
+/**
+ * A test piece before it is cut: `trueaxis/predict/1`.
+ */
+export interface Predict {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/predict/1";
+  /**
+   * The version of TrueAxis.
+   */
+  version: string;
+  /**
+   * The name of the study.
+   */
+  study: string;
+  /**
+   * The machine.
+   */
+  machine: PredictMachineEntry;
+  /**
+   * The name of the test piece.
+   */
+  test_piece: string;
+  /**
+   * `pass`, `fail` or `undecided`.
+   */
+  verdict: string;
+  /**
+   * The indices, those of ISO under `iso`, those of the paper under `paper`, mm.
+   */
+  indices: {
+    [k: string]: Grouped;
+  };
+  /**
+   * The tolerances with their verdicts.
+   */
+  judgements: JudgementEntry[];
+  /**
+   * Where the axes stand when the zero is set, mm and deg.
+   */
+  setting_command: {
+    [k: string]: number;
+  };
+  /**
+   * The form at each measuring position.
+   */
+  positions: PredictPositionEntry[];
+  /**
+   * The share of each error in each index, the largest first.
+   */
+  blame: PredictShareEntry[];
+  /**
+   * The same with all errors of a body together.
+   */
+  blame_by_body: PredictShareEntry[];
+  /**
+   * The same with all location errors and all error motions together.
+   */
+  blame_by_kind: PredictShareEntry[];
+  /**
+   * Slopes of the indices by each location error.
+   */
+  sensitivity: SensitivityEntry[];
+  /**
+   * Single corrections after which the part would pass, the smallest first.
+   */
+  corrections: CorrectionEntry[];
+  /**
+   * The same part with other setting points and datums.
+   */
+  variants: VariantEntry[];
+  /**
+   * Axis positions of all tool positions, mm and deg.
+   */
+  commands: {
+    [k: string]: number;
+  }[];
+  /**
+   * The Monte Carlo run; null if there was none.
+   */
+  monte_carlo: SamplingEntry | null;
+  /**
+   * The log that the temperatures follow; null if there is none.
+   */
+  temperature_log: string | null;
+  /**
+   * What to know of this prediction.
+   */
+  warnings: string[];
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * The machine.
+ */
+export interface PredictMachineEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * Its chain from the workpiece to the tool.
+   */
+  chain: string;
+}
+/**
+ * An index of the whole part.
+ */
+export interface IndexEntry {
+  /**
+   * Its value, mm.
+   */
+  value: number;
+  /**
+   * Its standard uncertainty by linear propagation, mm.
+   */
+  u_mm: number;
+  /**
+   * From the Monte Carlo run; absent if there was none.
+   */
+  monte_carlo?: PredictSpreadEntry | null;
+}
+/**
+ * What the Monte Carlo run gives for an index.
+ */
+export interface PredictSpreadEntry {
+  /**
+   * The mean, mm.
+   */
+  mean_mm: number;
+  /**
+   * The standard uncertainty, mm.
+   */
+  u_mm: number;
+  /**
+   * Lower and upper end of the 95 % interval, mm.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  interval_95_mm: [number, number];
+}
+/**
+ * A tolerance with its verdict.
+ */
+export interface JudgementEntry {
+  /**
+   * The key of the index.
+   */
+  index: string;
+  /**
+   * Its value, mm.
+   */
+  value_mm: number;
+  /**
+   * The tolerance, mm.
+   */
+  tolerance_mm: number;
+  /**
+   * The expanded uncertainty; null where the rule uses none, mm.
+   */
+  expanded_mm: number | null;
+  /**
+   * Value divided by tolerance.
+   */
+  used_ratio: number;
+  /**
+   * Whether the verdict depends on it.
+   */
+  decisive: boolean;
+  /**
+   * `pass`, `fail` or `undecided`.
+   */
+  verdict: string;
+}
+/**
+ * The form at one measuring position.
+ */
+export interface PredictPositionEntry {
+  /**
+   * Its number, from 1.
+   */
+  position: number;
+  /**
+   * Its place along the axis of the part in the workpiece frame, mm.
+   */
+  z_mm: number;
+  /**
+   * Its height above the base, mm.
+   */
+  height_mm: number;
+  /**
+   * The nominal radius, mm.
+   */
+  nominal_radius_mm: number;
+  /**
+   * Where the form is given, deg.
+   */
+  azimuth_deg: number[];
+  /**
+   * The error there, positive where material is left, mm.
+   */
+  e_mm: number[];
+  [k: string]: Grouped2;
+}
+/**
+ * An index at one position.
+ */
+export interface PositionIndex {
+  /**
+   * Its value, mm.
+   */
+  value: number;
+  /**
+   * Its standard uncertainty, mm.
+   */
+  u_mm: number;
+}
+/**
+ * The share of an error, or of a group of errors, in an index.
+ */
+export interface PredictShareEntry {
+  /**
+   * The ISO 230-1 name, or the name of the group.
+   */
+  error: string;
+  /**
+   * The key of the index.
+   */
+  index: string;
+  /**
+   * The index if there were only this error, mm.
+   */
+  alone_mm: number;
+  /**
+   * The index without this error, mm.
+   */
+  without_mm: number;
+}
+/**
+ * Slopes of the indices by one location error.
+ */
+export interface SensitivityEntry {
+  /**
+   * Its ISO 230-1 name.
+   */
+  error: string;
+  [k: string]: {
+    [k: string]: number;
+  };
+}
+/**
+ * A correction of one location error after which the part would pass.
+ */
+export interface CorrectionEntry {
+  /**
+   * Its ISO 230-1 name.
+   */
+  error: string;
+  /**
+   * The indices after it, mm.
+   */
+  indices_mm: {
+    [k: string]: number;
+  };
+  [k: string]: number;
+}
+/**
+ * The same part with another setting point or datum.
+ */
+export interface VariantEntry {
+  /**
+   * What is different.
+   */
+  name: string;
+  /**
+   * The indices, mm.
+   */
+  indices_mm: {
+    [k: string]: number;
+  };
+}
+/**
+ * A Monte Carlo run.
+ */
+export interface SamplingEntry {
+  /**
+   * How many machines were drawn.
+   */
+  samples: number;
+  /**
+   * The random seed.
+   */
+  seed: number;
+}
+/**
+ * An array of a binary answer.
+ */
+export interface ServeArray {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * The type of its numbers, little endian.
+   */
+  type: "f64" | "f32" | "u32" | "u8";
+  /**
+   * How many numbers it has.
+   */
+  count: number;
+}
+/**
+ * The machine as data; of one that cannot be used, what is wrong with it.
+ */
+export interface ServeDescribeRequest {
+  /**
+   * The machine file.
+   */
+  machine: string;
+  /**
+   * Its text, if it is being edited.
+   */
+  text?: string | null;
+}
+/**
+ * A machine.
+ */
+export interface ServeDescribe {
+  /**
+   * The bodies of the kinematic chain.
+   */
+  links: LinkEntry[];
+  /**
+   * The errors of the machine, those without a stated value too.
+   */
+  errors: ErrorEntry[];
+  /**
+   * Its temperature sensors.
+   */
+  sensors: SensorEntry[];
+  /**
+   * The tool in the spindle; absent where there is no machine.
+   */
+  tool?: MountedToolEntry | null;
+  /**
+   * The tools of the machine file.
+   */
+  tools: ToolAssemblyEntry[];
+  /**
+   * The models of its bodies.
+   */
+  models: ModelEntry[];
+  /**
+   * Whether it can be used, and the problems of its file.
+   */
+  check: CheckDocument;
+  /**
+   * The version of the text, for `save`.
+   */
+  version: string;
+  /**
+   * The text of the machine file.
+   */
+  text: string;
+}
+/**
+ * A machine file, checked.
+ */
+export interface CheckDocument {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/check/1";
+  /**
+   * Whether the file can be used, perhaps with warnings.
+   */
+  usable: boolean;
+  /**
+   * The name of the machine.
+   */
+  name?: string;
+  /**
+   * Its kinematic chain from the workpiece to the tool.
+   */
+  chain?: string;
+  /**
+   * Where its data are from.
+   */
+  source?: string;
+  /**
+   * Its axes in chain order.
+   */
+  axes?: AxisEntry[];
+  /**
+   * The names of its tools.
+   */
+  tools?: string[];
+  /**
+   * The ISO 230-1 names of the errors that are stated.
+   */
+  errors?: string[];
+  /**
+   * The measurements that the errors are from.
+   */
+  measured?: MeasurementEntry[];
+  /**
+   * What a prediction or a simulation would need in addition, in words.
+   */
+  lacks?: string[];
+  /**
+   * The problems of the file.
+   */
+  diagnostics: DiagnosticEntry[];
+}
+/**
+ * Evaluates readings: `path` names their file, or `name` and `text` are a file that was dropped.
+ */
+export interface ServeEvaluateRequest {
+  /**
+   * The standard, such as `iso230-2`.
+   */
+  standard: string;
+  /**
+   * The file of the readings.
+   */
+  path?: string | null;
+  /**
+   * The name of a file that was dropped.
+   */
+  name?: string | null;
+  /**
+   * Its text.
+   */
+  text?: string | null;
+  /**
+   * The format of the file; by its ending if it is left out.
+   */
+  import?: string | null;
+  /**
+   * The feature of a QIF file.
+   */
+  feature?: string | null;
+  /**
+   * The file of the conditions; the one beside the readings if it is left out.
+   */
+  conditions?: string | null;
+  /**
+   * The radius of a circular test, a length with its unit.
+   */
+  radius?: string | null;
+  /**
+   * The window of a drift test, a time with its unit.
+   */
+  window?: string | null;
+}
+/**
+ * An evaluation. Arrays: `line` (f64: x, y and half the width of the band for each point of the bands), `points`
+ * (f64: x and y of each point; in polar pictures angle, rad, and radial deviation, µm).
+ */
+export interface ServeEvaluate {
+  /**
+   * The document of `trueaxis evaluate`.
+   */
+  document: Diagnosed;
+  /**
+   * The text of `trueaxis evaluate`.
+   */
+  text: string;
+  /**
+   * The file of the conditions below the project folder; null if there is none.
+   */
+  conditions_file: string | null;
+  /**
+   * The tables of the results.
+   */
+  figures: ServeEvaluateTableEntry[];
+  /**
+   * Further tables.
+   */
+  details: ServeEvaluateTableEntry[];
+  /**
+   * The pictures.
+   */
+  pictures: PictureEntry[];
+  /**
+   * Warnings and notes, each as one text.
+   */
+  remarks: string[];
+  /**
+   * The same with code and place.
+   */
+  diagnostics: DiagnosticEntry[];
+}
+/**
+ * A table of a report.
+ */
+export interface ServeEvaluateTableEntry {
+  /**
+   * Its title.
+   */
+  title: string;
+  /**
+   * The text below it; may be empty.
+   */
+  note: string;
+  /**
+   * The headings with their units.
+   */
+  headings: string[];
+  /**
+   * The cells, row by row.
+   */
+  rows: string[][];
+  /**
+   * For each column, whether it contains words.
+   */
+  words: boolean[];
+}
+/**
+ * A series of a picture.
+ */
+export interface BandEntry {
+  /**
+   * Its name in the legend.
+   */
+  label: string;
+  /**
+   * Its colour, from 0.
+   */
+  colour: number;
+  /**
+   * Its line, as a part of `line`.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  line: [number, number];
+  /**
+   * Its points, as a part of `points`.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  points: [number, number];
+}
+/**
+ * A curve around a circle.
+ */
+export interface PolarLineEntry {
+  /**
+   * Its name in the legend.
+   */
+  label: string;
+  /**
+   * Its colour, from 0.
+   */
+  colour: number;
+  /**
+   * Its points, as a part of `points`.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  points: [number, number];
+}
+/**
+ * The errors of a machine from the readings of a campaign.
+ */
+export interface ServeIdentifyRequest {
+  /**
+   * The campaign file.
+   */
+  campaign: string;
+  /**
+   * The instrument that `text` belongs to; needed where the campaign has several.
+   */
+  instrument?: string | null;
+  /**
+   * The name of the file that was dropped.
+   */
+  name?: string | null;
+  /**
+   * Its text: readings in place of those of the instrument.
+   */
+  text?: string | null;
+}
+/**
+ * An identification. Arrays: `correlation` (f64: row by row), `at_mm` (f64: three for each reading), `before_um`,
+ * `after_um` (f32: three for each reading, without and with the identified errors).
+ */
+export interface ServeIdentify {
+  /**
+   * The document of `trueaxis identify`.
+   */
+  document: ServeIdentifyDiagnosed;
+  /**
+   * The machine file below the project folder; null if it is outside.
+   */
+  machine: string | null;
+  /**
+   * The instruments of the campaign.
+   */
+  instruments: ServeIdentifyInstrumentEntry[];
+  /**
+   * The names of the unknowns, in the order of the correlation matrix.
+   */
+  correlation: string[];
+  /**
+   * The machine file with the identified errors; null if it cannot be edited.
+   */
+  machine_file: MachineFileEntry | null;
+  /**
+   * The problems of the campaign and its readings.
+   */
+  diagnostics: DiagnosticEntry[];
+}
+/**
+ * A document of the command line with the problems of its input.
+ */
+export interface ServeIdentifyDiagnosed {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/identify/1";
+  /**
+   * Name of the campaign.
+   */
+  name: string;
+  /**
+   * Name of the machine.
+   */
+  machine: string;
+  /**
+   * Date of the measurement as written; null if none is stated.
+   */
+  date: string | null;
+  /**
+   * Whether the model explains the readings.
+   */
+  verdict: VerdictEntry;
+  /**
+   * The errors of the machine.
+   */
+  errors: FoundEntry[];
+  /**
+   * The errors of the set-up of the instruments.
+   */
+  setup: FoundEntry[];
+  /**
+   * Combinations of errors that change no reading.
+   */
+  unobservable: Unobservable[];
+  /**
+   * Candidate terms that the readings do not support.
+   */
+  left_out: string[];
+  /**
+   * Root mean square of the residual of length readings, in sample, µm; null without such readings.
+   */
+  rms_in_um: number | null;
+  /**
+   * The same on places that the model had not seen, µm.
+   */
+  rms_held_out_um: number | null;
+  /**
+   * Repeatability of the readings, µm.
+   */
+  repeatability_um: number | null;
+  /**
+   * Whether the repeatability comes from repeated readings; if not, it is the stated noise.
+   */
+  repeatability_is_measured: boolean;
+  /**
+   * Root mean square without the errors sought, set-up only, µm.
+   */
+  rms_without_model_um: number | null;
+  /**
+   * The same figures for lengths and angles.
+   */
+  rms: RmsEntries;
+  /**
+   * Number of readings.
+   */
+  readings: number;
+  /**
+   * Number of places.
+   */
+  places: number;
+  /**
+   * Rank of the design matrix.
+   */
+  rank: number;
+  /**
+   * Its condition number.
+   */
+  condition: number;
+  /**
+   * Relative singular value below which a combination counts as unobservable.
+   */
+  threshold: number;
+  /**
+   * `full` or `linear`.
+   */
+  model: string;
+  /**
+   * χ² of the fit.
+   */
+  chi_square: number;
+  /**
+   * Its degrees of freedom.
+   */
+  degrees_of_freedom: number;
+  /**
+   * Factor by which the uncertainties are enlarged, 1 or more.
+   */
+  birge_ratio: number;
+  /**
+   * Which axes the residual of the held-out places follows.
+   */
+  residual_follows: ServeIdentifyFieldEntry[];
+  /**
+   * How the terms were selected.
+   */
+  selection: SelectionEntry;
+  /**
+   * Readings beyond the limit of studentised residuals.
+   */
+  outliers: ServeIdentifyOutlierEntry[];
+  /**
+   * That limit, in standard deviations.
+   */
+  outlier_limit: number;
+  /**
+   * The readings that change the result most if they are left out.
+   */
+  most_influential: InfluenceEntry[];
+  /**
+   * The conventions that were tried; null if that was not asked for.
+   */
+  conventions: ConventionCheck | null;
+  /**
+   * The problems found in the input.
+   */
+  diagnostics: DiagnosticEntry[];
+}
+/**
+ * A part of the residual.
+ */
+export interface ServeIdentifyFieldEntry {
+  /**
+   * `XYZ`, or the letter of a rotary axis.
+   */
+  what: string;
+  /**
+   * The share of the squares of the residual, 0 to 1.
+   */
+  share: number;
+}
+/**
+ * A reading that does not fit.
+ */
+export interface ServeIdentifyOutlierEntry {
+  /**
+   * Its file.
+   */
+  file: string;
+  /**
+   * Its line there.
+   */
+  line: number;
+  /**
+   * Its channel, from 1.
+   */
+  channel: number;
+  /**
+   * Its studentised residual.
+   */
+  studentised: number;
+}
+/**
+ * An instrument.
+ */
+export interface ServeIdentifyInstrumentEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * Its kind, as campaign files call it.
+   */
+  kind: string;
+  /**
+   * The names of its channels.
+   */
+  channels: string[];
+  /**
+   * The files of its readings below the project folder.
+   */
+  tables: string[];
+}
+/**
+ * A machine file with the tables of its errors.
+ */
+export interface MachineFileEntry {
+  /**
+   * Its text.
+   */
+  text: string;
+  /**
+   * Its tables.
+   */
+  tables: TextEntry[];
+}
+/**
+ * A file by name and text.
+ */
+export interface TextEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * Its text.
+   */
+  text: string;
+}
+/**
+ * The surfaces of the models of a machine, those of STL files too.
+ */
+export interface ServeModelsRequest {
+  /**
+   * The machine file.
+   */
+  machine: string;
+  /**
+   * Its text, if it is being edited.
+   */
+  text?: string | null;
+}
+/**
+ * Models. Array: `corners_mm` (f32: the corners of the triangles, nine numbers each, model after model).
+ */
+export interface ServeModels {
+  /**
+   * The models.
+   */
+  models: SurfaceEntry[];
+  /**
+   * The problems of the machine file and its models.
+   */
+  diagnostics: DiagnosticEntry[];
+}
+/**
+ * A model as triangles.
+ */
+export interface SurfaceEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * The body that it moves with, as an index of the links; null is the bed.
+   */
+  body: number | null;
+  /**
+   * Its pose on that body: rotation row by row, then origin, mm.
+   *
+   * @minItems 12
+   * @maxItems 12
+   */
+  placement: [number, number, number, number, number, number, number, number, number, number, number, number];
+  /**
+   * How many triangles it has.
+   */
+  triangles: number;
+}
+/**
+ * The text of a file.
+ */
+export interface ServeOpenRequest {
+  /**
+   * Its path below the project folder.
+   */
+  path: string;
+}
+/**
+ * A file as it is on the disk.
+ */
+export interface ServeOpen {
+  /**
+   * Its path below the project folder.
+   */
+  path: string;
+  /**
+   * Its text; what is not UTF-8 is shown as replacement characters.
+   */
+  text: string;
+  /**
+   * The version of the text, for `save`.
+   */
+  version: string;
+}
+/**
+ * The plan of a campaign: paths, programs, expected uncertainties.
+ */
+export interface ServePlanRequest {
+  /**
+   * The campaign file.
+   */
+  campaign: string;
+  /**
+   * The control that the programs are for, as `--control` of the command line; `sinumerik` if it is left out.
+   */
+  dialect?: string | null;
+}
+/**
+ * A plan. Arrays: `commands` (f64: the axis positions of all stations of all paths, mm and degrees), `tools`
+ * (f64: for each station the tip, mm, then the tool axis, both in the workpiece frame).
+ */
+export interface ServePlan {
+  /**
+   * The document of `trueaxis plan`.
+   */
+  document: PlanDocument;
+  /**
+   * The machine file below the project folder; null if it is outside.
+   */
+  machine: string | null;
+  /**
+   * The axes in the order of the commands.
+   */
+  axes: AxisUnitEntry[];
+  /**
+   * The paths, in the order of the arrays.
+   */
+  paths: PlannedPathEntry[];
+  /**
+   * The problems found in the campaign.
+   */
+  diagnostics: DiagnosticEntry[];
+}
+/**
+ * What a campaign will show before anybody measures.
+ */
+export interface PlanDocument {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/plan/1";
+  /**
+   * Name of the campaign.
+   */
+  name: string;
+  /**
+   * Name of the machine.
+   */
+  machine: string;
+  /**
+   * The kinematic chain of the machine.
+   */
+  chain: string;
+  /**
+   * The paths and their programs.
+   */
+  paths: ServePlanPathEntry[];
+  /**
+   * The uncertainty to expect of each unknown.
+   */
+  expected: ExpectedEntry[];
+  /**
+   * Combinations of unknowns that change no reading.
+   */
+  unobservable: Unobservable[];
+  /**
+   * Number of combinations of unknowns that are observable.
+   */
+  rank: number;
+  /**
+   * Condition number of the design matrix.
+   */
+  condition: number;
+  /**
+   * The choice of poses; null if none was asked for.
+   */
+  chosen: ChosenEntry | null;
+}
+/**
+ * A path and its program.
+ */
+export interface ServePlanPathEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * Number of stations.
+   */
+  stations: number;
+  /**
+   * Feed if it is read while moving, mm/min; else null.
+   */
+  feed_mm_per_min: number | null;
+  /**
+   * Dwell at each station, s.
+   */
+  dwell_s: number;
+  /**
+   * Channels of the instrument.
+   */
+  channels: string[];
+  /**
+   * Unit of the readings below: `um` or `urad`.
+   */
+  unit: string;
+  /**
+   * The largest reading that 10 µm or 10 µrad of each error causes.
+   */
+  seen_of_10_um_or_urad: SeenEntry[];
+  /**
+   * The check of its program, or why there is none.
+   */
+  program: ServePlanProgramEntry;
+}
+/**
+ * An axis with the unit of its positions.
+ */
+export interface AxisUnitEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * The unit.
+   */
+  unit: "mm" | "deg";
+}
+/**
+ * A path of the plan.
+ */
+export interface PlannedPathEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * Its instrument.
+   */
+  instrument: string;
+  /**
+   * The kind of the instrument.
+   */
+  kind: string;
+  /**
+   * How many stations it has.
+   */
+  stations: number;
+  /**
+   * Its programs.
+   */
+  files: TextEntry[];
+}
+/**
+ * Nominal and actual place of the tool and of every body at one position of the axes.
+ */
+export interface ServePoseRequest {
+  /**
+   * The machine file.
+   */
+  machine: string;
+  /**
+   * Its text, if it is being edited.
+   */
+  text?: string | null;
+  /**
+   * The position by axis name, mm and degrees; an axis that is left out is at 0.
+   */
+  at?: {
+    [k: string]: number;
+  } | null;
+  /**
+   * The length of the tool, mm; that of the machine file if it is left out.
+   */
+  tool_length_mm?: number | null;
+  /**
+   * Temperatures, as `--temperature` of the command line.
+   */
+  temperature?: string | null;
+}
+/**
+ * A pose. Arrays: `nominal`, `actual` (f64: for each body its rotation row by row, then its origin, mm, in the
+ * machine frame).
+ */
+export interface ServePose {
+  /**
+   * The document of `trueaxis pose`.
+   */
+  pose: PoseDocument;
+  /**
+   * The names of the bodies, in the order of the arrays.
+   */
+  bodies: string[];
+  /**
+   * The problems of the machine file and of the position.
+   */
+  diagnostics: DiagnosticEntry[];
+}
+/**
+ * The tool at one position of the axes.
+ */
+export interface PoseDocument {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/pose/1";
+  /**
+   * As the control commands it.
+   */
+  nominal: ToolPoseEntry;
+  /**
+   * As the machine with its errors moves it.
+   */
+  actual: ToolPoseEntry;
+  /**
+   * Actual − nominal.
+   */
+  deviation: DeviationEntry;
+  /**
+   * The deviation under each error alone.
+   */
+  budget: ShareEntry[];
+  /**
+   * Nominal and actual place of every body; absent unless it was asked for.
+   */
+  bodies?: BodyEntry[] | null;
+  /**
+   * By the name of the cause: `geometric`, `scale`, `structure`, `workpiece`.
+   */
+  split?: {
+    [k: string]: TipEntry;
+  };
+  /**
+   * Of the machine without the growth of the workpiece.
+   */
+  machine?: TipEntry;
+  /**
+   * Of all together.
+   */
+  comprehensive?: ComprehensiveEntry;
+  /**
+   * How fast the workpiece takes the temperature of the air; absent where that is not stated.
+   */
+  settling?: SettlingEntry | null;
+}
+/**
+ * The whole prediction of a study, as `trueaxis predict --no-report` computes it.
+ */
+export interface ServePredictRequest {
+  /**
+   * The study file: a test piece or holes.
+   */
+  study: string;
+}
+/**
+ * The prediction of a test piece. Arrays: for each point of all sections `azimuth_rad` (f32), `error_um` (f32:
+ * the radial deviation) and `profile_mm` (f64: two, the actual point in the section).
+ */
+export interface ServePredictPieceEntry {
+  /**
+   * The document of `trueaxis predict`.
+   */
+  document: {
+    [k: string]: unknown;
+  };
+  /**
+   * The machine file below the project folder; null if it is outside.
+   */
+  machine: string | null;
+  /**
+   * The names of the rotary axes.
+   */
+  rotary: string[];
+  /**
+   * The length of the tool, mm.
+   */
+  tool_length_mm: number;
+  /**
+   * The stated errors.
+   */
+  errors: ErrorUnitEntry[];
+  /**
+   * The names of the temperature sensors.
+   */
+  sensors: string[];
+  /**
+   * The sections, in the order of the arrays.
+   */
+  sections: SectionEntry[];
+  /**
+   * The problems of the study.
+   */
+  diagnostics: DiagnosticEntry[];
+}
+/**
+ * A stated error with the unit of its values.
+ */
+export interface ErrorUnitEntry {
+  /**
+   * Its ISO 230-1 name.
+   */
+  name: string;
+  /**
+   * `µm` or `µrad`.
+   */
+  unit: string;
+}
+/**
+ * A measured section of the test piece.
+ */
+export interface SectionEntry {
+  /**
+   * Its height in the workpiece frame, mm.
+   */
+  z_mm: number;
+  /**
+   * Its height above the base of the cone, mm.
+   */
+  height_mm: number;
+  /**
+   * Its nominal radius, mm.
+   */
+  radius_mm: number;
+  /**
+   * How many points it has.
+   */
+  points: number;
+  /**
+   * The reference circles.
+   *
+   * @minItems 4
+   * @maxItems 4
+   */
+  circles: [CircleEntry, CircleEntry, CircleEntry, CircleEntry];
+}
+/**
+ * A reference circle of a section.
+ */
+export interface CircleEntry {
+  /**
+   * `least squares`, `minimum zone`, `maximum inscribed` or `minimum circumscribed`.
+   */
+  name: string;
+  /**
+   * Its centre, mm.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  centre_mm: [number, number];
+  /**
+   * Its radius, mm.
+   */
+  radius_mm: number;
+  /**
+   * The distance of the nearest point from the centre, mm.
+   */
+  inner_mm: number;
+  /**
+   * The distance of the farthest point from the centre, mm.
+   */
+  outer_mm: number;
+}
+/**
+ * The prediction of holes. Arrays: `holes_mm` (f64: the three nominal coordinates of each hole), `error_um` (f32:
+ * the three errors of each hole, set after set).
+ */
+export interface HolesEntry {
+  /**
+   * The document of `trueaxis predict`.
+   */
+  document: {
+    [k: string]: unknown;
+  };
+  /**
+   * The names of the temperature sensors.
+   */
+  sensors: string[];
+  /**
+   * The problems of the study.
+   */
+  diagnostics: DiagnosticEntry[];
+}
+/**
+ * Which files and examples there are.
+ */
+export interface ServeProjectRequest {}
+/**
+ * The project folder.
+ */
+export interface ServeProject {
+  /**
+   * The name of the folder.
+   */
+  folder: string;
+  /**
+   * The version of TrueAxis.
+   */
+  version: string;
+  /**
+   * The examples of the folder.
+   */
+  examples: ExampleEntry[];
+  /**
+   * Its files in the order of their paths.
+   */
+  files: ServeProjectFileEntry[];
+  /**
+   * Whether there are more files than are listed.
+   */
+  more_files: boolean;
+  /**
+   * Problems of the list of examples.
+   */
+  diagnostics: DiagnosticEntry[];
+}
+/**
+ * An example of the project.
+ */
+export interface ExampleEntry {
+  /**
+   * The tab that shows it.
+   */
+  tab: string;
+  /**
+   * Its title.
+   */
+  title: string;
+  /**
+   * What it shows, in a sentence.
+   */
+  what: string;
+  /**
+   * Its file.
+   */
+  path: string;
+  /**
+   * The machine file that it needs.
+   */
+  machine?: string | null;
+  /**
+   * The standard by which its readings are evaluated.
+   */
+  standard?: string | null;
+}
+/**
+ * A file that the page has a use for.
+ */
+export interface ServeProjectFileEntry {
+  /**
+   * Its path below the project folder, with `/`.
+   */
+  path: string;
+  /**
+   * What it contains.
+   */
+  kind: FileKind;
+  /**
+   * Its size in bytes.
+   */
+  bytes: number;
+}
+/**
+ * The answer to a request by POST that is refused.
+ */
+export interface ServeRefused {
+  /**
+   * Why.
+   */
+  error: RefusalEntry;
+}
+/**
+ * Why a request is not answered.
+ */
+export interface RefusalEntry {
+  /**
+   * The code, such as `bad-request`; `trueaxis explain CODE` has its meaning and its remedy.
+   */
+  code: string;
+  /**
+   * The reason in one sentence.
+   */
+  message: string;
+  /**
+   * What to do; may be empty.
+   */
+  hint: string;
+  /**
+   * The problems of the input, if that is the reason.
+   */
+  diagnostics: DiagnosticEntry[];
+}
+/**
+ * Makes a report.
+ */
+export interface ServeReportRequest {
+  /**
+   * The command whose report it is.
+   */
+  verb: Verb;
+  /**
+   * The file that the command takes.
+   */
+  file: string;
+  /**
+   * The machine file, for `simulate`.
+   */
+  machine?: string | null;
+  /**
+   * The standard, for `evaluate`.
+   */
+  standard?: string | null;
+  /**
+   * The control of the programs, for `plan`.
+   */
+  dialect?: string | null;
+}
+/**
+ * A report that was made.
+ */
+export interface ServeReport {
+  /**
+   * Its address on the server; only the last few reports are kept.
+   */
+  url: string;
+  /**
+   * Its size in bytes.
+   */
+  bytes: number;
+  /**
+   * A name for the file.
+   */
+  name: string;
+}
+/**
+ * Replaces the text of a file, if it is still the one that was opened.
+ */
+export interface ServeSaveRequest {
+  /**
+   * Its path below the project folder: TOML or CSV.
+   */
+  path: string;
+  /**
+   * The new text.
+   */
+  text: string;
+  /**
+   * The version that was opened; null for a new file.
+   */
+  version?: string | null;
+  /**
+   * The window that saves it, so that it recognises its own changes.
+   */
+  window?: string | null;
+}
+/**
+ * A file that was saved.
+ */
+export interface ServeSave {
+  /**
+   * Its path.
+   */
+  path: string;
+  /**
+   * The version of its new text.
+   */
+  version: string;
+}
+/**
+ * The text of the machine file with one error in it; nothing is saved.
+ */
+export interface ServeSetErrorRequest {
+  /**
+   * The machine file.
+   */
+  machine: string;
+  /**
+   * Its present text.
+   */
+  text: string;
+  /**
+   * The ISO 230-1 name of the error.
+   */
+  error: string;
+  /**
+   * The error as it is written in the file; empty to remove it.
+   */
+  value: string;
+}
+/**
+ * The machine file with the error.
+ */
+export interface ServeSetError {
+  /**
+   * Its new text.
+   */
+  text: string;
+  /**
+   * The problems of the new text.
+   */
+  diagnostics: DiagnosticEntry[];
+}
+/**
+ * Simulates a program: a file of the project, or `name` and `text` of one that was dropped.
+ */
+export interface ServeSimulateRequest {
+  /**
+   * The machine file.
+   */
+  machine: string;
+  /**
+   * The program.
+   */
+  program?: string | null;
+  /**
+   * The set-up file; the one beside the program if it is left out.
+   */
+  setup?: string | null;
+  /**
+   * The control that the program is for, as `--control` of the command line.
+   */
+  control?: string | null;
+  /**
+   * The name of a program that was dropped.
+   */
+  name?: string | null;
+  /**
+   * Its text.
+   */
+  text?: string | null;
+  /**
+   * Whether the simulation goes on after errors; false if it is left out.
+   */
+  keep_going?: boolean | null;
+  /**
+   * Whether collisions are looked for; true if it is left out.
+   */
+  collisions?: boolean | null;
+}
+/**
+ * A simulation. Array: `corners_mm` (f32: the corners of the triangles of `on_workpiece`, nine numbers each).
+ */
+export interface ServeSimulate {
+  /**
+   * How long the program runs, s.
+   */
+  duration_s: number;
+  /**
+   * How many nodes the path has.
+   */
+  nodes: number;
+  /**
+   * How many of them are kept.
+   */
+  kept: number;
+  /**
+   * Whether some are not kept.
+   */
+  thinned: boolean;
+  /**
+   * The axes.
+   */
+  axes: SimulatedAxisEntry[];
+  /**
+   * The quantities that can be shown as curves.
+   */
+  quantities: ServeSimulateQuantityEntry[];
+  /**
+   * The programs that ran, the main program first.
+   */
+  programs: ServeSimulateProgramEntry[];
+  /**
+   * The issues in the order of time.
+   */
+  marks: MarkEntry[];
+  /**
+   * The names of the bodies of the machine.
+   */
+  bodies: string[];
+  /**
+   * The document of `trueaxis simulate`.
+   */
+  document: SimulationDocument;
+  /**
+   * The tools of the set-up.
+   */
+  tools: SetUpToolEntry[];
+  /**
+   * Stock, part and fixtures of the set-up.
+   */
+  on_workpiece: SurfaceEntry[];
+  /**
+   * The problems of machine, set-up and program.
+   */
+  diagnostics: DiagnosticEntry[];
+  /**
+   * The number of the simulation, for further requests; only the last few are kept.
+   */
+  simulation: number;
+}
+/**
+ * An axis of the simulated machine.
+ */
+export interface SimulatedAxisEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * The unit of its positions.
+   */
+  unit: "mm" | "deg";
+  /**
+   * Its travel in that unit; null if it has no limits.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  travel: [number, number] | null;
+  /**
+   * Its maximum velocity, mm/s or deg/s; null if it is not stated.
+   */
+  velocity: number | null;
+  /**
+   * Its maximum acceleration, mm/s² or deg/s²; null if it is not stated.
+   */
+  acceleration: number | null;
+}
+/**
+ * A quantity that can be shown as a curve.
+ */
+export interface ServeSimulateQuantityEntry {
+  /**
+   * Its name in requests, such as `X`, `X.speed`, `tip`.
+   */
+  key: string;
+  /**
+   * Its title.
+   */
+  title: string;
+  /**
+   * Its unit.
+   */
+  unit: string;
+  /**
+   * Its limits, from and to; null if it has none.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  limits: [number, number] | null;
+}
+/**
+ * A program that ran.
+ */
+export interface ServeSimulateProgramEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * Its path below the project folder; null if it is not a file there.
+   */
+  path: string | null;
+  /**
+   * How many lines it has.
+   */
+  lines: number;
+}
+/**
+ * An issue of the simulation.
+ */
+export interface MarkEntry {
+  /**
+   * Its kind, such as `collision`.
+   */
+  kind: string;
+  /**
+   * Whether part or machine are in danger.
+   */
+  grave: boolean;
+  /**
+   * When it begins, s.
+   */
+  time_s: number;
+  /**
+   * When it ends, s; null if it is a moment.
+   */
+  until_s: number | null;
+  /**
+   * The issue in one sentence.
+   */
+  text: string;
+  /**
+   * The number of the program where it begins.
+   */
+  program: number;
+  /**
+   * The line there, from 1.
+   */
+  line: number;
+}
+/**
+ * A simulation of a program on a machine: `trueaxis/simulate/1`.
+ */
+export interface SimulationDocument {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/simulate/1";
+  /**
+   * The version of the program `trueaxis`.
+   */
+  version: string;
+  /**
+   * The machine.
+   */
+  machine: ServeSimulateMachineEntry;
+  /**
+   * The program file.
+   */
+  program: string;
+  /**
+   * The program and its subprograms; `program` elsewhere is an index into this list.
+   */
+  programs: string[];
+  /**
+   * The control.
+   */
+  control: string;
+  /**
+   * Whether a set-up was given; without one work offsets and tool lengths are 0.
+   */
+  set_up_given: boolean;
+  /**
+   * The whole time, s.
+   */
+  time_s: number;
+  /**
+   * Time of rapid moves, s.
+   */
+  rapid_s: number;
+  /**
+   * Time of dwells, s.
+   */
+  dwell_s: number;
+  /**
+   * Path length of the tool tip in the workpiece with feed, mm.
+   */
+  feed_mm: number;
+  /**
+   * The same of rapid moves, mm.
+   */
+  rapid_mm: number;
+  /**
+   * How many moves the program makes.
+   */
+  moves: number;
+  /**
+   * How many points of the path were computed.
+   */
+  nodes: number;
+  /**
+   * Smallest and largest coordinates of the nominal tool tip with feed, workpiece frame, mm; null if it never
+   * moves with feed.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  tip_box_mm: [[number, number, number], [number, number, number]] | null;
+  /**
+   * Every axis by its name, in chain order.
+   */
+  axes: {
+    [k: string]: ServeSimulateAxisEntry;
+  };
+  /**
+   * The largest deviations of the actual tool from the nominal one.
+   */
+  deviation: ServeSimulateDeviationEntry;
+  /**
+   * The first 1000 reversals of all axes, in order of time.
+   */
+  reversals: ReversalEntry[];
+  /**
+   * The issues that were found.
+   */
+  troubles: TroubleEntry[];
+  /**
+   * How many more of the same kinds were found, but not listed.
+   */
+  troubles_left_out: number;
+  /**
+   * Messages of the program to the operator.
+   */
+  messages: string[];
+  /**
+   * Stops in the program, optional ones not counted.
+   */
+  stops: number;
+  /**
+   * The tools in the order of their numbers.
+   */
+  tools: ToolEntry[];
+  /**
+   * The file that the path was written to; null if none was asked for.
+   */
+  path_file: string | null;
+  /**
+   * Temperatures during the program; null without a temperature log.
+   */
+  temperatures: TemperaturesEntry | null;
+}
+/**
+ * The machine.
+ */
+export interface ServeSimulateMachineEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * Its kinematic chain from workpiece to tool.
+   */
+  chain: string;
+}
+/**
+ * The motion of one axis.
+ */
+export interface ServeSimulateAxisEntry {
+  /**
+   * Its unit: `mm` or `deg`.
+   */
+  unit: string;
+  /**
+   * The lowest position, in its unit; null if the axis does not move.
+   */
+  lowest: number | null;
+  /**
+   * The highest position, in its unit; null if the axis does not move.
+   */
+  highest: number | null;
+  /**
+   * The distance that it travels, in its unit.
+   */
+  travelled: number | null;
+  /**
+   * How often it changes its direction.
+   */
+  reversals: number;
+  /**
+   * Its highest speed, in its unit per second.
+   */
+  fastest_per_s: number | null;
+  /**
+   * The line of the program where that is.
+   */
+  fastest_line: number;
+  /**
+   * Its speed limit, in its unit per second; null if the machine file states none.
+   */
+  velocity_limit_per_s: number | null;
+}
+/**
+ * The largest deviations of the actual tool from the nominal one, in the workpiece. Those along feed, normal and
+ * binormal have a sign; the others are lengths.
+ */
+export interface ServeSimulateDeviationEntry {
+  /**
+   * Tool tip with feed, µm.
+   */
+  tip_um: ServeSimulateWorstEntry;
+  /**
+   * Root mean square of the tool tip over all points with feed, µm.
+   */
+  tip_rms_um: number;
+  /**
+   * Tool tip along the feed, µm.
+   */
+  feed_um: ServeSimulateWorstEntry;
+  /**
+   * Tool tip along the normal: across the feed, on the side of the tool axis, µm.
+   */
+  normal_um: ServeSimulateWorstEntry;
+  /**
+   * Tool tip along the binormal: across feed and normal, µm.
+   */
+  binormal_um: ServeSimulateWorstEntry;
+  /**
+   * Tool axis with feed, µrad.
+   */
+  axis_urad: ServeSimulateWorstEntry;
+  /**
+   * Tool tip, rapid moves included, µm.
+   */
+  tip_with_rapid_um: ServeSimulateWorstEntry;
+  /**
+   * Tool axis, rapid moves included, µrad.
+   */
+  axis_with_rapid_urad: ServeSimulateWorstEntry;
+}
+/**
+ * A largest value and where it occurs.
+ */
+export interface ServeSimulateWorstEntry {
+  /**
+   * The value, in the unit at the end of its key.
+   */
+  value: number;
+  /**
+   * The line.
+   */
+  line: number;
+  /**
+   * The program, an index into `programs`.
+   */
+  program: number;
+  /**
+   * The time, s.
+   */
+  time_s: number;
+}
+/**
+ * A reversal of an axis.
+ */
+export interface ReversalEntry {
+  /**
+   * The axis.
+   */
+  axis: string;
+  /**
+   * Its position, mm or degrees.
+   */
+  at: number;
+  /**
+   * The line.
+   */
+  line: number;
+  /**
+   * The program, an index into `programs`.
+   */
+  program: number;
+  /**
+   * The time, s.
+   */
+  time_s: number;
+}
+/**
+ * A tool.
+ */
+export interface ToolEntry {
+  /**
+   * Its number.
+   */
+  tool: number;
+  /**
+   * How many moves it makes.
+   */
+  moves: number;
+}
+/**
+ * Temperatures during the program, and the drift that they cause.
+ */
+export interface TemperaturesEntry {
+  /**
+   * The file of the log.
+   */
+  log: string;
+  /**
+   * The time of the log when the program begins, s.
+   */
+  from_s: number;
+  /**
+   * The time of the log when the program ends, s.
+   */
+  to_s: number;
+  /**
+   * Every sensor by its name.
+   */
+  sensors: {
+    [k: string]: SimulateSensorEntry;
+  };
+  /**
+   * How far the deviation of the tool tip has moved since the start, with feed: the largest value, µm.
+   */
+  drift_um: SimulateWorstEntry;
+  /**
+   * The same at the end, µm.
+   */
+  drift_at_end_um: number;
+  /**
+   * How many points of the path have no known drift, because an error table ends before them.
+   */
+  drift_unknown_places: number;
+}
+/**
+ * The range of a temperature sensor.
+ */
+export interface SimulateSensorEntry {
+  /**
+   * The lowest temperature, °C; null without a reading.
+   */
+  lowest_degC: number | null;
+  /**
+   * The highest temperature, °C; null without a reading.
+   */
+  highest_degC: number | null;
+}
+/**
+ * A largest value and where it occurs.
+ */
+export interface SimulateWorstEntry {
+  /**
+   * The value, in the unit at the end of its key.
+   */
+  value: number;
+  /**
+   * The line.
+   */
+  line: number;
+  /**
+   * The program, an index into `programs`.
+   */
+  program: number;
+  /**
+   * The time, s.
+   */
+  time_s: number;
+}
+/**
+ * A tool of the set-up.
+ */
+export interface SetUpToolEntry {
+  /**
+   * Its number.
+   */
+  tool: number;
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * Its tip in the frame of the tool holder, mm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  tip_mm: [number, number, number];
+  /**
+   * Diameter and length of each of its cylinders from the tip upwards, mm; empty if they are not stated.
+   */
+  segments_mm: [number, number][];
+}
+/**
+ * Everything at one time.
+ */
+export interface ServeSimulationAtRequest {
+  /**
+   * The number of the simulation.
+   */
+  simulation: number;
+  /**
+   * The time, s.
+   */
+  time_s: number;
+}
+/**
+ * A moment. Arrays: `nominal`, `actual` (f64: for each body its rotation row by row, then its origin, mm, in the
+ * machine frame).
+ */
+export interface ServeSimulationAt {
+  /**
+   * Program, axes and tool.
+   */
+  moment: MomentEntry;
+}
+/**
+ * Program, axes and tool at one time.
+ */
+export interface MomentEntry {
+  /**
+   * The time from the start of the program, s.
+   */
+  time_s: number;
+  /**
+   * The number of the program.
+   */
+  program: number;
+  /**
+   * Its line, from 1.
+   */
+  line: number;
+  /**
+   * The positions of the axes by name, mm or degrees.
+   */
+  axes: {
+    [k: string]: number;
+  };
+  /**
+   * The direction of the last motion of each axis: +1, −1, or 0 before the first.
+   */
+  approach: {
+    [k: string]: number;
+  };
+  /**
+   * The nominal tip in the workpiece frame, mm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  tip_mm: [number, number, number];
+  /**
+   * The deviation of the tip, µm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  off_tip_um: [number, number, number];
+  /**
+   * The deviation of the tool axis, µrad.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  off_axis_urad: [number, number, number];
+  /**
+   * The deviation of the tip along feed, normal and binormal, µm; null where the path has no direction.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  along_path_um: [number | null, number | null, number | null];
+  /**
+   * The speed along the path, mm/min.
+   */
+  speed_mm_per_min: number;
+  /**
+   * Whether the axes move in rapid traverse.
+   */
+  rapid: boolean;
+  /**
+   * Whether the axes wait.
+   */
+  waits: boolean;
+  /**
+   * The number of the tool in the spindle; null if there is none.
+   */
+  tool: number | null;
+}
+/**
+ * When a block ends: the one after or before a time (`step`, `from_s`), or that of a line (`program`, `line`).
+ */
+export interface ServeSimulationBlockRequest {
+  /**
+   * The number of the simulation.
+   */
+  simulation: number;
+  /**
+   * Which block from `from_s`.
+   */
+  step?: BlockStep | null;
+  /**
+   * The time, s.
+   */
+  from_s?: number | null;
+  /**
+   * The number of the program.
+   */
+  program?: number | null;
+  /**
+   * The line, from 1.
+   */
+  line?: number | null;
+}
+/**
+ * The end of a block.
+ */
+export interface ServeSimulationBlock {
+  /**
+   * When it ends, s.
+   */
+  time_s: number;
+}
+/**
+ * Curves over a range of time.
+ */
+export interface ServeSimulationCurvesRequest {
+  /**
+   * The number of the simulation.
+   */
+  simulation: number;
+  /**
+   * From this time, s.
+   */
+  from_s: number;
+  /**
+   * To this time, s.
+   */
+  to_s: number;
+  /**
+   * How many columns of equal time.
+   */
+  columns: number;
+  /**
+   * The names of the quantities.
+   */
+  quantities: string[];
+}
+/**
+ * Curves. Arrays: `low`, `high` (f32: the extent in each column, quantity after quantity).
+ */
+export interface ServeSimulationCurves {
+  /**
+   * From this time, s.
+   */
+  from_s: number;
+  /**
+   * To this time, s.
+   */
+  to_s: number;
+  /**
+   * How many columns of equal time.
+   */
+  columns: number;
+  /**
+   * The names of the quantities, in the order of the arrays.
+   */
+  quantities: string[];
+}
+/**
+ * The path of the tip.
+ */
+export interface ServeSimulationPathRequest {
+  /**
+   * The number of the simulation.
+   */
+  simulation: number;
+  /**
+   * From this time, s; from the start if it is left out.
+   */
+  from_s?: number | null;
+  /**
+   * To this time, s; to the end if it is left out.
+   */
+  to_s?: number | null;
+  /**
+   * At most so many points.
+   */
+  points: number;
+  /**
+   * The quantity that colours the path.
+   */
+  colour: PathColour;
+}
+/**
+ * A path. Arrays, for each point: `tip_mm` (f32: three, from `origin_mm`), `off_um` (f32: three), `value` (f32),
+ * `rapid` (u8: 1 in rapid traverse), `time_s` (f64), `program`, `line` (u32).
+ */
+export interface ServeSimulationPath {
+  /**
+   * The origin of the points in the workpiece frame, mm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  origin_mm: [number, number, number];
+  /**
+   * The unit of the values.
+   */
+  unit: string;
+  /**
+   * The title of the values.
+   */
+  title: string;
+  /**
+   * The lowest value.
+   */
+  low: number;
+  /**
+   * The highest value.
+   */
+  high: number;
+  /**
+   * How far the drawn path is from the simulated one, mm.
+   */
+  chord_mm: number;
+  /**
+   * Whether all points of the simulation are drawn.
+   */
+  complete: boolean;
+}
+/**
+ * The text of a program as it was simulated.
+ */
+export interface ServeSimulationSourceRequest {
+  /**
+   * The number of the simulation.
+   */
+  simulation: number;
+  /**
+   * The number of the program.
+   */
+  program: number;
+}
+/**
+ * A program.
+ */
+export interface ServeSimulationSource {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * Its text.
+   */
+  text: string;
+}
+/**
+ * What a window sends: a request, or that it no longer waits for one.
+ */
+export interface ServeSocketRequest {
+  /**
+   * The number of the request, chosen by the page; its answers have the same.
+   */
+  id: number;
+  /**
+   * The name of the request, such as `pose`.
+   */
+  ask?: string | null;
+  /**
+   * The request.
+   */
+  body?: {
+    [k: string]: unknown;
+  };
+  /**
+   * True if nobody waits for the answer any more.
+   */
+  stop?: boolean | null;
+}
+/**
+ * A change of a file; without a path any file may have changed.
+ */
+export interface ChangeEntry {
+  /**
+   * Its path below the project folder.
+   */
+  path?: string | null;
+  /**
+   * The version of its new text.
+   */
+  version?: string | null;
+  /**
+   * The window that saved it; absent if that is not known.
+   */
+  window?: string | null;
+}
+/**
+ * The standards.
+ */
+export interface ServeStandardsRequest {}
+/**
+ * A standard.
+ */
+export interface StandardEntry {
+  /**
+   * Its name in requests and on the command line.
+   */
+  key: string;
+  /**
+   * Its title.
+   */
+  title: string;
+}
+/**
+ * The same for a changed machine, without Monte Carlo, as fast as somebody drags a slider.
+ */
+export interface ServeWhatIfRequest {
+  /**
+   * The study file: a test piece.
+   */
+  study: string;
+  /**
+   * Changes of errors by ISO 230-1 name.
+   */
+  errors?: {
+    [k: string]: ServeWhatIfRequestErrorChangeEntry;
+  } | null;
+  /**
+   * The setting angles of rotary axes by name, degrees; those of the study if left out.
+   */
+  setting_deg?: {
+    [k: string]: number;
+  } | null;
+  /**
+   * The length of the tool, mm.
+   */
+  tool_length_mm?: number | null;
+  /**
+   * Temperatures, as `--temperature` of the command line.
+   */
+  temperature?: string | null;
+}
+/**
+ * A change of one error: its curve times the factor, then the constant is added.
+ */
+export interface ServeWhatIfRequestErrorChangeEntry {
+  /**
+   * What its values are multiplied by; 1 if it is left out.
+   */
+  factor?: number | null;
+  /**
+   * What is added, a length or an angle with its unit, such as `5 urad`; nothing if it is left out.
+   */
+  add?: string | null;
+}
+/**
+ * The prediction of a test piece. Arrays: for each point of all sections `azimuth_rad` (f32), `error_um` (f32:
+ * the radial deviation) and `profile_mm` (f64: two, the actual point in the section).
+ */
+export interface ServeWhatIfPieceEntry {
+  /**
+   * The document of `trueaxis predict`.
+   */
+  document: {
+    [k: string]: unknown;
+  };
+  /**
+   * The machine file below the project folder; null if it is outside.
+   */
+  machine: string | null;
+  /**
+   * The names of the rotary axes.
+   */
+  rotary: string[];
+  /**
+   * The length of the tool, mm.
+   */
+  tool_length_mm: number;
+  /**
+   * The stated errors.
+   */
+  errors: ErrorUnitEntry[];
+  /**
+   * The names of the temperature sensors.
+   */
+  sensors: string[];
+  /**
+   * The sections, in the order of the arrays.
+   */
+  sections: SectionEntry[];
+  /**
+   * The problems of the study.
+   */
+  diagnostics: DiagnosticEntry[];
+}
+/**
+ * A simulation of a program on a machine: `trueaxis/simulate/1`.
+ */
+export interface Simulate {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/simulate/1";
+  /**
+   * The version of the program `trueaxis`.
+   */
+  version: string;
+  /**
+   * The machine.
+   */
+  machine: SimulateMachineEntry;
+  /**
+   * The program file.
+   */
+  program: string;
+  /**
+   * The program and its subprograms; `program` elsewhere is an index into this list.
+   */
+  programs: string[];
+  /**
+   * The control.
+   */
+  control: string;
+  /**
+   * Whether a set-up was given; without one work offsets and tool lengths are 0.
+   */
+  set_up_given: boolean;
+  /**
+   * The whole time, s.
+   */
+  time_s: number;
+  /**
+   * Time of rapid moves, s.
+   */
+  rapid_s: number;
+  /**
+   * Time of dwells, s.
+   */
+  dwell_s: number;
+  /**
+   * Path length of the tool tip in the workpiece with feed, mm.
+   */
+  feed_mm: number;
+  /**
+   * The same of rapid moves, mm.
+   */
+  rapid_mm: number;
+  /**
+   * How many moves the program makes.
+   */
+  moves: number;
+  /**
+   * How many points of the path were computed.
+   */
+  nodes: number;
+  /**
+   * Smallest and largest coordinates of the nominal tool tip with feed, workpiece frame, mm; null if it never
+   * moves with feed.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  tip_box_mm: [[number, number, number], [number, number, number]] | null;
+  /**
+   * Every axis by its name, in chain order.
+   */
+  axes: {
+    [k: string]: SimulateAxisEntry;
+  };
+  /**
+   * The largest deviations of the actual tool from the nominal one.
+   */
+  deviation: SimulateDeviationEntry;
+  /**
+   * The first 1000 reversals of all axes, in order of time.
+   */
+  reversals: ReversalEntry[];
+  /**
+   * The issues that were found.
+   */
+  troubles: TroubleEntry[];
+  /**
+   * How many more of the same kinds were found, but not listed.
+   */
+  troubles_left_out: number;
+  /**
+   * Messages of the program to the operator.
+   */
+  messages: string[];
+  /**
+   * Stops in the program, optional ones not counted.
+   */
+  stops: number;
+  /**
+   * The tools in the order of their numbers.
+   */
+  tools: ToolEntry[];
+  /**
+   * The file that the path was written to; null if none was asked for.
+   */
+  path_file: string | null;
+  /**
+   * Temperatures during the program; null without a temperature log.
+   */
+  temperatures: TemperaturesEntry | null;
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * The machine.
+ */
+export interface SimulateMachineEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * Its kinematic chain from workpiece to tool.
+   */
+  chain: string;
+}
+/**
+ * The motion of one axis.
+ */
+export interface SimulateAxisEntry {
+  /**
+   * Its unit: `mm` or `deg`.
+   */
+  unit: string;
+  /**
+   * The lowest position, in its unit; null if the axis does not move.
+   */
+  lowest: number | null;
+  /**
+   * The highest position, in its unit; null if the axis does not move.
+   */
+  highest: number | null;
+  /**
+   * The distance that it travels, in its unit.
+   */
+  travelled: number | null;
+  /**
+   * How often it changes its direction.
+   */
+  reversals: number;
+  /**
+   * Its highest speed, in its unit per second.
+   */
+  fastest_per_s: number | null;
+  /**
+   * The line of the program where that is.
+   */
+  fastest_line: number;
+  /**
+   * Its speed limit, in its unit per second; null if the machine file states none.
+   */
+  velocity_limit_per_s: number | null;
+}
+/**
+ * The largest deviations of the actual tool from the nominal one, in the workpiece. Those along feed, normal and
+ * binormal have a sign; the others are lengths.
+ */
+export interface SimulateDeviationEntry {
+  /**
+   * Tool tip with feed, µm.
+   */
+  tip_um: SimulateWorstEntry;
+  /**
+   * Root mean square of the tool tip over all points with feed, µm.
+   */
+  tip_rms_um: number;
+  /**
+   * Tool tip along the feed, µm.
+   */
+  feed_um: SimulateWorstEntry;
+  /**
+   * Tool tip along the normal: across the feed, on the side of the tool axis, µm.
+   */
+  normal_um: SimulateWorstEntry;
+  /**
+   * Tool tip along the binormal: across feed and normal, µm.
+   */
+  binormal_um: SimulateWorstEntry;
+  /**
+   * Tool axis with feed, µrad.
+   */
+  axis_urad: SimulateWorstEntry;
+  /**
+   * Tool tip, rapid moves included, µm.
+   */
+  tip_with_rapid_um: SimulateWorstEntry;
+  /**
+   * Tool axis, rapid moves included, µrad.
+   */
+  axis_with_rapid_urad: SimulateWorstEntry;
+}
+/**
+ * Axis positions for a path of tool poses.
+ */
+export interface SolvePath {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/solve/1";
+  /**
+   * One for each pose of the path.
+   */
+  rows: SolveRowEntry[];
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * The axis positions for one pose of a path.
+ */
+export interface SolveRowEntry {
+  /**
+   * The positions of the axes, mm and degrees.
+   */
+  axes: {
+    [k: string]: number;
+  };
+}
+/**
+ * Axis positions for one tool pose.
+ */
+export interface Solve {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/solve/1";
+  /**
+   * All solutions of the nominal machine, the best first.
+   */
+  solutions: SolutionEntry[];
+  /**
+   * Whether an axis has no effect on the tool pose there.
+   */
+  singular: boolean;
+  /**
+   * The name of that axis, which keeps its angle; null if there is none.
+   */
+  held_axis: string | null;
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * One solution.
+ */
+export interface SolutionEntry {
+  /**
+   * The positions of the axes, mm and degrees.
+   */
+  axes: {
+    [k: string]: number;
+  };
+  /**
+   * Whether all axes are within their travel.
+   */
+  within_limits: boolean;
+  /**
+   * How far the rotary axes turn to get there, degrees.
+   */
+  rotary_travel_deg: number;
+}
+/**
+ * One block of a program through every stage of the simulation.
+ */
+export interface Trace {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/trace/1";
+  /**
+   * The machine.
+   */
+  machine: MachineEntry;
+  /**
+   * The file of the program.
+   */
+  program: string;
+  /**
+   * The block that was asked for: its number N, else its line.
+   */
+  block: number;
+  /**
+   * Its line in the program.
+   */
+  line: number;
+  /**
+   * Its text.
+   */
+  text: string;
+  /**
+   * How often it is executed; the first time is traced.
+   */
+  executions: number;
+  /**
+   * What the interpreter of the control makes of it.
+   */
+  programmed: ProgrammedEntry;
+  /**
+   * The points into which its path is divided.
+   */
+  nodes: NodeEntry[];
+  /**
+   * The positions of the axes, mm and degrees.
+   */
+  axes?: {
+    [k: string]: number;
+  };
+  /**
+   * The nominal tool in the workpiece frame.
+   */
+  nominal?: ToolPoseEntry;
+  /**
+   * The actual tool there.
+   */
+  actual?: ToolPoseEntry;
+  /**
+   * Actual − nominal.
+   */
+  deviation?: PathDeviationEntry;
+  /**
+   * When the block runs.
+   */
+  time?: TimeEntry;
+  /**
+   * The deviation at its end under each error alone; absent if nothing moves.
+   */
+  budget?: ShareEntry[] | null;
+  /**
+   * The place of every body at its end; absent if nothing moves.
+   */
+  bodies?: BodyEntry[] | null;
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * A block as the control reads it.
+ */
+export interface ProgrammedEntry {
+  /**
+   * Its moves.
+   */
+  moves: MoveEntry[];
+  /**
+   * What else it does, in words.
+   */
+  events: string[];
+  /**
+   * The program frame.
+   */
+  frame: FrameEntry;
+  /**
+   * Whether the tip of the tool is programmed (RTCP, TRAORI, TCPM).
+   */
+  tool_centre: boolean;
+  /**
+   * Whether the frame is that of a tilted working plane.
+   */
+  tilted_plane: boolean;
+  /**
+   * How the tool axis is interpolated: `axes`, `great circle` or `cone`.
+   */
+  orientation: string;
+  /**
+   * The number of the tool in the spindle.
+   */
+  tool: number;
+  /**
+   * The tool length that is in effect, mm along X, Y and Z.
+   */
+  tool_length_mm: number[];
+}
+/**
+ * A move as it is programmed.
+ */
+export interface MoveEntry {
+  /**
+   * `rapid`, `line`, `circle`, `thread` and so on.
+   */
+  kind: string;
+  /**
+   * The position of the axes that are named, mm and degrees, in the program frame.
+   */
+  target: {
+    [k: string]: number;
+  };
+  /**
+   * The tool axis if it is programmed as a vector.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  direction: [number, number, number] | null;
+  /**
+   * The feed with its unit, or `rapid`.
+   */
+  feed: string;
+}
+/**
+ * A program frame.
+ */
+export interface FrameEntry {
+  /**
+   * Rotation, scale and mirror of X, Y and Z, row by row.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  linear: [[number, number, number], [number, number, number], [number, number, number]];
+  /**
+   * Its origin: X Y Z A B C U V W, mm and degrees.
+   *
+   * @minItems 9
+   * @maxItems 9
+   */
+  shift: [number, number, number, number, number, number, number, number, number];
+}
+/**
+ * A point of the path.
+ */
+export interface NodeEntry {
+  /**
+   * The nominal tool in the workpiece frame.
+   */
+  nominal: ToolPoseEntry;
+  /**
+   * The actual tool there.
+   */
+  actual: ToolPoseEntry;
+  /**
+   * Actual − nominal.
+   */
+  deviation: PathDeviationEntry;
+  /**
+   * The positions of the axes, mm and degrees.
+   */
+  axes: {
+    [k: string]: number;
+  };
+  /**
+   * The time since the start of the program, s.
+   */
+  time_s: number;
+}
+/**
+ * A deviation of the tool on its path.
+ */
+export interface PathDeviationEntry {
+  /**
+   * Of the tip, µm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  tip_um: [number, number, number];
+  /**
+   * Of the axis, µrad.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  axis_urad: [number, number, number];
+  /**
+   * Of the tip along the feed, µm.
+   */
+  feed_um: number;
+  /**
+   * Of the tip along the principal normal of the path, µm.
+   */
+  normal_um: number;
+  /**
+   * Of the tip along the binormal of the path, µm.
+   */
+  binormal_um: number;
+}
+/**
+ * When a block runs.
+ */
+export interface TimeEntry {
+  /**
+   * Its start, s since the start of the program.
+   */
+  from_s: number;
+  /**
+   * Its end, s.
+   */
+  to_s: number;
+  /**
+   * The speed of the tip at its end, mm/min.
+   */
+  speed_mm_per_min: number;
+}
+/**
+ * Readings compared with a prediction, or with other readings.
+ */
+export interface Verify {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/verify/1";
+  /**
+   * The name of the comparison.
+   */
+  name: string;
+  /**
+   * What the readings are compared with: `prediction` or `readings`.
+   */
+  against: string;
+  /**
+   * How many readings.
+   */
+  readings: number;
+  /**
+   * The coverage factor k of U = k·u.
+   */
+  coverage_factor: number;
+  /**
+   * The decision rule in words.
+   */
+  rule: string;
+  /**
+   * `pass`, `fail` or `undecided`.
+   */
+  verdict: string;
+  /**
+   * How many numbers pass.
+   */
+  pass: number;
+  /**
+   * How many fail.
+   */
+  fail: number;
+  /**
+   * How many are neither.
+   */
+  undecided: number;
+  /**
+   * The share of all numbers within U.
+   */
+  coverage: CoverageEntry;
+  /**
+   * By instrument.
+   */
+  instruments: PartEntry[];
+  /**
+   * By place, the worst first.
+   */
+  places: PlacePartEntry[];
+  /**
+   * Every number.
+   */
+  deviations: DifferenceEntry[];
+  /**
+   * The problems found in the input; absent where the command reports them on standard error only.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * A share of numbers within U.
+ */
+export interface CoverageEntry {
+  /**
+   * How many numbers.
+   */
+  numbers: number;
+  /**
+   * How many of them are within U.
+   */
+  inside: number;
+  /**
+   * The number of independent ones: errors of the machine shift many readings at once.
+   */
+  independent: number;
+  /**
+   * `inside` over `numbers`.
+   */
+  share: number;
+  /**
+   * The 95 % interval of the share (Wilson).
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  interval_95: [number, number];
+  /**
+   * The share that is expected.
+   */
+  expected: number;
+}
+/**
+ * The numbers of an instrument or a place. Its root mean squares are `rms_nominal_um` (nominal machine; null
+ * against readings) and `rms_um` (machine file, or between the two sets of readings), µm; `…_urad`, µrad, of an
+ * instrument that measures angles.
+ */
+export interface PartEntry {
+  /**
+   * The name of the instrument.
+   */
+  instrument: string;
+  /**
+   * The share within U.
+   */
+  coverage: CoverageEntry;
+  /**
+   * The largest |deviation| / U; null where U is 0.
+   */
+  largest_ratio: number | null;
+  [k: string]: number | null;
+}
+/**
+ * The numbers of a place.
+ */
+export interface PlacePartEntry {
+  /**
+   * The name of the instrument.
+   */
+  instrument: string;
+  /**
+   * The share within U.
+   */
+  coverage: CoverageEntry;
+  /**
+   * The largest |deviation| / U; null where U is 0.
+   */
+  largest_ratio: number | null;
+  /**
+   * The number of the place.
+   */
+  group: number;
+  /**
+   * A line of the readings there.
+   */
+  line: number;
+  [k: string]: number | null;
+}
+/**
+ * One number: `deviation_um`, measured − expected, and `expanded_um`, its U, in µm; `…_urad` in µrad.
+ */
+export interface DifferenceEntry {
+  /**
+   * The name of the instrument.
+   */
+  instrument: string;
+  /**
+   * The line of its reading.
+   */
+  line: number;
+  /**
+   * The channel of the instrument, from 0.
+   */
+  channel: number;
+  [k: string]: number;
+}
