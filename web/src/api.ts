@@ -198,7 +198,7 @@ export class Api {
         this.retry_ms = 250;
         this.onState("open");
         resolve(socket);
-        // What others saved while the connection was gone was not told.
+        // What others saved while the connection was lost was not reported.
         if (this.was_lost) this.onChange({});
         this.was_lost = false;
       };

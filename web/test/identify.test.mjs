@@ -74,7 +74,7 @@ test("verdict, scores, errors with uncertainty, residuals, correlation", async (
     const unit = "value_urad" in one ? "µrad" : "µm";
     assert.ok(bars.includes(`${shown(value, 1)}\u202f±\u202f${shown(one.u, 1)}\u202f${unit}`), one.name);
   }
-  assert.match(bars, /Everything that is sought can be told/);
+  assert.match(bars, /All unknowns are observable/);
   assert.match(
     await page.textContent("#tab-identify .pictures"),
     /EY0A and EA0Z \(\+0\.97\d\): their difference is better known than each/,

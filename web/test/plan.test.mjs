@@ -43,7 +43,7 @@ test("paths, expected uncertainty, confounded combinations, what each path sees"
   });
   assert.match(
     await page.textContent('#tab-plan [data-test="summary"]'),
-    new RegExp(`${document.rank} of ${document.expected.length} combinations seen`),
+    new RegExp(`${document.rank} of ${document.expected.length} combinations observable`),
   );
   await expected(page, document);
   const words = await page.textContent('#tab-plan [data-test="confounded"]');

@@ -1,4 +1,4 @@
-/** Horizontal bars, signed, with uncertainty: who is to blame, and how sure we are. */
+/** Horizontal bars, signed, with uncertainty: an error budget, for example. */
 
 import { s } from "../dom.ts";
 import { NO_NUMBER, number, withUncertainty } from "../format.ts";

@@ -270,12 +270,10 @@ class IdentifyTab implements TabHandle {
         foundPanel(
           "Errors of the machine",
           document.errors,
-          "Bars: value; whiskers: ± 2u, about 95 %. Grey: not told from zero (|z| below 2).",
+          "Bars: value; whiskers: ± 2u, about 95 %. Grey: not significantly different from zero (|z| below 2).",
         ),
       );
-    this.result.append(
-      confoundedPanel(document.unobservable, "Everything that is sought can be told from these readings."),
-    );
+    this.result.append(confoundedPanel(document.unobservable, "All unknowns are observable with these readings."));
     if (document.errors.length > 0) this.result.append(this.savePanel(header));
     if (document.setup.length > 0)
       this.add(

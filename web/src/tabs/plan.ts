@@ -214,7 +214,7 @@ class PlanTab implements TabHandle {
     this.shown = this.campaign;
     fill(this.summary, summaryPanel(document));
     this.draw(expectedPanel(document));
-    this.result.append(confoundedPanel(document.unobservable, "Everything that is sought can be told."));
+    this.result.append(confoundedPanel(document.unobservable, "All unknowns are observable."));
     if (document.chosen) this.result.append(chosenPanel(document.chosen));
     this.draw(seenPanel(document));
     fill(this.programs, programsPanel(header, this.dialectSelect()));

@@ -17,7 +17,7 @@ import { WhatIf, type Changes } from "./predict/whatif.ts";
 type Answer = PieceFrame | Frame<HolesHeader>;
 type Page = "blame" | "what-if" | "numbers";
 const PAGES: readonly [Page, string][] = [
-  ["blame", "Who is to blame"],
+  ["blame", "Error budget"],
   ["what-if", "What if"],
   ["numbers", "All numbers"],
 ];

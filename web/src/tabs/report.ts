@@ -17,9 +17,9 @@ interface Verb {
 const VERBS: readonly Verb[] = [
   { name: "predict", title: "Predict: the part before it is cut", file: ["study"], needs_machine: false },
   { name: "simulate", title: "Simulate: what the machine does with a program", file: ["program"], needs_machine: true },
-  { name: "plan", title: "Plan: what a campaign will tell", file: ["campaign"], needs_machine: false },
+  { name: "plan", title: "Plan: what a campaign will show", file: ["campaign"], needs_machine: false },
   { name: "identify", title: "Identify: the machine from readings", file: ["campaign"], needs_machine: false },
-  { name: "evaluate", title: "Evaluate: readings judged by ISO 230", file: ["readings"], needs_machine: false },
+  { name: "evaluate", title: "Evaluate: readings by ISO 230", file: ["readings"], needs_machine: false },
   { name: "verify", title: "Verify: readings against the machine file", file: ["other"], needs_machine: false },
 ];
 

@@ -9,7 +9,7 @@ const VERBS: readonly [string, string, string][] = [
   ["describe", "Describe", "What the machine is, and where its tool really is"],
   ["simulate", "Simulate", "What it does with a program"],
   ["predict", "Predict", "Whether the part will be good"],
-  ["plan", "Plan", "What to measure, and what it will tell"],
+  ["plan", "Plan", "What to measure, and with what uncertainty"],
   ["identify", "Identify", "What the machine is like, from readings"],
   ["compensate", "Compensate", "What the control has to add"],
   ["standards", "Standards", "Readings judged by ISO 230"],

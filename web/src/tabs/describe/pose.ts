@@ -118,7 +118,7 @@ export class PosePanels {
     );
   }
 
-  /** Who is to blame: the share of every error, in the direction asked for. */
+  /** The error budget: the share of every error, in the direction asked for. */
   private showBudget(): void {
     const { pose, direction } = this;
     if (!pose) return;

@@ -1,4 +1,4 @@
-/** Verdict, scores, errors with their uncertainty, what cannot be told: the result of an identification. */
+/** Verdict, scores, errors with their uncertainty, what is not observable: the result of an identification. */
 
 import { diagnosticList } from "../../app.ts";
 import { h } from "../../dom.ts";
@@ -106,7 +106,7 @@ export function scorePanel(doc: IdentifyDocument): HTMLElement {
 
 function barOf(found: Found): Bar {
   const value = foundValue(found);
-  if (value === null) return { name: found.name, value: null, missing: "cannot be told from these readings" };
+  if (value === null) return { name: found.name, value: null, missing: "not observable with these readings" };
   const weak = found.z !== null && Math.abs(found.z) < 2;
   return {
     name: found.name,
@@ -160,8 +160,8 @@ export function confoundedPanel(unobservable: readonly Unobservable[], good: str
       "h2",
       {},
       unobservable.length > 0
-        ? `${count(unobservable.length, "combination")} that cannot be told apart`
-        : "What cannot be told apart",
+        ? `${count(unobservable.length, "combination")} that cannot be separated`
+        : "Not separable",
     ),
     unobservable.length === 0
       ? h("p", {}, good)

@@ -30,12 +30,13 @@ export function summaryPanel(doc: PlanDocument): HTMLElement {
   const seen = doc.expected.length;
   const told = doc.expected.filter((one) => one.u !== null).length;
   const time_s = doc.paths.reduce((sum, path) => sum + (programOf(path)?.duration_s ?? 0), 0);
-  const [state, word] = unsound > 0 ? ["bad", "Not sound"] : doc.rank < seen ? ["warn", "Not all"] : ["", "Tells all"];
+  const [state, word] =
+    unsound > 0 ? ["bad", "Program errors"] : doc.rank < seen ? ["warn", "Not all observable"] : ["", "All observable"];
   const words = [
     unsound > 0 ? `${count(unsound, "program")} would run into something or leave the travel` : null,
     doc.rank < seen
-      ? `${doc.rank} of ${seen} combinations seen, ${told} unknowns can be told alone`
-      : "everything that is sought can be told",
+      ? `${doc.rank} of ${seen} combinations observable, ${told} unknowns separately`
+      : "all unknowns are observable",
   ].filter(Boolean);
   return h(
     "section",

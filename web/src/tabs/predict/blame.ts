@@ -1,4 +1,4 @@
-/** Who is to blame: what every error does alone, and what an index loses without it. */
+/** The error budget: what every error does alone, and what an index loses without it. */
 
 import { fill, h } from "../../dom.ts";
 import { bars, type BarSpec } from "../../figure/bars.ts";
