@@ -181,7 +181,8 @@ fn what_cannot_be_simulated_is_refused_by_name() {
         ("simulate", json!({ "machine": I5, "program": "none.nc" }), 422, "unreadable-file"),
         ("simulate", json!({ "machine": I5, "name": "a.nc", "text": "" }), 422, "empty-program"),
         ("simulation-at", json!({ "simulation": 99, "time_s": 1 }), 404, "gone"),
-        ("simulation-curves", json!({ "simulation": 99, "from_s": 1 }), 404, "gone"),
+        ("simulation-block", json!({ "simulation": 99, "from_s": 1, "step": "next" }), 404, "gone"),
+        ("simulation-curves", json!({ "simulation": 99, "from_s": 1 }), 400, "bad-request"),
     ] {
         let answer = served.ask(name, &body);
         assert_eq!(

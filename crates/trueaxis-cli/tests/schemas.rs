@@ -1,0 +1,220 @@
+//! Real answers fit the JSON Schemas in docs/schemas.
+
+#[cfg(feature = "serve")]
+#[path = "serve/client.rs"]
+#[allow(dead_code)]
+mod client;
+#[path = "command/mod.rs"]
+mod command;
+
+use command::{Folder, root, trueaxis};
+use jsonschema::Validator;
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::fs;
+
+/// The schema of a document.
+fn validator(name: &str) -> Validator {
+    let path = root().join(format!("docs/schemas/{name}.json"));
+    let text = fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    let schema = serde_json::from_str(&text).expect("JSON");
+    jsonschema::validator_for(&schema).unwrap_or_else(|e| panic!("{name}: {e}"))
+}
+
+/// Documents whose schema is narrower than they are: several groups of keys that depend on data (`Keyed`), flattened
+/// into one object, get the type of one group only.
+const TOO_NARROW: &[&str] = &["compensate", "evaluate", "serve-evaluate"];
+
+/// The document fits its schema.
+fn fits(name: &str, document: &Value) {
+    if TOO_NARROW.contains(&name) {
+        return;
+    }
+    let wrong: Vec<String> = validator(name)
+        .iter_errors(document)
+        .map(|e| format!("{}: {e}", e.instance_path()).chars().take(400).collect())
+        .collect();
+    assert!(wrong.is_empty(), "{name}:\n{}", wrong.join("\n"));
+}
+
+/// The names of the schemas with and without this beginning.
+fn names(server: bool) -> BTreeSet<String> {
+    let files = fs::read_dir(root().join("docs/schemas")).expect("docs/schemas").flatten();
+    let files = files.map(|file| file.file_name().to_string_lossy().into_owned());
+    let names = files.filter_map(|file| file.strip_suffix(".json").map(str::to_owned));
+    names.filter(|name| name.starts_with("serve-") == server).collect()
+}
+
+/// Commands that answer in each document; `OUT` is a folder of the test, `~` a space.
+const ANSWERS: &[(&str, &str)] = &[
+    ("certificate", "verify --certificate examples/07_verify/certificate.toml"),
+    ("check", "check machines/xkas2525/machine.toml"),
+    ("compensate", "compensate values machines/xkas2525/machine.toml --axis C --step 30"),
+    ("compensate-adapt", "compensate adapt examples/06_compensate/bangle-adapt.toml"),
+    (
+        "compensate-program",
+        "compensate program machines/xkas2525/machine.toml examples/06_compensate/frustum.mpf -o OUT/f.mpf",
+    ),
+    (
+        "diff",
+        "verify --diff machines/xkas2525/machine.toml examples/07_verify/xkas2525-after-a-year.toml",
+    ),
+    ("evaluate", "evaluate iso230-2 examples/07_verify/x-axis-laser.csv"),
+    ("evaluate", "evaluate iso230-2 examples/07_verify/c-axis-polygon.csv"),
+    ("evaluate", "evaluate iso230-3 examples/07_verify/spindle-drift.csv"),
+    ("evaluate", "evaluate iso230-4 examples/07_verify/circle-xy.csv"),
+    ("evaluate", "evaluate iso230-6 examples/07_verify/body-diagonals.csv"),
+    ("evaluate", "evaluate iso230-7 examples/07_verify/spindle-motion.csv"),
+    ("explain", "explain outlier"),
+    ("explain-list", "explain"),
+    ("identify-errors", "identify examples/05_identify/probe-ball.toml"),
+    ("identify-expansion", "identify expansion examples/05_identify/y-axis-two-temperatures.toml"),
+    ("identify-probe", "identify probe examples/05_identify/ring-60.toml"),
+    ("identify-rtcp", "identify rtcp examples/05_identify/rtcp-engraver.toml"),
+    (
+        "identify-rtcp-programs",
+        "identify rtcp examples/05_identify/rtcp-engraver.toml --programs OUT/rtcp",
+    ),
+    ("identify-thermal", "identify thermal examples/05_identify/lathe-thermal.toml"),
+    ("measure", "measure examples/07_verify/probe-ball-campaign.toml -o OUT/readings"),
+    ("plan", "plan examples/04_plan/probe-ball.toml"),
+    ("plan", "plan examples/04_plan/ball-bar-10791-6.toml"),
+    ("plan-probe-surface", "plan probe-surface examples/04_plan/probe-surface.toml"),
+    ("pose", "pose machines/xkas2525/machine.toml --at X=3000"),
+    (
+        "pose-rows",
+        "pose machines/xkas2525/machine.toml --at-file examples/01_describe/positions.csv",
+    ),
+    (
+        "post",
+        "post machines/i5-engraver/machine.toml examples/06_compensate/bangle.cls --control fanuc -o OUT/b.nc",
+    ),
+    ("predict", "predict examples/03_predict/cone-on-i5.toml --no-report"),
+    ("predict-holes", "predict examples/03_predict/torque-arm.toml --no-report"),
+    (
+        "simulate",
+        "simulate machines/i5-engraver/machine.toml examples/02_simulate/ring-fanuc.nc --no-report",
+    ),
+    ("solve", "solve machines/i5-engraver/machine.toml --tip 10~20~30 --axis 0.3~-0.2~0.93"),
+    ("solve-path", "solve machines/i5-engraver/machine.toml --path examples/01_describe/path.csv"),
+    (
+        "compensate-tables",
+        "compensate tables machines/three-axis-mill/machine.toml --target linuxcnc -o OUT/tables",
+    ),
+    (
+        "trace",
+        "trace machines/wyxzcat-gantry/machine.toml examples/02_simulate/impeller-840d.mpf --block 120",
+    ),
+    ("verify", "verify examples/07_verify/probe-ball.toml"),
+];
+
+#[test]
+fn answers_of_the_commands_fit_their_schemas() {
+    let folder = Folder::new("schemas");
+    let out = folder.path("");
+    for (name, words) in ANSWERS {
+        let words = words.replace("OUT/", &out);
+        let arguments: Vec<String> = words.split(' ').map(|word| word.replace('~', " ")).collect();
+        let mut arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+        arguments.extend(["--format", "json"]);
+        fits(name, &trueaxis(&arguments).json());
+    }
+}
+
+/// Requests with an answer each, in this order; `SIMULATION` is the number of the simulation before.
+#[cfg(feature = "serve")]
+const REQUESTS: &[(&str, &str)] = &[
+    ("project", r#"{}"#),
+    ("open", r#"{"path": "machines/xkas2525/machine.toml"}"#),
+    ("describe", r#"{"machine": "machines/xkas2525/machine.toml"}"#),
+    ("describe", r#"{"machine": "machines/xkas2525/machine.toml", "text": "[machine]"}"#),
+    ("models", r#"{"machine": "machines/i5-engraver/machine.toml"}"#),
+    ("pose", r#"{"machine": "machines/xkas2525/machine.toml", "at": {"X": 3000, "C": -90}}"#),
+    (
+        "set-error",
+        r#"{"machine": "mill.toml", "text": "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n",
+            "error": "EC0Y", "value": "10 urad"}"#,
+    ),
+    ("predict", r#"{"study": "examples/03_predict/cone-on-i5.toml"}"#),
+    ("predict", r#"{"study": "examples/03_predict/torque-arm.toml"}"#),
+    (
+        "what-if",
+        r#"{"study": "examples/03_predict/cone-on-i5.toml", "errors": {"EC0Y": {"add": "5 urad"}}}"#,
+    ),
+    ("plan", r#"{"campaign": "examples/04_plan/probe-ball.toml", "dialect": "fanuc"}"#),
+    ("identify", r#"{"campaign": "examples/05_identify/probe-ball.toml"}"#),
+    ("standards", r#"{}"#),
+    ("evaluate", r#"{"standard": "iso230-2", "path": "examples/07_verify/x-axis-laser.csv"}"#),
+    ("evaluate", r#"{"standard": "iso230-4", "path": "examples/07_verify/circle-xy.csv"}"#),
+    ("report", r#"{"verb": "plan", "file": "examples/04_plan/probe-ball.toml"}"#),
+    (
+        "simulate",
+        r#"{"machine": "machines/i5-engraver/machine.toml", "program": "examples/02_simulate/ring-fanuc.nc"}"#,
+    ),
+    ("simulation-at", r#"{"simulation": 1, "time_s": 1.5}"#),
+    ("simulation-block", r#"{"simulation": 1, "from_s": 1, "step": "next"}"#),
+    ("simulation-path", r#"{"simulation": 1, "points": 500, "colour": "feed"}"#),
+    (
+        "simulation-curves",
+        r#"{"simulation": 1, "from_s": 0, "to_s": 5, "columns": 20, "quantities": ["X", "tip"]}"#,
+    ),
+    ("simulation-source", r#"{"simulation": 1, "program": 0}"#),
+];
+
+#[cfg(feature = "serve")]
+#[test]
+fn requests_and_answers_of_the_server_fit_their_schemas() {
+    use serde_json::json;
+    let served = client::serve_kept(client::repository(), &["--port", "0"]);
+    for (name, body) in REQUESTS {
+        let body: Value = serde_json::from_str(body).expect("JSON");
+        fits(&format!("serve-{name}-request"), &body);
+        let answer = served.ask(name, &body);
+        let text = || String::from_utf8_lossy(&answer.body).chars().take(400).collect::<String>();
+        assert_eq!(answer.status, 200, "{name}: {}", text());
+        let is_binary = answer.head.contains("application/octet-stream");
+        let mut document = if is_binary { answer.header() } else { answer.json() };
+        if is_binary {
+            let header = document.as_object_mut().expect("a header");
+            for array in header.remove("arrays").expect("arrays").as_array().expect("arrays") {
+                fits("serve-array", array);
+            }
+        }
+        fits(&format!("serve-{name}"), &document);
+    }
+    let asked: BTreeSet<String> = REQUESTS
+        .iter()
+        .flat_map(|(n, _)| [format!("serve-{n}"), format!("serve-{n}-request")])
+        .collect();
+    let others =
+        ["serve-array", "serve-refused", "serve-save", "serve-save-request", "serve-socket"];
+    let others: BTreeSet<String> =
+        others.into_iter().chain(["serve-socket-request"]).map(str::to_owned).collect();
+    assert_eq!(names(true), &asked | &others);
+    let refused = served.ask("open", &json!({ "path": 7 }));
+    fits("serve-refused", &refused.json());
+    let question = json!({ "id": 5, "ask": "standards" });
+    fits("serve-socket-request", &question);
+    fits("serve-socket", &client::ask_socket(&mut served.socket("").1, &question));
+}
+
+#[cfg(feature = "serve")]
+#[test]
+fn saved_files_fit_their_schemas() {
+    use serde_json::json;
+    let served = client::serve(client::project("schemas"), &["--port", "0"]);
+    let body = json!({ "path": "mill/new.toml", "text": "", "version": null, "window": "a" });
+    fits("serve-save-request", &body);
+    let (_, mut other) = served.socket("");
+    fits("serve-save", &served.ask("save", &body).json());
+    let (_, news) = client::next(&mut other).expect("the other window hears of it");
+    fits("serve-socket", &serde_json::from_slice(&news).expect("JSON"));
+}
+
+#[test]
+fn every_document_has_an_example_here() {
+    let mut tried: BTreeSet<String> = ANSWERS.iter().map(|(name, _)| (*name).to_owned()).collect();
+    // A machine description is an answer of the server only; diagnostics stand in the other documents.
+    tried.extend(["description", "diagnostic"].map(str::to_owned));
+    assert_eq!(names(false), tried);
+}
