@@ -3,7 +3,7 @@
 mod adapt;
 mod adapt_document;
 mod adapt_maps;
-mod adapt_page;
+mod adapt_pictures;
 mod compensation;
 mod compensation_document;
 mod holes;
@@ -17,9 +17,8 @@ mod program_document;
 mod tables;
 mod tables_document;
 
-pub use adapt::{AdaptReport, AdaptedProgram, adapt_text};
+pub use adapt::{AdaptReport, AdaptedProgram, adapt_html, adapt_text};
 pub use adapt_document::{AdaptDocument, adapt_json};
-pub use adapt_page::adapt_html;
 pub use compensation::{compensation_csv, compensation_text, compensation_warnings};
 pub use compensation_document::{CompensationDocument, compensation_json};
 pub use holes::{holes_html, holes_text};

@@ -7,7 +7,7 @@ pub fn exact(value: f64) -> String {
     text.strip_suffix(".0").map_or_else(|| text.clone(), str::to_owned)
 }
 
-/// A fixed number of digits behind the point; no minus before what rounds to zero.
+/// A fixed number of digits after the point; no minus before what rounds to zero.
 pub fn fixed(value: f64, digits: usize) -> String {
     let text = format!("{value:.digits$}");
     match text.strip_prefix('-') {

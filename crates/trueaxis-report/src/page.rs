@@ -3,7 +3,7 @@
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 /// A page with its head, around what it shows.
-pub fn document(title: &str, content: &Markup) -> String {
+pub(crate) fn document(title: &str, content: &Markup) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -20,7 +20,7 @@ pub fn document(title: &str, content: &Markup) -> String {
 }
 
 /// Three views beside each other, as the style of a grid.
-pub const THREE: &str = "grid-template-columns:repeat(3, minmax(0, 1fr))";
+pub(crate) const THREE: &str = "grid-template-columns:repeat(3, minmax(0, 1fr))";
 
 /// Everything that styles the report.
 const STYLE: &str = "\

@@ -24,7 +24,7 @@ pub type Chart<'a, 'b> =
 /// A picture with coordinates of its own.
 pub type Flat<'a> = DrawingArea<SVGBackend<'a>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
-/// Colours that people with colour-blindness can tell apart (Okabe and Ito).
+/// Colours that stay distinct for colour-blind readers (Okabe and Ito).
 pub const COLOURS: [RGBColor; 7] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
@@ -463,7 +463,7 @@ fn colour_bar(area: &Area<'_>, (width, height): (u32, u32), most: f64) -> Result
     Ok(())
 }
 
-/// One bar of the blame.
+/// One bar of an error budget.
 pub struct Bar {
     /// The error.
     pub label: String,

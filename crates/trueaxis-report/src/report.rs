@@ -1,4 +1,4 @@
-//! An answer for people, described once: text for the terminal, one page, its pictures.
+//! An answer described once: text for the terminal, one page, its pictures.
 //!
 //! ```
 //! use trueaxis_report::{Report, Section, Standing, Table};
@@ -45,12 +45,12 @@ pub struct Verdict {
     pub sentence: String,
 }
 
-/// An answer for people.
+/// An answer.
 #[derive(Debug, Default)]
 pub struct Report<'a> {
     /// Above all.
     pub title: String,
-    /// Under the title: what was looked at.
+    /// Under the title: the subject of the report.
     pub lines: Vec<String>,
     /// The result, if there is one.
     pub verdict: Option<Verdict>,

@@ -52,7 +52,7 @@ pub use trueaxis_calibrate::report::*;
 pub use trueaxis_correct::report::*;
 pub use trueaxis_motion::report::*;
 pub use trueaxis_report::{
-    Band, Block, DrawingError, Keyed, Picture, Polar, PolarLine, Scatter, Table, document,
-    named_schema, numbers,
+    Band, DrawingError, Keyed, Picture, Polar, PolarLine, Scatter, Table, document, named_schema,
+    numbers,
 };
 pub use trueaxis_standards::report::*;

@@ -1,9 +1,10 @@
-//! A path moved onto a probed blank, as text and JSON.
+//! A path moved onto a probed blank, in text and on a page.
 
 use super::adapt_maps::Layout;
+use super::adapt_pictures::pictures;
 use crate::compensate::adapt::{AdaptStudy, Adaptation, MapCell, MovedPlace};
-use std::fmt::Write;
 use trueaxis_geometry::Vec3;
+use trueaxis_report::{Columns, DrawingError, Report, Section, Standing, Table};
 
 /// The program that was made of the adapted path.
 #[derive(Debug, Clone, PartialEq)]
@@ -115,119 +116,150 @@ impl AdaptReport<'_> {
     }
 }
 
-/// The tables for a terminal, the verdict first.
-pub fn adapt_text(report: &AdaptReport<'_>) -> String {
-    let mut text = format!("{}\n\n", report.study.name);
-    let word = if report.is_sound() { "GOOD" } else { "NOT TO BE CUT" };
-    // Writing to a String cannot fail.
-    let _ = writeln!(text, "{word}: {}\n", report.verdict());
-    for finding in &report.adaptation.findings {
-        let _ = writeln!(
-            text,
-            "  {} at {} places, worst at {}:{}: {}",
-            finding.code,
-            finding.places,
-            report.study.path.name(),
-            finding.line,
-            finding.message
-        );
-    }
-    if !report.adaptation.findings.is_empty() {
-        text.push('\n');
-    }
-    registration_text(&mut text, report);
-    field_text(&mut text, report);
-    walls_text(&mut text, report);
-    Layout::of(&report.adaptation.map).characters(&mut text, report);
-    if let Some(program) = report.program {
-        let _ = writeln!(
-            text,
-            "\n  program   {} {}: {} blocks; read back and simulated it is within {:.3} µm and {:.5} deg \
-             of the adapted path",
-            if program.written { "written to" } else { "not written to" },
-            program.file,
-            program.blocks,
-            program.tip_mm * 1e3,
-            program.axis_rad.to_degrees()
-        );
-    }
-    text
+/// The answer as text.
+pub fn adapt_text(answer: &AdaptReport<'_>) -> String {
+    report(answer).text()
 }
 
-fn registration_text(text: &mut String, report: &AdaptReport<'_>) {
-    let r = &report.adaptation.field.registration;
-    let _ = writeln!(text, "  how the blank lies             x          y          z");
-    let row = |text: &mut String, name: &str, v: Vec3, u: Vec3, scale: f64| {
-        let cells: Vec<String> =
-            (0..3).map(|i| format!("{:>7.2} ± {:.2}", v[i] * scale, u[i] * scale)).collect();
-        let _ = writeln!(text, "  {name:<22}{}", cells.join(" "));
+/// The answer as a page.
+///
+/// # Errors
+/// What the drawing library says.
+pub fn adapt_html(answer: &AdaptReport<'_>) -> Result<String, DrawingError> {
+    report(answer).html()
+}
+
+fn report<'a>(r: &AdaptReport<'a>) -> Report<'a> {
+    let (standing, word) = match r.is_sound() {
+        true => (Standing::Good, "GOOD"),
+        false => (Standing::Bad, "NOT TO BE CUT"),
     };
-    row(text, "shift, µm", r.shift_mm(), r.u_shift_mm(), 1e3);
-    row(text, "turn, µrad", r.turn_rad(), r.u_turn_rad(), 1e6);
-    let c = centre(&r.freedoms.center_mm);
-    let _ = writeln!(text, "  about ({c}) mm; ± standard uncertainty");
-    for held in r.held_words() {
-        let _ = writeln!(text, "  held at zero, since no reading tells: {held}");
-    }
+    let (study, path) = (r.study, r.study.path.name());
+    let maps = Section::new("Form of the blank and distance from an equal layer").on_page();
+    let [walls_before_after, others] = pictures(*r);
+    let wall = Section::new("Remaining wall, place by place").on_page();
+    let mut characters = String::new();
+    Layout::of(&r.adaptation.map).characters(&mut characters, r);
+    Report::new(&study.name)
+        .line(format!(
+            "{path} on {}, moved onto the blank of {}",
+            study.machine.name(),
+            study.table
+        ))
+        .verdict(standing, word, r.verdict())
+        .section(findings(r))
+        .section(walls(r))
+        .section(wall.note("Vermilion: cut through.").grid(Columns::AsFit, walls_before_after))
+        .section(Section::new("").on_terminal().code(characters.trim_matches('\n')))
+        .section(maps.grid(Columns::AsFit, others))
+        .section(registration(r))
+        .section(field(r))
+        .section(program(r))
+}
+
+fn findings<'a>(r: &AdaptReport<'_>) -> Section<'a> {
+    let rows = r.adaptation.findings.iter().map(|f| {
+        let place = format!("{}:{}", r.study.path.name(), f.line);
+        [f.code.to_owned(), f.places.to_string(), place, f.message.clone()]
+    });
+    let table = Table::new(["finding", "places", "worst at", "message"]);
+    Section::new("Why it must not be cut").table(table.rows(rows))
+}
+
+fn walls<'a>(r: &AdaptReport<'_>) -> Section<'a> {
+    let wall = &r.study.wall;
+    let rows = [(false, "as programmed"), (true, "adapted")].map(|(after, name)| {
+        let s = r.walls(after);
+        let [min, mean, max] = [s.min, s.mean, s.max].map(|v| format!("{v:.4}"));
+        let through = format!("{} of {}", r.through(after), r.adaptation.map.len());
+        [name.to_owned(), min, mean, max, through]
+    });
+    let note = format!(
+        "Wanted: {} mm less a layer of {} mm, least {} mm. Source: {}.",
+        wall.thickness_mm,
+        wall.layer_mm,
+        wall.least_mm,
+        r.map_source()
+    );
+    let table = Table::new(["wall, mm", "least", "mean", "most", "cut through"]);
+    Section::new("Remaining wall").table(table.rows(rows).note(note))
+}
+
+fn registration<'a>(r: &AdaptReport<'_>) -> Section<'a> {
+    let found = &r.adaptation.field.registration;
+    let row = |name: &str, v: Vec3, u: Vec3, scale: f64| {
+        let cell = |i: usize| format!("{:.2} ± {:.2}", v[i] * scale, u[i] * scale);
+        [name.to_owned(), cell(0), cell(1), cell(2)]
+    };
+    let table = Table::new(["± standard uncertainty", "x", "y", "z"])
+        .row(row("shift, µm", found.shift_mm(), found.u_shift_mm(), 1e3))
+        .row(row("turn, µrad", found.turn_rad(), found.u_turn_rad(), 1e6))
+        .note(format!("about ({}) mm", centre(&found.freedoms.center_mm)));
+    let held = found.held_words().into_iter();
+    let held = held.map(|held| format!("held at zero, since no reading determines it: {held}"));
+    Section::new("Position of the blank").table(table).list(held)
 }
 
 /// Without a minus before a zero.
-pub(super) fn centre(c: &Vec3) -> String {
+fn centre(c: &Vec3) -> String {
     let round = |v: f64| (v * 100.0).round() / 100.0 + 0.0;
     format!("{:.2} {:.2} {:.2}", round(c.x), round(c.y), round(c.z))
 }
 
-fn field_text(text: &mut String, report: &AdaptReport<'_>) {
-    let (study, field) = (report.study, &report.adaptation.field);
-    let how = if study.length_mm.is_some() { "stated" } else { "by cross-validation" };
-    let _ = writeln!(
-        text,
-        "\n  form      {:.1} µm (standard deviation) over {:.1} mm ({how}), {} points, {} outliers",
-        field.covariance.form_mm * 1e3,
-        field.covariance.length_mm,
-        study.points.len(),
-        field.outliers.len()
-    );
-    let _ = writeln!(
-        text,
-        "  foretold  each point by all others: {:.2} µm rms; {:.1} % within U (k = 2)",
-        field.left_out_rms_mm * 1e3,
-        field.share_within(2.0) * 100.0
-    );
-    let moved = report.moved();
-    let _ = writeln!(
-        text,
-        "  path      {} places, {} cut; moved by {:+.1} to {:+.1} µm along the normals, U (k = 2) up to \
-         {:.1} µm",
-        report.adaptation.places.len(),
-        report.cut_places(),
-        moved.min * 1e3,
-        moved.max * 1e3,
-        2.0 * report.most_u_mm() * 1e3
-    );
+fn field<'a>(r: &AdaptReport<'_>) -> Section<'a> {
+    let (study, field) = (r.study, &r.adaptation.field);
+    let moved = r.moved();
+    let length = if study.length_mm.is_some() { "stated" } else { "by cross-validation" };
+    let pairs = [
+        ("points", format!("{}, {} outliers", study.points.len(), field.outliers.len())),
+        (
+            "form",
+            format!(
+                "{:.1} µm (standard deviation) over {:.1} mm ({length})",
+                field.covariance.form_mm * 1e3,
+                field.covariance.length_mm
+            ),
+        ),
+        (
+            "each point predicted by all others",
+            format!(
+                "{:.2} µm rms; {:.1} % within U (k = 2)",
+                field.left_out_rms_mm * 1e3,
+                field.share_within(2.0) * 100.0
+            ),
+        ),
+        (
+            "path",
+            format!(
+                "{} places, {} cut; moved by {:+.1} to {:+.1} µm along the normals, U (k = 2) up to {:.1} µm",
+                r.adaptation.places.len(),
+                r.cut_places(),
+                moved.min * 1e3,
+                moved.max * 1e3,
+                2.0 * r.most_u_mm() * 1e3
+            ),
+        ),
+    ];
+    let outliers = field.outliers.iter().map(|o| {
+        let point = &study.points[o.index];
+        let residual = format!("{:+.1}", o.residual_mm * 1e3);
+        [point.number.to_string(), point.line.to_string(), residual]
+    });
+    let headings = ["outlier: point", "line", "off the others, µm"];
+    Section::new("Form of the blank")
+        .table(Table::pairs(pairs))
+        .table(Table::new(headings).rows(outliers))
 }
 
-fn walls_text(text: &mut String, report: &AdaptReport<'_>) {
-    let wall = &report.study.wall;
-    let _ = writeln!(
-        text,
-        "  wall      {} mm less a layer of {} mm, least {} mm; {}\n",
-        wall.thickness_mm,
-        wall.layer_mm,
-        wall.least_mm,
-        report.map_source()
-    );
-    let _ = writeln!(text, "  remaining wall, mm        least     mean     most   cut through");
-    for (after, name) in [(false, "as programmed"), (true, "adapted")] {
-        let s = report.walls(after);
-        let _ = writeln!(
-            text,
-            "  {name:<20} {:>10.4} {:>8.4} {:>8.4}   {:>5} of {}",
-            s.min,
-            s.mean,
-            s.max,
-            report.through(after),
-            report.adaptation.map.len()
-        );
-    }
+fn program<'a>(r: &AdaptReport<'_>) -> Section<'a> {
+    let section = Section::new("Program");
+    let Some(program) = r.program else { return section };
+    section.paragraph(format!(
+        "{} {}: {} blocks; read back and simulated it is within {:.3} µm and {:.5} deg of the adapted path",
+        if program.written { "written to" } else { "not written to" },
+        program.file,
+        program.blocks,
+        program.tip_mm * 1e3,
+        program.axis_rad.to_degrees()
+    ))
 }
