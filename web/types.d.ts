@@ -1883,7 +1883,7 @@ export interface AxisCorrection {
  */
 export interface UncertaintyEntry {
   /**
-   * Places that were looked at.
+   * Places that were examined.
    */
   places: number;
   /**
@@ -2097,7 +2097,7 @@ export interface LineEntry {
   [k: string]: number;
 }
 /**
- * A rotary axis as the control has it.
+ * A rotary axis as the control holds it.
  */
 export interface JointEntry {
   /**
@@ -3481,7 +3481,7 @@ export interface IdentifyErrors {
    */
   repeatability_is_measured: boolean;
   /**
-   * Root mean square without the errors sought, set-up only, µm.
+   * Root mean square without the unknown errors, set-up only, µm.
    */
   rms_without_model_um: number | null;
   /**
@@ -3651,7 +3651,7 @@ export interface RmsEntries {
    */
   repeatability: RmsEntry;
   /**
-   * Without the errors sought, set-up only.
+   * Without the unknown errors, set-up only.
    */
   without_model: RmsEntry;
 }
@@ -4579,7 +4579,7 @@ export interface IdentifyRtcp {
    */
   birge: number;
   /**
-   * Root mean square of what is left, µm.
+   * Root mean square of the residual, µm.
    */
   rms_residual_um: number;
   /**
@@ -6148,12 +6148,12 @@ export interface IndexEntry {
   /**
    * From the Monte Carlo run; absent if there was none.
    */
-  monte_carlo?: PredictSpreadEntry | null;
+  monte_carlo?: ServeWhatIfSpreadEntry | null;
 }
 /**
  * What the Monte Carlo run gives for an index.
  */
-export interface PredictSpreadEntry {
+export interface ServeWhatIfSpreadEntry {
   /**
    * The mean, mm.
    */
@@ -6702,7 +6702,7 @@ export interface ServeIdentifyDiagnosed {
    */
   repeatability_is_measured: boolean;
   /**
-   * Root mean square without the errors sought, set-up only, µm.
+   * Root mean square without the unknown errors, set-up only, µm.
    */
   rms_without_model_um: number | null;
   /**
@@ -7199,9 +7199,7 @@ export interface ServePredictPieceEntry {
   /**
    * The document of `trueaxis predict`.
    */
-  document: {
-    [k: string]: unknown;
-  };
+  document: PredictionDocument;
   /**
    * The machine file below the project folder; null if it is outside.
    */
@@ -7230,6 +7228,161 @@ export interface ServePredictPieceEntry {
    * The problems of the study.
    */
   diagnostics: DiagnosticEntry[];
+}
+/**
+ * A test piece before it is cut: `trueaxis/predict/1`.
+ */
+export interface PredictionDocument {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/predict/1";
+  /**
+   * The version of TrueAxis.
+   */
+  version: string;
+  /**
+   * The name of the study.
+   */
+  study: string;
+  /**
+   * The machine.
+   */
+  machine: ServeWhatIfMachineEntry;
+  /**
+   * The name of the test piece.
+   */
+  test_piece: string;
+  /**
+   * `pass`, `fail` or `undecided`.
+   */
+  verdict: string;
+  /**
+   * The indices, those of ISO under `iso`, those of the paper under `paper`, mm.
+   */
+  indices: {
+    [k: string]: Grouped;
+  };
+  /**
+   * The tolerances with their verdicts.
+   */
+  judgements: JudgementEntry[];
+  /**
+   * Where the axes stand when the zero is set, mm and deg.
+   */
+  setting_command: {
+    [k: string]: number;
+  };
+  /**
+   * The form at each measuring position.
+   */
+  positions: ServeWhatIfPositionEntry[];
+  /**
+   * The share of each error in each index, the largest first.
+   */
+  blame: ServeWhatIfShareEntry[];
+  /**
+   * The same with all errors of a body together.
+   */
+  blame_by_body: ServeWhatIfShareEntry[];
+  /**
+   * The same with all location errors and all error motions together.
+   */
+  blame_by_kind: ServeWhatIfShareEntry[];
+  /**
+   * Slopes of the indices by each location error.
+   */
+  sensitivity: SensitivityEntry[];
+  /**
+   * Single corrections after which the part would pass, the smallest first.
+   */
+  corrections: CorrectionEntry[];
+  /**
+   * The same part with other setting points and datums.
+   */
+  variants: VariantEntry[];
+  /**
+   * Axis positions of all tool positions, mm and deg.
+   */
+  commands: {
+    [k: string]: number;
+  }[];
+  /**
+   * The Monte Carlo run; null if there was none.
+   */
+  monte_carlo: SamplingEntry | null;
+  /**
+   * The log that the temperatures follow; null if there is none.
+   */
+  temperature_log: string | null;
+  /**
+   * What to know of this prediction.
+   */
+  warnings: string[];
+}
+/**
+ * The machine.
+ */
+export interface ServeWhatIfMachineEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * Its chain from the workpiece to the tool.
+   */
+  chain: string;
+}
+/**
+ * The form at one measuring position.
+ */
+export interface ServeWhatIfPositionEntry {
+  /**
+   * Its number, from 1.
+   */
+  position: number;
+  /**
+   * Its place along the axis of the part in the workpiece frame, mm.
+   */
+  z_mm: number;
+  /**
+   * Its height above the base, mm.
+   */
+  height_mm: number;
+  /**
+   * The nominal radius, mm.
+   */
+  nominal_radius_mm: number;
+  /**
+   * Where the form is given, deg.
+   */
+  azimuth_deg: number[];
+  /**
+   * The error there, positive where material is left, mm.
+   */
+  e_mm: number[];
+  [k: string]: Grouped2;
+}
+/**
+ * The share of an error, or of a group of errors, in an index.
+ */
+export interface ServeWhatIfShareEntry {
+  /**
+   * The ISO 230-1 name, or the name of the group.
+   */
+  error: string;
+  /**
+   * The key of the index.
+   */
+  index: string;
+  /**
+   * The index if there were only this error, mm.
+   */
+  alone_mm: number;
+  /**
+   * The index without this error, mm.
+   */
+  without_mm: number;
 }
 /**
  * A stated error with the unit of its values.
@@ -7308,9 +7461,7 @@ export interface HolesEntry {
   /**
    * The document of `trueaxis predict`.
    */
-  document: {
-    [k: string]: unknown;
-  };
+  document: HolesDocument;
   /**
    * The names of the temperature sensors.
    */
@@ -7319,6 +7470,55 @@ export interface HolesEntry {
    * The problems of the study.
    */
   diagnostics: DiagnosticEntry[];
+}
+/**
+ * Holes before they are made, under each compensation: `trueaxis/predict/1`.
+ */
+export interface HolesDocument {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/predict/1";
+  /**
+   * The name of the study.
+   */
+  name: string;
+  /**
+   * The least increment of the control, mm.
+   */
+  increment_mm: number;
+  /**
+   * The tolerance of the place of a hole; null if none is stated, mm.
+   */
+  tolerance_mm: number | null;
+  /**
+   * The compensation that is applied: `none`, `machine` or `comprehensive`.
+   */
+  applied: string;
+  /**
+   * Whether all holes are in tolerance with it; null if none is stated.
+   */
+  in_tolerance: boolean | null;
+  /**
+   * The log that the temperatures follow; null if there is none.
+   */
+  temperature_log: string | null;
+  /**
+   * The holes under each compensation.
+   */
+  sets: SetEntry[];
+  /**
+   * The same at the temperatures of the start, held; null where no log runs.
+   */
+  sets_at_start: SetEntry[] | null;
+  /**
+   * What grows with the temperature though the uncertainty of its coefficient is not stated: u lacks it.
+   */
+  u_lacks: string[];
+  /**
+   * What to know of this prediction.
+   */
+  warnings: string[];
 }
 /**
  * Which files and examples there are.
@@ -8461,9 +8661,7 @@ export interface ServeWhatIfPieceEntry {
   /**
    * The document of `trueaxis predict`.
    */
-  document: {
-    [k: string]: unknown;
-  };
+  document: PredictionDocument;
   /**
    * The machine file below the project folder; null if it is outside.
    */

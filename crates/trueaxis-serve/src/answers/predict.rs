@@ -7,7 +7,6 @@ use crate::frame::{Array, Arrays};
 use crate::refusal::{Refusal, entries};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
 use trueaxis::files::disk;
@@ -22,7 +21,7 @@ use trueaxis::predict::holes::{
 use trueaxis::predict::{
     Error, Prediction, SectionResult, Study, WhatIf, predict, preview, read_study,
 };
-use trueaxis::report::{self, DiagnosticEntry};
+use trueaxis::report::{DiagnosticEntry, HolesDocument, PredictionDocument};
 
 /// The whole prediction of a study, as `trueaxis predict --no-report` computes it.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -63,7 +62,7 @@ pub(super) enum PredictAnswer<'a> {
 #[derive(Debug, Serialize, JsonSchema)]
 pub(super) struct PieceEntry<'a> {
     /// The document of `trueaxis predict`.
-    document: Value,
+    document: PredictionDocument<'a>,
     /// The machine file below the project folder; null if it is outside.
     machine: Option<String>,
     /// The names of the rotary axes.
@@ -124,7 +123,7 @@ pub(super) struct CircleEntry {
 #[derive(Debug, Serialize, JsonSchema)]
 pub(super) struct HolesEntry<'a> {
     /// The document of `trueaxis predict`.
-    document: Value,
+    document: HolesDocument<'a>,
     /// The names of the temperature sensors.
     sensors: Vec<&'a str>,
     /// The problems of the study.
@@ -139,7 +138,7 @@ impl Request for PredictRequest {
         if is_hole_study(&disk(), &path) {
             let (study, prediction, problems) = holes(&path)?;
             let answer = PredictAnswer::Holes(HolesEntry {
-                document: report::holes_json(&study, &prediction),
+                document: HolesDocument::of(&study, &prediction),
                 sensors: study.machine.heat().sensors(),
                 diagnostics: entries(&problems),
             });
@@ -201,14 +200,14 @@ fn refused(error: &Error) -> Refusal {
 fn piece<'a>(
     desk: &Desk,
     study: &'a Study,
-    prediction: &Prediction,
+    prediction: &'a Prediction,
     problems: &'a Diagnostics,
 ) -> PieceEntry<'a> {
     let machine = &study.machine;
     let rotary = machine.axes().iter().filter(|a| a.kind == AxisKind::Rotary);
     let errors = machine.stated_errors().into_iter().map(|(_, name)| name);
     PieceEntry {
-        document: report::json(study, prediction),
+        document: PredictionDocument::of(study, prediction),
         machine: desk.project.name_of(&study.machine_path),
         rotary: rotary.map(|a| a.name.to_string()).collect(),
         tool_length_mm: -machine.tip_mm().z,
