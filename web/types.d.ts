@@ -8573,7 +8573,7 @@ export interface ServeSocketRequest {
     [k: string]: unknown;
   };
   /**
-   * True if nobody waits for the answer any more.
+   * True if the answer is not awaited any more.
    */
   stop?: boolean | null;
 }
@@ -8612,7 +8612,7 @@ export interface StandardEntry {
   title: string;
 }
 /**
- * The same for a changed machine, without Monte Carlo, as fast as somebody drags a slider.
+ * The same for a changed machine, without Monte Carlo, fast enough to follow a slider.
  */
 export interface ServeWhatIfRequest {
   /**

@@ -32,7 +32,7 @@ fn main() {
     }
 }
 
-/// A page that somebody has built before.
+/// A page that was built before.
 fn ready_page(folder: &Path) -> Result<PathBuf, String> {
     println!("cargo::rerun-if-changed={}", folder.display());
     match folder.join("index.html").is_file() {
@@ -85,7 +85,7 @@ fn run(command: &mut Command, web: &Path) -> Result<(), String> {
     }
     let said = [output.stdout, output.stderr].map(|s| String::from_utf8_lossy(&s).into_owned());
     Err(format!(
-        "the page cannot be built in web/: {name} failed; mend it, {instead}\n{}",
+        "the page cannot be built in web/: {name} failed; correct it, {instead}\n{}",
         said.concat()
     ))
 }

@@ -1,4 +1,4 @@
-/** Numbers for people: fixed digits, a real minus sign, a narrow no-break space before the unit. */
+/** Numbers as they are shown: fixed digits, a real minus sign, a narrow no-break space before the unit. */
 
 /** U+202F, between number and unit. */
 export const NARROW_SPACE = "\u202f";

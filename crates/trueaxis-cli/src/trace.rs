@@ -15,7 +15,7 @@ Examples:
   trueaxis trace machines/wyxzcat-gantry/machine.toml examples/02_simulate/impeller-840d.mpf --block 120
   trueaxis trace MACHINE.toml PART.ngc --block 42 --format json
 
---block is the block number N; if no block has it, the line number. Exit status: 0 done, 2 unusable
+--block is the block number N; if there is no such block, the line number. Exit status: 0 done, 2 unusable
 input.")]
 pub struct Arguments {
     #[command(flatten)]

@@ -10,7 +10,7 @@ use trueaxis::files;
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{Approach, Command};
 use trueaxis::machine::compensate::{Compensator, Scope};
-use trueaxis::verify::certificate::left::Off;
+use trueaxis::verify::certificate::residual::ToolDeviation;
 
 const CAMPAIGN: &str = r#"
 name = "probe-ball, its socket calibrated"
@@ -95,7 +95,7 @@ fn readings(real: &Machine, identified: &Machine) -> [String; 2] {
             true => compensator.at(q, &still).expect("a pose").command,
             false => *q,
         };
-        Off::of(real, &at, &real.errors_at(&at, &still).expect("no tables"), q).tip_mm
+        ToolDeviation::of(real, &at, &real.errors_at(&at, &still).expect("no tables"), q).tip_mm
     };
     let inner =
         |[c, a, x, y, z]: [f64; 5]| -> Command { [c.to_radians(), a.to_radians(), x, y, z, 0.0] };

@@ -24,7 +24,7 @@ pub enum Timing {
     /// Jerk-limited with look-ahead, within the limits of every axis.
     #[default]
     LookAhead,
-    /// Document 002: each block in three phases, with exact stop; the axes are not asked.
+    /// Jiang et al.: each block in three phases, with exact stop; the axes are not asked.
     ThreePhase {
         /// Mean acceleration, mm/s² (deg/s² where only rotary axes move).
         acceleration: f64,

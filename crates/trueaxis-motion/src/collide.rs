@@ -7,7 +7,7 @@
 //!     Scene + two commands ──sweep──> [Contact]                at every moment between
 //! ```
 //!
-//! Document 002 places models on the nodes of the topology, each with a coordinate system of its
+//! Jiang et al. place models on the nodes of the topology, each with a coordinate system of its
 //! own, and checks their surfaces against each other. Everything here is triangles with a tree of
 //! boxes; docs/decisions/0006-collisions.md gives the reasons.
 

@@ -5,7 +5,7 @@
 pub enum Densify {
     /// One piece per move; circles are still cut by the chord tolerance.
     Off,
-    /// Document 002: as many pieces as the spacing of tips and the angle of tool axes ask for.
+    /// Jiang et al.: as many pieces as the spacing of tips and the angle of tool axes ask for.
     Count {
         /// λ, mm.
         spacing_mm: f64,

@@ -143,7 +143,7 @@ pub struct Run {
     pub problems: Diagnostics,
     /// The programs by the number in [`trueaxis_nc::moves::Origin::program`].
     pub programs: Vec<String>,
-    /// Somebody asked it to stop before its end.
+    /// It was stopped before its end.
     pub stopped: bool,
 }
 

@@ -153,7 +153,7 @@ mod tests {
 
     #[test]
     fn a_hundred_equal_angles_on_a_great_circle() {
-        // Document 002 densifies by q = 100.
+        // Jiang et al. densify by q = 100.
         let from = Vec3::new(0.0, 0.0, 1.0);
         let to = Vec3::new(0.6, -0.3, 0.7).normalize();
         let swing = Swing::great_circle(from, to).unwrap();

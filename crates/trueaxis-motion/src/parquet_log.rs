@@ -63,7 +63,7 @@ fn read(bytes: Vec<u8>) -> Result<Vec<(String, Vec<f64>)>, String> {
                 Field::UInt(value) => f64::from(*value),
                 Field::Long(value) => *value as f64,
                 Field::ULong(value) => *value as f64,
-                // Told with its row when the table is made.
+                // Reported with its row when the table is made.
                 Field::Null => f64::NAN,
                 _ => return Err(format!("column `{name}` is not a column of numbers")),
             });

@@ -1,4 +1,4 @@
-//! The machine as it is now: its tool, and its temperatures while they follow a log.
+//! The machine at this moment: its tool, and its temperatures while they follow a log.
 
 use super::Stamp;
 use trueaxis_geometry::Vec3;

@@ -20,7 +20,7 @@ impl<T> Kept<T> {
     }
 
     fn lock(&self) -> MutexGuard<'_, Numbered<T>> {
-        // A list of finished results is sound whatever happened beside it.
+        // A list of finished results is sound whatever else happened.
         self.numbered.lock().unwrap_or_else(PoisonError::into_inner)
     }
 

@@ -21,12 +21,13 @@
 //! ```
 //!
 //! What it does not do: it is no server for the internet (no TLS, one token for all), and it does not
-//! guard against somebody who changes links inside the project folder while it reads.
+//! guard against a change of links inside the project folder while it reads.
 //!
 //! [decision 13]: https://github.com/
 
 mod answers;
 mod body;
+mod change;
 mod desk;
 mod frame;
 mod guard;
@@ -34,7 +35,10 @@ mod kept;
 mod page;
 mod project;
 mod refusal;
+mod request;
+mod simulated;
 mod socket;
+mod turn;
 mod web;
 
 use desk::Desk;
@@ -60,7 +64,7 @@ const MOST_CONNECTIONS: usize = 256;
 /// How long the head of a request may take.
 const HEAD: Duration = Duration::from_secs(10);
 
-/// How long somebody may not read what was sent to him.
+/// How long a reader may take none of what was sent.
 const UNREAD: Duration = Duration::from_secs(30);
 
 /// The JSON Schemas of what the server sends and reads, by name, such as `serve-pose` and `serve-pose-request`;
@@ -70,7 +74,7 @@ pub fn schemas() -> Vec<NamedSchema> {
     all.push(named_schema::<frame::ArrayEntry>("serve-array"));
     all.push(named_schema::<refusal::RefusedAnswer<'_>>("serve-refused"));
     all.push(named_schema::<socket::SocketAnswer<'_>>("serve-socket"));
-    all.push(answers::request_schema::<socket::SocketRequest>("serve-socket-request"));
+    all.push(request::request_schema::<socket::SocketRequest>("serve-socket-request"));
     all.sort_by_key(|(name, _)| *name);
     all
 }
@@ -144,7 +148,7 @@ fn listen(options: &Options) -> io::Result<TcpListener> {
     }
 }
 
-/// 128 bits that nobody guesses.
+/// 128 bits that cannot be guessed.
 fn token() -> io::Result<String> {
     let mut bytes = [0; 16];
     getrandom::fill(&mut bytes).map_err(|e| io::Error::other(e.to_string()))?;

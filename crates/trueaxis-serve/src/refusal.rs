@@ -1,4 +1,4 @@
-//! Why a request is not answered: for the page and for people.
+//! Why a request is not answered: a code for the page, words for the reader.
 
 use schemars::JsonSchema;
 use serde::Serialize;

@@ -2,16 +2,18 @@
 //!
 //! ```text
 //!     {"id": 7, "ask": "pose", "body": {…}}        from the page
-//!     {"id": 7, "stop": true}                      nobody waits for it any more
+//!     {"id": 7, "stop": true}                      the answer is not awaited any more
 //!     {"id": 7, "progress": 0.4}                   to the page, any number of times
 //!     {"id": 7, "reply": {…}} | {"id": 7, "error": {…}} | a binary piece with "id": 7
 //!     {"changed": {"path", "version", "window"}}   another window saved a file
 //! ```
 
-use crate::answers::{ChangeEntry, Message as Answer};
 use crate::body;
-use crate::desk::{Desk, Job, answer};
+use crate::change::ChangeEntry;
+use crate::desk::{Desk, Job};
 use crate::refusal::{Refusal, RefusalEntry};
+use crate::request::Message as Answer;
+use crate::turn::answer;
 use axum::extract::ws::{Message, WebSocket};
 use futures_util::{SinkExt, StreamExt};
 use schemars::JsonSchema;
@@ -33,7 +35,7 @@ pub(crate) struct SocketRequest {
     ask: Option<String>,
     /// The request.
     body: Option<Value>,
-    /// True if nobody waits for the answer any more.
+    /// True if the answer is not awaited any more.
     stop: Option<bool>,
 }
 
@@ -132,13 +134,13 @@ pub(crate) async fn serve(socket: WebSocket, desk: Arc<Desk>) {
             break;
         }
     }
-    // Nobody waits for what is still open.
+    // What is still open is not awaited any more.
     open.lock().values().for_each(|stop| stop.store(true, Ordering::Relaxed));
     drop(out);
     writer.abort();
 }
 
-/// To the window; if it is gone, nobody reads it.
+/// To the window; if it is gone, it is not read.
 async fn refuse(out: &mpsc::Sender<Message>, id: Option<u64>, refusal: &Refusal) {
     let _ = out.send(SocketAnswer::Error { id, error: refusal.entry() }.message()).await;
 }

@@ -1,9 +1,10 @@
 //! The ways in: the page, requests by POST, the socket, reports.
 
-use crate::answers::Message;
-use crate::desk::{Desk, Job, answer};
+use crate::desk::{Desk, Job};
 use crate::guard::{Guard, add_headers};
 use crate::refusal::{Refusal, RefusedAnswer};
+use crate::request::Message;
+use crate::turn::answer;
 use crate::{page, socket};
 use axum::Router;
 use axum::body::{Body, Bytes, HttpBody, to_bytes};
@@ -22,7 +23,7 @@ use trueaxis::report::document;
 /// No question is longer: an NC program of a million lines fits.
 const MOST_BYTES: usize = 64 << 20;
 
-/// How long somebody may take to send it.
+/// How long sending it may take.
 const SENDING: Duration = Duration::from_secs(60);
 
 /// Windows at a time.
@@ -48,7 +49,7 @@ pub(crate) fn router(desk: Desk, guard: Guard) -> Router {
         .with_state(shared)
 }
 
-/// Nobody gets past this who may not ask; every answer gets its headers here.
+/// No one who may not ask gets past this; every answer gets its headers here.
 async fn guarded(State(shared): State<Shared>, request: Request, next: Next) -> Response {
     let report = request.uri().path().starts_with("/report/");
     let mut response = match shared.guard.cookie(request.uri()) {

@@ -78,7 +78,7 @@ pub fn write(path: &Path, content: &[u8]) -> io::Result<()> {
     part.put_in_place()
 }
 
-/// Writes files into a folder that is new or empty: all of them or none. A folder of another name beside
+/// Writes files into a folder that is new or empty: all of them or none. A folder of another name next to
 /// it is filled, then renamed.
 ///
 /// # Errors

@@ -46,8 +46,6 @@ pub use solve_document::{SolveDocument, SolvePathDocument, solve_json, solve_pat
 pub use trace::{TraceReport, trace_report, trace_text};
 pub use trace_document::{TraceDocument, trace_json};
 
-pub use crate::schemas::schemas;
-
 pub use trueaxis_calibrate::report::*;
 pub use trueaxis_correct::report::*;
 pub use trueaxis_motion::report::*;

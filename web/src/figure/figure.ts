@@ -161,7 +161,7 @@ export function figure<D>(host: HTMLElement, data: D, make: (data: D) => FigureS
     }),
   );
   watch.observe(place);
-  // Colours are variables, but some are mixed in script: drawn anew after a change of theme.
+  // Colours are variables, but some are mixed in script: drawn again after a change of theme.
   const stop = onTheme(() => draw());
   draw();
   return {

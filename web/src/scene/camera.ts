@@ -177,7 +177,7 @@ export class ViewCamera {
     return this.controls?.target ?? new Vector3();
   }
 
-  /** From what is looked at to the camera. */
+  /** From the target of the view to the camera. */
   private arm(): Vector3 {
     return this.current.position.clone().sub(this.target());
   }

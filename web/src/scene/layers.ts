@@ -121,7 +121,7 @@ export function thinned(
 
 /** A line of vertex colours that can be shifted by a part of a point: WebGL lines are one point thin. */
 function shiftable(shift: { value: Vector2 }): LineBasicMaterial {
-  // Seen through the machine: most of a path lies behind or inside something.
+  // Seen through the machine: most of a path is covered by something.
   const material = new LineBasicMaterial({ vertexColors: true, transparent: true, depthTest: false });
   material.onBeforeCompile = (shader) => {
     shader.uniforms.shift = shift;

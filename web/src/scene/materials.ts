@@ -42,7 +42,7 @@ export function makeMaterials(): Materials {
       side: DoubleSide,
     }),
     edge: line("--scene-edge", 0.5),
-    // Behind the solid where both coincide, so that an undisplaced body looks clean.
+    // Drawn after the solid where both coincide, so that an undisplaced body looks clean.
     ghost: new MeshBasicMaterial({
       color: cssColour("--scene-ghost"),
       transparent: true,

@@ -5,7 +5,7 @@ import type { ToolShape } from "../api.ts";
 import type { Bodies } from "./bodies.ts";
 
 export interface SceneProbe {
-  /** bed_from_body, 12 numbers, of the nominal (or ghost) body as the scene graph has it. */
+  /** bed_from_body, 12 numbers, of the nominal (or ghost) body as in the scene graph. */
   poseOf(name: string, which?: "nominal" | "ghost"): number[] | null;
   /** The tool tip in the workpiece frame, mm. */
   nominalTip(): [number, number, number] | null;

@@ -6,7 +6,7 @@ import type { Bodies } from "./bodies.ts";
 import { unitOf } from "./schematic.ts";
 import { standingCone, type Part } from "./shapes.ts";
 
-/** Radius of a tool of unknown diameter, in lengths: so slim that what is beside it is seen. */
+/** Radius of a tool of unknown diameter, in lengths: so slim that it covers little. */
 const SLIM = 0.03;
 
 /** What the set-up states of the tool; else a holder and a cutter of its length. */

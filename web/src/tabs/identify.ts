@@ -1,4 +1,4 @@
-/** What the machine is like, from readings: verdict, errors with their uncertainty, what is left. */
+/** What the machine is like, from readings: verdict, errors with their uncertainty, residuals. */
 
 import { split, type App, type Tab, type TabHandle } from "../app.ts";
 import { download, fill, h } from "../dom.ts";
@@ -96,7 +96,7 @@ class IdentifyTab implements TabHandle {
         h(
           "section",
           { class: "panel" },
-          h("p", {}, "Choose a campaign: it names the machine, the errors sought and the readings of its instruments."),
+          h("p", {}, "Choose a campaign: it names the machine, the unknown errors and the readings of its instruments."),
         ),
       );
       return;
@@ -300,7 +300,7 @@ class IdentifyTab implements TabHandle {
       values,
       range: [-1, 1],
       digits: 3,
-      blank: "cannot be told",
+      blank: "not observable",
     };
     this.map.hidden = names.length === 0;
     if (this.heat) this.heat.update(spec);

@@ -128,7 +128,7 @@ class PlanTab implements TabHandle {
         h(
           "section",
           { class: "panel" },
-          h("p", {}, "Choose a campaign: it names the machine, the errors sought, the instrument and its paths."),
+          h("p", {}, "Choose a campaign: it names the machine, the unknown errors, the instrument and its paths."),
         ),
       );
       return;

@@ -1,4 +1,4 @@
-/** The test piece before it is cut: is it good, who is to blame, and what if? */
+/** The test piece before it is cut: is it good, which error contributes what, and what if? */
 
 import { diagnosticList, split, type App, type Tab, type TabHandle } from "../app.ts";
 import { latestOnly, Refusal } from "../api.ts";
@@ -201,7 +201,7 @@ class PredictTab implements TabHandle {
   }
 
   private showChanged(frame: PieceFrame, wanted: Wanted): void {
-    // Somebody may have reset or opened another study meanwhile.
+    // The study may have been reset or opened another study meanwhile.
     if (wanted.study !== this.study || !this.base || !this.piece?.what_if.changes()) return;
     const answered = performance.now() - wanted.asked_at;
     this.draw(frame, this.base);

@@ -119,7 +119,7 @@ class StandardsTab implements TabHandle {
               "p",
               {},
               params.dropped
-                ? `Drop ${params.dropped} again: the page was loaded anew and does not keep files.`
+                ? `Drop ${params.dropped} again: the page was loaded again and does not keep files.`
                 : "Choose readings above, or drop a CSV anywhere here. Nothing leaves this computer.",
             ),
           ),

@@ -123,7 +123,7 @@ impl AxisPath<'_> {
     }
 
     /// Whether the piece to `end` is too coarse, then with the pose in its middle where that was
-    /// looked at.
+    /// computed.
     fn coarse(
         &self,
         tip_move: &TipMove<'_>,

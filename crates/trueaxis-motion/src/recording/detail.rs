@@ -4,7 +4,7 @@
 //! between their ends is refined at the node that is farthest from it until none is left out (Ramer;
 //! Douglas and Peucker); then the same with stretches that begin half a stretch later, since a corner
 //! where two stretches meet is seen by neither. So no path takes longer than a few passes over it. How
-//! far what is left out lies from what is drawn is measured when it is drawn.
+//! far the omitted nodes lie from what is drawn is measured when it is drawn.
 
 use super::columns::{Columns, RAPID};
 use trueaxis_geometry::Vec3;

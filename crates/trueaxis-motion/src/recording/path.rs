@@ -57,7 +57,7 @@ pub struct PathPoints {
     pub is_complete: bool,
 }
 
-/// What is left out between two nodes that are drawn.
+/// The nodes omitted between two nodes that are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Gap {
     /// The distance of the farthest node from the line, mm, by its bits: they order as it does.

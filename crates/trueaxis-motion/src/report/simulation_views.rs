@@ -99,7 +99,7 @@ const BAR: i32 = 52;
 /// The views are together at most so high.
 const MOST_HEIGHT: f64 = 620.0;
 
-/// The path of the tip as a technical drawing: top view over front view, side view beside it, all of
+/// The path of the tip as a technical drawing: top view over front view, side view to the right, all of
 /// one scale; an oblique view in the free corner. Feed in the colour of the deviation, rapid thin.
 ///
 /// # Errors

@@ -7,8 +7,8 @@ use trueaxis_machine::axis::{Command, MAX_AXES};
 /// Largest velocity, acceleration and jerk of the path where no axis limits it.
 const CEILING: Bounds = Bounds { v: 1e6, a: 1e9, j: 1e12 };
 
-/// Shares of a blend: its curvature takes at most so much of an axis' acceleration and jerk. What
-/// is left speeds the path up and slows it down. Found by trial on the programs of the bench: where
+/// Shares of a blend: its curvature takes at most so much of an axis' acceleration and jerk. The
+/// rest speeds the path up and slows it down. Found by trial on the programs of the bench: where
 /// the curvature binds, the velocity that it allows counts for more than the change of velocity.
 const ACCELERATION_SHARE: f64 = 0.75;
 const JERK_SHARE: f64 = 0.9;

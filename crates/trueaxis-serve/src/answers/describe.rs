@@ -1,11 +1,11 @@
 //! The machine: what it is, where its tool is, and one error of it put into its file.
 
 use super::machine::Draft;
-use super::{Reply, Request};
 use crate::desk::{Desk, Job};
 use crate::frame::Array;
 use crate::project::version;
 use crate::refusal::{Refusal, entries};
+use crate::request::{Reply, Request};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

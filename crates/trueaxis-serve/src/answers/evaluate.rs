@@ -1,10 +1,10 @@
 //! Readings evaluated by the standards.
 
-use super::{Diagnosed, Reply, Request};
 use crate::body::{needed, short};
 use crate::desk::{Desk, Job};
 use crate::frame::Array;
 use crate::refusal::{Refusal, entries};
+use crate::request::{Diagnosed, Reply, Request};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};

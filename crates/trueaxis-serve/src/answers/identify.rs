@@ -1,10 +1,10 @@
 //! The errors of the machine from readings.
 
 use super::plan::TextEntry;
-use super::{Diagnosed, Reply, Request};
 use crate::desk::{Desk, Job};
 use crate::frame::{Array, Arrays};
 use crate::refusal::{Refusal, entries};
+use crate::request::{Diagnosed, Reply, Request};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -171,7 +171,7 @@ fn three(arrows: &[Arrow], of: fn(&Arrow) -> Vec3) -> impl Iterator<Item = f64> 
 }
 
 impl IdentifyRequest {
-    /// The table that somebody dropped, and its instrument.
+    /// The table that was dropped on the page, and its instrument.
     fn dropped(&self, campaign: &Campaign) -> Result<Option<Dropped<'_>>, Refusal> {
         let Some(text) = &self.text else { return Ok(None) };
         let name = self.name.as_deref().unwrap_or("dropped readings");

@@ -1,4 +1,4 @@
-//! The machine that a request names: as it is on the disk, or as somebody is editing it.
+//! The machine that a request names: as it is on the disk, or as it is being edited.
 
 use crate::desk::Desk;
 use crate::refusal::Refusal;

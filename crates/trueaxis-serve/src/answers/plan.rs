@@ -1,10 +1,10 @@
 //! What a measurement will show, before it is made.
 
 use super::settings::control;
-use super::{Reply, Request};
 use crate::desk::{Desk, Job};
 use crate::frame::Array;
 use crate::refusal::{Refusal, entries};
+use crate::request::{Reply, Request};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;

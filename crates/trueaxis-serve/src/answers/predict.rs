@@ -1,10 +1,10 @@
 //! The test piece before it is cut, and what changes of the machine would do to it.
 
 use super::settings::{ErrorChangeEntry, errors};
-use super::{Reply, Request};
 use crate::desk::{Desk, Job};
 use crate::frame::{Array, Arrays};
 use crate::refusal::{Refusal, entries};
+use crate::request::{Reply, Request};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -31,7 +31,7 @@ pub(super) struct PredictRequest {
     study: String,
 }
 
-/// The same for a changed machine, without Monte Carlo, as fast as somebody drags a slider.
+/// The same for a changed machine, without Monte Carlo, fast enough to follow a slider.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct WhatIfRequest {
@@ -52,9 +52,9 @@ pub(super) struct WhatIfRequest {
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub(super) enum PredictAnswer<'a> {
     /// Of a test piece.
-    TestPiece(PieceEntry<'a>),
+    TestPiece(Box<PieceEntry<'a>>),
     /// Of holes.
-    Holes(HolesEntry<'a>),
+    Holes(Box<HolesEntry<'a>>),
 }
 
 /// The prediction of a test piece. Arrays: for each point of all sections `azimuth_rad` (f32), `error_um` (f32:
@@ -137,16 +137,17 @@ impl Request for PredictRequest {
         let path = desk.project.path(&self.study)?;
         if is_hole_study(&disk(), &path) {
             let (study, prediction, problems) = holes(&path)?;
-            let answer = PredictAnswer::Holes(HolesEntry {
+            let answer = PredictAnswer::Holes(Box::new(HolesEntry {
                 document: HolesDocument::of(&study, &prediction),
                 sensors: study.machine.heat().sensors(),
                 diagnostics: entries(&problems),
-            });
+            }));
             return Ok(Reply::frame(&answer, hole_arrays(&study, &prediction)));
         }
         let (study, problems) = study(&path)?;
         let prediction = predicted(&study, job)?;
-        let answer = PredictAnswer::TestPiece(piece(desk, &study, &prediction, &problems));
+        let answer =
+            PredictAnswer::TestPiece(Box::new(piece(desk, &study, &prediction, &problems)));
         Ok(Reply::frame(&answer, section_arrays(&prediction)))
     }
 }
@@ -171,7 +172,8 @@ impl Request for WhatIfRequest {
         let study = changes.put(study, &mut problems).filter(|_| !problems.has_errors());
         let Some(study) = study else { return Err(Refusal::unusable(&problems)) };
         let prediction = preview(&study).map_err(|e| refused(&e))?;
-        let answer = PredictAnswer::TestPiece(piece(desk, &study, &prediction, &problems));
+        let answer =
+            PredictAnswer::TestPiece(Box::new(piece(desk, &study, &prediction, &problems)));
         Ok(Reply::frame(&answer, section_arrays(&prediction)))
     }
 }

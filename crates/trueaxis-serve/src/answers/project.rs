@@ -1,9 +1,10 @@
 //! Files of the project: which there are, their text, and saving it.
 
-use super::{Reply, Request};
+use crate::change::ChangeEntry;
 use crate::desk::{Desk, Job};
 use crate::project::{ExampleEntry, FileEntry, version};
 use crate::refusal::{Refusal, entries};
+use crate::request::{Reply, Request};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -102,20 +103,6 @@ pub(super) struct SaveAnswer<'a> {
     version: &'a str,
 }
 
-/// A change of a file; without a path any file may have changed.
-#[derive(Debug, Clone, Default, Serialize, JsonSchema)]
-pub(crate) struct ChangeEntry {
-    /// Its path below the project folder.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    path: Option<String>,
-    /// The version of its new text.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    version: Option<String>,
-    /// The window that saved it; absent if that is not known.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    window: Option<String>,
-}
-
 impl Request for SaveRequest {
     type Answer<'a> = SaveAnswer<'a>;
 
@@ -125,7 +112,7 @@ impl Request for SaveRequest {
         let _one = desk.saving.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         let current = path.exists().then(|| read(&path)).transpose()?;
         if current.as_deref().map(version) != self.version {
-            let message = format!("{name} was changed by somebody else since it was opened");
+            let message = format!("{name} was changed elsewhere since it was opened");
             let hint = "open it again, or save under another name";
             return Err(Refusal::new(409, "conflict", message, hint));
         }

@@ -8,21 +8,21 @@ use super::simulate_document::{
     SimulationBlockRequest, SimulationCurvesAnswer, SimulationCurvesRequest, SimulationPathAnswer,
     SimulationPathRequest, SimulationSourceAnswer, SimulationSourceRequest,
 };
-use super::{Reply, Request};
 use crate::body::{needed, short};
 use crate::desk::{Desk, Job};
 use crate::frame::Array;
 use crate::refusal::{Refusal, entries};
+use crate::request::{Reply, Request};
+use crate::simulated::{Simulated, Source};
 use std::path::Path;
 use std::sync::Arc;
 use trueaxis::files;
 use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Place};
-use trueaxis::machine::Machine;
 use trueaxis::report::{Simulation, SimulationDocument, simulation_html};
 use trueaxis::simulate::{
-    self, CONTROLS, Colour, Findings, Observer, Options, ProgramFiles, Progress, Recorder,
-    Recording, Series, Stop, control_named,
+    self, CONTROLS, Colour, Findings, Observer, Options, ProgramFiles, Progress, Recorder, Series,
+    Stop, control_named,
 };
 
 /// Columns of a picture of curves.
@@ -31,21 +31,6 @@ const MOST_COLUMNS: usize = 1 << 14;
 const MOST_POINTS: usize = 1 << 19;
 /// The share of the time that the work after the program takes.
 const REST: f64 = 0.05;
-
-/// One simulation.
-pub(crate) struct Simulated {
-    machine: Machine,
-    recording: Recording,
-    programs: Vec<Source>,
-}
-
-/// A program as it was simulated.
-struct Source {
-    name: String,
-    /// Its name in the project, if it is a file there.
-    path: Option<String>,
-    text: String,
-}
 
 impl Request for SimulateRequest {
     type Answer<'a> = SimulateAnswer<'a>;

@@ -48,7 +48,7 @@ const READINGS: Kind = Kind {
 };
 const TRUTH_BEGIN: &str = "# true values of virtual readings";
 /// The first line of older files.
-const OLD_TRUTH_BEGIN: &[u8] = b"# the truth behind virtual readings";
+const OLD_TRUTH_BEGIN: &[u8] = b"# the truth ";
 const TRUTH: Kind = Kind::file(
     "--truth",
     "the truth of a virtual measurement",

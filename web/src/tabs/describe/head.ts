@@ -1,4 +1,4 @@
-/** The top of the panel: which machine, is it changed, undo, save – and what to do if somebody else saved it too. */
+/** The top of the panel: which machine, is it changed, undo, save – and what to do if another window saved it too. */
 
 import type { Vector } from "../../api.ts";
 import { fill, h } from "../../dom.ts";
@@ -25,7 +25,7 @@ export interface HeadState {
   dirty: ReadonlySet<string>;
 }
 
-/** "machines/mill/machine.toml" -> "machines/mill/machine-2.toml": beside it, where its tables are. */
+/** "machines/mill/machine.toml" -> "machines/mill/machine-2.toml": next to it, where its tables are. */
 export function nameBeside(path: string, taken: ReadonlySet<string>): string {
   const stem = path.replace(/(-\d+)?\.toml$/i, "");
   for (let n = 2; ; n++) if (!taken.has(`${stem}-${n}.toml`)) return `${stem}-${n}.toml`;

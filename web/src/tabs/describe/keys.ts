@@ -2,7 +2,7 @@
 
 export type EditKey = "save" | "undo" | "redo";
 
-/** What a key press asks of the machine file; null where it belongs to somebody else. */
+/** What a key press asks of the machine file; null where it belongs to another part of the page. */
 export function editKey(event: KeyboardEvent): EditKey | null {
   if (!(event.ctrlKey || event.metaKey) || event.altKey) return null;
   const key = event.key.toLowerCase();

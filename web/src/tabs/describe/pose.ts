@@ -75,7 +75,7 @@ export class PosePanels {
       );
     fill(
       this.tip,
-      h("h2", {}, warm ? "Tool tip, as the part has it at 20 °C" : "Tool tip, as the workpiece sees it"),
+      h("h2", {}, warm ? "Tool tip, on the part at 20 °C" : "Tool tip, as the workpiece sees it"),
       h(
         "table",
         { class: "tip" },

@@ -138,7 +138,7 @@ export class ErrorRow {
     const untouched = this.box.value === this.committed && this.refused === null;
     const arrived = this.box.value.trim() === text;
     this.committed = text;
-    // What is being typed stays; so does what was refused, until it is mended or given up.
+    // What is being typed stays; so does what was refused, until it is corrected or given up.
     const typing = document.activeElement === this.box || this.refused !== null;
     if (untouched || arrived || !typing) this.restore();
     this.box.readOnly = elsewhere;

@@ -110,7 +110,7 @@ export class DescribeTab implements TabHandle {
     else if (params.at && this.described) this.moveTo(this.described, params.at);
   }
 
-  /** Somebody saved a file, or news was missed: is ours still as we know it? */
+  /** A file was saved elsewhere, or news was missed: is ours still as we know it? */
   changed(path: string | null): void {
     for (const draft of this.drafts.values()) if (path === null || path === draft.path) void this.compare(draft);
     // It may be a table or a model that the machine file names.
@@ -260,7 +260,7 @@ export class DescribeTab implements TabHandle {
       new Refusal(
         "not-accepted",
         `${first} holds a value that cannot be saved`,
-        "Mend it in the table of errors, or press Escape in its field; nothing has been saved.",
+        "Correct it in the table of errors, or press Escape in its field; nothing has been saved.",
       ),
     );
     return false;
@@ -345,7 +345,7 @@ export class DescribeTab implements TabHandle {
     this.axes.show(links, keptPositions(links, this.axes.at));
   }
 
-  /** Builds the picture anew only if a body is another one; the errors only move the ghost. */
+  /** Builds the picture again only if a body is another one; the errors only move the ghost. */
   private async showScene(): Promise<void> {
     const description = this.described;
     const draft = this.draft;

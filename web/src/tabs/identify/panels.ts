@@ -23,7 +23,7 @@ export function verdictPanel(doc: IdentifyDocument): HTMLElement {
   const found =
     doc.errors.length > 0
       ? `${told} of ${count(doc.errors.length, "error")} found`
-      : "no error of the machine is sought";
+      : "no error of the machine is unknown";
   return h(
     "section",
     { class: "panel" },
@@ -45,10 +45,10 @@ export function verdictPanel(doc: IdentifyDocument): HTMLElement {
   );
 }
 
-/** The four scores side by side: what is left must be as small as what the instrument repeats to. */
+/** The four scores side by side: the residual must be as small as the repeatability of the instrument. */
 export function scorePanel(doc: IdentifyDocument): HTMLElement {
   const rows: [string, string, Score | null][] = [
-    ["without_model", "without the errors sought, set-up only", doc.rms.without_model],
+    ["without_model", "without errors of the machine, set-up only", doc.rms.without_model],
     ["in_sample", "in sample", doc.rms.in_sample],
     ["held_out", "held out, by place", doc.rms.held_out],
     [
@@ -63,7 +63,7 @@ export function scorePanel(doc: IdentifyDocument): HTMLElement {
   return h(
     "section",
     { class: "panel", dataSheet: "scores" },
-    h("h2", {}, "Root mean square of what is left"),
+    h("h2", {}, "Root mean square of the residuals"),
     h(
       "table",
       {},

@@ -1,4 +1,4 @@
-/** What is left of the readings at every place, before and after: arrows to turn and to magnify. */
+/** The residuals of the readings at every place, before and after: arrows to turn and to magnify. */
 
 import { fill, h } from "../../dom.ts";
 import { fairMagnification, vectors, type Figure, type VectorSpec } from "../../figure/index.ts";
@@ -74,7 +74,7 @@ export class Residuals {
     this.panel.hidden = at_mm.length === 0;
     this.sets = [
       { name: "before: without the errors found", um: frame.f32("before_um"), colour: "var(--series-2)" },
-      { name: "after: what is left", um: frame.f32("after_um"), colour: "var(--series-1)" },
+      { name: "after: residual", um: frame.f32("after_um"), colour: "var(--series-1)" },
     ];
     const [, azimuth, elevation] = SIDES[0] as (typeof SIDES)[number];
     const kept = this.spec ?? { azimuth, elevation };

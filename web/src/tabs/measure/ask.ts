@@ -41,7 +41,7 @@ export function isAbort(error: unknown): boolean {
   return error instanceof DOMException && error.name === "AbortError";
 }
 
-/** Most places of one refusal that are told. */
+/** Most places of one refusal that are shown. */
 const MOST_TOLD = 12;
 
 /** What is wrong with the input and what to do, where the result would stand. */

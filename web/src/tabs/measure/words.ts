@@ -2,7 +2,7 @@
 
 import { number, NO_NUMBER, NARROW_SPACE } from "../../format.ts";
 
-/** Units of the documents for people. */
+/** Units of the documents as shown. */
 export function unitText(unit: string): string {
   return ({ um: "µm", urad: "µrad", degC: "°C", arcsec: "″", deg: "°" } as Record<string, string>)[unit] ?? unit;
 }

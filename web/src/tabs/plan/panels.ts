@@ -140,7 +140,7 @@ export function expectedPanel(doc: PlanDocument): Drawn {
     const list = own.map((one) => ({
       name: one.name,
       value: one.expanded_k2,
-      missing: "cannot be told alone",
+      missing: "not observable alone",
       note: "k = 2",
       ...(isSetup(one) ? { colour: "var(--line-strong)" } : {}),
     }));

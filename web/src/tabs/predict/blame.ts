@@ -21,9 +21,9 @@ const MEASURES: readonly [Measure, string][] = [
 const MOST = 14;
 
 export interface BlameActions {
-  /** Somebody wants to see the part without this error. */
+  /** Shows the part without this error. */
   without(error: string): void;
-  /** Somebody wants to see this correction done. */
+  /** Shows the part after this correction. */
   correct(error: string, text: string): void;
 }
 

@@ -198,7 +198,7 @@ export class PieceView {
     );
   }
 
-  /** The face on top, so that nobody looks into a hollow piece. */
+  /** The face on top, so that the piece is not seen as hollow. */
   private drawTop(rings: readonly Ring[], m: number): void {
     const last = rings.at(-1);
     if (!last) return;

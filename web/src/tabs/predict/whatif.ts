@@ -10,7 +10,7 @@ import type { PieceDocument, PieceHeader } from "./types.ts";
 /** The body of `what-if` without the study. */
 export type Changes = Omit<Request<"what-if">, "study">;
 
-/** Rows that are shown before somebody asks for all. */
+/** Rows that are shown before all are asked for. */
 const SHOWN = 10;
 
 interface Setting {

@@ -79,7 +79,7 @@ export class Player {
     this.goWhere(() => this.source.step(this.time_s, step));
   }
 
-  /** Goes where an answer says, one after the other, unless somebody goes elsewhere before it comes. */
+  /** Goes where an answer says, one after the other, unless another place is asked for before it comes. */
   goWhere(find: () => Promise<number>): void {
     this.pause();
     const turn = this.turn;

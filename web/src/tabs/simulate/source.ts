@@ -219,7 +219,7 @@ function coloured(text: string): Child[] {
   return [...parts, text.slice(at)];
 }
 
-/** Each note underlines the word at its column; behind the end of the line, an empty place. */
+/** Each note underlines the word at its column; after the end of the line, an empty place. */
 function underlined(text: string, notes: readonly LineNote[]): Child[] {
   const parts: Child[] = [];
   let at = 0;

@@ -1,4 +1,4 @@
-/** What the simulation says in one glance: does it run, how long, how far off; and where the troubles are. */
+/** What the simulation says in one glance: does it run, how long, how far off; and where the issues are. */
 
 import { diagnosticList } from "../../app.ts";
 import type { Diagnostic, Refusal } from "../../api.ts";
@@ -6,7 +6,7 @@ import { fill, h, type Child } from "../../dom.ts";
 import { clock, mm, um, urad } from "../../format.ts";
 import type { Mark, SimulationDocument, SimulationHeader } from "./answers.ts";
 
-/** Rows of troubles in the page; the report has all. */
+/** Rows of issues in the page; the report has all. */
 const MOST_ROWS = 200;
 
 function fact(title: string, value: Child, key: string, more: Child = null): HTMLElement {
@@ -129,7 +129,7 @@ export class Summary {
             "p",
             { class: "row" },
             h("button", { dataTest: "keep-going", onclick: again }, "Simulate all the same"),
-            h("span", { class: "muted" }, "goes on behind each error"),
+            h("span", { class: "muted" }, "continues after each error"),
           )
         : null,
     );

@@ -1,4 +1,4 @@
-/** The time line: drag to scrub, marks of collisions, over-travel and other troubles jump there. */
+/** The time line: drag to scrub, marks of collisions, over-travel and other issues jump there. */
 
 import { fill, h } from "../../dom.ts";
 import { clock } from "../../format.ts";
@@ -111,7 +111,7 @@ export class Timeline {
   }
 }
 
-/** Neighbours of the same gravity become one; the grave ones are drawn last, on top. */
+/** Neighbours of the same severity become one; the critical ones are drawn last, on top. */
 function clusters(marks: readonly Mark[], duration_s: number): Cluster[] {
   const all: Cluster[] = [];
   for (const grave of [false, true]) {

@@ -7,7 +7,7 @@ import type { Moment, SetUpTool } from "./answers.ts";
 
 /**
  * The cylinders that the set-up states, where the tool sits in its holder: it is there before the
- * program counts with its length. Else the tool of the machine file, its tip where the program has it.
+ * program counts with its length. Else the tool of the machine file, its tip where the program puts it.
  */
 export function toolOf(
   machine: MachineDescription,

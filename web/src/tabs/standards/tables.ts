@@ -41,7 +41,7 @@ const FIGURES: readonly [string, string, string, string][] = [
   ["B_mean", "B̄", "mean reversal error", "mean lost motion, rising minus falling"],
 ];
 
-/** Unit of deviations for people and in keys, unit of positions. */
+/** Unit of deviations as shown and in keys, unit of positions. */
 export function unitsOf(p: Positioning): { key: string; shown: string; place: string } {
   return p.kind === "rotary"
     ? { key: "arcsec", shown: "arcsec", place: "deg" }
@@ -162,14 +162,14 @@ function circular(document: EvaluateDocument): Sheet[] {
     ["ellipse along 45°", causes.diagonal_ellipse_um, "µm"],
     [`centre ${x}`, causes.centre_um?.[0] ?? null, "µm"],
     [`centre ${y}`, causes.centre_um?.[1] ?? null, "µm"],
-    ["left over, rms", causes.residual_rms_um, "µm"],
+    ["residual, rms", causes.residual_rms_um, "µm"],
   ];
   sheets.push({
     key: "causes",
     title: "What makes it unround",
     head: ["cause", "value", "unit"],
     rows: rows.filter((row) => row[1] !== null),
-    note: "Least squares over all paths; 10° behind each reversal are left out for the spikes.",
+    note: "Least squares over all paths; 10° after each reversal are left out for the spikes.",
   });
   if (causes.spikes.length > 0) {
     sheets.push({
@@ -178,7 +178,7 @@ function circular(document: EvaluateDocument): Sheet[] {
       head: ["axis", "at, deg", "way", "µm"],
       rows: causes.spikes.map((s) => [s.axis, s.at_deg, s.direction, s.height_um]),
       digits: [undefined, 0],
-      note: "Largest residual within 10° behind the reversal, outward positive.",
+      note: "Largest residual within 10° after the reversal, outward positive.",
     });
   }
   return sheets;

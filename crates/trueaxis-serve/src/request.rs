@@ -1,0 +1,85 @@
+//! A request of the page: how it is read, answered and described.
+
+use crate::body;
+use crate::desk::{Desk, Job};
+use crate::frame::{Arrays, Frame};
+use crate::refusal::Refusal;
+use schemars::JsonSchema;
+use schemars::generate::SchemaSettings;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+use std::marker::PhantomData;
+use trueaxis::NamedSchema;
+use trueaxis::report::{DiagnosticEntry, document};
+
+/// A request of the page; how it is answered stands with it.
+pub(crate) trait Request: DeserializeOwned + JsonSchema {
+    /// The answer: a document, or the header of a binary piece.
+    type Answer<'a>: Serialize + JsonSchema;
+
+    /// Answers it.
+    fn answer(self, desk: &Desk, job: &Job) -> Result<Reply<Self>, Refusal>;
+}
+
+/// The answer to a request of one type, ready to be sent.
+pub(crate) struct Reply<R> {
+    message: Message,
+    request: PhantomData<R>,
+}
+
+/// An answer on its way.
+#[derive(Debug)]
+pub(crate) enum Message {
+    Json(Value),
+    Frame(Frame),
+}
+
+impl<R: Request> Reply<R> {
+    /// A document.
+    pub(crate) fn json(answer: &R::Answer<'_>) -> Self {
+        Self { message: Message::Json(document(answer)), request: PhantomData }
+    }
+
+    /// A header with its arrays.
+    pub(crate) fn frame(header: &R::Answer<'_>, arrays: Arrays) -> Self {
+        Self { message: Message::Frame(Frame::new(header, arrays)), request: PhantomData }
+    }
+}
+
+/// A document of the command line with the problems of its input.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(crate) struct Diagnosed<'a, T> {
+    #[serde(flatten)]
+    pub(crate) document: T,
+    /// The problems found in the input.
+    pub(crate) diagnostics: Vec<DiagnosticEntry<'a>>,
+}
+
+/// How long a request usually takes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Pace {
+    /// Fast enough to follow a slider.
+    Quick,
+    /// Long enough for a progress bar.
+    Long,
+}
+
+/// One kind of request.
+pub(crate) struct Question {
+    pub(crate) name: &'static str,
+    pub(crate) pace: Pace,
+    pub(crate) work: fn(&Desk, Value, &Job) -> Result<Message, Refusal>,
+    pub(crate) schemas: fn() -> [NamedSchema; 2],
+}
+
+/// Reads a request of one type and answers it.
+pub(crate) fn work<R: Request>(desk: &Desk, body: Value, job: &Job) -> Result<Message, Refusal> {
+    Ok(body::read::<R>(body)?.answer(desk, job)?.message)
+}
+
+/// The JSON Schema of what the server reads, under its name.
+pub(crate) fn request_schema<R: JsonSchema>(name: &'static str) -> NamedSchema {
+    let settings = SchemaSettings::draft2020_12().for_deserialize();
+    (name, settings.into_generator().into_root_schema_for::<R>())
+}
