@@ -96,7 +96,11 @@ class IdentifyTab implements TabHandle {
         h(
           "section",
           { class: "panel" },
-          h("p", {}, "Choose a campaign: it names the machine, the unknown errors and the readings of its instruments."),
+          h(
+            "p",
+            {},
+            "Choose a campaign: it names the machine, the unknown errors and the readings of its instruments.",
+          ),
         ),
       );
       return;
