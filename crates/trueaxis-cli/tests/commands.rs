@@ -72,12 +72,14 @@ fn pose_as_text() {
     let ran = trueaxis(&["pose", XKAS, "--at", AT, "--bodies"]);
     assert_eq!((ran.status, ran.err.as_str()), (0, ""));
     for line in [
-        "XKAS2525x60   w b X Y Z C A t",
-        "  deviation                   35.134        -20.773         11.643  µm",
-        "axis, nominal             -0.4226183      0.0000000      0.9063078",
-        "body in the machine frame",
+        "XKAS2525x60",
+        "w b X Y Z C A t",
+        "deviation 35.134 -20.773 11.643 µm",
+        "axis, nominal -0.4226183 0.0000000 0.9063078",
+        "Bodies in the machine frame",
     ] {
-        assert!(ran.out.contains(line), "{line}\n{}", ran.out);
+        let shown = ran.out.lines().map(|l| l.split_whitespace().collect::<Vec<_>>().join(" "));
+        assert!(shown.into_iter().any(|l| l.starts_with(line)), "{line}\n{}", ran.out);
     }
     let zero = |word: &str| word.starts_with('-') && word[1..].chars().all(|c| "0.".contains(c));
     let signed: Vec<_> = ran.out.split_whitespace().filter(|w| w.len() > 1 && zero(w)).collect();
@@ -137,7 +139,7 @@ fn outside_the_travel_is_a_warning_beside_the_answer() {
     let table = folder.file("far.csv", "\u{feff}X,Y\r\n10,0\r\n400,0\r\n500,0\r\n");
     let single = trueaxis(&["pose", MILL, "--at", "X=400", "--format", "json"]);
     assert_eq!((single.status, &single.json()["schema"]), (0, &"trueaxis/pose/1".into()));
-    assert!(single.err.contains("warning[outside-travel]: X stands"), "{}", single.err);
+    assert!(single.err.contains("warning[outside-travel]: the position of X"), "{}", single.err);
     let batch = trueaxis(&["pose", MILL, "--at-file", &table, "--format", "json"]);
     assert_eq!((batch.status, batch.json()["rows"].as_array().map(Vec::len)), (0, Some(3)));
     assert!(batch.err.contains("in 2 of 3 rows"), "{}", batch.err);
@@ -177,8 +179,9 @@ fn oracle_solve_as_json() {
     let travel = BEST[0].1.hypot(BEST[1].1);
     near(&[number(&best["rotary_travel_deg"])], &[travel], 1e-9);
     let text = trueaxis(&[&["solve", I5], &target[..]].concat());
-    let line = text.out.lines().nth(1).expect("a line of numbers");
-    assert!(line.trim_start().starts_with("56.309932     21.190997     22.188008"), "{line}");
+    let mut lines = text.out.lines().map(|l| l.split_whitespace().collect::<Vec<_>>().join(" "));
+    let found = lines.any(|l| l.starts_with("1 56.309932 21.190997 22.188008"));
+    assert!(found, "{}", text.out);
 }
 
 #[test]

@@ -17,7 +17,7 @@ const OTHER_WORDS: &str = "ball-bar cache-control content-security-policy conten
     simulation-block simulation-curves simulation-path simulation-source small-angle table-table \
     test-piece touch-probe-ball touch-probe-face turns-with-axis utf-8 utf-16 what-if w-offset \
     x-content-type-options x-rot x-rot-point x-www-browser x-www-form-urlencoded \
-    xdg-open xyzac-trt-kins xyzbc-trt-kins y-rot y-rot-point z-offset z-rot-point numbers";
+    kebab-case serve-socket-request xdg-open xyzac-trt-kins xyzbc-trt-kins y-rot y-rot-point z-offset z-rot-point numbers";
 
 /// Codes of one word where no call shows that they are codes: matched to a kind of trouble or passed
 /// to a closure.

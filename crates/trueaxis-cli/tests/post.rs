@@ -58,7 +58,7 @@ fn a_written_program_is_simulated_like_any_other() {
         "--verify",
     ]);
     assert_eq!(ran.status, 0, "{}", ran.err);
-    assert!(ran.out.contains("goes back 2 times"), "{}", ran.out);
+    assert!(ran.out.contains("retracts 2 times"), "{}", ran.out);
     let ran = trueaxis(&["simulate", machine, &out, "--no-report", "--no-collisions"]);
     assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
 }

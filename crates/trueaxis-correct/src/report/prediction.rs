@@ -93,20 +93,22 @@ fn indices<'a>(study: &Study, prediction: &Prediction) -> Section<'a> {
     if sampled {
         headings.extend(["u (Monte Carlo)", "95 % interval"]);
     }
-    headings.extend(["U", "allowed", "used", "verdict"]);
+    let guarded = prediction.verdict.judgements.iter().any(|j| j.expanded_mm.is_some());
+    headings.extend(guarded.then_some("U"));
+    headings.extend(["allowed", "used", "verdict"]);
     let mut table = Table::new(headings).note(format!(
         "u: standard uncertainty, by linear propagation and by Monte Carlo. The indices with a verdict decide, \
          after ISO; those of the paper are for comparison. Rule: {}.",
         rule(study)
     ));
     for index in &prediction.indices {
-        let row = index_row(prediction, index, sampled);
+        let row = index_row(prediction, index, [sampled, guarded]);
         table = if index.name.decisive { table.bold_row(row) } else { table.row(row) };
     }
     Section::new("Indices").table(table)
 }
 
-fn index_row(prediction: &Prediction, index: &Index, sampled: bool) -> Vec<String> {
+fn index_row(prediction: &Prediction, index: &Index, [sampled, guarded]: [bool; 2]) -> Vec<String> {
     let mut row = vec![index.name.title().to_owned(), um(index.value_mm), um(index.u_mm)];
     if sampled {
         let [u, interval] = index.spread.map_or([String::new(), String::new()], |s| {
@@ -122,7 +124,8 @@ fn index_row(prediction: &Prediction, index: &Index, sampled: bool) -> Vec<Strin
             Outcome::Undecided => "undecided",
         };
         let used = format!("{:.0} %", j.used_ratio * 100.0);
-        row.extend([j.expanded_mm.map_or(String::new(), um), um(j.limit_mm), used, verdict.into()]);
+        row.extend(guarded.then(|| j.expanded_mm.map_or(String::new(), um)));
+        row.extend([um(j.limit_mm), used, verdict.to_owned()]);
     }
     row
 }

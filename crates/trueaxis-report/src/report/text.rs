@@ -2,8 +2,8 @@
 
 use super::{Item, Report, Section, Table};
 
-/// Paragraphs are broken here.
-const WIDTH: usize = 100;
+/// Paragraphs are broken here; with their indent they fit into 100 columns.
+const WIDTH: usize = 98;
 
 pub(super) fn text(report: &Report<'_>) -> String {
     let mut out = format!("{}\n", report.title);

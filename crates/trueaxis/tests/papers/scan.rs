@@ -90,7 +90,9 @@ fn comment_above(lines: &[&str]) -> Option<String> {
     let mut comment: Vec<&str> = above.filter_map(|l| l.strip_prefix("///")).collect();
     comment.reverse();
     let text = comment.iter().flat_map(|l| l.split_whitespace()).collect::<Vec<_>>().join(" ");
-    let sentence = text.split(". ").next().unwrap_or_default().trim_end_matches('.');
+    // The point of `et al.` ends no sentence.
+    let end = text.match_indices(". ").map(|(i, _)| i).find(|i| !text[..*i].ends_with("et al"));
+    let sentence = text[..end.unwrap_or(text.len())].trim_end_matches('.');
     (!sentence.is_empty()).then(|| sentence.to_owned())
 }
 

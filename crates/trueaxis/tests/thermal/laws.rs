@@ -250,5 +250,5 @@ fn two_cycles_are_refused_and_one_of_two_equal_sensors_stands_for_both() {
     assert!(model.all_terms.held_out_mm.is_finite());
     logs.cycles.truncate(2);
     let refusal = identify_thermal(&logs).refusal.expect("refused");
-    assert!(refusal.starts_with("2 cycles cannot tell"), "{refusal}");
+    assert!(refusal.starts_with("2 cycles cannot separate"), "{refusal}");
 }
