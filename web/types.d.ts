@@ -88,6 +88,14 @@ export type LeftOutEntry = {
     }
 );
 /**
+ * A number, or numbers by name.
+ */
+export type Amount =
+  | (number | null)
+  | {
+      [k: string]: number;
+    };
+/**
  * The shape of a model.
  */
 export type ShapeEntry =
@@ -2393,7 +2401,7 @@ export interface PositionValue {
    * The value of falling positions; absent if both directions have one value.
    */
   value_down_increments?: number | null;
-  [k: string]: number;
+  [k: string]: Amount;
 }
 /**
  * The links, errors, sensors, tools and models of a machine. A pose is 12 numbers: its rotation row by row, then
@@ -2962,7 +2970,6 @@ export interface PositioningEntry {
   b5_54_form: {
     [k: string]: number | null;
   };
-  [k: string]: QuantityEntry;
 }
 /**
  * One target position. For each unit there are the means `mean_up`, `mean_down` and `mean`, the standard
@@ -3018,7 +3025,6 @@ export interface CircularEntry {
    * The causes of the deviations; null if they cannot be separated.
    */
   causes: CausesEntry | null;
-  [k: string]: number | null;
 }
 /**
  * One path of a circular test.

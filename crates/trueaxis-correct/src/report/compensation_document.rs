@@ -53,6 +53,8 @@ pub struct AxisValues {
 pub struct PositionValue {
     /// `position_mm` or `position_deg`.
     #[serde(flatten)]
+    // why: flattened groups of one object share one schema of their values.
+    #[schemars(with = "Keyed<Amount>")]
     pub position: Keyed<f64>,
     /// The value in least increments.
     pub value_increments: i64,
