@@ -1688,6 +1688,14 @@ export interface CompensateProgram {
    */
   words_added: number;
   /**
+   * The first thousand of them.
+   */
+  additions: AddedWord[];
+  /**
+   * Whether the written program, read back, keeps the residual: only then it is written.
+   */
+  proved: boolean;
+  /**
    * Blocks of rotary axes alone with a new F, so that they take the same time.
    */
   feeds_changed: number;
@@ -1792,6 +1800,19 @@ export interface CompensateProgram {
      */
     hint: string;
   }[];
+}
+/**
+ * A word that a block did not have.
+ */
+export interface AddedWord {
+  /**
+   * The line of the program as it was.
+   */
+  line: number;
+  /**
+   * The axis.
+   */
+  axis: string;
 }
 /**
  * The least increments.

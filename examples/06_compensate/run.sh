@@ -26,3 +26,5 @@ $trueaxis compensate program machines/xkas2525/machine.toml examples/06_compensa
 root=$(pwd)
 sed "s|../../frustum-comp.mpf|frustum-comp.mpf|; s|\.\./\.\.|$root|" examples/06_compensate/frustum-compensated.toml > "$out/frustum-compensated.toml"
 $trueaxis predict "$out/frustum-compensated.toml" --report "$out/frustum-predicted.html"
+# A program as shops write it: home, radius compensation, arcs, a drilling cycle, a subprogram.
+$trueaxis compensate program machines/i5-engraver/machine.toml examples/06_compensate/everyday-fanuc.nc -o "$out/everyday-comp.nc"

@@ -22,7 +22,9 @@ fn the_document_has_the_agreed_keys() {
     assert_eq!(ran.status, 0, "{}", ran.err);
     let found = ran.json();
     assert_eq!(found["schema"], "trueaxis/compensate-program/1");
-    assert_eq!(found["blocks"], 725);
+    assert_eq!(found["blocks"], 724);
+    assert_eq!(found["proved"], true);
+    assert_eq!(found["left"]["rapid from which no cut begins"], 1);
     for key in ["tip_at_ends_um", "axis_at_ends_urad", "tip_between_um", "axis_between_urad"] {
         let [before, after] =
             ["before", "after"].map(|when| found[when][key]["value"].as_f64().unwrap());
@@ -97,13 +99,17 @@ fn leaves(found: &Value, values: &mut Vec<f64>) {
 
 /// A program text on a machine: refused with this code, and nothing is written.
 fn refused(name: &str, machine: &str, text: &str, more: &[&str], code: &str) {
+    ends(2, name, machine, text, more, code);
+}
+
+fn ends(status: i32, name: &str, machine: &str, text: &str, more: &[&str], code: &str) {
     let folder = Folder::new(&format!("program-{code}"));
     let (program, out) = (folder.path(name), folder.path("out.nc"));
     std::fs::write(&program, text).unwrap();
     let mut all = vec![machine, &program, "-o", &out];
     all.extend(more);
     let ran = compensate(&all);
-    assert_eq!(ran.status, 2, "{code}: {}{}", ran.out, ran.err);
+    assert_eq!(ran.status, status, "{code}: {}{}", ran.out, ran.err);
     assert!(ran.err.contains(&format!("[{code}]")), "{code}: {}", ran.err);
     assert!(!std::path::Path::new(&out).exists(), "{code}: something was written");
 }
@@ -116,13 +122,10 @@ fn what_cannot_be_corrected_is_named_and_nothing_is_written() {
     let on_mill = |text: &str, code| {
         refused("a.ngc", MILL, &format!("{begin}{text}\nM2\n"), &["--control", "linuxcnc"], code);
     };
-    on_mill("#1=150\nG1 X#1", "computed-coordinate");
-    on_mill("o1 repeat [2]\nG91 G1 X60\nG1 Y30\no1 endrepeat", "executed-again");
-    on_mill("o1 repeat [2]\nG1 X150\nG1 X120\nG1 Y[150]\no1 endrepeat\n", "computed-coordinate");
-    on_mill("G81 X150 Y150 Z-60 R-45", "other-coordinates");
-    on_mill("G81 X100 Y100 Z-60 R-45", "several-moves");
     on_mill("G20 G1 X5", "inch-program");
-    on_mill("G1 X300 Y150 Z0", "correction-leaves-travel");
+    on_mill("G84 X100 Y100 Z-60 R-45", "not-unrolled");
+    let end = format!("{begin}G1 X300 Y150 Z0\nM2\n");
+    refused("t.ngc", MILL, &end, &[], "correction-leaves-travel");
     on_mill("G1 Xnan", "missing-value");
     refused(
         "b.ngc",
@@ -143,17 +146,15 @@ fn what_cannot_be_corrected_is_named_and_nothing_is_written() {
 }
 
 #[test]
-fn loops_are_unrolled_where_it_is_asked_for() {
+fn loops_are_unrolled() {
     let folder = Folder::new("program-flat");
     let (program, out) = (folder.path("loop.ngc"), folder.path("flat.ngc"));
     let text = "G21 G90 G94 F500\nG0 X100 Y100 Z-50\no1 repeat [2] (twice)\nG91 G1 X[60/2] (along)\n\
                 G1 Y30\no1 endrepeat\nM2\n";
     std::fs::write(&program, text).unwrap();
     let ran = compensate(&[MILL, &program, "-o", &out]);
-    assert_eq!(ran.status, 2);
-    assert!(ran.err.contains("--flat"), "{}", ran.err);
-    let ran = compensate(&[MILL, &program, "-o", &out, "--flat"]);
     assert_eq!(ran.status, 0, "{}", ran.err);
+    assert!(ran.err.contains("note[unrolled]"), "{}", ran.err);
     let flat = std::fs::read_to_string(&out).unwrap();
     assert_eq!(flat.matches("(along)").count(), 2, "{flat}");
     assert!(!flat.contains("repeat [") && !flat.contains("X[60"), "{flat}");
@@ -164,4 +165,22 @@ fn the_program_itself_is_not_overwritten() {
     let ran = compensate(&[MACHINE, FRUSTUM, "-o", FRUSTUM]);
     assert_eq!(ran.status, 2);
     assert!(ran.err.contains("is the program itself"), "{}", ran.err);
+}
+
+#[test]
+fn a_program_that_does_not_keep_the_residual_is_not_written() {
+    let folder = Folder::new("program-unproved");
+    let (program, out) = (folder.path("p.ngc"), folder.path("out.ngc"));
+    // A mill cannot turn its tool: 12 urad stay.
+    std::fs::write(&program, "G21 G90 G94 F500\nG0 X100 Y100 Z-50\nG1 X150\nM2\n").unwrap();
+    let ran = compensate(&[MILL, &program, "-o", &out, "--residual-axis", "1 urad"]);
+    assert_eq!(ran.status, 1, "{}", ran.err);
+    assert!(ran.err.contains("[not-proved]") && ran.out.contains("NOT PROVED"), "{}", ran.err);
+    assert!(!std::path::Path::new(&out).exists());
+    let asked = [MILL, &program, "-o", &out, "--residual-axis", "1 urad", "--keep-unproved"];
+    assert_eq!(compensate(&asked).status, 1);
+    assert!(!std::path::Path::new(&out).exists());
+    let kept = std::fs::read_to_string(folder.path("out.unproved.ngc")).unwrap();
+    assert!(kept.starts_with("(TRUEAXIS COMPENSATED NOT PROVED"), "{kept}");
+    assert_eq!(compensate(&[MILL, &program, "-o", &out]).status, 0);
 }

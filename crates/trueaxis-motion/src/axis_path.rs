@@ -82,7 +82,7 @@ pub struct AxisPath<'m> {
     /// From basic coordinates to the workpiece frame of the machine file.
     turn: Mat3,
     shift: Vec3,
-    /// Without a set-up the control takes the tool of the machine file for its tool length.
+    /// Without tools in the set-up the control counts with the tool of the machine file.
     lengths_known: bool,
     control: Option<TipControl>,
     frame: Frame,
@@ -123,7 +123,7 @@ impl<'m> AxisPath<'m> {
             axis_of: axes_of_programs(machine),
             turn,
             shift,
-            lengths_known: setup.given,
+            lengths_known: !setup.tools.is_empty(),
             control: TipControl::of(machine),
             frame: Frame::IDENTITY,
             tool: Vec3::zeros(),
@@ -141,6 +141,7 @@ impl<'m> AxisPath<'m> {
             pieces: 0,
             faults: Vec::new(),
         };
+        path.fit_tip();
         path.reread();
         path
     }

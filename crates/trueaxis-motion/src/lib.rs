@@ -86,7 +86,7 @@ use trueaxis_machine::axis::Command;
 use trueaxis_machine::heat::TemperatureRun;
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::moves::Step;
-use trueaxis_nc::{Outcome, Program, Settings, interpret};
+use trueaxis_nc::{Follower, KnownPosition, Outcome, Program, Settings, interpret_on};
 use trueaxis_report::{NamedSchema, named_schema};
 
 /// The JSON Schemas of the documents of this crate, by name.
@@ -172,7 +172,7 @@ pub fn simulate(
         return Run { problems: log_problems, programs: Vec::new(), stopped: false };
     };
     let mut walk = Walk::new(&machine, present, setup, options, observers);
-    let outcome = execute(&machine, program, setup, &settings, &mut |step| walk.take(&step));
+    let outcome = execute_on(&machine, program, setup, &settings, &mut walk);
     let faults = walk.finish();
     let mut problems = outcome.problems;
     problems.append(log_problems);
@@ -193,10 +193,22 @@ pub fn execute(
     settings: &Settings,
     take: &mut dyn FnMut(Step),
 ) -> Outcome {
+    let path = AxisPath::new(mounted, setup, Densify::default(), 0.01);
+    execute_on(mounted, program, setup, settings, &mut Followed { path, take })
+}
+
+/// The same on a machine that follows the moves.
+pub fn execute_on(
+    mounted: &Machine,
+    program: &Program,
+    setup: &SetUp,
+    settings: &Settings,
+    follower: &mut dyn Follower,
+) -> Outcome {
     let control = TipControl::of(mounted);
     let turn = basic::turn_to_workpiece(mounted, setup);
     let folder = Folder::beside(&setup.files, Path::new(program.file()), control.as_ref(), turn);
-    interpret(program, &folder, settings, take)
+    interpret_on(program, &folder, settings, follower)
 }
 
 /// Time is as true as the limits of the axes.
@@ -234,6 +246,41 @@ pub fn place(program: &Program, programs: &[String], fault: &Fault) -> Place {
     place
 }
 
+/// Hands the steps on, and follows them to know where the axes are.
+struct Followed<'f, 'm> {
+    path: AxisPath<'m>,
+    take: &'f mut dyn FnMut(Step),
+}
+
+impl Follower for Followed<'_, '_> {
+    fn take(&mut self, step: Step) {
+        self.path.take(&step, &mut |_| {});
+        (self.take)(step);
+    }
+
+    fn place(&self) -> Option<KnownPosition> {
+        Some(self.path.place_now())
+    }
+
+    fn axis_positions(&self) -> Option<KnownPosition> {
+        Some(self.path.axis_positions_now())
+    }
+}
+
+impl Follower for Walk<'_, '_> {
+    fn take(&mut self, step: Step) {
+        self.follow(&step);
+    }
+
+    fn place(&self) -> Option<KnownPosition> {
+        Some(self.path.place_now())
+    }
+
+    fn axis_positions(&self) -> Option<KnownPosition> {
+        Some(self.path.axis_positions_now())
+    }
+}
+
 /// Leads each step through path, clock and poses.
 struct Walk<'w, 'o> {
     path: AxisPath<'w>,
@@ -268,7 +315,7 @@ impl<'w, 'o> Walk<'w, 'o> {
         Self { path, stretch, keep_going: options.keep_going }
     }
 
-    fn take(&mut self, step: &Step) {
+    fn follow(&mut self, step: &Step) {
         let sound = self.path.faults.is_empty() && self.stretch.faults.is_empty();
         // Without `keep_going` the first fault ends the simulation.
         if !(self.keep_going || sound) || self.stretch.stop.is_requested() {

@@ -2,6 +2,7 @@
 
 pub(crate) mod arcs;
 pub(crate) mod drilling;
+mod follower;
 pub(crate) mod frames;
 mod language;
 mod library;
@@ -15,6 +16,8 @@ use std::collections::BTreeMap;
 use trueaxis_input::Diagnostics;
 
 use crate::moves::{Frame, Plane, Position};
+pub(crate) use follower::Alone;
+pub use follower::{Follower, KnownPosition};
 pub(crate) use language::{Core, Language, Next};
 pub use library::{Library, NoLibrary};
 pub(crate) use modes::Modes;

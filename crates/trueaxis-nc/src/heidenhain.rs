@@ -124,6 +124,21 @@ impl<'r> Language<'r> for Run<'r> {
             self.tangent = None;
         }
     }
+
+    fn position(&self) -> Position {
+        let mut place = self.frames.position;
+        for (i, turned) in self.turned.iter().enumerate() {
+            place.0[3 + i] += turned;
+        }
+        place
+    }
+
+    fn set_position(&mut self, mut place: Position) {
+        for (i, turned) in self.turned.iter().enumerate() {
+            place.0[3 + i] -= turned;
+        }
+        self.frames.position = place;
+    }
 }
 
 impl<'r> Run<'r> {

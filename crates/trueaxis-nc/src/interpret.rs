@@ -1,12 +1,12 @@
 //! The common entry point for all controls: a program is executed by the rules of its control.
 
 use crate::dialect::Control;
-use crate::execution::{Core, Library, Outcome, Settings};
+use crate::execution::{Alone, Core, Follower, Library, Outcome, Settings};
 use crate::moves::Step;
 use crate::text::program::Program;
 use crate::{heidenhain, rs274, sinumerik};
 
-/// Executes a program. Each move and event is passed to `take` in the order of execution; the outcome
+/// Executes a program without a machine. Each move and event is passed to `take` in the order of execution; the outcome
 /// has the problems.
 ///
 /// ```
@@ -28,7 +28,18 @@ pub fn interpret(
     settings: &Settings,
     take: &mut dyn FnMut(Step),
 ) -> Outcome {
-    let core = Core::new(program, library, settings, take);
+    interpret_on(program, library, settings, &mut Alone(take))
+}
+
+/// Executes a program on a machine that follows it: incremental words and axes that a block does not name
+/// count from where the machine is.
+pub fn interpret_on(
+    program: &Program,
+    library: &dyn Library,
+    settings: &Settings,
+    follower: &mut dyn Follower,
+) -> Outcome {
+    let core = Core::new(program, library, settings, follower);
     match program.dialect().control {
         Control::Fanuc | Control::LinuxCnc => rs274::interpret(program, core),
         Control::Sinumerik840d => sinumerik::interpret(program, core),

@@ -78,8 +78,8 @@ mod text;
 pub mod writer;
 
 pub use dialect::{Control, Dialect};
-pub use execution::{Library, NoLibrary, Outcome, Settings, Stop};
-pub use interpret::interpret;
+pub use execution::{Follower, KnownPosition, Library, NoLibrary, Outcome, Settings, Stop};
+pub use interpret::{interpret, interpret_on};
 pub use moves::{Event, Move, MoveKind, Step};
 pub use rs274::code;
 pub use text::program::Program;

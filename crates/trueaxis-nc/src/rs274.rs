@@ -25,7 +25,7 @@ use std::collections::HashMap;
 use std::rc::Rc;
 
 use crate::execution::{Core, Language, Next, Outcome};
-use crate::moves::Move;
+use crate::moves::{Move, Position};
 use crate::text::program::{Block, Fault, Label, Program, fault};
 use frames::Frames;
 use parameters::Locals;
@@ -123,6 +123,14 @@ impl<'r> Language<'r> for Run<'r> {
 
     fn emit_frame(&mut self) {
         self.core.emit_frame(self.frames.frame());
+    }
+
+    fn position(&self) -> Position {
+        self.frames.position
+    }
+
+    fn set_position(&mut self, place: Position) {
+        self.frames.position = place;
     }
 }
 

@@ -40,7 +40,7 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use crate::execution::{Core, Language, Next, Outcome};
-use crate::moves::Event;
+use crate::moves::{Event, Position};
 use crate::text::lexer::Token;
 use crate::text::program::{Fault, Program, fault};
 pub use archive::{Archive, ArchivedTool, read_archive};
@@ -110,6 +110,14 @@ impl<'r> Language<'r> for Run<'r> {
 
     fn emit_frame(&mut self) {
         self.core.emit_frame(self.chain.frame());
+    }
+
+    fn position(&self) -> Position {
+        self.chain.position
+    }
+
+    fn set_position(&mut self, place: Position) {
+        self.chain.position = place;
     }
 }
 

@@ -120,3 +120,30 @@ fn a_work_offset_turned_in_space_is_reported() {
         outcome.problems.iter().map(|d| (d.code, d.place.line, d.place.column)).collect();
     assert_eq!(found, [("work-offset-not-about-z", 1, 1), ("work-offset-not-about-z", 2, 1)]);
 }
+
+/// LinuxCNC 2.9 user manual, chapter "O Codes", full example of numbered subprograms: `#1` "will equal
+/// 5.25".
+#[test]
+fn numbered_subprograms_share_the_parameters_of_their_caller() {
+    let text = "O1 (main)\n#1 = 0\nM98 P100 L5\nG0 X#1\nM98 P100 L0\nG0 X#1\nM30\n\
+                O100\n#1 = [#1 + 1]\nM98 P200 L5\nM99\nO200\n#1 = [#1 + 0.01]\nM99\n";
+    let x_mm = path(text, &NoLibrary);
+    assert!(x_mm.iter().all(|x| (x - 5.25).abs() < 1e-12), "{x_mm:?}");
+    assert_eq!(x_mm.len(), 2);
+    assert_eq!(
+        path("M98 P7\nM98 P12000 L2\nM2\no7\nG0 X1\nM99\no12000\nG91 X1\nM99\n", &NoLibrary),
+        [1.0, 2.0, 3.0]
+    );
+}
+
+#[test]
+fn a_structure_without_its_end_is_an_error() {
+    for text in
+        ["o1 while [1]\nG0 X1\nM2\n", "o1 if [1]\nG0 X1\nM2\n", "o1 repeat [2]\nG0 X1\nM2\n"]
+    {
+        let program = Program::new("p", text.as_bytes().to_vec(), Control::LinuxCnc);
+        let outcome = interpret(&program, &NoLibrary, &Settings::default(), &mut |_| ());
+        let problem = outcome.problems.iter().next().unwrap();
+        assert!(problem.code.starts_with("missing-end") && problem.place.line == 1, "{problem}");
+    }
+}

@@ -185,17 +185,16 @@ fn law_an_unrolled_program_is_compensated_as_any_other() {
     let machine = with_lost_motion(&machine("three-axis-mill"), 2e-3);
     for (control, name, text, _) in PROGRAMS {
         let program = program(control, &format!("c-{name}"), text);
-        let refused = compensate_program(
+        let (by_itself, told) = compensate_program(
             &machine,
             &program,
             &SetUp { files: disk(), ..SetUp::default() },
             &ProgramOptions { increments: None, ..ProgramOptions::default() },
         );
-        assert!(refused.0.is_none(), "{name} needs no unrolling");
-        let hints: Vec<String> = refused.1.iter().map(|d| d.hint.clone()).collect();
-        assert!(hints.iter().any(|h| h.contains("--flat")), "{name}: {hints:?}");
+        assert!(told.iter().any(|d| d.code == "unrolled"), "{name}: {told:?}");
         let (done, problems) = flat(&machine, &program);
         let Some(done) = done else { panic!("{name}: {problems:?}") };
+        assert_eq!(by_itself.map(|d| d.text), Some(done.text), "{name}");
         let (before, after) = (done.proof.before, done.proof.after);
         assert!(before.tip_end.value > 2e-3, "{name} {before:?}");
         assert!(done.found.undecided == 0 && after.tip_end.value <= 1e-9, "{name} {after:?}");

@@ -18,10 +18,12 @@ Examples:
   trueaxis compensate program MACHINE.toml LOOPS.ngc --flat -o LOOPS-comp.ngc
 
 Words, comments and blocks that need no change stay as they are, byte by byte. The written program is
-read back and simulated on the actual machine before it is written. Loops, subprograms and computed
-coordinates are refused with their line; --flat unrolls them (the lines of the report are then those of
-the unrolled program). Cycles are refused. Exit status: 0 done, 2 unusable input or a block
-that cannot be corrected; then nothing is written.")]
+read back and simulated on the actual machine; where it does not keep the residual, nothing is written.
+Retracts, moves to machine zero or to a reference point and rapids from which no cut begins stay as they
+are. Words are added to cutting blocks only; each is listed. Loops, subprograms, cycles and computed
+coordinates are unrolled where they need corrections (the lines of the report are then those of the
+unrolled program). Exit status: 0 written and proved, 1 not proved, 2 unusable input or a block that
+cannot be corrected.")]
 pub struct ProgramArguments {
     #[command(flatten)]
     machine: MachineArguments,
@@ -47,14 +49,12 @@ pub struct ProgramArguments {
     /// Largest residual error of the tip between the ends of blocks
     #[arg(long, value_name = "\"1 um\"", default_value = "1 um", allow_negative_numbers = true)]
     residual: String,
-    /// Largest residual error of the tool axis there
-    #[arg(
-        long,
-        value_name = "\"10 urad\"",
-        default_value = "10 urad",
-        allow_negative_numbers = true
-    )]
-    residual_axis: String,
+    /// Largest residual error of the tool axis there [default: 10 urad where the machine can turn the tool]
+    #[arg(long, value_name = "\"10 urad\"", allow_negative_numbers = true)]
+    residual_axis: Option<String>,
+    /// Write a program that does not keep the residual as FILE.unproved.EXT, marked in its heading
+    #[arg(long)]
+    keep_unproved: bool,
     /// The least increment of linear axes
     #[arg(long, value_name = "\"1 um\"", default_value = "1 um", allow_negative_numbers = true)]
     increment: String,
@@ -98,6 +98,7 @@ pub fn run(arguments: &ProgramArguments) -> Outcome {
         flat: arguments.flat,
         position_only: arguments.position_only,
         residual: arguments.residual.clone(),
+        keep_unproved: arguments.keep_unproved,
         residual_axis: arguments.residual_axis.clone(),
         increment: arguments.increment.clone(),
         increment_deg: arguments.increment_deg.clone(),

@@ -9,6 +9,7 @@
 //! ```
 
 mod ahead;
+mod arcs;
 mod block;
 mod correct;
 mod feed;
@@ -40,10 +41,9 @@ use trueaxis_motion::Densify;
 use trueaxis_motion::SetUp;
 use trueaxis_motion::axis_path::AxisPath;
 use trueaxis_motion::axis_path::Fault;
-use trueaxis_motion::execute;
+use trueaxis_motion::execute_on;
 use trueaxis_motion::place;
-use trueaxis_nc::moves::Step;
-use trueaxis_nc::{Outcome, Program};
+use trueaxis_nc::{Follower, Outcome, Program};
 use walk::Walk;
 
 /// What is wanted of the compensated program.
@@ -57,6 +57,8 @@ pub struct ProgramOptions {
     pub residual_mm: f64,
     /// How far the tool axis may be missed there, rad.
     pub residual_rad: f64,
+    /// Whether that was asked for by name: then it also holds where the machine cannot turn the tool.
+    pub residual_axis_asked: bool,
     /// Numbers are rounded to them; `None`: full double precision.
     pub increments: Option<Increments>,
     /// Larger corrections are refused.
@@ -75,6 +77,7 @@ impl Default for ProgramOptions {
             position_only: false,
             residual_mm: 1e-3,
             residual_rad: 1e-5,
+            residual_axis_asked: false,
             increments: Some(Increments::default()),
             limit: CorrectionLimit::default(),
             pose_by_pose: false,
@@ -110,18 +113,21 @@ pub struct Rewritten {
     pub confidence: Confidence,
     /// What no correction and wrong signs would leave.
     pub conventions: Vec<Convention>,
+    /// What the proof holds against the program; empty if it is proved.
+    pub unproved: Diagnostics,
 }
 
 /// Places are examined so finely; each further try halves it.
 const SPACING_MM: f64 = 5.0;
 const ANGLE_DEG: f64 = 0.6;
-const TRIES: u32 = 5;
+const TRIES: u32 = 6;
+const ARCS: u32 = 2;
 
 /// Rewrites a program so that the actual tool goes where it says, and proves it by simulating the
 /// written text on the actual machine.
 ///
 /// No text comes back where a block cannot be corrected; the block, the reason and what to do are
-/// in the diagnostics.
+/// in the diagnostics. What the proof holds against a text is in [`Rewritten::unproved`].
 pub fn compensate_program(
     machine: &Machine,
     program: &Program,
@@ -136,37 +142,59 @@ pub fn compensate_program(
         return (None, problems);
     }
     let machine = &super::not_twice(machine, Place::whole(program.file()), &mut problems);
-    let flat;
-    let program = match options.flat {
-        false => program,
-        true => match flat::unrolled(&setup.mounted(machine), program, setup, &mut problems) {
-            Some(unrolled) => {
-                flat = unrolled;
-                &flat
-            }
-            None => return (None, problems),
-        },
-    };
-    let mut told = std::mem::take(&mut problems);
+    if !options.flat {
+        let (done, found) = tried(machine, program, setup, options);
+        let Some(why) = found.iter().find(|d| UNROLLED_FOR.contains(&d.code)) else {
+            problems.append(found);
+            return (done, problems);
+        };
+        let message = format!("{}; the program is unrolled", why.message);
+        let hint = "the lines of the report are those of the unrolled program";
+        problems.note("unrolled", why.place.clone(), message, hint);
+    }
+    match flat::unrolled(&setup.mounted(machine), program, setup, &mut problems) {
+        None => (None, problems),
+        Some(unrolled) => {
+            let (done, found) = tried(machine, &unrolled, setup, options);
+            problems.append(found);
+            (done, problems)
+        }
+    }
+}
+
+/// What a flat program with numbers does not have.
+const UNROLLED_FOR: [&str; 6] = [
+    "computed-feed",
+    "executed-again",
+    "in-subprogram",
+    "computed-coordinate",
+    "several-moves",
+    "other-coordinates",
+];
+
+/// Tries with finer and finer places until the program keeps the residual.
+fn tried(
+    machine: &Machine,
+    program: &Program,
+    setup: &SetUp,
+    options: &ProgramOptions,
+) -> (Option<Rewritten>, Diagnostics) {
+    let mut problems = Diagnostics::new();
     let mut best = None;
     for attempt in 0..TRIES {
         let (rewritten, found) = once(machine, program, setup, options, attempt);
-        let Some(rewritten) = rewritten else {
-            told.append(found);
-            return (None, told);
-        };
+        problems = found;
+        let Some(rewritten) = rewritten else { return (None, problems) };
         let done = rewritten.is_within(options);
         best = Some(rewritten);
-        problems = found;
         if done {
             break;
         }
     }
-    if let Some(rewritten) = &best {
-        rewritten.refuse_unproved(program, options, &mut problems);
+    if let Some(rewritten) = &mut best {
+        rewritten.unproved = rewritten.objections(program, options);
     }
-    told.append(problems);
-    (best.filter(|_| !told.has_errors()), told)
+    (best.filter(|_| !problems.has_errors()), problems)
 }
 
 fn densify(options: &ProgramOptions, attempt: u32, least: u32) -> Densify {
@@ -195,7 +223,9 @@ fn once(
         problems.error(fault.code, place, fault.message.clone(), fault.hint);
     };
     let walk = match Walk::new(&mounted, program, setup, options) {
-        Ok(walk) => walk,
+        // The first tries keep circles; where the proof speaks against it, they become lines.
+        Ok(walk) if attempt < ARCS => walk,
+        Ok(walk) => walk.without_arcs(),
         Err(fault) => {
             refuse(&mut problems, &[], &fault);
             return (None, problems);
@@ -204,7 +234,7 @@ fn once(
     let nominal = AxisPath::new(&mounted, setup, densify(options, attempt, least), 0.01);
     let settings = setup.settings(false);
     let (outcome, walk) =
-        both(nominal, walk, |take| execute(&mounted, program, setup, &settings, take));
+        both(nominal, walk, |ahead| execute_on(&mounted, program, setup, &settings, ahead));
     problems.append(outcome.problems);
     setup.warn_of_zeros(program.file(), &mut problems);
     if let Some(fault) = &walk.fault {
@@ -226,14 +256,15 @@ fn once(
     let finer = densify(options, attempt + 1, 2 * least);
     let proof = verify::prove(machine, [program, &written], setup, &found, &numbers, finer);
     let text = written.source().to_vec();
-    (Some(Rewritten { text, found, proof, confidence, conventions }), problems)
+    let unproved = Diagnostics::new();
+    (Some(Rewritten { text, found, proof, confidence, conventions, unproved }), problems)
 }
 
 /// Executes a program, and writes it in a thread of its own.
 fn both<'w>(
     nominal: AxisPath<'w>,
     mut walk: Walk<'w>,
-    execute: impl FnOnce(&mut dyn FnMut(Step)) -> Outcome,
+    execute: impl FnOnce(&mut dyn Follower) -> Outcome,
 ) -> (Outcome, Walk<'w>) {
     std::thread::scope(|scope| {
         let (mut ahead, stretches) = Gather::along(nominal);
@@ -246,7 +277,7 @@ fn both<'w>(
             }
             walk
         });
-        let outcome = execute(&mut |step| ahead.take(step));
+        let outcome = execute(&mut ahead);
         ahead.finish();
         match writer.join() {
             Ok(walk) => (outcome, walk),
@@ -266,47 +297,65 @@ impl Rewritten {
         let rounding = options.increments.map_or([0.0; 2], |i| [i.linear_mm, i.rotary_deg]);
         let after = &self.proof.after;
         let turned = options.residual_rad + 2.0 * rounding[1].to_radians();
-        let axis = !self.found.axis_left.is_empty() || after.axis.value <= turned;
-        axis && after.tip.value <= options.residual_mm + rounding[0]
+        // A machine that cannot turn the tool is held to a residual of its axis only where one is asked.
+        let is_free = !self.found.axis_left.is_empty() && !options.residual_axis_asked;
+        // NaN is not within.
+        (is_free || after.axis.value <= turned)
+            && after.tip.value <= options.residual_mm + rounding[0]
     }
 
-    /// A program that does not do on the machine what was meant is not written.
-    fn refuse_unproved(
-        &self,
-        program: &Program,
-        options: &ProgramOptions,
-        problems: &mut Diagnostics,
-    ) {
+    /// Whether the written program was proved: only then it may go to the machine.
+    pub fn is_proved(&self) -> bool {
+        self.unproved.iter().next().is_none()
+    }
+
+    /// What the proof holds against the written program.
+    fn objections(&self, program: &Program, options: &ProgramOptions) -> Diagnostics {
         let (proof, file) = (&self.proof, program.file());
+        let mut found = Diagnostics::new();
         for problem in
             proof.problems.iter().filter(|p| p.severity == trueaxis_input::Severity::Error)
         {
             let message = format!("the compensated program cannot be read: {}", problem.message);
-            problems.error("not-proved", problem.place.clone(), message, &problem.hint);
+            found.warn("not-proved", problem.place.clone(), message, &problem.hint);
         }
-        let mut off = |line: u32, message: String| {
+        let mut off = |line: u32, message: String, hint: &str| {
             let place = Place { file: file.to_owned(), line: line as usize, column: 1 };
-            let hint = "the control takes the words of this block otherwise; tell us, or unroll it";
-            problems.error("not-proved", place, message, hint);
+            found.warn("not-proved", place, message, hint);
         };
         let end = proof.after.tip_end;
-        // Where an axis cannot be decided its reversal error is left.
-        if self.found.undecided == 0
-            && (end.value.is_nan() || end.value > Self::allowed_mm(options))
-        {
+        let (residual, [tip, axis]) =
+            (residual_with_rounding(options), [proof.after.tip, proof.after.axis]);
+        let reversal =
+            "an axis reverses by less than its reversal error: accept a larger --residual";
+        let hint = match self.found.undecided {
+            0 => "accept a larger --residual, or write smaller --increment",
+            _ => reversal,
+        };
+        let allowed_mm = match self.found.undecided {
+            0 => Self::allowed_mm(options),
+            _ => residual,
+        };
+        if end.value.is_nan() || end.value > allowed_mm {
             let left = end.value * 1e3;
-            off(end.line, format!("read back, the tip ends {left:.6} µm from its place"));
+            off(end.line, format!("read back, the tip ends {left:.6} µm from its place"), hint);
         }
-        if !self.is_within(options) && self.found.undecided == 0 {
-            let (tip, axis) = (proof.after.tip, proof.after.axis);
+        if !self.is_within(options) {
             let left =
                 format!("{:.4} µm, the tool axis by {:.4}", tip.value * 1e3, axis.value * 1e6);
-            off(tip.line, format!("read back, the tip leaves its path by {left} µrad"));
+            let message = format!("read back, the tip leaves its path by {left} µrad");
+            off(if tip.value > residual { tip.line } else { axis.line }, message, hint);
         }
         if proof.troubles.is_grave() {
             let message = "in the compensated program an axis leaves its travel".to_owned();
-            let hint = "move the part; simulate tells the block";
-            problems.error("correction-leaves-travel", Place::whole(file), message, hint);
+            let hint = "move the part; simulate shows the block";
+            found.warn("correction-leaves-travel", Place::whole(file), message, hint);
         }
+        found
     }
+}
+
+/// The asked residual and what rounding to increments adds, mm.
+fn residual_with_rounding(options: &ProgramOptions) -> f64 {
+    options.residual_mm + options.increments.map_or(0.0, |i| i.linear_mm)
 }

@@ -103,6 +103,9 @@ impl ProgramReport<'_> {
                 "at {n} places an axis reverses by less than its reversal error: this is not compensated"
             ),
         );
+        if let Some((line, axis)) = found.additions.first() {
+            remarks.push(format!("the first added word is {axis} at line {line}"));
+        }
         for (why, count) in &found.left {
             remarks.push(format!("{count} blocks are left as they were: {why}"));
         }
@@ -159,9 +162,13 @@ fn report<'a>(r: &ProgramReport<'a>) -> Report<'a> {
         tip_um(&proof.before),
         number(proof.after.tip.value * 1e3)
     );
+    let (standing, verdict) = match r.rewritten.is_proved() {
+        true => (Standing::Good, "PROVED"),
+        false => (Standing::Bad, "NOT PROVED"),
+    };
     Report::new(format!("{} compensated for {}", r.program, r.machine.name()))
         .line(format!("{}, written to {}, {}", r.machine.chain_text(), r.output, r.rounding()))
-        .verdict(Standing::Good, "WRITTEN", sentence)
+        .verdict(standing, verdict, sentence)
         .section(deviations(r))
         .section(work(r))
         .section(corrections(r))

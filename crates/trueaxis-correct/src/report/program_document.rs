@@ -30,6 +30,10 @@ pub struct ProgramDocument<'a> {
     pub circles_to_lines: u64,
     /// Words that were added to blocks.
     pub words_added: u64,
+    /// The first thousand of them.
+    pub additions: Vec<AddedWord>,
+    /// Whether the written program, read back, keeps the residual: only then it is written.
+    pub proved: bool,
     /// Blocks of rotary axes alone with a new F, so that they take the same time.
     pub feeds_changed: u64,
     /// Places where an axis reverses by less than its reversal error.
@@ -64,6 +68,15 @@ pub struct ProgramDocument<'a> {
     pub convention_check: Vec<ConventionEntry>,
     /// What to know of this program.
     pub remarks: Vec<String>,
+}
+
+/// A word that a block did not have.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct AddedWord {
+    /// The line of the program as it was.
+    pub line: u32,
+    /// The axis.
+    pub axis: String,
 }
 
 /// The least increments.
@@ -172,6 +185,12 @@ impl<'a> ProgramDocument<'a> {
             pieces: found.pieces,
             circles_to_lines: found.circles,
             words_added: found.words_added,
+            additions: found
+                .additions
+                .iter()
+                .map(|(line, axis)| AddedWord { line: *line, axis: axis.to_string() })
+                .collect(),
+            proved: r.rewritten.is_proved(),
             feeds_changed: found.feeds_changed,
             undecided_reversals: found.undecided,
             left: &found.left,

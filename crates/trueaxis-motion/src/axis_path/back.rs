@@ -5,7 +5,8 @@ use trueaxis_geometry::frame::inverse3;
 use trueaxis_geometry::{Mat3, Vec3};
 use trueaxis_machine::axis::Command;
 use trueaxis_machine::tcp::TipControl;
-use trueaxis_nc::moves::{Axis, Coordinates, OrientationPath, Position};
+use trueaxis_nc::KnownPosition;
+use trueaxis_nc::moves::{Axis, AxisSet, Coordinates, OrientationPath, Position};
 
 /// The coordinates that the control interpolates linearly in a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,6 +47,28 @@ impl AxisPath<'_> {
     /// The machine's axis of a word.
     pub fn axis_of(&self, axis: Axis) -> Option<usize> {
         self.axis_of[axis as usize]
+    }
+
+    /// The place in the program frame, as the words of the next block would name it.
+    pub fn place_now(&self) -> KnownPosition {
+        KnownPosition {
+            position: self.words_of(&self.command, Coordinates::Program),
+            axes: self.axes(),
+        }
+    }
+
+    /// Where the axes are, as machine coordinates name it.
+    pub fn axis_positions_now(&self) -> KnownPosition {
+        KnownPosition {
+            position: self.words_of(&self.command, Coordinates::Machine),
+            axes: self.axes(),
+        }
+    }
+
+    /// The axes of programs that the machine has.
+    fn axes(&self) -> AxisSet {
+        let known = Axis::ALL.into_iter().filter(|axis| self.axis_of(*axis).is_some());
+        known.fold(AxisSet::default(), AxisSet::with)
     }
 
     /// The words, mm and degrees, that lead to axis positions from here.

@@ -6,8 +6,10 @@ use std::rc::Rc;
 
 use trueaxis_input::{Diagnostics, Place};
 
-use super::{Library, Modes, Outcome, Settings, mistakes};
-use crate::moves::{Event, Frame, Move, Origin, Step};
+use super::{Follower, Library, Modes, Outcome, Settings, mistakes};
+use crate::moves::{
+    Coordinates, Event, Frame, Move, MoveKind, Origin, Position, RotaryDirection, Step,
+};
 use crate::text::program::{Fault, Places, Program};
 
 /// Errors that a run lists before it stops.
@@ -45,11 +47,36 @@ pub(crate) trait Language<'r> {
     /// Tells the frame if it has changed.
     fn emit_frame(&mut self);
 
+    /// The present place in the program frame, with all turns of the rotary axes, mm and degrees.
+    fn position(&self) -> Position;
+
+    /// Counts from another place in the program frame.
+    fn set_position(&mut self, place: Position);
+
+    /// Reads the place in the program frame again where a step has changed what it depends on.
+    #[inline]
+    fn settle(&mut self) {
+        if self.core().is_unread {
+            self.read_place();
+        }
+    }
+
+    #[doc(hidden)]
+    fn read_place(&mut self) {
+        self.emit_frame();
+        let core = self.core();
+        core.is_unread = false;
+        let Some(place) = core.follower.place() else { return };
+        let place = place.over(&self.position());
+        self.set_position(place);
+    }
+
     /// Executes the program; `false` after an error or a stop on request.
     fn run(&mut self) -> bool {
         let mut room = Self::Room::default();
         self.emit_frame();
         while !self.core().settings.stop.is_requested() {
+            self.settle();
             match self.advance(&mut room) {
                 Ok(Next::Finished) => return true,
                 Ok(Next::Following | Next::Jumped) => {}
@@ -77,7 +104,9 @@ pub(crate) trait Language<'r> {
 pub(crate) struct Core<'r> {
     pub library: &'r dyn Library,
     pub settings: &'r Settings,
-    take: &'r mut dyn FnMut(Step),
+    follower: &'r mut dyn Follower,
+    /// The place in the program frame is to be read again.
+    is_unread: bool,
     /// The main program, then the others in the order of their first call.
     pub programs: Vec<Rc<Program>>,
     /// The programs of the library by the name they were asked for.
@@ -103,12 +132,13 @@ impl<'r> Core<'r> {
         program: &Program,
         library: &'r dyn Library,
         settings: &'r Settings,
-        take: &'r mut dyn FnMut(Step),
+        follower: &'r mut dyn Follower,
     ) -> Self {
         Self {
             library,
             settings,
-            take,
+            follower,
+            is_unread: true,
             programs: vec![Rc::new(program.clone())],
             loaded: HashMap::new(),
             origin: Origin { program: 0, line: 1 },
@@ -138,12 +168,19 @@ impl<'r> Core<'r> {
 
     #[inline]
     pub fn emit(&mut self, event: Event) {
-        (self.take)(Step::Event(event, self.origin));
+        self.is_unread |= changes_place(&event);
+        self.follower.take(Step::Event(event, self.origin));
     }
 
     #[inline]
     pub fn emit_move(&mut self, step: Move) {
-        (self.take)(Step::Move(step));
+        self.is_unread |= ends_elsewhere(&step);
+        self.follower.take(Step::Move(step));
+    }
+
+    /// Where the axes are, if a machine follows the program; else as the frames of the program say.
+    pub fn axis_positions(&self, by_frames: Position) -> Position {
+        self.follower.axis_positions().map_or(by_frames, |place| place.over(&by_frames))
     }
 
     /// Tells the frame if it has changed, and whether it has.
@@ -273,4 +310,25 @@ impl<'r> Core<'r> {
         }
         Err(mistakes::missing_program(name, &why, at))
     }
+}
+
+/// Whether the same axis positions are another place in the program after an event.
+fn changes_place(event: &Event) -> bool {
+    matches!(
+        event,
+        Event::Frame(_)
+            | Event::ToolLength(_)
+            | Event::ToolChange(_)
+            | Event::ToolCentre(_)
+            | Event::TiltedPlane(_)
+    )
+}
+
+/// Whether only the machine knows where in the program a move ends.
+#[inline]
+fn ends_elsewhere(step: &Move) -> bool {
+    step.coordinates == Coordinates::Machine
+        || step.direction.is_some()
+        || matches!(step.kind, MoveKind::Align { .. })
+        || step.rotary_directions != [RotaryDirection::AsWritten; 3]
 }

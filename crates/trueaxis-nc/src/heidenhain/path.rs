@@ -3,7 +3,7 @@
 use super::line::Cursor;
 use super::plane::spatial;
 use super::words::{FeedWord, Words};
-use super::{Run, fault};
+use super::{Language, Run, fault};
 use crate::execution::Next;
 use crate::execution::frames::unit;
 use crate::execution::mistakes;
@@ -100,6 +100,7 @@ impl Run<'_> {
         if self.functions(words, false)? {
             return Ok(Next::Finished);
         }
+        self.settle();
         match kind {
             0 => self.line(words, rapid)?,
             1 => {
@@ -215,11 +216,11 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Where the axes stand in the machine, as long as neither tilt nor TCP is on.
+    /// Where the axes are in the machine; without a machine as long as neither tilt nor TCP is on.
     pub(super) fn machine_place(&self) -> Position {
         let mut machine = self.frames.frame().place(&self.frames.position);
         machine[self.core.modes.plane.axes()[2]] += self.modes.tool_length_mm;
-        machine
+        self.core.axis_positions(machine)
     }
 
     /// M91: coordinates count from the machine zero.

@@ -176,6 +176,7 @@ impl Run<'_> {
         self.tangent = None;
         self.core.emit(Event::TiltedPlane(turn.is_some()));
         self.emit_frame();
+        self.settle();
         let frame = self.frames.frame();
         let axis = frame.vector([0.0, 0.0, 1.0]);
         let now = frame.place(&self.frames.position);

@@ -1,6 +1,6 @@
 //! Executes the words of a block in the order of RS274/NGC.
 
-use super::{Next, Passage, Run, fault};
+use super::{Language, Next, Passage, Run, fault};
 use crate::execution::mistakes;
 use crate::moves::{Axis, CompensationSide, Event, Move, MoveKind, PathControl, Position};
 use crate::rs274::code::{Action, Motion};
@@ -247,6 +247,7 @@ impl Run<'_> {
 
     /// Everything but motions and calls; `true` at the end of the program.
     pub(super) fn act(&mut self, action: Action, at: usize) -> Result<bool, Fault> {
+        self.settle();
         match action {
             Action::Feed(mode) => self.core.modes.change_feed_mode(mode),
             Action::Dwell => self.dwell(at)?,
@@ -376,6 +377,7 @@ impl Run<'_> {
     }
 
     fn motion(&mut self, motion: Motion, machine: bool, at: usize) -> Result<(), Fault> {
+        self.settle();
         let moves = self.words.has_axis() || self.names_direction();
         if motion == Motion::Cancelled {
             self.modes.cycle.forget();

@@ -190,7 +190,7 @@ impl Run<'_> {
             Keyword::Else if seeking => return Ok(Next::Following),
             Keyword::If | Keyword::ElseIf if seeking || begins => {
                 if self.holds(statement)? {
-                    return Ok(Next::Following);
+                    return self.closed(statement, &[Keyword::EndIf], "missing-endif");
                 }
                 let branches = [Keyword::ElseIf, Keyword::Else, Keyword::EndIf];
                 let mark = self.ahead(statement, &branches, "missing-endif")?;
@@ -227,7 +227,7 @@ impl Run<'_> {
                     return self.leave(statement);
                 }
                 self.frame().rounds.insert(statement.passage.block.span.start, count);
-                Ok(Next::Following)
+                self.closed(statement, &[Keyword::EndRepeat], "missing-endwhile")
             }
             Keyword::EndRepeat => {
                 let Some(open) =
@@ -249,8 +249,21 @@ impl Run<'_> {
                 let mark = self.ahead(statement, &ends, "missing-endwhile")?;
                 self.jump(mark.start, mark.line, at)
             }
+            Keyword::Do => {
+                self.closed(statement, &[Keyword::While, Keyword::EndWhile], "missing-endwhile")
+            }
             _ => Ok(Next::Following),
         }
+    }
+
+    /// Goes into a structure, whose end must be there: without it the program is not complete.
+    fn closed(
+        &self,
+        statement: &Statement<'_>,
+        ends: &[Keyword],
+        code: &'static str,
+    ) -> Result<Next, Fault> {
+        self.ahead(statement, ends, code).map(|_| Next::Following)
     }
 
     fn while_statement(&mut self, statement: &Statement<'_>) -> Result<Next, Fault> {
@@ -264,7 +277,7 @@ impl Run<'_> {
             // It ends a `do`.
             Some(open) if holds => self.jump(open.next, open.line + 1, at),
             Some(_) => Ok(Next::Following),
-            None if holds => Ok(Next::Following),
+            None if holds => self.closed(statement, &[Keyword::EndWhile], "missing-endwhile"),
             None => self.leave(statement),
         }
     }

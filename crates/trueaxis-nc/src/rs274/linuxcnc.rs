@@ -18,7 +18,7 @@ pub(crate) static DIALECT: Dialect = Dialect {
     o_words: true,
     parameters: 5602,
     g_codes: &joined::<47, 39, 86>(RS274_G_CODES, G_CODES),
-    m_codes: &joined::<14, 22, 36>(RS274_M_CODES, M_CODES),
+    m_codes: &joined::<14, 24, 38>(RS274_M_CODES, M_CODES),
     ..Dialect::BARE
 };
 
@@ -64,7 +64,7 @@ const G_CODES: [(u16, A); 39] = [
     (923, A::ShiftResume),
 ];
 
-const M_CODES: [(u16, A); 22] = [
+const M_CODES: [(u16, A); 24] = [
     (50, A::Note("M50 feed override")),
     (51, A::Note("M51 spindle override")),
     (52, A::Note("M52 adaptive feed")),
@@ -82,6 +82,8 @@ const M_CODES: [(u16, A); 22] = [
     (71, A::NotAppliedAlone("M71 forget modal state")),
     (72, A::NotAppliedAlone("M72 restore modal state")),
     (73, A::NotAppliedAlone("M73 save modal state of the subprogram")),
+    (98, A::Call),
+    (99, A::Return),
     (128, A::Kinematics(true)),
     (129, A::Kinematics(false)),
     (428, A::Kinematics(true)),

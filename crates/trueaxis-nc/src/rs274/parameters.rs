@@ -90,7 +90,7 @@ impl Run<'_> {
         let frames = &self.frames;
         let of = |position: &Position, first: u32| self.shown(position, (number - first) as usize);
         match number {
-            5021..=5029 => of(&frames.machine(), 5021),
+            5021..=5029 => of(&self.axis_positions(), 5021),
             5161..=5169 => of(&frames.references[0], 5161),
             5181..=5189 => of(&frames.references[1], 5181),
             5210 => Some(f64::from(u8::from(frames.shift_on))),
@@ -140,7 +140,7 @@ impl Run<'_> {
             "_rpm" => Some(self.core.modes.speed),
             "_call_level" => Some(self.stack.len() as f64 - 1.0),
             _ => match name.strip_prefix("_abs_") {
-                Some(letter) => axis(letter, &self.frames.machine()),
+                Some(letter) => axis(letter, &self.axis_positions()),
                 None => axis(&name[1..], &self.frames.position),
             },
         };

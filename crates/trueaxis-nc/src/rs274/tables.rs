@@ -48,7 +48,7 @@ impl Run<'_> {
             Action::ReferenceCheck => self.check_reference(at),
             Action::ReferenceReturn => self.leave_reference(),
             Action::SetReference(index) => {
-                self.frames.references[usize::from(index) - 1] = self.frames.machine();
+                self.frames.references[usize::from(index) - 1] = self.axis_positions();
             }
             _ => {}
         }
@@ -229,6 +229,11 @@ impl Run<'_> {
         let rapid = Move::plain(MoveKind::Rapid, machine, self.words.axes(), feed, origin);
         self.emit_move(Move { coordinates, ..rapid });
         self.frames.position = self.frames.program_at(&machine);
+    }
+
+    /// Where the axes are in the machine.
+    pub(super) fn axis_positions(&self) -> Position {
+        self.core.axis_positions(self.frames.machine())
     }
 
     /// G27: goes there, and it should be a reference point.

@@ -7,7 +7,7 @@ use trueaxis_input::Diagnostics;
 use super::Run;
 use super::values::Value;
 use crate::dialect::Control;
-use crate::execution::{Core, Language, NoLibrary, Settings};
+use crate::execution::{Alone, Core, Language, NoLibrary, Settings};
 use crate::moves::{Frame, Position};
 use crate::text::program::{Fault, Program};
 
@@ -72,7 +72,8 @@ pub fn read_archive(file: &str, text: &[u8]) -> (Archive, Diagnostics) {
     // A dump has no loops.
     let settings = Settings { keep_going: true, most_jumps: 1000, ..Settings::default() };
     let mut ignore = |_| {};
-    let core = Core::new(&program, &NoLibrary, &settings, &mut ignore);
+    let mut alone = Alone(&mut ignore);
+    let core = Core::new(&program, &NoLibrary, &settings, &mut alone);
     let mut run = Run::new(&program, core);
     run.archive = Some(Box::default());
     let problems = run.outcome().problems;

@@ -217,6 +217,7 @@ impl Run<'_> {
     }
 
     fn act(&mut self, code: Code, words: &mut Words, at: usize) -> Result<(), Fault> {
+        self.settle();
         match code {
             Code::Plane(plane) => {
                 self.core.select_plane(plane);

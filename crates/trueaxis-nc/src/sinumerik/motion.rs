@@ -2,7 +2,7 @@
 
 use super::tables::{Motion, Name};
 use super::words::{Mode, Words};
-use super::{Run, fault};
+use super::{Language, Run, fault};
 use crate::moves::{Axis, AxisSet, Coordinates, Move, MoveKind, Position, RotaryDirection};
 use crate::text::program::Fault;
 
@@ -14,6 +14,7 @@ impl Run<'_> {
         machine: bool,
         at: usize,
     ) -> Result<bool, Fault> {
+        self.settle();
         let direction = self.take_direction(words)?;
         let motion = self.modes.motion;
         let round = matches!(motion, Motion::Arc { .. })
@@ -226,7 +227,7 @@ impl Run<'_> {
             let hint = "write TRAFOOF before it";
             self.core.warn("machine-move-with-traori", "", at, message, hint);
         }
-        let now = self.chain.machine();
+        let now = self.axis_positions();
         let mut target = now;
         for axis in Axis::ALL {
             if words.axes.contains(axis) {
@@ -248,6 +249,11 @@ impl Run<'_> {
         self.modes.tangent = None;
     }
 
+    /// Where the axes are in the machine.
+    pub(super) fn axis_positions(&self) -> Position {
+        self.core.axis_positions(self.chain.machine())
+    }
+
     /// G74 and G75: the named axes go to the reference or fixed point.
     pub(super) fn reference(&mut self, words: &mut Words, at: usize) {
         let message = "G74 and G75 move to machine zero here".to_owned();
@@ -260,7 +266,7 @@ impl Run<'_> {
                 words.axes = words.axes.with(axis);
             }
         }
-        let mut target = self.chain.machine();
+        let mut target = self.axis_positions();
         for axis in Axis::ALL {
             if words.axes.contains(axis) {
                 target[axis] = 0.0;

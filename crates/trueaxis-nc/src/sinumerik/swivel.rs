@@ -41,6 +41,7 @@ impl Run<'_> {
     /// a new plane deletes the programmable frame is said there; that an additive one keeps it after
     /// the swivel frame is our reading.
     pub(super) fn cycle_800(&mut self, parameters: &Parameters<'_>) -> Result<(), Fault> {
+        self.settle();
         let at = parameters.at;
         let deselected = matches!(parameters.values.get(1), Some(Some(Value::Text(t))) if t == "0");
         if parameters.values.iter().all(Option::is_none) || deselected {

@@ -81,7 +81,7 @@ impl Run<'_> {
         let value = match name.as_str() {
             "PI" => std::f64::consts::PI,
             "P_EP" | "P_EPM" | "AA_IW" | "P_APR" => self.chain.position[axis],
-            "AA_IM" | "AA_MM" | "AA_MW" | "AA_IB" => self.chain.machine()[axis],
+            "AA_IM" | "AA_MM" | "AA_MW" | "AA_IB" => self.axis_positions()[axis],
             "P_TOOLNO" => f64::from(self.core.modes.tool),
             "P_TOOLP" => f64::from(self.core.modes.selected),
             "P_TOOL" => f64::from(self.modes.edge),

@@ -4,7 +4,7 @@ use super::{Answer, MachineChoice, NewFile, Question, named_control, with_diagno
 use crate::files::output::{Kind, same_file};
 use crate::report;
 use serde_json::Value;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use trueaxis_correct::compensate::program::{
     CorrectionLimit, Increments, MARK, ProgramOptions, Rewritten, compensate_program,
 };
@@ -32,8 +32,10 @@ pub struct CompensateProgram {
     pub position_only: bool,
     /// How far the tip may be missed between the ends of blocks.
     pub residual: String,
-    /// How far the tool axis may be missed there.
-    pub residual_axis: String,
+    /// How far the tool axis may be missed there; 10 µrad where the machine can turn the tool.
+    pub residual_axis: Option<String>,
+    /// Whether a program that the proof speaks against is written, marked, under another name.
+    pub keep_unproved: bool,
     /// The least increment of linear axes.
     pub increment: String,
     /// The least increment of rotary axes.
@@ -50,7 +52,7 @@ pub struct CompensateProgram {
 pub struct ProgramAnswer {
     job: Job,
     program: String,
-    output: PathBuf,
+    output: Option<PathBuf>,
     shown_output: String,
     options: ProgramOptions,
     rewritten: Rewritten,
@@ -73,8 +75,13 @@ impl CompensateProgram {
         let (length, angle) = (Dimension::Length, Dimension::Angle);
         let residual_mm =
             read("--residual", &self.residual, length, (1e-6, 1.0), "such as \"1 um\"");
-        let residual_rad =
-            read("--residual-axis", &self.residual_axis, angle, (1e-8, 0.1), "such as \"10 urad\"");
+        let residual_rad = read(
+            "--residual-axis",
+            self.residual_axis.as_deref().unwrap_or("10 urad"),
+            angle,
+            (1e-8, 0.1),
+            "such as \"10 urad\"",
+        );
         let linear_mm =
             read("--increment", &self.increment, length, (1e-9, 0.1), "such as \"1 um\"");
         let turn = (1e-12, 0.02);
@@ -88,6 +95,7 @@ impl CompensateProgram {
             position_only: self.position_only,
             residual_mm: residual_mm?,
             residual_rad: residual_rad?,
+            residual_axis_asked: self.residual_axis.is_some(),
             increments: (!self.no_rounding).then_some(increments),
             limit: CorrectionLimit { tip_mm: tip_mm?, axis_rad: axis_rad? },
             flat: self.flat,
@@ -114,6 +122,20 @@ impl CompensateProgram {
     }
 }
 
+/// The name of a program that the proof speaks against: `part.unproved.nc` for `part.nc`.
+fn unproved(output: &Path) -> PathBuf {
+    let extension =
+        output.extension().map_or(String::new(), |e| format!(".{}", e.to_string_lossy()));
+    output.with_extension(format!("unproved{extension}"))
+}
+
+/// The heading says that the program is not proved.
+fn marked(text: &[u8]) -> Vec<u8> {
+    let at = text.windows(MARK.len()).position(|w| w.eq_ignore_ascii_case(MARK.as_bytes()));
+    let end = at.map_or(0, |at| at + MARK.len());
+    [&text[..end], b" NOT PROVED", &text[end..]].concat()
+}
+
 /// Tells one machine file from another; no secret depends on it.
 fn fnv1a(bytes: &[u8]) -> u64 {
     let step = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
@@ -138,7 +160,8 @@ impl Question for CompensateProgram {
     }
 
     fn outputs(&self, _: Option<&Self::Input>) -> Vec<(PathBuf, &'static Kind)> {
-        vec![(self.output.clone(), &PROGRAM)]
+        let unproved = self.keep_unproved.then(|| (unproved(&self.output), &PROGRAM));
+        [(self.output.clone(), &PROGRAM)].into_iter().chain(unproved).collect()
     }
 
     fn answer(
@@ -150,9 +173,16 @@ impl Question for CompensateProgram {
         let (rewritten, found) =
             compensate_program(&job.machine, &job.program, &job.setup, &options);
         problems.append(found);
-        let (program, output) = (self.program.display().to_string(), self.output.clone());
-        let shown_output = output.display().to_string();
-        Some(ProgramAnswer { job, program, output, shown_output, options, rewritten: rewritten? })
+        let rewritten = rewritten?;
+        problems.append(rewritten.unproved.clone());
+        let output = match (rewritten.is_proved(), self.keep_unproved) {
+            (true, _) => Some(self.output.clone()),
+            (false, keep) => keep.then(|| unproved(&self.output)),
+        };
+        let program = self.program.display().to_string();
+        let shown_output =
+            output.as_ref().map_or("no file".to_owned(), |path| path.display().to_string());
+        Some(ProgramAnswer { job, program, output, shown_output, options, rewritten })
     }
 }
 
@@ -181,8 +211,14 @@ impl Answer for ProgramAnswer {
         report::program_html(&self.shown())
     }
 
+    fn is_yes(&self) -> bool {
+        self.rewritten.is_proved()
+    }
+
     fn files(&self) -> Vec<NewFile> {
-        let (path, content) = (self.output.clone(), self.rewritten.text.clone());
+        let Some(path) = self.output.clone() else { return Vec::new() };
+        let text = &self.rewritten.text;
+        let content = if self.is_yes() { text.clone() } else { marked(text) };
         vec![NewFile { name: "program", path, content }]
     }
 }

@@ -9,7 +9,8 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use trueaxis_machine::axis::Command;
 use trueaxis_motion::axis_path::{AxisPath, Fault};
 use trueaxis_motion::{Node, PathStep};
-use trueaxis_nc::moves::{Event, Step};
+use trueaxis_nc::moves::{AxisSet, Event, Move, MoveKind, Step};
+use trueaxis_nc::{Follower, KnownPosition};
 
 /// Places of a stretch: enough that a batch pays, few enough to stay in the cache.
 const NODES: usize = 4096;
@@ -36,8 +37,36 @@ pub(super) struct Ahead {
     pub begin: Command,
     /// Its places in the stretch.
     pub nodes: Range<usize>,
+    /// Of a rapid: the axes that it leads to where a cut begins.
+    pub begins_cut: AxisSet,
     /// Why it cannot be executed.
     pub fault: Option<Fault>,
+}
+
+/// A, B and C as an [`AxisSet`].
+const ROTARY: u16 = 0b11_1000;
+
+/// Whether a move removes material: it has a feed.
+fn is_cut(m: &Move) -> bool {
+    !matches!(m.kind, MoveKind::Rapid | MoveKind::Align { .. } | MoveKind::Dwell { .. })
+}
+
+/// Marks the words of the rapids before the last step, a cut, that hold where it begins.
+fn lead_to_cut(steps: &mut [Ahead]) {
+    let mut replaced = AxisSet::default();
+    for ahead in steps.iter_mut().rev().skip(1) {
+        let Step::Move(m) = &ahead.step else { continue };
+        if is_cut(m) {
+            return;
+        }
+        if m.kind == MoveKind::Rapid {
+            // A direction leads all rotary axes.
+            let turned = if m.direction.is_some() { ROTARY } else { 0 };
+            let named = m.named.0 | turned;
+            ahead.begins_cut = AxisSet(named & !replaced.0);
+            replaced = AxisSet(replaced.0 | named);
+        }
+    }
 }
 
 /// Gathers what the interpreter hands out.
@@ -55,7 +84,22 @@ impl<'m> Gather<'m> {
         (Self { nominal, stretch: Stretch::default(), to: Some(to) }, from)
     }
 
-    pub fn take(&mut self, step: Step) {
+    fn send(&mut self) {
+        let stretch = std::mem::take(&mut self.stretch);
+        let heard = self.to.as_ref().is_some_and(|to| to.send(stretch).is_ok());
+        if !heard {
+            self.to = None;
+        }
+    }
+
+    /// Nothing more comes.
+    pub fn finish(mut self) {
+        self.send();
+    }
+}
+
+impl Follower for Gather<'_> {
+    fn take(&mut self, step: Step) {
         if self.to.is_none() {
             return;
         }
@@ -69,24 +113,26 @@ impl<'m> Gather<'m> {
         });
         let fault = self.nominal.faults.pop();
         let changes_tool = matches!(step, Step::Event(Event::ToolChange(_), _));
-        let ahead = Ahead { step, begin, nodes: from..nodes.len(), fault };
-        self.stretch.steps.push(ahead);
+        let cuts = matches!(step, Step::Move(m) if is_cut(&m));
+        let nodes = from..nodes.len();
+        let begins_cut = AxisSet::default();
+        self.stretch.steps.push(Ahead { step, begin, nodes, begins_cut, fault });
+        if cuts {
+            lead_to_cut(&mut self.stretch.steps);
+        }
         let full = self.stretch.nodes.len() >= NODES || self.stretch.steps.len() >= STEPS;
-        if full || changes_tool {
+        // Rapids wait for the cut that they lead to.
+        let waits = !cuts && self.stretch.steps.len() < 4 * STEPS;
+        if changes_tool || full && !waits {
             self.send();
         }
     }
 
-    fn send(&mut self) {
-        let stretch = std::mem::take(&mut self.stretch);
-        let heard = self.to.as_ref().is_some_and(|to| to.send(stretch).is_ok());
-        if !heard {
-            self.to = None;
-        }
+    fn place(&self) -> Option<KnownPosition> {
+        Some(self.nominal.place_now())
     }
 
-    /// Nothing more comes.
-    pub fn finish(mut self) {
-        self.send();
+    fn axis_positions(&self) -> Option<KnownPosition> {
+        Some(self.nominal.axis_positions_now())
     }
 }

@@ -8,7 +8,9 @@ use super::words::{Word, Words};
 use trueaxis_machine::axis::Command;
 use trueaxis_motion::axis_path::{AxisPath, Fault, Straight};
 use trueaxis_nc::Control;
-use trueaxis_nc::moves::{Axis, AxisSet, Coordinates, Move, MoveKind, Position, RotaryDirection};
+use trueaxis_nc::moves::{
+    Arc, Axis, AxisSet, Coordinates, Move, MoveKind, Position, RotaryDirection,
+};
 
 /// A block that is being written.
 pub(super) struct Block<'b> {
@@ -19,6 +21,11 @@ pub(super) struct Block<'b> {
     pub incremental: bool,
     pub control: Control,
     pub grid: Grid,
+    /// The axes whose words are corrected, if the block is no cut: the others keep their words, and no
+    /// word is added.
+    pub only: Option<AxisSet>,
+    /// The circle that the block becomes, if it stays one.
+    pub arc: Option<Arc>,
     /// The tool axis is programmed by vectors.
     pub vectors: bool,
     /// A feed that a block before has replaced.
@@ -26,7 +33,8 @@ pub(super) struct Block<'b> {
     pub edits: Edits,
     /// The lines that follow it.
     pub further: Vec<String>,
-    pub added: u64,
+    /// Axes that the block has new words for.
+    pub added: Vec<Axis>,
     pub pieces: usize,
 }
 
@@ -82,8 +90,15 @@ impl Block<'_> {
                 self.axis(axis, (now[axis], wanted[axis]), step.piece, &mut m, &mut puts)?;
             }
         }
-        if self.vectors {
+        let turns =
+            self.only.is_none_or(|only| only.contains(Axis::A) && self.m.direction.is_some());
+        if self.vectors && turns {
             self.direction(path, step, &mut m, &mut puts)?;
+        } else if self.only.is_some() {
+            m.direction = self.m.direction;
+        }
+        if let Some(arc) = self.arc {
+            self.arc_words(&arc, &now, &mut puts);
         }
         let feed_again = self.feed(&now, step, turns_deg, &m, &mut puts)?;
         if step.piece == 0 {
@@ -98,6 +113,9 @@ impl Block<'_> {
     }
 
     fn kind(&self) -> MoveKind {
+        if let Some(arc) = self.arc {
+            return MoveKind::Arc(arc);
+        }
         match self.m.kind {
             MoveKind::Arc(_) | MoveKind::SpatialArc(_) => MoveKind::Linear,
             kind => kind,
@@ -156,6 +174,9 @@ impl Block<'_> {
         puts: &mut Vec<Put>,
     ) -> Result<(), Fault> {
         let of = if axis.is_rotary() { Of::Rotary } else { Of::Linear };
+        if self.only.is_some_and(|only| !only.contains(axis)) {
+            return self.stays(axis, m);
+        }
         let word = self.words.axes[axis as usize].clone().filter(|_| piece == 0);
         let Some(word) = word else {
             if piece == 0 && self.m.named.contains(axis) && !self.is_circle() {
@@ -165,7 +186,9 @@ impl Block<'_> {
             if !self.grid.same(wanted, now, of) {
                 (m.target[axis], m.named) = (value, m.named.with(axis));
                 let shown = if self.incremental { value - now } else { value };
-                self.added += u64::from(piece == 0);
+                if piece == 0 {
+                    self.added.push(axis);
+                }
                 puts.push(Put { letters: LETTERS[axis as usize], text: self.text(shown, of) });
             }
             return Ok(());
@@ -198,6 +221,26 @@ impl Block<'_> {
             let text = self.text(shown, of);
             self.edits.put(word.number.clone(), text);
         }
+        Ok(())
+    }
+
+    /// The word of an axis that is not corrected keeps its text.
+    fn stays(&self, axis: Axis, m: &mut Move) -> Result<(), Fault> {
+        if !self.m.named.contains(axis) {
+            return Ok(());
+        }
+        m.named = m.named.with(axis);
+        if axis.is_rotary() {
+            m.rotary_directions[axis as usize - Axis::A as usize] = self.way(axis);
+        }
+        let word = self.words.axes[axis as usize].as_ref();
+        let increments = word.map_or(self.incremental, |w| w.increment.unwrap_or(self.incremental));
+        if !increments {
+            m.target[axis] = self.m.target[axis];
+            return Ok(());
+        }
+        let by = word.and_then(|w| w.value).ok_or_else(|| self.computed(axis))?;
+        m.target[axis] += by;
         Ok(())
     }
 

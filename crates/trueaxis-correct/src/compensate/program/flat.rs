@@ -9,6 +9,8 @@
 //! Subprograms, loops, jumps, repeated parts and variables are gone then; comments of executed blocks
 //! stay. Blocks keep no numbers (nothing jumps to them), those of Klartext are counted again.
 
+mod cycles;
+
 use super::number::Grid;
 use super::text::Edits;
 use super::words::Words;
@@ -19,7 +21,7 @@ use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_motion::{SetUp, execute};
 use trueaxis_nc::lexer::{Lexer, TokenKind};
-use trueaxis_nc::moves::{Event, Origin, Step};
+use trueaxis_nc::moves::{AxisSet, Event, Move, MoveKind, Origin, Step};
 use trueaxis_nc::{Control, Program, Settings};
 
 /// A block that was executed.
@@ -28,6 +30,7 @@ struct Told {
     text: Range<usize>,
     /// Parts of it and their values; without one they only steer.
     computed: Vec<(Range<usize>, Option<f64>)>,
+    moves: Vec<Move>,
 }
 
 /// Steps that are handed over at once.
@@ -44,14 +47,19 @@ pub(super) fn unrolled(
     let mut told: Vec<Told> = Vec::new();
     let outcome = execute(mounted, program, setup, &settings, &mut |step| match step {
         Step::Event(Event::Block { text }, origin) => {
-            told.push(Told { origin, text, computed: Vec::new() });
+            told.push(Told { origin, text, computed: Vec::new(), moves: Vec::new() });
         }
         Step::Event(Event::Computed { text, value }, _) => {
             if let Some(block) = told.last_mut() {
                 block.computed.push((text, value));
             }
         }
-        _ => {}
+        Step::Move(m) => {
+            if let Some(block) = told.last_mut().filter(|b| b.origin == m.origin) {
+                block.moves.push(m);
+            }
+        }
+        Step::Event(..) => {}
     });
     if outcome.problems.has_errors() {
         problems.append(outcome.problems);
@@ -69,7 +77,14 @@ pub(super) fn unrolled(
             }
         }
     }
-    let mut flat = Flat { programs: &programs, out: Vec::new(), number: 0, origins: Vec::new() };
+    let mut flat = Flat {
+        programs: &programs,
+        out: Vec::new(),
+        number: 0,
+        origins: Vec::new(),
+        incremental: false,
+        after_cycle: false,
+    };
     told.iter().for_each(|block| flat.block(block));
     flat.close();
     let name = format!("{} (unrolled)", program.file());
@@ -87,8 +102,8 @@ pub(super) fn unrolled(
             let line = line.unwrap_or_default();
             let message =
                 format!("unrolled to `{}`, the program would go another way", line.trim());
-            let hint = "modal macros, cycles with computed arguments and moves in a block that calls \
-                        do not unroll: write this block out; the postprocessor can";
+            let hint = "modal macros, tapping, cycles with computed arguments and moves in a block that \
+                        calls do not unroll: write this block out; the postprocessor can";
             problems.error("not-unrolled", place, message, hint);
             None
         }
@@ -102,6 +117,10 @@ struct Flat<'p> {
     number: u32,
     /// Where each line comes from.
     origins: Vec<Origin>,
+    /// G91 is in force.
+    incremental: bool,
+    /// The last motion code and feed are those of an unrolled cycle.
+    after_cycle: bool,
 }
 
 impl Flat<'_> {
@@ -135,11 +154,16 @@ impl Flat<'_> {
             let text = value.map_or(String::new(), |v| number(v, source, range.start, program));
             edits.put(range, text);
         }
-        let front = Words::read(source, program.dialect(), line.clone()).front;
-        if front > line.start {
-            let new = String::from_utf8_lossy(&self.front(program, &line)).into_owned();
-            edits.put(line.start..front, new.trim_end().to_owned());
+        let words = Words::read(source, program.dialect(), line.clone());
+        self.incremental = words.incremental.unwrap_or(self.incremental);
+        if self.cycle(program, &line, &words, told) {
+            return;
         }
+        if words.front > line.start {
+            let new = String::from_utf8_lossy(&self.front(program, &line)).into_owned();
+            edits.put(line.start..words.front, new.trim_end().to_owned());
+        }
+        self.restate(program, &words, told, &mut edits);
         let was_blank = source[line.clone()].iter().all(u8::is_ascii_whitespace);
         let changed = !edits.is_empty();
         let text = edits.apply(source, line.clone());
@@ -147,6 +171,64 @@ impl Flat<'_> {
         if says || (was_blank && !changed) {
             let text = text.trim_ascii_start();
             self.line(text, told.origin);
+        }
+    }
+
+    /// Writes the moves of a cycle one by one; `false` if the block is none.
+    fn cycle(
+        &mut self,
+        program: &Program,
+        line: &Range<usize>,
+        words: &Words,
+        told: &Told,
+    ) -> bool {
+        let control = program.dialect().control;
+        let text = String::from_utf8_lossy(&program.source()[line.clone()]).to_ascii_uppercase();
+        if control == Control::Sinumerik840d && text.contains("MCALL") {
+            // Its calls are written out.
+            self.line(format!("; {}", text.trim()).as_bytes(), told.origin);
+            return true;
+        }
+        // What is computed in the block has no number in its text.
+        if !told.computed.is_empty() {
+            return false;
+        }
+        let Some(cycle) = cycles::unrolled(program, line, words, &told.moves, self.incremental)
+        else {
+            return false;
+        };
+        let numbered = |flat: &Self, text: &str| match control {
+            Control::Heidenhain => {
+                format!("{} {}", flat.number, text.trim_start_matches(|c: char| c.is_ascii_digit()))
+            }
+            _ => text.to_owned(),
+        };
+        if !cycle.head.trim().is_empty() {
+            let head = numbered(self, cycle.head.trim());
+            self.line(head.as_bytes(), told.origin);
+        }
+        for block in cycle.moves.iter().flat_map(|text| text.lines()) {
+            let block = numbered(self, block);
+            self.line(block.as_bytes(), told.origin);
+        }
+        self.after_cycle = true;
+        true
+    }
+
+    /// After a cycle a block states the motion code, or the feed, that it had from before.
+    fn restate(&mut self, program: &Program, words: &Words, told: &Told, edits: &mut Edits) {
+        let ([m], true) = (&told.moves[..], self.after_cycle) else { return };
+        let klartext = program.dialect().control == Control::Heidenhain;
+        if klartext && words.feed.is_none() && m.kind != MoveKind::Rapid {
+            edits.put(words.end..words.end, format!(" F{}", m.feed.value));
+            self.after_cycle = false;
+        } else if klartext {
+            self.after_cycle = words.feed.is_none() || m.kind == MoveKind::Rapid;
+        } else {
+            if let Some(code) = cycles::motion_code(m).filter(|_| words.motion.is_none()) {
+                edits.put(words.front..words.front, code.to_owned());
+            }
+            self.after_cycle = false;
         }
     }
 
@@ -290,6 +372,8 @@ fn plain(step: Step) -> Option<(Step, Origin)> {
     match step {
         Step::Move(mut m) => {
             let origin = std::mem::replace(&mut m.origin, nowhere);
+            // Unrolled cycles name coordinates that do not change; the target says where it goes.
+            m.named = AxisSet::default();
             Some((Step::Move(m), origin))
         }
         Step::Event(Event::Note(_) | Event::Log(_), _) => None,

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
+use trueaxis_nc::moves::Axis;
 
 /// Places at which uncertainties are evaluated.
 const PLACES: usize = 100;
@@ -24,6 +25,9 @@ pub struct LargestCorrection {
     pub nearest_line: u32,
 }
 
+/// Additions that are listed.
+const MOST_ADDITIONS: usize = 1000;
+
 /// What was done, in numbers.
 #[derive(Debug, Clone, Default)]
 pub struct Found {
@@ -35,8 +39,10 @@ pub struct Found {
     pub pieces: u64,
     /// Circles that became straight pieces.
     pub circles: u64,
-    /// Words that blocks did not have.
+    /// Words that blocks did not have: how many, and the first with line and axis.
     pub words_added: u64,
+    /// The first of them: line and axis.
+    pub additions: Vec<(u32, Axis)>,
     /// Blocks in which only the rotary axes moved, with a new F so that they take the same time.
     pub feeds_changed: u64,
     /// Places where an axis reverses by less than its reversal error, or by rounding alone.
@@ -134,7 +140,10 @@ impl Found {
         self.blocks += 1;
         self.split += u64::from(block.pieces > 1);
         self.pieces += block.pieces as u64;
-        self.words_added += block.added;
+        self.words_added += block.added.len() as u64;
+        let room = MOST_ADDITIONS.saturating_sub(self.additions.len());
+        self.additions
+            .extend(block.added.iter().take(room).map(|axis| (block.m.origin.line, *axis)));
         self.feeds_changed += u64::from(feed_changed);
         self.circles += u64::from(circle_gone);
         // How much longer the way of the tip has become.

@@ -8,7 +8,7 @@ impl Block<'_> {
     /// The block itself: what is added goes after the words that are there.
     pub(super) fn first(&mut self, puts: Vec<Put>) {
         let (room, end) = (self.words.room(self.control), self.words.end);
-        if self.is_circle() {
+        if self.is_circle() && self.arc.is_none() {
             self.line_for_circle();
         }
         let vectors = puts.iter().any(|p| p.letters == "TX");

@@ -3,11 +3,13 @@
 mod samples;
 
 use super::ahead::{Ahead, Stretch};
+use super::arcs::{self, Allowed, PathPlace};
 use super::block::{Block, Written};
 use super::correct::Corrector;
 use super::found::{Found, Want};
+use super::number::Of;
 use super::refuse::{again, cone, refusal};
-use super::stand::{Cut, Sample};
+use super::stand::{Cut, Sample, Stand};
 use super::text::{Edits, Text};
 use super::{ProgramOptions, residual_share};
 use trueaxis_machine::Machine;
@@ -15,9 +17,12 @@ use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_motion::axis_path::{AxisPath, Fault};
 use trueaxis_motion::{Densify, Node, SetUp};
 use trueaxis_nc::Program;
-use trueaxis_nc::moves::{Coordinates, Event, FeedMode, Move, MoveKind, Origin, Step};
+use trueaxis_nc::moves::{
+    Arc, AxisSet, Coordinates, Event, FeedMode, Move, MoveKind, Origin, Step,
+};
 
 const TO_MACHINE_ZERO: &str = "rapid to machine coordinates";
+const NO_CUT_BEGINS: &str = "rapid from which no cut begins";
 
 /// A program on its way into another.
 pub(super) struct Walk<'w> {
@@ -36,6 +41,8 @@ pub(super) struct Walk<'w> {
     vectors: bool,
     /// The feed that the next block has to state again.
     feed_again: Option<f64>,
+    /// Circles may stay circles.
+    arcs: bool,
     /// A circle became lines, and the next one may rely on its G2 or G3.
     circle_gone: bool,
     /// Where the axes would stand at the end of the last block without rounding.
@@ -81,10 +88,17 @@ impl<'w> Walk<'w> {
             last: None,
             vectors: false,
             feed_again: None,
+            arcs: true,
             circle_gone: false,
             exact: Command::default(),
             approaching: true,
         })
+    }
+
+    /// Circles become lines.
+    #[must_use]
+    pub fn without_arcs(self) -> Self {
+        Self { arcs: false, ..self }
     }
 
     /// The machine with the tool that is in it at the end.
@@ -133,10 +147,13 @@ impl<'w> Walk<'w> {
             nodes: &nodes[ahead.nodes.clone()],
             first: ahead.nodes.start,
         };
+        self.vectors |= m.direction.is_some();
+        let begins_cut = (m.kind == MoveKind::Rapid).then_some(ahead.begins_cut);
         match self.why_left(m, way.nodes) {
             Some(why) => self.leave(m, why),
+            None if begins_cut == Some(AxisSet::default()) => self.leave(m, NO_CUT_BEGINS),
             None if self.written.turns_on_cone() => Err(cone(m.origin)),
-            None => self.rewrite(m, &way),
+            None => self.rewrite(m, &way, begins_cut),
         }
     }
 
@@ -151,6 +168,7 @@ impl<'w> Walk<'w> {
             _ if nodes.is_empty() => Some(""),
             (MoveKind::Rapid, Coordinates::Machine) => Some(TO_MACHINE_ZERO),
             (MoveKind::Rapid, _) if self.counts_from_machine_zero(m) => Some(TO_MACHINE_ZERO),
+            (MoveKind::Rapid, _) if self.is_reference(m) => Some("move to a reference point"),
             _ => None,
         }
     }
@@ -159,6 +177,10 @@ impl<'w> Walk<'w> {
     fn counts_from_machine_zero(&mut self, m: &Move) -> bool {
         let words = (m.origin.program == 0).then(|| self.text.words(m.origin.line).0);
         words.is_some_and(|w| w.machine.is_some())
+    }
+
+    fn is_reference(&mut self, m: &Move) -> bool {
+        m.origin.program == 0 && self.text.words(m.origin.line).0.reference
     }
 
     fn leave(&mut self, m: &Move, why: &'static str) -> Result<(), Fault> {
@@ -195,14 +217,11 @@ impl<'w> Walk<'w> {
         self.corrector.moved(&from, self.written.command());
     }
 
-    /// Corrects a move and writes it.
-    fn rewrite(&mut self, m: &Move, way: &Way<'_>) -> Result<(), Fault> {
+    /// Corrects a move and writes it; of a rapid only the words of some axes.
+    fn rewrite(&mut self, m: &Move, way: &Way<'_>, only: Option<AxisSet>) -> Result<(), Fault> {
         let whole = matches!(m.kind, MoveKind::Rapid | MoveKind::Thread { .. });
         let samples = self.samples(m, way, whole)?;
         self.exact = samples[samples.len() - 1].command;
-        if m.direction.is_some() {
-            self.vectors = true;
-        }
         if m.origin.program != 0 {
             return self.in_subprogram(m, &samples);
         }
@@ -221,6 +240,7 @@ impl<'w> Walk<'w> {
         let approaching = std::mem::take(&mut self.approaching);
         let first_time = !self.text.was_executed(m.origin.line);
         let (words, incremental) = self.text.words(m.origin.line);
+        let says_circle = words.motion.is_some() || !self.circle_gone;
         let kept = self.kept_circle(m, &samples, words.motion.is_some());
         let ends = if kept { vec![samples.len() - 1] } else { ends };
         let mut block = Block {
@@ -230,13 +250,24 @@ impl<'w> Walk<'w> {
             incremental,
             control: self.text.control(),
             grid: self.options.grid(),
+            only,
+            arc: None,
             vectors: self.vectors,
             feed_again: self.feed_again.take(),
             edits: Edits::default(),
             further: Vec::new(),
-            added: 0,
+            added: Vec::new(),
             pieces: ends.len(),
         };
+        if !kept && says_circle && block.has_arc_words() {
+            block.arc = self.fitted(m, &samples);
+        }
+        let ends = match block.arc {
+            Some(_) => vec![samples.len() - 1],
+            None => ends,
+        };
+        block.pieces = ends.len();
+        self.circle_gone &= block.arc.is_none();
         let turns_deg = self.turns_deg(m, way);
         let mut from = 0;
         for (piece, to) in ends.iter().enumerate() {
@@ -249,6 +280,10 @@ impl<'w> Walk<'w> {
                 let next = block.write(&self.written, &step, turns_deg)?;
                 self.feed_again = next.feed_again.or(self.feed_again);
                 self.go(&next.m);
+                if only.is_some() {
+                    self.approaching = self.is_elsewhere(&way.1);
+                    continue;
+                }
                 self.check_arrival(m, &way.1)?;
                 self.found.undecided += u64::from(self.comes_otherwise(&samples[*to]));
             }
@@ -264,13 +299,36 @@ impl<'w> Walk<'w> {
             from = *to;
         }
         let is_circle = matches!(m.kind, MoveKind::Arc(_) | MoveKind::SpatialArc(_));
-        self.found.note(&block, is_circle && !kept, self.feed_again.is_some(), &samples);
+        let is_line = is_circle && !kept && block.arc.is_none();
+        self.found.note(&block, is_line, self.feed_again.is_some(), &samples);
         let (edits, further) = (block.edits, block.further);
         let unchanged = edits.is_empty() && further.is_empty();
         let line = m.origin.line;
         let fits =
             if unchanged { self.text.keep(line) } else { self.text.change(line, edits, &further) };
         if fits { Ok(()) } else { Err(again(m.origin)) }
+    }
+
+    /// The circle that keeps the residual on the corrected places; none at turning points.
+    fn fitted(&self, m: &Move, samples: &[Sample]) -> Option<Arc> {
+        let MoveKind::Arc(arc) = m.kind else { return None };
+        let turns = samples.iter().any(|s| s.turns);
+        if !self.arcs || turns || m.coordinates != Coordinates::Program {
+            return None;
+        }
+        let now = self.written.command();
+        let place = |(i, s): (usize, &Sample)| {
+            let command = if i == 0 { now } else { &s.command };
+            PathPlace { u: s.u, at: self.written.words_of(command, Coordinates::Program) }
+        };
+        let places: Vec<PathPlace> = samples.iter().enumerate().map(place).collect();
+        let [residual_mm, residual_rad] = residual_share(self.options);
+        let rounding = self.options.increments.map_or([0.0; 2], |i| [i.linear_mm, i.rotary_deg]);
+        let allowed = Allowed {
+            linear_mm: residual_mm + rounding[0],
+            rotary_deg: residual_rad.to_degrees() + rounding[1],
+        };
+        arcs::fit(&arc, &places, allowed, |v| self.options.grid().round(v, Of::Linear))
     }
 
     fn cut<'c>(&self, control: &'c trueaxis_machine::tcp::TipControl) -> Cut<'c> {
@@ -320,6 +378,16 @@ impl<'w> Walk<'w> {
             "the move stands in a subprogram, which may be called elsewhere too".to_owned();
         let hint = "unroll it: --flat puts its blocks into the main program";
         Err(refusal(m.origin, "in-subprogram", message, hint))
+    }
+
+    /// Whether the written program is not at axis positions, within the share of the residual.
+    fn is_elsewhere(&self, wanted: &Command) -> bool {
+        let Some(control) = self.written.control() else { return true };
+        let [tip, axis] =
+            Stand::of(control, self.written.command()).from(&Stand::of(control, wanted));
+        let [tip_mm, axis_rad] = residual_share(self.options);
+        // NaN is elsewhere.
+        !(tip <= tip_mm && axis <= axis_rad)
     }
 
     /// The control goes where the written words were meant to lead.

@@ -38,6 +38,8 @@ pub(super) struct Words {
     pub at_end: Vec<Range<usize>>,
     /// Machine coordinates for this block alone: G53, SUPA, M91.
     pub machine: Option<Range<usize>>,
+    /// By way of a place to a reference point, or back: G27 to G30, G74, G75.
+    pub reference: bool,
     /// What switches increments: `Some(true)` for G91.
     pub incremental: Option<bool>,
     /// `/`, with its number.
@@ -263,6 +265,8 @@ impl Scan<'_> {
                 self.words.motion = Some(word.all.clone());
                 self.words.circle = code >= 2.0;
             }
+            27.0..=30.0 if self.control != Control::Sinumerik840d => self.words.reference = true,
+            74.0 | 75.0 if self.control == Control::Sinumerik840d => self.words.reference = true,
             53.0 | 153.0 => self.words.machine = Some(word.all.clone()),
             90.0 => self.words.incremental = Some(false),
             91.0 => self.words.incremental = Some(true),

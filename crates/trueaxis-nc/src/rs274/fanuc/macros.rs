@@ -139,7 +139,8 @@ impl Run<'_> {
         Ok(Next::Following)
     }
 
-    /// M98 P…: a FANUC subprogram, L times; P with more than 4 digits carries the count in front.
+    /// M98 P…: a numbered subprogram, L times; P of FANUC with more than 4 digits carries the count in
+    /// front. Its `#1` to `#30` are those of its caller, on LinuxCNC too (user manual 2.9, "O Codes").
     pub(in crate::rs274) fn subprogram_call(&mut self, block: &Block) -> Result<Next, Fault> {
         let at = self.words.place(b'P').max(block.span.start);
         let (label, digits) = self.called_label(at)?;
@@ -182,6 +183,9 @@ impl Run<'_> {
         match self.words.take(b'P') {
             Some(p) if (1.0..1e9).contains(&p) && p.fract() == 0.0 => {
                 let digits = p as u64;
+                if !self.is_fanuc() {
+                    return Ok((Label::Number(digits), 0));
+                }
                 let number = if digits > 9999 { digits % 10_000 } else { digits };
                 Ok((Label::Number(number), digits))
             }

@@ -63,7 +63,7 @@ impl Run<'_> {
         }
         match number {
             5001..=5009 => of(&frames.position, 5001),
-            5021..=5029 => of(&frames.machine(), 5021),
+            5021..=5029 => of(&self.axis_positions(), 5021),
             5041..=5049 => of(&frames.position, 5041),
             5061..=5069 => of(&self.modes.skip, 5061),
             5081..=5089 => of(&frames.tool, 5081),

@@ -58,6 +58,11 @@ impl Parser<'_, '_> {
         let offset = self.here();
         self.advance();
         let Some(label) = self.label() else { return false };
+        if self.token.is_none() && matches!(label, Label::Number(_)) {
+            // A program of FANUC's style: called by M98, ended by M99.
+            self.push(Keyword::ProgramNumber, Some(label), Vec::new(), offset);
+            return true;
+        }
         let Some((_, keyword)) = O_WORDS.iter().find(|(word, _)| self.accept_word(word)) else {
             let hint = "sub endsub call return if elseif else endif while endwhile do repeat \
                         endrepeat break continue";

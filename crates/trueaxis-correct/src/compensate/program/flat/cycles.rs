@@ -1,0 +1,136 @@
+//! Cycles unrolled: the moves that a block makes as plain blocks.
+
+use super::super::number::{Grid, Of};
+use super::super::text::Edits;
+use super::super::words::Words;
+use std::ops::Range;
+use trueaxis_nc::lexer::{Lexer, TokenKind};
+use trueaxis_nc::moves::{Axis, Coordinates, FeedMode, Move, MoveKind};
+use trueaxis_nc::{Control, Program};
+
+/// A block that makes several moves, as plain text.
+pub(super) struct Unrolled {
+    /// What remains of the block itself.
+    pub head: String,
+    /// A block for each further move.
+    pub moves: Vec<String>,
+}
+
+/// The moves of a cycle as plain blocks; `None` if the block is no cycle, or one that has no plain words.
+pub(super) fn unrolled(
+    program: &Program,
+    line: &Range<usize>,
+    words: &Words,
+    moves: &[Move],
+    incremental: bool,
+) -> Option<Unrolled> {
+    let control = program.dialect().control;
+    if moves.len() < 2 || words.reference || words.machine.is_some() {
+        return None;
+    }
+    let is_rs274 = matches!(control, Control::Fanuc | Control::LinuxCnc);
+    // The place before a modal cycle is the block's own; a cycle of FANUC has its words for itself.
+    let own_move = !is_rs274 && words.axes.iter().any(Option::is_some);
+    let cycle = &moves[usize::from(own_move)..];
+    let mut blocks = cycle.iter().map(|m| block(m, control)).collect::<Option<Vec<_>>>()?;
+    let head = head(program, line, control, own_move);
+    if is_rs274 && incremental {
+        blocks.insert(0, "G90".to_owned());
+        blocks.push("G91".to_owned());
+    }
+    Some(Unrolled { head, moves: blocks })
+}
+
+/// One move with all coordinates, absolute.
+fn block(m: &Move, control: Control) -> Option<String> {
+    let klartext = control == Control::Heidenhain;
+    if m.coordinates != Coordinates::Program || m.direction.is_some() {
+        return None;
+    }
+    let code = match m.kind {
+        MoveKind::Rapid => "G0",
+        MoveKind::Linear => "G1",
+        MoveKind::Dwell { seconds } => {
+            return Some(match control {
+                Control::Fanuc => format!("G4 P{}", (seconds * 1000.0).round()),
+                Control::LinuxCnc => format!("G4 P{seconds}"),
+                Control::Sinumerik840d => format!("G4 F{seconds}"),
+                Control::Heidenhain => format!("CYCL DEF 9.0 DWELL\nCYCL DEF 9.1 DWELL {seconds}"),
+            });
+        }
+        _ => return None,
+    };
+    let mut text = if klartext { "L".to_owned() } else { code.to_owned() };
+    for axis in [Axis::X, Axis::Y, Axis::Z] {
+        let value = Grid(None).text(m.target[axis], Of::Linear, control);
+        text += &format!(" {axis}{value}");
+    }
+    if klartext {
+        text += &match (m.kind, m.feed.mode) {
+            (MoveKind::Rapid, _) => " FMAX".to_owned(),
+            (_, FeedMode::PerMinute) => format!(" F{}", m.feed.value),
+            _ => return None,
+        };
+    }
+    Some(text)
+}
+
+/// The block without the words of its cycle.
+fn head(program: &Program, line: &Range<usize>, control: Control, own_move: bool) -> String {
+    let source = program.source();
+    let text = |range: Range<usize>| String::from_utf8_lossy(&source[range]).into_owned();
+    match control {
+        Control::Fanuc | Control::LinuxCnc => rs274_head(program, line),
+        Control::Heidenhain if own_move => {
+            let text = text(line.clone());
+            text.replace("M99", "").replace("M89", "").trim_end().to_owned()
+        }
+        Control::Sinumerik840d if own_move => text(line.clone()),
+        _ => String::new(),
+    }
+}
+
+/// Codes of cycles and of their retraction; what moves is written for each move.
+const CYCLE_CODES: [f64; 19] = [
+    0.0, 1.0, 2.0, 3.0, 73.0, 74.0, 76.0, 81.0, 82.0, 83.0, 84.0, 85.0, 86.0, 87.0, 88.0, 89.0,
+    98.0, 99.0, 91.0,
+];
+
+/// G codes other than the cycle's, F, S, T, M, D and H.
+fn rs274_head(program: &Program, line: &Range<usize>) -> String {
+    let source = program.source();
+    let mut edits = Edits::default();
+    let tokens: Vec<_> = Lexer::new(source, program.dialect(), line.start)
+        .take_while(|t| t.start < line.end && t.kind != TokenKind::LineEnd)
+        .filter(|t| !matches!(t.kind, TokenKind::Space))
+        .collect();
+    let starts: Vec<usize> = (0..tokens.len())
+        .filter(|i| matches!(tokens[*i].kind, TokenKind::Letter | TokenKind::Comment))
+        .collect();
+    for (k, first) in starts.iter().enumerate() {
+        let token = tokens[*first];
+        let last = starts.get(k + 1).map_or(tokens.len(), |next| *next) - 1;
+        let range = token.start..tokens[last].end.min(line.end);
+        let value = String::from_utf8_lossy(&source[token.end..range.end]).trim().parse::<f64>();
+        let stays = match source[token.start].to_ascii_uppercase() {
+            _ if token.kind == TokenKind::Comment => true,
+            b'G' => value.is_ok_and(|code| !CYCLE_CODES.contains(&code)),
+            letter => b"NFSTMDH".contains(&letter),
+        };
+        if !stays {
+            edits.put(range, String::new());
+        }
+    }
+    let text = String::from_utf8_lossy(&edits.apply(source, line.clone())).into_owned();
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// The code of a motion that a block does not state because it lasts; `None` for others.
+pub(super) fn motion_code(m: &Move) -> Option<&'static str> {
+    match m.kind {
+        MoveKind::Rapid => Some("G0 "),
+        MoveKind::Linear => Some("G1 "),
+        MoveKind::Arc(arc) => Some(if arc.ccw { "G3 " } else { "G2 " }),
+        _ => None,
+    }
+}

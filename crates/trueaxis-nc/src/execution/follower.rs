@@ -1,0 +1,62 @@
+//! What makes the moves of a program and knows where they lead.
+
+use crate::moves::{AxisSet, Position, Step};
+
+/// Takes the steps of a program as they come, and knows where the axes are.
+///
+/// After a swivel, under tool-centre-point control or with another tool only the machine knows where the
+/// tool is in the program frame. The execution therefore reads its place again from here after every change
+/// of frame, tool length, kinematics or plane, and before the first block.
+pub trait Follower {
+    /// The next step.
+    fn take(&mut self, step: Step);
+
+    /// The present place in the program frame, with the frame, tool length and kinematics of the steps so
+    /// far; `None` without a machine.
+    fn place(&self) -> Option<KnownPosition>;
+
+    /// The present axis positions; `None` without a machine.
+    fn axis_positions(&self) -> Option<KnownPosition>;
+}
+
+/// A place, and for which axes it is known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct KnownPosition {
+    /// The coordinates, mm and degrees.
+    pub position: Position,
+    /// The axes that the machine has.
+    pub axes: AxisSet,
+}
+
+impl KnownPosition {
+    /// The known coordinates in the place of those of `own`. Coordinates that differ by rounding only are
+    /// kept, so that no axis moves because its place was read.
+    pub(crate) fn over(&self, own: &Position) -> Position {
+        const ROUNDING: f64 = 1e-9;
+        let mut place = *own;
+        for (i, value) in self.position.0.iter().enumerate() {
+            let known = self.axes.0 >> i & 1 == 1 && value.is_finite();
+            if known && (value - own.0[i]).abs() > ROUNDING {
+                place.0[i] = *value;
+            }
+        }
+        place
+    }
+}
+
+/// A program without a machine: its frames alone say where it is.
+pub(crate) struct Alone<'t>(pub &'t mut dyn FnMut(Step));
+
+impl Follower for Alone<'_> {
+    fn take(&mut self, step: Step) {
+        (self.0)(step);
+    }
+
+    fn place(&self) -> Option<KnownPosition> {
+        None
+    }
+
+    fn axis_positions(&self) -> Option<KnownPosition> {
+        None
+    }
+}
