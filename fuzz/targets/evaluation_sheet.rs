@@ -7,7 +7,7 @@
 
 use libfuzzer_sys::fuzz_target;
 use trueaxis::input::Diagnostics;
-use trueaxis::report::{Evaluation, evaluation_json, evaluation_text};
+use trueaxis::report::{Evaluation, evaluation_json, evaluation_report};
 use trueaxis::verify::conditions::Conditions;
 use trueaxis::verify::import::Import;
 use trueaxis::verify::{Request, Standard, evaluate};
@@ -44,7 +44,7 @@ fuzz_target!(|data: &[u8]| {
                 evaluated: &evaluated,
                 remarks: &[],
             };
-            assert!(!evaluation_text(&shown).contains("NaN"));
+            assert!(!evaluation_report(&shown).text().contains("NaN"));
             assert!(evaluation_json(&shown).is_object());
         }
     }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use trueaxis::files;
 use trueaxis::input::{Diagnostics, Place};
 use trueaxis::machine::Machine;
-use trueaxis::report::{check_json, check_text};
+use trueaxis::report::{check_json, check_report};
 use trueaxis::simulate::collide::export;
 
 /// The machine file to check.
@@ -39,7 +39,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let unusable = report(problems) || machine.is_none();
     let shown = match (arguments.format, &machine) {
         (Format::Json, _) => show(&Answer::Json(check_json(machine.as_ref(), found.iter()))),
-        (Format::Text, Some(machine)) => show(&Answer::Text(check_text(machine))),
+        (Format::Text, Some(machine)) => show(&Answer::Text(check_report(machine).text())),
         (Format::Text, None) => Outcome::Unusable,
     };
     if unusable { Outcome::Unusable } else { shown }

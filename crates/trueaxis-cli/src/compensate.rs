@@ -18,7 +18,7 @@ use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{AxisKind, Command};
 use trueaxis::predict::holes::Compensation;
 use trueaxis::report::{
-    compensation_csv, compensation_json, compensation_text, compensation_warnings,
+    compensation_csv, compensation_json, compensation_report, compensation_warnings,
 };
 
 /// The form of the compensation.
@@ -140,7 +140,7 @@ const VALUES: crate::report_file::Written = crate::report_file::Written::file(
 
 fn answer(arguments: &ValuesArguments, machine: &Machine, tables: &[ValueTable]) -> Outcome {
     let text = match arguments.format {
-        Format::Text => compensation_text(machine, tables),
+        Format::Text => compensation_report(machine, tables).text(),
         Format::Json => format!("{:#}\n", compensation_json(machine, tables)),
         Format::Csv => tables.iter().map(|t| compensation_csv(machine, t)).collect(),
     };

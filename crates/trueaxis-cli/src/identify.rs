@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use trueaxis::files::disk;
 use trueaxis::identify::expansion::{Runs, identify_expansion, read_runs};
 use trueaxis::input::{Diagnostics, Place};
-use trueaxis::report::{expansion_json, expansion_text};
+use trueaxis::report::{expansion_json, expansion_report};
 
 /// The errors to identify.
 #[derive(Args)]
@@ -85,6 +85,6 @@ fn answer(runs: &Runs, arguments: &ExpansionArguments, problems: &mut Diagnostic
     }
     match arguments.format {
         Format::Json => Answer::Json(expansion_json(runs, &found)),
-        Format::Text => Answer::Text(expansion_text(runs, &found)),
+        Format::Text => Answer::Text(expansion_report(runs, &found).text()),
     }
 }

@@ -8,7 +8,7 @@ use clap::Args;
 use std::path::PathBuf;
 use trueaxis::input::Diagnostics;
 use trueaxis::machine::axis::Approach;
-use trueaxis::report::{PoseReport, pose_json, pose_text};
+use trueaxis::report::{PoseReport, pose_json, pose_report};
 
 /// The pose to show.
 #[derive(Args)]
@@ -64,6 +64,6 @@ fn answer(arguments: &Arguments, problems: &mut Diagnostics) -> Option<Answer> {
     let found = PoseReport { with_bodies: arguments.bodies, ..found };
     Some(match arguments.format {
         Format::Json => Answer::Json(pose_json(&found)),
-        Format::Text => Answer::Text(pose_text(&found)),
+        Format::Text => Answer::Text(pose_report(&found).text()),
     })
 }

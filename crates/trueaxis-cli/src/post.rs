@@ -12,7 +12,7 @@ use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Dimension, Place, parse_quantity};
 use trueaxis::machine::Machine;
 use trueaxis::nc::writer::{Decimals, MOST_DECIMALS, Templates, TipWords};
-use trueaxis::report::{PostReport, post_json, post_text};
+use trueaxis::report::{PostReport, post_json, post_report};
 
 /// The cutter locations, the machine and the control.
 #[derive(Args)]
@@ -240,7 +240,7 @@ impl Arguments {
         }
         let answer = match self.format {
             Format::Json => Answer::Json(post_json(&report)),
-            Format::Text => Answer::Text(post_text(&report)),
+            Format::Text => Answer::Text(post_report(&report).text()),
         };
         match show(&answer) {
             Outcome::Done if !sound => Outcome::No,

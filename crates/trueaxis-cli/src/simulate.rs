@@ -14,7 +14,7 @@ use trueaxis::input::{Diagnostics, Dimension, Place, parse_quantity};
 use trueaxis::machine::Machine;
 use trueaxis::machine::heat::TemperatureRun;
 use trueaxis::nc::Program;
-use trueaxis::report::{Simulation, simulation_html, simulation_json, simulation_text};
+use trueaxis::report::{Simulation, simulation_json, simulation_report};
 use trueaxis::simulate::{
     BodyTable, Collisions, Densify, Findings, Job, Observer, Options, ProgramFiles, Progress,
     Series, Timing,
@@ -246,11 +246,11 @@ impl Arguments {
             part.put_in_place().map_err(|e| unwritable(path, &e))?;
         }
         if !self.no_report {
-            write_report(&self.report, simulation_html(&simulation, &series))?;
+            write_report(&self.report, simulation_report(simulation, Some(&series)).html())?;
         }
         let answer = match self.format {
             Format::Json => Answer::Json(simulation_json(&simulation)),
-            Format::Text => Answer::Text(simulation_text(&simulation)),
+            Format::Text => Answer::Text(simulation_report(simulation, None).text()),
         };
         Ok(match (show(&answer), errors, found.troubles.is_grave()) {
             (Outcome::Done, true, _) => Outcome::Unusable,

@@ -10,7 +10,7 @@ use trueaxis::input::{CsvTable, Diagnostics};
 use trueaxis::machine::axis::Command;
 use trueaxis::machine::{FollowError, FollowFault, Machine, SolveError, Target};
 use trueaxis::report::numbers::exact;
-use trueaxis::report::{solve_json, solve_path_json, solve_text};
+use trueaxis::report::{solve_json, solve_path_json, solve_report};
 
 /// The tool pose to reach.
 #[derive(Args)]
@@ -88,7 +88,7 @@ fn answer(arguments: &Arguments, problems: &mut Diagnostics) -> Option<Answer> {
     }
     Some(match arguments.format {
         Format::Json => Answer::Json(solve_json(&machine, &solved)),
-        Format::Text => Answer::Text(solve_text(&machine, &solved)),
+        Format::Text => Answer::Text(solve_report(&machine, &solved).text()),
     })
 }
 

@@ -5,7 +5,7 @@ use crate::output::{Answer, Format, Outcome, finish};
 use crate::simulate::ProgramArguments;
 use clap::Args;
 use trueaxis::input::Diagnostics;
-use trueaxis::report::{TraceReport, trace_json, trace_text};
+use trueaxis::report::{TraceReport, trace_json, trace_report};
 use trueaxis::simulate::{block_line, trace};
 
 /// The block to trace.
@@ -54,6 +54,6 @@ fn answer(arguments: &Arguments, problems: &mut Diagnostics) -> Option<Answer> {
     let report = TraceReport::of(&job, arguments.block, &found);
     Some(match arguments.format {
         Format::Json => Answer::Json(trace_json(&report)),
-        Format::Text => Answer::Text(trace_text(&report)),
+        Format::Text => Answer::Text(trace_report(&report).text()),
     })
 }

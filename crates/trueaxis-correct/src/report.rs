@@ -17,17 +17,17 @@ mod program_document;
 mod tables;
 mod tables_document;
 
-pub use adapt::{AdaptReport, AdaptedProgram, adapt_html, adapt_text};
+pub use adapt::{AdaptReport, AdaptedProgram, adapt_report};
 pub use adapt_document::{AdaptDocument, adapt_json};
-pub use compensation::{compensation_csv, compensation_text, compensation_warnings};
+pub use compensation::{compensation_csv, compensation_report, compensation_warnings};
 pub use compensation_document::{CompensationDocument, compensation_json};
-pub use holes::{holes_html, holes_text};
+pub use holes::holes_report;
 pub use holes_document::{HolesDocument, holes_json};
-pub use prediction::{html, text};
+pub use prediction::prediction_report;
 pub use prediction_document::{PredictionDocument, json};
-pub use program::{ProgramReport, program_html, program_text};
+pub use program::{ProgramReport, program_report};
 pub use program_document::{ProgramDocument, program_json};
-pub use tables::{TablesReport, tables_text};
+pub use tables::{TablesReport, tables_report};
 pub use tables_document::{TablesDocument, tables_json};
 
 use crate::predict::{Index, Prediction, Share};

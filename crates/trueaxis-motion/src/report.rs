@@ -6,8 +6,5 @@ mod simulation_pictures;
 mod simulation_plots;
 mod simulation_views;
 
-pub use simulation::{
-    Simulation, clock, simulation_html, simulation_report, simulation_text, trouble_code,
-    trouble_text,
-};
+pub use simulation::{Simulation, clock, simulation_report, trouble_code, trouble_text};
 pub use simulation_document::{SimulationDocument, simulation_json};

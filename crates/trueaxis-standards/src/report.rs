@@ -6,5 +6,5 @@ mod evaluation_document;
 mod evaluation_others;
 mod evaluation_positioning;
 
-pub use evaluation::{Contents, Evaluation, evaluation_html, evaluation_report, evaluation_text};
+pub use evaluation::{Contents, Evaluation, evaluation_report};
 pub use evaluation_document::{EvaluationDocument, evaluation_json};

@@ -50,7 +50,7 @@ use std::path::{Path, PathBuf};
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_motion::{CONTROLS, control_named};
 use trueaxis_nc::Control;
-use trueaxis_report::{DrawingError, Report, Section};
+use trueaxis_report::{DrawingError, Report};
 
 /// What a verb is asked.
 pub trait Question {
@@ -83,17 +83,20 @@ pub trait Answer {
     /// As one JSON document.
     fn document(&self, problems: &Diagnostics) -> Value;
 
+    /// For readers.
+    fn report(&self) -> Report<'_>;
+
     /// For the terminal.
-    fn text(&self) -> String;
+    fn text(&self) -> String {
+        self.report().text()
+    }
 
     /// As a page that opens offline.
     ///
     /// # Errors
     /// What the drawing library says.
     fn page(&self) -> Result<String, DrawingError> {
-        let text = self.text();
-        let (title, rest) = text.split_once('\n').unwrap_or((&text, ""));
-        Report::new(title).section(Section::new("").code(rest)).html()
+        self.report().html()
     }
 
     /// Whether the verdict is "yes", where there is one.

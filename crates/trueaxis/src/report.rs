@@ -23,27 +23,25 @@ mod solve_document;
 mod trace;
 mod trace_document;
 
-pub use calibrations::{
-    CalibrationsReport, calibrations_html, calibrations_report, calibrations_text,
-};
+pub use calibrations::{CalibrationsReport, calibrations_report};
 pub use calibrations_document::{DiffDocument, calibrations_json};
-pub use certificate::{certificate_html, certificate_report, certificate_text};
+pub use certificate::certificate_report;
 pub use certificate_document::{CertificateDocument, certificate_json};
-pub use check::{check_report, check_text};
+pub use check::check_report;
 pub use check_document::{CheckDocument, check_json};
-pub use comparison::{comparison_html, comparison_report, comparison_text};
+pub use comparison::comparison_report;
 pub use comparison_document::{VerifyDocument, comparison_json};
 pub use description_document::{DescriptionDocument, description_json};
 pub use diagnostic::{DiagnosticEntry, diagnostic_json, remarks};
-pub use expansion::{expansion_report, expansion_text};
+pub use expansion::expansion_report;
 pub use expansion_document::{ExpansionDocument, expansion_json};
-pub use pose::{Bodies, Budget, PoseReport, array, bodies, budget, pose_report, pose_text};
+pub use pose::{Bodies, Budget, PoseReport, array, bodies, budget, pose_report};
 pub use pose_document::{PoseDocument, PoseRowsDocument, pose_json, pose_rows_json};
-pub use post::{PostReport, post_report, post_text};
+pub use post::{PostReport, post_report};
 pub use post_document::{PostDocument, post_json};
-pub use solve::{solve_report, solve_text};
+pub use solve::solve_report;
 pub use solve_document::{SolveDocument, SolvePathDocument, solve_json, solve_path_json};
-pub use trace::{TraceReport, trace_report, trace_text};
+pub use trace::{TraceReport, trace_report};
 pub use trace_document::{TraceDocument, trace_json};
 
 pub use trueaxis_calibrate::report::*;

@@ -15,7 +15,7 @@ use trueaxis::identify::probe::{
     identify_probe, read_study,
 };
 use trueaxis::input::Diagnostics;
-use trueaxis::report::{probe_html, probe_json, probe_table_csv, probe_text};
+use trueaxis::report::{probe_json, probe_report, probe_table_csv};
 use virtual_probe::{VirtualProbe, even};
 
 fn expected() -> Value {
@@ -166,8 +166,8 @@ fn the_reports_of_the_examples_have_their_figures() {
         let three = document["harmonics"].as_array().expect("harmonics");
         let three = three.iter().find(|h| h["order"] == 3).expect("the third");
         assert!((three["amplitude_um"].as_f64().expect("µm") - 10.0).abs() < 1.0, "{three}");
-        assert!(probe_text(&study, &found).contains("directions held out"));
-        let page = probe_html(&study, &found).expect("a page");
+        assert!(probe_report(&study, &found).text().contains("directions held out"));
+        let page = probe_report(&study, &found).html().expect("a page");
         assert!(page.ends_with("</html>") && page.contains("<svg viewBox"));
         let table = probe_table_csv(&found[0], 60, 0.0);
         assert_eq!(table.lines().count(), 63);

@@ -14,7 +14,7 @@ use trueaxis::identify::thermal::{
     Logs, Tables, ThermalModel, Zero, identify_thermal, parse_logs, read_logs,
 };
 use trueaxis::input::Diagnostics;
-use trueaxis::report::{thermal_html, thermal_json, thermal_lines, thermal_text};
+use trueaxis::report::{thermal_json, thermal_lines, thermal_report};
 
 fn expected() -> Value {
     let path = root().join("crates/trueaxis/tests/data/thermal.json");
@@ -182,9 +182,9 @@ fn reports_are_whole_and_have_numbers() {
             logs.error = "<script>".to_owned();
         }
         let model = identify_thermal(&logs);
-        let page = thermal_html(&logs, &model).expect("a page");
+        let page = thermal_report(&logs, &model).html().expect("a page");
         assert!(page.ends_with("</html>") && !page.contains("<script") && !page.contains("NaN"));
-        let text = thermal_text(&logs, &model);
+        let text = thermal_report(&logs, &model).text();
         assert!(!text.split_whitespace().any(|w| ["NaN", "inf", "-inf"].contains(&w)), "{text}");
         let document = thermal_json(&logs, &model);
         assert_eq!(document["schema"], "trueaxis/identify/1");

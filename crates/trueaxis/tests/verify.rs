@@ -14,7 +14,7 @@ mod reports;
 use library::root;
 use serde_json::Value;
 use trueaxis::input::Diagnostics;
-use trueaxis::report::{Evaluation, evaluation_html, evaluation_json, evaluation_text};
+use trueaxis::report::{Evaluation, evaluation_json, evaluation_report};
 use trueaxis::verify::conditions::Conditions;
 use trueaxis::verify::{Evaluated, Request, Standard, evaluate};
 
@@ -47,8 +47,8 @@ fn document(standard: Standard, evaluated: &Evaluated, conditions: &Conditions) 
 
 fn page(standard: Standard, evaluated: &Evaluated, conditions: &Conditions) {
     let e = Evaluation { standard, file: "t.csv", conditions, evaluated, remarks: &[] };
-    assert!(evaluation_html(&e).expect("a page").ends_with("</html>"));
-    let text = evaluation_text(&e);
+    assert!(evaluation_report(&e).html().expect("a page").ends_with("</html>"));
+    let text = evaluation_report(&e).text();
     let unsound = text.split_whitespace().find(|w| ["NaN", "inf", "-inf"].contains(w));
     assert!(unsound.is_none(), "{text}");
 }

@@ -12,11 +12,11 @@ use trueaxis_nc::Control;
 
 /// What becomes of a plan.
 #[derive(Debug, Clone)]
-pub struct PlanReport<'a> {
+pub struct PlanReport {
     /// What was asked.
-    pub plan: &'a Plan,
+    pub plan: Plan,
     /// The unknowns.
-    pub design: &'a Design,
+    pub design: Design,
     /// What all paths together will determine.
     pub expectation: Expectation,
     /// The paths, the chosen poses last.
@@ -54,12 +54,8 @@ pub fn chosen(plan: &Plan, problems: &mut Diagnostics) -> Option<Chosen> {
 }
 
 /// Plans all paths, the chosen poses last.
-pub fn planned<'a>(
-    plan: &'a Plan,
-    design: &'a Design,
-    chosen: Option<Chosen>,
-    control: Control,
-) -> PlanReport<'a> {
+pub fn planned(plan: Plan, chosen: Option<Chosen>, control: Control) -> PlanReport {
+    let design = plan.campaign.design();
     let mut paths = plan.paths.clone();
     if let Some(chosen) = &chosen {
         paths.push(Path {
@@ -71,14 +67,10 @@ pub fn planned<'a>(
     }
     let mut stations = Readings::default();
     paths.iter().for_each(|path| stations.append(&path.stations));
+    let expectation = expect(&plan.campaign, &design, &stations);
     let numbered = paths.into_iter().zip(1..);
-    PlanReport {
-        plan,
-        design,
-        expectation: expect(&plan.campaign, design, &stations),
-        paths: numbered.map(|(path, n)| planned_path(plan, design, path, n, control)).collect(),
-        chosen,
-    }
+    let paths = numbered.map(|(path, n)| planned_path(&plan, &design, path, n, control)).collect();
+    PlanReport { plan, design, expectation, paths, chosen }
 }
 
 fn planned_path(

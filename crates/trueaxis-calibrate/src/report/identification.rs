@@ -10,9 +10,10 @@ use crate::measure::Campaign;
 use crate::plan::Unobservable;
 use crate::unknowns::fit::Model;
 use std::rc::Rc;
-use trueaxis_report::{Columns, DrawingError, Figure, Report, Section, Standing, Table};
+use trueaxis_report::{Columns, Figure, Report, Section, Standing, Table};
 
 /// What a report of an identification shows.
+#[derive(Clone, Copy)]
 pub struct IdentificationReport<'a> {
     /// The campaign.
     pub campaign: &'a Campaign,
@@ -133,7 +134,7 @@ impl IdentificationReport<'_> {
 }
 
 /// The result in text and on a page.
-fn report<'a>(answer: &'a IdentificationReport<'_>) -> Report<'a> {
+pub fn identification_report(answer: IdentificationReport<'_>) -> Report<'_> {
     let (found, records, campaign) = (answer.found, answer.records, answer.campaign);
     let linear = if answer.options.model == Model::Linear { ", linear model" } else { "" };
     let date = answer.options.date.as_ref().map_or(String::new(), |date| format!(", {date}"));
@@ -149,14 +150,14 @@ fn report<'a>(answer: &'a IdentificationReport<'_>) -> Report<'a> {
             found.fit.sight.condition(),
         ))
         .verdict(standing, found.verdict.words(), "")
-        .section(score_section(answer))
+        .section(score_section(&answer))
         .sections(answer.conventions.map(conventions_section))
-        .section(arrow_section(answer))
-        .section(error_section(answer))
+        .section(arrow_section(&answer))
+        .section(error_section(&answer))
         .section(unobservable_section("Not observable with these readings", &found.unobservable))
         .section(correlation_section(answer))
-        .section(outlier_section(answer))
-        .section(influence_section(answer))
+        .section(outlier_section(&answer))
+        .section(influence_section(&answer))
 }
 
 fn score_section<'a>(answer: &IdentificationReport<'_>) -> Section<'a> {
@@ -224,7 +225,7 @@ fn arrow_section<'a>(answer: &IdentificationReport<'_>) -> Section<'a> {
         .grid(Columns::Three, views(after, large))
 }
 
-fn error_section<'a>(answer: &'a IdentificationReport<'_>) -> Section<'a> {
+fn error_section<'a>(answer: &IdentificationReport<'a>) -> Section<'a> {
     let found = &answer.found.found;
     let figure = |angle: bool| {
         let machine = found.iter().filter(move |f| !f.is_setup && f.is_angle == angle);
@@ -267,13 +268,13 @@ pub(super) fn unobservable_section<'a>(title: &str, list: &[Unobservable]) -> Se
     Section::new(title).list(list.iter().map(line))
 }
 
-fn correlation_section<'a>(answer: &'a IdentificationReport<'_>) -> Section<'a> {
+fn correlation_section(answer: IdentificationReport<'_>) -> Section<'_> {
     let seen = answer.found.found.iter().filter(|f| f.value.is_some());
     let seen: Vec<&Found> = seen.take(MOST_MAPPED).collect();
     let caption =
         "Red +1, white 0, blue −1. Strongly correlated errors are known together better than each.";
     let figures = (seen.len() > 1).then(|| {
-        let mut figure = Figure::new(caption, move || Ok(correlation_map(answer, &seen)));
+        let mut figure = Figure::new(caption, move || Ok(correlation_map(&answer, &seen)));
         figure.round = true;
         figure
     });
@@ -309,17 +310,4 @@ fn influence_section<'a>(answer: &IdentificationReport<'_>) -> Section<'a> {
     });
     Section::new("Readings that move the result most if they are left out")
         .table(Table::new(["reading", "leverage", "Cook's distance"]).rows(rows))
-}
-
-/// The result as text.
-pub fn identification_text(answer: &IdentificationReport<'_>) -> String {
-    report(answer).text()
-}
-
-/// The result as one page.
-///
-/// # Errors
-/// What the drawing library says.
-pub fn identification_html(answer: &IdentificationReport<'_>) -> Result<String, DrawingError> {
-    report(answer).html()
 }

@@ -6,9 +6,7 @@ use crate::measure::virtual_campaign::{
 use crate::measure::{Campaign, Kind};
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::errors::ErrorValues;
-use trueaxis_report::{
-    Band, DrawingError, Picture, Polar, PolarLine, Report, Scatter, Section, Table,
-};
+use trueaxis_report::{Band, Picture, Polar, PolarLine, Report, Scatter, Section, Table};
 
 /// More points say nothing new to the eye.
 const MOST_POINTS: usize = 4000;
@@ -86,7 +84,9 @@ impl MeasuredReport<'_> {
     }
 }
 
-fn report<'a>(answer: &MeasuredReport<'_>, summary: &Summary) -> Report<'a> {
+/// The measurement; pictures are drawn on the page.
+pub fn measurement_report<'a>(answer: &MeasuredReport<'_>) -> Report<'a> {
+    let summary = &answer.summary();
     let instruments = answer.campaign.instruments.iter().enumerate();
     // What has been written to files need not be shown.
     let first = instruments.filter(|_| answer.files.is_empty()).map(|(of, instrument)| {
@@ -99,6 +99,7 @@ fn report<'a>(answer: &MeasuredReport<'_>, summary: &Summary) -> Report<'a> {
         .section(Section::new("Readings less nominal").table(answer.table(summary)))
         .sections(first)
         .section(Section::new("Written").on_terminal().list(answer.files.iter().cloned()))
+        .sections(pictures(answer, summary).into_iter().map(Section::from))
 }
 
 /// Readings over stations, path after path, as in Figs 10–12 of Lei and Hsu 2003; circles of a ball-bar
@@ -118,21 +119,6 @@ fn pictures(report: &MeasuredReport<'_>, summary: &Summary) -> Vec<Picture> {
         }
     }
     pictures
-}
-
-/// The measurement as text.
-pub fn measurement_text(answer: &MeasuredReport<'_>) -> String {
-    report(answer, &answer.summary()).text()
-}
-
-/// The measurement as one page.
-///
-/// # Errors
-/// What the drawing library says.
-pub fn measurement_html(answer: &MeasuredReport<'_>) -> Result<String, DrawingError> {
-    let summary = answer.summary();
-    let pictures = pictures(answer, &summary).into_iter().map(Section::from);
-    report(answer, &summary).sections(pictures).html()
 }
 
 /// Rows of an instrument on a path, thinned out for the eye.

@@ -7,7 +7,7 @@ use crate::plan::{Chosen, Expected, PlanReport, PlannedPath, tools};
 use crate::unknowns::design::Design;
 use trueaxis_geometry::Vec3;
 use trueaxis_motion::report::clock;
-use trueaxis_report::{Columns, DrawingError, Figure, Report, Section, Table};
+use trueaxis_report::{Columns, Figure, Report, Section, Table};
 
 /// Width of a view, pixels.
 const VIEW_PX: f64 = 240.0;
@@ -37,7 +37,7 @@ fn figure(value: f64) -> String {
 }
 
 /// The plan in text and on a page.
-fn report<'a>(answer: &'a PlanReport<'_>) -> Report<'a> {
+pub fn plan_report<'a>(answer: &'a PlanReport) -> Report<'a> {
     let campaign = &answer.plan.campaign;
     let machine = &campaign.machine;
     let e = &answer.expectation;
@@ -58,7 +58,7 @@ fn report<'a>(answer: &'a PlanReport<'_>) -> Report<'a> {
         }))
 }
 
-fn path_section<'a>(answer: &PlanReport<'_>) -> Section<'a> {
+fn path_section<'a>(answer: &PlanReport) -> Section<'a> {
     let mut lines = Vec::new();
     let rows = answer.paths.iter().map(|planned| {
         let path = &planned.path;
@@ -80,7 +80,7 @@ fn path_section<'a>(answer: &PlanReport<'_>) -> Section<'a> {
     Section::new("Paths and their programs").table(table).list(lines)
 }
 
-fn seen_section<'a>(answer: &PlanReport<'_>) -> Section<'a> {
+fn seen_section<'a>(answer: &PlanReport) -> Section<'a> {
     let heads = answer.paths.iter().map(|planned| {
         let name: String = planned.path.name.chars().take(16).collect();
         format!("{name} ({})", planned.channels.join(", "))
@@ -108,11 +108,11 @@ fn readings(planned: &PlannedPath, k: usize) -> String {
     largest.map_or_else(String::new, |all: Vec<String>| all.join(" "))
 }
 
-fn expected_section<'a>(answer: &'a PlanReport<'_>) -> Section<'a> {
+fn expected_section<'a>(answer: &'a PlanReport) -> Section<'a> {
     let e = &answer.expectation;
     let figures = ["µm", "µrad", "µm/m"].into_iter().filter_map(|unit| {
         let bar = |e: &'a Expected| {
-            let (its, scale) = shown_unit(answer.design, e);
+            let (its, scale) = shown_unit(&answer.design, e);
             let value = e.u.filter(|_| its == unit)? * 2.0 * scale;
             let text = format!("{} {unit}", figure(value));
             Some(Bar { name: &e.name, value, half: 0.0, text })
@@ -121,7 +121,7 @@ fn expected_section<'a>(answer: &'a PlanReport<'_>) -> Section<'a> {
         (!all.is_empty()).then(|| Figure::new(format!("U (k = 2), {unit}"), move || Ok(bars(&all))))
     });
     let rows = e.unknowns.iter().map(|expected| {
-        let (unit, scale) = shown_unit(answer.design, expected);
+        let (unit, scale) = shown_unit(&answer.design, expected);
         let [u, expanded, unit] = match expected.u {
             Some(u) => [figure(u * scale), figure(2.0 * u * scale), unit.to_owned()],
             None => ["–", "not observable", ""].map(str::to_owned),
@@ -139,7 +139,7 @@ fn expected_section<'a>(answer: &'a PlanReport<'_>) -> Section<'a> {
         .table(Table::new(["", "u", "U (k = 2)", ""]).rows(rows).most_on_terminal(usize::MAX))
 }
 
-fn chosen_section<'a>(answer: &PlanReport<'_>, chosen: &Chosen) -> Section<'a> {
+fn chosen_section<'a>(answer: &PlanReport, chosen: &Chosen) -> Section<'a> {
     let mut section = Section::new("Chosen poses").paragraph(format!(
         "{} of {} poses, {} readings, {} (by per_hit and per_pose), {} exchanges",
         chosen.poses,
@@ -156,7 +156,7 @@ fn chosen_section<'a>(answer: &PlanReport<'_>, chosen: &Chosen) -> Section<'a> {
     }
     let Some((count, grid)) = &chosen.grid else { return section };
     let rows = chosen.expectation.unknowns.iter().zip(&grid.unknowns).map(|(a, b)| {
-        let (unit, scale) = shown_unit(answer.design, a);
+        let (unit, scale) = shown_unit(&answer.design, a);
         let one =
             |u: Option<f64>| u.map_or("not observable".to_owned(), |u| figure(2.0 * u * scale));
         [a.name.clone(), one(a.u), one(b.u), unit.to_owned()]
@@ -204,17 +204,4 @@ fn views<'a>(title: String, tools: &[(Vec3, Vec3)]) -> Section<'a> {
             figure(VIEW_PX / scale)
         ))
         .grid(Columns::Three, panels.map(view))
-}
-
-/// The plan as text.
-pub fn plan_text(answer: &PlanReport<'_>) -> String {
-    report(answer).text()
-}
-
-/// The plan as one page.
-///
-/// # Errors
-/// What the drawing library says.
-pub fn plan_html(answer: &PlanReport<'_>) -> Result<String, DrawingError> {
-    report(answer).html()
 }

@@ -134,8 +134,8 @@ pub struct GridEntry<'a> {
 
 impl<'a> PlanDocument<'a> {
     /// The document of a plan.
-    pub fn of(report: &'a PlanReport<'_>) -> Self {
-        let (campaign, design) = (&report.plan.campaign, report.design);
+    pub fn of(report: &'a PlanReport) -> Self {
+        let (campaign, design) = (&report.plan.campaign, &report.design);
         let expectation = &report.expectation;
         Self {
             schema: "trueaxis/plan/1",
@@ -221,6 +221,6 @@ impl<'a> From<&'a Result<ProgramCheck, String>> for ProgramEntry<'a> {
 }
 
 /// The document `trueaxis/plan/1` as a JSON value.
-pub fn plan_json(report: &PlanReport<'_>) -> Value {
+pub fn plan_json(report: &PlanReport) -> Value {
     document(&PlanDocument::of(report))
 }

@@ -7,7 +7,7 @@ use crate::identify::probe::{
 };
 use std::fmt::Write;
 use trueaxis_geometry::Vec3;
-use trueaxis_report::{DrawingError, Report, Section, Table};
+use trueaxis_report::{Report, Section, Table};
 
 /// Directions of the table on the page.
 const SHOWN: usize = 12;
@@ -192,7 +192,7 @@ pub(super) fn form_name(found: &Calibration) -> (&'static str, usize) {
 }
 
 /// The study with the calibration of each stylus, in text and on a page.
-fn report<'a>(study: &Study, all: &[Calibration]) -> Report<'a> {
+pub fn probe_report<'a>(study: &Study, all: &[Calibration]) -> Report<'a> {
     Report::new(&study.name)
         .section(Section::new("Datums").list(datums(study)))
         .sections(all.iter().zip(&study.styli).flat_map(|(found, stylus)| sections(found, stylus)))
@@ -329,19 +329,6 @@ fn directions<'a>(found: &Calibration) -> Section<'a> {
 /// No minus before what rounds to zero.
 fn no_minus(um: f64) -> f64 {
     if um.abs() < 0.005 { 0.0 } else { um }
-}
-
-/// The calibrations as text.
-pub fn probe_text(study: &Study, all: &[Calibration]) -> String {
-    report(study, all).text()
-}
-
-/// The calibrations as one page.
-///
-/// # Errors
-/// What the drawing library says.
-pub fn probe_html(study: &Study, all: &[Calibration]) -> Result<String, DrawingError> {
-    report(study, all).html()
 }
 
 /// The direction table as CSV: what to subtract along the direction of motion.

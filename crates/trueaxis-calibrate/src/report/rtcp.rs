@@ -3,7 +3,7 @@
 use crate::identify::rtcp::forecast::{Forecast, Strays};
 use crate::identify::rtcp::{Calibration, NewSlot, RtcpStudy};
 use trueaxis_geometry::statistics::chi_square_above;
-use trueaxis_report::{DrawingError, Report, Section, Standing, Table};
+use trueaxis_report::{Report, Section, Standing, Table};
 
 /// What stands in a report of an RTCP calibration.
 #[derive(Debug, Clone, Copy)]
@@ -16,7 +16,8 @@ pub struct RtcpReport<'a> {
     pub forecast: Option<&'a Forecast>,
 }
 
-fn report<'a>(answer: &RtcpReport<'_>) -> Report<'a> {
+/// The calibration.
+pub fn rtcp_report<'a>(answer: &RtcpReport<'_>) -> Report<'a> {
     let (study, found) = (answer.study, answer.found);
     let verdict = found.verdict();
     let (word, sentence) = verdict.split_once(": ").unwrap_or((&verdict, ""));
@@ -127,17 +128,4 @@ fn forecast<'a>(f: &Forecast) -> Section<'a> {
             format!("{:.2}", f.expected_rms_mm * 1e3),
         ]);
     Section::new(format!("Tip over {} poses, the zero touched at rotary 0", f.poses)).table(table)
-}
-
-/// The calibration as text.
-pub fn rtcp_text(answer: &RtcpReport<'_>) -> String {
-    report(answer).text()
-}
-
-/// The calibration as one page.
-///
-/// # Errors
-/// What the drawing library says.
-pub fn rtcp_html(answer: &RtcpReport<'_>) -> Result<String, DrawingError> {
-    report(answer).html()
 }

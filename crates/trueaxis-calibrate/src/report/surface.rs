@@ -19,13 +19,13 @@ pub(super) fn issues(check: &ProgramCheck) -> Vec<String> {
     lines
 }
 
-/// The path as text.
-pub fn surface_text(
+/// The path with what the check of its program says.
+pub fn surface_report<'a>(
     study: &SurfaceStudy,
     poses: &[Pose],
     asked: usize,
     check: &ProgramCheck,
-) -> String {
+) -> Report<'a> {
     let part =
         if study.part.is_some() { "machine and part" } else { "machine (no part is stated)" };
     let report = Report::new(&study.name)
@@ -50,5 +50,5 @@ pub fn surface_text(
         true => report.verdict(Standing::Good, "SAFE", "nothing is in its way"),
         false => report.verdict(Standing::Bad, "NOT SAFE", "not to be run"),
     };
-    report.section(Section::new("Check of the program").list(issues(check))).text()
+    report.section(Section::new("Check of the program").list(issues(check)))
 }

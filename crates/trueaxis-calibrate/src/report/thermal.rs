@@ -4,7 +4,7 @@ use super::thermal_pictures::{cycle_picture, scores_picture};
 use crate::identify::thermal::{Logs, Score, ThermalModel, Zero};
 use std::fmt::Write as _;
 use trueaxis_machine::errors::ErrorName;
-use trueaxis_report::{Columns, DrawingError, Figure, Report, Section, Standing, Table};
+use trueaxis_report::{Columns, Figure, Report, Section, Standing, Table};
 
 /// More cycles are not drawn one by one.
 const MOST_DRAWN: usize = 24;
@@ -113,7 +113,7 @@ fn u_of_root(score: &Score) -> f64 {
 }
 
 /// The model in text and on a page.
-fn report<'a>(logs: &'a Logs, model: &'a ThermalModel) -> Report<'a> {
+pub fn thermal_report<'a>(logs: &'a Logs, model: &'a ThermalModel) -> Report<'a> {
     let rows: usize = logs.cycles.iter().map(|c| c.displacement_mm.len()).sum();
     let (standing, word) = match model.refusal.is_some() {
         true => (Standing::Bad, "no model"),
@@ -214,17 +214,4 @@ fn cycle_section<'a>(logs: &'a Logs, model: &'a ThermalModel) -> Section<'a> {
     Section::new("Each cycle, predicted by a model that has not seen it")
         .table(Table::new(["cycle", "without a model, rms, µm", "held out, rms, µm"]).rows(rows))
         .grid(Columns::AsFit, figures)
-}
-
-/// The model as text.
-pub fn thermal_text(logs: &Logs, model: &ThermalModel) -> String {
-    report(logs, model).text()
-}
-
-/// The model as one page.
-///
-/// # Errors
-/// What the drawing library says.
-pub fn thermal_html(logs: &Logs, model: &ThermalModel) -> Result<String, DrawingError> {
-    report(logs, model).html()
 }

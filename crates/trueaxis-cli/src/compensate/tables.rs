@@ -13,7 +13,7 @@ use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Dimension, Place, parse_quantity};
 use trueaxis::machine::Machine;
 use trueaxis::predict::read_study;
-use trueaxis::report::{TablesReport, tables_json, tables_text};
+use trueaxis::report::{TablesReport, tables_json, tables_report};
 
 /// The machine, the control, and the resolution.
 #[derive(Args)]
@@ -203,7 +203,7 @@ impl TablesArguments {
             piece: study.as_deref().zip(piece.as_deref()),
         };
         show(&match self.format {
-            Format::Text => Answer::Text(tables_text(&shown)),
+            Format::Text => Answer::Text(tables_report(&shown).text()),
             Format::Json => Answer::Json(tables_json(&shown)),
         })
     }

@@ -4,7 +4,7 @@ use super::adapt_maps::Layout;
 use super::adapt_pictures::pictures;
 use crate::compensate::adapt::{AdaptStudy, Adaptation, MapCell, MovedPlace};
 use trueaxis_geometry::Vec3;
-use trueaxis_report::{Columns, DrawingError, Report, Section, Standing, Table};
+use trueaxis_report::{Columns, Report, Section, Standing, Table};
 
 /// The program that was made of the adapted path.
 #[derive(Debug, Clone, PartialEq)]
@@ -116,20 +116,8 @@ impl AdaptReport<'_> {
     }
 }
 
-/// The answer as text.
-pub fn adapt_text(answer: &AdaptReport<'_>) -> String {
-    report(answer).text()
-}
-
-/// The answer as a page.
-///
-/// # Errors
-/// What the drawing library says.
-pub fn adapt_html(answer: &AdaptReport<'_>) -> Result<String, DrawingError> {
-    report(answer).html()
-}
-
-fn report<'a>(r: &AdaptReport<'a>) -> Report<'a> {
+/// The answer.
+pub fn adapt_report<'a>(r: &AdaptReport<'a>) -> Report<'a> {
     let (standing, word) = match r.is_sound() {
         true => (Standing::Good, "GOOD"),
         false => (Standing::Bad, "NOT TO BE CUT"),

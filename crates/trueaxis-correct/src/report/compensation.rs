@@ -1,11 +1,13 @@
 //! Compensation values as text and CSV.
 
-use crate::compensate::values::{Value, ValueTable};
+use crate::compensate::values::{MOST_POSITIONS, Value, ValueTable};
 use crate::predict::holes::Compensation;
 use std::fmt::Write;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Axis, AxisKind, AxisSide};
 use trueaxis_machine::heat::ErrorPart;
+use trueaxis_report::numbers::fixed;
+use trueaxis_report::{Report, Section, Table};
 
 /// The units of an axis: of its positions, and of its errors in text, CSV and JSON.
 pub(super) struct Units {
@@ -85,7 +87,7 @@ fn sign_note(axis: &Axis) -> String {
     format!("{}: {carried}", axis.name)
 }
 
-fn title(of: Compensation) -> &'static str {
+fn meaning(of: Compensation) -> &'static str {
     match of {
         Compensation::Comprehensive => "- (machine - workpiece), the comprehensive error",
         Compensation::Machine | Compensation::None => "- machine, the workpiece is left out",
@@ -93,65 +95,60 @@ fn title(of: Compensation) -> &'static str {
 }
 
 /// The values as tables, the warnings first.
-pub fn compensation_text(machine: &Machine, tables: &[ValueTable]) -> String {
-    let mut text = format!("{}   {}\n", machine.name(), machine.chain_text());
-    for warning in compensation_warnings(machine, tables) {
-        // Writing to a String cannot fail.
-        let _ = write!(text, "\n  WARNING  {warning}\n");
-    }
-    for table in tables {
-        text += &one_text(axis(machine, table), table);
-    }
-    text
+pub fn compensation_report<'a>(machine: &Machine, tables: &[ValueTable]) -> Report<'a> {
+    let warnings = compensation_warnings(machine, tables);
+    let warnings = warnings.into_iter().map(|warning| format!("WARNING  {warning}"));
+    Report::new(machine.name())
+        .line(machine.chain_text())
+        .section(Section::new("").list(warnings))
+        .sections(tables.iter().map(|table| section(axis(machine, table), table)))
 }
 
-fn one_text(axis: &Axis, table: &ValueTable) -> String {
+fn section<'a>(axis: &Axis, table: &ValueTable) -> Section<'a> {
     let units = units(axis);
     let unit = units.shown;
-    let shown = |v: f64| {
-        // No minus before a zero.
-        format!("{:.1}", (v * units.shown_scale * 10.0).round() / 10.0 + 0.0)
-    };
-    let mut text = format!(
-        "\nValues of {} in increments of {}, to be added to the command\n  value = {}\n  {}\n\n",
+    let shown = |v: f64| fixed(v * units.shown_scale, 1);
+    let title = format!(
+        "Values of {} in increments of {}, to be added to the command",
         axis.name,
-        increment(axis, table),
-        title(table.order.of),
-        sign_note(axis)
+        increment(axis, table)
+    );
+    let rule = format!("value = {}; {}", meaning(table.order.of), sign_note(axis));
+    let [none, alone, whole] = table.worst.map(shown);
+    let note = format!(
+        "errors, u (standard uncertainty) and remainder in {unit}; largest error of the part: {none} {unit} \
+         without compensation, {alone} {unit} with the machine alone, {whole} {unit} with the \
+         comprehensive one"
     );
     let both = table.nodes.iter().any(|n| n.by_direction.is_some());
-    let up_down = if both { "     value ↑    value ↓" } else { "" };
-    let head = format!("{}, {}", axis.name, units.place);
-    let _ = writeln!(
-        text,
-        "  {head:>10}  geometric   + scale + struct. = machine - workpiece    = part       u      value \
-         remainder{up_down}"
-    );
-    for node in &table.nodes {
+    let by_direction: &[&str] = if both { &["value ↑", "value ↓"] } else { &[] };
+    let place_heading = format!("{}, {}", axis.name, units.place);
+    let headings = std::iter::once(&place_heading[..]).chain(HEADINGS).chain(by_direction.to_vec());
+    let rows = table.nodes.iter().map(|node| {
         let [geometric, scale, structure, workpiece] = node.split.map(shown);
-        let (machine, part) = (shown(node.machine), shown(node.comprehensive));
-        let u = node.u.map_or("–".to_owned(), |u| format!("{:.1}", u * units.shown_scale));
-        let (at, value) = (place(&units, node.position), node.value.increments);
-        let remainder = shown(node.value.remainder);
-        let _ = write!(
-            text,
-            "  {at:>10}  {geometric:>9} {scale:>9} {structure:>9} {machine:>9} {workpiece:>11} {part:>9} \
-             {u:>7} {value:>10} {remainder:>9}"
-        );
-        if let Some([up, down]) = node.by_direction {
-            let _ = write!(text, "  {:>10} {:>10}", up.increments, down.increments);
-        }
-        text.push('\n');
-    }
-    let [none, alone, whole] = table.worst.map(shown);
-    let _ = writeln!(
-        text,
-        "\n  errors, u (standard uncertainty) and remainder in {unit}\n  largest error of the part: \
-         {none} {unit} without compensation, {alone} {unit} with the machine alone, {whole} {unit} \
-         with the comprehensive one"
-    );
-    text
+        let mut row = vec![place(&units, node.position).to_string(), geometric, scale, structure];
+        row.extend([shown(node.machine), workpiece, shown(node.comprehensive)]);
+        row.push(node.u.map_or("–".to_owned(), shown));
+        row.extend([node.value.increments.to_string(), shown(node.value.remainder)]);
+        row.extend(node.by_direction.iter().flatten().map(|value| value.increments.to_string()));
+        row
+    });
+    let table = Table::new(headings).rows(rows).note(note).most_on_terminal(MOST_POSITIONS);
+    Section::new(title).paragraph(rule).table(table)
 }
+
+/// The parts of an error, from the left to the right as they add up, and what is done about it.
+const HEADINGS: [&str; 9] = [
+    "geometric",
+    "+ scale",
+    "+ struct.",
+    "= machine",
+    "- workpiece",
+    "= part",
+    "u",
+    "value",
+    "remainder",
+];
 
 /// The values of one axis as a table that begins with its conditions as comments.
 pub fn compensation_csv(machine: &Machine, table: &ValueTable) -> String {
@@ -162,7 +159,7 @@ pub fn compensation_csv(machine: &Machine, table: &ValueTable) -> String {
         "# TrueAxis compensation values of {} of {}, added to the command\n# value = {}; increment {}\n",
         axis.name,
         machine.name().replace(['\n', '\r'], " "),
-        title(table.order.of),
+        meaning(table.order.of),
         increment(axis, table)
     );
     for warning in compensation_warnings(machine, std::slice::from_ref(table)) {

@@ -2,25 +2,13 @@
 
 use super::holes_pictures::plans;
 use crate::predict::holes::{HolePrediction, HoleSet, HoleStudy};
-use trueaxis_report::{Columns, DrawingError, Report, Section, Standing, Table};
+use trueaxis_report::{Columns, Report, Section, Standing, Table};
 
 /// Each compensation in words.
 const NAMES: [&str; 3] = ["without compensation", "machine only", "comprehensive"];
 
-/// The prediction as text.
-pub fn holes_text(study: &HoleStudy, prediction: &HolePrediction) -> String {
-    report(study, prediction).text()
-}
-
-/// The prediction as a page.
-///
-/// # Errors
-/// What the drawing library says.
-pub fn holes_html(study: &HoleStudy, prediction: &HolePrediction) -> Result<String, DrawingError> {
-    report(study, prediction).html()
-}
-
-fn report<'a>(study: &'a HoleStudy, prediction: &'a HolePrediction) -> Report<'a> {
+/// The prediction.
+pub fn holes_report<'a>(study: &'a HoleStudy, prediction: &'a HolePrediction) -> Report<'a> {
     let applied = prediction.sets.iter().find(|s| s.compensation == study.applied);
     let (standing, word, sentence) = match applied.and_then(|s| s.in_tolerance) {
         Some(true) => (Standing::Good, "PASS", "every hole will be in tolerance"),

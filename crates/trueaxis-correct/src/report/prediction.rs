@@ -6,27 +6,15 @@ use crate::predict::{DatumAxis, Decision, Index, Prediction, Sensitivity, Share,
 use trueaxis_machine::describe::command_words;
 use trueaxis_machine::errors::ErrorKind;
 use trueaxis_part::tolerance::Outcome;
-use trueaxis_report::{Columns, DrawingError, Report, Section, Standing, Table};
+use trueaxis_report::{Columns, Report, Section, Standing, Table};
 
 /// How many errors the table of the error budget shows.
 const MOST_ERRORS: usize = 8;
 /// How many corrections are shown.
 const MOST_CORRECTIONS: usize = 8;
 
-/// The prediction as text.
-pub fn text(study: &Study, prediction: &Prediction) -> String {
-    report(study, prediction).text()
-}
-
-/// The prediction as a page.
-///
-/// # Errors
-/// What the drawing library says.
-pub fn html(study: &Study, prediction: &Prediction) -> Result<String, DrawingError> {
-    report(study, prediction).html()
-}
-
-fn report<'a>(study: &'a Study, prediction: &'a Prediction) -> Report<'a> {
+/// The prediction.
+pub fn prediction_report<'a>(study: &'a Study, prediction: &'a Prediction) -> Report<'a> {
     let machine = &study.machine;
     let (standing, word, sentence) = match prediction.verdict.outcome {
         Outcome::Pass => (Standing::Good, "PASS", "the part will be in tolerance"),

@@ -3,7 +3,7 @@
 use crate::compensate::program::{Convention, ProgramOptions, Residual, Rewritten, Wrong};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::AxisKind;
-use trueaxis_report::{DrawingError, Report, Section, Standing, Table, numbers};
+use trueaxis_report::{Report, Section, Standing, Table, numbers};
 
 /// Everything that there is to tell.
 #[derive(Debug, Clone, Copy)]
@@ -152,7 +152,7 @@ impl ProgramReport<'_> {
 }
 
 /// The answer in text and on a page.
-fn report<'a>(r: &ProgramReport<'a>) -> Report<'a> {
+pub fn program_report<'a>(r: &ProgramReport<'a>) -> Report<'a> {
     let proof = &r.rewritten.proof;
     let tip_um = |of: &Residual| number(of.tip_end.value * 1e3);
     let sentence = format!(
@@ -254,19 +254,6 @@ fn conventions<'a>(r: &ProgramReport<'_>) -> Section<'a> {
                 one pose on the machine before the first part.";
     let table = Table::new(["", "tip, µm", "tool axis, µrad"]).rows(rows).note(note);
     Section::new("Convention check").table(table)
-}
-
-/// The answer as text.
-pub fn program_text(answer: &ProgramReport<'_>) -> String {
-    report(answer).text()
-}
-
-/// The answer as a page.
-///
-/// # Errors
-/// What the drawing library says.
-pub fn program_html(answer: &ProgramReport<'_>) -> Result<String, DrawingError> {
-    report(answer).html()
 }
 
 /// Small numbers keep their digits.

@@ -1,15 +1,16 @@
-//! Compensation tables and what they leave, as text.
+//! Compensation tables and what they leave, in text and on a page.
 
 use crate::compensate::tables::grid::{Gridded, Side};
 use crate::compensate::tables::joints::{Joint, Joints};
 use crate::compensate::tables::known::MadeKnown;
 use crate::compensate::tables::proof::{ErrorLoss, IndexLeft, Left};
-use crate::compensate::tables::table::{PER_UNIT, Table, count_of};
+use crate::compensate::tables::table::{self, PER_UNIT, count_of};
 use crate::compensate::tables::{Compiled, LeftOut, Made, What, known, shown};
-use std::fmt::Write;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::describe::to_shown;
+use trueaxis_report::numbers::fixed;
+use trueaxis_report::{Report, Section, Table};
 
 /// What there is to tell.
 pub struct TablesReport<'a> {
@@ -28,111 +29,108 @@ pub struct TablesReport<'a> {
 /// More errors than this tell a reader nothing new.
 const MOST_SHOWN: usize = 12;
 
-/// The tables as text.
-pub fn tables_text(report: &TablesReport<'_>) -> String {
+/// The tables with what they leave.
+pub fn tables_report<'a>(report: &TablesReport<'_>) -> Report<'a> {
     let TablesReport { machine, compiled, .. } = report;
-    let name = |axis: usize| machine.axes()[axis].name;
-    let mut text = format!(
-        "{}   {}\n\n{} tables, made with the other axes at {}\n",
-        machine.name(),
-        machine.chain_text(),
+    let title = format!(
+        "{} tables, made with the other axes at {}",
         report.target,
         place_text(machine, &compiled.reference)
     );
-    for Made { table, loss, .. } in &compiled.tables {
-        let (moved, nodes) = (&machine.axes()[table.output], table.nodes.len());
-        let both = if table.is_directional() { ", by direction" } else { "" };
-        // Writing to a String cannot fail.
-        let _ = writeln!(
-            text,
-            "  {} moves {}: {nodes} nodes{both}, {}, loses {} between the nodes",
-            name(table.input),
-            name(table.output),
-            check_text(machine, table),
-            shown(moved, *loss)
-        );
-    }
-    text += &known_text(machine, compiled);
-    for LeftOut { what, largest, reason } in &compiled.left_out {
-        let (what, size) = match what {
-            What::Table { input, output } => {
-                let size = shown(&machine.axes()[*output], *largest);
-                (format!("{} moves {}", name(*input), name(*output)), size)
-            }
-            What::Error(error) => (error.to_string(), known::shown(*error, *largest)),
-        };
-        let _ = writeln!(text, "  left out: {what}, at most {size}: {reason}");
-    }
-    text += &left_text(report);
-    text += &errors_text(&compiled.errors);
-    if let Some((study, indices)) = report.piece {
-        let _ = writeln!(text, "\nTest piece {study}, µm without and with the tables");
-        for index in indices {
-            let [a, b] = [index.before_mm, index.left_mm].map(|v| v * 1e3);
-            let worse = if b > a { "   worse" } else { "" };
-            let _ = writeln!(text, "  {:<34} {a:>9.3} {b:>9.3}{worse}", index.key);
+    let made = Section::new(title)
+        .list(compiled.tables.iter().map(|made| made_text(machine, made)))
+        .list(known_texts(machine, compiled))
+        .list(compiled.left_out.iter().map(|left| left_out_text(machine, left)));
+    Report::new(machine.name())
+        .line(machine.chain_text())
+        .section(made)
+        .section(left(report))
+        .sections(errors(&compiled.errors))
+        .sections(report.piece.map(|(study, indices)| piece(study, indices)))
+        .section(Section::new("Notes").list(compiled.advice.iter().map(ToString::to_string)))
+        .section(Section::new("Files").list(report.files.iter().cloned()))
+}
+
+fn moves(machine: &Machine, input: usize, output: usize) -> String {
+    let [input, output] = [input, output].map(|axis| machine.axes()[axis].name);
+    format!("{input} moves {output}")
+}
+
+fn made_text(machine: &Machine, Made { table, loss, .. }: &Made) -> String {
+    let both = if table.is_directional() { ", by direction" } else { "" };
+    format!(
+        "{}: {} nodes{both}, {}, loses {} between the nodes",
+        moves(machine, table.input, table.output),
+        table.nodes.len(),
+        check_text(machine, table),
+        shown(&machine.axes()[table.output], *loss)
+    )
+}
+
+fn left_out_text(machine: &Machine, LeftOut { what, largest, reason }: &LeftOut) -> String {
+    let (what, size) = match what {
+        What::Table { input, output } => {
+            let size = shown(&machine.axes()[*output], *largest);
+            (moves(machine, *input, *output), size)
         }
-    }
-    if !compiled.advice.is_empty() {
-        text += "\nNotes\n";
-    }
-    for line in compiled.advice {
-        let _ = writeln!(text, "  {line}");
-    }
-    text += "\nFiles\n";
-    for file in report.files {
-        let _ = writeln!(text, "  {file}");
-    }
-    text
+        What::Error(error) => (error.to_string(), known::shown(*error, *largest)),
+    };
+    format!("left out: {what}, at most {size}: {reason}")
+}
+
+fn piece<'a>(study: &str, indices: &[IndexLeft]) -> Section<'a> {
+    let rows = indices.iter().map(|index| {
+        let [before, left] = [index.before_mm, index.left_mm].map(|v| fixed(v * 1e3, 3));
+        let worse = if index.left_mm > index.before_mm { "worse" } else { "" };
+        [index.key.to_string(), before, left, worse.to_owned()]
+    });
+    let headings = ["", "without tables, µm", "with tables, µm", ""];
+    Section::new(format!("Test piece {study}")).table(Table::new(headings).rows(rows))
 }
 
 /// The errors that the control's chain knows, and its grid.
-fn known_text(machine: &Machine, compiled: &Compiled) -> String {
-    let mut text = String::new();
+fn known_texts(machine: &Machine, compiled: &Compiled) -> Vec<String> {
+    let mut lines = Vec::new();
     for MadeKnown { known, loss, largest, .. } in &compiled.known {
         let nodes = match known.nodes.len() {
             1 => "constant".to_owned(),
             n => format!("{n} nodes, loses {} between them", known::shown(known.error, *loss)),
         };
         let size = known::shown(known.error, *largest);
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "  {} up to {size}: {nodes}", known.error);
+        lines.push(format!("{} up to {size}: {nodes}", known.error));
     }
     for line in &compiled.lines {
         let axis = &machine.axes()[line.axis];
         let count = count_of(machine, line.axis);
-        let _ = writeln!(
-            text,
-            "  {} for the temperatures: {} at {}, {:.3} µm/m or µrad/rad",
+        lines.push(format!(
+            "{} for the temperatures: {} at {}, {:.3} µm/m or µrad/rad",
             axis.name,
             shown(axis, line.offset as f64 * count),
             round(line.reference as f64 / PER_UNIT),
             line.slope as f64 * 1e-3
-        );
+        ));
     }
     for (actual, nominal) in joints_of(machine, compiled) {
         let [x, y, z] = (actual.point_mm() - nominal.point_mm()).map(|c| c * 1e3).into();
         let tilt = (actual.along() - nominal.along()).norm() * 1e6;
-        let _ = writeln!(
-            text,
-            "  {} in the control's kinematics: moved by {x:.2} {y:.2} {z:.2} µm, tilted by {tilt:.2} µrad",
+        lines.push(format!(
+            "{} in the control's kinematics: moved by {x:.2} {y:.2} {z:.2} µm, tilted by {tilt:.2} µrad",
             actual.axis
-        );
+        ));
     }
     if let Some(Gridded { grid, loss, largest }) = &compiled.grid {
         let side = |s: &Side| {
             let (from, step) = (s.from as f64 / PER_UNIT, s.step as f64 / PER_UNIT);
             format!("{} {} from {from} mm every {step} mm", s.count, machine.axes()[s.axis].name)
         };
-        let _ = writeln!(
-            text,
-            "  grid {}: up to {:.2} µm, loses {:.2} µm between the points",
+        lines.push(format!(
+            "grid {}: up to {:.2} µm, loses {:.2} µm between the points",
             grid.sides.each_ref().map(side).join(" x "),
             *largest as f64 / PER_UNIT * 1e3,
             loss / PER_UNIT * 1e3
-        );
+        ));
     }
-    text
+    lines
 }
 
 /// The rotary axes as the control has them, beside the nominal ones.
@@ -142,7 +140,7 @@ pub(super) fn joints_of(machine: &Machine, compiled: &Compiled) -> Vec<(Joint, J
 }
 
 /// What is added where, by the node that adds most.
-fn check_text(machine: &Machine, table: &Table) -> String {
+fn check_text(machine: &Machine, table: &table::Table) -> String {
     let Some(node) = table.largest() else { return String::new() };
     let [input, output] = [table.input, table.output].map(|i| &machine.axes()[i]);
     let unit = if input.kind == AxisKind::Linear { "mm" } else { "deg" };
@@ -151,44 +149,36 @@ fn check_text(machine: &Machine, table: &Table) -> String {
     format!("adds {added} to {} at {}={place} {unit}", output.name, input.name)
 }
 
-fn left_text(report: &TablesReport<'_>) -> String {
+fn left<'a>(report: &TablesReport<'_>) -> Section<'a> {
     let Compiled { before, after, wrong_sign, .. } = report.compiled;
-    let line = |left: &Left| {
-        format!(
-            "{:9.2} µm at most, {:9.2} µm rms, tool axis {:7.2} µrad",
-            left.max_mm * 1e3,
-            left.rms_mm * 1e3,
-            left.axis_rad * 1e6
-        )
+    let row = |(name, left): (&str, &Left)| {
+        let numbers = [left.max_mm * 1e3, left.rms_mm * 1e3, left.axis_rad * 1e6];
+        std::iter::once(name.to_owned()).chain(numbers.map(|v| fixed(v, 2)))
     };
-    format!(
-        "\nTool tip over the travel of all axes, {} poses, each from both sides, files read back\n  \
-         without tables {}\n  with tables    {}\n  wrong sign     {}\n  the most is left at {}\n",
+    let rows = [("without tables", before), ("with tables", after), ("wrong sign", wrong_sign)];
+    let note = format!(
+        "{} poses, each from both sides, files read back; the most is left at {}",
         after.poses,
-        line(before),
-        line(after),
-        line(wrong_sign),
         place_text(report.machine, &after.at)
-    )
+    );
+    let headings = ["", "at most, µm", "rms, µm", "tool axis, µrad"];
+    Section::new("Tool tip over the travel of all axes")
+        .table(Table::new(headings).rows(rows.map(row)).note(note))
 }
 
-fn errors_text(errors: &[ErrorLoss]) -> String {
+fn errors<'a>(errors: &[ErrorLoss]) -> [Section<'a>; 2] {
     let (represented, not): (Vec<_>, Vec<_>) = errors.iter().partition(|e| e.represented);
     let names: Vec<String> = represented.iter().map(|e| e.error.to_string()).collect();
-    let mut text = format!("\nRepresented: {}\n", names.join(" "));
-    if !not.is_empty() {
-        text +=
-            "Not represented, each alone, µm at the tip\n    error    before      left  instead\n";
-    }
-    for e in not.iter().take(MOST_SHOWN) {
-        let [before, left] = [e.before_mm, e.left_mm].map(|v| v * 1e3);
-        let _ =
-            writeln!(text, "  {:>7} {before:9.2} {left:9.2}  {}", e.error.to_string(), e.instead);
-    }
-    if not.len() > MOST_SHOWN {
-        let _ = writeln!(text, "  … and {} smaller ones", not.len() - MOST_SHOWN);
-    }
-    text
+    let rows = not.iter().map(|e| {
+        let [before, left] = [e.before_mm, e.left_mm].map(|v| fixed(v * 1e3, 2));
+        [e.error.to_string(), before, left, e.instead.to_string()]
+    });
+    let table = Table::new(["error", "before, µm", "left, µm", "instead"]).rows(rows);
+    [
+        Section::new("Represented").paragraph(names.join(" ")),
+        Section::new("Not represented, each alone, at the tip")
+            .table(table.most_on_terminal(MOST_SHOWN)),
+    ]
 }
 
 fn place_text(machine: &Machine, command: &Command) -> String {

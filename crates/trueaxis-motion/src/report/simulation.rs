@@ -13,7 +13,7 @@ use trueaxis_machine::axis::{AxisKind, Travel};
 use trueaxis_nc::Control;
 use trueaxis_nc::moves::Origin;
 use trueaxis_report::numbers::fixed;
-use trueaxis_report::{Columns, DrawingError, Figure, Report, Section, Standing, Table};
+use trueaxis_report::{Columns, Figure, Report, Section, Standing, Table};
 
 /// Everything that a report of a simulation shows.
 #[derive(Clone, Copy)]
@@ -179,19 +179,6 @@ pub fn simulation_report<'a>(s: Simulation<'a>, series: Option<&'a Series>) -> R
         .section(Section::new("Messages of the program").list(s.summary.messages.iter().cloned()))
         .section(diagnostic_section(s.run))
         .section(input_section(&s))
-}
-
-/// The simulation as the terminal shows it.
-pub fn simulation_text(s: &Simulation<'_>) -> String {
-    simulation_report(*s, None).text()
-}
-
-/// The simulation as one self-contained page.
-///
-/// # Errors
-/// A picture that the drawing library refuses.
-pub fn simulation_html(s: &Simulation<'_>, series: &Series) -> Result<String, DrawingError> {
-    simulation_report(*s, Some(series)).html()
 }
 
 fn verdict(s: &Simulation<'_>) -> (Standing, &'static str, String) {

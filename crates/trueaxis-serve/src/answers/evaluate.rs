@@ -12,7 +12,7 @@ use trueaxis::files;
 use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Dimension, parse_quantity};
 use trueaxis::report::{
-    DiagnosticEntry, Evaluation, EvaluationDocument, Picture, Table, evaluation_text, remarks,
+    DiagnosticEntry, Evaluation, EvaluationDocument, Picture, Table, evaluation_report, remarks,
 };
 use trueaxis::verify::conditions::{Conditions, read_conditions};
 use trueaxis::verify::import::Import;
@@ -281,7 +281,7 @@ impl Request for EvaluateRequest {
                     document: EvaluationDocument::of(evaluation),
                     diagnostics: entries(problems),
                 },
-                text: evaluation_text(evaluation),
+                text: evaluation_report(evaluation).text(),
                 conditions_file: file.and_then(|path| desk.project.name_of(path)),
                 figures: contents.results.iter().map(TableEntry::from).collect(),
                 details: contents.details.iter().map(TableEntry::from).collect(),

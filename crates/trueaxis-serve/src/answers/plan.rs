@@ -88,8 +88,7 @@ impl Request for PlanRequest {
         if problems.has_errors() {
             return Err(Refusal::unusable(&problems));
         }
-        let design = plan.campaign.design();
-        let report = planned(&plan, &design, chosen, control);
+        let report = planned(plan, chosen, control);
         Ok(reply(desk, &report, &problems))
     }
 }
@@ -103,7 +102,7 @@ pub(super) fn read(path: &Path) -> Result<(Plan, Diagnostics), Refusal> {
     }
 }
 
-fn reply(desk: &Desk, report: &PlanReport<'_>, problems: &Diagnostics) -> Reply<PlanRequest> {
+fn reply(desk: &Desk, report: &PlanReport, problems: &Diagnostics) -> Reply<PlanRequest> {
     let campaign = &report.plan.campaign;
     let machine = &campaign.machine;
     let stations = || report.paths.iter().map(|path| &path.path.stations);
@@ -130,7 +129,7 @@ impl From<&Axis> for AxisUnitEntry {
 }
 
 impl<'a> PlannedPathEntry<'a> {
-    fn of(report: &PlanReport<'a>, planned: &'a PlannedPath) -> Self {
+    fn of(report: &'a PlanReport, planned: &'a PlannedPath) -> Self {
         let stations = &planned.path.stations;
         let index = stations.instruments.first().copied().unwrap_or(0);
         let instrument = &report.plan.campaign.instruments[index as usize];

@@ -17,8 +17,8 @@ use trueaxis::input::Place;
 use trueaxis::plan::{chosen, planned};
 use trueaxis::predict::holes::is_hole_study;
 use trueaxis::report::{
-    self, DrawingError, comparison_html, evaluation_html, holes_html, identification_html,
-    plan_html,
+    self, DrawingError, comparison_report, evaluation_report, holes_report, identification_report,
+    plan_report,
 };
 use trueaxis::verify::compare::{compare, read_comparison};
 
@@ -105,12 +105,12 @@ impl ReportRequest {
             Verb::Plan => plan(self.dialect.as_deref(), path),
             Verb::Identify => {
                 let identified = identified(path, |_| Ok(None), job)?;
-                identification_html(&identified.report()).map_err(undrawn)
+                identification_report(identified.report()).html().map_err(undrawn)
             }
             Verb::Evaluate => {
                 let standard = needed(self.standard, "standard")?;
                 let judged = Judged::read(desk, &EvaluateRequest::of(standard, self.file))?;
-                judged.with(evaluation_html).map_err(undrawn)
+                judged.with(|e| evaluation_report(e).html()).map_err(undrawn)
             }
             Verb::Verify => comparison(path),
         }
@@ -124,11 +124,11 @@ pub(super) fn undrawn(error: DrawingError) -> Refusal {
 fn prediction(path: &Path, job: &Job) -> Result<String, Refusal> {
     if is_hole_study(&disk(), path) {
         let (study, found, _) = holes(path)?;
-        return holes_html(&study, &found).map_err(undrawn);
+        return holes_report(&study, &found).html().map_err(undrawn);
     }
     let (study, _) = study(path)?;
     let prediction = predicted(&study, job)?;
-    report::html(&study, &prediction).map_err(undrawn)
+    report::prediction_report(&study, &prediction).html().map_err(undrawn)
 }
 
 fn plan(dialect: Option<&str>, path: &Path) -> Result<String, Refusal> {
@@ -138,8 +138,7 @@ fn plan(dialect: Option<&str>, path: &Path) -> Result<String, Refusal> {
     if problems.has_errors() {
         return Err(Refusal::unusable(&problems));
     }
-    let design = plan.campaign.design();
-    plan_html(&planned(&plan, &design, chosen, control)).map_err(undrawn)
+    plan_report(&planned(plan, chosen, control)).html().map_err(undrawn)
 }
 
 fn comparison(path: &Path) -> Result<String, Refusal> {
@@ -153,5 +152,5 @@ fn comparison(path: &Path) -> Result<String, Refusal> {
         problems.error("cannot-compare", place, error.to_string(), hint);
         Refusal::unusable(&problems)
     })?;
-    comparison_html(&task, &verified).map_err(undrawn)
+    comparison_report(&task, &verified).html().map_err(undrawn)
 }

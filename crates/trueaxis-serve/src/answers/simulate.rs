@@ -19,7 +19,7 @@ use std::sync::Arc;
 use trueaxis::files;
 use trueaxis::files::disk;
 use trueaxis::input::{Diagnostics, Place};
-use trueaxis::report::{Simulation, SimulationDocument, simulation_html};
+use trueaxis::report::{Simulation, SimulationDocument, simulation_report};
 use trueaxis::simulate::{
     self, CONTROLS, Colour, Findings, Observer, Options, ProgramFiles, Progress, Recorder, Series,
     Stop, control_named,
@@ -87,7 +87,9 @@ impl SimulateRequest {
         if problems.has_errors() {
             return Err(Refusal::unusable(&problems));
         }
-        simulation_html(&Simulation::of(&simulation, &found), &series).map_err(undrawn)
+        simulation_report(Simulation::of(&simulation, &found), Some(&series))
+            .html()
+            .map_err(undrawn)
     }
 
     fn looks_for_collisions(&self) -> bool {

@@ -3,7 +3,7 @@
 use super::{evaluation_circular, evaluation_others, evaluation_positioning};
 use crate::conditions::Conditions;
 use crate::{Evaluated, Standard};
-use trueaxis_report::{DrawingError, Picture, Report, Section, Table};
+use trueaxis_report::{Picture, Report, Section, Table};
 
 /// Everything that a report of an evaluation shows.
 pub struct Evaluation<'a> {
@@ -75,19 +75,6 @@ pub fn evaluation_report(evaluation: &Evaluation<'_>) -> Report<'static> {
         .sections(pictures.into_iter().map(Section::from))
         .section(remarks.list(evaluation.remarks.iter().cloned()))
         .sections(details.into_iter().map(section))
-}
-
-/// The evaluation as the terminal shows it.
-pub fn evaluation_text(evaluation: &Evaluation<'_>) -> String {
-    evaluation_report(evaluation).text()
-}
-
-/// The evaluation as one self-contained page.
-///
-/// # Errors
-/// What the drawing library reports.
-pub fn evaluation_html(evaluation: &Evaluation<'_>) -> Result<String, DrawingError> {
-    evaluation_report(evaluation).html()
 }
 
 /// A value with two decimals, or a dash where there is none.

@@ -10,7 +10,7 @@ use trueaxis_correct::compensate::post::{PostOptions, post, verify};
 use trueaxis_correct::report::{AdaptReport, AdaptedProgram};
 use trueaxis_input::{Diagnostics, Dimension, Files, Place, parse_quantity};
 use trueaxis_nc::writer::TipWords;
-use trueaxis_report::DrawingError;
+use trueaxis_report::Report;
 
 /// A path moved onto a measured blank, and the wall that it leaves.
 #[derive(Debug, Clone)]
@@ -147,12 +147,8 @@ impl Answer for AdaptAnswer {
         with_diagnostics(report::adapt_json(&self.shown()), problems)
     }
 
-    fn text(&self) -> String {
-        report::adapt_text(&self.shown())
-    }
-
-    fn page(&self) -> Result<String, DrawingError> {
-        report::adapt_html(&self.shown())
+    fn report(&self) -> Report<'_> {
+        report::adapt_report(&self.shown())
     }
 
     fn is_yes(&self) -> bool {

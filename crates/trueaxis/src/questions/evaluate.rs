@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use trueaxis_input::{Diagnostics, Dimension, Files, Place, parse_quantity};
 use trueaxis_machine::Machine;
 use trueaxis_machine::describe::axis_index;
-use trueaxis_report::DrawingError;
+use trueaxis_report::Report;
 use trueaxis_standards::conditions::{Conditions, read_conditions};
 use trueaxis_standards::import::Import;
 use trueaxis_standards::report::Evaluation;
@@ -248,12 +248,8 @@ impl Answer for EvaluateAnswer {
         with_diagnostics(report::evaluation_json(&self.shown()), problems)
     }
 
-    fn text(&self) -> String {
-        report::evaluation_text(&self.shown())
-    }
-
-    fn page(&self) -> Result<String, DrawingError> {
-        report::evaluation_html(&self.shown())
+    fn report(&self) -> Report<'_> {
+        report::evaluation_report(&self.shown())
     }
 
     fn files(&self) -> Vec<NewFile> {

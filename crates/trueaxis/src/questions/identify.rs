@@ -15,7 +15,7 @@ use trueaxis_calibrate::measure::{Campaign, read_campaign};
 use trueaxis_calibrate::report::IdentificationReport;
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_machine::file::Folder;
-use trueaxis_report::DrawingError;
+use trueaxis_report::Report;
 
 /// The errors of a machine from a campaign of measurements.
 #[derive(Debug, Clone, Default)]
@@ -192,12 +192,8 @@ impl Answer for Identified {
         with_diagnostics(report::identification_json(&self.shown()), problems)
     }
 
-    fn text(&self) -> String {
-        report::identification_text(&self.shown())
-    }
-
-    fn page(&self) -> Result<String, DrawingError> {
-        report::identification_html(&self.shown())
+    fn report(&self) -> Report<'_> {
+        report::identification_report(self.shown())
     }
 
     fn is_yes(&self) -> bool {

@@ -13,7 +13,7 @@ use trueaxis_calibrate::measure::virtual_campaign::{
 use trueaxis_calibrate::measure::{Campaign, read_campaign};
 use trueaxis_calibrate::report::MeasuredReport;
 use trueaxis_input::{Diagnostics, Files, Place};
-use trueaxis_report::DrawingError;
+use trueaxis_report::Report;
 
 /// The readings of a campaign on a machine whose errors are known.
 #[derive(Debug, Clone, Default)]
@@ -153,12 +153,8 @@ impl Answer for MeasureAnswer {
         with_diagnostics(report::measurement_json(&self.shown()), problems)
     }
 
-    fn text(&self) -> String {
-        report::measurement_text(&self.shown())
-    }
-
-    fn page(&self) -> Result<String, DrawingError> {
-        report::measurement_html(&self.shown())
+    fn report(&self) -> Report<'_> {
+        report::measurement_report(&self.shown())
     }
 
     fn files(&self) -> Vec<NewFile> {

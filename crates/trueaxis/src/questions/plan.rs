@@ -4,13 +4,10 @@ use super::{Answer, NewFile, Question, in_folder, named_control};
 use crate::report;
 use serde_json::Value;
 use std::path::PathBuf;
-use trueaxis_calibrate::plan::{
-    Chosen, Expectation, Plan, PlanReport, PlannedPath, chosen, planned, read_plan,
-};
-use trueaxis_calibrate::unknowns::design::Design;
+use trueaxis_calibrate::plan::{Plan, PlanReport, chosen, planned, read_plan};
 use trueaxis_input::{Diagnostics, Files};
 use trueaxis_nc::Control;
-use trueaxis_report::DrawingError;
+use trueaxis_report::Report;
 
 /// What each path of a campaign shows, its programs, the most informative poses.
 #[derive(Debug, Clone)]
@@ -26,25 +23,9 @@ pub struct PlanMeasurement {
 /// A plan worked out.
 #[derive(Debug)]
 pub struct PlanAnswer {
-    plan: Plan,
-    design: Design,
-    expectation: Expectation,
-    paths: Vec<PlannedPath>,
-    chosen: Option<Chosen>,
+    /// The plan.
+    pub found: PlanReport,
     output: Option<PathBuf>,
-}
-
-impl PlanAnswer {
-    /// What a report shows.
-    pub fn shown(&self) -> PlanReport<'_> {
-        PlanReport {
-            plan: &self.plan,
-            design: &self.design,
-            expectation: self.expectation.clone(),
-            paths: self.paths.clone(),
-            chosen: self.chosen.clone(),
-        }
-    }
 }
 
 impl Question for PlanMeasurement {
@@ -69,33 +50,25 @@ impl Question for PlanMeasurement {
         if problems.has_errors() {
             return None;
         }
-        let design = plan.campaign.design();
-        let PlanReport { expectation, paths, chosen, .. } =
-            planned(&plan, &design, chosen, control);
-        let output = self.output.clone();
-        Some(PlanAnswer { plan, design, expectation, paths, chosen, output })
+        Some(PlanAnswer { found: planned(plan, chosen, control), output: self.output.clone() })
     }
 }
 
 impl Answer for PlanAnswer {
     fn document(&self, _: &Diagnostics) -> Value {
-        report::plan_json(&self.shown())
+        report::plan_json(&self.found)
     }
 
-    fn text(&self) -> String {
-        report::plan_text(&self.shown())
-    }
-
-    fn page(&self) -> Result<String, DrawingError> {
-        report::plan_html(&self.shown())
+    fn report(&self) -> Report<'_> {
+        report::plan_report(&self.found)
     }
 
     fn is_yes(&self) -> bool {
-        self.paths.iter().all(|p| p.check.as_ref().is_ok_and(|c| c.is_sound()))
+        self.found.paths.iter().all(|p| p.check.as_ref().is_ok_and(|c| c.is_sound()))
     }
 
     fn files(&self) -> Vec<NewFile> {
-        let files = self.paths.iter().flat_map(|path| &path.files);
+        let files = self.found.paths.iter().flat_map(|path| &path.files);
         in_folder(self.output.as_deref(), files.cloned())
     }
 }

@@ -10,7 +10,7 @@ use trueaxis_correct::predict::holes::{
 use trueaxis_correct::predict::{Error, Prediction, Study, predict, read_study};
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_part::tolerance::Outcome;
-use trueaxis_report::DrawingError;
+use trueaxis_report::Report;
 
 /// A test piece or holes before they are cut.
 #[derive(Debug, Clone, Default)]
@@ -141,17 +141,10 @@ impl Answer for Predicted {
         }
     }
 
-    fn text(&self) -> String {
+    fn report(&self) -> Report<'_> {
         match self {
-            Self::Part(study, prediction) => report::text(study, prediction),
-            Self::Holes(study, prediction) => report::holes_text(study, prediction),
-        }
-    }
-
-    fn page(&self) -> Result<String, DrawingError> {
-        match self {
-            Self::Part(study, prediction) => report::html(study, prediction),
-            Self::Holes(study, prediction) => report::holes_html(study, prediction),
+            Self::Part(study, prediction) => report::prediction_report(study, prediction),
+            Self::Holes(study, prediction) => report::holes_report(study, prediction),
         }
     }
 

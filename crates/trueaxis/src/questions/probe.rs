@@ -9,7 +9,7 @@ use trueaxis_calibrate::identify::probe::{
     Calibration, Setup, Study, correct, identify_probe, parse_hits, read_study,
 };
 use trueaxis_input::{Diagnostics, Dimension, Files, Place, parse_quantity};
-use trueaxis_report::DrawingError;
+use trueaxis_report::Report;
 
 /// The offset of a stylus ball and its pre-travel by direction, from hits on a ring or sphere.
 #[derive(Debug, Clone, Default)]
@@ -132,12 +132,8 @@ impl Answer for ProbeAnswer {
         with_diagnostics(report::probe_json(&self.study, &self.found), problems)
     }
 
-    fn text(&self) -> String {
-        report::probe_text(&self.study, &self.found)
-    }
-
-    fn page(&self) -> Result<String, DrawingError> {
-        report::probe_html(&self.study, &self.found)
+    fn report(&self) -> Report<'_> {
+        report::probe_report(&self.study, &self.found)
     }
 
     fn files(&self) -> Vec<NewFile> {

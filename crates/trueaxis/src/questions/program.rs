@@ -11,7 +11,7 @@ use trueaxis_correct::compensate::program::{
 use trueaxis_correct::report::ProgramReport;
 use trueaxis_input::{Diagnostics, Dimension, Files, Place, parse_quantity};
 use trueaxis_motion::{Job, Options, ProgramFiles};
-use trueaxis_report::DrawingError;
+use trueaxis_report::Report;
 
 /// An NC program rewritten for the actual machine. Quantities are as typed, with their units.
 #[derive(Debug, Clone)]
@@ -203,12 +203,8 @@ impl Answer for ProgramAnswer {
         with_diagnostics(report::program_json(&self.shown()), problems)
     }
 
-    fn text(&self) -> String {
-        report::program_text(&self.shown())
-    }
-
-    fn page(&self) -> Result<String, DrawingError> {
-        report::program_html(&self.shown())
+    fn report(&self) -> Report<'_> {
+        report::program_report(&self.shown())
     }
 
     fn is_yes(&self) -> bool {

@@ -13,6 +13,7 @@ use trueaxis_calibrate::report::RtcpReport;
 use trueaxis_calibrate::unknowns::fit::FitError;
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_machine::file::Folder;
+use trueaxis_report::Report;
 
 /// The rotary centres for RTCP, from indicator or probe readings at turned poses.
 #[derive(Debug, Clone, Default)]
@@ -116,8 +117,8 @@ impl Answer for RtcpAnswer {
         with_diagnostics(report::rtcp_json(&self.shown()), problems)
     }
 
-    fn text(&self) -> String {
-        report::rtcp_text(&self.shown())
+    fn report(&self) -> Report<'_> {
+        report::rtcp_report(&self.shown())
     }
 
     fn is_yes(&self) -> bool {

@@ -10,7 +10,7 @@ use trueaxis_calibrate::identify::rtcp::{Purpose, RtcpStudy, read_rtcp};
 use trueaxis_calibrate::plan::{extension, file_name};
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_nc::Control;
-use trueaxis_report::document;
+use trueaxis_report::{Report, Section, Table, document};
 
 /// One NC program for each set of readings of an RTCP study.
 #[derive(Debug, Clone)]
@@ -100,11 +100,13 @@ impl Answer for RtcpProgramsAnswer {
         document(&RtcpProgramsDocument { schema, programs })
     }
 
-    fn text(&self) -> String {
-        let line = |p: &ProgramEntry| {
-            format!("{}   {}   {:.2} µm off its poses, read back\n", p.file, p.set, p.off_poses_um)
-        };
-        self.programs.iter().map(line).collect()
+    fn report(&self) -> Report<'_> {
+        let rows = self
+            .programs
+            .iter()
+            .map(|p| [p.file.clone(), p.set.clone(), format!("{:.2}", p.off_poses_um)]);
+        let table = Table::new(["file", "readings", "off its poses, read back, µm"]).rows(rows);
+        Report::new("Programs of the readings").section(Section::new("").table(table))
     }
 
     fn files(&self) -> Vec<NewFile> {

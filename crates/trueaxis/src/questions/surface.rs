@@ -12,6 +12,7 @@ use trueaxis_calibrate::plan::surface::{
 };
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_nc::Control;
+use trueaxis_report::Report;
 
 /// A probing path over a surface, from cutter locations or an STL file.
 #[derive(Debug, Clone)]
@@ -104,8 +105,8 @@ impl Answer for SurfaceAnswer {
         with_diagnostics(report::surface_json(study, poses, *spread, check), problems)
     }
 
-    fn text(&self) -> String {
-        report::surface_text(&self.study, &self.poses, self.spread, &self.check)
+    fn report(&self) -> Report<'_> {
+        report::surface_report(&self.study, &self.poses, self.spread, &self.check)
     }
 
     fn is_yes(&self) -> bool {

@@ -6,7 +6,7 @@ use serde_json::Value;
 use std::path::PathBuf;
 use trueaxis_calibrate::identify::thermal::{Logs, ThermalModel, identify_thermal, read_logs};
 use trueaxis_input::{Diagnostics, Files, Place};
-use trueaxis_report::DrawingError;
+use trueaxis_report::Report;
 
 /// A linear model of an error that drifts with temperatures, from logs of whole cycles.
 #[derive(Debug, Clone, Default)]
@@ -54,12 +54,8 @@ impl Answer for ThermalAnswer {
         with_diagnostics(report::thermal_json(&self.logs, &self.model), problems)
     }
 
-    fn text(&self) -> String {
-        report::thermal_text(&self.logs, &self.model)
-    }
-
-    fn page(&self) -> Result<String, DrawingError> {
-        report::thermal_html(&self.logs, &self.model)
+    fn report(&self) -> Report<'_> {
+        report::thermal_report(&self.logs, &self.model)
     }
 
     fn is_yes(&self) -> bool {

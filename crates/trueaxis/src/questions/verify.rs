@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_machine::Machine;
 use trueaxis_part::tolerance::Outcome;
-use trueaxis_report::DrawingError;
+use trueaxis_report::Report;
 
 fn whole(path: &Path) -> Place {
     Place::whole(&path.display().to_string())
@@ -63,12 +63,8 @@ impl Answer for VerifyAnswer {
         with_diagnostics(report::comparison_json(&self.task, &self.verified), problems)
     }
 
-    fn text(&self) -> String {
-        report::comparison_text(&self.task, &self.verified)
-    }
-
-    fn page(&self) -> Result<String, DrawingError> {
-        report::comparison_html(&self.task, &self.verified)
+    fn report(&self) -> Report<'_> {
+        report::comparison_report(&self.task, &self.verified)
     }
 
     fn is_yes(&self) -> bool {
@@ -138,12 +134,8 @@ impl Answer for CalibrationsAnswer {
         with_diagnostics(report::calibrations_json(&self.shown()), problems)
     }
 
-    fn text(&self) -> String {
-        report::calibrations_text(&self.shown())
-    }
-
-    fn page(&self) -> Result<String, DrawingError> {
-        report::calibrations_html(&self.shown())
+    fn report(&self) -> Report<'_> {
+        report::calibrations_report(&self.shown())
     }
 
     fn is_yes(&self) -> bool {
@@ -197,12 +189,8 @@ impl Answer for CertificateAnswer {
         with_diagnostics(report::certificate_json(&self.study, &self.certificate), problems)
     }
 
-    fn text(&self) -> String {
-        report::certificate_text(&self.study, &self.certificate)
-    }
-
-    fn page(&self) -> Result<String, DrawingError> {
-        report::certificate_html(&self.study, &self.certificate)
+    fn report(&self) -> Report<'_> {
+        report::certificate_report(&self.study, &self.certificate)
     }
 
     fn is_yes(&self) -> bool {

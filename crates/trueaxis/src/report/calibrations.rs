@@ -5,7 +5,7 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Travel;
 use trueaxis_machine::describe::{command_words, shown, unit};
 use trueaxis_machine::errors::{ErrorKind, ErrorName};
-use trueaxis_report::{Band, DrawingError, Picture, Report, Scatter, Section, Standing, Table};
+use trueaxis_report::{Band, Picture, Report, Scatter, Section, Standing, Table};
 
 /// Rows of the table of shares.
 const MOST_SHARES: usize = 12;
@@ -173,17 +173,4 @@ pub fn calibrations_report(report: &CalibrationsReport<'_>) -> Report<'static> {
         .section(Section::new("The errors that changed").table(report.errors()))
         .section(Section::new("Effect on the tip").table(report.shares()))
         .sections(report.pictures().into_iter().map(Section::from))
-}
-
-/// Two calibrations for the terminal.
-pub fn calibrations_text(report: &CalibrationsReport<'_>) -> String {
-    calibrations_report(report).text()
-}
-
-/// Two calibrations as a page.
-///
-/// # Errors
-/// What the drawing library says.
-pub fn calibrations_html(report: &CalibrationsReport<'_>) -> Result<String, DrawingError> {
-    calibrations_report(report).html()
 }

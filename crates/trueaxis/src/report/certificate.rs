@@ -15,7 +15,7 @@ use trueaxis_machine::describe::{command_words, unit};
 use trueaxis_machine::errors::{Component, Curve, ErrorKind, StatedError, Uncertainty};
 use trueaxis_part::tolerance::Outcome;
 use trueaxis_report::numbers::{fixed, rounded};
-use trueaxis_report::{Columns, DrawingError, Report, Section, Standing, Table};
+use trueaxis_report::{Columns, Report, Section, Standing, Table};
 
 /// An outcome in one word.
 pub(super) fn word(outcome: Outcome) -> &'static str {
@@ -421,17 +421,4 @@ fn documentation<'a>(study: &Study, section: Section<'a>) -> Section<'a> {
             .to_owned(),
     ];
     paragraphs(section, lines).table(hashes(&study.inputs))
-}
-
-/// A certificate for the terminal.
-pub fn certificate_text(study: &Study, certificate: &Certificate) -> String {
-    certificate_report(study, certificate).text()
-}
-
-/// A certificate as a page.
-///
-/// # Errors
-/// What the drawing library says.
-pub fn certificate_html(study: &Study, certificate: &Certificate) -> Result<String, DrawingError> {
-    certificate_report(study, certificate).html()
 }

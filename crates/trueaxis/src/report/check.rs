@@ -34,11 +34,6 @@ pub fn check_report(machine: &Machine) -> Report<'static> {
         .section(lacks)
 }
 
-/// What the machine is and what is missing in its file, for the terminal.
-pub fn check_text(machine: &Machine) -> String {
-    check_report(machine).text()
-}
-
 fn errors(machine: &Machine) -> Section<'static> {
     let stated = machine.stated_errors();
     let of = |kind| stated.iter().filter(|(_, n)| n.kind == kind).count();

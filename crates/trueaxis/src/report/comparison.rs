@@ -5,7 +5,7 @@ use crate::verify::compare::{
     Comparison, ComparisonBasis, ComparisonResult, Coverage, Rule, Summary,
 };
 use trueaxis_calibrate::measure::virtual_campaign::shown_unit;
-use trueaxis_report::{Band, DrawingError, Picture, Report, Scatter, Section, Table};
+use trueaxis_report::{Band, Picture, Report, Scatter, Section, Table};
 
 /// Places that the terminal and the page show.
 const WORST_PLACES: usize = 10;
@@ -106,22 +106,6 @@ fn figures(part: &Summary, (unit, scale): (&str, f64)) -> [String; 5] {
         percent(part.coverage.share()),
         format!("{:.2}", part.worst),
     ]
-}
-
-/// A comparison for the terminal.
-pub fn comparison_text(task: &Comparison, verified: &ComparisonResult) -> String {
-    comparison_report(task, verified).text()
-}
-
-/// A comparison as a page.
-///
-/// # Errors
-/// What the drawing library says.
-pub fn comparison_html(
-    task: &Comparison,
-    verified: &ComparisonResult,
-) -> Result<String, DrawingError> {
-    comparison_report(task, verified).html()
 }
 
 /// Deviations of one channel as dots, in the band of U.

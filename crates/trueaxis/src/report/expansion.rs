@@ -27,8 +27,3 @@ pub fn expansion_report(data: &Runs, found: &Expansion) -> Report<'static> {
         .section(Section::new("Runs").table(Table::new(["run", "°C", "slope, µm/m"]).rows(runs)))
         .section(Section::new("In the machine file").code(line))
 }
-
-/// A coefficient of expansion for the terminal.
-pub fn expansion_text(data: &Runs, found: &Expansion) -> String {
-    expansion_report(data, found).text()
-}

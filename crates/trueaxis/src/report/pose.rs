@@ -92,11 +92,6 @@ pub fn pose_report(report: &PoseReport<'_>) -> Report<'static> {
     }
 }
 
-/// The tool at one position, for the terminal.
-pub fn pose_text(report: &PoseReport<'_>) -> String {
-    pose_report(report).text()
-}
-
 /// Three numbers as texts.
 fn texts(v: Vec3, digits: usize) -> [String; 3] {
     array(v).map(|x| fixed(x, digits))

@@ -82,8 +82,3 @@ fn comparison(found: &Verification, options: &PostOptions) -> Section<'static> {
     let note = format!("{} blocks compared", found.compared);
     Section::new("Read back and simulated on the nominal machine").table(table.note(note))
 }
-
-/// A program for the terminal.
-pub fn post_text(report: &PostReport<'_>) -> String {
-    post_report(report).text()
-}

@@ -26,8 +26,3 @@ pub fn solve_report(machine: &Machine, solved: &Solutions) -> Report<'static> {
         None => section,
     })
 }
-
-/// All solutions for the terminal.
-pub fn solve_text(machine: &Machine, solved: &Solutions) -> String {
-    solve_report(machine, solved).text()
-}

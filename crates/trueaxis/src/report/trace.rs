@@ -188,8 +188,3 @@ fn tool(last: &TracedNode) -> Section<'static> {
     table.push(std::iter::once(name).chain(along));
     Section::new("5 Tool in the workpiece frame").table(table)
 }
-
-/// A traced block for the terminal.
-pub fn trace_text(report: &TraceReport<'_>) -> String {
-    trace_report(report).text()
-}
