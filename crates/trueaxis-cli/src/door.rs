@@ -1,13 +1,13 @@
 //! A question of the library as a command: read, check the outputs, compute, write, show.
 
-use crate::output::{Answer as Shown, Format, Outcome, report, show, tell};
+use crate::output::{Answer as Shown, Format, Outcome, report_and, show, tell};
 use crate::report_file::{unusable, write_report};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::Path;
+use trueaxis::files::disk;
 use trueaxis::files::output::{REPORT, may_write, no_file_twice};
-use trueaxis::files::{self, disk};
 use trueaxis::input::Diagnostics;
-use trueaxis::questions::{Answer, NewFile, Question};
+use trueaxis::questions::{Answer, Content, NewFile, Question};
 
 /// The form of the answer.
 pub struct Door<'a> {
@@ -37,18 +37,21 @@ impl Door<'_> {
             None => None,
         };
         let found = problems.clone();
-        let failed = report(problems);
-        let Some(answer) = answer.filter(|_| !failed) else { return Err(Outcome::Unusable) };
+        let in_spite = answer.as_ref().and_then(Answer::in_spite_of_errors);
+        let failed = report_and(problems, in_spite.unwrap_or("nothing was written"));
+        let usable = !failed || in_spite.is_some();
+        let Some(mut answer) = answer.filter(|_| usable) else { return Err(Outcome::Unusable) };
         if let Some(path) = self.report {
             write_report(path, answer.page())?;
         }
-        answer.files().iter().try_for_each(write)?;
+        answer.files().into_iter().try_for_each(write)?;
         answer.notes().iter().for_each(|note| tell(note));
         let shown = show(&match self.format {
             Format::Json => Shown::Json(answer.document(&found)),
             Format::Text => Shown::Text(answer.text()),
         });
         Ok(match shown {
+            Outcome::Done if failed => Outcome::Unusable,
             Outcome::Done if !answer.is_yes() => Outcome::No,
             shown => shown,
         })
@@ -75,14 +78,16 @@ fn answer<Q: Question>(
     answer
 }
 
-fn write(file: &NewFile) -> Result<(), Outcome> {
-    let shown = file.path.display().to_string();
-    let folder = file.path.parent().filter(|p| !p.as_os_str().is_empty());
-    let made = folder.map_or(Ok(()), std::fs::create_dir_all);
-    made.and_then(|()| files::write(&file.path, &file.content)).map_err(|e| {
+fn write(file: NewFile) -> Result<(), Outcome> {
+    let (name, shown) = (file.name, file.path.display().to_string());
+    let code = match file.content {
+        Content::Folder(_) => "unwritable-folder",
+        _ => "unwritable-file",
+    };
+    file.write().map_err(|e| {
         let message = format!("cannot be written: {e}");
-        unusable("unwritable-file", &shown, &message, "name another file")
+        unusable(code, &shown, &message, "name another file or folder")
     })?;
-    tell(&format!("{}: {shown}", file.name));
+    tell(&format!("{name}: {shown}"));
     Ok(())
 }

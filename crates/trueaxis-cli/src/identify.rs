@@ -5,13 +5,11 @@ mod probe;
 mod rtcp;
 mod thermal;
 
-use crate::output::{Answer, Format, Outcome, finish};
+use crate::door::Door;
+use crate::output::{Format, Outcome};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
-use trueaxis::files::disk;
-use trueaxis::identify::expansion::{Runs, identify_expansion, read_runs};
-use trueaxis::input::{Diagnostics, Place};
-use trueaxis::report::{expansion_json, expansion_report};
+use trueaxis::questions::IdentifyExpansion;
 
 /// The errors to identify.
 #[derive(Args)]
@@ -72,19 +70,6 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 fn run_expansion(arguments: &ExpansionArguments) -> Outcome {
-    let (runs, mut problems) = read_runs(&disk(), &arguments.file);
-    let answer = runs.map(|runs| answer(&runs, arguments, &mut problems));
-    finish(problems, answer)
-}
-
-fn answer(runs: &Runs, arguments: &ExpansionArguments, problems: &mut Diagnostics) -> Answer {
-    let found = identify_expansion(runs);
-    for warning in &found.warnings {
-        let place = Place::whole(&arguments.file.display().to_string());
-        problems.warn("identification", place, warning.clone(), "");
-    }
-    match arguments.format {
-        Format::Json => Answer::Json(expansion_json(runs, &found)),
-        Format::Text => Answer::Text(expansion_report(runs, &found).text()),
-    }
+    let question = IdentifyExpansion { runs: arguments.file.clone() };
+    Door { format: arguments.format, report: None }.ask(&question)
 }

@@ -13,7 +13,6 @@ mod explain;
 mod identify;
 mod measure;
 mod output;
-mod path_file;
 mod plan;
 mod pose;
 mod post;
@@ -108,16 +107,16 @@ fn main() -> ExitCode {
     }
     let outcome = match command.verb {
         Verb::Check(arguments) => check::run(&arguments),
-        Verb::Pose(arguments) => pose::run(&arguments),
-        Verb::Solve(arguments) => solve::run(&arguments),
-        Verb::Simulate(arguments) => simulate::run(&arguments),
-        Verb::Trace(arguments) => trace::run(&arguments),
+        Verb::Pose(arguments) => pose::run(arguments),
+        Verb::Solve(arguments) => solve::run(arguments),
+        Verb::Simulate(arguments) => simulate::run(arguments),
+        Verb::Trace(arguments) => trace::run(arguments),
         Verb::Measure(arguments) => measure::run(&arguments),
         Verb::Plan(arguments) => plan::run(&arguments),
         Verb::Identify(arguments) => identify::run(&arguments),
         Verb::Predict(arguments) => predict::run(&arguments),
-        Verb::Compensate(arguments) => compensate::run(&arguments),
-        Verb::Post(arguments) => post::run(&arguments),
+        Verb::Compensate(arguments) => compensate::run(arguments),
+        Verb::Post(arguments) => post::run(arguments),
         Verb::Evaluate(arguments) => evaluate::run(&arguments),
         Verb::Verify(arguments) => verify::run(&arguments),
         Verb::Explain(arguments) => explain::run(&arguments),

@@ -1,14 +1,11 @@
 //! `trueaxis pose`: where the tool is, nominal and actual, one pose or a table of them.
 
-mod batch;
-
-use crate::arguments::{self, MachineArguments, argument};
-use crate::output::{Answer, Format, Outcome, finish};
+use crate::arguments::MachineArguments;
+use crate::door::Door;
+use crate::output::{Format, Outcome};
 use clap::Args;
 use std::path::PathBuf;
-use trueaxis::input::Diagnostics;
-use trueaxis::machine::axis::Approach;
-use trueaxis::report::{PoseReport, pose_json, pose_report};
+use trueaxis::questions::{AskPose, Positions};
 
 /// The pose to show.
 #[derive(Args)]
@@ -41,29 +38,12 @@ pub struct Arguments {
     format: Format,
 }
 
-pub fn run(arguments: &Arguments) -> Outcome {
-    let mut problems = Diagnostics::new();
-    let answer = answer(arguments, &mut problems);
-    finish(problems, answer)
-}
-
-fn answer(arguments: &Arguments, problems: &mut Diagnostics) -> Option<Answer> {
-    let machine = arguments.machine.read(problems)?;
-    let approach = match &arguments.approach {
-        Some(text) => arguments::approach(&machine, text, problems),
-        None => Some(Approach::default()),
+pub fn run(arguments: Arguments) -> Outcome {
+    let Arguments { machine, at, at_file, approach, bodies, format } = arguments;
+    let at = match at_file {
+        Some(path) => Positions::File(path),
+        None => Positions::One(at.unwrap_or_default()),
     };
-    if let Some(path) = &arguments.at_file {
-        return batch::answer(&machine, path, &approach?, arguments.format, problems);
-    }
-    let text = arguments.at.as_deref().unwrap_or_default();
-    let command = arguments::command(&machine, "--at", text, problems)?;
-    let place = argument("--at");
-    arguments::warn_beyond_travel(&machine, &command, &place, problems);
-    let found = PoseReport::at(&machine, &command, &approach?, &place, problems)?;
-    let found = PoseReport { with_bodies: arguments.bodies, ..found };
-    Some(match arguments.format {
-        Format::Json => Answer::Json(pose_json(&found)),
-        Format::Text => Answer::Text(pose_report(&found).text()),
-    })
+    let question = AskPose { machine: machine.choice(None), at, approach, bodies };
+    Door { format, report: None }.ask(&question)
 }

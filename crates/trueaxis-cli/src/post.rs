@@ -1,18 +1,14 @@
 //! `trueaxis post`: cutter locations into an NC program.
 
-use crate::arguments::{MachineArguments, control};
-use crate::output::{Answer, Format, Outcome, report, show, tell};
-use crate::report_file::unusable;
+use crate::arguments::MachineArguments;
+use crate::door::Door;
+use crate::output::{Answer, Format, Outcome, finish};
 use clap::{Args, ValueEnum};
-use std::path::{Path, PathBuf};
-use trueaxis::cl::{ClFile, Reading};
-use trueaxis::compensate::post::{FeedRule, PostOptions, Posted, Verification, post, verify};
-use trueaxis::files;
-use trueaxis::files::disk;
-use trueaxis::input::{Diagnostics, Dimension, Place, parse_quantity};
-use trueaxis::machine::Machine;
-use trueaxis::nc::writer::{Decimals, MOST_DECIMALS, Templates, TipWords};
-use trueaxis::report::{PostReport, post_json, post_report};
+use std::path::PathBuf;
+use trueaxis::compensate::post::FeedRule;
+use trueaxis::input::Diagnostics;
+use trueaxis::nc::writer::TipWords;
+use trueaxis::questions::{Post, template};
 
 /// The cutter locations, the machine and the control.
 #[derive(Args)]
@@ -120,141 +116,38 @@ enum Units {
     Inch,
 }
 
-pub fn run(arguments: &Arguments) -> Outcome {
-    if arguments.show_template {
-        let mut problems = Diagnostics::new();
-        let control = control(&arguments.control, &mut problems);
-        if report(problems) {
-            return Outcome::Unusable;
-        }
-        let text = trueaxis::nc::writer::BUILT_IN.iter().find(|(c, _)| Some(*c) == control);
-        return show(&Answer::Text(text.map_or(String::new(), |(_, t)| (*t).to_owned())));
-    }
+pub fn run(arguments: Arguments) -> Outcome {
     let mut problems = Diagnostics::new();
-    let machine = arguments.machine.read(&mut problems);
-    let file = arguments.read_file(&mut problems);
-    let options = arguments.options(&mut problems);
-    if arguments.machine.has_temperatures() {
-        let message = "a program is made for the nominal machine".to_owned();
-        let place = Place::whole("--temperature");
-        problems.error("no-temperature", place, message, "leave it out");
+    if arguments.show_template {
+        let text = template(&arguments.control, &mut problems);
+        return finish(problems, text.map(|text| Answer::Text(text.to_owned())));
     }
-    if report(problems) {
-        return Outcome::Unusable;
-    }
-    let (Some(machine), Some(file), Some(options)) = (machine, file, options) else {
-        return Outcome::Unusable;
+    let Some(output) = arguments.output else { return Outcome::Unusable };
+    let words = match arguments.orientation {
+        Orientation::Angles => TipWords::Angles,
+        Orientation::Vectors => TipWords::Vectors,
     };
-    let (posted, problems) = post(&machine, &file, &options);
-    if report(problems) {
-        return Outcome::Unusable;
-    }
-    let Some(posted) = posted else { return Outcome::Unusable };
-    let proof = arguments.verify.then(|| verify(&machine, &posted, &options));
-    arguments.finish(&machine, &file, &options, &posted, proof.as_ref())
-}
-
-impl Arguments {
-    fn read_file(&self, problems: &mut Diagnostics) -> Option<ClFile> {
-        let text = disk().bytes(&self.file, "a cutter-location file", problems)?;
-        let reading = Reading { inches: self.units.map(|u| u == Units::Inch) };
-        let (file, found) = ClFile::read(&self.file.display().to_string(), text, &reading);
-        problems.append(found);
-        Some(file)
-    }
-
-    fn options(&self, problems: &mut Diagnostics) -> Option<PostOptions> {
-        let mut number = |name: &str, text: &str, low: f64| {
-            let value = parse_quantity(text, Dimension::Ratio).ok();
-            let value = value.filter(|v| (low..1e6).contains(v));
-            if value.is_none() {
-                let message = format!("`{text}` is not a possible value");
-                problems.error("bad-number", Place::whole(name), message, "such as 0.01");
-            }
-            value
-        };
-        let tolerance_mm = number("--tolerance", &self.tolerance, 1e-6);
-        let axis_tolerance = number("--axis-tolerance", &self.axis_tolerance, 1e-6);
-        let pole = number("--pole-tolerance", &self.pole_tolerance, 0.0);
-        let retract_mm = number("--retract", &self.retract, 0.0);
-        let feed = self.feed.as_ref().map(|text| number("--feed", text, 1e-3));
-        let digits: Option<Vec<u8>> =
-            self.decimals.split(',').map(|t| t.trim().parse().ok()).collect();
-        let digits = digits.filter(|d| d.len() == 2 && d.iter().all(|d| *d <= MOST_DECIMALS));
-        if digits.is_none() {
-            let message = format!("`{}` are not two numbers of decimals", self.decimals);
-            problems.error("bad-number", Place::whole("--decimals"), message, "such as 3,4");
-        }
-        let templates = match &self.template {
-            Some(path) => Some(read_template(path, problems)?),
-            None => None,
-        };
-        let digits = digits?;
-        let words = match self.orientation {
-            Orientation::Angles => TipWords::Angles,
-            Orientation::Vectors => TipWords::Vectors,
-        };
-        let name = self.output.as_ref().and_then(|p| p.file_stem());
-        Some(PostOptions {
-            tip_words: (self.tcp == OnOff::On).then_some(words),
-            tolerance_mm: tolerance_mm?,
-            axis_tolerance_rad: axis_tolerance?.to_radians(),
-            pole_rad: pole?.to_radians(),
-            feed: match self.feed_mode {
-                FeedMode::Tip => FeedRule::Tip,
-                FeedMode::InverseTime => FeedRule::InverseTime,
-                FeedMode::AxisLimit => FeedRule::AxisLimit,
-            },
-            usual_feed_mm_per_min: match feed {
-                Some(value) => Some(value?),
-                None => None,
-            },
-            retract_mm: retract_mm?,
-            decimals: Decimals { linear: digits[0], angle: digits[1], ..Decimals::default() },
-            templates,
-            name: name.map_or_else(|| "PROGRAM".into(), |n| n.to_string_lossy().into_owned()),
-            number: self.number,
-            ..PostOptions::of(control(&self.control, problems)?)
-        })
-    }
-
-    fn finish(
-        &self,
-        machine: &Machine,
-        file: &ClFile,
-        options: &PostOptions,
-        posted: &Posted,
-        verification: Option<&Verification>,
-    ) -> Outcome {
-        let Some(output) = &self.output else { return Outcome::Unusable };
-        let report = PostReport { machine, file, options, posted, verification, output };
-        let sound = report.is_sound();
-        if sound {
-            if let Err(error) = files::write(output, &posted.text) {
-                let message = format!("cannot be written: {error}");
-                let shown = output.display().to_string();
-                return unusable("unwritable-file", &shown, &message, "name another file");
-            }
-        } else {
-            tell("the program is not within the tolerances; nothing was written");
-        }
-        let answer = match self.format {
-            Format::Json => Answer::Json(post_json(&report)),
-            Format::Text => Answer::Text(post_report(&report).text()),
-        };
-        match show(&answer) {
-            Outcome::Done if !sound => Outcome::No,
-            shown => shown,
-        }
-    }
-}
-
-fn read_template(path: &Path, problems: &mut Diagnostics) -> Option<Templates> {
-    let text = disk().text(path, "a template of programs", problems)?;
-    let refuse = |error: trueaxis::nc::writer::WriteError| {
-        let place = Place::whole(&path.display().to_string());
-        let hint = "--show-template prints one that works";
-        problems.error("bad-template", place, error.to_string(), hint);
+    let question = Post {
+        machine: arguments.machine.choice(None),
+        file: arguments.file,
+        control: arguments.control,
+        tip_words: (arguments.tcp == OnOff::On).then_some(words),
+        tolerance: arguments.tolerance,
+        axis_tolerance: arguments.axis_tolerance,
+        pole_tolerance: arguments.pole_tolerance,
+        feed_rule: match arguments.feed_mode {
+            FeedMode::Tip => FeedRule::Tip,
+            FeedMode::InverseTime => FeedRule::InverseTime,
+            FeedMode::AxisLimit => FeedRule::AxisLimit,
+        },
+        feed: arguments.feed,
+        retract: arguments.retract,
+        inches: arguments.units.map(|u| u == Units::Inch),
+        decimals: arguments.decimals,
+        template: arguments.template,
+        number: arguments.number,
+        output,
+        verify: arguments.verify,
     };
-    Templates::parse(&text).map_err(refuse).ok()
+    Door { format: arguments.format, report: None }.ask(&question)
 }

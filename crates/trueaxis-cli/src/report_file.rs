@@ -6,8 +6,6 @@ use trueaxis::files;
 use trueaxis::input::{Diagnostics, Place};
 use trueaxis::report::DrawingError;
 
-pub use trueaxis::files::output::{Kind as Written, REPORT, may_write};
-
 /// Writes a report whole or not at all, and says where it is.
 pub fn write_report(path: &Path, page: Result<String, DrawingError>) -> Result<(), Outcome> {
     let shown = path.display().to_string();

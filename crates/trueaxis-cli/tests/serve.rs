@@ -297,7 +297,11 @@ fn dropped_readings_count_as_those_of_the_file() {
     assert_eq!((&first["file"], &first["line"]), (&json!("mine.csv"), &json!(line)), "{first}");
     // Two instruments: whose readings are they?
     let body = json!({ "campaign": "examples/05_identify/mixed-instruments.toml", "text": csv });
-    assert_eq!(served.ask("identify", &body).status, 400);
+    let refused = served.ask("identify", &body);
+    assert_eq!(
+        (refused.status, &refused.json()["error"]["code"]),
+        (422, &json!("unknown-instrument"))
+    );
     let csv = text("examples/07_verify/x-axis-laser.csv");
     let body = json!({ "standard": "iso230-2", "name": "mine.csv", "text": csv,
         "conditions": "examples/07_verify/x-axis-laser.toml" });

@@ -10,8 +10,10 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::marker::PhantomData;
-use trueaxis::NamedSchema;
+use trueaxis::files::disk;
+use trueaxis::input::Diagnostics;
 use trueaxis::report::{DiagnosticEntry, document};
+use trueaxis::{NamedSchema, questions};
 
 /// A request of the page; how it is answered stands with it.
 pub(crate) trait Request: DeserializeOwned + JsonSchema {
@@ -44,6 +46,18 @@ impl<R: Request> Reply<R> {
     /// A header with its arrays.
     pub(crate) fn frame(header: &R::Answer<'_>, arrays: Arrays) -> Self {
         Self { message: Message::Frame(Frame::new(header, arrays)), request: PhantomData }
+    }
+}
+
+/// Puts a question of the library; its answer, and the warnings and notes of its files.
+pub(crate) fn ask<Q: questions::Question>(
+    question: &Q,
+    job: &Job,
+) -> Result<(Q::Answer, Diagnostics), Refusal> {
+    let mut problems = Diagnostics::new();
+    match questions::ask(question, &disk(), &|part| job.tell(part), &mut problems) {
+        Some(answer) => Ok((answer, problems)),
+        None => Err(Refusal::unusable(&problems)),
     }
 }
 

@@ -83,7 +83,7 @@ pub fn write(path: &Path, content: &[u8]) -> io::Result<()> {
 ///
 /// # Errors
 /// Whatever the disk says; what stands in a folder that is not empty stays as it is.
-pub fn write_folder(place: &Path, files: &[(&str, &str)]) -> io::Result<()> {
+pub fn write_folder(place: &Path, files: &[(String, String)]) -> io::Result<()> {
     let place = &*writable(place)?;
     let Some(name) = place.file_name() else {
         return Err(io::Error::new(io::ErrorKind::InvalidInput, "the path does not name a folder"));
@@ -103,20 +103,6 @@ pub fn write_folder(place: &Path, files: &[(&str, &str)]) -> io::Result<()> {
     fill().inspect_err(|_| {
         let _ = fs::remove_dir_all(&part);
     })
-}
-
-/// Writes programs and tables of poses into a folder; what was written.
-///
-/// # Errors
-/// What the disk says.
-pub fn write_files(folder: &Path, written: &[(String, Vec<u8>)]) -> io::Result<Vec<PathBuf>> {
-    let mut paths = Vec::new();
-    for (name, content) in written {
-        let path = folder.join(name);
-        write(&path, content)?;
-        paths.push(path);
-    }
-    Ok(paths)
 }
 
 /// A file that is being written beside its place; unless it is put there, it vanishes.
@@ -196,16 +182,20 @@ pub fn remove_parts() {
 mod tests {
     use super::*;
 
+    fn written(files: [(&str, &str); 2]) -> [(String, String); 2] {
+        files.map(|(name, text)| (name.to_owned(), text.to_owned()))
+    }
+
     #[test]
     fn a_folder_is_written_whole_and_over_nothing() {
         let folder = std::env::temp_dir().join(format!("trueaxis-folder-{}", std::process::id()));
         fs::create_dir_all(folder.join("empty")).unwrap();
         for name in ["new", "empty"] {
-            write_folder(&folder.join(name), &[("a", "1"), ("b", "2")]).unwrap();
+            write_folder(&folder.join(name), &written([("a", "1"), ("b", "2")])).unwrap();
             assert_eq!(fs::read(folder.join(name).join("b")).unwrap(), b"2");
         }
-        assert!(write_folder(&folder.join("new"), &[("c", "3")]).is_err());
-        assert!(write_folder(&folder.join("half"), &[("a", "1"), ("no/b", "2")]).is_err());
+        assert!(write_folder(&folder.join("new"), &written([("c", "3"), ("d", "4")])).is_err());
+        assert!(write_folder(&folder.join("half"), &written([("a", "1"), ("no/b", "2")])).is_err());
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 2);
         fs::remove_dir_all(folder).unwrap();
     }

@@ -13,39 +13,60 @@
 
 mod adapt;
 mod evaluate;
+mod expansion;
 mod identify;
+mod job;
 mod machine;
 mod measure;
 mod plan;
+mod pose;
+mod post;
 mod predict;
 mod probe;
 mod program;
 mod rtcp;
 mod rtcp_programs;
+mod simulate;
+mod solve;
 mod surface;
+mod tables;
 mod thermal;
+mod trace;
+mod values;
 mod verify;
+mod words;
 
 pub use adapt::{Adapt, AdaptAnswer};
 pub use evaluate::{Evaluate, EvaluateAnswer, EvaluateInput, ReadingsFile};
+pub use expansion::{ExpansionAnswer, IdentifyExpansion};
 pub use identify::{DroppedTable, Identified, Identify};
+pub use job::ProgramChoice;
 pub use machine::MachineChoice;
 pub use measure::{Measure, MeasureAnswer};
 pub use plan::{PlanAnswer, PlanMeasurement};
+pub use pose::{AskPose, PoseAnswer, PoseFound, PoseInput, Positions};
+pub use post::{Post, PostAnswer, template};
 pub use predict::{Predict, PredictInput, Predicted};
 pub use probe::{IdentifyProbe, ProbeAnswer};
 pub use program::{CompensateProgram, ProgramAnswer};
 pub use rtcp::{IdentifyRtcp, RtcpAnswer};
 pub use rtcp_programs::{RtcpPrograms, RtcpProgramsAnswer, RtcpProgramsDocument};
+pub use simulate::{Simulate, Simulated};
+pub use solve::{Solve, SolveAnswer, SolveInput, SolveTarget};
 pub use surface::{PlanSurface, SurfaceAnswer};
+pub use tables::{CompensateTables, TablesAnswer};
 pub use thermal::{IdentifyThermal, ThermalAnswer};
+pub use trace::{TraceAnswer, TraceBlock};
+pub use values::{CompensateValues, ValuesAnswer, ValuesForm};
 pub use verify::{
     CalibrationsAnswer, CertificateAnswer, Certify, CompareCalibrations, VerifyAnswer,
     VerifyReadings,
 };
 
 use crate::files::output::Kind;
+use crate::files::{self, Part};
 use serde_json::Value;
+use std::io;
 use std::path::{Path, PathBuf};
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_motion::{CONTROLS, control_named};
@@ -104,8 +125,13 @@ pub trait Answer {
         true
     }
 
-    /// Files that were asked for beside the report.
-    fn files(&self) -> Vec<NewFile> {
+    /// How the work ended where it goes on in spite of errors; without that there is no answer then.
+    fn in_spite_of_errors(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// Files that were asked for beside the report; they are handed out once.
+    fn files(&mut self) -> Vec<NewFile> {
         Vec::new()
     }
 
@@ -116,14 +142,47 @@ pub trait Answer {
 }
 
 /// A file that an answer brings.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug)]
 pub struct NewFile {
     /// What it is, in one word.
     pub name: &'static str,
     /// Where it goes.
     pub path: PathBuf,
     /// What stands in it.
-    pub content: Vec<u8>,
+    pub content: Content,
+}
+
+/// What stands in a file.
+#[derive(Debug)]
+pub enum Content {
+    /// These bytes.
+    Bytes(Vec<u8>),
+    /// What was written beside its place during the work.
+    Part(Part),
+    /// It is a folder, new or empty: its files by name, all or none.
+    Folder(Vec<(String, String)>),
+}
+
+impl NewFile {
+    fn of(name: &'static str, path: impl Into<PathBuf>, content: impl Into<Vec<u8>>) -> Self {
+        Self { name, path: path.into(), content: Content::Bytes(content.into()) }
+    }
+
+    /// Puts it in its place.
+    ///
+    /// # Errors
+    /// What the disk says.
+    pub fn write(self) -> io::Result<()> {
+        match self.content {
+            Content::Bytes(bytes) => {
+                let folder = self.path.parent().filter(|p| !p.as_os_str().is_empty());
+                folder.map_or(Ok(()), std::fs::create_dir_all)?;
+                files::write(&self.path, &bytes)
+            }
+            Content::Part(part) => part.put_in_place(),
+            Content::Folder(written) => files::write_folder(&self.path, &written),
+        }
+    }
 }
 
 /// Reads and computes; none if there was an error, which then stands in `problems`.
@@ -134,8 +193,9 @@ pub fn ask<Q: Question>(
     problems: &mut Diagnostics,
 ) -> Option<Q::Answer> {
     let input = question.read(files, problems).filter(|_| !problems.has_errors())?;
-    let answer = question.answer(input, progress, problems);
-    answer.filter(|_| !problems.has_errors())
+    let answer = question.answer(input, progress, problems)?;
+    let usable = !problems.has_errors() || answer.in_spite_of_errors().is_some();
+    usable.then_some(answer)
 }
 
 /// A document with what was found in the files, in the order in which it was found.
@@ -150,7 +210,7 @@ fn in_folder(
     files: impl IntoIterator<Item = (String, Vec<u8>)>,
 ) -> Vec<NewFile> {
     let Some(folder) = folder else { return Vec::new() };
-    let file = |(name, content)| NewFile { name: "written", path: folder.join(name), content };
+    let file = |(name, content)| NewFile::of("written", folder.join(name), content);
     files.into_iter().map(file).collect()
 }
 

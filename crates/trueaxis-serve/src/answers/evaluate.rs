@@ -4,19 +4,13 @@ use crate::body::{needed, short};
 use crate::desk::{Desk, Job};
 use crate::frame::Array;
 use crate::refusal::{Refusal, entries};
-use crate::request::{Diagnosed, Reply, Request};
+use crate::request::{Diagnosed, Reply, Request, ask};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::path::{Path, PathBuf};
-use trueaxis::files;
-use trueaxis::files::disk;
-use trueaxis::input::{Diagnostics, Dimension, parse_quantity};
-use trueaxis::report::{
-    DiagnosticEntry, Evaluation, EvaluationDocument, Picture, Table, evaluation_report, remarks,
-};
-use trueaxis::verify::conditions::{Conditions, read_conditions};
+use trueaxis::questions::{Answer, Evaluate, ReadingsFile};
+use trueaxis::report::{DiagnosticEntry, EvaluationDocument, Picture, Table};
+use trueaxis::verify::Standard;
 use trueaxis::verify::import::Import;
-use trueaxis::verify::{Evaluated, Readings, Standard, evaluate_text, iso230_3};
 
 /// The standards.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -161,79 +155,28 @@ pub(super) struct PolarLineEntry<'a> {
     points: Part,
 }
 
-/// Readings with their result.
-pub(super) struct Judged {
-    standard: Standard,
-    file: String,
-    conditions: Conditions,
-    conditions_file: Option<PathBuf>,
-    evaluated: Evaluated,
-    problems: Diagnostics,
-}
-
 impl EvaluateRequest {
     /// The readings of a file.
     pub(super) fn of(standard: String, path: String) -> Self {
         Self { standard, path: Some(path), ..Self::default() }
     }
-}
 
-impl Judged {
-    /// Evaluates what the request names.
-    pub(super) fn read(desk: &Desk, request: &EvaluateRequest) -> Result<Self, Refusal> {
-        let standard = standard(&request.standard)?;
-        let mut problems = Diagnostics::new();
-        let in_project = |name: &String| desk.project.path(name);
-        let path = request.path.as_ref().map(in_project).transpose()?;
-        let (file, text) = match &path {
-            Some(path) => {
-                let text = disk().text(path, "a table of readings (CSV)", &mut problems);
-                (path.display().to_string(), text)
-            }
-            None => {
-                (needed(request.name.clone(), "name")?, Some(needed(request.text.clone(), "text")?))
-            }
+    /// As the library is asked.
+    pub(super) fn question(self, desk: &Desk) -> Result<Evaluate, Refusal> {
+        let in_project = |name: String| desk.project.path(&name);
+        let data = match self.path {
+            Some(path) => ReadingsFile::Path(in_project(path)?),
+            None => ReadingsFile::Text(needed(self.name, "name")?, needed(self.text, "text")?),
         };
-        let named = request.conditions.as_ref().map(in_project).transpose()?;
-        let beside = path.as_deref().map(|path| path.with_extension("toml"));
-        let conditions_file = named.or(beside.filter(|beside| files::is_file(beside)));
-        let mut conditions = read_conditions(&disk(), conditions_file.as_deref(), &mut problems);
-        if let Some(radius_mm) = quantity("radius", &request.radius, Dimension::Length)? {
-            conditions.circle.radius_mm = Some(radius_mm);
-        }
-        let window_s = quantity("window", &request.window, Dimension::Time)?;
-        let import = import(request.import.as_deref(), Path::new(&file))?;
-        let conditions_name = conditions_file.as_ref().map(|p| p.display().to_string());
-        let result = text.map(|text| {
-            let readings = Readings {
-                standard,
-                file: &file,
-                text: &text,
-                import,
-                feature: request.feature.as_deref(),
-                conditions: &conditions,
-                conditions_file: conditions_name.as_deref().unwrap_or("the conditions"),
-                window_s: window_s.unwrap_or(iso230_3::HOUR_S),
-            };
-            evaluate_text(&readings, &mut problems)
-        });
-        match result.filter(|_| !problems.has_errors()) {
-            Some((Some(evaluated), conditions)) => {
-                Ok(Self { standard, file, conditions, conditions_file, evaluated, problems })
-            }
-            _ => Err(Refusal::unusable(&problems)),
-        }
-    }
-
-    /// What a function makes of the evaluation.
-    pub(super) fn with<T>(&self, make: impl FnOnce(&Evaluation<'_>) -> T) -> T {
-        let remarks = remarks(&self.problems);
-        make(&Evaluation {
-            standard: self.standard,
-            file: &self.file,
-            conditions: &self.conditions,
-            evaluated: &self.evaluated,
-            remarks: &remarks,
+        Ok(Evaluate {
+            standard: standard(&self.standard)?,
+            data,
+            import: self.import.as_deref().map(import).transpose()?,
+            feature: self.feature,
+            conditions: self.conditions.map(in_project).transpose()?,
+            radius: self.radius,
+            window: self.window,
+            write_back: None,
         })
     }
 }
@@ -245,54 +188,37 @@ fn standard(key: &str) -> Result<Standard, Refusal> {
     })
 }
 
-fn import(key: Option<&str>, file: &Path) -> Result<Import, Refusal> {
-    let Some(key) = key else { return Ok(Import::of(file)) };
+fn import(key: &str) -> Result<Import, Refusal> {
     Import::ALL.into_iter().find(|import| import.key() == key).ok_or_else(|| {
         let all = Import::ALL.map(Import::key).join(", ");
         Refusal::bad(format!("unknown format `{}`", short(key)), &all)
     })
 }
 
-fn quantity(
-    key: &str,
-    text: &Option<String>,
-    dimension: Dimension,
-) -> Result<Option<f64>, Refusal> {
-    let Some(text) = text else { return Ok(None) };
-    match parse_quantity(text, dimension) {
-        Ok(value) if value > 0.0 => Ok(Some(value)),
-        Ok(_) => Err(Refusal::bad(format!("`{key}` must be a positive quantity"), "")),
-        Err(e) => Err(Refusal::new(400, e.code(), format!("{key}: {e}"), &e.hint())),
-    }
-}
-
 impl Request for EvaluateRequest {
     type Answer<'a> = EvaluateAnswer<'a>;
 
-    fn answer(self, desk: &Desk, _: &Job) -> Result<Reply<Self>, Refusal> {
-        let judged = Judged::read(desk, &self)?;
-        let problems = &judged.problems;
-        let file = judged.conditions_file.as_ref();
-        judged.with(|evaluation| {
-            let contents = evaluation.contents();
-            let mut drawn = Drawn::default();
-            let answer = EvaluateAnswer {
-                document: Diagnosed {
-                    document: EvaluationDocument::of(evaluation),
-                    diagnostics: entries(problems),
-                },
-                text: evaluation_report(evaluation).text(),
-                conditions_file: file.and_then(|path| desk.project.name_of(path)),
-                figures: contents.results.iter().map(TableEntry::from).collect(),
-                details: contents.details.iter().map(TableEntry::from).collect(),
-                pictures: contents.pictures.iter().map(|p| drawn.picture(p)).collect(),
-                remarks: remarks(problems),
-                diagnostics: entries(problems),
-            };
-            let arrays =
-                vec![("line", Array::F64(drawn.line)), ("points", Array::F64(drawn.points))];
-            Ok(Reply::frame(&answer, arrays))
-        })
+    fn answer(self, desk: &Desk, job: &Job) -> Result<Reply<Self>, Refusal> {
+        let (evaluated, problems) = ask(&self.question(desk)?, job)?;
+        let evaluation = evaluated.shown();
+        let contents = evaluation.contents();
+        let mut drawn = Drawn::default();
+        let file = evaluated.conditions_file.as_ref();
+        let answer = EvaluateAnswer {
+            document: Diagnosed {
+                document: EvaluationDocument::of(&evaluation),
+                diagnostics: entries(&problems),
+            },
+            text: evaluated.text(),
+            conditions_file: file.and_then(|path| desk.project.name_of(path)),
+            figures: contents.results.iter().map(TableEntry::from).collect(),
+            details: contents.details.iter().map(TableEntry::from).collect(),
+            pictures: contents.pictures.iter().map(|p| drawn.picture(p)).collect(),
+            remarks: evaluated.remarks.clone(),
+            diagnostics: entries(&problems),
+        };
+        let arrays = vec![("line", Array::F64(drawn.line)), ("points", Array::F64(drawn.points))];
+        Ok(Reply::frame(&answer, arrays))
     }
 }
 

@@ -1,21 +1,22 @@
 //! What a measurement will show, before it is made.
 
-use super::settings::control;
 use crate::desk::{Desk, Job};
 use crate::frame::Array;
 use crate::refusal::{Refusal, entries};
-use crate::request::{Reply, Request};
+use crate::request::{Reply, Request, ask};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
-use std::path::Path;
-use trueaxis::files::disk;
 use trueaxis::input::Diagnostics;
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{Axis, AxisKind};
 use trueaxis::measure::Readings;
-use trueaxis::plan::{Plan, PlanReport, PlannedPath, chosen, planned, read_plan, tools};
+use trueaxis::plan::{PlanReport, PlannedPath, tools};
+use trueaxis::questions::PlanMeasurement;
 use trueaxis::report::{DiagnosticEntry, PlanDocument};
+
+/// The control of programs where a request names none.
+pub(super) const SINUMERIK: &str = "sinumerik";
 
 /// The plan of a campaign: paths, programs, expected uncertainties.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -81,24 +82,13 @@ impl Request for PlanRequest {
     type Answer<'a> = PlanAnswer<'a>;
 
     fn answer(self, desk: &Desk, job: &Job) -> Result<Reply<Self>, Refusal> {
-        let control = control(self.dialect.as_deref())?;
-        let (plan, mut problems) = read(&desk.project.path(&self.campaign)?)?;
-        job.tell(0.1);
-        let chosen = chosen(&plan, &mut problems);
-        if problems.has_errors() {
-            return Err(Refusal::unusable(&problems));
-        }
-        let report = planned(plan, chosen, control);
-        Ok(reply(desk, &report, &problems))
-    }
-}
-
-/// A plan without errors, and the warnings and notes of its file.
-pub(super) fn read(path: &Path) -> Result<(Plan, Diagnostics), Refusal> {
-    let (plan, problems) = read_plan(&disk(), path);
-    match plan.filter(|_| !problems.has_errors()) {
-        Some(plan) => Ok((plan, problems)),
-        None => Err(Refusal::unusable(&problems)),
+        let question = PlanMeasurement {
+            campaign: desk.project.path(&self.campaign)?,
+            control: self.dialect.unwrap_or_else(|| SINUMERIK.to_owned()),
+            output: None,
+        };
+        let (plan, problems) = ask(&question, job)?;
+        Ok(reply(desk, &plan.found, &problems))
     }
 }
 

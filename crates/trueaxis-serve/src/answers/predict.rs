@@ -4,7 +4,7 @@ use super::settings::{ErrorChangeEntry, errors};
 use crate::desk::{Desk, Job};
 use crate::frame::{Array, Arrays};
 use crate::refusal::{Refusal, entries};
-use crate::request::{Reply, Request};
+use crate::request::{Reply, Request, ask};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -15,12 +15,9 @@ use trueaxis::machine::axis::AxisKind;
 use trueaxis::machine::errors::ErrorName;
 use trueaxis::machine::heat::Conditions;
 use trueaxis::part::fit::circle::Zone;
-use trueaxis::predict::holes::{
-    HolePrediction, HoleStudy, is_hole_study, predict_holes, read_hole_study,
-};
-use trueaxis::predict::{
-    Error, Prediction, SectionResult, Study, WhatIf, predict, preview, read_study,
-};
+use trueaxis::predict::holes::{HolePrediction, HoleStudy};
+use trueaxis::predict::{Error, Prediction, SectionResult, Study, WhatIf, preview, read_study};
+use trueaxis::questions::{Predict, Predicted};
 use trueaxis::report::{DiagnosticEntry, HolesDocument, PredictionDocument};
 
 /// The whole prediction of a study, as `trueaxis predict --no-report` computes it.
@@ -134,21 +131,23 @@ impl Request for PredictRequest {
     type Answer<'a> = PredictAnswer<'a>;
 
     fn answer(self, desk: &Desk, job: &Job) -> Result<Reply<Self>, Refusal> {
-        let path = desk.project.path(&self.study)?;
-        if is_hole_study(&disk(), &path) {
-            let (study, prediction, problems) = holes(&path)?;
-            let answer = PredictAnswer::Holes(Box::new(HolesEntry {
-                document: HolesDocument::of(&study, &prediction),
-                sensors: study.machine.heat().sensors(),
-                diagnostics: entries(&problems),
-            }));
-            return Ok(Reply::frame(&answer, hole_arrays(&study, &prediction)));
-        }
-        let (study, problems) = study(&path)?;
-        let prediction = predicted(&study, job)?;
-        let answer =
-            PredictAnswer::TestPiece(Box::new(piece(desk, &study, &prediction, &problems)));
-        Ok(Reply::frame(&answer, section_arrays(&prediction)))
+        let study = desk.project.path(&self.study)?;
+        let (predicted, problems) = ask(&Predict { study, ..Predict::default() }, job)?;
+        Ok(match &predicted {
+            Predicted::Part(study, prediction) => {
+                let answer = piece(desk, study, prediction, &problems);
+                let answer = PredictAnswer::TestPiece(Box::new(answer));
+                Reply::frame(&answer, section_arrays(prediction))
+            }
+            Predicted::Holes(study, prediction) => {
+                let answer = PredictAnswer::Holes(Box::new(HolesEntry {
+                    document: HolesDocument::of(study, prediction),
+                    sensors: study.machine.heat().sensors(),
+                    diagnostics: entries(&problems),
+                }));
+                Reply::frame(&answer, hole_arrays(study, prediction))
+            }
+        })
     }
 }
 
@@ -179,19 +178,12 @@ impl Request for WhatIfRequest {
 }
 
 /// A study without errors, and the warnings and notes of its file.
-pub(super) fn study(path: &Path) -> Result<(Study, Diagnostics), Refusal> {
+fn study(path: &Path) -> Result<(Study, Diagnostics), Refusal> {
     let (study, problems) = read_study(&disk(), path);
     match study.filter(|_| !problems.has_errors()) {
         Some(study) => Ok((study, problems)),
         None => Err(Refusal::unusable(&problems)),
     }
-}
-
-/// The prediction, with its progress through the Monte Carlo samples.
-pub(super) fn predicted(study: &Study, job: &Job) -> Result<Prediction, Refusal> {
-    let samples = study.sampling.map_or(0, |s| s.samples).max(1);
-    let tell = |done: usize| job.tell(done as f64 / samples as f64);
-    predict(study, &tell).map_err(|e| refused(&e))
 }
 
 fn refused(error: &Error) -> Refusal {
@@ -269,16 +261,6 @@ fn section_arrays(prediction: &Prediction) -> Arrays {
         ("error_um", Array::F32(error_um.collect())),
         ("profile_mm", Array::F64(profile.collect())),
     ]
-}
-
-/// A study of holes without errors, and its prediction.
-pub(super) fn holes(path: &Path) -> Result<(HoleStudy, HolePrediction, Diagnostics), Refusal> {
-    let (study, problems) = read_hole_study(&disk(), path);
-    let Some(study) = study.filter(|_| !problems.has_errors()) else {
-        return Err(Refusal::unusable(&problems));
-    };
-    let prediction = predict_holes(&study).map_err(|problems| Refusal::unusable(&problems))?;
-    Ok((study, prediction, problems))
 }
 
 fn hole_arrays(study: &HoleStudy, prediction: &HolePrediction) -> Arrays {

@@ -1,26 +1,19 @@
 //! The pages of the command line, kept for the page to show.
 
-use super::evaluate::{EvaluateRequest, Judged};
-use super::identify::identified;
-use super::predict::{holes, predicted, study};
-use super::settings::control;
+use super::evaluate::EvaluateRequest;
+use super::plan::SINUMERIK;
 use super::simulate_document::SimulateRequest;
 use crate::body::needed;
 use crate::desk::{Desk, Job};
 use crate::refusal::Refusal;
-use crate::request::{Reply, Request};
+use crate::request::{Reply, Request, ask};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::path::Path;
-use trueaxis::files::disk;
-use trueaxis::input::Place;
-use trueaxis::plan::{chosen, planned};
-use trueaxis::predict::holes::is_hole_study;
-use trueaxis::report::{
-    self, DrawingError, comparison_report, evaluation_report, holes_report, identification_report,
-    plan_report,
+use std::path::PathBuf;
+use trueaxis::questions::{
+    Answer, Identify, PlanMeasurement, Predict, Question, Simulate, VerifyReadings,
 };
-use trueaxis::verify::compare::{compare, read_comparison};
+use trueaxis::report::DrawingError;
 
 /// Makes a report.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -87,7 +80,7 @@ impl Request for ReportRequest {
         let path = desk.project.path(&self.file)?;
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
         let name = format!("{stem}-{}.html", self.verb.name());
-        let page = self.page(desk, &path, job)?;
+        let page = self.page(desk, path, job)?;
         let bytes = page.len();
         let (number, _) = desk.reports.put(page);
         Ok(Reply::json(&ReportAnswer { url: format!("/report/{number}"), bytes, name }))
@@ -95,62 +88,32 @@ impl Request for ReportRequest {
 }
 
 impl ReportRequest {
-    fn page(self, desk: &Desk, path: &Path, job: &Job) -> Result<String, Refusal> {
+    fn page(self, desk: &Desk, file: PathBuf, job: &Job) -> Result<String, Refusal> {
         match self.verb {
-            Verb::Predict => prediction(path, job),
+            Verb::Predict => page(&Predict { study: file, ..Predict::default() }, job),
             Verb::Simulate => {
                 let machine = needed(self.machine, "machine")?;
-                SimulateRequest::of(machine, self.file).page(desk, job)
+                let question = SimulateRequest::of(machine, self.file).question(desk, job)?;
+                page(&Simulate { pictures: true, ..question }, job)
             }
-            Verb::Plan => plan(self.dialect.as_deref(), path),
-            Verb::Identify => {
-                let identified = identified(path, |_| Ok(None), job)?;
-                identification_report(identified.report()).html().map_err(undrawn)
+            Verb::Plan => {
+                let control = self.dialect.unwrap_or_else(|| SINUMERIK.to_owned());
+                page(&PlanMeasurement { campaign: file, control, output: None }, job)
             }
+            Verb::Identify => page(&Identify { campaign: file, ..Identify::default() }, job),
             Verb::Evaluate => {
                 let standard = needed(self.standard, "standard")?;
-                let judged = Judged::read(desk, &EvaluateRequest::of(standard, self.file))?;
-                judged.with(|e| evaluation_report(e).html()).map_err(undrawn)
+                page(&EvaluateRequest::of(standard, self.file).question(desk)?, job)
             }
-            Verb::Verify => comparison(path),
+            Verb::Verify => page(&VerifyReadings { file }, job),
         }
     }
 }
 
-pub(super) fn undrawn(error: DrawingError) -> Refusal {
+fn page<Q: Question>(question: &Q, job: &Job) -> Result<String, Refusal> {
+    ask(question, job)?.0.page().map_err(undrawn)
+}
+
+fn undrawn(error: DrawingError) -> Refusal {
     Refusal::new(422, "no-report", error.to_string(), "the numbers are in the other tabs")
-}
-
-fn prediction(path: &Path, job: &Job) -> Result<String, Refusal> {
-    if is_hole_study(&disk(), path) {
-        let (study, found, _) = holes(path)?;
-        return holes_report(&study, &found).html().map_err(undrawn);
-    }
-    let (study, _) = study(path)?;
-    let prediction = predicted(&study, job)?;
-    report::prediction_report(&study, &prediction).html().map_err(undrawn)
-}
-
-fn plan(dialect: Option<&str>, path: &Path) -> Result<String, Refusal> {
-    let control = control(dialect)?;
-    let (plan, mut problems) = super::plan::read(path)?;
-    let chosen = chosen(&plan, &mut problems);
-    if problems.has_errors() {
-        return Err(Refusal::unusable(&problems));
-    }
-    plan_report(&planned(plan, chosen, control)).html().map_err(undrawn)
-}
-
-fn comparison(path: &Path) -> Result<String, Refusal> {
-    let (task, mut problems) = read_comparison(&disk(), path);
-    let Some(task) = task.filter(|_| !problems.has_errors()) else {
-        return Err(Refusal::unusable(&problems));
-    };
-    let verified = compare(&task).map_err(|error| {
-        let hint = "do the readings belong to this campaign: columns, units, order of channels?";
-        let place = Place::whole(&path.display().to_string());
-        problems.error("cannot-compare", place, error.to_string(), hint);
-        Refusal::unusable(&problems)
-    })?;
-    comparison_report(&task, &verified).html().map_err(undrawn)
 }

@@ -1,4 +1,4 @@
-//! Errors, settings and controls of a request, as the library takes them.
+//! Changes of errors of a request, as the library takes them.
 
 use crate::body::short;
 use crate::refusal::Refusal;
@@ -7,9 +7,7 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use trueaxis::input::{Dimension, parse_quantity};
 use trueaxis::machine::errors::ErrorName;
-use trueaxis::nc::Control;
 use trueaxis::predict::ErrorChange;
-use trueaxis::simulate::{CONTROLS, control_named};
 
 /// A change of one error: its curve times the factor, then the constant is added.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -42,11 +40,4 @@ impl ErrorChangeEntry {
         let factor = self.factor.unwrap_or(1.0);
         Ok(ErrorChange { name: parsed, factor, add: add.unwrap_or(0.0) })
     }
-}
-
-/// The control that programs are written for, as `--control` of the command line.
-pub(super) fn control(name: Option<&str>) -> Result<Control, Refusal> {
-    let name = name.unwrap_or("sinumerik");
-    let unknown = || Refusal::bad(format!("unknown control `{}`", short(name)), CONTROLS);
-    control_named(name).ok_or_else(unknown)
 }

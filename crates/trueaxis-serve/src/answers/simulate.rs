@@ -1,7 +1,6 @@
 //! A program on the machine, kept so that the page can move through it in time.
 
 use super::describe::{SurfaceEntry, corners, twelve};
-use super::report::undrawn;
 use super::simulate_document::{
     BlockStep, MarkEntry, MomentEntry, PathColour, ProgramEntry, SetUpToolEntry, SimulateAnswer,
     SimulateRequest, SimulationAtAnswer, SimulationAtRequest, SimulationBlockAnswer,
@@ -18,12 +17,10 @@ use std::path::Path;
 use std::sync::Arc;
 use trueaxis::files;
 use trueaxis::files::disk;
-use trueaxis::input::{Diagnostics, Place};
-use trueaxis::report::{Simulation, SimulationDocument, simulation_report};
-use trueaxis::simulate::{
-    self, CONTROLS, Colour, Findings, Observer, Options, ProgramFiles, Progress, Recorder, Series,
-    Stop, control_named,
-};
+use trueaxis::input::Diagnostics;
+use trueaxis::questions::{MachineChoice, ProgramChoice, Simulate};
+use trueaxis::report::{Simulation, SimulationDocument};
+use trueaxis::simulate::{self, Colour, Findings, Observer, Progress, Recorder, Stop};
 
 /// Columns of a picture of curves.
 const MOST_COLUMNS: usize = 1 << 14;
@@ -38,14 +35,14 @@ impl Request for SimulateRequest {
     /// Simulates as `trueaxis simulate --no-report` does, and keeps the recording.
     fn answer(self, desk: &Desk, job: &Job) -> Result<Reply<Self>, Refusal> {
         let mut problems = Diagnostics::new();
-        let simulation = self.read(desk, job, &mut problems)?;
-        let collisions = match self.looks_for_collisions() {
-            true => simulation.collisions(),
-            false => None,
-        };
+        let dropped = self.text.is_some();
+        let question = self.question(desk, job)?;
+        let simulation = question.job(&disk(), &mut problems).filter(|_| !problems.has_errors());
+        let Some(simulation) = simulation else { return Err(Refusal::unusable(&problems)) };
+        let collisions = if question.no_collisions { None } else { simulation.collisions() };
         for (first, second) in collisions.iter().flat_map(|c| c.left_out()) {
             let message = format!("{first} and {second} overlap with all axes at 0: not watched");
-            let place = Place::whole(&self.machine);
+            let place = question.machine.place();
             problems.note("not-watched", place, message, "move one of them, or leave it as it is");
         }
         let mut progress =
@@ -65,7 +62,7 @@ impl Request for SimulateRequest {
         let simulated = Simulated {
             machine: simulation.machine.clone(),
             recording: recorder.finish(),
-            programs: sources(desk, &simulation, &found, self.text.is_some()),
+            programs: sources(desk, &simulation, &found, dropped),
         };
         job.tell(1.0);
         let simulated = desk.simulations.put(simulated);
@@ -75,67 +72,25 @@ impl Request for SimulateRequest {
 }
 
 impl SimulateRequest {
-    /// The report of the simulation, as `trueaxis simulate --report` writes it.
-    pub(super) fn page(&self, desk: &Desk, job: &Job) -> Result<String, Refusal> {
-        let mut problems = Diagnostics::new();
-        let simulation = self.read(desk, job, &mut problems)?;
-        let mut progress = Progress::through(&simulation.program, |part| job.tell(part));
-        let mut series = Series::of(&simulation.machine);
-        let mut observers: [&mut dyn Observer; 2] = [&mut progress, &mut series];
-        let found = simulation.run(simulation.collisions(), &mut observers);
-        problems.append(found.run.problems.clone());
-        if problems.has_errors() {
-            return Err(Refusal::unusable(&problems));
-        }
-        simulation_report(Simulation::of(&simulation, &found), Some(&series))
-            .html()
-            .map_err(undrawn)
-    }
-
-    fn looks_for_collisions(&self) -> bool {
-        self.collisions.unwrap_or(true)
-    }
-
-    /// Everything that the request names.
-    fn read(
-        &self,
-        desk: &Desk,
-        job: &Job,
-        problems: &mut Diagnostics,
-    ) -> Result<simulate::Job, Refusal> {
-        let machine_path = desk.project.path(&self.machine)?;
+    /// As the library is asked.
+    pub(super) fn question(self, desk: &Desk, job: &Job) -> Result<Simulate, Refusal> {
         let name = match self.text.is_some() {
-            true => needed(self.name.as_ref(), "name")?,
-            false => needed(self.program.as_ref(), "program")?,
+            true => needed(self.name, "name")?,
+            false => needed(self.program, "program")?,
         };
-        let program = desk.project.path(name)?;
-        let setup = self.setup.as_ref().map(|name| desk.project.path(name)).transpose()?;
-        let control = self.control.as_ref().map(|name| {
-            let message = || format!("unknown control `{}`", short(name));
-            let refused = || Refusal::new(422, "unknown-control", message(), CONTROLS);
-            control_named(name).ok_or_else(refused)
-        });
-        let files = ProgramFiles {
-            files: &disk(),
-            program: &program,
-            text: self.text.as_ref().map(String::as_bytes),
-            setup: setup.as_deref(),
-            control: control.transpose()?,
-        };
-        let options = Options {
+        let file = desk.project.path(&self.machine)?;
+        let program = ProgramChoice {
+            program: desk.project.path(&name)?,
+            text: self.text,
+            setup: self.setup.map(|name| desk.project.path(&name)).transpose()?,
+            control: self.control,
             keep_going: self.keep_going.unwrap_or(false),
             stop: Stop::from(job.stop.clone()),
-            ..Options::default()
+            ..ProgramChoice::default()
         };
-        let (machine, found) = files::machine(&machine_path);
-        problems.append(found);
-        let read =
-            machine.and_then(|machine| simulate::Job::read(machine, &files, options, problems));
-        let read = read.map(|job| match self.looks_for_collisions() {
-            true => job.with_models(&machine_path, problems),
-            false => job,
-        });
-        read.filter(|_| !problems.has_errors()).ok_or_else(|| Refusal::unusable(problems))
+        let machine = MachineChoice { file, ..MachineChoice::default() };
+        let no_collisions = !self.collisions.unwrap_or(true);
+        Ok(Simulate { machine, program, no_collisions, ..Simulate::default() })
     }
 }
 

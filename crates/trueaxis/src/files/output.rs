@@ -70,6 +70,21 @@ fn replaceable(path: &Path, kind: &Kind) -> bool {
     read.is_ok() && (head.is_empty() || is_kind || !kind.contains.is_empty() && marked())
 }
 
+/// Whether the folder is new or empty, and the one that it stands in is there.
+pub fn may_fill(folder: &Path, problems: &mut Diagnostics) {
+    let above = folder.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let full = folder.read_dir().is_ok_and(|mut entries| entries.next().is_some());
+    let (message, hint) = if folder.file_name().is_none() || folder.is_file() || full {
+        ("is no new or empty folder", "nothing is overwritten; name a folder that is new or empty")
+    } else if !above.is_dir() {
+        ("its folder does not exist", "make that folder first, or name another --output")
+    } else {
+        return;
+    };
+    let place = Place::whole(&folder.display().to_string());
+    problems.error("unwritable-folder", place, message.to_owned(), hint);
+}
+
 /// Refuses one file for two outputs.
 pub fn no_file_twice(paths: &[&Path], problems: &mut Diagnostics) {
     for (i, path) in paths.iter().enumerate() {

@@ -79,7 +79,7 @@ impl Adapt {
             tip_mm: proof.tip_between.value,
             axis_rad: proof.axis_between.value,
         };
-        Some((program, NewFile { name: "program", path, content: posted.text }))
+        Some((program, NewFile::of("program", path, posted.text)))
     }
 
     /// The adapted cutter locations, in the form of those that were read.
@@ -88,7 +88,7 @@ impl Adapt {
         let mut text = format!("{begin} adapted by trueaxis: {}\n", one_line(&study.name));
         text.retain(|c| c.is_ascii());
         let content = [text.into_bytes(), adaptation.path.rewritten()].concat();
-        Some(NewFile { name: "path", path: self.cl.clone()?, content })
+        Some(NewFile::of("path", self.cl.as_ref()?, content))
     }
 }
 
@@ -155,8 +155,8 @@ impl Answer for AdaptAnswer {
         self.adaptation.findings.is_empty() && self.program.as_ref().is_none_or(|p| p.written)
     }
 
-    fn files(&self) -> Vec<NewFile> {
-        self.files.clone()
+    fn files(&mut self) -> Vec<NewFile> {
+        std::mem::take(&mut self.files)
     }
 
     fn notes(&self) -> Vec<String> {

@@ -93,7 +93,7 @@ const TABLE: Kind = Kind::file("--write-back", "a table of this command", &[FIRS
 /// An error motion as a table next to the machine file.
 #[derive(Debug)]
 struct Table {
-    file: NewFile,
+    file: Option<NewFile>,
     /// The lines for the machine file.
     lines: String,
 }
@@ -160,8 +160,8 @@ impl Evaluate {
             "{sign}for the machine file, in place of what it says of {}:\n{section}",
             back.error
         );
-        let file = NewFile { name: "table", path, content: back.table.into_bytes() };
-        Some(Table { file, lines })
+        let file = NewFile::of("table", path, back.table);
+        Some(Table { file: Some(file), lines })
     }
 }
 
@@ -252,8 +252,8 @@ impl Answer for EvaluateAnswer {
         report::evaluation_report(&self.shown())
     }
 
-    fn files(&self) -> Vec<NewFile> {
-        self.table.iter().map(|table| table.file.clone()).collect()
+    fn files(&mut self) -> Vec<NewFile> {
+        self.table.iter_mut().filter_map(|table| table.file.take()).collect()
     }
 
     fn notes(&self) -> Vec<String> {

@@ -7,7 +7,7 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 use trueaxis_calibrate::identify::convention::{ConventionCheck, check_conventions};
 use trueaxis_calibrate::identify::errors::{Identification, identify};
-use trueaxis_calibrate::identify::machine_file::machine_file;
+use trueaxis_calibrate::identify::machine_file::{MachineFile, machine_file};
 use trueaxis_calibrate::identify::records::{
     Dropped, Options, Records, read_options, read_records_with,
 };
@@ -66,6 +66,17 @@ impl Identified {
             found: &self.found,
             conventions: self.conventions.as_ref().or(self.found.conventions.as_ref()),
         }
+    }
+
+    /// The machine file with the errors found, to be put at a place.
+    ///
+    /// # Errors
+    /// Why it cannot be edited.
+    pub fn machine_file(&self, place: &Path) -> Result<MachineFile, String> {
+        let Self { campaign, options, found, .. } = self;
+        let old = campaign.files.read_text(&campaign.machine_path).map_err(|e| e.to_string())?;
+        let beside = Folder::of(&campaign.files, place);
+        machine_file(campaign, found, options.date.as_deref(), &old, &beside)
     }
 }
 
@@ -162,29 +173,18 @@ fn machine_files(
     output: &Path,
     problems: &mut Diagnostics,
 ) -> Option<Vec<NewFile>> {
-    let Identified { campaign, options, found, .. } = identified;
-    let old = campaign.files.text(&campaign.machine_path, "the machine file", problems)?;
-    let beside = Folder::of(&campaign.files, output);
-    match machine_file(campaign, found, options.date.as_deref(), &old, &beside) {
-        Ok(made) => {
-            let table = |(name, text): &(String, String)| NewFile {
-                name: "table",
-                path: output.with_file_name(name),
-                content: text.clone().into_bytes(),
-            };
-            let mut files: Vec<NewFile> = made.tables.iter().map(table).collect();
-            let (name, path) = ("machine file", output.to_owned());
-            files.push(NewFile { name, path, content: made.text.into_bytes() });
-            Some(files)
-        }
-        Err(reason) => {
-            let message = format!("the machine file cannot be edited: {reason}");
-            let hint = "put it beside the machine file if that names tables";
-            let place = Place::whole(&output.display().to_string());
-            problems.error("unwritable-file", place, message, hint);
-            None
-        }
-    }
+    let refuse = |reason: String| {
+        let message = format!("the machine file cannot be edited: {reason}");
+        let hint = "put it beside the machine file if that names tables";
+        let place = Place::whole(&output.display().to_string());
+        problems.error("unwritable-file", place, message, hint);
+    };
+    let made = identified.machine_file(output).map_err(refuse).ok()?;
+    let table =
+        |(name, text): (String, String)| NewFile::of("table", output.with_file_name(name), text);
+    let mut files: Vec<NewFile> = made.tables.into_iter().map(table).collect();
+    files.push(NewFile::of("machine file", output, made.text));
+    Some(files)
 }
 
 impl Answer for Identified {
@@ -200,7 +200,7 @@ impl Answer for Identified {
         self.found.verdict.is_good()
     }
 
-    fn files(&self) -> Vec<NewFile> {
-        self.files.clone()
+    fn files(&mut self) -> Vec<NewFile> {
+        std::mem::take(&mut self.files)
     }
 }

@@ -87,12 +87,11 @@ impl Measure {
                 instrument.name, real.truth.seed
             );
             let rows = measurement.readings.table(&campaign.machine, instrument, index);
-            files.push(NewFile { name: "readings", path, content: (head + &rows).into_bytes() });
+            files.push(NewFile::of("readings", path, head + &rows));
         }
         if let Some(path) = &self.truth {
             let text = truth_text(&name, campaign, real, measurement);
-            let (path, content) = (path.clone(), text.into_bytes());
-            files.push(NewFile { name: "truth", path, content });
+            files.push(NewFile::of("truth", path, text));
         }
         files
     }
@@ -157,8 +156,8 @@ impl Answer for MeasureAnswer {
         report::measurement_report(&self.shown())
     }
 
-    fn files(&self) -> Vec<NewFile> {
-        self.files.clone()
+    fn files(&mut self) -> Vec<NewFile> {
+        std::mem::take(&mut self.files)
     }
 }
 

@@ -67,7 +67,7 @@ impl Answer for PlanAnswer {
         self.found.paths.iter().all(|p| p.check.as_ref().is_ok_and(|c| c.is_sound()))
     }
 
-    fn files(&self) -> Vec<NewFile> {
+    fn files(&mut self) -> Vec<NewFile> {
         let files = self.found.paths.iter().flat_map(|path| &path.files);
         in_folder(self.output.as_deref(), files.cloned())
     }

@@ -73,10 +73,7 @@ impl IdentifyProbe {
         let index = self.stylus(all, problems)?;
         let (found, stylus) = (all.get(index)?, study.styli.get(index)?);
         let mut tables = Vec::new();
-        let mut put = |path: &Path, text: String| {
-            let (path, content) = (path.to_owned(), text.into_bytes());
-            tables.push(NewFile { name: "table", path, content });
-        };
+        let mut put = |path: &Path, text: String| tables.push(NewFile::of("table", path, text));
         if let Some(path) = &self.table {
             let first = found.orientations_rad.first().copied().unwrap_or(0.0);
             let turned = orientation_rad.unwrap_or(first);
@@ -136,7 +133,7 @@ impl Answer for ProbeAnswer {
         report::probe_report(&self.study, &self.found)
     }
 
-    fn files(&self) -> Vec<NewFile> {
-        self.files.clone()
+    fn files(&mut self) -> Vec<NewFile> {
+        std::mem::take(&mut self.files)
     }
 }

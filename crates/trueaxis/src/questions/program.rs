@@ -211,10 +211,10 @@ impl Answer for ProgramAnswer {
         self.rewritten.is_proved()
     }
 
-    fn files(&self) -> Vec<NewFile> {
-        let Some(path) = self.output.clone() else { return Vec::new() };
+    fn files(&mut self) -> Vec<NewFile> {
+        let Some(path) = &self.output else { return Vec::new() };
         let text = &self.rewritten.text;
         let content = if self.is_yes() { text.clone() } else { marked(text) };
-        vec![NewFile { name: "program", path, content }]
+        vec![NewFile::of("program", path, content)]
     }
 }

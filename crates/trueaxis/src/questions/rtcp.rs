@@ -99,10 +99,7 @@ fn changed_machine(
 ) -> Option<NewFile> {
     let old = files.text(&study.machine_path, "the machine file", problems)?;
     match machine_file(study, found, &old, &Folder::of(files, output)) {
-        Ok(text) => {
-            let (name, path) = ("machine file", output.to_owned());
-            Some(NewFile { name, path, content: text.into_bytes() })
-        }
+        Ok(text) => Some(NewFile::of("machine file", output, text)),
         Err(reason) => {
             let hint = "put it beside the machine file if that names tables";
             let place = Place::whole(&output.display().to_string());
@@ -125,7 +122,7 @@ impl Answer for RtcpAnswer {
         self.found.is_good()
     }
 
-    fn files(&self) -> Vec<NewFile> {
-        self.files.clone()
+    fn files(&mut self) -> Vec<NewFile> {
+        std::mem::take(&mut self.files)
     }
 }

@@ -109,7 +109,7 @@ impl Answer for RtcpProgramsAnswer {
         Report::new("Programs of the readings").section(Section::new("").table(table))
     }
 
-    fn files(&self) -> Vec<NewFile> {
-        self.files.clone()
+    fn files(&mut self) -> Vec<NewFile> {
+        std::mem::take(&mut self.files)
     }
 }

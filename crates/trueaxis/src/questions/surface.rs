@@ -113,7 +113,7 @@ impl Answer for SurfaceAnswer {
         self.check.is_sound()
     }
 
-    fn files(&self) -> Vec<NewFile> {
+    fn files(&mut self) -> Vec<NewFile> {
         let points: Vec<SurfacePoint> = self.poses.iter().map(|p| p.point).collect();
         let program = format!("surface.{}", extension(self.control));
         let table = ("surface.csv".to_owned(), nominal_table(&points).into_bytes());

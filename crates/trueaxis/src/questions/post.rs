@@ -1,0 +1,198 @@
+//! How does a path become a program of one control?
+
+use super::words::{self, argument};
+use super::{Answer, MachineChoice, NewFile, Question, named_control};
+use crate::report::{self, PostReport};
+use serde_json::Value;
+use std::path::PathBuf;
+use trueaxis_cl::{ClFile, Reading};
+use trueaxis_correct::compensate::post::{
+    FeedRule, PostOptions, Posted, Verification, post, verify,
+};
+use trueaxis_input::{Diagnostics, Files, Place};
+use trueaxis_machine::Machine;
+use trueaxis_nc::writer::{BUILT_IN, Decimals, MOST_DECIMALS, Templates, TipWords, WriteError};
+use trueaxis_report::Report;
+
+/// An NC program from cutter locations. Numbers are as typed, in mm and degrees.
+#[derive(Debug, Clone)]
+pub struct Post {
+    /// The machine.
+    pub machine: MachineChoice,
+    /// The cutter locations.
+    pub file: PathBuf,
+    /// The control, by its name.
+    pub control: String,
+    /// How tip and tool axis are written; none for axis positions.
+    pub tip_words: Option<TipWords>,
+    /// Largest distance between path and program.
+    pub tolerance: String,
+    /// Largest angle of the tool axis between blocks.
+    pub axis_tolerance: String,
+    /// A tool axis nearer to a pole passes through it.
+    pub pole_tolerance: String,
+    /// How feeds are written.
+    pub feed_rule: FeedRule,
+    /// Feed of the tip where the file has none, mm/min.
+    pub feed: Option<String>,
+    /// Retraction of the tool before a reorientation.
+    pub retract: String,
+    /// Whether the file is in inches, where that is not left to it.
+    pub inches: Option<bool>,
+    /// Decimals of mm and of degrees: `4,5`.
+    pub decimals: String,
+    /// A template of programs instead of that of the control.
+    pub template: Option<PathBuf>,
+    /// Number of the program.
+    pub number: u32,
+    /// Where the program goes.
+    pub output: PathBuf,
+    /// Whether it is read back and simulated.
+    pub verify: bool,
+}
+
+/// A program with its proof.
+pub struct PostAnswer {
+    machine: Machine,
+    file: ClFile,
+    options: PostOptions,
+    posted: Posted,
+    verification: Option<Verification>,
+    output: PathBuf,
+}
+
+/// The template of a control, to be edited.
+pub fn template(control: &str, problems: &mut Diagnostics) -> Option<&'static str> {
+    let control = named_control(control, problems)?;
+    BUILT_IN.iter().find(|(c, _)| *c == control).map(|(_, text)| *text)
+}
+
+impl Post {
+    fn read_file(&self, files: &Files, problems: &mut Diagnostics) -> Option<ClFile> {
+        let text = files.bytes(&self.file, "a cutter-location file", problems)?;
+        let reading = Reading { inches: self.inches };
+        let (file, found) = ClFile::read(&self.file.display().to_string(), text, &reading);
+        problems.append(found);
+        Some(file)
+    }
+
+    fn options(&self, files: &Files, problems: &mut Diagnostics) -> Option<PostOptions> {
+        let mut number = |name: &str, text: &str, low: f64| {
+            let usual = ("a possible value", "such as 0.01");
+            words::plain(name, text, |v| (low..1e6).contains(v), usual, problems)
+        };
+        let tolerance_mm = number("--tolerance", &self.tolerance, 1e-6);
+        let axis_tolerance = number("--axis-tolerance", &self.axis_tolerance, 1e-6);
+        let pole = number("--pole-tolerance", &self.pole_tolerance, 0.0);
+        let retract_mm = number("--retract", &self.retract, 0.0);
+        let feed = self.feed.as_ref().map(|text| number("--feed", text, 1e-3));
+        let digits: Option<Vec<u8>> =
+            self.decimals.split(',').map(|t| t.trim().parse().ok()).collect();
+        let digits = digits.filter(|d| d.len() == 2 && d.iter().all(|d| *d <= MOST_DECIMALS));
+        if digits.is_none() {
+            let message = format!("`{}` are not two numbers of decimals", self.decimals);
+            problems.error("bad-number", argument("--decimals"), message, "such as 3,4");
+        }
+        let templates = match &self.template {
+            Some(_) => Some(self.templates(files, problems)?),
+            None => None,
+        };
+        let digits = digits?;
+        let name = self.output.file_stem();
+        Some(PostOptions {
+            tip_words: self.tip_words,
+            tolerance_mm: tolerance_mm?,
+            axis_tolerance_rad: axis_tolerance?.to_radians(),
+            pole_rad: pole?.to_radians(),
+            feed: self.feed_rule,
+            usual_feed_mm_per_min: match feed {
+                Some(value) => Some(value?),
+                None => None,
+            },
+            retract_mm: retract_mm?,
+            decimals: Decimals { linear: digits[0], angle: digits[1], ..Decimals::default() },
+            templates,
+            name: name.map_or_else(|| "PROGRAM".into(), |n| n.to_string_lossy().into_owned()),
+            number: self.number,
+            ..PostOptions::of(named_control(&self.control, problems)?)
+        })
+    }
+
+    fn templates(&self, files: &Files, problems: &mut Diagnostics) -> Option<Templates> {
+        let path = self.template.as_ref()?;
+        let text = files.text(path, "a template of programs", problems)?;
+        let refuse = |error: WriteError| {
+            let place = Place::whole(&path.display().to_string());
+            let hint = "--show-template prints one that works";
+            problems.error("bad-template", place, error.to_string(), hint);
+        };
+        Templates::parse(&text).map_err(refuse).ok()
+    }
+}
+
+impl Question for Post {
+    type Input = (Machine, ClFile, PostOptions);
+    type Answer = PostAnswer;
+
+    fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
+        let machine = self.machine.read(files, problems);
+        let file = self.read_file(files, problems);
+        let options = self.options(files, problems);
+        if self.machine.has_temperatures() {
+            let message = "a program is made for the nominal machine".to_owned();
+            problems.error("no-temperature", argument("--temperature"), message, "leave it out");
+        }
+        Some((machine?, file?, options?))
+    }
+
+    fn answer(
+        &self,
+        (machine, file, options): Self::Input,
+        _: &(dyn Fn(f64) + Sync),
+        problems: &mut Diagnostics,
+    ) -> Option<PostAnswer> {
+        let (posted, found) = post(&machine, &file, &options);
+        problems.append(found);
+        let posted = posted.filter(|_| !problems.has_errors())?;
+        let verification = self.verify.then(|| verify(&machine, &posted, &options));
+        let output = self.output.clone();
+        Some(PostAnswer { machine, file, options, posted, verification, output })
+    }
+}
+
+impl PostAnswer {
+    fn shown(&self) -> PostReport<'_> {
+        PostReport {
+            machine: &self.machine,
+            file: &self.file,
+            options: &self.options,
+            posted: &self.posted,
+            verification: self.verification.as_ref(),
+            output: &self.output,
+        }
+    }
+}
+
+impl Answer for PostAnswer {
+    fn document(&self, _: &Diagnostics) -> Value {
+        report::post_json(&self.shown())
+    }
+
+    fn report(&self) -> Report<'_> {
+        report::post_report(&self.shown())
+    }
+
+    fn is_yes(&self) -> bool {
+        self.shown().is_sound()
+    }
+
+    fn files(&mut self) -> Vec<NewFile> {
+        let program = || NewFile::of("program", &self.output, self.posted.text.clone());
+        self.is_yes().then(program).into_iter().collect()
+    }
+
+    fn notes(&self) -> Vec<String> {
+        let note = "the program is not within the tolerances; nothing was written";
+        (!self.is_yes()).then(|| note.to_owned()).into_iter().collect()
+    }
+}

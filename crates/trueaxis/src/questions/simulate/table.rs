@@ -1,0 +1,88 @@
+//! The path of a simulation as a file: CSV, or Parquet by its extension.
+
+use crate::files::Part;
+use crate::files::output::Kind;
+use std::fs::File;
+use std::io::{self, BufWriter};
+use std::path::Path;
+use trueaxis_input::Diagnostics;
+#[cfg(not(feature = "parquet"))]
+use trueaxis_input::Place;
+use trueaxis_machine::Machine;
+#[cfg(feature = "parquet")]
+use trueaxis_motion::ParquetTable;
+use trueaxis_motion::{BodyTable, CsvTable, Observer};
+
+const CSV: Kind = Kind::file("--path", "the table of a path", &[b"time_s,program,line,tool,"]);
+/// The table of bodies.
+pub(super) const BODIES: Kind =
+    Kind::file("--bodies", "the table of bodies", &[b"time_s,program,line,body,"]);
+const PARQUET: Kind = Kind::file("--path", "a Parquet file", &[b"par1"]);
+
+fn is_parquet(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("parquet"))
+}
+
+/// What may be replaced there.
+pub(super) fn kind(path: &Path) -> &'static Kind {
+    if is_parquet(path) { &PARQUET } else { &CSV }
+}
+
+/// Whether this program was built to write such a file.
+pub(super) fn check(path: &Path, problems: &mut Diagnostics) {
+    #[cfg(not(feature = "parquet"))]
+    if is_parquet(path) {
+        problems.error(
+            "parquet-not-built",
+            Place::whole(&path.display().to_string()),
+            "this program was built without Parquet".to_owned(),
+            "build it with `cargo build --release -p trueaxis-cli --features parquet`, or name a \
+             .csv file",
+        );
+    }
+    #[cfg(feature = "parquet")]
+    let _ = (path, problems);
+}
+
+/// The table of bodies in a file.
+pub(super) fn bodies_table(part: &Part) -> BodyTable<BufWriter<&File>> {
+    BodyTable::new(BufWriter::with_capacity(1 << 16, part.file()))
+}
+
+/// A table that is being written.
+pub(super) enum PathTable<'f> {
+    Csv(Box<CsvTable<BufWriter<&'f File>>>),
+    #[cfg(feature = "parquet")]
+    Parquet(Box<ParquetTable<&'f File>>),
+}
+
+impl<'f> PathTable<'f> {
+    /// Begins the table of a machine in a file that will stand at a path.
+    pub(super) fn begin(machine: &Machine, path: &Path, part: &'f Part) -> Self {
+        #[cfg(feature = "parquet")]
+        if is_parquet(path) {
+            return Self::Parquet(Box::new(ParquetTable::new(machine, part.file())));
+        }
+        let _ = path;
+        let out = BufWriter::with_capacity(1 << 16, part.file());
+        Self::Csv(Box::new(CsvTable::new(machine, out)))
+    }
+
+    /// The observer of the simulation.
+    pub(super) fn observer(&mut self) -> &mut dyn Observer {
+        match self {
+            Self::Csv(table) => &mut **table,
+            #[cfg(feature = "parquet")]
+            Self::Parquet(table) => &mut **table,
+        }
+    }
+
+    /// Writes what is still buffered.
+    pub(super) fn finish(self) -> io::Result<()> {
+        match self {
+            Self::Csv(table) => table.finish().map(drop),
+            #[cfg(feature = "parquet")]
+            Self::Parquet(table) => table.finish().map(drop),
+        }
+    }
+}

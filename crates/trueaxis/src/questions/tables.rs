@@ -1,0 +1,215 @@
+//! Which tables does a control take?
+
+use super::words::{self, argument};
+use super::{Answer, Content, MachineChoice, NewFile, Question};
+use crate::files::output::may_fill;
+use crate::report::{self, TablesReport};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use trueaxis_correct::compensate::not_twice;
+use trueaxis_correct::compensate::tables::proof::{IndexLeft, piece_left};
+use trueaxis_correct::compensate::tables::{Compiled, Order, TablesError, Target, compile};
+use trueaxis_correct::predict::{Error, Study, read_study};
+use trueaxis_input::{Diagnostics, Dimension, Files, Place};
+use trueaxis_machine::Machine;
+use trueaxis_report::Report;
+
+/// The tables of one control, read back, with the residual errors. Texts are as typed.
+#[derive(Debug, Clone)]
+pub struct CompensateTables {
+    /// The machine.
+    pub machine: MachineChoice,
+    /// The control.
+    pub target: Target,
+    /// The folder of the files: new or empty.
+    pub output: PathBuf,
+    /// The position of the other axes: `X=10 C=30`.
+    pub at: Option<String>,
+    /// Largest error of one table of a linear axis.
+    pub bound: String,
+    /// The same of a rotary axis.
+    pub bound_angle: String,
+    /// A larger correction of a linear axis is refused.
+    pub limit: String,
+    /// The same of a rotary axis.
+    pub limit_angle: String,
+    /// Whether rotary centres and tilts are left to the tables.
+    pub no_kinematics: bool,
+    /// A study of a test piece that is cut with the tables.
+    pub piece: Option<PathBuf>,
+}
+
+/// The tables of a control with what they leave.
+pub struct TablesAnswer {
+    machine: Machine,
+    compiled: Compiled,
+    piece: Option<(String, Vec<IndexLeft>)>,
+    output: PathBuf,
+    written: Vec<String>,
+}
+
+impl CompensateTables {
+    fn order(&self, machine: &Machine, problems: &mut Diagnostics) -> Option<Order> {
+        let mut above_zero = |name, text: &str, dimension| {
+            let usual = ("above zero", "above zero, with its unit: \"1 um\", \"5 urad\"");
+            words::above_zero(name, text, dimension, usual, problems)
+        };
+        let bound_mm = above_zero("--bound", &self.bound, Dimension::Length);
+        let bound_rad = above_zero("--bound-angle", &self.bound_angle, Dimension::Angle);
+        let limit_mm = above_zero("--limit", &self.limit, Dimension::Length);
+        let limit_rad = above_zero("--limit-angle", &self.limit_angle, Dimension::Angle);
+        let reference = match &self.at {
+            Some(text) => Some(words::command(machine, "--at", text, problems)?),
+            None => None,
+        };
+        Some(Order {
+            reference,
+            bound_mm: bound_mm?,
+            bound_rad: bound_rad?,
+            kinematics: !self.no_kinematics,
+            limit_mm: limit_mm?,
+            limit_rad: limit_rad?,
+            ..Order::of(self.target)
+        })
+    }
+}
+
+impl Question for CompensateTables {
+    type Input = (Machine, Order, Files);
+    type Answer = TablesAnswer;
+
+    fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
+        may_fill(&self.output, problems);
+        let machine = self.machine.read(files, problems)?;
+        let machine = not_twice(&machine, self.machine.place(), problems);
+        let order = self.order(&machine, problems)?;
+        Some((machine, order, files.clone()))
+    }
+
+    fn answer(
+        &self,
+        (machine, order, files): Self::Input,
+        _: &(dyn Fn(f64) + Sync),
+        problems: &mut Diagnostics,
+    ) -> Option<TablesAnswer> {
+        let compiled = compile(&machine, &order).map_err(|e| refuse(&e, problems)).ok()?;
+        let piece = match &self.piece {
+            Some(path) => {
+                let study = piece(&files, path, &machine, problems)?;
+                Some((path.display().to_string(), cut(&study, path, &compiled, problems)?))
+            }
+            None => None,
+        };
+        let output = self.output.clone();
+        let written = compiled.files.iter().map(|f| output.join(&f.name).display().to_string());
+        let written = written.collect();
+        Some(TablesAnswer { machine, compiled, piece, output, written })
+    }
+}
+
+fn refuse(error: &TablesError, problems: &mut Diagnostics) {
+    let (code, name, hint) = match error {
+        TablesError::UnknownAxis { .. } => {
+            ("unknown-axis", "--target", "choose another target; csv takes every axis")
+        }
+        TablesError::UnknownTravel(_) => {
+            ("unknown-travel", "MACHINE.toml", "state travel = [from, to] of the axis")
+        }
+        TablesError::Position(_) => (
+            "outside-table",
+            "MACHINE.toml",
+            "the errors must be known over the whole travel: measure more, or say outside = \"clamp\" or \"extend\"",
+        ),
+        TablesError::TooLarge { .. } | TablesError::ErrorTooLarge { .. } => (
+            "too-large",
+            "--limit",
+            "is it an error of the machine? then raise --limit or --limit-angle",
+        ),
+        TablesError::TooManyNodes { .. }
+        | TablesError::ErrorNodes { .. }
+        | TablesError::GridPoints { .. } => {
+            ("too-many-nodes", "--bound", "allow a larger loss: --bound or --bound-angle")
+        }
+        TablesError::GridValue { .. } => {
+            ("too-large", "--target", "choose another form; is it an error of the machine?")
+        }
+        TablesError::Increment { .. } | TablesError::ErrorIncrement { .. } => {
+            ("bound-below-increment", "--bound", "allow a larger loss: --bound or --bound-angle")
+        }
+        TablesError::TooManyTables { .. } => {
+            ("too-many-tables", "--target", "choose another target; csv takes any number")
+        }
+        TablesError::NotRecovered(_) => {
+            ("not-recovered", "--target", "please report this machine file to the developers")
+        }
+    };
+    problems.error(code, argument(name), error.to_string(), hint);
+}
+
+/// The study of a test piece that the tables can be tried on.
+fn piece(
+    files: &Files,
+    path: &Path,
+    machine: &Machine,
+    problems: &mut Diagnostics,
+) -> Option<Study> {
+    let (study, found) = read_study(files, path);
+    problems.append(found);
+    let mut study = study?;
+    study.machine = study.machine.with_active_compensation();
+    let (code, message, hint) = if study.machine.axes() != machine.axes() {
+        let message = "its machine has other axes than that of the tables";
+        ("another-machine", message, "name a study of this machine")
+    } else if study.temperatures.is_some() {
+        let message = "its temperatures follow a log; tables do not";
+        ("running-log", message, "name a study without log_start")
+    } else {
+        return Some(study);
+    };
+    problems.error(code, Place::whole(&path.display().to_string()), message.to_owned(), hint);
+    None
+}
+
+/// The test piece, cut on the study's machine with the tables.
+fn cut(
+    study: &Study,
+    path: &Path,
+    compiled: &Compiled,
+    problems: &mut Diagnostics,
+) -> Option<Vec<IndexLeft>> {
+    let control = compiled.order.target.control();
+    let content = compiled.content();
+    let refuse = |e: Error| {
+        let place = Place::whole(&path.display().to_string());
+        problems.error(e.code(), place, e.to_string(), "can the study be predicted?");
+    };
+    piece_left(study, (control.as_ref(), &content)).map_err(refuse).ok()
+}
+
+impl TablesAnswer {
+    fn shown(&self) -> TablesReport<'_> {
+        TablesReport {
+            machine: &self.machine,
+            compiled: &self.compiled,
+            target: self.compiled.order.target.control().key(),
+            files: &self.written,
+            piece: self.piece.as_ref().map(|(study, indices)| (&study[..], &indices[..])),
+        }
+    }
+}
+
+impl Answer for TablesAnswer {
+    fn document(&self, _: &Diagnostics) -> Value {
+        report::tables_json(&self.shown())
+    }
+
+    fn report(&self) -> Report<'_> {
+        report::tables_report(&self.shown())
+    }
+
+    fn files(&mut self) -> Vec<NewFile> {
+        let files = self.compiled.files.iter().map(|f| (f.name.clone(), f.text.clone())).collect();
+        let (path, content) = (self.output.clone(), Content::Folder(files));
+        vec![NewFile { name: "tables", path, content }]
+    }
+}

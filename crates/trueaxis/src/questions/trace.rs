@@ -1,0 +1,74 @@
+//! What does one block do?
+
+use super::words::argument;
+use super::{Answer, MachineChoice, ProgramChoice, Question};
+use crate::report::{self, TraceReport};
+use serde_json::Value;
+use trueaxis_input::{Diagnostics, Files};
+use trueaxis_motion::{Job, Trace, block_line, trace};
+use trueaxis_report::Report;
+
+/// One block of a program through every stage of the simulation.
+#[derive(Debug, Clone)]
+pub struct TraceBlock {
+    /// The machine.
+    pub machine: MachineChoice,
+    /// The program.
+    pub program: ProgramChoice,
+    /// The number of the block, else its line.
+    pub block: usize,
+}
+
+/// A block with what it does.
+pub struct TraceAnswer {
+    job: Job,
+    block: usize,
+    found: Trace,
+}
+
+impl Question for TraceBlock {
+    type Input = (Job, usize);
+    type Answer = TraceAnswer;
+
+    fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
+        let job = self.program.read(&self.machine, files, problems)?;
+        let line = block_line(&job.program, self.block);
+        if line.is_none() {
+            let message = format!("the program has no block {}", self.block);
+            let hint = "give a block number N, or a line of the program";
+            problems.error("no-such-block", argument("--block"), message, hint);
+        }
+        Some((job, line?))
+    }
+
+    fn answer(
+        &self,
+        (job, line): Self::Input,
+        _: &(dyn Fn(f64) + Sync),
+        problems: &mut Diagnostics,
+    ) -> Option<TraceAnswer> {
+        let (found, run) = trace(&job.machine, &job.program, &job.setup, &job.options, line);
+        problems.append(run.problems);
+        if found.executions == 0 && !problems.has_errors() {
+            let message = format!("line {line} is never executed, or does nothing: {}", found.text);
+            problems.warn("nothing-to-trace", argument("--block"), message, "choose another block");
+        }
+        Some(TraceAnswer { job, block: self.block, found })
+    }
+}
+
+impl TraceAnswer {
+    fn shown(&self) -> TraceReport<'_> {
+        TraceReport::of(&self.job, self.block, &self.found)
+    }
+}
+
+impl Answer for TraceAnswer {
+    fn document(&self, _: &Diagnostics) -> Value {
+        report::trace_json(&self.shown())
+    }
+
+    fn report(&self) -> Report<'_> {
+        report::trace_report(&self.shown())
+    }
+}
