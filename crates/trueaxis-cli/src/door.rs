@@ -88,6 +88,8 @@ fn write(file: NewFile) -> Result<(), Outcome> {
         let message = format!("cannot be written: {e}");
         unusable(code, &shown, &message, "name another file or folder")
     })?;
-    tell(&format!("{name}: {shown}"));
+    if !name.is_empty() {
+        tell(&format!("{name}: {shown}"));
+    }
     Ok(())
 }

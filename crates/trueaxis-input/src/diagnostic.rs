@@ -137,6 +137,12 @@ impl Diagnostics {
         self.0.append(&mut other.0);
     }
 
+    /// What another stage found; its problems are appended.
+    pub fn keep<T>(&mut self, (found, problems): (T, Self)) -> T {
+        self.append(problems);
+        found
+    }
+
     /// Adds a diagnostic.
     pub fn add(&mut self, diagnostic: Diagnostic) {
         self.0.push(diagnostic);

@@ -32,9 +32,7 @@ impl ProgramFiles<'_> {
         let Some(path) = self.setup_path() else {
             return Some(SetUp { files: self.files.clone(), ..SetUp::default() });
         };
-        let (setup, found) = read_setup(self.files, &path, machine);
-        problems.append(found);
-        setup
+        problems.keep(read_setup(self.files, &path, machine))
     }
 
     /// Reads the program; its name and its text are all that is known of one that is on no disk.

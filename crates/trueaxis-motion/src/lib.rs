@@ -66,7 +66,7 @@ pub use recording::{
 pub use series::{PathPoint, Quantity, Series};
 pub use setup::{CONTROLS, Nearness, SetUp, SetUpTool, control_named, parse_setup, read_setup};
 pub use summary::{AxisUse, Reversal, Summary, Worst, shown, unit};
-pub use table::{CsvTable, headings};
+pub use table::{CsvTable, POSE_COLUMNS, headings};
 pub use temperature_log::read_temperature_log;
 pub use tool_path::Batch;
 pub use trace::{Trace, TracedNode, block_line, trace};

@@ -97,8 +97,8 @@ pub fn read_setup(files: &Files, path: &Path, machine: &Machine) -> (Option<SetU
         return (None, problems);
     };
     let folder = path.parent().unwrap_or(Path::new(""));
-    let (setup, found) = parse_setup(files, &path.display().to_string(), &text, folder, machine);
-    problems.append(found);
+    let setup =
+        problems.keep(parse_setup(files, &path.display().to_string(), &text, folder, machine));
     (setup, problems)
 }
 

@@ -38,6 +38,22 @@ impl<W: Write> CsvTable<W> {
 /// The columns that hold whole numbers, after the time: program, line, tool, rapid (1 or 0).
 pub(super) const WHOLE: [&str; 4] = ["program", "line", "tool", "rapid"];
 
+/// The columns of a pose of the tool: nominal tip and axis, then how far the actual ones are off.
+pub const POSE_COLUMNS: [&str; 12] = [
+    "tip_x_mm",
+    "tip_y_mm",
+    "tip_z_mm",
+    "axis_i",
+    "axis_j",
+    "axis_k",
+    "dev_x_um",
+    "dev_y_um",
+    "dev_z_um",
+    "dev_i_urad",
+    "dev_j_urad",
+    "dev_k_urad",
+];
+
 /// The columns, each with its unit.
 pub fn headings(machine: &Machine) -> Vec<String> {
     let mut columns = vec!["time_s".to_owned()];
@@ -45,24 +61,8 @@ pub fn headings(machine: &Machine) -> Vec<String> {
     columns.push("speed_mm_per_min".to_owned());
     let axes = machine.axes().iter().enumerate();
     columns.extend(axes.map(|(i, a)| format!("{}_{}", a.name, unit(machine, i))));
-    let fixed = [
-        "tip_x_mm",
-        "tip_y_mm",
-        "tip_z_mm",
-        "axis_i",
-        "axis_j",
-        "axis_k",
-        "dev_x_um",
-        "dev_y_um",
-        "dev_z_um",
-        "dev_i_urad",
-        "dev_j_urad",
-        "dev_k_urad",
-        "dev_feed_um",
-        "dev_normal_um",
-        "dev_binormal_um",
-    ];
-    columns.extend(fixed.map(Into::into));
+    columns.extend(POSE_COLUMNS.map(Into::into));
+    columns.extend(["dev_feed_um", "dev_normal_um", "dev_binormal_um"].map(Into::into));
     columns
 }
 

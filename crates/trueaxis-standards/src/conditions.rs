@@ -71,9 +71,7 @@ pub fn read_conditions(
     let Some((path, text)) = path.and_then(|p| Some((p, files.text(p, what, problems)?))) else {
         return Conditions::default();
     };
-    let (conditions, found) = Conditions::read(&path.display().to_string(), &text);
-    problems.append(found);
-    conditions
+    problems.keep(Conditions::read(&path.display().to_string(), &text))
 }
 
 impl Conditions {

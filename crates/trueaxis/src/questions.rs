@@ -144,7 +144,7 @@ pub trait Answer {
 /// A file that an answer brings.
 #[derive(Debug)]
 pub struct NewFile {
-    /// What it is, in one word.
+    /// What it is, in one word; empty where the answer itself names it.
     pub name: &'static str,
     /// Where it goes.
     pub path: PathBuf,

@@ -68,9 +68,7 @@ impl Adapt {
         problems: &mut Diagnostics,
     ) -> Option<(AdaptedProgram, NewFile)> {
         let path = self.output.as_ref()?.0.clone();
-        let (posted, found) = post(&study.machine, &adaptation.path, options);
-        problems.append(found);
-        let posted = posted?;
+        let posted = problems.keep(post(&study.machine, &adaptation.path, options))?;
         let proof = verify(&study.machine, &posted, options);
         let program = AdaptedProgram {
             file: path.display().to_string(),
@@ -101,8 +99,7 @@ impl Question for Adapt {
     type Answer = AdaptAnswer;
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
-        let (study, found) = read_adapt_study(files, &self.study);
-        problems.append(found);
+        let study = problems.keep(read_adapt_study(files, &self.study));
         let options = self.options(problems);
         Some((study?, options))
     }
@@ -117,9 +114,7 @@ impl Question for Adapt {
         _: &(dyn Fn(f64) + Sync),
         problems: &mut Diagnostics,
     ) -> Option<AdaptAnswer> {
-        let (adaptation, found) = adapt(&study);
-        problems.append(found);
-        let adaptation = adaptation?;
+        let adaptation = problems.keep(adapt(&study))?;
         let program = match &options {
             Some(options) => self.program(&study, &adaptation, options, problems),
             None => None,

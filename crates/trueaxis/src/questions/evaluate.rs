@@ -120,9 +120,7 @@ impl Evaluate {
         files: &Files,
     ) -> Option<(PathBuf, Machine, usize)> {
         let (path, letter) = self.write_back.as_ref()?;
-        let (machine, found) = Machine::read(files, path);
-        problems.append(found);
-        let machine = machine?;
+        let machine = problems.keep(Machine::read(files, path))?;
         let Some(axis) = axis_index(&machine, letter) else {
             let message = format!("the machine has no axis `{letter}`");
             let hint = format!("its chain: {}", machine.chain_text());

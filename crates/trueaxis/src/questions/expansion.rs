@@ -27,9 +27,7 @@ impl Question for IdentifyExpansion {
     type Answer = ExpansionAnswer;
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Runs> {
-        let (runs, found) = read_runs(files, &self.runs);
-        problems.append(found);
-        runs
+        problems.keep(read_runs(files, &self.runs))
     }
 
     fn answer(

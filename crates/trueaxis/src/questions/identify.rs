@@ -112,9 +112,8 @@ impl Question for Identify {
     type Answer = Identified;
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
-        let (read, found) =
-            read_campaign(files, &self.campaign, |root, _| Some(read_options(root)));
-        problems.append(found);
+        let read =
+            problems.keep(read_campaign(files, &self.campaign, |root, _| Some(read_options(root))));
         let (campaign, options) = read?;
         if let Some(output) = &self.output {
             may_write_machine(output, &[&campaign.machine_path, &campaign.path], problems);

@@ -30,8 +30,7 @@ pub struct MachineChoice {
 impl MachineChoice {
     /// Reads the machine, brings it to its temperatures and puts the tool in.
     pub fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Machine> {
-        let (machine, found) = Machine::read(files, &self.file);
-        problems.append(found);
+        let machine = problems.keep(Machine::read(files, &self.file));
         let machine = self.at_temperatures(files, machine?, problems)?;
         self.with_tool(machine, problems)
     }
@@ -46,8 +45,7 @@ impl MachineChoice {
         let (Some(text), Some(path)) = (&self.log_start, &self.temperature_log) else {
             return Some((self.read(files, problems)?, None));
         };
-        let (machine, found) = Machine::read(files, &self.file);
-        problems.append(found);
+        let machine = problems.keep(Machine::read(files, &self.file));
         let start_s = log_time("--log-start", text, problems);
         let log = read_temperature_log(files, path, problems);
         let run = TemperatureRun { log: Arc::new(log?), start_s: start_s? };

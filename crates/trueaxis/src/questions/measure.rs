@@ -102,11 +102,9 @@ impl Question for Measure {
     type Answer = MeasureAnswer;
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
-        let (read, found) = read_campaign(files, &self.campaign, |root, campaign| {
+        problems.keep(read_campaign(files, &self.campaign, |root, campaign| {
             read_virtual(root, campaign, self.seed)
-        });
-        problems.append(found);
-        read
+        }))
     }
 
     fn outputs(&self, input: Option<&Self::Input>) -> Vec<(PathBuf, &'static Kind)> {

@@ -33,8 +33,7 @@ impl Question for PlanMeasurement {
     type Answer = PlanAnswer;
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
-        let (plan, found) = read_plan(files, &self.campaign);
-        problems.append(found);
+        let plan = problems.keep(read_plan(files, &self.campaign));
         let control = named_control(&self.control, problems);
         plan.zip(control)
     }

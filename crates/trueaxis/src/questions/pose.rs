@@ -10,6 +10,7 @@ use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_machine::describe::{axis_index, to_inner, warn_beyond_travel};
 use trueaxis_machine::errors::ErrorValues;
 use trueaxis_machine::{Deviation, Machine};
+use trueaxis_motion::POSE_COLUMNS;
 use trueaxis_report::{Report, Section};
 
 /// The tool at one position of the axes, or at many: nominal and actual.
@@ -62,21 +63,6 @@ pub struct PoseFound {
     with_bodies: bool,
 }
 
-const COLUMNS: [&str; 12] = [
-    "tip_x_mm",
-    "tip_y_mm",
-    "tip_z_mm",
-    "axis_i",
-    "axis_j",
-    "axis_k",
-    "dev_x_um",
-    "dev_y_um",
-    "dev_z_um",
-    "dev_i_urad",
-    "dev_j_urad",
-    "dev_k_urad",
-];
-
 impl Question for AskPose {
     type Input = PoseInput;
     type Answer = PoseAnswer;
@@ -125,7 +111,7 @@ impl Question for AskPose {
             rows.extend(found.map(|found| numbers(&table, row, &found.deviation)));
         }
         let given = table.columns.into_iter().map(|c| c.name);
-        Some(PoseAnswer::Rows(given.chain(COLUMNS.map(Into::into)).collect(), rows))
+        Some(PoseAnswer::Rows(given.chain(POSE_COLUMNS.map(Into::into)).collect(), rows))
     }
 }
 
@@ -186,7 +172,7 @@ impl PoseFound {
         PoseReport {
             machine: &self.machine,
             command: self.command,
-            errors: self.errors.clone(),
+            errors: self.errors,
             deviation: self.deviation,
             with_bodies: self.with_bodies,
         }

@@ -71,8 +71,7 @@ impl Post {
     fn read_file(&self, files: &Files, problems: &mut Diagnostics) -> Option<ClFile> {
         let text = files.bytes(&self.file, "a cutter-location file", problems)?;
         let reading = Reading { inches: self.inches };
-        let (file, found) = ClFile::read(&self.file.display().to_string(), text, &reading);
-        problems.append(found);
+        let file = problems.keep(ClFile::read(&self.file.display().to_string(), text, &reading));
         Some(file)
     }
 
@@ -151,8 +150,7 @@ impl Question for Post {
         _: &(dyn Fn(f64) + Sync),
         problems: &mut Diagnostics,
     ) -> Option<PostAnswer> {
-        let (posted, found) = post(&machine, &file, &options);
-        problems.append(found);
+        let posted = problems.keep(post(&machine, &file, &options));
         let posted = posted.filter(|_| !problems.has_errors())?;
         let verification = self.verify.then(|| verify(&machine, &posted, &options));
         let output = self.output.clone();
@@ -187,7 +185,7 @@ impl Answer for PostAnswer {
     }
 
     fn files(&mut self) -> Vec<NewFile> {
-        let program = || NewFile::of("program", &self.output, self.posted.text.clone());
+        let program = || NewFile::of("", &self.output, self.posted.text.clone());
         self.is_yes().then(program).into_iter().collect()
     }
 

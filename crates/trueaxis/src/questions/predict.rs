@@ -74,12 +74,10 @@ impl Question for Predict {
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<PredictInput> {
         let samples = self.samples(problems);
         if is_hole_study(files, &self.study) {
-            let (study, found) = read_hole_study(files, &self.study);
-            problems.append(found);
+            let study = problems.keep(read_hole_study(files, &self.study));
             return study.map(Box::new).map(PredictInput::Holes);
         }
-        let (study, found) = read_study(files, &self.study);
-        problems.append(found);
+        let study = problems.keep(read_study(files, &self.study));
         let mut study = Box::new(study?);
         self.choose_sampling(&mut study, samples);
         Some(PredictInput::Part(study))

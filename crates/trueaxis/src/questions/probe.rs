@@ -101,8 +101,7 @@ impl Question for IdentifyProbe {
     type Answer = ProbeAnswer;
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
-        let (study, found) = read_study(files, &self.study);
-        problems.append(found);
+        let study = problems.keep(read_study(files, &self.study));
         let orientation_rad = self.orientation_rad(problems);
         Some((study?, files.clone(), orientation_rad))
     }

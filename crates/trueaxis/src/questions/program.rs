@@ -170,10 +170,8 @@ impl Question for CompensateProgram {
         _: &(dyn Fn(f64) + Sync),
         problems: &mut Diagnostics,
     ) -> Option<ProgramAnswer> {
-        let (rewritten, found) =
-            compensate_program(&job.machine, &job.program, &job.setup, &options);
-        problems.append(found);
-        let rewritten = rewritten?;
+        let rewritten =
+            problems.keep(compensate_program(&job.machine, &job.program, &job.setup, &options))?;
         problems.append(rewritten.unproved.clone());
         let output = match (rewritten.is_proved(), self.keep_unproved) {
             (true, _) => Some(self.output.clone()),

@@ -44,9 +44,7 @@ impl Question for IdentifyRtcp {
     type Answer = RtcpAnswer;
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
-        let (study, found) = read_rtcp(files, &self.study, Purpose::Result);
-        problems.append(found);
-        let study = study?;
+        let study = problems.keep(read_rtcp(files, &self.study, Purpose::Result))?;
         if let Some(output) = &self.output {
             may_write_machine(output, &[&study.machine_path, &study.path], problems);
         }

@@ -56,8 +56,7 @@ impl Question for RtcpPrograms {
     type Answer = RtcpProgramsAnswer;
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
-        let (study, found) = read_rtcp(files, &self.study, Purpose::Programs);
-        problems.append(found);
+        let study = problems.keep(read_rtcp(files, &self.study, Purpose::Programs));
         let control = named_control(&self.control, problems);
         study.zip(control)
     }

@@ -110,7 +110,7 @@ impl Question for Simulate {
             }
         }
         let files = path.into_iter().chain(bodies).map(|(path, part)| NewFile {
-            name: "path",
+            name: "",
             path,
             content: Content::Part(part),
         });

@@ -68,8 +68,7 @@ impl Question for PlanSurface {
     type Answer = SurfaceAnswer;
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
-        let (study, found) = read_surface(files, &self.study);
-        problems.append(found);
+        let study = problems.keep(read_surface(files, &self.study));
         let control = named_control(&self.control, problems);
         study.zip(control)
     }

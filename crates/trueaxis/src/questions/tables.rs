@@ -153,9 +153,7 @@ fn piece(
     machine: &Machine,
     problems: &mut Diagnostics,
 ) -> Option<Study> {
-    let (study, found) = read_study(files, path);
-    problems.append(found);
-    let mut study = study?;
+    let mut study = problems.keep(read_study(files, path))?;
     study.machine = study.machine.with_active_compensation();
     let (code, message, hint) = if study.machine.axes() != machine.axes() {
         let message = "its machine has other axes than that of the tables";
@@ -210,6 +208,6 @@ impl Answer for TablesAnswer {
     fn files(&mut self) -> Vec<NewFile> {
         let files = self.compiled.files.iter().map(|f| (f.name.clone(), f.text.clone())).collect();
         let (path, content) = (self.output.clone(), Content::Folder(files));
-        vec![NewFile { name: "tables", path, content }]
+        vec![NewFile { name: "", path, content }]
     }
 }

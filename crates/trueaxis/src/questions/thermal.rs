@@ -29,9 +29,7 @@ impl Question for IdentifyThermal {
     type Answer = ThermalAnswer;
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Logs> {
-        let (logs, found) = read_logs(files, &self.study);
-        problems.append(found);
-        logs
+        problems.keep(read_logs(files, &self.study))
     }
 
     fn answer(

@@ -35,9 +35,7 @@ impl Question for VerifyReadings {
     type Answer = VerifyAnswer;
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Comparison> {
-        let (task, found) = read_comparison(files, &self.file);
-        problems.append(found);
-        task
+        problems.keep(read_comparison(files, &self.file))
     }
 
     fn answer(
@@ -102,11 +100,7 @@ impl Question for CompareCalibrations {
     type Answer = CalibrationsAnswer;
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<[Machine; 2]> {
-        let mut read = |path| {
-            let (machine, found) = Machine::read(files, path);
-            problems.append(found);
-            machine
-        };
+        let mut read = |path| problems.keep(Machine::read(files, path));
         let (old, new) = (read(&self.old), read(&self.new));
         Some([old?, new?])
     }
@@ -161,9 +155,7 @@ impl Question for Certify {
     type Answer = CertificateAnswer;
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Study> {
-        let (study, found) = read_certificate(files, &self.study);
-        problems.append(found);
-        study
+        problems.keep(read_certificate(files, &self.study))
     }
 
     fn answer(

@@ -80,8 +80,7 @@ pub fn read_study(files: &Files, path: &Path) -> (Option<Study>, Diagnostics) {
     };
     let show = |name: &str| beside(name).display().to_string();
     let tables = Tables { load: &load, show: &show };
-    let (study, found) = parse_study(&path.display().to_string(), &text, &tables);
-    problems.append(found);
+    let study = problems.keep(parse_study(&path.display().to_string(), &text, &tables));
     (study, problems)
 }
 

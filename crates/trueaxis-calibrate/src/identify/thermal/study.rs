@@ -37,9 +37,11 @@ pub fn read_logs(files: &Files, path: &Path) -> (Option<Logs>, Diagnostics) {
         files.text(&beside(name), "a log of displacement and temperatures (CSV)", problems)
     };
     let show = |name: &str| beside(name).display().to_string();
-    let (logs, found) =
-        parse_logs(&path.display().to_string(), &text, &Tables { load: &load, show: &show });
-    problems.append(found);
+    let logs = problems.keep(parse_logs(
+        &path.display().to_string(),
+        &text,
+        &Tables { load: &load, show: &show },
+    ));
     (logs, problems)
 }
 

@@ -38,8 +38,8 @@ pub fn read(
     let path = folder.join(name);
     let mut problems = Diagnostics::new();
     inputs.text("campaign of the identification", name, &mut problems);
-    let (read, found) = read_campaign(section.files(), &path, |root, _| Some(read_options(root)));
-    problems.append(found);
+    let read =
+        problems.keep(read_campaign(section.files(), &path, |root, _| Some(read_options(root))));
     let found = read.and_then(|(campaign, options)| {
         // Names of the campaign, as from the folder of the study.
         let beside = path.parent().unwrap_or(Path::new(""));

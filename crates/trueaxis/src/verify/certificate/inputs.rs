@@ -75,8 +75,7 @@ impl Inputs {
     ) -> Option<Machine> {
         let (path, text) = self.text(role, name, problems)?;
         let seen = Seen { folder: Folder::of(&self.files, &path), texts: RefCell::default() };
-        let (machine, found) = Machine::check(&path.display().to_string(), &text, &seen);
-        problems.append(found);
+        let machine = problems.keep(Machine::check(&path.display().to_string(), &text, &seen));
         let beside = Path::new(name).parent().unwrap_or(Path::new(""));
         for (table, text) in seen.texts.into_inner() {
             let name = beside.join(table).display().to_string();
