@@ -18,17 +18,17 @@ mod tables;
 mod tables_document;
 
 pub use adapt::{AdaptReport, AdaptedProgram, adapt_report};
-pub use adapt_document::{AdaptDocument, adapt_json};
+pub use adapt_document::AdaptDocument;
 pub use compensation::{compensation_csv, compensation_report, compensation_warnings};
 pub use compensation_document::{CompensationDocument, compensation_json};
 pub use holes::holes_report;
-pub use holes_document::{HolesDocument, holes_json};
+pub use holes_document::HolesDocument;
 pub use prediction::prediction_report;
-pub use prediction_document::{PredictionDocument, json};
+pub use prediction_document::PredictionDocument;
 pub use program::{ProgramReport, program_report};
-pub use program_document::{ProgramDocument, program_json};
+pub use program_document::ProgramDocument;
 pub use tables::{TablesReport, tables_report};
-pub use tables_document::{TablesDocument, tables_json};
+pub use tables_document::TablesDocument;
 
 use crate::predict::{Index, Prediction, Share};
 use trueaxis_part::testpiece::{Family, Feature, IndexName};

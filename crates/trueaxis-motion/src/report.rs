@@ -7,4 +7,4 @@ mod simulation_plots;
 mod simulation_views;
 
 pub use simulation::{Simulation, clock, simulation_report, trouble_code, trouble_text};
-pub use simulation_document::{SimulationDocument, simulation_json};
+pub use simulation_document::SimulationDocument;

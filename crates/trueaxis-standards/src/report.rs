@@ -7,4 +7,4 @@ mod evaluation_others;
 mod evaluation_positioning;
 
 pub use evaluation::{Contents, Evaluation, evaluation_report};
-pub use evaluation_document::{EvaluationDocument, evaluation_json};
+pub use evaluation_document::EvaluationDocument;

@@ -65,13 +65,17 @@ pub use verify::{
 
 use crate::files::output::Kind;
 use crate::files::{self, Part};
+use serde::Serialize;
 use serde_json::Value;
 use std::io;
 use std::path::{Path, PathBuf};
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_motion::{CONTROLS, control_named};
 use trueaxis_nc::Control;
-use trueaxis_report::{DrawingError, Report};
+use trueaxis_report::{DrawingError, Report, document};
+
+/// Receives the part that is done, 0 to 1.
+pub type Tell<'a> = &'a (dyn Fn(f64) + Sync + 'a);
 
 /// What a verb is asked.
 pub trait Question {
@@ -94,7 +98,7 @@ pub trait Question {
     fn answer(
         &self,
         input: Self::Input,
-        progress: &(dyn Fn(f64) + Sync),
+        progress: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<Self::Answer>;
 }
@@ -189,7 +193,7 @@ impl NewFile {
 pub fn ask<Q: Question>(
     question: &Q,
     files: &Files,
-    progress: &(dyn Fn(f64) + Sync),
+    progress: Tell<'_>,
     problems: &mut Diagnostics,
 ) -> Option<Q::Answer> {
     let input = question.read(files, problems).filter(|_| !problems.has_errors())?;
@@ -199,7 +203,8 @@ pub fn ask<Q: Question>(
 }
 
 /// A document with what was found in the files, in the order in which it was found.
-fn with_diagnostics(mut document: Value, problems: &Diagnostics) -> Value {
+fn with_diagnostics(found: &impl Serialize, problems: &Diagnostics) -> Value {
+    let mut document = document(found);
     document["diagnostics"] = problems.iter().map(crate::report::diagnostic_json).collect();
     document
 }

@@ -15,7 +15,7 @@ use trueaxis::identify::probe::{
     identify_probe, read_study,
 };
 use trueaxis::input::Diagnostics;
-use trueaxis::report::{probe_json, probe_report, probe_table_csv};
+use trueaxis::report::{ProbeDocument, document, probe_report, probe_table_csv};
 use virtual_probe::{VirtualProbe, even};
 
 fn expected() -> Value {
@@ -155,7 +155,7 @@ fn the_reports_of_the_examples_have_their_figures() {
     for name in ["ring-60.toml", "ring-turned.toml", "sphere.toml"] {
         let study = study(name);
         let found = calibrated(&study);
-        let document = probe_json(&study, &found);
+        let document = document(&ProbeDocument::of(&study, &found));
         assert_eq!(document["schema"], "trueaxis/identify-probe/1");
         for key in ["range_before_um", "range_after_um", "range_held_out_um"] {
             assert!(document[key].as_f64().is_some_and(|v| v > 1.0 && v < 60.0), "{key}");

@@ -14,7 +14,7 @@ use trueaxis::identify::thermal::{
     Logs, Tables, ThermalModel, Zero, identify_thermal, parse_logs, read_logs,
 };
 use trueaxis::input::Diagnostics;
-use trueaxis::report::{thermal_json, thermal_lines, thermal_report};
+use trueaxis::report::{ThermalDocument, document, thermal_lines, thermal_report};
 
 fn expected() -> Value {
     let path = root().join("crates/trueaxis/tests/data/thermal.json");
@@ -186,7 +186,7 @@ fn reports_are_whole_and_have_numbers() {
         assert!(page.ends_with("</html>") && !page.contains("<script") && !page.contains("NaN"));
         let text = thermal_report(&logs, &model).text();
         assert!(!text.split_whitespace().any(|w| ["NaN", "inf", "-inf"].contains(&w)), "{text}");
-        let document = thermal_json(&logs, &model);
+        let document = document(&ThermalDocument::of(&logs, &model, &thermal_lines(&logs, &model)));
         assert_eq!(document["schema"], "trueaxis/identify/1");
         assert_eq!(document["coefficients"].as_array().map(Vec::len), Some(model.chosen));
         assert_eq!(document["machine_file"].is_null(), refused);

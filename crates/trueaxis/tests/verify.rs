@@ -14,7 +14,7 @@ mod reports;
 use library::root;
 use serde_json::Value;
 use trueaxis::input::Diagnostics;
-use trueaxis::report::{Evaluation, evaluation_json, evaluation_report};
+use trueaxis::report::{Evaluation, EvaluationDocument, evaluation_report};
 use trueaxis::verify::conditions::Conditions;
 use trueaxis::verify::{Evaluated, Request, Standard, evaluate};
 
@@ -42,7 +42,13 @@ fn example(standard: Standard, name: &str) -> Value {
 }
 
 fn document(standard: Standard, evaluated: &Evaluated, conditions: &Conditions) -> Value {
-    evaluation_json(&Evaluation { standard, file: "t.csv", conditions, evaluated, remarks: &[] })
+    trueaxis::report::document(&EvaluationDocument::of(&Evaluation {
+        standard,
+        file: "t.csv",
+        conditions,
+        evaluated,
+        remarks: &[],
+    }))
 }
 
 fn page(standard: Standard, evaluated: &Evaluated, conditions: &Conditions) {

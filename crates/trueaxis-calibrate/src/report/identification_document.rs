@@ -9,8 +9,7 @@ use crate::plan::Unobservable;
 use crate::unknowns::fit::Model;
 use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::Value;
-use trueaxis_report::{Keyed, document};
+use trueaxis_report::Keyed;
 
 /// Errors identified from the readings of a campaign.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -281,9 +280,4 @@ impl From<&Rms> for RmsEntry {
             times_noise: rms.noise,
         }
     }
-}
-
-/// The document `trueaxis/identify/1` as a JSON value.
-pub fn identification_json(report: &IdentificationReport<'_>) -> Value {
-    document(&IdentificationDocument::of(report))
 }

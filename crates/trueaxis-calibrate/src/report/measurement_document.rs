@@ -4,8 +4,7 @@ use super::measurement::MeasuredReport;
 use crate::measure::virtual_campaign::{ChannelSummary, shown_unit};
 use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::Value;
-use trueaxis_report::{Keyed, document};
+use trueaxis_report::Keyed;
 
 /// The readings of a virtual machine.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -101,9 +100,4 @@ fn channel<'a>(report: &'a MeasuredReport<'_>, sum: &ChannelSummary) -> ChannelE
         figures: figures.into_iter().collect(),
         largest_row: sum.largest_row,
     }
-}
-
-/// The document `trueaxis/measure/1` as a JSON value.
-pub fn measurement_json(report: &MeasuredReport<'_>) -> Value {
-    document(&MeasurementDocument::of(report))
 }

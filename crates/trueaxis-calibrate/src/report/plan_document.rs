@@ -6,8 +6,6 @@ use crate::plan::{Chosen, Expectation, Expected, PlanReport, PlannedPath, Seen, 
 use crate::unknowns::design::Design;
 use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::Value;
-use trueaxis_report::document;
 
 /// What a campaign will show before anybody measures.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -218,9 +216,4 @@ impl<'a> From<&'a Result<ProgramCheck, String>> for ProgramEntry<'a> {
             },
         }
     }
-}
-
-/// The document `trueaxis/plan/1` as a JSON value.
-pub fn plan_json(report: &PlanReport) -> Value {
-    document(&PlanDocument::of(report))
 }

@@ -7,9 +7,7 @@ use crate::identify::probe::datums::{
 use crate::identify::probe::{Calibration, FreshCheck, Repeats, Score, Spread, Study, TableRow};
 use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::Value;
 use trueaxis_geometry::Vec3;
-use trueaxis_report::document;
 
 /// The calibration of a touch probe.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -384,10 +382,4 @@ impl From<&TableRow> for DirectionEntry {
             u_um: um(row.u_mm),
         }
     }
-}
-
-/// The document `trueaxis/identify-probe/1` as a JSON value; the keys before `schema` are those of the first
-/// stylus.
-pub fn probe_json(study: &Study, all: &[Calibration]) -> Value {
-    document(&ProbeDocument::of(study, all))
 }

@@ -5,8 +5,7 @@ use crate::identify::rtcp::forecast::{Forecast, Strays};
 use crate::identify::rtcp::{NewSlot, Offset, Unseen, WorstReading};
 use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::Value;
-use trueaxis_report::{Keyed, document};
+use trueaxis_report::Keyed;
 
 /// An RTCP calibration.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -210,9 +209,4 @@ impl From<&Strays> for StraysEntry {
             at_deg: s.at.iter().map(|(name, q)| (name.as_str(), q.to_degrees())).collect(),
         }
     }
-}
-
-/// The document `trueaxis/identify-rtcp/1` as a JSON value.
-pub fn rtcp_json(report: &RtcpReport<'_>) -> Value {
-    document(&RtcpDocument::of(report))
 }

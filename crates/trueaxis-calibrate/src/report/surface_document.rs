@@ -4,8 +4,6 @@ use crate::plan::program::ProgramCheck;
 use crate::plan::surface::{Pose, SurfaceStudy};
 use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::Value;
-use trueaxis_report::document;
 
 /// A probing path over a surface.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -72,14 +70,4 @@ impl From<&Pose> for PointEntry {
         let point = &pose.point;
         Self { point_mm: point.point_mm.into(), normal: point.normal.into(), line: point.line }
     }
-}
-
-/// The document `trueaxis/plan-probe-surface/1` as a JSON value.
-pub fn surface_json(
-    study: &SurfaceStudy,
-    poses: &[Pose],
-    asked: usize,
-    check: &ProgramCheck,
-) -> Value {
-    document(&SurfaceDocument::of(study, poses, asked, check))
 }

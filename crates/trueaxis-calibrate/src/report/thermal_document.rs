@@ -1,11 +1,8 @@
 //! A thermal model for programs: `trueaxis/identify/1` with `what` = `thermal`.
 
-use super::thermal::thermal_lines;
 use crate::identify::thermal::{Coefficient, Logs, Score, Term, ThermalModel};
 use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::Value;
-use trueaxis_report::document;
 
 /// A thermal model of one error, from logs of temperatures and displacements.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -191,9 +188,4 @@ fn score<'a>(logs: &'a Logs, score: &Score) -> ThermalScoreEntry<'a> {
         chosen_again: score.chosen_again,
         condition: score.condition.is_finite().then_some(score.condition),
     }
-}
-
-/// The document `trueaxis/identify/1` of a thermal model as a JSON value.
-pub fn thermal_json(logs: &Logs, model: &ThermalModel) -> Value {
-    document(&ThermalDocument::of(logs, model, &thermal_lines(logs, model)))
 }

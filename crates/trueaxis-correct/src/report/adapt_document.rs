@@ -4,9 +4,7 @@ use super::adapt::{AdaptReport, Spread};
 use crate::compensate::adapt::{MapCell, remaining_wall};
 use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::Value;
 use trueaxis_geometry::Vec3;
-use trueaxis_report::document;
 
 /// A path moved onto a measured blank: `trueaxis/compensate-adapt/1`.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -187,11 +185,6 @@ pub struct ProgramEntry<'a> {
 
 fn xyz(v: &Vec3) -> [f64; 3] {
     [v.x, v.y, v.z]
-}
-
-/// The document as a JSON value.
-pub fn adapt_json(report: &AdaptReport<'_>) -> Value {
-    document(&AdaptDocument::of(report))
 }
 
 impl<'a> AdaptDocument<'a> {

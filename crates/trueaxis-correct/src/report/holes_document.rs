@@ -3,9 +3,7 @@
 use crate::predict::holes::{Compensation, Hole, HolePrediction, HoleSet, HoleStudy};
 use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::Value;
 use trueaxis_geometry::Vec3;
-use trueaxis_report::document;
 
 /// Holes before they are made, under each compensation: `trueaxis/predict/1`.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -65,11 +63,6 @@ pub struct HoleEntry {
     pub compensation_increments: [i64; 3],
     /// When it is made, from the start, s.
     pub time_s: f64,
-}
-
-/// The holes as a JSON value.
-pub fn holes_json(study: &HoleStudy, prediction: &HolePrediction) -> Value {
-    document(&HolesDocument::of(study, prediction))
 }
 
 impl<'a> HolesDocument<'a> {

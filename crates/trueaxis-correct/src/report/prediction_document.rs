@@ -6,13 +6,12 @@ use crate::predict::{
 };
 use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::Value;
 use trueaxis_machine::axis::{Axis, Command};
 use trueaxis_machine::describe::shown;
 use trueaxis_machine::errors::ErrorKind;
 use trueaxis_part::testpiece::IndexName;
 use trueaxis_part::tolerance::{Judgement, Outcome};
-use trueaxis_report::{Keyed, document};
+use trueaxis_report::Keyed;
 
 /// A test piece before it is cut: `trueaxis/predict/1`.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -201,11 +200,6 @@ pub struct SamplingEntry {
     pub samples: usize,
     /// The random seed.
     pub seed: u64,
-}
-
-/// The prediction as a JSON value, numbers in full double precision.
-pub fn json(study: &Study, prediction: &Prediction) -> Value {
-    document(&PredictionDocument::of(study, prediction))
 }
 
 impl<'a> PredictionDocument<'a> {

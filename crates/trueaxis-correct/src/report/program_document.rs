@@ -4,9 +4,7 @@ use super::program::ProgramReport;
 use crate::compensate::program::{Largest, Residual};
 use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::Value;
 use std::collections::BTreeMap;
-use trueaxis_report::document;
 
 /// A program rewritten for the actual machine, with its proof: `trueaxis/compensate-program/1`.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -158,11 +156,6 @@ pub struct ConventionEntry {
     pub tip_um: f64,
     /// Deviation of the tool axis, µrad.
     pub axis_urad: f64,
-}
-
-/// The document as a JSON value.
-pub fn program_json(report: &ProgramReport<'_>) -> Value {
-    document(&ProgramDocument::of(report))
 }
 
 impl<'a> ProgramDocument<'a> {

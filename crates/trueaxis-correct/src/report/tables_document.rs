@@ -10,13 +10,12 @@ use crate::compensate::tables::table::{PER_UNIT, count_of};
 use crate::compensate::tables::{LeftOut, Made, What};
 use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::Value;
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::describe::to_shown;
 use trueaxis_machine::errors::ErrorName;
-use trueaxis_report::{Keyed, document};
+use trueaxis_report::Keyed;
 
 /// Tables of one control, and what they leave of the errors: `trueaxis/compensate-tables/1`.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -245,11 +244,6 @@ pub struct PieceIndex<'a> {
     pub before_um: f64,
     /// With the tables, µm.
     pub left_um: f64,
-}
-
-/// The document as a JSON value.
-pub fn tables_json(report: &TablesReport<'_>) -> Value {
-    document(&TablesDocument::of(report))
 }
 
 impl<'a> TablesDocument<'a> {

@@ -4,8 +4,7 @@ use super::simulation::{Simulation, control_name, trouble_code, trouble_text};
 use crate::{AxisUse, Drift, Reversal, Trouble, TroubleKind, Worst, shown, unit};
 use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::Value;
-use trueaxis_report::{Keyed, document};
+use trueaxis_report::Keyed;
 
 /// A simulation of a program on a machine: `trueaxis/simulate/1`.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -399,9 +398,4 @@ impl<'a> From<&'a Drift> for TemperaturesEntry<'a> {
             drift_unknown_places: drift.unknown,
         }
     }
-}
-
-/// A simulation as one JSON document, numbers in full double precision.
-pub fn simulation_json(s: &Simulation<'_>) -> Value {
-    document(&SimulationDocument::of(s))
 }

@@ -12,9 +12,8 @@ use crate::iso230_6::{DiagonalResult, Diagonals, SquarenessHint};
 use crate::iso230_7::{ErrorMotion, Rotation};
 use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::Value;
 use trueaxis_geometry::AxisKind;
-use trueaxis_report::{Keyed, document};
+use trueaxis_report::Keyed;
 
 const UM: f64 = 1e3;
 
@@ -569,9 +568,4 @@ impl From<&ErrorMotion> for MotionEntry {
             fundamental_um: m.fundamental_mm * UM,
         }
     }
-}
-
-/// An evaluation as one JSON document, numbers in full double precision.
-pub fn evaluation_json(evaluation: &Evaluation<'_>) -> Value {
-    document(&EvaluationDocument::of(evaluation))
 }

@@ -1,6 +1,6 @@
 //! How is a path moved onto the blank that was measured?
 
-use super::{Answer, NewFile, Question, named_control, with_diagnostics};
+use super::{Answer, NewFile, Question, Tell, named_control, with_diagnostics};
 use crate::files::output::Kind;
 use crate::report;
 use serde_json::Value;
@@ -111,7 +111,7 @@ impl Question for Adapt {
     fn answer(
         &self,
         (study, options): Self::Input,
-        _: &(dyn Fn(f64) + Sync),
+        _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<AdaptAnswer> {
         let adaptation = problems.keep(adapt(&study))?;
@@ -139,7 +139,7 @@ impl AdaptAnswer {
 
 impl Answer for AdaptAnswer {
     fn document(&self, problems: &Diagnostics) -> Value {
-        with_diagnostics(report::adapt_json(&self.shown()), problems)
+        with_diagnostics(&report::AdaptDocument::of(&self.shown()), problems)
     }
 
     fn report(&self) -> Report<'_> {

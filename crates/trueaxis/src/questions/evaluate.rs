@@ -1,6 +1,6 @@
 //! What do the readings show by a standard?
 
-use super::{Answer, NewFile, Question, with_diagnostics};
+use super::{Answer, NewFile, Question, Tell, with_diagnostics};
 use crate::files::output::{Kind, may_write};
 use crate::report;
 use crate::verify::write_back::{FIRST_LINE, write_back};
@@ -192,7 +192,7 @@ impl Question for Evaluate {
     fn answer(
         &self,
         mut input: EvaluateInput,
-        _: &(dyn Fn(f64) + Sync),
+        _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<EvaluateAnswer> {
         let usual = || self.path().with_extension("toml");
@@ -243,7 +243,7 @@ fn positive(
 
 impl Answer for EvaluateAnswer {
     fn document(&self, problems: &Diagnostics) -> Value {
-        with_diagnostics(report::evaluation_json(&self.shown()), problems)
+        with_diagnostics(&report::EvaluationDocument::of(&self.shown()), problems)
     }
 
     fn report(&self) -> Report<'_> {

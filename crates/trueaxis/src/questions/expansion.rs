@@ -1,6 +1,6 @@
 //! How far does a scale expand?
 
-use super::{Answer, Question};
+use super::{Answer, Question, Tell};
 use crate::report;
 use serde_json::Value;
 use std::path::PathBuf;
@@ -33,7 +33,7 @@ impl Question for IdentifyExpansion {
     fn answer(
         &self,
         runs: Runs,
-        _: &(dyn Fn(f64) + Sync),
+        _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<ExpansionAnswer> {
         let found = identify_expansion(&runs);

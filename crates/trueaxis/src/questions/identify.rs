@@ -1,6 +1,6 @@
 //! Which errors does the machine have?
 
-use super::{Answer, NewFile, Question, with_diagnostics};
+use super::{Answer, NewFile, Question, Tell, with_diagnostics};
 use crate::files::output::may_write_machine;
 use crate::report;
 use serde_json::Value;
@@ -130,7 +130,7 @@ impl Question for Identify {
     fn answer(
         &self,
         (campaign, options, records): Self::Input,
-        progress: &(dyn Fn(f64) + Sync),
+        progress: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<Identified> {
         progress(0.1);
@@ -188,7 +188,7 @@ fn machine_files(
 
 impl Answer for Identified {
     fn document(&self, problems: &Diagnostics) -> Value {
-        with_diagnostics(report::identification_json(&self.shown()), problems)
+        with_diagnostics(&report::IdentificationDocument::of(&self.shown()), problems)
     }
 
     fn report(&self) -> Report<'_> {

@@ -1,6 +1,6 @@
 //! What would instruments read on a machine whose errors are known?
 
-use super::{Answer, NewFile, Question, with_diagnostics};
+use super::{Answer, NewFile, Question, Tell, with_diagnostics};
 use crate::files::output::Kind;
 use crate::report;
 use serde_json::Value;
@@ -116,7 +116,7 @@ impl Question for Measure {
     fn answer(
         &self,
         (campaign, real): Self::Input,
-        _: &(dyn Fn(f64) + Sync),
+        _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<MeasureAnswer> {
         let measurement = match measure(&campaign, &real) {
@@ -147,7 +147,7 @@ impl MeasureAnswer {
 
 impl Answer for MeasureAnswer {
     fn document(&self, problems: &Diagnostics) -> Value {
-        with_diagnostics(report::measurement_json(&self.shown()), problems)
+        with_diagnostics(&report::MeasurementDocument::of(&self.shown()), problems)
     }
 
     fn report(&self) -> Report<'_> {

@@ -1,13 +1,13 @@
 //! What will a measurement show, and how is it run?
 
-use super::{Answer, NewFile, Question, in_folder, named_control};
+use super::{Answer, NewFile, Question, Tell, in_folder, named_control};
 use crate::report;
 use serde_json::Value;
 use std::path::PathBuf;
 use trueaxis_calibrate::plan::{Plan, PlanReport, chosen, planned, read_plan};
 use trueaxis_input::{Diagnostics, Files};
 use trueaxis_nc::Control;
-use trueaxis_report::Report;
+use trueaxis_report::{Report, document};
 
 /// What each path of a campaign shows, its programs, the most informative poses.
 #[derive(Debug, Clone)]
@@ -41,7 +41,7 @@ impl Question for PlanMeasurement {
     fn answer(
         &self,
         (plan, control): Self::Input,
-        progress: &(dyn Fn(f64) + Sync),
+        progress: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<PlanAnswer> {
         progress(0.1);
@@ -55,7 +55,7 @@ impl Question for PlanMeasurement {
 
 impl Answer for PlanAnswer {
     fn document(&self, _: &Diagnostics) -> Value {
-        report::plan_json(&self.found)
+        document(&report::PlanDocument::of(&self.found))
     }
 
     fn report(&self) -> Report<'_> {

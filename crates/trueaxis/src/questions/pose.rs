@@ -1,7 +1,7 @@
 //! Where is the tool?
 
 use super::words::{self, argument};
-use super::{Answer, MachineChoice, Question};
+use super::{Answer, MachineChoice, Question, Tell};
 use crate::report::{self, PoseReport, array};
 use serde_json::Value;
 use std::path::PathBuf;
@@ -11,7 +11,7 @@ use trueaxis_machine::describe::{axis_index, to_inner, warn_beyond_travel};
 use trueaxis_machine::errors::ErrorValues;
 use trueaxis_machine::{Deviation, Machine};
 use trueaxis_motion::POSE_COLUMNS;
-use trueaxis_report::{Report, Section};
+use trueaxis_report::{Report, Section, document};
 
 /// The tool at one position of the axes, or at many: nominal and actual.
 #[derive(Debug, Clone)]
@@ -91,7 +91,7 @@ impl Question for AskPose {
     fn answer(
         &self,
         PoseInput { machine, approach, commands, table }: PoseInput,
-        _: &(dyn Fn(f64) + Sync),
+        _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<PoseAnswer> {
         let Some(table) = table else {
@@ -182,7 +182,7 @@ impl PoseFound {
 impl Answer for PoseAnswer {
     fn document(&self, _: &Diagnostics) -> Value {
         match self {
-            Self::One(found) => report::pose_json(&found.shown()),
+            Self::One(found) => document(&report::PoseDocument::from(&found.shown())),
             Self::Rows(names, rows) => {
                 let names: Vec<&str> = names.iter().map(String::as_str).collect();
                 report::pose_rows_json(&names, rows)

@@ -1,7 +1,7 @@
 //! How does a path become a program of one control?
 
 use super::words::{self, argument};
-use super::{Answer, MachineChoice, NewFile, Question, named_control};
+use super::{Answer, MachineChoice, NewFile, Question, Tell, named_control};
 use crate::report::{self, PostReport};
 use serde_json::Value;
 use std::path::PathBuf;
@@ -12,7 +12,7 @@ use trueaxis_correct::compensate::post::{
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_machine::Machine;
 use trueaxis_nc::writer::{BUILT_IN, Decimals, MOST_DECIMALS, Templates, TipWords, WriteError};
-use trueaxis_report::Report;
+use trueaxis_report::{Report, document};
 
 /// An NC program from cutter locations. Numbers are as typed, in mm and degrees.
 #[derive(Debug, Clone)]
@@ -147,7 +147,7 @@ impl Question for Post {
     fn answer(
         &self,
         (machine, file, options): Self::Input,
-        _: &(dyn Fn(f64) + Sync),
+        _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<PostAnswer> {
         let posted = problems.keep(post(&machine, &file, &options));
@@ -173,7 +173,7 @@ impl PostAnswer {
 
 impl Answer for PostAnswer {
     fn document(&self, _: &Diagnostics) -> Value {
-        report::post_json(&self.shown())
+        document(&report::PostDocument::from(&self.shown()))
     }
 
     fn report(&self) -> Report<'_> {

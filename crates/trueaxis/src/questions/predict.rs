@@ -1,6 +1,6 @@
 //! Will the part be good?
 
-use super::{Answer, Question};
+use super::{Answer, Question, Tell};
 use crate::report;
 use serde_json::Value;
 use std::path::PathBuf;
@@ -10,7 +10,7 @@ use trueaxis_correct::predict::holes::{
 use trueaxis_correct::predict::{Error, Prediction, Study, predict, read_study};
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_part::tolerance::Outcome;
-use trueaxis_report::Report;
+use trueaxis_report::{Report, document};
 
 /// A test piece or holes before they are cut.
 #[derive(Debug, Clone, Default)]
@@ -86,7 +86,7 @@ impl Question for Predict {
     fn answer(
         &self,
         input: PredictInput,
-        progress: &(dyn Fn(f64) + Sync),
+        progress: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<Predicted> {
         match input {
@@ -134,8 +134,12 @@ pub fn refuse(error: &Error, place: Place, problems: &mut Diagnostics) {
 impl Answer for Predicted {
     fn document(&self, _: &Diagnostics) -> Value {
         match self {
-            Self::Part(study, prediction) => report::json(study, prediction),
-            Self::Holes(study, prediction) => report::holes_json(study, prediction),
+            Self::Part(study, prediction) => {
+                document(&report::PredictionDocument::of(study, prediction))
+            }
+            Self::Holes(study, prediction) => {
+                document(&report::HolesDocument::of(study, prediction))
+            }
         }
     }
 

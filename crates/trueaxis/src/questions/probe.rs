@@ -1,6 +1,6 @@
 //! What does a touch probe add to its readings?
 
-use super::{Answer, NewFile, Question, with_diagnostics};
+use super::{Answer, NewFile, Question, Tell, with_diagnostics};
 use crate::files::output::Kind;
 use crate::report;
 use serde_json::Value;
@@ -114,7 +114,7 @@ impl Question for IdentifyProbe {
     fn answer(
         &self,
         (study, files, orientation_rad): Self::Input,
-        _: &(dyn Fn(f64) + Sync),
+        _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<ProbeAnswer> {
         let found = identify_probe(&study, problems)?;
@@ -125,7 +125,7 @@ impl Question for IdentifyProbe {
 
 impl Answer for ProbeAnswer {
     fn document(&self, problems: &Diagnostics) -> Value {
-        with_diagnostics(report::probe_json(&self.study, &self.found), problems)
+        with_diagnostics(&report::ProbeDocument::of(&self.study, &self.found), problems)
     }
 
     fn report(&self) -> Report<'_> {

@@ -1,6 +1,6 @@
 //! How is a program written so that the actual tool goes where it says?
 
-use super::{Answer, MachineChoice, NewFile, Question, named_control, with_diagnostics};
+use super::{Answer, MachineChoice, NewFile, Question, Tell, named_control, with_diagnostics};
 use crate::files::output::{Kind, same_file};
 use crate::report;
 use serde_json::Value;
@@ -167,7 +167,7 @@ impl Question for CompensateProgram {
     fn answer(
         &self,
         (job, options): Self::Input,
-        _: &(dyn Fn(f64) + Sync),
+        _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<ProgramAnswer> {
         let rewritten =
@@ -198,7 +198,7 @@ impl ProgramAnswer {
 
 impl Answer for ProgramAnswer {
     fn document(&self, problems: &Diagnostics) -> Value {
-        with_diagnostics(report::program_json(&self.shown()), problems)
+        with_diagnostics(&report::ProgramDocument::of(&self.shown()), problems)
     }
 
     fn report(&self) -> Report<'_> {

@@ -1,6 +1,6 @@
 //! Where are the rotary centres?
 
-use super::{Answer, NewFile, Question, with_diagnostics};
+use super::{Answer, NewFile, Question, Tell, with_diagnostics};
 use crate::files::output::may_write_machine;
 use crate::report;
 use serde_json::Value;
@@ -54,7 +54,7 @@ impl Question for IdentifyRtcp {
     fn answer(
         &self,
         (study, files): Self::Input,
-        _: &(dyn Fn(f64) + Sync),
+        _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<RtcpAnswer> {
         let found = match calibrate(&study) {
@@ -109,7 +109,7 @@ fn changed_machine(
 
 impl Answer for RtcpAnswer {
     fn document(&self, problems: &Diagnostics) -> Value {
-        with_diagnostics(report::rtcp_json(&self.shown()), problems)
+        with_diagnostics(&report::RtcpDocument::of(&self.shown()), problems)
     }
 
     fn report(&self) -> Report<'_> {

@@ -1,6 +1,6 @@
 //! How are the readings for the rotary centres taken?
 
-use super::{Answer, NewFile, Question, in_folder, named_control};
+use super::{Answer, NewFile, Question, Tell, in_folder, named_control};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
@@ -64,7 +64,7 @@ impl Question for RtcpPrograms {
     fn answer(
         &self,
         (study, control): Self::Input,
-        _: &(dyn Fn(f64) + Sync),
+        _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<RtcpProgramsAnswer> {
         let (mut programs, mut files) = (Vec::new(), Vec::new());

@@ -2,7 +2,7 @@
 
 mod table;
 
-use super::{Answer, Content, MachineChoice, NewFile, ProgramChoice, Question};
+use super::{Answer, Content, MachineChoice, NewFile, ProgramChoice, Question, Tell};
 use crate::files::Part;
 use crate::files::output::Kind;
 use crate::report::{self, Simulation};
@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use table::{BODIES, PathTable, bodies_table};
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_motion::{Findings, Job, Observer, Progress, Series};
-use trueaxis_report::Report;
+use trueaxis_report::{Report, document};
 
 /// An NC program on the actual machine: path, time, deviations, issues.
 #[derive(Debug, Clone, Default)]
@@ -72,7 +72,7 @@ impl Question for Simulate {
     fn answer(
         &self,
         job: Job,
-        progress: &(dyn Fn(f64) + Sync),
+        progress: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<Simulated> {
         let path = begin(self.path.as_deref(), problems)?;
@@ -145,7 +145,7 @@ impl Simulated {
 
 impl Answer for Simulated {
     fn document(&self, _: &Diagnostics) -> Value {
-        report::simulation_json(&self.shown())
+        document(&report::SimulationDocument::of(&self.shown()))
     }
 
     fn report(&self) -> Report<'_> {

@@ -1,7 +1,7 @@
 //! Where must the axes stand?
 
 use super::words::{self, argument};
-use super::{Answer, MachineChoice, Question};
+use super::{Answer, MachineChoice, Question, Tell};
 use crate::report;
 use serde_json::Value;
 use std::path::PathBuf;
@@ -87,7 +87,7 @@ impl Question for Solve {
     fn answer(
         &self,
         SolveInput { machine, from, targets, table }: SolveInput,
-        _: &(dyn Fn(f64) + Sync),
+        _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<SolveAnswer> {
         let Some(table) = table else {

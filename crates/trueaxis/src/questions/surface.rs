@@ -1,6 +1,6 @@
 //! How is a surface probed?
 
-use super::{Answer, NewFile, Question, in_folder, named_control, with_diagnostics};
+use super::{Answer, NewFile, Question, Tell, in_folder, named_control, with_diagnostics};
 use crate::report;
 use serde_json::Value;
 use std::path::PathBuf;
@@ -76,7 +76,7 @@ impl Question for PlanSurface {
     fn answer(
         &self,
         (study, control): Self::Input,
-        _: &(dyn Fn(f64) + Sync),
+        _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<SurfaceAnswer> {
         let points = points(&study, problems)?;
@@ -101,7 +101,7 @@ impl Question for PlanSurface {
 impl Answer for SurfaceAnswer {
     fn document(&self, problems: &Diagnostics) -> Value {
         let Self { study, poses, spread, check, .. } = self;
-        with_diagnostics(report::surface_json(study, poses, *spread, check), problems)
+        with_diagnostics(&report::SurfaceDocument::of(study, poses, *spread, check), problems)
     }
 
     fn report(&self) -> Report<'_> {

@@ -1,7 +1,7 @@
 //! Which tables does a control take?
 
 use super::words::{self, argument};
-use super::{Answer, Content, MachineChoice, NewFile, Question};
+use super::{Answer, Content, MachineChoice, NewFile, Question, Tell};
 use crate::files::output::may_fill;
 use crate::report::{self, TablesReport};
 use serde_json::Value;
@@ -12,7 +12,7 @@ use trueaxis_correct::compensate::tables::{Compiled, Order, TablesError, Target,
 use trueaxis_correct::predict::{Error, Study, read_study};
 use trueaxis_input::{Diagnostics, Dimension, Files, Place};
 use trueaxis_machine::Machine;
-use trueaxis_report::Report;
+use trueaxis_report::{Report, document};
 
 /// The tables of one control, read back, with the residual errors. Texts are as typed.
 #[derive(Debug, Clone)]
@@ -89,7 +89,7 @@ impl Question for CompensateTables {
     fn answer(
         &self,
         (machine, order, files): Self::Input,
-        _: &(dyn Fn(f64) + Sync),
+        _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<TablesAnswer> {
         let compiled = compile(&machine, &order).map_err(|e| refuse(&e, problems)).ok()?;
@@ -198,7 +198,7 @@ impl TablesAnswer {
 
 impl Answer for TablesAnswer {
     fn document(&self, _: &Diagnostics) -> Value {
-        report::tables_json(&self.shown())
+        document(&report::TablesDocument::of(&self.shown()))
     }
 
     fn report(&self) -> Report<'_> {

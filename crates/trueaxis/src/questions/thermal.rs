@@ -1,6 +1,6 @@
 //! How does an error follow temperatures?
 
-use super::{Answer, Question, with_diagnostics};
+use super::{Answer, Question, Tell, with_diagnostics};
 use crate::report;
 use serde_json::Value;
 use std::path::PathBuf;
@@ -32,12 +32,7 @@ impl Question for IdentifyThermal {
         problems.keep(read_logs(files, &self.study))
     }
 
-    fn answer(
-        &self,
-        logs: Logs,
-        _: &(dyn Fn(f64) + Sync),
-        problems: &mut Diagnostics,
-    ) -> Option<ThermalAnswer> {
+    fn answer(&self, logs: Logs, _: Tell<'_>, problems: &mut Diagnostics) -> Option<ThermalAnswer> {
         let model = identify_thermal(&logs);
         for warning in &model.warnings {
             let place = Place::whole(&self.study.display().to_string());
@@ -49,7 +44,14 @@ impl Question for IdentifyThermal {
 
 impl Answer for ThermalAnswer {
     fn document(&self, problems: &Diagnostics) -> Value {
-        with_diagnostics(report::thermal_json(&self.logs, &self.model), problems)
+        with_diagnostics(
+            &report::ThermalDocument::of(
+                &self.logs,
+                &self.model,
+                &report::thermal_lines(&self.logs, &self.model),
+            ),
+            problems,
+        )
     }
 
     fn report(&self) -> Report<'_> {

@@ -1,12 +1,12 @@
 //! What does one block do?
 
 use super::words::argument;
-use super::{Answer, MachineChoice, ProgramChoice, Question};
+use super::{Answer, MachineChoice, ProgramChoice, Question, Tell};
 use crate::report::{self, TraceReport};
 use serde_json::Value;
 use trueaxis_input::{Diagnostics, Files};
 use trueaxis_motion::{Job, Trace, block_line, trace};
-use trueaxis_report::Report;
+use trueaxis_report::{Report, document};
 
 /// One block of a program through every stage of the simulation.
 #[derive(Debug, Clone)]
@@ -44,7 +44,7 @@ impl Question for TraceBlock {
     fn answer(
         &self,
         (job, line): Self::Input,
-        _: &(dyn Fn(f64) + Sync),
+        _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<TraceAnswer> {
         let (found, run) = trace(&job.machine, &job.program, &job.setup, &job.options, line);
@@ -65,7 +65,7 @@ impl TraceAnswer {
 
 impl Answer for TraceAnswer {
     fn document(&self, _: &Diagnostics) -> Value {
-        report::trace_json(&self.shown())
+        document(&report::TraceDocument::from(&self.shown()))
     }
 
     fn report(&self) -> Report<'_> {

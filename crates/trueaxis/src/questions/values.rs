@@ -1,7 +1,7 @@
 //! What must the control add to its commands?
 
 use super::words::{self, argument};
-use super::{Answer, MachineChoice, NewFile, Question};
+use super::{Answer, MachineChoice, NewFile, Question, Tell};
 use crate::files::output::Kind;
 use crate::report;
 use serde_json::Value;
@@ -214,7 +214,7 @@ impl Question for CompensateValues {
     fn answer(
         &self,
         (machine, orders): Self::Input,
-        _: &(dyn Fn(f64) + Sync),
+        _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<ValuesAnswer> {
         let tables = orders.iter().map(|order| self.table(&machine, order, problems));

@@ -1,6 +1,6 @@
 //! Does the machine agree with its file, have its errors changed, is a compensation valid?
 
-use super::{Answer, Question, with_diagnostics};
+use super::{Answer, Question, Tell, with_diagnostics};
 use crate::report::{self, CalibrationsReport};
 use crate::verify::calibrations::{Calibrations, calibrations};
 use crate::verify::certificate::{Certificate, PoseFault, Study, certify, read_certificate};
@@ -41,7 +41,7 @@ impl Question for VerifyReadings {
     fn answer(
         &self,
         task: Comparison,
-        _: &(dyn Fn(f64) + Sync),
+        _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<VerifyAnswer> {
         match compare(&task) {
@@ -58,7 +58,7 @@ impl Question for VerifyReadings {
 
 impl Answer for VerifyAnswer {
     fn document(&self, problems: &Diagnostics) -> Value {
-        with_diagnostics(report::comparison_json(&self.task, &self.verified), problems)
+        with_diagnostics(&report::VerifyDocument::of(&self.task, &self.verified), problems)
     }
 
     fn report(&self) -> Report<'_> {
@@ -108,7 +108,7 @@ impl Question for CompareCalibrations {
     fn answer(
         &self,
         [old, new]: [Machine; 2],
-        _: &(dyn Fn(f64) + Sync),
+        _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<CalibrationsAnswer> {
         let names = [&self.old, &self.new].map(|path| path.display().to_string());
@@ -125,7 +125,7 @@ impl Question for CompareCalibrations {
 
 impl Answer for CalibrationsAnswer {
     fn document(&self, problems: &Diagnostics) -> Value {
-        with_diagnostics(report::calibrations_json(&self.shown()), problems)
+        with_diagnostics(&report::DiffDocument::from(&self.shown()), problems)
     }
 
     fn report(&self) -> Report<'_> {
@@ -161,7 +161,7 @@ impl Question for Certify {
     fn answer(
         &self,
         study: Study,
-        _: &(dyn Fn(f64) + Sync),
+        _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<CertificateAnswer> {
         match certify(&study) {
@@ -178,7 +178,7 @@ impl Question for Certify {
 
 impl Answer for CertificateAnswer {
     fn document(&self, problems: &Diagnostics) -> Value {
-        with_diagnostics(report::certificate_json(&self.study, &self.certificate), problems)
+        with_diagnostics(&report::CertificateDocument::of(&self.study, &self.certificate), problems)
     }
 
     fn report(&self) -> Report<'_> {

@@ -4,10 +4,9 @@ use super::calibrations::CalibrationsReport;
 use crate::verify::calibrations::ErrorChange;
 use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::Value;
 use trueaxis_machine::Machine;
 use trueaxis_machine::describe::{shown, unit};
-use trueaxis_report::{Keyed, document};
+use trueaxis_report::Keyed;
 
 /// Two calibrations of one machine: which errors have changed.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -163,9 +162,4 @@ impl ErrorChangeEntry {
             moved: e.moved.key(),
         }
     }
-}
-
-/// The document `trueaxis/diff/1`.
-pub fn calibrations_json(report: &CalibrationsReport<'_>) -> Value {
-    document(&DiffDocument::from(report))
 }

@@ -9,12 +9,11 @@ use crate::verify::certificate::{
 };
 use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::Value;
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Travel;
 use trueaxis_machine::describe::shown;
-use trueaxis_report::{Keyed, document};
+use trueaxis_report::Keyed;
 
 /// The certificate of a volumetric compensation.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -476,9 +475,4 @@ impl ZoneEntry {
             at: axes(&study.machine, &volume.at),
         }
     }
-}
-
-/// The document `trueaxis/certificate/1`.
-pub fn certificate_json(study: &Study, certificate: &Certificate) -> Value {
-    document(&CertificateDocument::of(study, certificate))
 }

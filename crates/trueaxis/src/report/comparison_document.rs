@@ -7,10 +7,9 @@ use crate::verify::compare::{
 };
 use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::Value;
 use trueaxis_calibrate::instruments::instrument::Instrument;
 use trueaxis_calibrate::measure::virtual_campaign::shown_unit;
-use trueaxis_report::{Keyed, document};
+use trueaxis_report::Keyed;
 
 /// Readings compared with a prediction, or with other readings.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -191,9 +190,4 @@ impl<'a> DifferenceEntry<'a> {
             values: values.into_iter().collect(),
         }
     }
-}
-
-/// The document `trueaxis/verify/1`.
-pub fn comparison_json(task: &Comparison, verified: &ComparisonResult) -> Value {
-    document(&VerifyDocument::of(task, verified))
 }

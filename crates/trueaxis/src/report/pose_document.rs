@@ -217,11 +217,6 @@ impl From<&PoseReport<'_>> for HeatEntry {
     }
 }
 
-/// The document `trueaxis/pose/1`.
-pub fn pose_json(report: &PoseReport<'_>) -> Value {
-    document(&PoseDocument::from(report))
-}
-
 /// The document `trueaxis/pose/1` of many positions: rows of numbers under the names of their columns.
 pub fn pose_rows_json(names: &[&str], rows: &[Vec<f64>]) -> Value {
     let named = |row: &Vec<f64>| names.iter().copied().zip(row.iter().copied()).collect();

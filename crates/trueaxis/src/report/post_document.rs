@@ -3,9 +3,7 @@
 use super::post::PostReport;
 use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::Value;
 use trueaxis_correct::compensate::post::{Largest, PostOptions, Verification};
-use trueaxis_report::document;
 
 /// An NC program from cutter locations.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -110,9 +108,4 @@ impl VerificationEntry {
             axes_beyond_travel: v.troubles.is_grave(),
         }
     }
-}
-
-/// The document `trueaxis/post/1`.
-pub fn post_json(report: &PostReport<'_>) -> Value {
-    document(&PostDocument::from(report))
 }

@@ -6,13 +6,12 @@ use super::pose_document::{
 use super::trace::{TraceReport, event_texts, feed, kind, named_axes, orientation};
 use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::Value;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Command;
 use trueaxis_machine::describe::to_shown;
 use trueaxis_motion::TracedNode;
 use trueaxis_nc::moves::Move;
-use trueaxis_report::{Keyed, document};
+use trueaxis_report::Keyed;
 
 /// One block of a program through every stage of the simulation.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -225,9 +224,4 @@ impl EndEntry {
 pub(super) fn axes(machine: &Machine, command: &Command) -> Keyed<f64> {
     let axes = machine.axes().iter().enumerate();
     axes.map(|(i, a)| (a.name.to_string(), to_shown(machine, i, command[i]))).collect()
-}
-
-/// The document `trueaxis/trace/1`.
-pub fn trace_json(report: &TraceReport<'_>) -> Value {
-    document(&TraceDocument::from(report))
 }
