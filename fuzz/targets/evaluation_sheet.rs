@@ -7,7 +7,7 @@
 
 use libfuzzer_sys::fuzz_target;
 use trueaxis::input::Diagnostics;
-use trueaxis::report::{Evaluation, evaluation_json, evaluation_report};
+use trueaxis::report::{Evaluation, EvaluationDocument, document, evaluation_report};
 use trueaxis::verify::conditions::Conditions;
 use trueaxis::verify::import::Import;
 use trueaxis::verify::{Request, Standard, evaluate};
@@ -45,7 +45,7 @@ fuzz_target!(|data: &[u8]| {
                 remarks: &[],
             };
             assert!(!evaluation_report(&shown).text().contains("NaN"));
-            assert!(evaluation_json(&shown).is_object());
+            assert!(document(&EvaluationDocument::of(&shown)).is_object());
         }
     }
 });

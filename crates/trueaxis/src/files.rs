@@ -7,7 +7,7 @@ pub use scope::within;
 
 use scope::{readable, writable};
 use std::fs;
-use std::io::{self, Read, Write};
+use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -105,6 +105,19 @@ pub fn write_folder(place: &Path, files: &[(String, String)]) -> io::Result<()> 
     })
 }
 
+/// Writes a file as [`write()`] does; its folder is made where there is none.
+///
+/// # Errors
+/// What the disk says.
+pub fn write_in_folder(path: &Path, content: &[u8]) -> io::Result<()> {
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty());
+    folder.map_or(Ok(()), fs::create_dir_all)?;
+    write(path, content)
+}
+
+/// Writes into a [`Part`], many bytes at a time.
+pub type PartWriter<'f> = BufWriter<&'f fs::File>;
+
 /// A file that is being written beside its place; unless it is put there, it vanishes.
 #[derive(Debug)]
 pub struct Part {
@@ -144,6 +157,11 @@ impl Part {
     /// Where to write.
     pub fn file(&self) -> &fs::File {
         &self.file
+    }
+
+    /// The same for many small pieces.
+    pub fn writer(&self) -> PartWriter<'_> {
+        BufWriter::with_capacity(1 << 16, &self.file)
     }
 
     /// Puts the file in its place; an older one there is gone.

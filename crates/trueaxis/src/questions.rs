@@ -178,11 +178,7 @@ impl NewFile {
     /// What the disk says.
     pub fn write(self) -> io::Result<()> {
         match self.content {
-            Content::Bytes(bytes) => {
-                let folder = self.path.parent().filter(|p| !p.as_os_str().is_empty());
-                folder.map_or(Ok(()), std::fs::create_dir_all)?;
-                files::write(&self.path, &bytes)
-            }
+            Content::Bytes(bytes) => files::write_in_folder(&self.path, &bytes),
             Content::Part(part) => part.put_in_place(),
             Content::Folder(written) => files::write_folder(&self.path, &written),
         }

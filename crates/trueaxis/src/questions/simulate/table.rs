@@ -1,9 +1,10 @@
 //! The path of a simulation as a file: CSV, or Parquet by its extension.
 
-use crate::files::Part;
 use crate::files::output::Kind;
-use std::fs::File;
-use std::io::{self, BufWriter};
+use crate::files::{Part, PartWriter};
+use std::io;
+#[cfg(feature = "parquet")]
+use std::io::Write;
 use std::path::Path;
 use trueaxis_input::Diagnostics;
 #[cfg(not(feature = "parquet"))]
@@ -45,15 +46,15 @@ pub(super) fn check(path: &Path, problems: &mut Diagnostics) {
 }
 
 /// The table of bodies in a file.
-pub(super) fn bodies_table(part: &Part) -> BodyTable<BufWriter<&File>> {
-    BodyTable::new(BufWriter::with_capacity(1 << 16, part.file()))
+pub(super) fn bodies_table(part: &Part) -> BodyTable<PartWriter<'_>> {
+    BodyTable::new(part.writer())
 }
 
 /// A table that is being written.
 pub(super) enum PathTable<'f> {
-    Csv(Box<CsvTable<BufWriter<&'f File>>>),
+    Csv(Box<CsvTable<PartWriter<'f>>>),
     #[cfg(feature = "parquet")]
-    Parquet(Box<ParquetTable<&'f File>>),
+    Parquet(Box<ParquetTable<PartWriter<'f>>>),
 }
 
 impl<'f> PathTable<'f> {
@@ -61,11 +62,10 @@ impl<'f> PathTable<'f> {
     pub(super) fn begin(machine: &Machine, path: &Path, part: &'f Part) -> Self {
         #[cfg(feature = "parquet")]
         if is_parquet(path) {
-            return Self::Parquet(Box::new(ParquetTable::new(machine, part.file())));
+            return Self::Parquet(Box::new(ParquetTable::new(machine, part.writer())));
         }
         let _ = path;
-        let out = BufWriter::with_capacity(1 << 16, part.file());
-        Self::Csv(Box::new(CsvTable::new(machine, out)))
+        Self::Csv(Box::new(CsvTable::new(machine, part.writer())))
     }
 
     /// The observer of the simulation.
@@ -82,7 +82,7 @@ impl<'f> PathTable<'f> {
         match self {
             Self::Csv(table) => table.finish().map(drop),
             #[cfg(feature = "parquet")]
-            Self::Parquet(table) => table.finish().map(drop),
+            Self::Parquet(table) => table.finish().and_then(|mut out| out.flush()),
         }
     }
 }
