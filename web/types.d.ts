@@ -191,7 +191,7 @@ export type Evaluate = {
    */
   temperature_degC: number | null;
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -737,7 +737,7 @@ export interface Certificate {
    */
   inputs: FileEntry[];
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -1341,7 +1341,7 @@ export interface CompensateAdapt {
    */
   program: ProgramEntry | null;
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -1768,7 +1768,7 @@ export interface CompensateProgram {
    */
   remarks: string[];
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -2020,7 +2020,7 @@ export interface CompensateTables {
    */
   notes: string[];
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -2345,7 +2345,7 @@ export interface Compensate {
    */
   warnings: string[];
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -2454,7 +2454,7 @@ export interface Description {
    */
   models: ModelEntry[];
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -2798,7 +2798,7 @@ export interface Diff {
    */
   tip: TipChangeEntry;
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -3347,7 +3347,7 @@ export interface ExplainList {
    */
   codes: CodeEntry[];
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -3418,7 +3418,7 @@ export interface Explain {
    */
   text: string;
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -3576,7 +3576,7 @@ export interface IdentifyErrors {
    */
   conventions: ConventionCheck | null;
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -3871,7 +3871,7 @@ export interface IdentifyExpansion {
    */
   warnings: string[];
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -4084,7 +4084,7 @@ export interface IdentifyProbe {
    */
   styli: StylusEntry[];
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -4499,7 +4499,7 @@ export interface IdentifyRtcpPrograms {
    */
   programs: IdentifyRtcpProgramsProgramEntry[];
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -4626,7 +4626,7 @@ export interface IdentifyRtcp {
    */
   verdict: string;
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -4904,7 +4904,7 @@ export interface IdentifyThermal {
    */
   warnings: string[];
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -5085,7 +5085,7 @@ export interface Measure {
    */
   files: string[];
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -5206,7 +5206,7 @@ export interface PlanProbeSurface {
    */
   notes: string[];
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -5307,7 +5307,7 @@ export interface Plan {
    */
   chosen: ChosenEntry | null;
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -5477,7 +5477,7 @@ export interface PoseRows {
     [k: string]: number;
   }[];
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -5557,7 +5557,7 @@ export interface Pose {
    */
   settling?: SettlingEntry | null;
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -5789,7 +5789,7 @@ export interface Post {
    */
   verify: VerificationEntry | null;
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -5921,7 +5921,7 @@ export interface PredictHoles {
    */
   warnings: string[];
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -6114,7 +6114,7 @@ export interface Predict {
    */
   warnings: string[];
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -8057,6 +8057,11 @@ export interface SimulationDocument {
    */
   troubles_left_out: number;
   /**
+   * How many functions of the program that move the tool or its place are not executed: they are among the
+   * diagnostics.
+   */
+  motion_left_out: number;
+  /**
    * Messages of the program to the operator.
    */
   messages: string[];
@@ -8809,6 +8814,11 @@ export interface Simulate {
    */
   troubles_left_out: number;
   /**
+   * How many functions of the program that move the tool or its place are not executed: they are among the
+   * diagnostics.
+   */
+  motion_left_out: number;
+  /**
    * Messages of the program to the operator.
    */
   messages: string[];
@@ -8829,7 +8839,7 @@ export interface Simulate {
    */
   temperatures: TemperaturesEntry | null;
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -8963,7 +8973,7 @@ export interface SolvePath {
    */
   rows: SolveRowEntry[];
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -9028,7 +9038,7 @@ export interface Solve {
    */
   held_axis: string | null;
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -9151,7 +9161,7 @@ export interface Trace {
    */
   bodies?: BodyEntry[] | null;
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**
@@ -9402,7 +9412,7 @@ export interface Verify {
    */
   deviations: DifferenceEntry[];
   /**
-   * The problems found in the input; absent where the command reports them on standard error only.
+   * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
     /**

@@ -7,7 +7,7 @@ use std::path::Path;
 use trueaxis::files::disk;
 use trueaxis::files::output::{REPORT, may_write, no_file_twice};
 use trueaxis::input::Diagnostics;
-use trueaxis::questions::{Answer, Content, NewFile, Question};
+use trueaxis::questions::{Answer, Content, NewFile, Question, complete};
 
 /// The form of the answer.
 pub struct Door<'a> {
@@ -47,7 +47,7 @@ impl Door<'_> {
         answer.files().into_iter().try_for_each(write)?;
         answer.notes().iter().for_each(|note| tell(note));
         let shown = show(&match self.format {
-            Format::Json => Shown::Json(answer.document(&found)),
+            Format::Json => Shown::Json(complete(answer.document(&found), &found)),
             Format::Text => Shown::Text(answer.text()),
         });
         Ok(match shown {

@@ -42,7 +42,7 @@ struct CampaignArguments {
     /// The campaign: machine, unknowns, instruments, paths
     #[arg(value_name = "CAMPAIGN.toml", required = true)]
     file: Option<PathBuf>,
-    /// The control of the NC programs: sinumerik, fanuc, linuxcnc or heidenhain
+    /// The control of the NC programs: sinumerik, fanuc, haas, linuxcnc or heidenhain
     #[arg(long, alias = "dialect", value_name = "NAME", default_value = "sinumerik")]
     control: String,
     /// Write one program and one table of poses per path into this folder

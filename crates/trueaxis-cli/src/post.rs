@@ -29,7 +29,7 @@ pub struct Arguments {
     /// The cutter-location file: APT of Creo, NCL, CATIA, SolidWorks CAM, or a table x y z i j k
     #[arg(value_name = "FILE.cls")]
     file: PathBuf,
-    /// The control of the program: sinumerik, fanuc, linuxcnc or heidenhain
+    /// The control of the program: sinumerik, fanuc, haas, linuxcnc or heidenhain
     #[arg(long, alias = "dialect", value_name = "NAME")]
     control: String,
     /// Whether the control keeps the tool tip on the path (RTCP, TRAORI, TCPM)

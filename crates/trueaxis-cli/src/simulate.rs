@@ -20,8 +20,8 @@ With --log-start every point of the path is evaluated at the temperatures of its
 0.01 K), and the summary shows the drift: the change of the deviation since the start. A program
 that is longer than its log is an error. Without --setup work offsets and tool lengths are 0; a file
 PROGRAM.setup.toml in the folder of the program is used automatically. Exit status: 0 no critical
-issue, 1 a collision, a rapid move through stock or an axis beyond its travel, 2 unusable input; then
-nothing is written.")]
+issue, 1 a collision, a rapid move through stock, an axis beyond its travel, or motion that is not
+executed (see the diagnostics), 2 unusable input; then nothing is written.")]
 pub struct Arguments {
     #[command(flatten)]
     machine: MachineArguments,
@@ -61,7 +61,7 @@ pub struct ProgramArguments {
     /// Work offsets, tools, stock, fixtures
     #[arg(long, value_name = "SETUP.toml")]
     setup: Option<PathBuf>,
-    /// The control of the program: sinumerik, fanuc, linuxcnc or heidenhain
+    /// The control of the program: sinumerik, fanuc, haas, linuxcnc or heidenhain
     #[arg(long, value_name = "NAME")]
     control: Option<String>,
     /// Largest distance between path and chord, mm

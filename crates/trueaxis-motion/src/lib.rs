@@ -80,13 +80,15 @@ use std::path::Path;
 use temperatures::Present;
 pub use tool_path::STILL;
 use tool_path::{BATCH, ToolPath};
-use trueaxis_input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostic, Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Command;
 use trueaxis_machine::heat::TemperatureRun;
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::moves::Step;
-use trueaxis_nc::{Follower, KnownPosition, Outcome, Program, Settings, interpret_on};
+use trueaxis_nc::{
+    Follower, KnownPosition, Outcome, Program, Settings, interpret_on, leaves_motion_out,
+};
 use trueaxis_report::{NamedSchema, named_schema};
 
 /// The JSON Schemas of the documents of this crate, by name.
@@ -147,6 +149,13 @@ pub struct Run {
     pub stopped: bool,
 }
 
+impl Run {
+    /// Functions that move the tool, or its place, and are not executed.
+    pub fn motion_left_out(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.problems.iter().filter(|problem| leaves_motion_out(problem.code))
+    }
+}
+
 /// Runs an NC program on a machine and reports all that happens to the observers.
 ///
 /// Memory does not grow with the program. The workpiece frame of all results is that of the
@@ -205,6 +214,9 @@ pub fn execute_on(
     settings: &Settings,
     follower: &mut dyn Follower,
 ) -> Outcome {
+    let length_mm = -mounted.tip_mm().z;
+    let unlisted_length_mm = Some(length_mm).filter(|_| setup.tools.is_empty());
+    let settings = &Settings { unlisted_length_mm, ..settings.clone() };
     let control = TipControl::of(mounted);
     let turn = basic::turn_to_workpiece(mounted, setup);
     let folder = Folder::beside(&setup.files, Path::new(program.file()), control.as_ref(), turn);

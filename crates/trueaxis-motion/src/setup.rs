@@ -255,13 +255,14 @@ fn read_control(item: &Item<'_>) -> Option<Control> {
 }
 
 /// The names of the controls, for hints.
-pub const CONTROLS: &str = "sinumerik, fanuc, linuxcnc or heidenhain";
+pub const CONTROLS: &str = "sinumerik, fanuc, haas, linuxcnc or heidenhain";
 
 /// The control by its name, upper or lower case.
 pub fn control_named(name: &str) -> Option<Control> {
     match name.to_ascii_lowercase().as_str() {
         "sinumerik" | "sinumerik 840d" | "840d" | "siemens" => Some(Control::Sinumerik840d),
         "fanuc" => Some(Control::Fanuc),
+        "haas" => Some(Control::Haas),
         "linuxcnc" => Some(Control::LinuxCnc),
         "heidenhain" | "klartext" => Some(Control::Heidenhain),
         _ => None,

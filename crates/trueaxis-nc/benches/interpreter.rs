@@ -48,7 +48,7 @@ fn written_for(control: Control) -> String {
             let body: String = lines.map(signed).collect();
             format!("BEGIN PGM BENCH MM\n{body}END PGM BENCH MM\n")
         }
-        Control::Fanuc | Control::LinuxCnc => text,
+        Control::Fanuc | Control::Haas | Control::LinuxCnc => text,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::heidenhain::dialect as heidenhain;
 use crate::rs274::code::Action;
-use crate::rs274::{fanuc, linuxcnc};
+use crate::rs274::{fanuc, haas, linuxcnc};
 use crate::sinumerik::dialect as sinumerik;
 
 /// The controls whose programs are read.
@@ -12,6 +12,8 @@ pub enum Control {
     Sinumerik840d,
     /// FANUC and compatible controls.
     Fanuc,
+    /// HAAS: the words of FANUC with some codes of its own.
+    Haas,
     /// LinuxCNC, RS274/NGC.
     LinuxCnc,
     /// HEIDENHAIN Klartext.
@@ -75,6 +77,7 @@ impl Dialect {
         match control {
             Control::Sinumerik840d => &sinumerik::DIALECT,
             Control::Fanuc => &fanuc::DIALECT,
+            Control::Haas => &haas::DIALECT,
             Control::LinuxCnc => &linuxcnc::DIALECT,
             Control::Heidenhain => &heidenhain::DIALECT,
         }

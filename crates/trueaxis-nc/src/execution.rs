@@ -44,6 +44,8 @@ pub struct Settings {
     pub plane: Plane,
     /// Tool lengths by tool number, along each axis, mm.
     pub tools: BTreeMap<u32, Position>,
+    /// The length that tool-centre-point control takes for tools that are not listed, mm, where it is not 0.
+    pub unlisted_length_mm: Option<f64>,
     /// Tool numbers by name.
     pub tool_names: BTreeMap<String, u32>,
     /// Work offsets by number, from 1 for G54; zero where none is given.
@@ -68,6 +70,7 @@ impl Default for Settings {
             absolute_centers: false,
             plane: Plane::Xy,
             tools: BTreeMap::new(),
+            unlisted_length_mm: None,
             tool_names: BTreeMap::new(),
             work_offsets: BTreeMap::new(),
             constants: BTreeMap::new(),
@@ -75,6 +78,11 @@ impl Default for Settings {
             stop: Stop::default(),
         }
     }
+}
+
+/// Whether a warning of this code means that motion is missing, or ends at another place than on the control.
+pub fn leaves_motion_out(code: &str) -> bool {
+    matches!(code, "not-applied" | "compensation-not-applied")
 }
 
 /// The result of an execution.

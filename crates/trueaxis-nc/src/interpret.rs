@@ -41,7 +41,7 @@ pub fn interpret_on(
 ) -> Outcome {
     let core = Core::new(program, library, settings, follower);
     match program.dialect().control {
-        Control::Fanuc | Control::LinuxCnc => rs274::interpret(program, core),
+        Control::Fanuc | Control::Haas | Control::LinuxCnc => rs274::interpret(program, core),
         Control::Sinumerik840d => sinumerik::interpret(program, core),
         Control::Heidenhain => heidenhain::interpret(core),
     }

@@ -1,4 +1,4 @@
-//! NC programs of four controls, read without loss and executed to moves.
+//! NC programs of five controls, read without loss and executed to moves.
 //!
 //! ```text
 //!     bytes ──text──> blocks ──rs274, sinumerik, heidenhain──> moves, events ──> Step by Step
@@ -50,7 +50,7 @@
 //!
 //! # Further parts
 //!
-//! - [`writer`] writes programs for the same four controls.
+//! - [`writer`] writes programs for the same five controls.
 //! - [`moves`] defines moves and events, [`code`] and [`dialect`] the differences between the
 //!   controls, [`lexer`] and [`program`] the text; [`sinumerik`] reads archives of a set-up.
 //!
@@ -78,6 +78,7 @@ mod text;
 pub mod writer;
 
 pub use dialect::{Control, Dialect};
+pub use execution::leaves_motion_out;
 pub use execution::{Follower, KnownPosition, Library, NoLibrary, Outcome, Settings, Stop};
 pub use interpret::{interpret, interpret_on};
 pub use moves::{Event, Move, MoveKind, Step};

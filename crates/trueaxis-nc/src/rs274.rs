@@ -11,6 +11,7 @@ mod execute;
 pub(crate) mod fanuc;
 mod flow;
 mod frames;
+pub(crate) mod haas;
 pub(crate) mod linuxcnc;
 mod parameters;
 mod quick;
@@ -51,6 +52,8 @@ struct Activation {
     rounds: HashMap<usize, u64>,
     /// The condition before was false: the next branch is to be tried.
     seeking: bool,
+    /// Where its text begins, and its line.
+    entry: (usize, u32),
     /// How often a FANUC subprogram is still to be executed.
     repeats: u64,
     /// Its O number has come.

@@ -1,4 +1,4 @@
-//! Writes NC programs for the four controls.
+//! Writes NC programs for the five controls.
 //!
 //! ```text
 //!     Block (common to all controls)    ──Writer──> text of one control
@@ -178,7 +178,7 @@ impl Target {
 pub fn axis_coordinates(control: Control) -> Coordinates {
     match control {
         Control::Heidenhain | Control::LinuxCnc => Coordinates::Machine,
-        Control::Fanuc | Control::Sinumerik840d => Coordinates::Program,
+        Control::Fanuc | Control::Haas | Control::Sinumerik840d => Coordinates::Program,
     }
 }
 
@@ -363,7 +363,7 @@ impl Writer {
     fn straight(&mut self, target: &Target, feed: Option<&Feed>) -> Result<(), WriteError> {
         match self.control {
             Control::Heidenhain => heidenhain::straight(self, target, feed),
-            Control::Fanuc => fanuc::straight(self, target, feed),
+            Control::Fanuc | Control::Haas => fanuc::straight(self, target, feed),
             Control::LinuxCnc => linuxcnc::straight(self, target, feed),
             Control::Sinumerik840d => sinumerik::straight(self, target, feed),
         }
@@ -371,7 +371,7 @@ impl Writer {
 
     fn form(&self) -> Form {
         match self.control {
-            Control::Fanuc => Form::Point,
+            Control::Fanuc | Control::Haas => Form::Point,
             Control::Heidenhain => Form::Signed,
             Control::LinuxCnc | Control::Sinumerik840d => Form::Plain,
         }

@@ -199,3 +199,23 @@ fn work_offsets_turn_in_space() {
     assert_eq!(frames, [turned]);
     assert_eq!(places[0].0[..3], [0.0, -5.0, 0.0]);
 }
+
+/// Haas Automation, "Mill Operator's Manual", M97: the local subprogram follows M30 and ends with M99.
+#[test]
+fn haas_calls_parts_of_its_program() {
+    let text = "%\nO00001\nG0 X1.\nM97 P1000 L3\nX9.\nM30\nN1000 G91 G0 X2.\nM99 (BACK)\n%\n";
+    let x_mm = |control| {
+        let program = Program::new("p", text.as_bytes().to_vec(), control);
+        let (mut x_mm, settings) = (Vec::new(), Settings::default());
+        let outcome = interpret(&program, &NoLibrary, &settings, &mut |step| {
+            if let Step::Move(m) = step {
+                x_mm.push(m.target[Axis::X]);
+            }
+        });
+        assert!(!outcome.problems.has_errors(), "{:?}", outcome.problems);
+        (x_mm, outcome.problems.iter().any(|p| p.code == "not-applied"))
+    };
+    assert_eq!(x_mm(Control::Haas), (vec![1.0, 3.0, 5.0, 7.0, 16.0], false));
+    // FANUC has no such call: that motion is missing is a warning.
+    assert_eq!(x_mm(Control::Fanuc), (vec![1.0, 9.0], true));
+}

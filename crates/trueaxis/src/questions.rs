@@ -200,8 +200,15 @@ pub fn ask<Q: Question>(
 
 /// A document with what was found in the files, in the order in which it was found.
 fn with_diagnostics(found: &impl Serialize, problems: &Diagnostics) -> Value {
-    let mut document = document(found);
-    document["diagnostics"] = problems.iter().map(crate::report::diagnostic_json).collect();
+    complete(document(found), problems)
+}
+
+/// A document with what was found in the input, which every document has.
+pub fn complete(mut document: Value, problems: &Diagnostics) -> Value {
+    if let Value::Object(entries) = &mut document {
+        let listed = || problems.iter().map(crate::report::diagnostic_json).collect();
+        entries.entry("diagnostics").or_insert_with(listed);
+    }
     document
 }
 

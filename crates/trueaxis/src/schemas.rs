@@ -52,7 +52,7 @@ fn add_diagnostics(schema: &mut Schema) {
     let settings = SchemaSettings::draft2020_12().for_serialize();
     let entry = DiagnosticEntry::json_schema(&mut settings.into_generator());
     let diagnostics = json_schema!({
-        "description": "The problems found in the input; absent where the command reports them on standard error only.",
+        "description": "The problems found in the input; the command line prints them on standard error, too.",
         "type": "array",
         "items": entry,
     });

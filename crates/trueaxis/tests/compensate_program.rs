@@ -20,7 +20,7 @@ use trueaxis::simulate::{Batch, Densify, Observer, Options, SetUp, simulate};
 
 fn name(control: Control) -> &'static str {
     match control {
-        Control::Fanuc => "a.nc",
+        Control::Fanuc | Control::Haas => "a.nc",
         Control::Sinumerik840d => "a.mpf",
         Control::Heidenhain => "a.h",
         Control::LinuxCnc => "a.ngc",

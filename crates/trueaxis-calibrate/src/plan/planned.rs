@@ -100,7 +100,7 @@ fn planned_path(
 /// How files of a control's programs usually end.
 pub fn extension(control: Control) -> &'static str {
     match control {
-        Control::Fanuc => "nc",
+        Control::Fanuc | Control::Haas => "nc",
         Control::LinuxCnc => "ngc",
         Control::Sinumerik840d => "mpf",
         Control::Heidenhain => "h",

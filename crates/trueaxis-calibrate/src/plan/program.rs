@@ -395,7 +395,7 @@ pub(super) fn touch_words(
     }
     let feed = format!("{mm_per_min:.1}");
     match control {
-        Control::Fanuc => Ok(format!("G31{words} F{feed}")),
+        Control::Fanuc | Control::Haas => Ok(format!("G31{words} F{feed}")),
         Control::LinuxCnc => Ok(format!("G53 G38.2{words} F{feed}")),
         Control::Sinumerik840d => Ok(format!("MEAS=1 G1{words} F{feed}")),
         Control::Heidenhain => Err(ProgramError::NoProbing("HEIDENHAIN")),

@@ -32,7 +32,7 @@ pub struct AdaptArguments {
     /// Write the program of the adapted path to this file
     #[arg(short, long, value_name = "FILE", requires = "control")]
     output: Option<PathBuf>,
-    /// The control of the program: sinumerik, fanuc, linuxcnc or heidenhain
+    /// The control of the program: sinumerik, fanuc, haas, linuxcnc or heidenhain
     #[arg(long, alias = "dialect", value_name = "NAME", requires = "output")]
     control: Option<String>,
     /// Whether the control keeps the tool tip on the path (RTCP, TRAORI, TCPM)

@@ -36,7 +36,7 @@ pub struct ProgramArguments {
     /// Work offsets and tools; without it PROGRAM.setup.toml if it is there
     #[arg(long, value_name = "SETUP.toml")]
     setup: Option<PathBuf>,
-    /// The control of the program: sinumerik, fanuc, linuxcnc or heidenhain
+    /// The control of the program: sinumerik, fanuc, haas, linuxcnc or heidenhain
     #[arg(long, value_name = "NAME")]
     control: Option<String>,
     /// Unroll the program first: loops, subprograms, repeated parts and computed numbers become one

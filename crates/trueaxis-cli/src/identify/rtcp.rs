@@ -26,7 +26,7 @@ pub struct Arguments {
     /// Write one NC program for each set of readings into this folder; the tables then need poses only
     #[arg(long, value_name = "FOLDER")]
     programs: Option<PathBuf>,
-    /// The control of the programs: sinumerik, fanuc, linuxcnc or heidenhain
+    /// The control of the programs: sinumerik, fanuc, haas, linuxcnc or heidenhain
     #[arg(
         long,
         alias = "dialect",

@@ -85,6 +85,7 @@ pub(super) fn control_name(control: Control) -> &'static str {
     match control {
         Control::Sinumerik840d => "SINUMERIK 840D",
         Control::Fanuc => "FANUC",
+        Control::Haas => "HAAS",
         Control::LinuxCnc => "LinuxCNC",
         Control::Heidenhain => "HEIDENHAIN",
     }
@@ -186,7 +187,13 @@ fn verdict(s: &Simulation<'_>) -> (Standing, &'static str, String) {
     let critical = s.troubles.list.iter().filter(|t| t.grave).count() as u64;
     let all = s.troubles.list.len() as u64 + s.troubles.left_out;
     let errors = s.run.problems.iter().filter(|d| d.severity == Severity::Error).count() as u64;
+    let left_out = s.run.motion_left_out().count() as u64;
     match (critical, all - critical) {
+        _ if errors == 0 && left_out > 0 => {
+            let functions = count(left_out, "function");
+            let sentence = format!("{functions} of motion not executed: see the diagnostics");
+            (Standing::Bad, "NOT COMPLETE", sentence)
+        }
         _ if errors > 0 => {
             let sentence = format!("{} in the program", count(errors, "error"));
             (Standing::Bad, "NOT COMPLETE", sentence)

@@ -51,6 +51,9 @@ pub struct SimulationDocument<'a> {
     pub troubles: Vec<TroubleEntry<'a>>,
     /// How many more of the same kinds were found, but not listed.
     pub troubles_left_out: u64,
+    /// How many functions of the program that move the tool or its place are not executed: they are among the
+    /// diagnostics.
+    pub motion_left_out: u64,
     /// Messages of the program to the operator.
     pub messages: &'a [String],
     /// Stops in the program, optional ones not counted.
@@ -270,6 +273,7 @@ impl<'a> SimulationDocument<'a> {
             reversals: summary.reversals.iter().map(|r| ReversalEntry::of(s, r)).collect(),
             troubles: s.troubles.list.iter().map(|t| TroubleEntry::of(s, t)).collect(),
             troubles_left_out: s.troubles.left_out,
+            motion_left_out: s.run.motion_left_out().count() as u64,
             messages: &summary.messages,
             stops: summary.stops,
             tools: summary

@@ -149,8 +149,15 @@ impl Core<'_> {
 
     /// Warns that the tool table does not have a tool.
     pub fn unknown_length(&mut self, tool: u32, at: usize) {
-        let message = format!("the length of tool {tool} is not known: 0 is assumed");
-        self.warn("unknown-tool-length", tool, at, message, "give a tool table");
+        let taken = match self.settings.unlisted_length_mm {
+            Some(length_mm) => format!(
+                "0 is taken, and with tool-centre-point control the {length_mm} mm of the machine file"
+            ),
+            None => "0 is taken".to_owned(),
+        };
+        let message = format!("the length of tool {tool} is not stated: {taken}");
+        let hint = "list the tools with their lengths in a set-up file: --setup";
+        self.warn("unknown-tool-length", tool, at, message, hint);
     }
 
     /// Warns of an M function that is not known.

@@ -136,6 +136,8 @@ pub enum Action {
     End,
     /// Calls a subprogram by its number.
     Call,
+    /// M97 of HAAS: a part of the program from a block number to M99.
+    LocalCall,
     /// The end of a subprogram.
     Return,
     /// Polar coordinates in the plane.
@@ -237,7 +239,7 @@ impl Action {
             | Self::Align { .. } => 20,
             Self::MachineCoordinates => 21,
             Self::Motion(_) | Self::Approach => 22,
-            Self::MacroCall | Self::ModalMacro { .. } | Self::Call => 23,
+            Self::MacroCall | Self::ModalMacro { .. } | Self::Call | Self::LocalCall => 23,
             Self::Stop(_) | Self::End | Self::Return => 24,
         }
     }

@@ -139,6 +139,7 @@ impl Run<'_> {
                     moved = true;
                 }
                 Action::Call => return self.subprogram_call(block),
+                Action::LocalCall => return self.local_call(block),
                 Action::Return => return self.subprogram_return(block),
                 Action::End | Action::Stop(_) if !moved && !taken => {
                     self.modal_motion(machine, block)?;
@@ -295,6 +296,9 @@ impl Run<'_> {
     fn note(&mut self, action: Action, at: usize) {
         match action {
             Action::Note(name) => {
+                if name.starts_with("M97") && self.words.look(b'P').is_some() {
+                    self.core.left_out("M97 P, a call of HAAS (--control haas),", at);
+                }
                 self.words.take_parameters();
                 self.core.emit(Event::Note(name));
             }

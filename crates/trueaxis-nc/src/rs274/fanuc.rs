@@ -17,10 +17,14 @@ pub(crate) static DIALECT: Dialect = Dialect {
     macro_words: true,
     fix_towards_zero: true,
     parameters: 99_999,
-    g_codes: &joined::<47, 62, 109>(RS274_G_CODES, G_CODES),
-    m_codes: &joined::<14, 8, 22>(RS274_M_CODES, M_CODES),
+    g_codes: &ALL_G_CODES,
+    m_codes: &ALL_M_CODES,
     ..Dialect::BARE
 };
+
+/// With the codes that LinuxCNC knows, too.
+pub(super) const ALL_G_CODES: [(u16, A); 109] = joined::<47, 62, 109>(RS274_G_CODES, G_CODES);
+pub(super) const ALL_M_CODES: [(u16, A); 22] = joined::<14, 8, 22>(RS274_M_CODES, M_CODES);
 
 const G_CODES: [(u16, A); 62] = [
     (22, A::NotApplied("G2.2 involute")),

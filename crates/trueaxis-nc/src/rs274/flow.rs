@@ -21,6 +21,7 @@ impl Activation {
             repeats: 0,
             named: false,
             shares_locals: false,
+            entry: (at, line),
         }
     }
 }
@@ -355,12 +356,24 @@ impl Run<'_> {
         self.core.check_depth(self.stack.len(), at)?;
         let (number, start, line) = self.find_sub(passage.program, label, at)?;
         self.follow(passage.block);
-        let mut frame = Activation::new(number, start, line);
-        (frame.sub, frame.locals, frame.repeats) = (Some(label.clone()), locals, repeats);
+        self.call(number, (start, line), label.clone(), locals, repeats);
+        Ok(Next::Jumped)
+    }
+
+    /// A subprogram is on top.
+    pub(super) fn call(
+        &mut self,
+        program: usize,
+        (start, line): (usize, u32),
+        label: Label,
+        locals: Locals,
+        repeats: u64,
+    ) {
+        let mut frame = Activation::new(program, start, line);
+        (frame.sub, frame.locals, frame.repeats) = (Some(label), locals, repeats);
         frame.named = start > 0;
         self.stack.push(frame);
         self.returned = None;
-        Ok(Next::Jumped)
     }
 
     /// The name by which the library knows a subprogram.

@@ -13,7 +13,7 @@ pub(super) fn code_table(dialect: &Dialect) -> CodeTable {
     let mut table = Box::new([None; 1000]);
     for (code, action) in dialect.g_codes {
         if let Some(entry) = table.get_mut(usize::from(*code)) {
-            *entry = Some(*action);
+            entry.get_or_insert(*action);
         }
     }
     table

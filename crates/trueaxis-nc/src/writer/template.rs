@@ -8,8 +8,9 @@ use std::fmt;
 use std::sync::Arc;
 
 /// The template of each control as it comes.
-pub const BUILT_IN: [(Control, &str); 4] = [
+pub const BUILT_IN: [(Control, &str); 5] = [
     (Control::Fanuc, include_str!("templates/fanuc.j2")),
+    (Control::Haas, include_str!("templates/haas.j2")),
     (Control::LinuxCnc, include_str!("templates/linuxcnc.j2")),
     (Control::Sinumerik840d, include_str!("templates/sinumerik.j2")),
     (Control::Heidenhain, include_str!("templates/heidenhain.j2")),

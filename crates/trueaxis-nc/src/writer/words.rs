@@ -88,10 +88,11 @@ impl Writer {
 
     pub(super) fn tip_on(&mut self, words: TipWords) -> Result<(), WriteError> {
         let vectors = words == TipWords::Vectors;
-        if vectors && self.control == Control::LinuxCnc {
+        if vectors && matches!(self.control, Control::Haas | Control::LinuxCnc) {
+            let control = if self.control == Control::Haas { "HAAS" } else { "LinuxCNC" };
             let what = "the tool axis as a vector";
             let instead = "write the rotary axes";
-            return Err(WriteError::NotInDialect { control: "LinuxCNC", what, instead });
+            return Err(WriteError::NotInDialect { control, what, instead });
         }
         self.vectors = vectors;
         self.by_template("tip_on", &self.values())
@@ -105,7 +106,7 @@ impl Writer {
     fn plain_name(&self, name: &str) -> String {
         let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
         let name: String = name.chars().take(24).map(plain).collect();
-        let upper = matches!(self.control, Control::Fanuc | Control::Heidenhain);
+        let upper = matches!(self.control, Control::Fanuc | Control::Haas | Control::Heidenhain);
         let name = if upper { name.to_ascii_uppercase() } else { name };
         if name.is_empty() { "PROGRAM".to_owned() } else { name }
     }
@@ -125,7 +126,7 @@ impl Writer {
         let text: String = text.chars().take(LONGEST_TEXT).map(spaced).map(plain).collect();
         let text = text.trim().to_owned();
         match self.control {
-            Control::Fanuc => text.to_ascii_uppercase(),
+            Control::Fanuc | Control::Haas => text.to_ascii_uppercase(),
             _ => text,
         }
     }
@@ -133,7 +134,7 @@ impl Writer {
     pub(super) fn comment(&mut self, text: &str) {
         let text = self.plain_text(text);
         let words = match self.control {
-            Control::Fanuc => format!("({text})"),
+            Control::Fanuc | Control::Haas => format!("({text})"),
             // A comma would make some of them statements, such as (PRINT,…).
             Control::LinuxCnc => format!("({})", text.replacen(',', " ", 1)),
             Control::Sinumerik840d | Control::Heidenhain => format!("; {text}"),
@@ -144,7 +145,7 @@ impl Writer {
     pub(super) fn message(&mut self, text: &str) {
         let text = self.plain_text(text);
         let words = match self.control {
-            Control::Fanuc => format!("({text})"),
+            Control::Fanuc | Control::Haas => format!("({text})"),
             Control::LinuxCnc => format!("(MSG, {text})"),
             Control::Sinumerik840d => format!("MSG(\"{text}\")"),
             Control::Heidenhain => format!("; {text}"),
@@ -203,7 +204,7 @@ impl Writer {
         }
         let (word, form) = match self.control {
             Control::Heidenhain => heidenhain::DWELL,
-            Control::Fanuc => fanuc::DWELL,
+            Control::Fanuc | Control::Haas => fanuc::DWELL,
             Control::LinuxCnc => linuxcnc::DWELL,
             Control::Sinumerik840d => sinumerik::DWELL,
         };

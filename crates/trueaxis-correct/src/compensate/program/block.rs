@@ -333,7 +333,7 @@ impl Block<'_> {
                     let letters = match self.control {
                         Control::Sinumerik840d => ["A3=", "B3=", "C3="][i],
                         Control::Heidenhain => ["TX", "TY", "TZ"][i],
-                        Control::Fanuc | Control::LinuxCnc => ["I", "J", "K"][i],
+                        Control::Fanuc | Control::Haas | Control::LinuxCnc => ["I", "J", "K"][i],
                     };
                     puts.push(Put { letters, text });
                 }

@@ -270,7 +270,7 @@ impl Flat<'_> {
         let is_mark = |line: &str| match main.dialect().control {
             Control::Heidenhain => line.to_ascii_uppercase().contains("END PGM"),
             Control::Sinumerik840d => false,
-            Control::Fanuc | Control::LinuxCnc => line.trim() == "%",
+            Control::Fanuc | Control::Haas | Control::LinuxCnc => line.trim() == "%",
         };
         let ends = |text: &str| text.trim_end().lines().next_back().is_some_and(is_mark);
         let is_closed = ends(&String::from_utf8_lossy(&self.out));
@@ -310,7 +310,7 @@ fn number(value: f64, source: &[u8], at: usize, program: &Program) -> String {
     let is_place = b"XYZABCUVWIJKRQF".contains(&address);
     match control {
         // Without its point a number of FANUC may count increments.
-        Control::Fanuc if !is_place => format!("{value}"),
+        Control::Fanuc | Control::Haas if !is_place => format!("{value}"),
         Control::Heidenhain if address == b'F' || !is_place => format!("{value}"),
         _ => Grid(None).text(value, super::number::Of::Linear, control),
     }

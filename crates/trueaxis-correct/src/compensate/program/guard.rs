@@ -27,7 +27,7 @@ pub(super) fn comment(mark: &str, control: Control) -> String {
     let text: String = format!("{MARK} {mark}").chars().map(plain).take(200).collect();
     let text = text.trim_end();
     match control {
-        Control::Fanuc => format!("({})", text.to_ascii_uppercase()),
+        Control::Fanuc | Control::Haas => format!("({})", text.to_ascii_uppercase()),
         // A comma would make some comments statements.
         Control::LinuxCnc => format!("({})", text.replace(',', " ")),
         Control::Sinumerik840d | Control::Heidenhain => format!("; {text}"),

@@ -91,7 +91,7 @@ impl Grid {
             text.remove(0);
         }
         match control {
-            Control::Fanuc if !text.contains('.') => text.push('.'),
+            Control::Fanuc | Control::Haas if !text.contains('.') => text.push('.'),
             Control::Heidenhain if !text.starts_with('-') => text.insert(0, '+'),
             _ => {}
         }

@@ -153,6 +153,33 @@ impl Run<'_> {
         Ok(next)
     }
 
+    /// M97 P…: from the block number P of this program to M99, L times.
+    ///
+    /// # Source
+    /// Haas Automation, "Mill Operator's Manual", M97 Local Sub-Program Call.
+    pub(in crate::rs274) fn local_call(&mut self, block: &Block) -> Result<Next, Fault> {
+        let at = self.words.place(b'P').max(block.span.start);
+        let number = self.words.take(b'P').filter(|p| *p >= 1.0 && p.fract() == 0.0);
+        let repeats = self.words.take(b'L').unwrap_or(1.0);
+        let program = self.current();
+        let found = number.and_then(|n| program.structure().block_number(n as u64, 0));
+        let (Some(number), Some(entry)) = (number, found) else {
+            return Err(mistakes::missing_label(format_args!("N{}", number.unwrap_or(0.0)), at));
+        };
+        if repeats < 1.0 {
+            return Ok(Next::Following);
+        }
+        self.core.count(at)?;
+        self.core.check_depth(self.stack.len(), at)?;
+        let locals = self.frame().locals.clone();
+        let program = self.frame().program;
+        self.follow(block);
+        let label = Label::Number(number as u64);
+        self.call(program, entry, label, locals, repeats as u64);
+        self.frame().shares_locals = true;
+        Ok(Next::Jumped)
+    }
+
     /// G65 P… with letters as arguments, G66, G66.1.
     pub(in crate::rs274) fn macro_call(
         &mut self,
@@ -218,7 +245,7 @@ impl Run<'_> {
         let back = self.words.take(b'P');
         let at = block.span.start;
         let frame = self.frame();
-        let Some(label) = frame.sub.clone() else {
+        if frame.sub.is_none() {
             if let Some(number) = back {
                 return self.jump_to_number(number, at);
             }
@@ -228,13 +255,12 @@ impl Run<'_> {
             self.core.warn("endless-main", 0, at, message, "write M30");
             self.core.emit(crate::moves::Event::End);
             return Ok(Next::Finished);
-        };
+        }
         frame.repeats = frame.repeats.saturating_sub(1);
         if frame.repeats > 0 {
-            let program = self.current();
             self.core.count(at)?;
-            let (_, start, line) = self.find_sub(&program, &label, at)?;
             let frame = self.frame();
+            let (start, line) = frame.entry;
             (frame.at, frame.line, frame.named) = (start, line, start > 0);
             return Ok(Next::Jumped);
         }

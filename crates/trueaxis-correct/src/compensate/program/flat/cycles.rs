@@ -28,7 +28,7 @@ pub(super) fn unrolled(
     if moves.len() < 2 || words.reference || words.machine.is_some() {
         return None;
     }
-    let is_rs274 = matches!(control, Control::Fanuc | Control::LinuxCnc);
+    let is_rs274 = matches!(control, Control::Fanuc | Control::Haas | Control::LinuxCnc);
     // The place before a modal cycle is the block's own; a cycle of FANUC has its words for itself.
     let own_move = !is_rs274 && words.axes.iter().any(Option::is_some);
     let cycle = &moves[usize::from(own_move)..];
@@ -52,7 +52,7 @@ fn block(m: &Move, control: Control) -> Option<String> {
         MoveKind::Linear => "G1",
         MoveKind::Dwell { seconds } => {
             return Some(match control {
-                Control::Fanuc => format!("G4 P{}", (seconds * 1000.0).round()),
+                Control::Fanuc | Control::Haas => format!("G4 P{}", (seconds * 1000.0).round()),
                 Control::LinuxCnc => format!("G4 P{seconds}"),
                 Control::Sinumerik840d => format!("G4 F{seconds}"),
                 Control::Heidenhain => format!("CYCL DEF 9.0 DWELL\nCYCL DEF 9.1 DWELL {seconds}"),
@@ -80,7 +80,7 @@ fn head(program: &Program, line: &Range<usize>, control: Control, own_move: bool
     let source = program.source();
     let text = |range: Range<usize>| String::from_utf8_lossy(&source[range]).into_owned();
     match control {
-        Control::Fanuc | Control::LinuxCnc => rs274_head(program, line),
+        Control::Fanuc | Control::Haas | Control::LinuxCnc => rs274_head(program, line),
         Control::Heidenhain if own_move => {
             let text = text(line.clone());
             text.replace("M99", "").replace("M89", "").trim_end().to_owned()

@@ -1,0 +1,49 @@
+//! HAAS: FANUC's words and custom macros, with some codes of its own.
+
+use super::common_codes::joined;
+use super::fanuc;
+use crate::dialect::{Control, Dialect};
+use crate::moves::CompensationSide as Side;
+use crate::rs274::code::Action as A;
+
+/// HAAS, milling control.
+///
+/// # Source
+/// Haas Automation, "Mill Operator's Manual" (Next Generation Control), chapters "G-Codes" and "M-Codes". What
+/// it does not list is as on FANUC. The first entry of a code counts.
+pub(crate) static DIALECT: Dialect = Dialect {
+    control: Control::Haas,
+    g_codes: &joined::<19, 109, 128>(G_CODES, fanuc::ALL_G_CODES),
+    m_codes: &joined::<5, 22, 27>(M_CODES, fanuc::ALL_M_CODES),
+    ..fanuc::DIALECT
+};
+
+const G_CODES: [(u16, A); 19] = [
+    (120, A::NotApplied("G12 circular pocket")),
+    (130, A::NotApplied("G13 circular pocket")),
+    (350, A::NotApplied("G35 automatic tool diameter")),
+    (360, A::NotApplied("G36 automatic work offset")),
+    (370, A::NotApplied("G37 automatic tool length")),
+    (470, A::NotApplied("G47 engraving")),
+    (700, A::NotApplied("G70 bolt hole circle")),
+    (710, A::NotApplied("G71 bolt hole arc")),
+    (720, A::NotApplied("G72 bolt holes along an angle")),
+    (1030, A::NoteWhole("G103 limit of block look-ahead")),
+    (1410, A::Compensation(Side::Left)),
+    (1500, A::NotApplied("G150 general pocket")),
+    (1530, A::NotApplied("G153 high-speed peck boring")),
+    (1540, A::WorkOffsetFurther),
+    (1870, A::NoteWhole("G187 smoothness of the path")),
+    (2340, A::ToolCentre(false)),
+    (2540, A::NotAppliedAlone("G254 dynamic work offset")),
+    (2550, A::Note("G255 dynamic work offset off")),
+    (2680, A::TiltedPlane { further: false }),
+];
+
+const M_CODES: [(u16, A); 5] = [
+    (31, A::Note("M31 chip conveyor")),
+    (33, A::Note("M33 chip conveyor off")),
+    (88, A::Note("M88 coolant through the spindle")),
+    (89, A::Note("M89 coolant through the spindle off")),
+    (97, A::LocalCall),
+];
