@@ -304,9 +304,9 @@ fn oracle_prediction_as_json() {
         let (ours, theirs) = (&ours["setting_command"][axis], &golden["setting_command"][axis]);
         near(&[number(ours)], &[number(theirs)], 1e-9);
     }
-    let blame = ours["blame"].as_array().expect("a list");
-    assert_eq!(blame.len(), 72 * 11);
-    let share = blame
+    let budget = ours["blame"].as_array().expect("a list");
+    assert_eq!(budget.len(), 72 * 11);
+    let share = budget
         .iter()
         .find(|s| s["error"] == "EA0A" && s["index"] == "coaxiality_lsc_mm")
         .expect("the share of EA0A");

@@ -19,7 +19,7 @@ const OTHER_WORDS: &str = "ball-bar cache-control content-security-policy conten
     x-content-type-options x-rot x-rot-point x-www-browser x-www-form-urlencoded \
     kebab-case serve-socket-request xdg-open xyzac-trt-kins xyzbc-trt-kins y-rot y-rot-point z-offset z-rot-point numbers";
 
-/// Codes of one word where no call shows that they are codes: matched to a kind of trouble or passed
+/// Codes of one word where no call shows that they are codes: matched to a kind of issue or passed
 /// to a closure.
 const SINGLE_WORDS: [&str; 2] = ["collision", "gouge"];
 

@@ -72,9 +72,9 @@ fn it_is_the_simulation_of_the_command_line() {
     assert_eq!(header["document"]["time_s"], header["duration_s"]);
     assert_eq!((&header["nodes"], &header["thinned"]), (&header["kept"], &json!(false)));
     let mark = &header["marks"].as_array().expect("marks")[0];
-    let trouble = &header["document"]["troubles"][0];
+    let issue = &header["document"]["troubles"][0];
     assert_eq!((&mark["kind"], &mark["grave"]), (&json!("collision"), &json!(true)));
-    assert_eq!((&mark["text"], &mark["time_s"]), (&trouble["text"], &trouble["from_s"]));
+    assert_eq!((&mark["text"], &mark["time_s"]), (&issue["text"], &issue["from_s"]));
     let number = &header["simulation"];
     for part in [0.3, 0.5, 0.9] {
         let body = json!({ "simulation": number, "time_s": part * duration_s });

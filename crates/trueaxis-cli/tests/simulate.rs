@@ -99,11 +99,11 @@ fn exit_status_says_whether_part_or_machine_are_in_danger() {
             let html = std::fs::read_to_string(&page).expect("a report");
             assert!(html.contains(verdict) && html.contains("over-travel: X goes to 400.000 mm"));
             let ran = run(&["simulate", MILL, &program, "--no-report", "--format", "json"], &[]);
-            let trouble = &ran.json()["troubles"][0];
+            let issue = &ran.json()["troubles"][0];
             assert_eq!(ran.status, 1);
-            assert_eq!((&trouble["code"], &trouble["axis"]), (&"over-travel".into(), &"X".into()));
-            assert_eq!((&trouble["grave"], &trouble["line"]), (&true.into(), &3.into()));
-            assert_eq!((&trouble["value"], &trouble["limit"]), (&400.0.into(), &300.0.into()));
+            assert_eq!((&issue["code"], &issue["axis"]), (&"over-travel".into(), &"X".into()));
+            assert_eq!((&issue["grave"], &issue["line"]), (&true.into(), &3.into()));
+            assert_eq!((&issue["value"], &issue["limit"]), (&400.0.into(), &300.0.into()));
         }
     }
 }

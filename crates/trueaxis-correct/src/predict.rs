@@ -6,7 +6,7 @@
 //!       └─ tolerances ──judge──> verdict
 //! ```
 
-mod blame;
+mod budget;
 mod correction;
 mod cutting;
 pub mod holes;
@@ -18,7 +18,7 @@ mod study;
 mod temperatures;
 mod what_if;
 
-pub use blame::{Blame, Share, blame};
+pub use budget::{ErrorBudget, Share, budget};
 pub use correction::{Correction, corrections};
 pub use cutting::{Cutting, DatumAxis, Reference};
 pub use judge::{Bench, Judge};
@@ -181,7 +181,7 @@ pub struct Prediction {
     /// The profiles, from the base upwards.
     pub sections: Vec<SectionResult>,
     /// The error budget.
-    pub blame: Blame,
+    pub budget: ErrorBudget,
     /// What each location error does to each index.
     pub sensitivities: Vec<Sensitivity>,
     /// Single corrections that would make a failing part pass; empty if it passes.
@@ -236,7 +236,7 @@ fn predicted(
         warnings: warnings(study, &indices, &sections),
         setting_command: *judge.cutting.setting_command(),
         commands: judge.cutting.commands().copied().collect(),
-        blame: blame(machine, judge)?,
+        budget: budget(machine, judge)?,
         sensitivities: sensitivities(machine, judge)?,
         variants: variants(study)?,
         indices,

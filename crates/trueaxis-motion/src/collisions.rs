@@ -1,8 +1,8 @@
 //! Watches all bodies along the path: collisions, near misses, rapid moves through stock.
 
 use super::collide::{Allowed, BodyModel, Contact, Role, Scene, Sweep, ToolShape};
+use super::issues::{IssueKind, Log};
 use super::setup::{Nearness, SetUp};
-use super::trouble::{Log, TroubleKind};
 use super::{Batch, Node, Observer, Stamp};
 use std::collections::BTreeMap;
 use trueaxis_machine::Machine;
@@ -82,7 +82,7 @@ impl Collisions {
             let time_s = from_s + contact.at * (stamp.time_s - from_s);
             let Some(kind) = kind(contact) else { continue };
             let limit = match kind {
-                TroubleKind::NearMiss { .. } => self.nearness.clearance_mm,
+                IssueKind::NearMiss { .. } => self.nearness.clearance_mm,
                 _ => 0.0,
             };
             let stamp = Stamp { time_s, ..*stamp };
@@ -94,17 +94,17 @@ impl Collisions {
 }
 
 /// The kind of issue of a contact; `None` if it belongs to the process.
-fn kind(contact: &Contact) -> Option<TroubleKind> {
+fn kind(contact: &Contact) -> Option<IssueKind> {
     let (first, second) = (contact.first.to_string(), contact.second.to_string());
     let overlap = contact.clearance_mm <= 0.0;
     let cuts = |a: Role, b: Role| a == Role::Cutter && matches!(b, Role::Stock | Role::Part);
     let (a, b) = contact.roles;
     if cuts(a, b) || cuts(b, a) {
-        return overlap.then_some(TroubleKind::RapidInStock { first, second });
+        return overlap.then_some(IssueKind::RapidInStock { first, second });
     }
     Some(match overlap {
-        true => TroubleKind::Collision { first, second },
-        false => TroubleKind::NearMiss { first, second },
+        true => IssueKind::Collision { first, second },
+        false => IssueKind::NearMiss { first, second },
     })
 }
 

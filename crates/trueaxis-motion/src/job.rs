@@ -3,7 +3,7 @@
 use super::collide::{BodyModel, load_models};
 use super::program::program_of;
 use super::{
-    AxisWatch, Batch, Collisions, Drift, Observer, Options, Run, SetUp, Summary, TroubleList,
+    AxisWatch, Batch, Collisions, Drift, IssueList, Observer, Options, Run, SetUp, Summary,
     read_program, read_setup, simulate,
 };
 use std::path::{Path, PathBuf};
@@ -129,8 +129,8 @@ impl Job {
         }
         let run = simulate(&self.machine, &self.program, &self.setup, &self.options, &mut all);
         let logs = [Some(watch.log), collisions.map(|c| c.log)];
-        let troubles = TroubleList::of(logs.into_iter().flatten());
-        Findings { run, summary, troubles, drift }
+        let issues = IssueList::of(logs.into_iter().flatten());
+        Findings { run, summary, issues, drift }
     }
 }
 
@@ -141,7 +141,7 @@ pub struct Findings {
     /// Its results.
     pub summary: Summary,
     /// The issues.
-    pub troubles: TroubleList,
+    pub issues: IssueList,
     /// The effect of changing temperatures, where they followed a log.
     pub drift: Option<Drift>,
 }

@@ -31,6 +31,7 @@ mod collisions;
 mod curve;
 mod densify;
 mod drift;
+mod issues;
 mod job;
 mod orientation;
 mod parquet_log;
@@ -48,7 +49,6 @@ mod temperatures;
 pub mod timing;
 mod tool_path;
 mod trace;
-mod trouble;
 
 pub use axis_path::{Fault, Node, PathStep};
 pub use body_table::{BODY_HEADINGS, BodyTable};
@@ -56,6 +56,7 @@ pub use clock::{Stamp, Timing, limit_name, limits};
 pub use collisions::Collisions;
 pub use densify::{Densify, pieces};
 pub use drift::{Drift, SensorRange};
+pub use issues::{AxisWatch, Issue, IssueKind, IssueList, Log};
 pub use job::{Findings, Job, ProgramFiles, Progress};
 #[cfg(feature = "parquet")]
 pub use parquet_table::ParquetTable;
@@ -70,7 +71,6 @@ pub use table::{CsvTable, POSE_COLUMNS, headings};
 pub use temperature_log::read_temperature_log;
 pub use tool_path::Batch;
 pub use trace::{Trace, TracedNode, block_line, trace};
-pub use trouble::{AxisWatch, Log, Trouble, TroubleKind, TroubleList};
 pub use trueaxis_nc::Stop;
 
 use axis_path::AxisPath;

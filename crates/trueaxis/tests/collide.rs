@@ -468,7 +468,7 @@ fn shipped_machines_are_free_to_move() {
 
 /// The cutter may be in the stock while it feeds, and never in rapid; the holder never.
 #[test]
-fn rapid_through_stock_is_trouble() {
+fn rapid_through_stock_is_an_issue() {
     let machine = five_axes();
     let stock =
         |size: f64| body("stock", Some(0), Role::Stock, cuboid(Vec3::new(size, size, size)));

@@ -47,7 +47,7 @@ fn law_no_errors_make_a_perfect_part() {
 fn law_a_shifted_mounting_drops_out() {
     let study = study();
     let before = predict(&study, &|_| {}).expect("a prediction");
-    for share in &before.blame.errors {
+    for share in &before.budget.errors {
         let name = share.of.to_string();
         // p1e and the errors of r_p drop out exactly (errata 000-17).
         if ["EX0w", "EY0w", "EZ0w", "EX0X", "EY0X", "EZ0X"].contains(&name.as_str()) {
@@ -64,7 +64,7 @@ fn law_offsets_behind_the_rotary_axes_do_not_drop_out() {
     let prediction = predict(&study, &|_| {}).expect("a prediction");
     let coaxiality = prediction.indices.iter().position(|i| i.name.key == "coaxiality_lsc_mm");
     for name in ["EY0A", "EX0t", "EY0t"] {
-        let share = prediction.blame.errors.iter().find(|s| s.of.to_string() == name);
+        let share = prediction.budget.errors.iter().find(|s| s.of.to_string() == name);
         let alone = share.expect("a stated error").alone_mm[coaxiality.expect("an index")];
         assert!(alone > 0.02, "{name} alone makes {alone} mm");
     }

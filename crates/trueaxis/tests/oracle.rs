@@ -79,10 +79,10 @@ fn oracle_indices_at_every_position() {
 }
 
 #[test]
-fn oracle_blame_of_every_error() {
+fn oracle_budget_of_every_error() {
     let (golden, ours) = (golden(), predicted());
     let mut worst = 0.0_f64;
-    for share in &ours.blame.errors {
+    for share in &ours.budget.errors {
         for (i, index) in ours.indices.iter().enumerate() {
             let entry = &golden["blame"][share.of.to_string()][theirs(index.name.key)];
             let pairs = [(share.alone_mm[i], "alone_mm"), (share.without_mm[i], "without_mm")];
@@ -94,7 +94,7 @@ fn oracle_blame_of_every_error() {
             }
         }
     }
-    assert_eq!(ours.blame.errors.len(), 72);
+    assert_eq!(ours.budget.errors.len(), 72);
     assert!(worst < 1e-9, "{worst:e} mm");
 }
 

@@ -50,8 +50,8 @@ fn prove(machine: &Machine, text: &str, options: &PostOptions) -> Result<[f64; 4
         true => Ok(found),
         false => {
             let codes: Vec<_> = proof.problems.iter().map(|p| p.code).collect();
-            let grave = proof.troubles.is_grave();
-            Err(format!("{found:?} {:?} {codes:?} grave {grave}", proof.tip_between))
+            let critical = proof.issues.is_critical();
+            Err(format!("{found:?} {:?} {codes:?} critical {critical}", proof.tip_between))
         }
     }
 }

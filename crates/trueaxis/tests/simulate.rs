@@ -334,7 +334,7 @@ fn a_tool_change_under_tcp_moves_no_axis() {
 }
 
 #[test]
-fn over_travel_on_a_machine_with_tables_is_trouble_not_an_error() {
+fn over_travel_on_a_machine_with_tables_is_an_issue_not_an_error() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../machines/xkas2525/machine.toml");
     let machine = trueaxis::files::machine(path.as_ref()).0.unwrap();
     let text = b"G1 X100. Y100. Z-100. F1000\nG1 Y-20.\nM30\n".to_vec();
@@ -343,7 +343,7 @@ fn over_travel_on_a_machine_with_tables_is_trouble_not_an_error() {
     let options = Options::default();
     let run = simulate(&machine, &program, &SetUp::default(), &options, &mut [&mut watch]);
     assert!(!run.problems.has_errors(), "{:?}", run.problems);
-    assert!(trueaxis::simulate::TroubleList::of([watch.log]).is_grave());
+    assert!(trueaxis::simulate::IssueList::of([watch.log]).is_critical());
 }
 
 /// Axes that are not square: where TCP begins, an axis that is not named must stay.

@@ -81,7 +81,8 @@ pub enum ProgramEntry<'a> {
         /// Errors of the program itself.
         errors: &'a [String],
         /// Critical issues, such as collisions.
-        grave: &'a [String],
+        #[serde(rename = "grave")]
+        critical: &'a [String],
         /// Minor issues, such as lost time.
         minor: &'a [String],
     },
@@ -211,7 +212,7 @@ impl<'a> From<&'a Result<ProgramCheck, String>> for ProgramEntry<'a> {
                 duration_s: check.duration_s,
                 sound: check.is_sound(),
                 errors: &check.errors,
-                grave: &check.grave,
+                critical: &check.critical,
                 minor: &check.minor,
             },
         }

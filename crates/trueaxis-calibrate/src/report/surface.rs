@@ -8,7 +8,7 @@ use trueaxis_report::{Report, Section, Standing};
 pub(super) fn issues(check: &ProgramCheck) -> Vec<String> {
     let mut lines = Vec::new();
     let lists =
-        [("ERROR", &check.errors), ("critical issue", &check.grave), ("note", &check.minor)];
+        [("ERROR", &check.errors), ("critical issue", &check.critical), ("note", &check.minor)];
     for (mark, list) in lists {
         let most = if mark == "note" { 2 } else { 10 };
         lines.extend(list.iter().take(most).map(|line| format!("{mark}: {line}")));

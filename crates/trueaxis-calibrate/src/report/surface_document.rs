@@ -26,7 +26,8 @@ pub struct SurfaceDocument<'a> {
     /// Errors of the program itself.
     pub errors: &'a [String],
     /// Critical issues, such as collisions.
-    pub troubles: &'a [String],
+    #[serde(rename = "troubles")]
+    pub issues: &'a [String],
     /// Minor issues, such as lost time.
     pub notes: &'a [String],
 }
@@ -59,7 +60,7 @@ impl<'a> SurfaceDocument<'a> {
             duration_s: check.duration_s,
             sound: check.is_sound(),
             errors: &check.errors,
-            troubles: &check.grave,
+            issues: &check.critical,
             notes: &check.minor,
         }
     }

@@ -346,7 +346,7 @@ impl Rewritten {
             let message = format!("read back, the tip leaves its path by {left} µrad");
             off(if tip.value > residual { tip.line } else { axis.line }, message, hint);
         }
-        if proof.troubles.is_grave() {
+        if proof.issues.is_critical() {
             let message = "in the compensated program an axis leaves its travel".to_owned();
             let hint = "move the part; simulate shows the block";
             found.warn("correction-leaves-travel", Place::whole(file), message, hint);

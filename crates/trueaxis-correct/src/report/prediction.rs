@@ -135,8 +135,8 @@ fn positions<'a>(prediction: &Prediction) -> Section<'a> {
 
 /// The contribution of each error, of each body, of each kind.
 fn budget(prediction: &Prediction) -> Vec<Section<'_>> {
-    let blame = &prediction.blame;
-    if blame.errors.is_empty() {
+    let budget = &prediction.budget;
+    if budget.errors.is_empty() {
         return Vec::new();
     }
     let note = "Alone: the index if there were only this error. Gain: what the index loses if the error is \
@@ -144,9 +144,9 @@ fn budget(prediction: &Prediction) -> Vec<Section<'_>> {
     let headings =
         decisive(prediction).flat_map(|(_, index)| [feature(&index.name), "alone", "gain"]);
     let ranked: Vec<_> = decisive(prediction)
-        .map(|(i, _)| (i, ranked(prediction, i, &blame.errors, MOST_ERRORS)))
+        .map(|(i, _)| (i, ranked(prediction, i, &budget.errors, MOST_ERRORS)))
         .collect();
-    let rows = (0..MOST_ERRORS.min(blame.errors.len())).map(|rank| {
+    let rows = (0..MOST_ERRORS.min(budget.errors.len())).map(|rank| {
         ranked.iter().flat_map(move |(i, shares)| {
             let share = shares[rank];
             let [alone, gain] = share_cells(prediction, *i, share);
@@ -178,14 +178,14 @@ fn groups(prediction: &Prediction) -> Table {
             decisive(prediction).map(|(i, _)| share_cells(prediction, i, share).join(" / "));
         [name].into_iter().chain(cells).collect()
     }
-    let kinds = prediction.blame.kinds.iter().map(|share| {
+    let kinds = prediction.budget.kinds.iter().map(|share| {
         let word = match share.of {
             ErrorKind::Location => "all location errors",
             ErrorKind::Motion => "all error motions",
         };
         row(prediction, word.to_owned(), share)
     });
-    let bodies = prediction.blame.bodies.iter();
+    let bodies = prediction.budget.bodies.iter();
     let bodies = bodies.map(|share| row(prediction, format!("all errors of {}", share.of), share));
     Table::new(by_index("group", prediction)).rows(kinds).rows(bodies)
 }

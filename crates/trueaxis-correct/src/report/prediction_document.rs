@@ -38,11 +38,14 @@ pub struct PredictionDocument<'a> {
     /// The form at each measuring position.
     pub positions: Vec<PositionEntry<'a>>,
     /// The share of each error in each index, the largest first.
-    pub blame: Vec<ShareEntry>,
+    #[serde(rename = "blame")]
+    pub budget: Vec<ShareEntry>,
     /// The same with all errors of a body together.
-    pub blame_by_body: Vec<ShareEntry>,
+    #[serde(rename = "blame_by_body")]
+    pub budget_by_body: Vec<ShareEntry>,
     /// The same with all location errors and all error motions together.
-    pub blame_by_kind: Vec<ShareEntry>,
+    #[serde(rename = "blame_by_kind")]
+    pub budget_by_kind: Vec<ShareEntry>,
     /// Slopes of the indices by each location error.
     pub sensitivity: Vec<SensitivityEntry>,
     /// Single corrections after which the part would pass, the smallest first.
@@ -207,7 +210,7 @@ impl<'a> PredictionDocument<'a> {
     pub fn of(study: &'a Study, prediction: &'a Prediction) -> Self {
         let axes = study.machine.axes();
         let names: Vec<IndexName> = prediction.indices.iter().map(|i| i.name).collect();
-        let blame = &prediction.blame;
+        let budget = &prediction.budget;
         let sections = prediction.sections.iter().zip(1..);
         let variants = prediction.variants.iter();
         Self {
@@ -221,9 +224,9 @@ impl<'a> PredictionDocument<'a> {
             judgements: prediction.verdict.judgements.iter().map(JudgementEntry::from).collect(),
             setting_command: command(axes, &prediction.setting_command),
             positions: sections.map(|(s, n)| PositionEntry::of(n, s, &names)).collect(),
-            blame: shares(prediction, &blame.errors, &names, ToString::to_string),
-            blame_by_body: shares(prediction, &blame.bodies, &names, ToString::to_string),
-            blame_by_kind: shares(prediction, &blame.kinds, &names, |kind| match kind {
+            budget: shares(prediction, &budget.errors, &names, ToString::to_string),
+            budget_by_body: shares(prediction, &budget.bodies, &names, ToString::to_string),
+            budget_by_kind: shares(prediction, &budget.kinds, &names, |kind| match kind {
                 ErrorKind::Location => "location errors".to_owned(),
                 ErrorKind::Motion => "error motions".to_owned(),
             }),

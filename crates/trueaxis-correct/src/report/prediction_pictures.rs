@@ -127,7 +127,7 @@ pub(super) fn contributions(prediction: &Prediction) -> impl Iterator<Item = Fig
                 alone_mm: share.alone_mm[i],
                 relief_mm: relief(prediction, i, share),
             };
-            let shares = ranked(prediction, i, &prediction.blame.errors, BARS);
+            let shares = ranked(prediction, i, &prediction.budget.errors, BARS);
             bars(500, &shares.into_iter().map(bar).collect::<Vec<_>>())
         })
     })

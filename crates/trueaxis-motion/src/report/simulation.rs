@@ -3,8 +3,8 @@
 use super::simulation_pictures::{axis_pictures, curves, marks_note};
 use super::simulation_views::tool_path;
 use crate::{
-    AxisUse, Drift, Findings, Job, Run, Series, SetUp, Summary, Trouble, TroubleKind, TroubleList,
-    Worst, limit_name, shown, unit,
+    AxisUse, Drift, Findings, Issue, IssueKind, IssueList, Job, Run, Series, SetUp, Summary, Worst,
+    limit_name, shown, unit,
 };
 use std::path::Path;
 use trueaxis_input::{Diagnostic, Severity};
@@ -31,7 +31,7 @@ pub struct Simulation<'a> {
     /// Times, paths, extents and the largest deviations.
     pub summary: &'a Summary,
     /// The issues that were found.
-    pub troubles: &'a TroubleList,
+    pub issues: &'a IssueList,
     /// The file of the path, if one was written.
     pub path_file: Option<&'a str>,
     /// The effect of changing temperatures, where they followed a log.
@@ -48,7 +48,7 @@ impl<'a> Simulation<'a> {
             setup: &job.setup,
             run: &found.run,
             summary: &found.summary,
-            troubles: &found.troubles,
+            issues: &found.issues,
             path_file: None,
             drift: found.drift.as_ref(),
         }
@@ -63,10 +63,10 @@ impl<'a> Simulation<'a> {
     }
 
     /// From which block to which.
-    fn blocks(&self, trouble: &Trouble) -> String {
-        match trouble.first == trouble.last {
-            true => self.block(trouble.first),
-            false => format!("{} to {}", self.block(trouble.first), self.block(trouble.last)),
+    fn blocks(&self, issue: &Issue) -> String {
+        match issue.first == issue.last {
+            true => self.block(issue.first),
+            false => format!("{} to {}", self.block(issue.first), self.block(issue.last)),
         }
     }
 
@@ -92,57 +92,57 @@ pub(super) fn control_name(control: Control) -> &'static str {
 }
 
 /// An issue in one sentence with its values.
-pub fn trouble_text(machine: &Machine, trouble: &Trouble) -> String {
+pub fn issue_text(machine: &Machine, issue: &Issue) -> String {
     let name = |axis: usize| machine.axes()[axis].name;
     let value =
         |axis: usize, v: f64| format!("{:.3} {}", shown(machine, axis, v), unit(machine, axis));
-    match &trouble.kind {
-        TroubleKind::Collision { first, second } => {
+    match &issue.kind {
+        IssueKind::Collision { first, second } => {
             format!("collision: {first} cuts into {second}, clearance 0 mm")
         }
-        TroubleKind::NearMiss { first, second } => {
-            format!("near miss: {first} comes to {:.3} mm of {second}", trouble.value)
+        IssueKind::NearMiss { first, second } => {
+            format!("near miss: {first} comes to {:.3} mm of {second}", issue.value)
         }
-        TroubleKind::RapidInStock { first, second } => {
+        IssueKind::RapidInStock { first, second } => {
             format!("rapid through stock: {first} in {second}, clearance 0 mm")
         }
-        TroubleKind::OverTravel { axis } => format!(
+        IssueKind::OverTravel { axis } => format!(
             "over-travel: {} goes to {}, its end is {}",
             name(*axis),
-            value(*axis, trouble.value),
-            value(*axis, trouble.limit)
+            value(*axis, issue.value),
+            value(*axis, issue.limit)
         ),
-        TroubleKind::OverSpeed { axis, near_pole } => format!(
+        IssueKind::OverSpeed { axis, near_pole } => format!(
             "over-speed: the feed needs {} of {}/s, its limit is {}/s{}; the control slows down",
-            value(*axis, trouble.value),
+            value(*axis, issue.value),
             name(*axis),
-            value(*axis, trouble.limit),
+            value(*axis, issue.limit),
             if *near_pole { " (near a pole of the rotary axes)" } else { "" }
         ),
-        TroubleKind::SlowedDown { axis, limit } => {
+        IssueKind::SlowedDown { axis, limit } => {
             let limit = limit_name(*limit);
-            let held = 100.0 * trouble.value;
+            let held = 100.0 * issue.value;
             format!("feed not held: {held:.1} % of it, because of the {limit} of {}", name(*axis))
         }
-        TroubleKind::RotaryFlip { axis } => format!(
+        IssueKind::RotaryFlip { axis } => format!(
             "flip: {} turns by {} while the tool turns by {:.3} deg",
             name(*axis),
-            value(*axis, trouble.value),
-            trouble.limit.to_degrees()
+            value(*axis, issue.value),
+            issue.limit.to_degrees()
         ),
     }
 }
 
 /// The code of an issue in JSON.
-pub fn trouble_code(kind: &TroubleKind) -> &'static str {
+pub fn issue_code(kind: &IssueKind) -> &'static str {
     match kind {
-        TroubleKind::Collision { .. } => "collision",
-        TroubleKind::NearMiss { .. } => "near-miss",
-        TroubleKind::RapidInStock { .. } => "rapid-in-stock",
-        TroubleKind::OverTravel { .. } => "over-travel",
-        TroubleKind::OverSpeed { .. } => "over-speed",
-        TroubleKind::SlowedDown { .. } => "slowed-down",
-        TroubleKind::RotaryFlip { .. } => "rotary-flip",
+        IssueKind::Collision { .. } => "collision",
+        IssueKind::NearMiss { .. } => "near-miss",
+        IssueKind::RapidInStock { .. } => "rapid-in-stock",
+        IssueKind::OverTravel { .. } => "over-travel",
+        IssueKind::OverSpeed { .. } => "over-speed",
+        IssueKind::SlowedDown { .. } => "slowed-down",
+        IssueKind::RotaryFlip { .. } => "rotary-flip",
     }
 }
 
@@ -184,8 +184,8 @@ pub fn simulation_report<'a>(s: Simulation<'a>, series: Option<&'a Series>) -> R
 
 fn verdict(s: &Simulation<'_>) -> (Standing, &'static str, String) {
     let count = |n: u64, noun: &str| format!("{n} {noun}{}", if n == 1 { "" } else { "s" });
-    let critical = s.troubles.list.iter().filter(|t| t.grave).count() as u64;
-    let all = s.troubles.list.len() as u64 + s.troubles.left_out;
+    let critical = s.issues.list.iter().filter(|t| t.critical).count() as u64;
+    let all = s.issues.list.len() as u64 + s.issues.left_out;
     let errors = s.run.problems.iter().filter(|d| d.severity == Severity::Error).count() as u64;
     let left_out = s.run.motion_left_out().count() as u64;
     match (critical, all - critical) {
@@ -406,13 +406,13 @@ fn temperature_section(s: &Simulation<'_>) -> Option<Section<'static>> {
 }
 
 /// A row of a table of issues.
-fn issue_row(s: &Simulation<'_>, t: &Trouble, also: &str) -> [String; 5] {
+fn issue_row(s: &Simulation<'_>, t: &Issue, also: &str) -> [String; 5] {
     [
-        if t.grave { "critical" } else { "time" }.to_owned(),
+        if t.critical { "critical" } else { "time" }.to_owned(),
         s.blocks(t),
         clock(t.from_s),
         clock(t.to_s - t.from_s),
-        trouble_text(s.machine, t) + also,
+        issue_text(s.machine, t) + also,
     ]
 }
 
@@ -421,16 +421,16 @@ fn issue_table() -> Table {
 }
 
 /// Issues that cost time only.
-fn minor_issues<'a>(s: &Simulation<'a>) -> Vec<&'a Trouble> {
-    s.troubles.list.iter().filter(|t| !t.grave).collect()
+fn minor_issues<'a>(s: &Simulation<'a>) -> Vec<&'a Issue> {
+    s.issues.list.iter().filter(|t| !t.critical).collect()
 }
 
 /// Critical issues one by one, the others once for each kind.
 fn issue_section(s: &Simulation<'_>) -> Section<'static> {
-    let critical = || s.troubles.list.iter().filter(|t| t.grave);
+    let critical = || s.issues.list.iter().filter(|t| t.critical);
     let mut issues = issue_table().most_on_terminal(MOST_ON_TERMINAL);
-    for trouble in critical().take(MOST_ROWS) {
-        issues = issues.bold_row(issue_row(s, trouble, ""));
+    for issue in critical().take(MOST_ROWS) {
+        issues = issues.bold_row(issue_row(s, issue, ""));
     }
     let minor = minor_issues(s);
     for (worst, count) in minor_kinds(&minor) {
@@ -441,7 +441,7 @@ fn issue_section(s: &Simulation<'_>) -> Section<'static> {
         issues.push(issue_row(s, worst, &also));
     }
     let unlisted = [critical().count(), minor.len()].map(|n| n.saturating_sub(MOST_ROWS) as u64);
-    let left_out = s.troubles.left_out + unlisted.iter().sum::<u64>();
+    let left_out = s.issues.left_out + unlisted.iter().sum::<u64>();
     let section = Section::new("Issues");
     match (issues.rows.is_empty(), left_out) {
         (true, _) => section.paragraph("None found."),
@@ -461,18 +461,18 @@ fn minor_section(s: &Simulation<'_>) -> Section<'static> {
 }
 
 /// The worst issue of each kind and how many of them there are, the worst first.
-fn minor_kinds<'t>(minor: &[&'t Trouble]) -> Vec<(&'t Trouble, usize)> {
-    let badness = |t: &Trouble| (t.value - t.limit).abs();
-    let mut kinds: Vec<(&Trouble, usize)> = Vec::new();
-    for trouble in minor {
-        match kinds.iter_mut().find(|(other, _)| other.kind == trouble.kind) {
+fn minor_kinds<'t>(minor: &[&'t Issue]) -> Vec<(&'t Issue, usize)> {
+    let badness = |t: &Issue| (t.value - t.limit).abs();
+    let mut kinds: Vec<(&Issue, usize)> = Vec::new();
+    for issue in minor {
+        match kinds.iter_mut().find(|(other, _)| other.kind == issue.kind) {
             Some((worst, count)) => {
                 *count += 1;
-                if badness(trouble) >= badness(worst) {
-                    *worst = trouble;
+                if badness(issue) >= badness(worst) {
+                    *worst = issue;
                 }
             }
-            None => kinds.push((trouble, 1)),
+            None => kinds.push((issue, 1)),
         }
     }
     kinds.sort_by(|a, b| badness(b.0).total_cmp(&badness(a.0)));

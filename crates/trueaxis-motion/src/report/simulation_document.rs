@@ -1,7 +1,7 @@
 //! A simulation for programs: the document `trueaxis/simulate/1`.
 
-use super::simulation::{Simulation, control_name, trouble_code, trouble_text};
-use crate::{AxisUse, Drift, Reversal, Trouble, TroubleKind, Worst, shown, unit};
+use super::simulation::{Simulation, control_name, issue_code, issue_text};
+use crate::{AxisUse, Drift, Issue, IssueKind, Reversal, Worst, shown, unit};
 use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_report::Keyed;
@@ -48,9 +48,11 @@ pub struct SimulationDocument<'a> {
     /// The first 1000 reversals of all axes, in order of time.
     pub reversals: Vec<ReversalEntry>,
     /// The issues that were found.
-    pub troubles: Vec<TroubleEntry<'a>>,
+    #[serde(rename = "troubles")]
+    pub issues: Vec<IssueEntry<'a>>,
     /// How many more of the same kinds were found, but not listed.
-    pub troubles_left_out: u64,
+    #[serde(rename = "troubles_left_out")]
+    pub issues_left_out: u64,
     /// How many functions of the program that move the tool or its place are not executed: they are among the
     /// diagnostics.
     pub motion_left_out: u64,
@@ -148,11 +150,12 @@ pub struct ReversalEntry {
 
 /// An issue over a stretch of the path.
 #[derive(Debug, Serialize, JsonSchema)]
-pub struct TroubleEntry<'a> {
+pub struct IssueEntry<'a> {
     /// `collision`, `near-miss`, `rapid-in-stock`, `over-travel`, `over-speed`, `slowed-down` or `rotary-flip`.
     pub code: &'static str,
     /// Whether part or machine are in danger; other issues cost time only.
-    pub grave: bool,
+    #[serde(rename = "grave")]
+    pub critical: bool,
     /// The issue in one sentence.
     pub text: String,
     /// The line where it begins.
@@ -169,13 +172,13 @@ pub struct TroubleEntry<'a> {
     pub nodes: u64,
     /// Its values.
     #[serde(flatten)]
-    pub values: TroubleValues<'a>,
+    pub values: IssueValues<'a>,
 }
 
 /// The values of an issue, by its code.
 #[derive(Debug, Serialize, JsonSchema)]
 #[serde(untagged)]
-pub enum TroubleValues<'a> {
+pub enum IssueValues<'a> {
     /// `collision`, `near-miss`, `rapid-in-stock`.
     Bodies {
         /// The two bodies.
@@ -271,8 +274,8 @@ impl<'a> SimulationDocument<'a> {
             axes: axes.map(|(i, axis)| axis_entry(s, i, axis)).collect(),
             deviation: DeviationEntry::of(s),
             reversals: summary.reversals.iter().map(|r| ReversalEntry::of(s, r)).collect(),
-            troubles: s.troubles.list.iter().map(|t| TroubleEntry::of(s, t)).collect(),
-            troubles_left_out: s.troubles.left_out,
+            issues: s.issues.list.iter().map(|t| IssueEntry::of(s, t)).collect(),
+            issues_left_out: s.issues.left_out,
             motion_left_out: s.run.motion_left_out().count() as u64,
             messages: &summary.messages,
             stops: summary.stops,
@@ -343,41 +346,41 @@ impl ReversalEntry {
     }
 }
 
-impl<'a> TroubleEntry<'a> {
-    fn of(s: &Simulation<'a>, t: &'a Trouble) -> Self {
+impl<'a> IssueEntry<'a> {
+    fn of(s: &Simulation<'a>, t: &'a Issue) -> Self {
         Self {
-            code: trouble_code(&t.kind),
-            grave: t.grave,
-            text: trouble_text(s.machine, t),
+            code: issue_code(&t.kind),
+            critical: t.critical,
+            text: issue_text(s.machine, t),
             line: t.first.line,
             program: t.first.program,
             last_line: t.last.line,
             from_s: t.from_s,
             to_s: t.to_s,
             nodes: t.nodes,
-            values: TroubleValues::of(s, t),
+            values: IssueValues::of(s, t),
         }
     }
 }
 
-impl<'a> TroubleValues<'a> {
-    fn of(s: &Simulation<'a>, t: &'a Trouble) -> Self {
+impl<'a> IssueValues<'a> {
+    fn of(s: &Simulation<'a>, t: &'a Issue) -> Self {
         let name = |axis: usize| s.machine.axes()[axis].name.to_string();
         match &t.kind {
-            TroubleKind::Collision { first, second }
-            | TroubleKind::NearMiss { first, second }
-            | TroubleKind::RapidInStock { first, second } => {
+            IssueKind::Collision { first, second }
+            | IssueKind::NearMiss { first, second }
+            | IssueKind::RapidInStock { first, second } => {
                 Self::Bodies { bodies: [first, second], clearance_mm: t.value }
             }
-            TroubleKind::OverTravel { axis } | TroubleKind::OverSpeed { axis, .. } => Self::Limit {
+            IssueKind::OverTravel { axis } | IssueKind::OverSpeed { axis, .. } => Self::Limit {
                 axis: name(*axis),
                 value: shown(s.machine, *axis, t.value),
                 limit: shown(s.machine, *axis, t.limit),
             },
-            TroubleKind::SlowedDown { axis, .. } => {
+            IssueKind::SlowedDown { axis, .. } => {
                 Self::Feed { axis: name(*axis), feed_ratio: t.value }
             }
-            TroubleKind::RotaryFlip { axis } => {
+            IssueKind::RotaryFlip { axis } => {
                 Self::Turn { axis: name(*axis), turned_deg: t.value.to_degrees() }
             }
         }

@@ -7,13 +7,13 @@ use trueaxis_machine::axis::Travel;
 use trueaxis_report::{DrawingError, Figure};
 
 fn marks(s: &Simulation<'_>) -> Vec<Mark> {
-    let all = s.troubles.list.iter();
-    all.map(|t| Mark { from_s: t.from_s, to_s: t.to_s, grave: t.grave }).collect()
+    let all = s.issues.list.iter();
+    all.map(|t| Mark { from_s: t.from_s, to_s: t.to_s, critical: t.critical }).collect()
 }
 
 /// The meaning of the coloured stretches, if there are any.
 pub(super) fn marks_note(s: &Simulation<'_>) -> String {
-    let any = |grave: bool| s.troubles.list.iter().any(|t| t.grave == grave);
+    let any = |critical: bool| s.issues.list.iter().any(|t| t.critical == critical);
     let note = |shown: bool, words: &'static str| if shown { words } else { "" };
     note(any(true), " Red stretches: part or machine are in danger.").to_owned()
         + note(any(false), " Yellow stretches: other issues.")

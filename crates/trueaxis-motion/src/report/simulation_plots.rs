@@ -8,7 +8,7 @@ use trueaxis_report::plots::{
 };
 
 /// Colour of what endangers part or machine.
-const GRAVE: RGBColor = RGBColor(179, 38, 30);
+const CRITICAL: RGBColor = RGBColor(179, 38, 30);
 /// Colour of what costs time only.
 const SLOW: RGBColor = RGBColor(230, 159, 0);
 
@@ -34,7 +34,7 @@ pub struct Mark {
     /// End, s.
     pub to_s: f64,
     /// Part or machine are in danger.
-    pub grave: bool,
+    pub critical: bool,
 }
 
 /// The common axis of the strips.
@@ -136,7 +136,7 @@ fn draw_strip(
     }
     mesh.draw().map_err(drawing_error)?;
     let least = end * 1.5 / f64::from(WIDTH);
-    for (marks, colour) in marks.iter().zip([SLOW, GRAVE]) {
+    for (marks, colour) in marks.iter().zip([SLOW, CRITICAL]) {
         for mark in marks {
             let from = time.shown(mark.from_s).min(end - least);
             let to = time.shown(mark.to_s).min(end);
@@ -146,7 +146,7 @@ fn draw_strip(
         }
     }
     for limit in strip.limits.iter().filter(|v| (low..=high).contains(*v)) {
-        let line = PathElement::new([(0.0, *limit), (end, *limit)], pen(GRAVE, 1));
+        let line = PathElement::new([(0.0, *limit), (end, *limit)], pen(CRITICAL, 1));
         chart.draw_series([line]).map_err(drawing_error)?;
     }
     for piece in outlines(&strip.band) {
@@ -207,8 +207,8 @@ fn outline<'a>(
 }
 
 /// Marks of one kind, those that run together in the picture as one.
-fn joined(marks: &[Mark], grave: bool, end_s: f64) -> Vec<Mark> {
-    let mut sorted: Vec<Mark> = marks.iter().filter(|m| m.grave == grave).copied().collect();
+fn joined(marks: &[Mark], critical: bool, end_s: f64) -> Vec<Mark> {
+    let mut sorted: Vec<Mark> = marks.iter().filter(|m| m.critical == critical).copied().collect();
     sorted.sort_by(|a, b| a.from_s.total_cmp(&b.from_s));
     let mut gap_s = 2.0 * end_s / f64::from(WIDTH);
     loop {
@@ -246,7 +246,7 @@ mod tests {
 
     #[test]
     fn marks_that_run_together_are_one() {
-        let mark = |from_s, to_s| Mark { from_s, to_s, grave: true };
+        let mark = |from_s, to_s| Mark { from_s, to_s, critical: true };
         let marks = [mark(50.0, 60.0), mark(1.0, 2.0), mark(59.0, 70.0)];
         assert_eq!(joined(&marks, true, 100.0), [mark(1.0, 2.0), mark(50.0, 70.0)]);
         assert!(joined(&marks, false, 100.0).is_empty());

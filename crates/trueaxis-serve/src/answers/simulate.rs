@@ -121,7 +121,7 @@ fn answer<'a>(
     problems: &'a Diagnostics,
 ) -> SimulateAnswer<'a> {
     let Simulated { machine, recording, programs } = &**simulated;
-    let troubles = found.troubles.list.iter();
+    let issues = found.issues.list.iter();
     let tools = simulation.setup.tools.iter();
     SimulateAnswer {
         duration_s: recording.end_s(),
@@ -131,7 +131,7 @@ fn answer<'a>(
         axes: recording.axes().into_iter().map(Into::into).collect(),
         quantities: recording.quantities().into_iter().map(Into::into).collect(),
         programs: programs.iter().map(Source::entry).collect(),
-        marks: troubles.map(|trouble| MarkEntry::of(machine, trouble)).collect(),
+        marks: issues.map(|issue| MarkEntry::of(machine, issue)).collect(),
         bodies: machine.bodies().iter().map(|b| b.name.to_string()).collect(),
         document: SimulationDocument::of(&Simulation::of(simulation, found)),
         tools: tools.map(|(number, tool)| SetUpToolEntry::of(*number, tool)).collect(),

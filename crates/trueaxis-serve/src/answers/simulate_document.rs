@@ -4,10 +4,8 @@ use super::describe::SurfaceEntry;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trueaxis::machine::Machine;
-use trueaxis::report::{
-    DiagnosticEntry, Keyed, SimulationDocument, array, trouble_code, trouble_text,
-};
-use trueaxis::simulate::{AxisRange, Moment, QuantityRange, SetUpTool, Trouble, shown};
+use trueaxis::report::{DiagnosticEntry, Keyed, SimulationDocument, array, issue_code, issue_text};
+use trueaxis::simulate::{AxisRange, Issue, Moment, QuantityRange, SetUpTool, shown};
 
 /// Simulates a program: a file of the project, or `name` and `text` of one that was dropped.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
@@ -135,7 +133,8 @@ pub(super) struct MarkEntry {
     /// Its kind, such as `collision`.
     kind: &'static str,
     /// Whether part or machine are in danger.
-    grave: bool,
+    #[serde(rename = "grave")]
+    critical: bool,
     /// When it begins, s.
     time_s: f64,
     /// When it ends, s; null if it is a moment.
@@ -149,15 +148,15 @@ pub(super) struct MarkEntry {
 }
 
 impl MarkEntry {
-    pub(super) fn of(machine: &Machine, trouble: &Trouble) -> Self {
+    pub(super) fn of(machine: &Machine, issue: &Issue) -> Self {
         Self {
-            kind: trouble_code(&trouble.kind),
-            grave: trouble.grave,
-            time_s: trouble.from_s,
-            until_s: Some(trouble.to_s).filter(|to_s| *to_s > trouble.from_s),
-            text: trouble_text(machine, trouble),
-            program: trouble.first.program,
-            line: trouble.first.line,
+            kind: issue_code(&issue.kind),
+            critical: issue.critical,
+            time_s: issue.from_s,
+            until_s: Some(issue.to_s).filter(|to_s| *to_s > issue.from_s),
+            text: issue_text(machine, issue),
+            program: issue.first.program,
+            line: issue.first.line,
         }
     }
 }

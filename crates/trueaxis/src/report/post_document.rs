@@ -105,7 +105,7 @@ impl VerificationEntry {
             axis_at_blocks_urad: largest(&v.axis_at_ends, 1e6),
             tip_on_path_um: largest(&v.tip_between, 1e3),
             axis_on_path_deg: largest(&v.axis_between, 1_f64.to_degrees()),
-            axes_beyond_travel: v.troubles.is_grave(),
+            axes_beyond_travel: v.issues.is_critical(),
         }
     }
 }

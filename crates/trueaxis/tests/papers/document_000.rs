@@ -176,7 +176,7 @@ fn of_a_lean(angle_rad: f64) -> Vec<f64> {
 
 /// The largest effect that any of these errors alone has on any index.
 fn largest_share(names: &[&str]) -> f64 {
-    let errors = PREDICTION.blame.errors.iter();
+    let errors = PREDICTION.budget.errors.iter();
     let shares: Vec<_> = errors.filter(|s| names.contains(&s.of.to_string().as_str())).collect();
     assert_eq!(shares.len(), names.len());
     shares.iter().flat_map(|s| &s.alone_mm).fold(0.0, |m, v| m.max(v.abs()))
@@ -189,7 +189,7 @@ fn coaxiality_per_error(name: &str) -> f64 {
     let command = &PREDICTION.setting_command;
     let errors = machine.errors_at(command, &[0.0; 6]).expect("within the tables");
     let value_mm = errors.get(stated.expect("a stated error").0);
-    let share = PREDICTION.blame.errors.iter().find(|s| s.of.to_string() == name);
+    let share = PREDICTION.budget.errors.iter().find(|s| s.of.to_string() == name);
     let at = PREDICTION.indices.iter().position(|i| i.name.key == "coaxiality_lsc_mm");
     share.expect("a share").alone_mm[at.expect("an index")] / value_mm.abs()
 }

@@ -11,10 +11,9 @@ use trueaxis_machine::axis::Command;
 use trueaxis_machine::chain::Link;
 use trueaxis_machine::models::{Shape, ToolSegment};
 use trueaxis_motion::collide::{BodyModel, Mesh, Role, load_models, triangles_of};
-use trueaxis_motion::report::trouble_text;
+use trueaxis_motion::report::issue_text;
 use trueaxis_motion::{
-    AxisWatch, Batch, Collisions, Observer, Options, SetUp, SetUpTool, Summary, TroubleList,
-    simulate,
+    AxisWatch, Batch, Collisions, IssueList, Observer, Options, SetUp, SetUpTool, Summary, simulate,
 };
 use trueaxis_nc::{Control, Program};
 
@@ -30,7 +29,7 @@ pub struct ProgramCheck {
     /// the program leave. Infinite if a station is not reached.
     pub off_station: f64,
     /// What would go wrong, in words.
-    pub grave: Vec<String>,
+    pub critical: Vec<String>,
     /// What costs only time, or comes near.
     pub minor: Vec<String>,
     /// Errors of the program itself.
@@ -40,7 +39,7 @@ pub struct ProgramCheck {
 impl ProgramCheck {
     /// Whether nothing is in its way.
     pub fn is_sound(&self) -> bool {
-        self.grave.is_empty() && self.errors.is_empty()
+        self.critical.is_empty() && self.errors.is_empty()
     }
 }
 
@@ -115,13 +114,13 @@ pub(in crate::plan) fn run(
     }
     let run = simulate(machine, program, setup, &Options::default(), &mut observers);
     let logs = [Some(watch.log), collisions.map(|c| c.log)];
-    let troubles = TroubleList::of(logs.into_iter().flatten());
-    let told = |grave: bool| {
-        let mut texts: Vec<String> = troubles
+    let issues = IssueList::of(logs.into_iter().flatten());
+    let told = |critical: bool| {
+        let mut texts: Vec<String> = issues
             .list
             .iter()
-            .filter(|t| t.grave == grave)
-            .map(|t| format!("line {}: {}", t.first.line, trouble_text(machine, t)))
+            .filter(|t| t.critical == critical)
+            .map(|t| format!("line {}: {}", t.first.line, issue_text(machine, t)))
             .collect();
         texts.dedup_by(|a, b| a.split_once(": ").map(|x| x.1) == b.split_once(": ").map(|x| x.1));
         texts
@@ -130,7 +129,7 @@ pub(in crate::plan) fn run(
     ProgramCheck {
         duration_s: summary.time_s,
         off_station: visits.nearest.iter().map(|(_, off)| *off).fold(0.0, f64::max),
-        grave: told(true),
+        critical: told(true),
         minor: told(false),
         errors: errors.map(|d| d.message.clone()).collect(),
     }

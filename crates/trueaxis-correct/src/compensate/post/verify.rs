@@ -5,7 +5,7 @@ use super::{BlockPlace, PostOptions, Posted, angle};
 use trueaxis_geometry::Vec3;
 use trueaxis_input::Diagnostics;
 use trueaxis_machine::Machine;
-use trueaxis_motion::{AxisWatch, Batch, Densify, Observer, Options, SetUp, TroubleList, simulate};
+use trueaxis_motion::{AxisWatch, Batch, Densify, IssueList, Observer, Options, SetUp, simulate};
 use trueaxis_nc::Program;
 
 /// The largest differences between program and file.
@@ -22,7 +22,7 @@ pub struct Verification {
     /// Of the tool axis, anywhere, rad.
     pub axis_between: Largest,
     /// Axes that leave their travel, or go too fast.
-    pub troubles: TroubleList,
+    pub issues: IssueList,
     /// What was found in the program itself.
     pub problems: Diagnostics,
 }
@@ -35,7 +35,7 @@ impl Verification {
         let increment_rad = 10_f64.powi(-i32::from(options.decimals.angle)).to_radians();
         self.compared > 0
             && !self.problems.has_errors()
-            && !self.troubles.is_grave()
+            && !self.issues.is_critical()
             && self.tip_between.value <= options.tolerance_mm + increment_mm
             && self.axis_between.value
                 <= options.axis_tolerance_rad + increment_rad + options.pole_rad
@@ -84,7 +84,7 @@ pub fn verify(machine: &Machine, posted: &Posted, options: &PostOptions) -> Veri
         &mut [&mut compare, &mut watch],
     );
     compare.skip_to(posted.places.len());
-    Verification { troubles: TroubleList::of([watch.log]), problems: run.problems, ..compare.found }
+    Verification { issues: IssueList::of([watch.log]), problems: run.problems, ..compare.found }
 }
 
 struct Compare<'p> {

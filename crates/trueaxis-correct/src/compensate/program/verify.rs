@@ -4,7 +4,7 @@ use super::found::{Found, Want};
 use super::stand::Stand;
 use trueaxis_input::Diagnostics;
 use trueaxis_machine::Machine;
-use trueaxis_motion::{AxisWatch, Batch, Densify, Observer, Options, SetUp, TroubleList, simulate};
+use trueaxis_motion::{AxisWatch, Batch, Densify, IssueList, Observer, Options, SetUp, simulate};
 use trueaxis_nc::Program;
 
 /// A largest value and the line of the program as it was.
@@ -65,7 +65,7 @@ pub struct Proof {
     /// Pieces compared at their ends.
     pub compared: u64,
     /// Axes that leave their travel or go too fast.
-    pub troubles: TroubleList,
+    pub issues: IssueList,
     /// What was found while the written program was read.
     pub problems: Diagnostics,
 }
@@ -107,7 +107,7 @@ pub(super) fn prove(
         after: after.residual,
         worst,
         compared: after.compared,
-        troubles: TroubleList::of([watch.log]),
+        issues: IssueList::of([watch.log]),
         problems: run.problems,
     }
 }

@@ -20,7 +20,7 @@ pub struct Share<T> {
 
 /// The shares of single errors, of bodies, and of constants against error motions.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Blame {
+pub struct ErrorBudget {
     /// Every stated error, in chain order.
     pub errors: Vec<Share<ErrorName>>,
     /// Every body with a stated error.
@@ -33,7 +33,7 @@ pub struct Blame {
 ///
 /// # Errors
 /// As [`Judge::indices`].
-pub fn blame(machine: &Machine, judge: &Judge<'_>) -> Result<Blame, Error> {
+pub fn budget(machine: &Machine, judge: &Judge<'_>) -> Result<ErrorBudget, Error> {
     let stated = machine.stated_errors();
     let errors = stated.iter().map(|&(index, name)| {
         share(
@@ -65,7 +65,7 @@ pub fn blame(machine: &Machine, judge: &Judge<'_>) -> Result<Blame, Error> {
     let kinds = kinds.into_iter().map(|kind| {
         share(judge, kind, |v| only(v, |i| i.kind == kind), |v| only(v, |i| i.kind != kind))
     });
-    Ok(Blame {
+    Ok(ErrorBudget {
         errors: errors.collect::<Result<_, _>>()?,
         bodies: bodies.collect::<Result<_, _>>()?,
         kinds: kinds.collect::<Result<_, _>>()?,

@@ -10,7 +10,7 @@ use trueaxis_nc::moves::Origin;
 
 /// The kind of an issue.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub enum TroubleKind {
+pub enum IssueKind {
     /// Two bodies touch or cut into each other.
     Collision {
         /// One of them.
@@ -60,11 +60,11 @@ pub enum TroubleKind {
 
 /// One issue over a stretch of the path.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Trouble {
+pub struct Issue {
     /// Its kind.
-    pub kind: TroubleKind,
+    pub kind: IssueKind,
     /// Whether the part or the machine is in danger; the others cost time only.
-    pub grave: bool,
+    pub critical: bool,
     /// The block where it begins.
     pub first: Origin,
     /// The block where it ends.
@@ -73,7 +73,7 @@ pub struct Trouble {
     pub from_s: f64,
     /// When it ends, s.
     pub to_s: f64,
-    /// The worst value: position, speed, speed ratio, angle or clearance; see [`trouble_text`](crate::report::trouble_text).
+    /// The worst value: position, speed, speed ratio, angle or clearance; see [`issue_text`](crate::report::issue_text).
     pub value: f64,
     /// The limit.
     pub limit: f64,
@@ -96,21 +96,21 @@ const FLIP_RAD: f64 = std::f64::consts::FRAC_PI_2;
 /// Issues in their order; consecutive ones of a kind are one.
 #[derive(Debug, Default)]
 pub struct Log {
-    list: Vec<Trouble>,
+    list: Vec<Issue>,
     left_out: u64,
-    open: BTreeMap<TroubleKind, Trouble>,
-    kept: BTreeMap<TroubleKind, usize>,
+    open: BTreeMap<IssueKind, Issue>,
+    kept: BTreeMap<IssueKind, usize>,
 }
 
 impl Log {
     /// Records an issue at a node; the value farthest from its limit is the worst of a stretch.
-    pub fn note(&mut self, kind: TroubleKind, node: &Node, stamp: &Stamp, value: f64, limit: f64) {
-        use TroubleKind::{Collision, OverTravel, RapidInStock};
-        let grave = matches!(kind, Collision { .. } | OverTravel { .. } | RapidInStock { .. });
+    pub fn note(&mut self, kind: IssueKind, node: &Node, stamp: &Stamp, value: f64, limit: f64) {
+        use IssueKind::{Collision, OverTravel, RapidInStock};
+        let critical = matches!(kind, Collision { .. } | OverTravel { .. } | RapidInStock { .. });
         let (origin, time_s) = (node.origin, stamp.time_s);
-        let entry = self.open.entry(kind.clone()).or_insert(Trouble {
+        let entry = self.open.entry(kind.clone()).or_insert(Issue {
             kind,
-            grave,
+            critical,
             first: origin,
             last: origin,
             from_s: time_s,
@@ -128,23 +128,23 @@ impl Log {
 
     /// An issue that was not recorded at this time has ended; one that costs only time, after a pause.
     pub fn close(&mut self, time_s: f64) {
-        let is_over = |t: &Trouble| t.to_s < time_s - if t.grave { 0.0 } else { PAUSE_S };
+        let is_over = |t: &Issue| t.to_s < time_s - if t.critical { 0.0 } else { PAUSE_S };
         if !self.open.values().any(is_over) {
             return;
         }
         let over = self.open.iter().filter(|(_, t)| is_over(t)).map(|(k, _)| k.clone());
         for kind in over.collect::<Vec<_>>() {
-            if let Some(trouble) = self.open.remove(&kind) {
-                self.keep(trouble);
+            if let Some(issue) = self.open.remove(&kind) {
+                self.keep(issue);
             }
         }
     }
 
-    fn keep(&mut self, trouble: Trouble) {
-        let count = self.kept.entry(trouble.kind.clone()).or_default();
+    fn keep(&mut self, issue: Issue) {
+        let count = self.kept.entry(issue.kind.clone()).or_default();
         *count += 1;
         if *count <= MOST {
-            self.list.push(trouble);
+            self.list.push(issue);
         } else {
             self.left_out += 1;
         }
@@ -158,14 +158,14 @@ impl Log {
 
 /// The issues of a whole run.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct TroubleList {
+pub struct IssueList {
     /// In the order of time.
-    pub list: Vec<Trouble>,
+    pub list: Vec<Issue>,
     /// How many more there were than are kept.
     pub left_out: u64,
 }
 
-impl TroubleList {
+impl IssueList {
     /// All that some logs hold.
     pub fn of(logs: impl IntoIterator<Item = Log>) -> Self {
         let mut all = Self::default();
@@ -179,8 +179,8 @@ impl TroubleList {
     }
 
     /// Whether part or machine are in danger anywhere.
-    pub fn is_grave(&self) -> bool {
-        self.list.iter().any(|t| t.grave)
+    pub fn is_critical(&self) -> bool {
+        self.list.iter().any(|t| t.critical)
     }
 }
 
@@ -208,7 +208,7 @@ impl AxisWatch {
                 && !travel.contains(q)
             {
                 let limit = if q > high { high } else { low };
-                self.log.note(TroubleKind::OverTravel { axis: i }, node, stamp, q, limit);
+                self.log.note(IssueKind::OverTravel { axis: i }, node, stamp, q, limit);
             }
         }
     }
@@ -226,7 +226,7 @@ impl AxisWatch {
                 let rotary = axis.kind == AxisKind::Rotary;
                 let near = |c: &TipControl| c.pole_sine(&node.command) < NEAR_POLE;
                 let near_pole = rotary && self.control.as_ref().is_some_and(near);
-                let kind = TroubleKind::OverSpeed { axis: i, near_pole };
+                let kind = IssueKind::OverSpeed { axis: i, near_pole };
                 self.log.note(kind, node, stamp, demanded, limit);
                 slowed = true;
             }
@@ -236,7 +236,7 @@ impl AxisWatch {
             && stamp.speed < 0.999 * node.speed
             && !node.stop
         {
-            let kind = TroubleKind::SlowedDown { axis: held.axis, limit: held.kind };
+            let kind = IssueKind::SlowedDown { axis: held.axis, limit: held.kind };
             self.log.note(kind, node, stamp, stamp.speed / node.speed, 1.0);
         }
     }
@@ -248,7 +248,7 @@ impl AxisWatch {
         for (i, axis) in self.machine.axes().iter().enumerate() {
             let by = (node.command[i] - before[i]).abs();
             if axis.kind == AxisKind::Rotary && by - turned_rad > FLIP_RAD {
-                self.log.note(TroubleKind::RotaryFlip { axis: i }, node, stamp, by, turned_rad);
+                self.log.note(IssueKind::RotaryFlip { axis: i }, node, stamp, by, turned_rad);
             }
         }
     }
