@@ -158,7 +158,7 @@ impl Answer for Simulated {
     }
 
     fn is_yes(&self) -> bool {
-        !self.found.troubles.is_grave() && self.found.run.motion_left_out().next().is_none()
+        !self.found.issues.is_critical() && self.found.run.motion_left_out().next().is_none()
     }
 
     fn in_spite_of_errors(&self) -> Option<&'static str> {
