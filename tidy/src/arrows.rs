@@ -1,6 +1,7 @@
 //! Which source file uses which: read from `use` lines and paths, so that the order of crates and rooms is
 //! a rule and not a habit.
 
+use crate::before_tests;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
@@ -58,11 +59,6 @@ pub fn read_source(file: &str, module: &[String], text: &str) -> Source {
         }
     }
     source
-}
-
-/// The part of a source before its unit tests.
-fn before_tests(text: &str) -> &str {
-    text.split("#[cfg(test)]").next().unwrap_or(text)
 }
 
 struct UsedPath {

@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use tidy::arrows::{Modules, arrows, circles, module_of, read_source};
+use tidy::before_tests;
+use tidy::units::without_unit;
 
 const MAX_LINES_BEFORE_TESTS: usize = 600;
 const MAX_LINES_OF_A_CRATE: usize = 20_000;
@@ -43,11 +45,6 @@ fn sources() -> Vec<(PathBuf, String)> {
     inner.map(|p| (p.clone(), read(&p))).collect()
 }
 
-/// The part of a source before its unit tests.
-fn before_tests(text: &str) -> &str {
-    text.split("#[cfg(test)]").next().unwrap_or(text)
-}
-
 fn shown(path: &Path) -> String {
     path.strip_prefix(root()).unwrap_or(path).display().to_string()
 }
@@ -84,6 +81,20 @@ fn unexplained_panics() -> Vec<String> {
             if !doc && !explained && panics.iter().any(|p| code.contains(p)) {
                 found.push(format!("{}:{}: {}", shown(&path), i + 1, line.trim()));
             }
+        }
+    }
+    found
+}
+
+/// Public numbers of the crates whose unit is neither in their name nor in their doc comment.
+fn numbers_without_unit() -> Vec<String> {
+    let mut found = Vec::new();
+    for (path, text) in sources() {
+        for (line, name) in without_unit(before_tests(&text)) {
+            found.push(format!(
+                "{}:{line}: `{name}`: end the name with its unit, or its doc comment with “Unit: mm.”",
+                shown(&path)
+            ));
         }
     }
     found
@@ -492,11 +503,12 @@ fn prose_is_parted_from_code() {
 
 #[test]
 fn house_rules() {
-    let rules: [(&str, Rule); 15] = [
+    let rules: [(&str, Rule); 16] = [
         ("files are short", long_files),
         ("every source says what is in it", without_head),
         ("names say what is inside", vague_names),
         ("no panic without `// why:`", unexplained_panics),
+        ("public numbers name their unit", numbers_without_unit),
         ("cited equations exist", lost_equations),
         ("no place of a developer's machine", foreign_places),
         ("machines name their source", machines_without_source),

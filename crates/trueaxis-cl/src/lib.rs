@@ -44,7 +44,7 @@ use trueaxis_nc::moves::{Coolant, Feed, SpindleDirection};
 pub struct ClPoint {
     /// The tip in the workpiece frame, mm.
     pub tip_mm: [f64; 3],
-    /// The tool axis: unit vector from the tip to the spindle.
+    /// The tool axis: unit vector from the tip to the spindle. Unit: 1.
     pub axis: [f64; 3],
     /// Whether it is reached in rapid traverse.
     pub rapid: bool,
@@ -57,7 +57,7 @@ pub struct ClPoint {
 pub struct ClCircle {
     /// Its centre, mm.
     pub center_mm: [f64; 3],
-    /// Unit vector of the axis; the tool moves counter-clockwise about it.
+    /// Unit vector of the axis; the tool moves counter-clockwise about it. Unit: 1.
     pub normal: [f64; 3],
 }
 

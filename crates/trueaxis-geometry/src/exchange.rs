@@ -51,7 +51,7 @@ pub struct Selection {
     pub poses: Vec<usize>,
     /// Total duration, s.
     pub cost_s: f64,
-    /// The criterion after the greedy start and after each exchange, not increasing.
+    /// The criterion after the greedy start and after each exchange, not increasing. Unit: 1.
     pub history: Vec<f64>,
 }
 

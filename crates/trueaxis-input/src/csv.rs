@@ -9,7 +9,7 @@ pub struct CsvColumn {
     pub name: String,
     /// The place of the heading.
     pub place: Place,
-    /// The numbers, one for each row.
+    /// The numbers, one for each row. Unit: that of the heading.
     pub values: Vec<f64>,
 }
 

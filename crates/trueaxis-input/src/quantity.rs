@@ -214,9 +214,9 @@ impl fmt::Display for Dimension {
 /// A value and, if stated, its standard uncertainty, both in the inner unit.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MeasuredValue {
-    /// The value.
+    /// The value. Unit: that of the dimension.
     pub value: f64,
-    /// The standard uncertainty u (GUM), `None` if none was stated.
+    /// The standard uncertainty u (GUM), `None` if none was stated. Unit: that of the dimension.
     pub u: Option<f64>,
 }
 

@@ -31,7 +31,7 @@ pub struct Column {
     pub place: Place,
     /// The accepted content.
     pub cells: Cells,
-    /// One value for each row.
+    /// One value for each row. Unit: that of the heading.
     pub values: Vec<f64>,
 }
 

@@ -50,11 +50,11 @@ impl Travel {
 /// Maximum velocity, acceleration and jerk, where stated; mm or rad, and s.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Limits {
-    /// mm/s or rad/s.
+    /// The largest velocity. Unit: mm/s or rad/s.
     pub velocity: Option<f64>,
-    /// mm/s² or rad/s².
+    /// The largest acceleration. Unit: mm/s² or rad/s².
     pub acceleration: Option<f64>,
-    /// mm/s³ or rad/s³.
+    /// The largest jerk. Unit: mm/s³ or rad/s³.
     pub jerk: Option<f64>,
 }
 
@@ -69,7 +69,7 @@ pub struct Axis {
     pub direction: Vec3,
     /// Whether it carries the workpiece or the tool.
     pub carries: AxisSide,
-    /// +1 if a positive command moves the *body* in the positive direction, else −1.
+    /// +1 if a positive command moves the *body* in the positive direction, else −1. Unit: 1.
     pub sense: f64,
     /// The range of its positions.
     pub travel: Travel,

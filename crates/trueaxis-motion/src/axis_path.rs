@@ -40,10 +40,10 @@ pub struct Node {
     pub command: Command,
     /// The block.
     pub origin: Origin,
-    /// The distance from the previous node along the programmed path: of the tip in mm; degrees of the
-    /// rotary axes where only they move.
+    /// The distance from the previous node along the programmed path: of the tip, or of the
+    /// rotary axes where only they move. Unit: mm or deg.
     pub length: f64,
-    /// The programmed speed along the path, mm/s or deg/s; infinite in rapid.
+    /// The programmed speed along the path; infinite in rapid. Unit: mm/s or deg/s.
     pub speed: f64,
     /// The last node of its move.
     pub last: bool,

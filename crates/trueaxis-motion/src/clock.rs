@@ -12,7 +12,7 @@ use trueaxis_machine::axis::{AxisKind, Command, Limits, MAX_AXES};
 pub struct Stamp {
     /// From the start of the program, s.
     pub time_s: f64,
-    /// Along the path, mm/s or deg/s.
+    /// Along the path. Unit: mm/s or deg/s.
     pub speed: f64,
     /// The limit that keeps the speed below the programmed one.
     pub held_by: Option<Limiting>,

@@ -74,8 +74,9 @@ pub struct Issue {
     /// When it ends, s.
     pub to_s: f64,
     /// The worst value: position, speed, speed ratio, angle or clearance; see [`issue_text`](crate::report::issue_text).
+    /// Unit: mm, rad, mm/s, rad/s or 1, by its kind.
     pub value: f64,
-    /// The limit.
+    /// The limit. Unit: that of the value.
     pub limit: f64,
     /// Nodes in it.
     pub nodes: u64,

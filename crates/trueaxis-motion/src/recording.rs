@@ -43,11 +43,11 @@ pub struct AxisRange {
     pub name: String,
     /// mm or deg.
     pub unit: &'static str,
-    /// The ends of its travel, if it has any.
+    /// The ends of its travel, if it has any. Unit: that of `unit`.
     pub travel: Option<[f64; 2]>,
-    /// Its greatest velocity, if stated, per s.
+    /// Its greatest velocity, if stated. Unit: that of `unit` per s.
     pub velocity: Option<f64>,
-    /// Its greatest acceleration, if stated, per s².
+    /// Its greatest acceleration, if stated. Unit: that of `unit` per s².
     pub acceleration: Option<f64>,
 }
 

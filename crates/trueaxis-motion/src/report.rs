@@ -6,5 +6,5 @@ mod simulation_pictures;
 mod simulation_plots;
 mod simulation_views;
 
-pub use simulation::{Simulation, clock, simulation_report, issue_code, issue_text};
+pub use simulation::{Simulation, clock, issue_code, issue_text, simulation_report};
 pub use simulation_document::SimulationDocument;

@@ -10,7 +10,7 @@ use trueaxis_nc::moves::{Event, Origin, Step};
 /// The largest value, and where it occurs.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Worst {
-    /// The value.
+    /// The value. Unit: mm, rad, mm/s or rad/s, by its use.
     pub value: f64,
     /// The block.
     pub origin: Origin,
@@ -29,11 +29,11 @@ impl Worst {
 /// The motion of one axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxisUse {
-    /// The lowest position, mm or rad.
+    /// The lowest position. Unit: mm or rad.
     pub lowest: f64,
-    /// The highest position, mm or rad.
+    /// The highest position. Unit: mm or rad.
     pub highest: f64,
-    /// The distance that it travels, mm or rad.
+    /// The distance that it travels. Unit: mm or rad.
     pub travelled: f64,
     /// How often it changes its direction.
     pub reversals: u64,
@@ -46,7 +46,7 @@ pub struct AxisUse {
 pub struct Reversal {
     /// Its index.
     pub axis: usize,
-    /// Its position, mm or rad.
+    /// Its position. Unit: mm or rad.
     pub at: f64,
     /// The block that turns back.
     pub origin: Origin,

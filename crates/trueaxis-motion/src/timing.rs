@@ -29,11 +29,11 @@ use trueaxis_machine::axis::{Command, Limits, MAX_AXES};
 /// 1e6, 1e9 and 1e12 units of the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxisLimits {
-    /// mm/s or rad/s.
+    /// Largest velocities. Unit: mm/s or rad/s.
     pub velocity: [f64; MAX_AXES],
-    /// mm/s² or rad/s².
+    /// Largest accelerations. Unit: mm/s² or rad/s².
     pub acceleration: [f64; MAX_AXES],
-    /// mm/s³ or rad/s³.
+    /// Largest jerks. Unit: mm/s³ or rad/s³.
     pub jerk: [f64; MAX_AXES],
 }
 
@@ -82,15 +82,17 @@ const LARGEST: f64 = 1e9;
 pub struct Node {
     /// Commanded axis positions, mm and rad.
     pub command: Command,
-    /// Length of the path from the node before, > 0: mm of the tool tip, or an angle where nothing
-    /// but the tool axis moves; the caller chooses the unit. Ignored at the first node.
+    /// Length of the path from the node before, > 0: of the tool tip, or an angle where nothing
+    /// but the tool axis moves; the caller chooses the unit of the path. Ignored at the first node.
+    /// Unit: that of the path.
     pub length: f64,
     /// Largest dσ/dt on the path from the previous node; infinite for a rapid move.
+    /// Unit: that of the path per s.
     pub feed: f64,
     /// Exact stop: the velocity at this node is zero.
     pub stop: bool,
-    /// How far each axis may leave the corner at this node, mm or rad. A corner with an axis that
-    /// turns off and may not leave it is a stop.
+    /// How far each axis may leave the corner at this node. A corner with an axis that
+    /// turns off and may not leave it is a stop. Unit: mm or rad.
     pub tolerance: [f64; MAX_AXES],
     /// Rest after this node; more than 0 s makes it a stop.
     pub dwell_s: f64,
@@ -125,11 +127,11 @@ pub struct Timed {
     pub index: usize,
     /// Time at which the path is at the node (the middle of its blend), before its dwell.
     pub t_s: f64,
-    /// Length of the path from the first node.
+    /// Length of the path from the first node. Unit: that of the path.
     pub sigma: f64,
-    /// Velocity along the path.
+    /// Velocity along the path. Unit: that of the path per s.
     pub sigma_dot: f64,
-    /// Half the length of the blend at the node; 0 without one.
+    /// Half the length of the blend at the node; 0 without one. Unit: that of the path.
     pub blend: f64,
     /// The limit that keeps the velocity here below the programmed feed; none at a programmed stop.
     pub limiting: Option<Limiting>,
@@ -142,13 +144,13 @@ pub struct Phase {
     pub t_s: f64,
     /// How long.
     pub duration_s: f64,
-    /// Length of the path at the begin.
+    /// Length of the path at the begin. Unit: that of the path.
     pub sigma: f64,
-    /// Velocity along the path at the begin.
+    /// Velocity along the path at the begin. Unit: that of the path per s.
     pub velocity: f64,
-    /// Acceleration along the path at the begin.
+    /// Acceleration along the path at the begin. Unit: that of the path per s².
     pub acceleration: f64,
-    /// Jerk along the path.
+    /// Jerk along the path. Unit: that of the path per s³.
     pub jerk: f64,
 }
 

@@ -31,7 +31,7 @@ pub struct Batch<'a> {
     pub poses: &'a DeviationTable,
     /// Each deviation of the tip along feed, normal and binormal, mm.
     pub along_path_mm: &'a [Vec3],
-    /// The side from which each axis came.
+    /// The side from which each axis came. Unit: 1.
     pub approaches: [&'a [f64]; MAX_AXES],
 }
 

@@ -141,7 +141,7 @@ pub enum Coordinates {
 /// and U, V, W are only shifted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
-    /// Rotation, scale and mirroring of X, Y and Z: the matrix row by row.
+    /// Rotation, scale and mirroring of X, Y and Z: the matrix row by row. Unit: 1.
     pub linear: [[f64; 3]; 3],
     /// The origin of the program frame, mm and degrees.
     pub shift: Position,
@@ -222,9 +222,9 @@ pub enum OrientationPath {
 /// The cone on which the tool axis moves; values that are not given follow from the end directions.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Cone {
-    /// Its axis in the program frame, of any length: A6 B6 C6.
+    /// Its axis in the program frame, of any length: A6 B6 C6. Unit: 1.
     pub axis: Option<[f64; 3]>,
-    /// An intermediate direction in the program frame, of any length: A7 B7 C7 of ORICONIO.
+    /// An intermediate direction in the program frame, of any length: A7 B7 C7 of ORICONIO. Unit: 1.
     pub through: Option<[f64; 3]>,
     /// The angle between its axis and its generatrices, half of the opening angle, degrees: NUT.
     pub half_opening_deg: Option<f64>,
@@ -289,7 +289,7 @@ pub struct Feed {
     /// The unit of the value.
     pub mode: FeedMode,
     /// The value in mm/min (degrees/min if only rotary axes move), 1/min or mm/revolution; 0 if none
-    /// is programmed.
+    /// The value; 0 if none is programmed. Unit: mm/min or deg/min, 1/min or mm/rev, by the mode.
     pub value: f64,
 }
 
@@ -311,7 +311,7 @@ pub struct Arc {
 pub struct SpatialArc {
     /// The centre in the program frame, mm.
     pub center_mm: [f64; 3],
-    /// The unit vector of the axis in the program frame; the tool moves counter-clockwise about it.
+    /// The unit vector of the axis in the program frame; the tool moves counter-clockwise about it. Unit: 1.
     pub normal: [f64; 3],
     /// Number of turns begun: 1 up to and including a full circle.
     pub turns: u32,
@@ -381,7 +381,7 @@ pub struct Move {
     pub rotary_directions: [RotaryDirection; 3],
     /// The coordinates of the target.
     pub coordinates: Coordinates,
-    /// The tool axis in the program frame if it is programmed as a vector; of any length, as written.
+    /// The tool axis in the program frame if it is programmed as a vector; of any length, as written. Unit: 1.
     pub direction: Option<[f64; 3]>,
     /// The feed; without meaning for [`MoveKind::Rapid`].
     pub feed: Feed,

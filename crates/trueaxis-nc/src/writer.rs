@@ -121,7 +121,7 @@ pub struct ToolCall<'a> {
     pub number: u32,
     /// Its description, for a comment.
     pub text: &'a str,
-    /// Spindle speed, 1/min, for controls that state it with the tool.
+    /// Spindle speed, for controls that state it with the tool. Unit: 1/min.
     pub speed_per_minute: Option<f64>,
 }
 
@@ -141,7 +141,7 @@ pub struct Target {
     pub place: Position,
     /// The axes that move.
     pub named: AxisSet,
-    /// The tool axis, if it is written as a vector.
+    /// The tool axis, if it is written as a vector. Unit: 1.
     pub direction: Option<[f64; 3]>,
     /// The coordinates of the position.
     pub coordinates: Coordinates,

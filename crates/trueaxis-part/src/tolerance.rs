@@ -52,7 +52,7 @@ pub struct Judgement {
     pub expanded_mm: Option<f64>,
     /// The tolerance, mm.
     pub limit_mm: f64,
-    /// Value / tolerance: 0.25 means that a quarter of the tolerance is used up.
+    /// Value / tolerance: 0.25 means that a quarter of the tolerance is used up. Unit: 1.
     pub used_ratio: f64,
     /// Whether this index is in tolerance.
     pub outcome: Outcome,

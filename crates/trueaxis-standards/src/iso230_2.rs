@@ -111,11 +111,11 @@ impl Quantity {
 pub struct Approached {
     /// How many readings.
     pub count: usize,
-    /// x̄, the mean deviation.
+    /// x̄, the mean deviation. Unit: mm or rad.
     pub mean: f64,
-    /// s, the estimator of repeatability with n − 1; `None` for one reading.
+    /// s, the estimator of repeatability with n − 1; `None` for one reading. Unit: mm or rad.
     pub s: Option<f64>,
-    /// The least and the largest deviation.
+    /// The least and the largest deviation. Unit: mm or rad.
     pub extremes: [f64; 2],
 }
 
@@ -145,7 +145,7 @@ impl Approached {
 /// The results at one target, mm or rad.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Position {
-    /// The target position.
+    /// The target position. Unit: mm or rad.
     pub target: f64,
     /// Rising.
     pub up: Option<Approached>,
@@ -197,9 +197,9 @@ pub struct Positioning {
     pub kind: AxisKind,
     /// At every target, rising.
     pub positions: Vec<Position>,
-    /// In the order of [`Quantity::ALL`], mm or rad; `None` where the readings do not allow it.
+    /// In the order of [`Quantity::ALL`]; `None` where the readings do not allow it. Unit: mm or rad.
     pub values: [Option<f64>; 12],
-    /// Expanded uncertainty, k = 2.
+    /// Expanded uncertainty, k = 2. Unit: mm or rad.
     pub expanded: [Option<f64>; 12],
     /// Where the uncertainty comes from.
     pub budget: Option<Budget>,

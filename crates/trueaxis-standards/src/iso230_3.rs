@@ -18,15 +18,15 @@ pub struct Channel {
     pub name: String,
     /// Length, angle or temperature.
     pub dimension: Dimension,
-    /// The readings.
+    /// The readings. Unit: mm, rad or °C.
     pub values: Vec<f64>,
-    /// Range over the whole record.
+    /// Range over the whole record. Unit: mm, rad or °C.
     pub range: f64,
-    /// Range over the first window.
+    /// Range over the first window. Unit: mm, rad or °C.
     pub first_window: f64,
     /// The largest range over any window, and where it begins, s.
     pub largest_window: (f64, f64),
-    /// Last − first.
+    /// Last − first. Unit: mm, rad or °C.
     pub end: f64,
 }
 

@@ -71,7 +71,7 @@ pub struct DiagonalResult {
     pub measurement: Measurement,
     /// Its parameters.
     pub result: Positioning,
-    /// Slope of the mean deviation: how much it is too long, as a ratio. `None` from one target.
+    /// Slope of the mean deviation: how much it is too long, as a ratio. `None` from one target. Unit: 1.
     pub stretch: Option<f64>,
 }
 

@@ -28,10 +28,10 @@ const FITS: f64 = 3.0;
 pub struct Convention {
     /// What to change, in words.
     pub change: String,
-    /// The residual without the change, in units of the noise.
+    /// The residual without the change, in units of the noise. Unit: 1.
     #[serde(rename = "before_times_noise")]
     pub before: f64,
-    /// The residual with the change, in units of the noise.
+    /// The residual with the change, in units of the noise. Unit: 1.
     #[serde(rename = "after_times_noise")]
     pub after: f64,
     /// How many changes this is of.
@@ -54,7 +54,7 @@ impl Convention {
 pub struct ConventionCheck {
     /// Number of changes tried.
     pub tried: usize,
-    /// The residual as the readings are, in units of the noise.
+    /// The residual as the readings are, in units of the noise. Unit: 1.
     #[serde(rename = "residual_times_noise")]
     pub residual: f64,
     /// Changes that fit far better, the best first.

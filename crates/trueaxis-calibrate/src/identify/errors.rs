@@ -139,15 +139,15 @@ pub struct Identification {
     pub verdict: Verdict,
     /// What the residual follows.
     pub fields: Vec<Field>,
-    /// Uncertainties were enlarged by this (1: not at all).
+    /// Uncertainties were enlarged by this (1: not at all). Unit: 1.
     pub birge: f64,
     /// What each row does.
     pub influences: Influences,
-    /// The weights of the rows; empty: all 1.
+    /// The weights of the rows; empty: all 1. Unit: 1.
     pub weights: Vec<f64>,
     /// How many places.
     pub places: usize,
-    /// From where to where each axis went, mm or rad.
+    /// From where to where each axis went. Unit: mm or rad.
     pub reach: [[f64; 2]; MAX_AXES],
     /// The conventions, if they were checked.
     pub conventions: Option<ConventionCheck>,

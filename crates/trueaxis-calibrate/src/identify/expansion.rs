@@ -60,7 +60,7 @@ pub struct Expansion {
     pub u_per_k: f64,
     /// From the two runs at the ends of the temperatures alone, by their slopes, 1/K.
     pub slope_difference_per_k: f64,
-    /// The slope of each run's straight line, mm/mm.
+    /// The slope of each run's straight line, mm/mm. Unit: 1.
     pub slopes: Vec<f64>,
     /// The standard deviation of what the model leaves, mm.
     pub residual_mm: f64,

@@ -15,11 +15,11 @@ use trueaxis_geometry::statistics::{robust_deviation, student_above};
 /// What one row does.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Influence {
-    /// How much of its own it predicts: 0 to the number of its channels.
+    /// How much of its own it predicts: 0 to the number of its channels. Unit: 1.
     pub leverage: f64,
-    /// Cook's distance: how far the unknowns move without it, in units of their spread.
+    /// Cook's distance: how far the unknowns move without it, in units of their spread. Unit: 1.
     pub cook: f64,
-    /// Residuals over their standard deviations, before the common scale.
+    /// Residuals over their standard deviations, before the common scale. Unit: 1.
     pub standardised: [f64; 3],
 }
 
@@ -30,9 +30,9 @@ pub struct Outlier {
     pub row: usize,
     /// Its channel.
     pub channel: usize,
-    /// Its studentised residual.
+    /// Its studentised residual. Unit: 1.
     pub studentised: f64,
-    /// Its residual, mm or rad.
+    /// Its residual. Unit: mm or rad.
     pub residual: f64,
 }
 
@@ -43,7 +43,7 @@ pub struct Influences {
     pub rows: Vec<Influence>,
     /// Numbers beyond the limit, the worst first.
     pub outliers: Vec<Outlier>,
-    /// The limit of studentised residuals: 5 % that any of all numbers is beyond it (Bonferroni).
+    /// The limit of studentised residuals: 5 % that any of all numbers is beyond it (Bonferroni). Unit: 1.
     pub limit: f64,
 }
 

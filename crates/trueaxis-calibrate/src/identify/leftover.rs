@@ -21,7 +21,7 @@ const RIDGE: f64 = 1e-6;
 pub struct Field {
     /// `None`: places in X, Y, Z; else the number of a rotary axis.
     pub axis: Option<usize>,
-    /// The share of the squares that it explains on places that were held out.
+    /// The share of the squares that it explains on places that were held out. Unit: 1.
     pub share: f64,
 }
 

@@ -107,7 +107,7 @@ pub struct FreshCheck {
     pub before: Spread,
     /// Corrected.
     pub after: Spread,
-    /// The share of hits whose deviation is within its U (95 %).
+    /// The share of hits whose deviation is within its U (95 %). Unit: 1.
     pub covered: f64,
 }
 
@@ -144,11 +144,11 @@ pub struct Calibration {
     pub check: Option<FreshCheck>,
     /// Orientations of the spindle, rad.
     pub orientations_rad: Vec<f64>,
-    /// The least and the greatest sine of latitude of the hits.
+    /// The least and the greatest sine of latitude of the hits. Unit: 1.
     pub latitude: [f64; 2],
     /// The widest arc without a hit, rad.
     pub gap_rad: f64,
-    /// The factor of U (95 %, Student).
+    /// The factor of U (95 %, Student). Unit: 1.
     pub coverage_factor: f64,
 }
 

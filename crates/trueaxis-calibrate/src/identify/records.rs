@@ -135,7 +135,7 @@ pub struct Options {
     pub folds: usize,
     /// Whether cross-validation chooses among the terms of error motions.
     pub selection: bool,
-    /// Singular values below this share of the greatest are not seen.
+    /// Singular values below this share of the greatest are not seen. Unit: 1.
     pub threshold: f64,
     /// The whole machine, or what is linear of it.
     pub model: Model,

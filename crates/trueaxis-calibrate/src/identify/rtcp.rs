@@ -150,7 +150,7 @@ pub struct WorstReading {
     pub channel: char,
     /// Reading − model, mm.
     pub residual_mm: f64,
-    /// The same in its standard uncertainty.
+    /// The same in its standard uncertainty. Unit: 1.
     pub standardised: f64,
     /// Beyond what one of so many readings may be off (Bonferroni, 5 %).
     pub is_outlier: bool,
@@ -171,13 +171,13 @@ pub struct Calibration {
     pub new: Vec<NewSlot>,
     /// Unobservable combinations.
     pub unseen: Vec<Unseen>,
-    /// χ² of the readings.
+    /// χ² of the readings. Unit: 1.
     pub chi_square: f64,
     /// Numbers read less unknowns found.
     pub degrees_of_freedom: usize,
     /// How many numbers were read.
     pub numbers: usize,
-    /// √(χ²/ν) where χ² is beyond its 99 % quantile, else 1.
+    /// √(χ²/ν) where χ² is beyond its 99 % quantile, else 1. Unit: 1.
     pub birge: f64,
     /// The spread of reading − model, mm.
     pub rms_residual_mm: f64,

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 /// Root mean squares of residuals.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Rms {
-    /// Of all numbers, in units of their stated noise.
+    /// Of all numbers, in units of their stated noise. Unit: 1.
     pub noise: f64,
     /// Of lengths, mm; none if nothing read a length.
     pub length_mm: Option<f64>,
@@ -57,11 +57,11 @@ impl Mean {
 /// The residuals, mm or rad.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Residuals {
-    /// Of the machine without the unknown errors; only the set-ups were fitted.
+    /// Of the machine without the unknown errors; only the set-ups were fitted. Unit: mm or rad.
     pub before: Vec<[f64; 3]>,
-    /// Of the model on the readings that it was found from.
+    /// Of the model on the readings that it was found from. Unit: mm or rad.
     pub after: Vec<[f64; 3]>,
-    /// Of models that were found without the place.
+    /// Of models that were found without the place. Unit: mm or rad.
     pub held_out: Vec<[f64; 3]>,
 }
 

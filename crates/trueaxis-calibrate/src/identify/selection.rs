@@ -34,7 +34,7 @@ pub struct Sums {
     pub normal: DMatrix<f64>,
     /// Jᵀz.
     pub gradient: DVector<f64>,
-    /// zᵀz.
+    /// zᵀz. Unit: 1.
     pub square: f64,
     /// How many numbers were read.
     pub numbers: usize,
@@ -333,16 +333,16 @@ fn models(sums: &Sums, candidates: &Candidates) -> Vec<Model> {
 /// How well a threshold predicts.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct Score {
-    /// Least |z| of a term that is kept; ∞ (null): none is, 0: all are.
+    /// Least |z| of a term that is kept; ∞ (null): none is, 0: all are. Unit: 1.
     #[serde(rename = "least_z")]
     #[schemars(with = "Option<f64>")]
     pub threshold: f64,
     /// Number of candidate terms that are kept.
     pub terms: usize,
-    /// Root mean square of the residual on parts that were held out, in units of the noise.
+    /// Root mean square of the residual on parts that were held out, in units of the noise. Unit: 1.
     #[serde(rename = "held_out_times_noise")]
     pub held_out: f64,
-    /// The same on the readings themselves.
+    /// The same on the readings themselves. Unit: 1.
     #[serde(rename = "in_sample_times_noise")]
     pub in_sample: f64,
 }
@@ -352,7 +352,7 @@ pub struct Score {
 pub struct Selection {
     /// The model from all readings.
     pub chosen: Model,
-    /// Its threshold.
+    /// Its threshold. Unit: 1.
     pub threshold: f64,
     /// For every part: the values found, threshold included, without that part.
     pub without_part: Vec<DVector<f64>>,

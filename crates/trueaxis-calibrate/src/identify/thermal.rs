@@ -131,7 +131,7 @@ pub struct Score {
     pub by_cycle_mm: Vec<f64>,
     /// Without how many of the cycles the same terms were chosen.
     pub chosen_again: usize,
-    /// Condition number of the columns at equal length.
+    /// Condition number of the columns at equal length. Unit: 1.
     pub condition: f64,
 }
 
@@ -161,7 +161,7 @@ pub struct ThermalModel {
     pub refusal: Option<String>,
     /// The coefficients of the chosen number of terms, also if they are refused.
     pub coefficients: Vec<Coefficient>,
-    /// Between the coefficients, row by row.
+    /// Between the coefficients, row by row. Unit: 1.
     pub correlation: Vec<Vec<f64>>,
     /// The displacement at which all sensors read the reference temperature, if one zero holds for all, mm.
     pub intercept_mm: Option<f64>,

@@ -68,7 +68,7 @@ pub struct SetupUnknown {
     pub name: String,
     /// What it displaces.
     pub error: SetupError,
-    /// The standard uncertainty with which it is known to be 0 (mm, rad or 1); `None`: free.
+    /// The standard uncertainty with which it is known to be 0; `None`: free. Unit: mm, rad or 1.
     pub prior_u: Option<f64>,
 }
 
@@ -92,7 +92,7 @@ pub struct Instrument {
     /// What the reading is measured against: the length of a bar, the radius of a ball, mm; of a
     /// probe-ball the distance from ball to probe, where the feed of a path counts.
     pub length_mm: f64,
-    /// The standard uncertainty of one reading of each channel, mm or rad.
+    /// The standard uncertainty of one reading of each channel. Unit: mm or rad.
     pub noise: [f64; 3],
     /// What is not known of its set-up.
     pub unknowns: Vec<SetupUnknown>,

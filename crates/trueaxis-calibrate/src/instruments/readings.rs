@@ -21,7 +21,7 @@ pub struct Readings {
     pub instruments: Vec<u32>,
     /// The direction of the station, a unit vector in the frame of the instrument's reference.
     pub directions: Vec<Vec3>,
-    /// The reading, mm or rad; channels that the instrument does not have are 0.
+    /// The reading; channels that the instrument does not have are 0. Unit: mm or rad.
     pub values: Vec<[f64; 3]>,
     /// Readings of one group belong together (one place, one cycle): they are held out together.
     pub groups: Vec<u32>,
@@ -42,7 +42,7 @@ pub struct Reading {
     pub instrument: u32,
     /// The direction of the station.
     pub direction: Vec3,
-    /// The reading, mm or rad.
+    /// The reading. Unit: mm or rad.
     pub value: [f64; 3],
     /// Its group.
     pub group: u32,

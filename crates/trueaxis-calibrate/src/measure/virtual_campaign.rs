@@ -62,7 +62,7 @@ pub struct VirtualCampaign {
 pub struct Drawn {
     /// What is uncertain: [`Machine::uncertain_quantities`].
     pub quantities: Vec<String>,
-    /// By how many standard uncertainties each is off.
+    /// By how many standard uncertainties each is off. Unit: 1.
     pub factors: Vec<f64>,
 }
 
@@ -88,7 +88,7 @@ pub struct Truth {
     pub factors: Option<Drawn>,
     /// The instruments; their unknowns are those of which [`Truth::setups`] has the values.
     pub instruments: Vec<Instrument>,
-    /// How each instrument really stands, mm, rad or 1.
+    /// The true values of the set-up unknowns of each instrument. Unit: mm, rad or 1.
     pub setups: Vec<Vec<f64>>,
     /// Temperatures during the campaign.
     pub log: Option<Arc<TemperatureLog>>,
@@ -99,17 +99,17 @@ pub struct Truth {
 /// Disturbances of readings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Disturb {
-    /// Times the noise of the instruments; 0: none.
+    /// Times the noise of the instruments; 0: none. Unit: 1.
     pub noise: f64,
-    /// How the zero of each instrument wanders, mm or rad per hour and channel.
+    /// The drift of the zero of each instrument and channel. Unit: mm/h or rad/h.
     pub drift_per_hour: Vec<[f64; 3]>,
-    /// Readings are multiples of this, mm or rad; 0: not rounded.
+    /// Readings are multiples of this; 0: not rounded. Unit: mm or rad.
     pub resolution: Vec<f64>,
-    /// The share of readings that are wrong.
+    /// The share of readings that are wrong. Unit: 1.
     pub outlier_share: f64,
-    /// By how many times the noise of the instrument they are wrong.
+    /// By how many times the noise of the instrument they are wrong. Unit: 1.
     pub outlier_size: f64,
-    /// The share of rows that are lost.
+    /// The share of rows that are lost. Unit: 1.
     pub lost_share: f64,
     /// How the axes move.
     pub axes: [AxisDisturb; MAX_AXES],
@@ -118,13 +118,13 @@ pub struct Disturb {
 /// How an axis follows its command.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct AxisDisturb {
-    /// Standard deviation of where it stops, mm or rad.
+    /// Standard deviation of where it stops. Unit: mm or rad.
     pub repeatability: f64,
-    /// How far the motor turns before the slide follows, mm or rad.
+    /// How far the motor turns before the slide follows. Unit: mm or rad.
     pub backlash: f64,
     /// The time constant with which it follows, s: 1/Kv.
     pub lag_s: f64,
-    /// How far it sticks when it reverses, mm or rad.
+    /// How far it sticks when it reverses. Unit: mm or rad.
     pub spike: f64,
     /// The time constant with which it comes free, s.
     pub spike_time_s: f64,

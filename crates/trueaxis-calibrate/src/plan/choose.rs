@@ -30,7 +30,7 @@ pub struct Chosen {
     pub blocked: usize,
     /// What they take, s.
     pub time_s: f64,
-    /// The criterion from the greedy start through every swap.
+    /// The criterion from the greedy start through every swap. Unit: 1.
     pub history: Vec<f64>,
     /// What fixed paths and these poses will determine.
     pub expectation: Expectation,

@@ -21,7 +21,7 @@ pub struct Expected {
     pub name: String,
     /// Whether it is an angle (rad) and not a length (mm) or a plain number.
     pub is_angle: bool,
-    /// The standard uncertainty to expect, mm, rad or 1; `None` if it cannot be seen alone.
+    /// The standard uncertainty to expect; `None` if it cannot be seen alone. Unit: mm, rad or 1.
     pub u: Option<f64>,
 }
 
@@ -56,7 +56,7 @@ pub struct Expectation {
     pub unobservable: Vec<Unobservable>,
     /// How many combinations are seen.
     pub rank: usize,
-    /// The greatest over the smallest singular value that is seen.
+    /// The greatest over the smallest singular value that is seen. Unit: 1.
     pub condition: f64,
     /// The covariance of all unknowns over what is seen.
     pub covariance: DMatrix<f64>,
@@ -89,8 +89,8 @@ pub struct Seen {
     pub name: String,
     /// Whether the error is an angle.
     pub is_angle: bool,
-    /// The largest |reading| of each channel along the path, mm or rad, for an error of
-    /// 10 µm or 10 µrad.
+    /// The largest |reading| of each channel along the path for an error of
+    /// 10 µm or 10 µrad. Unit: mm or rad.
     pub largest: Vec<f64>,
 }
 

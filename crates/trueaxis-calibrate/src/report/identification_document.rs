@@ -51,17 +51,17 @@ pub struct IdentificationDocument<'a> {
     pub places: usize,
     /// Rank of the design matrix.
     pub rank: usize,
-    /// Its condition number.
+    /// Its condition number. Unit: 1.
     pub condition: f64,
-    /// Relative singular value below which a combination counts as unobservable.
+    /// Relative singular value below which a combination counts as unobservable. Unit: 1.
     pub threshold: f64,
     /// `full` or `linear`.
     pub model: &'static str,
-    /// χ² of the fit.
+    /// χ² of the fit. Unit: 1.
     pub chi_square: f64,
     /// Its degrees of freedom.
     pub degrees_of_freedom: usize,
-    /// Factor by which the uncertainties are enlarged, 1 or more.
+    /// Factor by which the uncertainties are enlarged, 1 or more. Unit: 1.
     pub birge_ratio: f64,
     /// Which axes the residual of the held-out places follows.
     pub residual_follows: Vec<FieldEntry>,
@@ -69,7 +69,7 @@ pub struct IdentificationDocument<'a> {
     pub selection: SelectionEntry<'a>,
     /// Readings beyond the limit of studentised residuals.
     pub outliers: Vec<OutlierEntry>,
-    /// That limit, in standard deviations.
+    /// That limit, in standard deviations. Unit: 1.
     pub outlier_limit: f64,
     /// The readings that change the result most if they are left out.
     pub most_influential: Vec<InfluenceEntry>,
@@ -96,9 +96,9 @@ pub struct FoundEntry<'a> {
     /// `value_um` and its standard uncertainty `u_um`, or `value_urad` and `u_urad`; null if not observable.
     #[serde(flatten)]
     pub value: Keyed<Option<f64>>,
-    /// The standard uncertainty again, in the same unit.
+    /// The standard uncertainty again. Unit: that of the value.
     pub u: Option<f64>,
-    /// Value divided by its standard uncertainty.
+    /// Value divided by its standard uncertainty. Unit: 1.
     pub z: Option<f64>,
 }
 
@@ -122,7 +122,7 @@ pub struct RmsEntry {
     pub um: Option<f64>,
     /// Of angles, µrad; null without such readings.
     pub urad: Option<f64>,
-    /// In units of the stated noise.
+    /// In units of the stated noise. Unit: 1.
     pub times_noise: f64,
 }
 
@@ -131,7 +131,7 @@ pub struct RmsEntry {
 pub struct FieldEntry {
     /// `XYZ`, or the letter of a rotary axis.
     pub what: String,
-    /// The share of the squares of the residual, 0 to 1.
+    /// The share of the squares of the residual, 0 to 1. Unit: 1.
     pub share: f64,
 }
 
@@ -140,7 +140,7 @@ pub struct FieldEntry {
 pub struct SelectionEntry<'a> {
     /// Number of candidate terms.
     pub candidates: usize,
-    /// Least |z| of a term that is kept; null if none is.
+    /// Least |z| of a term that is kept; null if none is. Unit: 1.
     pub least_z: Option<f64>,
     /// The limits that were tried.
     pub scores: &'a [Score],
@@ -155,7 +155,7 @@ pub struct OutlierEntry {
     pub line: usize,
     /// Its channel, from 1.
     pub channel: usize,
-    /// Its studentised residual.
+    /// Its studentised residual. Unit: 1.
     pub studentised: f64,
 }
 
@@ -166,9 +166,9 @@ pub struct InfluenceEntry {
     pub file: String,
     /// Its line there.
     pub line: usize,
-    /// Its leverage, 0 to 1.
+    /// Its leverage, 0 to 1. Unit: 1.
     pub leverage: f64,
-    /// Cook's distance; null if the result depends on this reading alone.
+    /// Cook's distance; null if the result depends on this reading alone. Unit: 1.
     pub cook: Option<f64>,
 }
 

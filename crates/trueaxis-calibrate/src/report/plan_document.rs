@@ -27,7 +27,7 @@ pub struct PlanDocument<'a> {
     pub unobservable: &'a [Unobservable],
     /// Number of combinations of unknowns that are observable.
     pub rank: usize,
-    /// Condition number of the design matrix.
+    /// Condition number of the design matrix. Unit: 1.
     pub condition: f64,
     /// The choice of poses; null if none was asked for.
     pub chosen: Option<ChosenEntry<'a>>,
@@ -59,7 +59,7 @@ pub struct PathEntry<'a> {
 pub struct SeenEntry<'a> {
     /// The error.
     pub error: &'a str,
-    /// The largest reading of each channel, in the unit of the path.
+    /// The largest reading of each channel. Unit: that of the path.
     pub largest: Vec<f64>,
 }
 
@@ -95,9 +95,9 @@ pub struct ExpectedEntry<'a> {
     pub name: &'a str,
     /// `um`, `urad`, or `um/m` for a scale.
     pub unit: String,
-    /// Standard uncertainty in this unit; null if not observable.
+    /// Standard uncertainty; null if not observable. Unit: that of `unit`.
     pub u: Option<f64>,
-    /// Expanded uncertainty (k = 2) in this unit; null if not observable.
+    /// Expanded uncertainty (k = 2); null if not observable. Unit: that of `unit`.
     pub expanded_k2: Option<f64>,
 }
 
@@ -114,7 +114,7 @@ pub struct ChosenEntry<'a> {
     pub readings: usize,
     /// Duration of the measurement, s.
     pub time_s: f64,
-    /// The criterion at the start and after every exchange.
+    /// The criterion at the start and after every exchange. Unit: 1.
     pub criterion: &'a [f64],
     /// The uncertainties to expect.
     pub expected: Vec<ExpectedEntry<'a>>,

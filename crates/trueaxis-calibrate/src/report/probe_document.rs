@@ -101,7 +101,7 @@ pub struct StylusEntry<'a> {
     pub s_um: f64,
     /// Degrees of freedom of the fit.
     pub degrees_of_freedom: usize,
-    /// Factor from u to U (95 %).
+    /// Factor from u to U (95 %). Unit: 1.
     pub coverage_factor: f64,
     /// Orientations of the spindle, degrees.
     pub orientations_deg: Vec<f64>,
@@ -196,7 +196,7 @@ pub struct FreshCheckEntry {
     pub before: SpreadEntry,
     /// Corrected.
     pub after: SpreadEntry,
-    /// Share of the hits within U (95 %), 0 to 1.
+    /// Share of the hits within U (95 %), 0 to 1. Unit: 1.
     #[serde(rename = "within_U")]
     pub within_expanded: f64,
 }

@@ -31,11 +31,11 @@ pub struct RtcpDocument<'a> {
     pub unobservable: &'a [Unseen],
     /// How many numbers were read.
     pub readings: usize,
-    /// χ² of the readings.
+    /// χ² of the readings. Unit: 1.
     pub chi_square: f64,
     /// Its degrees of freedom.
     pub degrees_of_freedom: usize,
-    /// By how much the uncertainties are enlarged, 1 or more.
+    /// By how much the uncertainties are enlarged, 1 or more. Unit: 1.
     pub birge: f64,
     /// Root mean square of the residual, µm.
     pub rms_residual_um: f64,
@@ -90,7 +90,7 @@ pub struct WorstEntry<'a> {
     pub channel: char,
     /// Reading − model, µm.
     pub residual_um: f64,
-    /// The same in its standard uncertainty.
+    /// The same in its standard uncertainty. Unit: 1.
     pub standardised: f64,
     /// Whether that is more than chance.
     pub is_outlier: bool,

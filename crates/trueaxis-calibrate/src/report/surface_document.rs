@@ -37,7 +37,7 @@ pub struct SurfaceDocument<'a> {
 pub struct PointEntry {
     /// Where it is, workpiece frame, mm.
     pub point_mm: [f64; 3],
-    /// The normal of the surface there, out of the material.
+    /// The normal of the surface there, out of the material. Unit: 1.
     pub normal: [f64; 3],
     /// Its line in the file of the surface.
     pub line: u32,

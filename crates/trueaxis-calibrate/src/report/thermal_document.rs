@@ -23,7 +23,7 @@ pub struct ThermalDocument<'a> {
     pub verdict: &'static str,
     /// Why the model is refused; null if it is not.
     pub refusal: Option<&'a str>,
-    /// Share of the mean square drift of held-out cycles that the model explains, at most 1.
+    /// Share of the mean square drift of held-out cycles that the model explains, at most 1. Unit: 1.
     pub explained: f64,
     /// Root mean square without a model, µm.
     pub no_model_um: f64,
@@ -43,7 +43,7 @@ pub struct ThermalDocument<'a> {
     pub chosen_terms: usize,
     /// The coefficients of the chosen model.
     pub coefficients: Vec<CoefficientEntry<'a>>,
-    /// Correlations of the coefficients, −1 to 1, row by row.
+    /// Correlations of the coefficients, −1 to 1, row by row. Unit: 1.
     pub correlation: &'a [Vec<f64>],
     /// The displacement where all sensors read the reference, µm; null if the zero is free.
     pub intercept_um: Option<f64>,
@@ -105,7 +105,7 @@ pub struct ThermalScoreEntry<'a> {
     pub by_cycle_um: Vec<f64>,
     /// How many times the same terms were chosen with one cycle held out.
     pub chosen_again: usize,
-    /// Condition number of the columns; null if they are linearly dependent.
+    /// Condition number of the columns; null if they are linearly dependent. Unit: 1.
     pub condition: Option<f64>,
 }
 

@@ -61,15 +61,15 @@ pub enum FitError {
 /// What was found.
 #[derive(Debug, Clone)]
 pub struct Fit {
-    /// The unknowns, mm, rad or 1; of a combination that cannot be seen the shortest solution.
+    /// The unknowns; of a combination that cannot be seen the shortest solution. Unit: mm, rad or 1.
     pub values: Vec<f64>,
     /// Their covariance by the stated noise, over what can be seen.
     pub covariance: DMatrix<f64>,
     /// What the readings say about the unknowns.
     pub sight: Observability,
-    /// Reading minus model, mm or rad; channels that do not exist are 0.
+    /// Reading minus model; channels that do not exist are 0. Unit: mm or rad.
     pub residuals: Vec<[f64; 3]>,
-    /// Σ w ((y − f)/u)², without priors.
+    /// Σ w ((y − f)/u)², without priors. Unit: 1.
     pub chi_square: f64,
     /// Numbers read less unknowns found.
     pub degrees_of_freedom: usize,
@@ -80,7 +80,7 @@ pub struct Fit {
 /// Which unknowns a set of readings determines.
 #[derive(Debug, Clone)]
 pub struct Observability {
-    /// Singular values of J with columns scaled to 1, in units of the noise, greatest first.
+    /// Singular values of J with columns scaled to 1, in units of the noise, greatest first. Unit: 1.
     pub singular_values: Vec<f64>,
     /// How many of them are seen.
     pub rank: usize,
@@ -331,7 +331,7 @@ pub fn fit(design: &Design, readings: &Readings, weights: &[f64]) -> Result<Fit,
 /// How a fit goes about it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rule {
-    /// Singular values below this share of the greatest are not seen.
+    /// Singular values below this share of the greatest are not seen. Unit: 1.
     pub threshold: f64,
     /// The machine itself, or what is linear of it.
     pub model: Model,

@@ -136,9 +136,9 @@ impl Order {
 pub struct Made {
     /// The table.
     pub table: Table,
-    /// The most that interpolation and rounding lose, mm or rad.
+    /// The most that interpolation and rounding lose. Unit: mm or rad.
     pub loss: f64,
-    /// The largest correction in it, mm or rad.
+    /// The largest correction in it. Unit: mm or rad.
     pub largest: f64,
 }
 
@@ -161,7 +161,7 @@ pub enum What {
 pub struct LeftOut {
     /// What.
     pub what: What,
-    /// The largest correction, mm or rad.
+    /// The largest correction. Unit: mm or rad.
     pub largest: f64,
     /// Why.
     pub reason: &'static str,

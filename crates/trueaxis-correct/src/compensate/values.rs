@@ -29,9 +29,9 @@ pub struct Order {
     pub axis: usize,
     /// Where the other axes stand.
     pub command: Command,
-    /// The positions of the axis, mm or rad.
+    /// The positions of the axis. Unit: mm or rad.
     pub positions: Vec<f64>,
-    /// The least increment of a value, mm or rad.
+    /// The least increment of a value. Unit: mm or rad.
     pub increment: f64,
     /// The machine alone, or the comprehensive error.
     pub of: Compensation,
@@ -42,32 +42,32 @@ pub struct Order {
 pub struct Value {
     /// In whole increments, halves away from zero.
     pub increments: i64,
-    /// The same in mm or rad.
+    /// The same as an amount. Unit: mm or rad.
     pub added: f64,
-    /// What the rounding leaves of the error that is compensated, mm or rad.
+    /// What the rounding leaves of the error that is compensated. Unit: mm or rad.
     pub remainder: f64,
 }
 
 /// The errors and the value at one position, mm or rad.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Node {
-    /// Of the axis.
+    /// Of the axis. Unit: mm or rad.
     pub position: f64,
     /// Geometric, scale, structure: how they move the tool; workpiece: how it grows (E_w), which
-    /// counts with a minus. Mean of both directions of approach.
+    /// counts with a minus. Mean of both directions of approach. Unit: mm or rad.
     pub split: [f64; 4],
-    /// The error of the machine: geometric + scale + structure.
+    /// The error of the machine: geometric + scale + structure. Unit: mm or rad.
     pub machine: f64,
-    /// machine − workpiece: what the part has at 20 °C.
+    /// machine − workpiece: what the part has at 20 °C. Unit: mm or rad.
     pub comprehensive: f64,
-    /// Standard uncertainty of the error that is compensated, where the machine file has one.
+    /// Standard uncertainty of the error that is compensated, where the machine file has one. Unit: mm or rad.
     pub u: Option<f64>,
     /// The value for the mean of both directions.
     pub value: Value,
     /// The values for rising and falling approach, where the error has reversal.
     pub by_direction: Option<[Value; 2]>,
     /// What the part has under no, machine-only and comprehensive compensation; of two directions
-    /// of approach the worse.
+    /// of approach the worse. Unit: mm or rad.
     pub part: [f64; 3],
 }
 
@@ -78,7 +78,7 @@ pub struct ValueTable {
     pub order: Order,
     /// In the order of the positions.
     pub nodes: Vec<Node>,
-    /// The largest error of the part under no, machine-only and comprehensive compensation.
+    /// The largest error of the part under no, machine-only and comprehensive compensation. Unit: mm or rad.
     pub worst: [f64; 3],
 }
 

@@ -20,7 +20,7 @@ const STEP: f64 = 1.02;
 pub struct Correction {
     /// What to correct.
     pub error: ErrorName,
-    /// By how much its value must change, mm or rad.
+    /// By how much its value must change. Unit: mm or rad.
     pub change: f64,
     /// All indices after the change, mm.
     pub indices_mm: Vec<f64>,

@@ -16,7 +16,7 @@ const STEP_RAD: f64 = 1e-6;
 pub struct Sensitivity {
     /// The location error; it need not be stated in the machine file.
     pub error: ErrorName,
-    /// Change of each index per mm (shift) or per rad (rotation) of the error.
+    /// Change of each index with the error, a shift or a rotation. Unit: mm/mm or mm/rad.
     pub slope: Vec<f64>,
 }
 

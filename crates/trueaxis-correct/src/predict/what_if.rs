@@ -18,9 +18,9 @@ const MOST_ADDED: f64 = 10.0;
 pub struct ErrorChange {
     /// Which error.
     pub name: ErrorName,
-    /// 0 switches it off, −1 turns its sign.
+    /// 0 switches it off, −1 turns its sign. Unit: 1.
     pub factor: f64,
-    /// mm or rad.
+    /// This is added to it. Unit: mm or rad.
     pub add: f64,
 }
 

@@ -81,9 +81,9 @@ pub struct FieldEntry {
     pub noise_um: f64,
     /// Each point predicted by all others: root mean square of the difference, µm.
     pub left_out_rms_um: f64,
-    /// The share of these differences within U (k = 2).
+    /// The share of these differences within U (k = 2). Unit: 1.
     pub left_out_within_u2: f64,
-    /// The factor by which the uncertainty was raised.
+    /// The factor by which the uncertainty was raised. Unit: 1.
     pub raised: f64,
     /// Points that do not fit.
     pub outliers: Vec<OutlierEntry>,
@@ -92,13 +92,13 @@ pub struct FieldEntry {
 /// A point that does not fit.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct OutlierEntry {
-    /// Its number.
+    /// Its number. Unit: 1.
     pub point: f64,
     /// Its line in the table.
     pub line: u32,
     /// Reading − field, µm.
     pub residual_um: f64,
-    /// The same in its standard uncertainty.
+    /// The same in its standard uncertainty. Unit: 1.
     pub z: f64,
 }
 

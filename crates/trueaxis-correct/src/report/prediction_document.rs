@@ -84,7 +84,7 @@ pub enum Grouped<T> {
 /// An index of the whole part.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct IndexEntry {
-    /// Its value, mm.
+    /// Its value. Unit: mm.
     pub value: f64,
     /// Its standard uncertainty by linear propagation, mm.
     pub u_mm: f64,
@@ -115,7 +115,7 @@ pub struct JudgementEntry<'a> {
     pub tolerance_mm: f64,
     /// The expanded uncertainty; null where the rule uses none, mm.
     pub expanded_mm: Option<f64>,
-    /// Value divided by tolerance.
+    /// Value divided by tolerance. Unit: 1.
     pub used_ratio: f64,
     /// Whether the verdict depends on it.
     pub decisive: bool,
@@ -146,7 +146,7 @@ pub struct PositionEntry<'a> {
 /// An index at one position.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct PositionIndex {
-    /// Its value, mm.
+    /// Its value. Unit: mm.
     pub value: f64,
     /// Its standard uncertainty, mm.
     pub u_mm: f64,

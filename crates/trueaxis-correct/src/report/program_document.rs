@@ -58,7 +58,7 @@ pub struct ProgramDocument<'a> {
     pub worst_blocks: Vec<BlockEntry>,
     /// The largest correction of each axis.
     pub largest_corrections: Vec<AxisCorrection>,
-    /// The largest relative change of the path length of the tip in a block.
+    /// The largest relative change of the path length of the tip in a block. Unit: 1.
     pub way_change_relative: f64,
     /// How well the corrections are known.
     pub uncertainty: UncertaintyEntry,
@@ -102,7 +102,7 @@ pub struct ResidualEntry {
 /// A value and the line of the program where it occurs.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct LineValue {
-    /// The value.
+    /// The value. Unit: that of the key.
     pub value: f64,
     /// The line of the program as it was, from 1.
     pub line: u32,
@@ -128,7 +128,7 @@ pub struct BlockEntry {
 pub struct AxisCorrection {
     /// The axis.
     pub axis: String,
-    /// The correction.
+    /// The correction. Unit: that of `unit`.
     pub value: f64,
     /// Its unit.
     pub unit: &'static str,

@@ -83,7 +83,7 @@ pub struct TableEntry {
 /// A node to check the sign by.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct CheckEntry {
-    /// Its position, mm or deg.
+    /// Its position. Unit: mm or deg.
     pub position: f64,
     /// `added_` with `um` or `urad`: what is added there.
     #[serde(flatten)]
@@ -107,7 +107,7 @@ pub struct KnownEntry {
 pub struct LineEntry {
     /// The axis.
     pub axis: String,
-    /// The position at which only the offset is added, mm or deg.
+    /// The position at which only the offset is added. Unit: mm or deg.
     pub reference: f64,
     /// The slope, µm/m or µrad/rad.
     pub slope_um_per_m: f64,
@@ -123,7 +123,7 @@ pub struct JointEntry {
     pub axis: String,
     /// A point on it, mm.
     pub point_mm: [f64; 3],
-    /// Its direction, a unit vector.
+    /// Its direction, a unit vector. Unit: 1.
     pub direction: [f64; 3],
     /// By how much the point is off the nominal one, µm.
     pub moved_um: [f64; 3],
@@ -204,9 +204,9 @@ pub struct LossEntry {
 /// Deviation of the tool over the travel of all axes.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct ResidualEntry {
-    /// The largest of the tip, µm.
+    /// The largest of the tip. Unit: µm.
     pub max: f64,
-    /// Root mean square of the tip, µm.
+    /// Root mean square of the tip. Unit: µm.
     pub rms: f64,
     /// Where the largest is, mm and deg.
     pub at: Keyed<f64>,

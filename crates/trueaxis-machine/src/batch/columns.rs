@@ -78,11 +78,11 @@ fn first_six<'a>(columns: &[&'a [f64]]) -> [&'a [f64]; MAX_AXES] {
 pub struct DeviationColumns<'a> {
     /// Nominal tip in the workpiece frame, mm.
     pub nominal_tip_mm: [&'a mut [f64]; 3],
-    /// Nominal tool axis in the workpiece frame, from the tip to the spindle.
+    /// Nominal tool axis in the workpiece frame, from the tip to the spindle. Unit: 1.
     pub nominal_axis: [&'a mut [f64]; 3],
     /// Actual minus nominal tip, mm.
     pub tip_mm: [&'a mut [f64]; 3],
-    /// Actual minus nominal unit vector of the tool axis.
+    /// Actual minus nominal unit vector of the tool axis. Unit: 1.
     pub axis: [&'a mut [f64]; 3],
 }
 

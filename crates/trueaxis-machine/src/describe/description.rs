@@ -62,13 +62,13 @@ pub struct DescribedError<'m> {
 /// An error motion at at most [`MOST_SAMPLES`] positions.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SampledError {
-    /// Positions, mm or rad.
+    /// Positions. Unit: mm or rad.
     pub at: Vec<f64>,
-    /// The mean of both directions there, mm or rad.
+    /// The mean of both directions there. Unit: mm or rad.
     pub values: Vec<f64>,
-    /// E↑ − E↓ there, mm or rad, if it is known.
+    /// E↑ − E↓ there, if it is known. Unit: mm or rad.
     pub reversal: Option<Vec<f64>>,
-    /// Its standard uncertainty there, mm or rad, if it is known.
+    /// Its standard uncertainty there, if it is known. Unit: mm or rad.
     pub u: Option<Vec<f64>>,
 }
 

@@ -17,11 +17,11 @@ pub enum Extrapolation {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error("position {at} lies outside the error table, which covers {from} .. {to}")]
 pub struct OutsideTable {
-    /// The command, mm or rad.
+    /// The command. Unit: mm or rad.
     pub at: f64,
-    /// The first position of the table, mm or rad.
+    /// The first position of the table. Unit: mm or rad.
     pub from: f64,
-    /// The last position of the table, mm or rad.
+    /// The last position of the table. Unit: mm or rad.
     pub to: f64,
 }
 
@@ -58,11 +58,11 @@ pub enum Curve {
 /// One harmonic of a Fourier series.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Harmonic {
-    /// Periods per turn.
+    /// Periods per turn. Unit: 1.
     pub order: f64,
-    /// Amplitude of cos kq.
+    /// Amplitude of cos kq. Unit: mm or rad.
     pub cosine: f64,
-    /// Amplitude of sin kq.
+    /// Amplitude of sin kq. Unit: mm or rad.
     pub sine: f64,
 }
 

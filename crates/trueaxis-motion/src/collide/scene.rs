@@ -128,7 +128,7 @@ pub struct Contact {
     pub clearance_mm: f64,
     /// Where: the middle between the nearest points, in the machine frame, mm.
     pub point_mm: Vec3,
-    /// When: 0 at the beginning of a sweep, 1 at its end; 0 in a check.
+    /// When: 0 at the beginning of a sweep, 1 at its end; 0 in a check. Unit: 1.
     pub at: f64,
 }
 

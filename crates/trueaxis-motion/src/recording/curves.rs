@@ -16,7 +16,7 @@ pub struct QuantityRange {
     pub title: String,
     /// Its unit.
     pub unit: String,
-    /// The ends of the travel, or the highest velocity in both directions, where stated.
+    /// The ends of the travel, or the highest velocity in both directions, where stated. Unit: that of `unit`.
     pub limits: Option<[f64; 2]>,
 }
 

@@ -26,7 +26,7 @@ pub struct Moment {
     pub off_axis_urad: Vec3,
     /// Deviation of the tip along feed, normal and binormal, µm.
     pub along_path_um: Vec3,
-    /// Along the path, mm/s or deg/s.
+    /// Along the path. Unit: mm/s or deg/s.
     pub speed: f64,
     /// The number of the program whose block is executed.
     pub program: u32,

@@ -82,11 +82,11 @@ pub struct MachineEntry<'a> {
 pub struct AxisEntry {
     /// Its unit: `mm` or `deg`.
     pub unit: &'static str,
-    /// The lowest position, in its unit; null if the axis does not move.
+    /// The lowest position; null if the axis does not move. Unit: that of `unit`.
     pub lowest: Option<f64>,
-    /// The highest position, in its unit; null if the axis does not move.
+    /// The highest position; null if the axis does not move. Unit: that of `unit`.
     pub highest: Option<f64>,
-    /// The distance that it travels, in its unit.
+    /// The distance that it travels. Unit: that of `unit`.
     pub travelled: Option<f64>,
     /// How often it changes its direction.
     pub reversals: u64,
@@ -123,7 +123,7 @@ pub struct DeviationEntry {
 /// A largest value and where it occurs.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct WorstEntry {
-    /// The value, in the unit at the end of its key.
+    /// The value. Unit: that of the key.
     pub value: f64,
     /// The line.
     pub line: u32,
@@ -138,7 +138,7 @@ pub struct WorstEntry {
 pub struct ReversalEntry {
     /// The axis.
     pub axis: String,
-    /// Its position, mm or degrees.
+    /// Its position. Unit: mm or deg.
     pub at: f64,
     /// The line.
     pub line: u32,
@@ -242,10 +242,10 @@ pub struct TemperaturesEntry<'a> {
 /// The range of a temperature sensor.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct SensorEntry {
-    /// The lowest temperature, °C; null without a reading.
+    /// The lowest temperature; null without a reading. Unit: °C.
     #[serde(rename = "lowest_degC")]
     pub lowest: Option<f64>,
-    /// The highest temperature, °C; null without a reading.
+    /// The highest temperature; null without a reading. Unit: °C.
     #[serde(rename = "highest_degC")]
     pub highest: Option<f64>,
 }

@@ -20,9 +20,9 @@ pub struct Strip {
     pub note: String,
     /// Time, s, lowest and highest value.
     pub band: Vec<(f64, f64, f64)>,
-    /// Values that must not be exceeded: lines where they come into view.
+    /// Values that must not be exceeded: lines where they come into view. Unit: that of the title.
     pub limits: Vec<f64>,
-    /// The scale shows at least this much.
+    /// The scale shows at least this much. Unit: that of the title.
     pub least_span: f64,
 }
 

@@ -15,15 +15,15 @@ pub enum Shape {
 /// What a block asks for; lengths in mm, or in rad for a block that only turns (errata 002-8).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Block {
-    /// Length of its path, > 0: of the tool tip, or the angle where the tip rests.
+    /// Length of its path, > 0: of the tool tip, or the angle where the tip rests. Unit: that of the path.
     pub length: f64,
-    /// Programmed velocity F per second, > 0.
+    /// Programmed velocity F per second, > 0. Unit: that of the path per s.
     pub feed: f64,
-    /// Mean acceleration a, > 0.
+    /// Mean acceleration a, > 0. Unit: that of the path per s².
     pub acceleration: f64,
-    /// Velocity v_s at its begin; 0 is the exact stop.
+    /// Velocity v_s at its begin; 0 is the exact stop. Unit: that of the path per s.
     pub start: f64,
-    /// Velocity v_e at its end.
+    /// Velocity v_e at its end. Unit: that of the path per s.
     pub end: f64,
     /// The form of the phases.
     pub shape: Shape,
@@ -34,9 +34,9 @@ pub struct Block {
 pub struct ThreePhases {
     /// T₁, T₂, T₃.
     pub times_s: [f64; 3],
-    /// S₁, S₂, S₃.
+    /// S₁, S₂, S₃. Unit: that of the path.
     pub lengths: [f64; 3],
-    /// The velocity between the phases: F, or less in a block that is too short.
+    /// The velocity between the phases: F, or less in a block that is too short. Unit: that of the path per s.
     pub top: f64,
     /// False if the block is too short even for the change from v_s to v_e; the acceleration is
     /// then as large as that needs.

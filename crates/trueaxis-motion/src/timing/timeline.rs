@@ -15,9 +15,9 @@ pub struct State {
     pub ddq: Command,
     /// Jerks.
     pub dddq: Command,
-    /// Length of the path so far.
+    /// Length of the path so far. Unit: that of the path.
     pub sigma: f64,
-    /// Velocity along the path.
+    /// Velocity along the path. Unit: that of the path per s.
     pub sigma_dot: f64,
 }
 

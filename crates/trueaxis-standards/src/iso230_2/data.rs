@@ -19,14 +19,14 @@ pub enum Direction {
 pub struct Reading {
     /// Which run (cycle), from 1.
     pub run: u32,
-    /// Actual − target, mm or rad.
+    /// Actual − target. Unit: mm or rad.
     pub deviation: f64,
 }
 
 /// The readings at one target.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Target {
-    /// mm or rad.
+    /// The position. Unit: mm or rad.
     pub position: f64,
     /// Rising, in the order of the runs.
     pub up: Vec<Reading>,

@@ -5,13 +5,13 @@ use super::{Position, largest, range};
 /// VDI/DGQ 3441 (1977, withdrawn, still asked for); docs/model.md eq. 67. mm or rad.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Vdi3441 {
-    /// P, positional uncertainty (Positionsunsicherheit).
+    /// P, positional uncertainty (Positionsunsicherheit). Unit: mm or rad.
     pub p: Option<f64>,
-    /// Pa, positional deviation (Positionsabweichung).
+    /// Pa, positional deviation (Positionsabweichung). Unit: mm or rad.
     pub pa: Option<f64>,
-    /// Ps, largest positional scatter (Positionsstreubreite).
+    /// Ps, largest positional scatter (Positionsstreubreite). Unit: mm or rad.
     pub ps: Option<f64>,
-    /// U, largest reversal (Umkehrspanne).
+    /// U, largest reversal (Umkehrspanne). Unit: mm or rad.
     pub u: Option<f64>,
 }
 
@@ -19,15 +19,15 @@ pub struct Vdi3441 {
 /// standard's text was not available: the form is not verified. mm or rad.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct B554 {
-    /// Range of all readings of both directions.
+    /// Range of all readings of both directions. Unit: mm or rad.
     pub accuracy: Option<f64>,
-    /// Range of all readings, rising.
+    /// Range of all readings, rising. Unit: mm or rad.
     pub accuracy_up: Option<f64>,
-    /// Range of all readings, falling.
+    /// Range of all readings, falling. Unit: mm or rad.
     pub accuracy_down: Option<f64>,
-    /// Largest range of the readings at one target from one side.
+    /// Largest range of the readings at one target from one side. Unit: mm or rad.
     pub repeatability: Option<f64>,
-    /// Largest reversal.
+    /// Largest reversal. Unit: mm or rad.
     pub reversal: Option<f64>,
 }
 

@@ -19,18 +19,18 @@ const REFERENCE_C: f64 = 20.0;
 pub struct Share {
     /// Its source.
     pub name: &'static str,
-    /// Its standard uncertainty over the whole measured length, mm or rad.
+    /// Its standard uncertainty over the whole measured length. Unit: mm or rad.
     pub u: f64,
 }
 
 /// The uncertainty of a measurement.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Budget {
-    /// From the first to the last target, mm or rad.
+    /// From the first to the last target. Unit: mm or rad.
     pub length: f64,
     /// Contributions common to all runs.
     pub shares: Vec<Share>,
-    /// Standard uncertainty of one reading from the drift (environmental variation), mm or rad.
+    /// Standard uncertainty of one reading from the drift (environmental variation). Unit: mm or rad.
     pub drift_u: Option<f64>,
 }
 

@@ -39,7 +39,7 @@ pub struct EvaluationDocument<'a> {
     pub instrument: Option<&'a str>,
     /// The date of the measurement; null if none is stated.
     pub date: Option<&'a str>,
-    /// The temperature, °C; null if none is stated.
+    /// The temperature; null if none is stated. Unit: °C.
     #[serde(rename = "temperature_degC")]
     pub temperature: Option<f64>,
     /// The quantities of the standard.

@@ -27,7 +27,7 @@ pub struct DiffDocument<'a> {
     /// The names of the errors that have changed significantly.
     pub moved: Vec<String>,
     /// The bound of the change of one error in its standard uncertainty, so that among all errors none is
-    /// above it by chance with 95 %.
+    /// above it by chance with 95 %. Unit: 1.
     pub limit_u: f64,
     /// All errors.
     pub errors: Vec<ErrorChangeEntry>,
@@ -42,17 +42,17 @@ pub struct ErrorChangeEntry {
     pub error: String,
     /// The unit of its values: `um` or `urad`.
     pub unit: &'static str,
-    /// Its old value; null if the old file does not state it.
+    /// Its old value; null if the old file does not state it. Unit: that of `unit`.
     pub old: Option<f64>,
-    /// Its new value; null if the new file does not state it.
+    /// Its new value; null if the new file does not state it. Unit: that of `unit`.
     pub new: Option<f64>,
-    /// New − old.
+    /// New − old. Unit: that of `unit`.
     pub change: Option<f64>,
-    /// Root mean square of the change over the travel.
+    /// Root mean square of the change over the travel. Unit: that of `unit`.
     pub rms_change: f64,
-    /// Standard uncertainty of the change; null if a file states none.
+    /// Standard uncertainty of the change; null if a file states none. Unit: that of `unit`.
     pub u_change: Option<f64>,
-    /// |change| over its expanded uncertainty (k = 2), ISO 13528.
+    /// |change| over its expanded uncertainty (k = 2), ISO 13528. Unit: 1.
     #[serde(rename = "E_n")]
     pub e_n: Option<f64>,
     /// The position; null for location errors.
@@ -66,11 +66,11 @@ pub struct ErrorChangeEntry {
 pub struct AxisPositionEntry {
     /// The name of the axis.
     pub axis: String,
-    /// Its position.
+    /// Its position. Unit: that of `unit`.
     pub position: f64,
     /// `mm` or `deg`.
     pub unit: &'static str,
-    /// The side from which it is approached: +1, −1, or 0 for the mean of both.
+    /// The side from which it is approached: +1, −1, or 0 for the mean of both. Unit: 1.
     pub approach: f64,
 }
 

@@ -73,9 +73,9 @@ pub struct CircumstancesEntry<'a> {
     pub instrument: &'a str,
     /// Its calibration.
     pub calibration: &'a str,
-    /// The temperature, °C.
+    /// The temperature. Unit: °C.
     pub temperature_c: f64,
-    /// Its standard uncertainty, K; null if it is not stated.
+    /// Its standard uncertainty; null if it is not stated. Unit: K.
     pub u_temperature_c: Option<f64>,
 }
 
@@ -198,7 +198,7 @@ pub struct PredictedEntry {
     pub largest_within_um: f64,
     /// Root mean square, µm.
     pub rms_um: f64,
-    /// The probability.
+    /// The probability. Unit: 1.
     pub share: f64,
     /// Monte Carlo samples.
     pub samples: usize,
@@ -209,11 +209,11 @@ pub struct PredictedEntry {
 /// A χ² test of readings against the prediction.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct AgreementEntry {
-    /// χ² of the readings.
+    /// χ² of the readings. Unit: 1.
     pub chi_square: f64,
     /// How many numbers.
     pub numbers: usize,
-    /// The value that chance exceeds once in a hundred times.
+    /// The value that chance exceeds once in a hundred times. Unit: 1.
     pub limit: f64,
     /// Whether χ² is within it.
     pub holds: bool,
@@ -279,7 +279,7 @@ pub struct DecisionEntry {
     pub rule: String,
     /// The limit of the tip deviation, µm.
     pub limit_um: f64,
-    /// The coverage factor k of U = k·u.
+    /// The coverage factor k of U = k·u. Unit: 1.
     pub coverage_factor: f64,
     /// How many poses pass.
     pub pass: usize,

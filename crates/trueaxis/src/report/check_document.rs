@@ -54,9 +54,9 @@ pub struct AxisEntry {
     pub name: String,
     /// `tool` or `workpiece`.
     pub carries: &'static str,
-    /// Its direction in the machine frame, a unit vector.
+    /// Its direction in the machine frame, a unit vector. Unit: 1.
     pub direction: [f64; 3],
-    /// +1 where a positive command moves the body along the direction, −1 against it (ISO 841).
+    /// +1 where a positive command moves the body along the direction, −1 against it (ISO 841). Unit: 1.
     pub sense: f64,
     /// Its travel, mm or degrees; null if it is not stated.
     #[serde(flatten)]

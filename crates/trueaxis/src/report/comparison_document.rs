@@ -23,7 +23,7 @@ pub struct VerifyDocument<'a> {
     pub against: &'static str,
     /// How many readings.
     pub readings: usize,
-    /// The coverage factor k of U = k·u.
+    /// The coverage factor k of U = k·u. Unit: 1.
     pub coverage_factor: f64,
     /// The decision rule in words.
     pub rule: String,
@@ -52,13 +52,13 @@ pub struct CoverageEntry {
     pub numbers: usize,
     /// How many of them are within U.
     pub inside: usize,
-    /// The number of independent ones: errors of the machine shift many readings at once.
+    /// The number of independent ones: errors of the machine shift many readings at once. Unit: 1.
     pub independent: f64,
-    /// `inside` over `numbers`.
+    /// `inside` over `numbers`. Unit: 1.
     pub share: f64,
-    /// The 95 % interval of the share (Wilson).
+    /// The 95 % interval of the share (Wilson). Unit: 1.
     pub interval_95: [f64; 2],
-    /// The share that is expected.
+    /// The share that is expected. Unit: 1.
     pub expected: f64,
 }
 
@@ -74,7 +74,7 @@ pub struct PartEntry<'a> {
     /// The root mean squares.
     #[serde(flatten)]
     pub rms: Keyed<Option<f64>>,
-    /// The largest |deviation| / U; null where U is 0.
+    /// The largest |deviation| / U; null where U is 0. Unit: 1.
     pub largest_ratio: Option<f64>,
 }
 

@@ -46,15 +46,18 @@ pub struct LinkEntry {
     pub kind: &'static str,
     /// `tool` or `workpiece`: the side of the chain on which it stands.
     pub carries: &'static str,
-    /// The direction of its axis in its own frame; (0 0 1) for workpiece and tool.
+    /// The direction of its axis in its own frame; (0 0 1) for workpiece and tool. Unit: 1.
     pub direction: [f64; 3],
     /// +1 where a positive command moves it along the direction, −1 against it (ISO 841); null for no axis.
+    /// Unit: 1.
     pub sense: Option<f64>,
     /// The body that carries it.
     pub parent: Option<usize>,
     /// Its pose on that body with all axes at 0.
+    /// Unit: 1 of the nine numbers of the rotation, mm of the three of the shift.
     pub placement: Vec<f64>,
     /// The pose of what is mounted on it.
+    /// Unit: 1 of the nine numbers of the rotation, mm of the three of the shift.
     pub mounting: Vec<f64>,
     /// The unit of its positions, `mm` or `deg`; null for no axis.
     pub unit: Option<&'static str>,
@@ -86,9 +89,9 @@ pub struct ErrorEntry<'a> {
     pub line: Option<usize>,
     /// The file of its table.
     pub table: Option<&'a str>,
-    /// Its value, if it is constant.
+    /// Its value, if it is constant. Unit: that of `unit`.
     pub value: Option<f64>,
-    /// Its standard uncertainty, if that is constant.
+    /// Its standard uncertainty, if that is constant. Unit: that of `unit`.
     pub u: Option<f64>,
     /// Its curve, sampled over the travel.
     pub curve: Option<CurveEntry>,
@@ -99,15 +102,15 @@ pub struct ErrorEntry<'a> {
 /// The curve of an error motion.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct CurveEntry {
-    /// Positions of the axis.
+    /// Positions of the axis. Unit: that of `at_unit`.
     pub at: Vec<f64>,
     /// Their unit, `mm` or `deg`.
     pub at_unit: &'static str,
-    /// The mean of both directions there.
+    /// The mean of both directions there. Unit: that of the error.
     pub values: Vec<f64>,
-    /// Positive minus negative direction there; null without reversal.
+    /// Positive minus negative direction there; null without reversal. Unit: that of the error.
     pub reversal: Option<Vec<f64>>,
-    /// The standard uncertainty there; null if it is not stated.
+    /// The standard uncertainty there; null if it is not stated. Unit: that of the error.
     pub u: Option<Vec<f64>>,
 }
 
@@ -166,7 +169,7 @@ pub struct ModelEntry<'a> {
     pub name: &'a str,
     /// The body that it moves with.
     pub body: Option<usize>,
-    /// Its pose on that body.
+    /// Its pose on that body. Unit: 1 of the nine numbers of the rotation, mm of the three of the shift.
     pub placement: Vec<f64>,
     /// Its shape.
     pub shape: ShapeEntry<'a>,

@@ -56,7 +56,7 @@ pub struct ToolEntry {
 pub struct ToolPoseEntry {
     /// Its tip, mm.
     pub tip_mm: [f64; 3],
-    /// Its axis from the tip to the spindle, a unit vector.
+    /// Its axis from the tip to the spindle, a unit vector. Unit: 1.
     pub axis: [f64; 3],
 }
 
@@ -95,7 +95,7 @@ pub struct BodyEntry {
 pub struct PlaceEntry {
     /// Its origin, mm.
     pub origin_mm: [f64; 3],
-    /// Its rotation, row by row.
+    /// Its rotation, row by row. Unit: 1.
     pub rotation: [[f64; 3]; 3],
 }
 

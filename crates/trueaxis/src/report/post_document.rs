@@ -61,7 +61,7 @@ pub struct VerificationEntry {
 /// The largest deviation and where it is.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct LargestEntry {
-    /// Its value, in the unit of its name.
+    /// The value. Unit: that of the key.
     pub value: f64,
     /// The line of the program.
     pub program_line: u32,

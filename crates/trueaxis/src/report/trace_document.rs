@@ -83,7 +83,7 @@ pub struct MoveEntry {
     pub kind: &'static str,
     /// The position of the axes that are named, mm and degrees, in the program frame.
     pub target: Keyed<f64>,
-    /// The tool axis if it is programmed as a vector.
+    /// The tool axis if it is programmed as a vector. Unit: 1.
     pub direction: Option<[f64; 3]>,
     /// The feed with its unit, or `rapid`.
     pub feed: String,
@@ -92,9 +92,9 @@ pub struct MoveEntry {
 /// A program frame.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct FrameEntry<'a> {
-    /// Rotation, scale and mirror of X, Y and Z, row by row.
+    /// Rotation, scale and mirror of X, Y and Z, row by row. Unit: 1.
     pub linear: &'a [[f64; 3]; 3],
-    /// Its origin: X Y Z A B C U V W, mm and degrees.
+    /// Its origin: X Y Z A B C U V W, mm and degrees. Unit: mm or deg.
     pub shift: &'a [f64; 9],
 }
 

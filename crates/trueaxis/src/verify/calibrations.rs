@@ -59,17 +59,17 @@ impl Significance {
 pub struct ErrorChange {
     /// Which.
     pub error: ErrorName,
-    /// The position of its axis there, mm or rad; none for location errors.
+    /// The position of its axis there; none for location errors. Unit: mm or rad.
     pub at: Option<f64>,
-    /// The side from which the axis comes there, if the curve knows sides: +1 or −1.
+    /// The side from which the axis comes there, if the curve knows sides: +1 or −1. Unit: 1.
     pub approach: f64,
-    /// Its value in the old file, mm or rad.
+    /// Its value in the old file. Unit: mm or rad.
     pub old: Option<f64>,
-    /// Its value in the new file.
+    /// Its value in the new file. Unit: mm or rad.
     pub new: Option<f64>,
-    /// Root mean square of the change over the travel.
+    /// Root mean square of the change over the travel. Unit: mm or rad.
     pub rms: f64,
-    /// Standard uncertainty of the change there; none if a file does not state it.
+    /// Standard uncertainty of the change there; none if a file does not state it. Unit: mm or rad.
     pub u: Option<f64>,
     /// Its significance.
     pub moved: Significance,
@@ -92,7 +92,7 @@ impl ErrorChange {
 pub struct Calibrations {
     /// Every error that a file states, in the order of the chain.
     pub errors: Vec<ErrorChange>,
-    /// |Δ| / u(Δ) above which a change is significant: 5 % of false alarms for all errors together.
+    /// |Δ| / u(Δ) above which a change is significant: 5 % of false alarms for all errors together. Unit: 1.
     pub limit: f64,
     /// What it does to the tool tip.
     pub tip: TipChange,

@@ -75,7 +75,7 @@ pub struct PoseResult {
     /// The length of the residual error is below this in 95 % of the machines that the uncertainties of the
     /// errors allow, mm.
     pub within_mm: f64,
-    /// Measured against predicted, without and with the compensation.
+    /// Measured against predicted, without and with the compensation. Unit: 1.
     pub e_n: [f64; 2],
     /// The reading against the limit.
     pub outcome: Outcome,

@@ -66,9 +66,9 @@ pub enum ComparisonBasis {
 pub struct Decision {
     /// The rule.
     pub rule: Rule,
-    /// k in U = k·u.
+    /// k in U = k·u. Unit: 1.
     pub coverage_factor: f64,
-    /// The largest deviation that is allowed, per instrument, mm or rad.
+    /// The largest deviation that is allowed, per instrument. Unit: mm or rad.
     pub tolerance: Vec<Option<f64>>,
 }
 
@@ -90,9 +90,9 @@ pub struct Deviation {
     pub row: usize,
     /// The channel.
     pub channel: usize,
-    /// Measured less expected, mm or rad.
+    /// Measured less expected. Unit: mm or rad.
     pub value: f64,
-    /// U = k·u.
+    /// U = k·u. Unit: mm or rad.
     pub expanded: f64,
 }
 
@@ -114,11 +114,11 @@ pub struct Coverage {
     pub count: usize,
     /// How many of them lie within U.
     pub inside: usize,
-    /// The equivalent number of independent ones: errors of the machine change many readings at once.
+    /// The equivalent number of independent ones: errors of the machine change many readings at once. Unit: 1.
     pub independent: f64,
-    /// The expected share.
+    /// The expected share. Unit: 1.
     pub expected: f64,
-    /// Where the true share lies, by Wilson's interval for the independent numbers.
+    /// Where the true share lies, by Wilson's interval for the independent numbers. Unit: 1.
     pub interval: [f64; 2],
 }
 
@@ -141,11 +141,11 @@ pub struct Summary {
     pub index: u32,
     /// How many numbers.
     pub count: usize,
-    /// Root mean square with the nominal machine, mm or rad; of two sets of readings none.
+    /// Root mean square with the nominal machine; of two sets of readings none. Unit: mm or rad.
     pub rms_before: Option<f64>,
-    /// The same with the machine file, or between both sets.
+    /// The same with the machine file, or between both sets. Unit: mm or rad.
     pub rms_after: f64,
-    /// Largest |r|/U.
+    /// Largest |r|/U. Unit: 1.
     pub worst: f64,
     /// The share within U.
     pub coverage: Coverage,

@@ -71,7 +71,7 @@ pub struct Slot {
     pub words: String,
     /// What the machine file says, mm.
     pub nominal_mm: f64,
-    /// How it grows with each offset, mm/mm.
+    /// How it grows with each offset, mm/mm. Unit: 1.
     pub slopes: Vec<f64>,
     /// It closes a chain of vectors and follows from the others.
     pub closes: bool,

@@ -74,7 +74,7 @@ pub struct Fit {
     pub subset: Vec<usize>,
     /// One each, mm/K.
     pub mm_per_k: DVector<f64>,
-    /// Condition number of the columns at equal length.
+    /// Condition number of the columns at equal length. Unit: 1.
     pub condition: f64,
     /// (XᵀX)⁻¹ of the columns.
     inverse: DMatrix<f64>,

@@ -119,7 +119,7 @@ pub struct Strayed {
     pub axis: BodyName,
     /// Linear or rotary.
     pub kind: AxisKind,
-    /// Where it would stand, mm or rad.
+    /// Where it would stand. Unit: mm or rad.
     pub position: f64,
     /// The ends of its travel, mm or rad.
     pub travel: (f64, f64),

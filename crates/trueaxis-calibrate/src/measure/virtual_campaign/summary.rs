@@ -15,11 +15,11 @@ pub struct ChannelSummary {
     pub channel: usize,
     /// How many readings.
     pub count: usize,
-    /// The mean of the deviations.
+    /// The mean of the deviations. Unit: mm or rad.
     pub mean: f64,
-    /// The root of the mean of their squares.
+    /// The root of the mean of their squares. Unit: mm or rad.
     pub rms: f64,
-    /// The largest deviation, with its sign.
+    /// The largest deviation, with its sign. Unit: mm or rad.
     pub largest: f64,
     /// The row of the largest one.
     pub largest_row: usize,
@@ -30,7 +30,7 @@ pub struct ChannelSummary {
 pub struct Summary {
     /// Path after path, instrument after instrument.
     pub channels: Vec<ChannelSummary>,
-    /// Reading less nominal reading, mm or rad; one entry per row.
+    /// Reading less nominal reading; one entry per row. Unit: mm or rad.
     pub deviations: Vec<[f64; 3]>,
 }
 

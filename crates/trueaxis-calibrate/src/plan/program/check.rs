@@ -25,8 +25,8 @@ const INSIDE: f64 = 0.6;
 pub struct ProgramCheck {
     /// How long it runs, s.
     pub duration_s: f64,
-    /// How far from its station the machine would stand at worst, mm or rad: what the decimals of
-    /// the program leave. Infinite if a station is not reached.
+    /// How far from its station the machine would stand at worst: what the decimals of
+    /// the program leave. Infinite if a station is not reached. Unit: mm or rad.
     pub off_station: f64,
     /// What would go wrong, in words.
     pub critical: Vec<String>,

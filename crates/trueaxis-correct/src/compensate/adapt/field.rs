@@ -81,7 +81,7 @@ pub struct Outlier {
     pub index: usize,
     /// Reading − what the others say, mm.
     pub residual_mm: f64,
-    /// The same in standard deviations.
+    /// The same in standard deviations. Unit: 1.
     pub z: f64,
 }
 
@@ -106,11 +106,11 @@ pub struct Field {
     pub registration: Registration,
     /// Readings that count less.
     pub outliers: Vec<Outlier>,
-    /// Each reading against all others, in standard deviations of that difference.
+    /// Each reading against all others, in standard deviations of that difference. Unit: 1.
     pub left_out_z: Vec<f64>,
     /// Root mean square of those differences without outliers, mm.
     pub left_out_rms_mm: f64,
-    /// By how much uncertainties were raised because the readings scatter more than they should.
+    /// By how much uncertainties were raised because the readings scatter more than they should. Unit: 1.
     pub raised: f64,
     solved: Solved,
 }

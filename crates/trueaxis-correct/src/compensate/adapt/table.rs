@@ -19,7 +19,7 @@ const NORM_ERROR: f64 = 0.05;
 pub struct SurfacePoint {
     /// The line of the table.
     pub line: u32,
-    /// The number of the point there.
+    /// The number of the point there. Unit: 1.
     pub number: f64,
     /// On the nominal surface, in the workpiece frame.
     pub at_mm: Vec3,

@@ -45,7 +45,7 @@ impl Verification {
 /// A largest difference and where it is.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Largest {
-    /// mm or rad.
+    /// The value. Unit: mm or rad.
     pub value: f64,
     /// The line of the program.
     pub program_line: u32,

@@ -15,11 +15,11 @@ const PLACES: usize = 100;
 /// The largest correction of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LargestCorrection {
-    /// With its sign, mm or rad.
+    /// With its sign. Unit: mm or rad.
     pub value: f64,
     /// The line of the block.
     pub line: u32,
-    /// How near the end of the travel the axis comes, mm or rad; infinite without one.
+    /// How near the end of the travel the axis comes; infinite without one. Unit: mm or rad.
     pub to_travel_end: f64,
     /// The line where it does.
     pub nearest_line: u32,
@@ -53,7 +53,7 @@ pub struct Found {
     pub axis_left: BTreeMap<String, u64>,
     /// Of each axis of the machine.
     pub largest: Vec<LargestCorrection>,
-    /// The largest relative change of the way of the tip in a block.
+    /// The largest relative change of the path length of the tool tip in a block. Unit: 1.
     pub length_change: f64,
     /// The block with the largest correction of the tip: nominal and corrected axis positions.
     pub worst: Option<(u32, Command, Command)>,

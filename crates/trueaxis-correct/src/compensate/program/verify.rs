@@ -10,7 +10,7 @@ use trueaxis_nc::Program;
 /// A largest value and the line of the program as it was.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Largest {
-    /// mm or rad.
+    /// The value. Unit: mm or rad.
     pub value: f64,
     /// From 1.
     pub line: u32,

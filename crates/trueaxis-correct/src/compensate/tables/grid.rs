@@ -53,7 +53,7 @@ pub type Wanted<'a> = dyn Fn([i64; 3]) -> Result<[f64; 3], CommandFault> + 'a;
 pub struct Gridded {
     /// The grid.
     pub grid: Grid,
-    /// The most that interpolation and rounding lose of one axis, counts.
+    /// The most that interpolation and rounding lose of one axis. Unit: counts.
     pub loss: f64,
     /// The largest value, counts.
     pub largest: i64,

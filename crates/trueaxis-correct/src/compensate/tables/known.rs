@@ -26,9 +26,9 @@ const SMALL_RAD: f64 = 1e-6;
 pub struct MadeKnown {
     /// The error.
     pub known: Known,
-    /// The most that interpolation and rounding lose of it, mm or rad.
+    /// The most that interpolation and rounding lose of it. Unit: mm or rad.
     pub loss: f64,
-    /// Its largest value, mm or rad.
+    /// Its largest value. Unit: mm or rad.
     pub largest: f64,
     /// Whether it is somewhere larger than its own standard uncertainty.
     pub certain: bool,

@@ -31,7 +31,7 @@ pub struct Rule {
     pub fewest_nodes: usize,
     /// The most nodes of one table.
     pub most_nodes: usize,
-    /// The least increment of a value, counts.
+    /// The least increment of a value. Unit: counts.
     pub increment: f64,
     /// The least increment of a position, counts.
     pub position: i64,
@@ -53,7 +53,7 @@ impl Rule {
 pub struct Placed {
     /// In rising order.
     pub nodes: Vec<Node>,
-    /// The largest difference from the function, counts of the output axis.
+    /// The largest difference from the function. Unit: counts of the output axis.
     pub loss: f64,
 }
 

@@ -20,7 +20,7 @@ use trueaxis_machine::errors::ErrorName;
 
 /// Interpolatory compensation of a SINUMERIK 840D sl or 828D.
 pub struct Sinumerik {
-    /// The least increment of a value, counts.
+    /// The least increment of a value. Unit: counts.
     pub increment: f64,
 }
 

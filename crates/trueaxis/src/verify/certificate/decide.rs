@@ -31,7 +31,7 @@ pub struct Decision {
     pub rule: Rule,
     /// Largest permissible tip deviation at any pose of the validation, mm.
     pub limit_mm: f64,
-    /// k of U = k·u.
+    /// k of U = k·u. Unit: 1.
     pub coverage_factor: f64,
 }
 
@@ -75,11 +75,11 @@ pub fn e_n(difference_mm: &Vec3, predicted: &Residual, u_measured_mm: f64, k: f6
 /// All readings against all predictions, with the correlations of the predictions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Agreement {
-    /// χ².
+    /// χ². Unit: 1.
     pub chi_square: f64,
     /// Coordinates that were read.
     pub numbers: usize,
-    /// χ² is above it once in a hundred certificates though the prediction is right.
+    /// χ² is above it once in a hundred certificates though the prediction is right. Unit: 1.
     pub limit: f64,
 }
 
