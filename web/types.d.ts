@@ -187,7 +187,7 @@ export type Evaluate = {
    */
   date: string | null;
   /**
-   * The temperature, °C; null if none is stated.
+   * The temperature; null if none is stated. Unit: °C.
    */
   temperature_degC: number | null;
   /**
@@ -321,7 +321,7 @@ export type Diagnosed = {
    */
   date: string | null;
   /**
-   * The temperature, °C; null if none is stated.
+   * The temperature; null if none is stated. Unit: °C.
    */
   temperature_degC: number | null;
   /**
@@ -435,7 +435,7 @@ export type Verb = "predict" | "simulate" | "plan" | "identify" | "evaluate" | "
 /**
  * An issue over a stretch of the path.
  */
-export type TroubleEntry = {
+export type IssueEntry = {
   /**
    * `collision`, `near-miss`, `rapid-in-stock`, `over-travel`, `over-speed`, `slowed-down` or `rotary-flip`.
    */
@@ -819,11 +819,11 @@ export interface DeterminationEntry {
    */
   calibration: string;
   /**
-   * The temperature, °C.
+   * The temperature. Unit: °C.
    */
   temperature_c: number;
   /**
-   * Its standard uncertainty, K; null if it is not stated.
+   * Its standard uncertainty; null if it is not stated. Unit: K.
    */
   u_temperature_c: number | null;
   /**
@@ -898,11 +898,11 @@ export interface ValidationEntry {
    */
   calibration: string;
   /**
-   * The temperature, °C.
+   * The temperature. Unit: °C.
    */
   temperature_c: number;
   /**
-   * Its standard uncertainty, K; null if it is not stated.
+   * Its standard uncertainty; null if it is not stated. Unit: K.
    */
   u_temperature_c: number | null;
   /**
@@ -966,7 +966,7 @@ export interface PredictedEntry {
    */
   rms_um: number;
   /**
-   * The probability.
+   * The probability. Unit: 1.
    */
   share: number;
   /**
@@ -996,7 +996,7 @@ export interface StatesEntry2 {
  */
 export interface AgreementEntry {
   /**
-   * χ² of the readings.
+   * χ² of the readings. Unit: 1.
    */
   chi_square: number;
   /**
@@ -1004,7 +1004,7 @@ export interface AgreementEntry {
    */
   numbers: number;
   /**
-   * The value that chance exceeds once in a hundred times.
+   * The value that chance exceeds once in a hundred times. Unit: 1.
    */
   limit: number;
   /**
@@ -1152,7 +1152,7 @@ export interface DecisionEntry {
    */
   limit_um: number;
   /**
-   * The coverage factor k of U = k·u.
+   * The coverage factor k of U = k·u. Unit: 1.
    */
   coverage_factor: number;
   /**
@@ -1230,14 +1230,14 @@ export interface AxisEntry {
    */
   carries: string;
   /**
-   * Its direction in the machine frame, a unit vector.
+   * Its direction in the machine frame, a unit vector. Unit: 1.
    *
    * @minItems 3
    * @maxItems 3
    */
   direction: [number, number, number];
   /**
-   * +1 where a positive command moves the body along the direction, −1 against it (ISO 841).
+   * +1 where a positive command moves the body along the direction, −1 against it (ISO 841). Unit: 1.
    */
   sense: number;
   [k: string]: TravelEntry | null;
@@ -1468,11 +1468,11 @@ export interface FieldEntry {
    */
   left_out_rms_um: number;
   /**
-   * The share of these differences within U (k = 2).
+   * The share of these differences within U (k = 2). Unit: 1.
    */
   left_out_within_u2: number;
   /**
-   * The factor by which the uncertainty was raised.
+   * The factor by which the uncertainty was raised. Unit: 1.
    */
   raised: number;
   /**
@@ -1485,7 +1485,7 @@ export interface FieldEntry {
  */
 export interface OutlierEntry {
   /**
-   * Its number.
+   * Its number. Unit: 1.
    */
   point: number;
   /**
@@ -1497,7 +1497,7 @@ export interface OutlierEntry {
    */
   residual_um: number;
   /**
-   * The same in its standard uncertainty.
+   * The same in its standard uncertainty. Unit: 1.
    */
   z: number;
 }
@@ -1752,7 +1752,7 @@ export interface CompensateProgram {
    */
   largest_corrections: AxisCorrection[];
   /**
-   * The largest relative change of the path length of the tip in a block.
+   * The largest relative change of the path length of the tip in a block. Unit: 1.
    */
   way_change_relative: number;
   /**
@@ -1853,7 +1853,7 @@ export interface ResidualEntry {
  */
 export interface LineValue {
   /**
-   * The value.
+   * The value. Unit: that of the key.
    */
   value: number;
   /**
@@ -1895,7 +1895,7 @@ export interface AxisCorrection {
    */
   axis: string;
   /**
-   * The correction.
+   * The correction. Unit: that of `unit`.
    */
   value: number;
   /**
@@ -2088,7 +2088,7 @@ export interface TableEntry {
  */
 export interface CheckEntry {
   /**
-   * Its position, mm or deg.
+   * Its position. Unit: mm or deg.
    */
   position: number;
   [k: string]: number;
@@ -2116,7 +2116,7 @@ export interface LineEntry {
    */
   axis: string;
   /**
-   * The position at which only the offset is added, mm or deg.
+   * The position at which only the offset is added. Unit: mm or deg.
    */
   reference: number;
   /**
@@ -2141,7 +2141,7 @@ export interface JointEntry {
    */
   point_mm: [number, number, number];
   /**
-   * Its direction, a unit vector.
+   * Its direction, a unit vector. Unit: 1.
    *
    * @minItems 3
    * @maxItems 3
@@ -2233,11 +2233,11 @@ export interface LossEntry {
  */
 export interface CompensateTablesResidualEntry {
   /**
-   * The largest of the tip, µm.
+   * The largest of the tip. Unit: µm.
    */
   max: number;
   /**
-   * Root mean square of the tip, µm.
+   * Root mean square of the tip. Unit: µm.
    */
   rms: number;
   /**
@@ -2260,11 +2260,11 @@ export interface CompensateTablesResidualEntry {
  */
 export interface ProvedEntry {
   /**
-   * The largest of the tip, µm.
+   * The largest of the tip. Unit: µm.
    */
   max: number;
   /**
-   * Root mean square of the tip, µm.
+   * Root mean square of the tip. Unit: µm.
    */
   rms: number;
   /**
@@ -2505,7 +2505,7 @@ export interface LinkEntry {
    */
   carries: string;
   /**
-   * The direction of its axis in its own frame; (0 0 1) for workpiece and tool.
+   * The direction of its axis in its own frame; (0 0 1) for workpiece and tool. Unit: 1.
    *
    * @minItems 3
    * @maxItems 3
@@ -2513,6 +2513,7 @@ export interface LinkEntry {
   direction: [number, number, number];
   /**
    * +1 where a positive command moves it along the direction, −1 against it (ISO 841); null for no axis.
+   * Unit: 1.
    */
   sense: number | null;
   /**
@@ -2521,10 +2522,12 @@ export interface LinkEntry {
   parent: number | null;
   /**
    * Its pose on that body with all axes at 0.
+   * Unit: 1 of the nine numbers of the rotation, mm of the three of the shift.
    */
   placement: number[];
   /**
    * The pose of what is mounted on it.
+   * Unit: 1 of the nine numbers of the rotation, mm of the three of the shift.
    */
   mounting: number[];
   /**
@@ -2578,11 +2581,11 @@ export interface ErrorEntry {
    */
   table: string | null;
   /**
-   * Its value, if it is constant.
+   * Its value, if it is constant. Unit: that of `unit`.
    */
   value: number | null;
   /**
-   * Its standard uncertainty, if that is constant.
+   * Its standard uncertainty, if that is constant. Unit: that of `unit`.
    */
   u: number | null;
   /**
@@ -2599,7 +2602,7 @@ export interface ErrorEntry {
  */
 export interface CurveEntry {
   /**
-   * Positions of the axis.
+   * Positions of the axis. Unit: that of `at_unit`.
    */
   at: number[];
   /**
@@ -2607,15 +2610,15 @@ export interface CurveEntry {
    */
   at_unit: string;
   /**
-   * The mean of both directions there.
+   * The mean of both directions there. Unit: that of the error.
    */
   values: number[];
   /**
-   * Positive minus negative direction there; null without reversal.
+   * Positive minus negative direction there; null without reversal. Unit: that of the error.
    */
   reversal: number[] | null;
   /**
-   * The standard uncertainty there; null if it is not stated.
+   * The standard uncertainty there; null if it is not stated. Unit: that of the error.
    */
   u: number[] | null;
 }
@@ -2711,7 +2714,7 @@ export interface ModelEntry {
    */
   body: number | null;
   /**
-   * Its pose on that body.
+   * Its pose on that body. Unit: 1 of the nine numbers of the rotation, mm of the three of the shift.
    */
   placement: number[];
   /**
@@ -2786,7 +2789,7 @@ export interface Diff {
   moved: string[];
   /**
    * The bound of the change of one error in its standard uncertainty, so that among all errors none is
-   * above it by chance with 95 %.
+   * above it by chance with 95 %. Unit: 1.
    */
   limit_u: number;
   /**
@@ -2844,27 +2847,27 @@ export interface ErrorChangeEntry {
    */
   unit: string;
   /**
-   * Its old value; null if the old file does not state it.
+   * Its old value; null if the old file does not state it. Unit: that of `unit`.
    */
   old: number | null;
   /**
-   * Its new value; null if the new file does not state it.
+   * Its new value; null if the new file does not state it. Unit: that of `unit`.
    */
   new: number | null;
   /**
-   * New − old.
+   * New − old. Unit: that of `unit`.
    */
   change: number | null;
   /**
-   * Root mean square of the change over the travel.
+   * Root mean square of the change over the travel. Unit: that of `unit`.
    */
   rms_change: number;
   /**
-   * Standard uncertainty of the change; null if a file states none.
+   * Standard uncertainty of the change; null if a file states none. Unit: that of `unit`.
    */
   u_change: number | null;
   /**
-   * |change| over its expanded uncertainty (k = 2), ISO 13528.
+   * |change| over its expanded uncertainty (k = 2), ISO 13528. Unit: 1.
    */
   E_n: number | null;
   /**
@@ -2885,7 +2888,7 @@ export interface AxisPositionEntry {
    */
   axis: string;
   /**
-   * Its position.
+   * Its position. Unit: that of `unit`.
    */
   position: number;
   /**
@@ -2893,7 +2896,7 @@ export interface AxisPositionEntry {
    */
   unit: string;
   /**
-   * The side from which it is approached: +1, −1, or 0 for the mean of both.
+   * The side from which it is approached: +1, −1, or 0 for the mean of both. Unit: 1.
    */
   approach: number;
 }
@@ -3528,11 +3531,11 @@ export interface IdentifyErrors {
    */
   rank: number;
   /**
-   * Its condition number.
+   * Its condition number. Unit: 1.
    */
   condition: number;
   /**
-   * Relative singular value below which a combination counts as unobservable.
+   * Relative singular value below which a combination counts as unobservable. Unit: 1.
    */
   threshold: number;
   /**
@@ -3540,7 +3543,7 @@ export interface IdentifyErrors {
    */
   model: string;
   /**
-   * χ² of the fit.
+   * χ² of the fit. Unit: 1.
    */
   chi_square: number;
   /**
@@ -3548,7 +3551,7 @@ export interface IdentifyErrors {
    */
   degrees_of_freedom: number;
   /**
-   * Factor by which the uncertainties are enlarged, 1 or more.
+   * Factor by which the uncertainties are enlarged, 1 or more. Unit: 1.
    */
   birge_ratio: number;
   /**
@@ -3564,7 +3567,7 @@ export interface IdentifyErrors {
    */
   outliers: IdentifyErrorsOutlierEntry[];
   /**
-   * That limit, in standard deviations.
+   * That limit, in standard deviations. Unit: 1.
    */
   outlier_limit: number;
   /**
@@ -3635,11 +3638,11 @@ export interface FoundEntry {
    */
   name: string;
   /**
-   * The standard uncertainty again, in the same unit.
+   * The standard uncertainty again. Unit: that of the value.
    */
   u: number | null;
   /**
-   * Value divided by its standard uncertainty.
+   * Value divided by its standard uncertainty. Unit: 1.
    */
   z: number | null;
   [k: string]: number | null;
@@ -3695,7 +3698,7 @@ export interface RmsEntry {
    */
   urad: number | null;
   /**
-   * In units of the stated noise.
+   * In units of the stated noise. Unit: 1.
    */
   times_noise: number;
 }
@@ -3708,7 +3711,7 @@ export interface IdentifyErrorsFieldEntry {
    */
   what: string;
   /**
-   * The share of the squares of the residual, 0 to 1.
+   * The share of the squares of the residual, 0 to 1. Unit: 1.
    */
   share: number;
 }
@@ -3721,7 +3724,7 @@ export interface SelectionEntry {
    */
   candidates: number;
   /**
-   * Least |z| of a term that is kept; null if none is.
+   * Least |z| of a term that is kept; null if none is. Unit: 1.
    */
   least_z: number | null;
   /**
@@ -3734,7 +3737,7 @@ export interface SelectionEntry {
  */
 export interface Score {
   /**
-   * Least |z| of a term that is kept; ∞ (null): none is, 0: all are.
+   * Least |z| of a term that is kept; ∞ (null): none is, 0: all are. Unit: 1.
    */
   least_z: number | null;
   /**
@@ -3742,11 +3745,11 @@ export interface Score {
    */
   terms: number;
   /**
-   * Root mean square of the residual on parts that were held out, in units of the noise.
+   * Root mean square of the residual on parts that were held out, in units of the noise. Unit: 1.
    */
   held_out_times_noise: number;
   /**
-   * The same on the readings themselves.
+   * The same on the readings themselves. Unit: 1.
    */
   in_sample_times_noise: number;
 }
@@ -3767,7 +3770,7 @@ export interface IdentifyErrorsOutlierEntry {
    */
   channel: number;
   /**
-   * Its studentised residual.
+   * Its studentised residual. Unit: 1.
    */
   studentised: number;
 }
@@ -3784,11 +3787,11 @@ export interface InfluenceEntry {
    */
   line: number;
   /**
-   * Its leverage, 0 to 1.
+   * Its leverage, 0 to 1. Unit: 1.
    */
   leverage: number;
   /**
-   * Cook's distance; null if the result depends on this reading alone.
+   * Cook's distance; null if the result depends on this reading alone. Unit: 1.
    */
   cook: number | null;
 }
@@ -3801,7 +3804,7 @@ export interface ConventionCheck {
    */
   tried: number;
   /**
-   * The residual as the readings are, in units of the noise.
+   * The residual as the readings are, in units of the noise. Unit: 1.
    */
   residual_times_noise: number;
   /**
@@ -3822,11 +3825,11 @@ export interface Convention {
    */
   change: string;
   /**
-   * The residual without the change, in units of the noise.
+   * The residual without the change, in units of the noise. Unit: 1.
    */
   before_times_noise: number;
   /**
-   * The residual with the change, in units of the noise.
+   * The residual with the change, in units of the noise. Unit: 1.
    */
   after_times_noise: number;
 }
@@ -4016,7 +4019,7 @@ export interface IdentifyProbe {
    */
   degrees_of_freedom?: number;
   /**
-   * Factor from u to U (95 %).
+   * Factor from u to U (95 %). Unit: 1.
    */
   coverage_factor?: number;
   /**
@@ -4238,7 +4241,7 @@ export interface FreshCheckEntry {
    */
   after: SpreadEntry;
   /**
-   * Share of the hits within U (95 %), 0 to 1.
+   * Share of the hits within U (95 %), 0 to 1. Unit: 1.
    */
   within_U: number;
 }
@@ -4442,7 +4445,7 @@ export interface StylusEntry {
    */
   degrees_of_freedom: number;
   /**
-   * Factor from u to U (95 %).
+   * Factor from u to U (95 %). Unit: 1.
    */
   coverage_factor: number;
   /**
@@ -4594,7 +4597,7 @@ export interface IdentifyRtcp {
    */
   readings: number;
   /**
-   * χ² of the readings.
+   * χ² of the readings. Unit: 1.
    */
   chi_square: number;
   /**
@@ -4602,7 +4605,7 @@ export interface IdentifyRtcp {
    */
   degrees_of_freedom: number;
   /**
-   * By how much the uncertainties are enlarged, 1 or more.
+   * By how much the uncertainties are enlarged, 1 or more. Unit: 1.
    */
   birge: number;
   /**
@@ -4743,7 +4746,7 @@ export interface WorstEntry {
    */
   residual_um: number;
   /**
-   * The same in its standard uncertainty.
+   * The same in its standard uncertainty. Unit: 1.
    */
   standardised: number;
   /**
@@ -4828,7 +4831,7 @@ export interface IdentifyThermal {
    */
   refusal: string | null;
   /**
-   * Share of the mean square drift of held-out cycles that the model explains, at most 1.
+   * Share of the mean square drift of held-out cycles that the model explains, at most 1. Unit: 1.
    */
   explained: number;
   /**
@@ -4868,7 +4871,7 @@ export interface IdentifyThermal {
    */
   coefficients: CoefficientEntry[];
   /**
-   * Correlations of the coefficients, −1 to 1, row by row.
+   * Correlations of the coefficients, −1 to 1, row by row. Unit: 1.
    */
   correlation: number[][];
   /**
@@ -5002,7 +5005,7 @@ export interface ThermalScoreEntry {
    */
   chosen_again: number;
   /**
-   * Condition number of the columns; null if they are linearly dependent.
+   * Condition number of the columns; null if they are linearly dependent. Unit: 1.
    */
   condition: number | null;
 }
@@ -5251,7 +5254,7 @@ export interface PointEntry {
    */
   point_mm: [number, number, number];
   /**
-   * The normal of the surface there, out of the material.
+   * The normal of the surface there, out of the material. Unit: 1.
    *
    * @minItems 3
    * @maxItems 3
@@ -5299,7 +5302,7 @@ export interface Plan {
    */
   rank: number;
   /**
-   * Condition number of the design matrix.
+   * Condition number of the design matrix. Unit: 1.
    */
   condition: number;
   /**
@@ -5386,7 +5389,7 @@ export interface SeenEntry {
    */
   error: string;
   /**
-   * The largest reading of each channel, in the unit of the path.
+   * The largest reading of each channel. Unit: that of the path.
    */
   largest: number[];
 }
@@ -5403,11 +5406,11 @@ export interface ExpectedEntry {
    */
   unit: string;
   /**
-   * Standard uncertainty in this unit; null if not observable.
+   * Standard uncertainty; null if not observable. Unit: that of `unit`.
    */
   u: number | null;
   /**
-   * Expanded uncertainty (k = 2) in this unit; null if not observable.
+   * Expanded uncertainty (k = 2); null if not observable. Unit: that of `unit`.
    */
   expanded_k2: number | null;
 }
@@ -5436,7 +5439,7 @@ export interface ChosenEntry {
    */
   time_s: number;
   /**
-   * The criterion at the start and after every exchange.
+   * The criterion at the start and after every exchange. Unit: 1.
    */
   criterion: number[];
   /**
@@ -5602,7 +5605,7 @@ export interface ToolPoseEntry {
    */
   tip_mm: [number, number, number];
   /**
-   * Its axis from the tip to the spindle, a unit vector.
+   * Its axis from the tip to the spindle, a unit vector. Unit: 1.
    *
    * @minItems 3
    * @maxItems 3
@@ -5680,7 +5683,7 @@ export interface PlaceEntry {
    */
   origin_mm: [number, number, number];
   /**
-   * Its rotation, row by row.
+   * Its rotation, row by row. Unit: 1.
    *
    * @minItems 3
    * @maxItems 3
@@ -5860,7 +5863,7 @@ export interface VerificationEntry {
  */
 export interface LargestEntry {
   /**
-   * Its value, in the unit of its name.
+   * The value. Unit: that of the key.
    */
   value: number;
   /**
@@ -6165,7 +6168,7 @@ export interface PredictMachineEntry {
  */
 export interface IndexEntry {
   /**
-   * Its value, mm.
+   * Its value. Unit: mm.
    */
   value: number;
   /**
@@ -6218,7 +6221,7 @@ export interface JudgementEntry {
    */
   expanded_mm: number | null;
   /**
-   * Value divided by tolerance.
+   * Value divided by tolerance. Unit: 1.
    */
   used_ratio: number;
   /**
@@ -6265,7 +6268,7 @@ export interface PredictPositionEntry {
  */
 export interface PositionIndex {
   /**
-   * Its value, mm.
+   * Its value. Unit: mm.
    */
   value: number;
   /**
@@ -6749,11 +6752,11 @@ export interface ServeIdentifyDiagnosed {
    */
   rank: number;
   /**
-   * Its condition number.
+   * Its condition number. Unit: 1.
    */
   condition: number;
   /**
-   * Relative singular value below which a combination counts as unobservable.
+   * Relative singular value below which a combination counts as unobservable. Unit: 1.
    */
   threshold: number;
   /**
@@ -6761,7 +6764,7 @@ export interface ServeIdentifyDiagnosed {
    */
   model: string;
   /**
-   * χ² of the fit.
+   * χ² of the fit. Unit: 1.
    */
   chi_square: number;
   /**
@@ -6769,7 +6772,7 @@ export interface ServeIdentifyDiagnosed {
    */
   degrees_of_freedom: number;
   /**
-   * Factor by which the uncertainties are enlarged, 1 or more.
+   * Factor by which the uncertainties are enlarged, 1 or more. Unit: 1.
    */
   birge_ratio: number;
   /**
@@ -6785,7 +6788,7 @@ export interface ServeIdentifyDiagnosed {
    */
   outliers: ServeIdentifyOutlierEntry[];
   /**
-   * That limit, in standard deviations.
+   * That limit, in standard deviations. Unit: 1.
    */
   outlier_limit: number;
   /**
@@ -6810,7 +6813,7 @@ export interface ServeIdentifyFieldEntry {
    */
   what: string;
   /**
-   * The share of the squares of the residual, 0 to 1.
+   * The share of the squares of the residual, 0 to 1. Unit: 1.
    */
   share: number;
 }
@@ -6831,7 +6834,7 @@ export interface ServeIdentifyOutlierEntry {
    */
   channel: number;
   /**
-   * Its studentised residual.
+   * Its studentised residual. Unit: 1.
    */
   studentised: number;
 }
@@ -7034,7 +7037,7 @@ export interface PlanDocument {
    */
   rank: number;
   /**
-   * Condition number of the design matrix.
+   * Condition number of the design matrix. Unit: 1.
    */
   condition: number;
   /**
@@ -8051,7 +8054,7 @@ export interface SimulationDocument {
   /**
    * The issues that were found.
    */
-  troubles: TroubleEntry[];
+  troubles: IssueEntry[];
   /**
    * How many more of the same kinds were found, but not listed.
    */
@@ -8104,15 +8107,15 @@ export interface ServeSimulateAxisEntry {
    */
   unit: string;
   /**
-   * The lowest position, in its unit; null if the axis does not move.
+   * The lowest position; null if the axis does not move. Unit: that of `unit`.
    */
   lowest: number | null;
   /**
-   * The highest position, in its unit; null if the axis does not move.
+   * The highest position; null if the axis does not move. Unit: that of `unit`.
    */
   highest: number | null;
   /**
-   * The distance that it travels, in its unit.
+   * The distance that it travels. Unit: that of `unit`.
    */
   travelled: number | null;
   /**
@@ -8175,7 +8178,7 @@ export interface ServeSimulateDeviationEntry {
  */
 export interface ServeSimulateWorstEntry {
   /**
-   * The value, in the unit at the end of its key.
+   * The value. Unit: that of the key.
    */
   value: number;
   /**
@@ -8200,7 +8203,7 @@ export interface ReversalEntry {
    */
   axis: string;
   /**
-   * Its position, mm or degrees.
+   * Its position. Unit: mm or deg.
    */
   at: number;
   /**
@@ -8269,11 +8272,11 @@ export interface TemperaturesEntry {
  */
 export interface SimulateSensorEntry {
   /**
-   * The lowest temperature, °C; null without a reading.
+   * The lowest temperature; null without a reading. Unit: °C.
    */
   lowest_degC: number | null;
   /**
-   * The highest temperature, °C; null without a reading.
+   * The highest temperature; null without a reading. Unit: °C.
    */
   highest_degC: number | null;
 }
@@ -8282,7 +8285,7 @@ export interface SimulateSensorEntry {
  */
 export interface SimulateWorstEntry {
   /**
-   * The value, in the unit at the end of its key.
+   * The value. Unit: that of the key.
    */
   value: number;
   /**
@@ -8808,7 +8811,7 @@ export interface Simulate {
   /**
    * The issues that were found.
    */
-  troubles: TroubleEntry[];
+  troubles: IssueEntry[];
   /**
    * How many more of the same kinds were found, but not listed.
    */
@@ -8894,15 +8897,15 @@ export interface SimulateAxisEntry {
    */
   unit: string;
   /**
-   * The lowest position, in its unit; null if the axis does not move.
+   * The lowest position; null if the axis does not move. Unit: that of `unit`.
    */
   lowest: number | null;
   /**
-   * The highest position, in its unit; null if the axis does not move.
+   * The highest position; null if the axis does not move. Unit: that of `unit`.
    */
   highest: number | null;
   /**
-   * The distance that it travels, in its unit.
+   * The distance that it travels. Unit: that of `unit`.
    */
   travelled: number | null;
   /**
@@ -9246,7 +9249,7 @@ export interface MoveEntry {
     [k: string]: number;
   };
   /**
-   * The tool axis if it is programmed as a vector.
+   * The tool axis if it is programmed as a vector. Unit: 1.
    *
    * @minItems 3
    * @maxItems 3
@@ -9262,14 +9265,14 @@ export interface MoveEntry {
  */
 export interface FrameEntry {
   /**
-   * Rotation, scale and mirror of X, Y and Z, row by row.
+   * Rotation, scale and mirror of X, Y and Z, row by row. Unit: 1.
    *
    * @minItems 3
    * @maxItems 3
    */
   linear: [[number, number, number], [number, number, number], [number, number, number]];
   /**
-   * Its origin: X Y Z A B C U V W, mm and degrees.
+   * Its origin: X Y Z A B C U V W, mm and degrees. Unit: mm or deg.
    *
    * @minItems 9
    * @maxItems 9
@@ -9372,7 +9375,7 @@ export interface Verify {
    */
   readings: number;
   /**
-   * The coverage factor k of U = k·u.
+   * The coverage factor k of U = k·u. Unit: 1.
    */
   coverage_factor: number;
   /**
@@ -9458,22 +9461,22 @@ export interface CoverageEntry {
    */
   inside: number;
   /**
-   * The number of independent ones: errors of the machine shift many readings at once.
+   * The number of independent ones: errors of the machine shift many readings at once. Unit: 1.
    */
   independent: number;
   /**
-   * `inside` over `numbers`.
+   * `inside` over `numbers`. Unit: 1.
    */
   share: number;
   /**
-   * The 95 % interval of the share (Wilson).
+   * The 95 % interval of the share (Wilson). Unit: 1.
    *
    * @minItems 2
    * @maxItems 2
    */
   interval_95: [number, number];
   /**
-   * The share that is expected.
+   * The share that is expected. Unit: 1.
    */
   expected: number;
 }
@@ -9492,7 +9495,7 @@ export interface PartEntry {
    */
   coverage: CoverageEntry;
   /**
-   * The largest |deviation| / U; null where U is 0.
+   * The largest |deviation| / U; null where U is 0. Unit: 1.
    */
   largest_ratio: number | null;
   [k: string]: number | null;
@@ -9510,7 +9513,7 @@ export interface PlacePartEntry {
    */
   coverage: CoverageEntry;
   /**
-   * The largest |deviation| / U; null where U is 0.
+   * The largest |deviation| / U; null where U is 0. Unit: 1.
    */
   largest_ratio: number | null;
   /**
