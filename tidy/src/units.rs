@@ -68,8 +68,7 @@ fn names_unit(name: &str) -> bool {
 fn states_unit(document: &str) -> bool {
     let Some((_, unit)) = document.split_once(" Unit: ") else { return false };
     let ends = |rest: &str| rest.starts_with([' ', ',', '.']);
-    unit.ends_with('.')
-        && UNITS.iter().any(|known| unit.strip_prefix(known).is_some_and(|rest| ends(rest)))
+    unit.ends_with('.') && UNITS.iter().any(|known| unit.strip_prefix(known).is_some_and(ends))
 }
 
 #[cfg(test)]
