@@ -9,6 +9,7 @@
 
 mod axes;
 mod back;
+mod elements;
 mod fault;
 mod tip;
 
@@ -22,6 +23,7 @@ use super::curve::Curve;
 use super::densify::Densify;
 use super::densify::MOST_PIECES;
 use super::setup::SetUp;
+use super::timing::Element;
 use fault::{fault, too_many_pieces};
 use trueaxis_geometry::frame::{Direction, Workpiece, inverse3};
 use trueaxis_geometry::{Mat3, Vec3};
@@ -65,8 +67,16 @@ impl Node {
 }
 
 /// A step of the path, in order.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum PathStep {
+    /// How the axes go on the next move; the nodes up to its last follow. Only for a path
+    /// [`AxisPath::with_elements`]; a move without one goes straight from node to node.
+    Element {
+        /// Its derivatives.
+        element: Box<Element>,
+        /// The sum of the lengths of the nodes.
+        length: f64,
+    },
     /// The next place.
     Node(Node),
     /// Another tool is in the spindle from here on.
@@ -77,6 +87,7 @@ pub enum PathStep {
 pub struct AxisPath<'m> {
     machine: &'m Machine,
     densify: Densify,
+    has_elements: bool,
     /// The axis of the machine for each axis of programs.
     axis_of: [Option<usize>; 9],
     /// From basic coordinates to the workpiece frame of the machine file.
@@ -120,6 +131,7 @@ impl<'m> AxisPath<'m> {
         let mut path = Self {
             machine,
             densify,
+            has_elements: false,
             axis_of: axes_of_programs(machine),
             turn,
             shift,

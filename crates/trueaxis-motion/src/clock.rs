@@ -3,7 +3,7 @@
 use super::axis_path::Node;
 use super::timing;
 use super::timing::three_phase::{Block, Shape, ThreePhases};
-use super::timing::{AxisLimits, LimitKind, Limiting, Planner, Timed, TimingError};
+use super::timing::{AxisLimits, Element, LimitKind, Limiting, Planner, Timed, TimingError};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command, Limits, MAX_AXES};
 
@@ -62,6 +62,10 @@ pub(super) struct Clock {
     linear: [bool; MAX_AXES],
     timing: Timing,
     planner: Option<Planner>,
+    /// How the axes go on the present move and how long it is, and the nodes on it so far, by their
+    /// distance from its begin.
+    element: Option<(Box<Element>, f64)>,
+    marks: Vec<f64>,
     /// The nodes of the present move, for the three phases.
     block: Vec<Node>,
     /// Where the axes were last.
@@ -83,11 +87,34 @@ impl Clock {
             linear,
             timing,
             planner: None,
+            element: None,
+            marks: Vec::new(),
             block: Vec::new(),
             at: start,
             begun_s: 0.0,
             now_s: 0.0,
         }
+    }
+
+    /// The next nodes, up to the last one of a move, lie on this element. Returns how many nodes
+    /// of the move before were left without a stamp because it was not completed.
+    pub fn begin(&mut self, element: Box<Element>, length: f64) -> usize {
+        let left = self.drop_element();
+        if self.timing == Timing::LookAhead {
+            self.element = Some((element, length));
+        }
+        left
+    }
+
+    /// Whether the next node lies on an element.
+    pub fn on_element(&self) -> bool {
+        self.element.is_some()
+    }
+
+    /// The move is not completed: how many of its nodes have no stamp.
+    pub fn drop_element(&mut self) -> usize {
+        self.element = None;
+        std::mem::take(&mut self.marks).len()
     }
 
     /// The next node; passes on every stamp that is final by now.
@@ -104,6 +131,10 @@ impl Clock {
             return Ok(());
         }
         match self.timing {
+            Timing::LookAhead if self.element.is_some() && !node.last => {
+                let before = self.marks.last().copied().unwrap_or(0.0);
+                self.marks.push(before + node.length);
+            }
             Timing::LookAhead => self.plan(node, out)?,
             Timing::ThreePhase { acceleration, smooth } => {
                 self.block.push(*node);
@@ -122,13 +153,20 @@ impl Clock {
             planner.push(&self.timed_node(node, self.at), &mut |_: Timed| {})?;
             (self.begun_s, self.planner) = (self.now_s, Some(planner));
         }
-        let timed_node = self.timed_node(node, node.command);
+        let mut timed_node = self.timed_node(node, node.command);
         let (begun_s, now_s) = (self.begun_s, &mut self.now_s);
         let Some(planner) = &mut self.planner else { return Ok(()) };
-        planner.push(&timed_node, &mut |timed: Timed| {
+        let mut out = |timed: Timed| {
             *now_s = begun_s + timed.t_s;
             out(Stamp { time_s: *now_s, speed: timed.sigma_dot, held_by: timed.limiting });
-        })
+        };
+        let Some((element, length)) = self.element.take() else {
+            return planner.push(&timed_node, &mut out);
+        };
+        timed_node.length = length.max(SHORTEST);
+        planner.push_element(&timed_node, *element, &self.marks, &mut out)?;
+        self.marks.clear();
+        Ok(())
     }
 
     fn timed_node(&self, node: &Node, command: Command) -> timing::Node {

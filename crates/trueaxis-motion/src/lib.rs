@@ -308,7 +308,10 @@ impl<'w, 'o> Walk<'w, 'o> {
         options: &'w Options,
         observers: &'w mut [&'o mut dyn Observer],
     ) -> Self {
-        let path = AxisPath::new(machine, setup, options.densify, options.rounding_mm);
+        let mut path = AxisPath::new(machine, setup, options.densify, options.rounding_mm);
+        if options.timing == Timing::LookAhead {
+            path = path.with_elements();
+        }
         let start = *path.command();
         let stretch = Stretch {
             setup,
@@ -365,7 +368,13 @@ struct Stretch<'w, 'o> {
 impl Stretch<'_, '_> {
     fn take(&mut self, step: PathStep) {
         match step {
-            PathStep::Node(node) if node.command == self.at && node.dwell_s == 0.0 => {}
+            PathStep::Element { element, length } => {
+                let left = self.clock.begin(element, length);
+                self.nodes.truncate(self.nodes.len() - left);
+            }
+            // A full circle ends where it began.
+            PathStep::Node(node)
+                if node.command == self.at && node.dwell_s == 0.0 && !self.clock.on_element() => {}
             PathStep::Node(node) => {
                 let stamps = &mut self.stamps;
                 match self.clock.push(&node, &mut |stamp| stamps.push(stamp)) {
@@ -373,7 +382,11 @@ impl Stretch<'_, '_> {
                         self.at = node.command;
                         self.nodes.push(node);
                     }
-                    Err(error) => self.faults.push(Fault::untimed(&node, &error)),
+                    Err(error) => {
+                        let left = self.clock.drop_element();
+                        self.nodes.truncate(self.nodes.len() - left);
+                        self.faults.push(Fault::untimed(&node, &error));
+                    }
                 }
                 if self.stamps.len() >= BATCH {
                     self.evaluate();
@@ -416,6 +429,8 @@ impl Stretch<'_, '_> {
     }
 
     fn rest(&mut self) {
+        let left = self.clock.drop_element();
+        self.nodes.truncate(self.nodes.len() - left);
         let stamps = &mut self.stamps;
         self.clock.finish(&mut |stamp| stamps.push(stamp));
         self.evaluate();

@@ -11,6 +11,8 @@
 //!      ──7 phases per run──> time stamp of every node, Phase by Phase     docs/model.md eq. 44
 //! ```
 
+mod element;
+mod joint;
 mod path;
 mod planner;
 mod scurve;
@@ -18,8 +20,9 @@ pub mod three_phase;
 mod timeline;
 mod trapezoid;
 
+pub use element::{Element, Part, Tangent, Turn};
 pub use planner::Planner;
-pub use timeline::{State, Timeline};
+pub use timeline::{Shape, State, Timeline};
 pub use trapezoid::without_jerk_s;
 use trueaxis_machine::axis::{Command, Limits, MAX_AXES};
 

@@ -1,10 +1,14 @@
 //! Moves that the axes make as they are written: without tool-centre point, to machine
 //! coordinates, and onto a swivelled plane.
 
+use super::elements::sampled;
 use super::fault::{fault, unreachable};
 use super::{AxisPath, Fault, PathStep, Speed, fraction, path_length};
 use crate::basic::choose;
 use crate::curve::Curve;
+use crate::timing::Element;
+use trueaxis_geometry::Vec3;
+use trueaxis_machine::axis::Command;
 use trueaxis_nc::moves::{Axis, Branch, Move};
 
 impl AxisPath<'_> {
@@ -29,6 +33,17 @@ impl AxisPath<'_> {
         let pieces = self.count(m, curve, length_mm, turned)?;
         let length = path_length(length_mm, turned);
         let speed = feed.along(length);
+        let element = || {
+            let mut goal = end;
+            self.set_linear(&mut goal, self.in_basic(curve.at(1.0)) + self.tool);
+            let to_axes = |v: Vec3| {
+                let mut axes = Command::default();
+                self.set_linear(&mut axes, Vec3::from(self.frame.vector(v.into())));
+                axes
+            };
+            Some(Self::element_of_axes(curve, [&begin, &goal], length, to_axes))
+        };
+        self.announce(length, element, out);
         let mut command = begin;
         for k in 1..=pieces {
             let u = fraction(k, pieces);
@@ -68,6 +83,17 @@ impl AxisPath<'_> {
         }
         let turned = self.rotary_way(&begin, &end);
         let pieces = self.bounded(m, self.densify.count(0.0, turned))?;
+        let length = turned.to_degrees();
+        let element = || {
+            if !keep_tip {
+                return Some(Element::straight(&begin, &end, length));
+            }
+            sampled(&begin, length, turned, &mut |u, _| {
+                let mut command = std::array::from_fn(|i| begin[i] + (end[i] - begin[i]) * u);
+                control.place(tip, &mut command).then_some(command)
+            })
+        };
+        self.announce(length, element, out);
         for k in 1..=pieces {
             let u = fraction(k, pieces);
             let mut command = std::array::from_fn(|i| begin[i] + (end[i] - begin[i]) * u);
@@ -75,8 +101,7 @@ impl AxisPath<'_> {
                 control.place(tip, &mut command);
             }
             self.command = if k == pieces { end } else { command };
-            let length = turned.to_degrees() / f64::from(pieces);
-            out(self.next(m, length, f64::INFINITY, k == pieces));
+            out(self.next(m, length / f64::from(pieces), f64::INFINITY, k == pieces));
         }
         self.reread();
         Ok(())
@@ -101,6 +126,7 @@ impl AxisPath<'_> {
         let length = path_length(length_mm, turned);
         let pieces = self.bounded(m, self.densify.count(length_mm, turned))?;
         let speed = feed.along(length);
+        self.announce(length, || Some(Element::straight(&begin, &end, length)), out);
         for k in 1..=pieces {
             let u = fraction(k, pieces);
             self.command = std::array::from_fn(|i| {

@@ -1,11 +1,13 @@
 //! Moves of the tip, with tool-centre point or in a swivelled plane.
 
+use super::elements::sampled;
 use super::fault::{fault, too_many_pieces, unreachable};
 use super::{AxisPath, Fault, PathStep, Speed, fraction, path_length};
 use crate::basic::nearest;
 use crate::curve::Curve;
 use crate::densify::MOST_PIECES;
 use crate::orientation::{NoSwing, Swing};
+use crate::timing::Element;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::Direction;
 use trueaxis_machine::SolveError;
@@ -81,6 +83,7 @@ impl AxisPath<'_> {
             length,
             speed: feed.along(length),
         };
+        self.announce(length, || self.tip_element(&tip_move, turned), out);
         for k in 1..=pieces {
             self.advance(&tip_move, [fraction(k - 1, pieces), fraction(k, pieces)], 0, None, out)?;
         }
@@ -104,7 +107,7 @@ impl AxisPath<'_> {
         known: Option<TipPose>,
         out: &mut dyn FnMut(PathStep),
     ) -> Result<(), Fault> {
-        let pose = known.map_or_else(|| self.tip_pose(tip_move, u1), Ok);
+        let pose = known.map_or_else(|| self.tip_pose(tip_move, u1, &self.command), Ok);
         let (basic, command) = pose.map_err(|error| unreachable(tip_move.m, &error))?;
         if halvings < MOST_HALVINGS {
             let middle = 0.5 * (u0 + u1);
@@ -145,15 +148,56 @@ impl AxisPath<'_> {
         if chord_mm.is_infinite() {
             return None;
         }
-        let (there, at) = self.tip_pose(tip_move, middle).ok()?;
+        let (there, at) = self.tip_pose(tip_move, middle, &self.command).ok()?;
         let between = std::array::from_fn(|i| 0.5 * (self.command[i] + end[i]));
         let tip = tip_move.control.tip_and_axis(&between).0;
         let leaves = (tip - self.place_in_workpiece(there)).norm() > chord_mm;
         leaves.then_some(Some((there, at)))
     }
 
-    /// Basic coordinates and axes at u of a move of the tip.
-    fn tip_pose(&self, tip_move: &TipMove<'_>, u: f64) -> Result<TipPose, SolveError> {
+    /// How the axes go on the whole move; `None` where they cannot.
+    fn tip_element(&self, tip_move: &TipMove<'_>, turned: f64) -> Option<Element> {
+        let (begin, length) = (&tip_move.begin, tip_move.length);
+        let mut at = |u: f64, near: &Command| {
+            self.tip_pose(tip_move, u, near).ok().map(|(_, command)| command)
+        };
+        let Turning::Axes(end) = tip_move.turning else {
+            return sampled(begin, length, turned, &mut at);
+        };
+        if self.rotary_way(begin, end) > 0.0 {
+            let sweep = match *tip_move.curve {
+                Curve::Line { .. } => 0.0,
+                Curve::Helix { sweep, .. } => sweep.abs(),
+            };
+            return sampled(begin, length, turned.max(sweep), &mut at);
+        }
+        // Without rotary axes the linear ones follow the tip in a fixed frame.
+        let end = at(1.0, begin)?;
+        let place = |basic: Vec3| {
+            let mut command = *begin;
+            let reached = tip_move.control.place(self.place_in_workpiece(basic), &mut command);
+            reached.then_some(command)
+        };
+        let origin = place(self.basic)?;
+        let mut columns = [Command::default(); 3];
+        for (column, unit) in columns.iter_mut().zip([Vec3::x(), Vec3::y(), Vec3::z()]) {
+            let there = place(self.basic + unit)?;
+            *column = std::array::from_fn(|i| there[i] - origin[i]);
+        }
+        let to_axes = |v: Vec3| {
+            let v = self.frame.vector(v.into());
+            std::array::from_fn(|i| (0..3).map(|k| columns[k][i] * v[k]).sum())
+        };
+        Some(Self::element_of_axes(tip_move.curve, [begin, &end], length, to_axes))
+    }
+
+    /// Basic coordinates and axes at u of a move of the tip, near other axis positions.
+    fn tip_pose(
+        &self,
+        tip_move: &TipMove<'_>,
+        u: f64,
+        near: &Command,
+    ) -> Result<TipPose, SolveError> {
         let begin = &tip_move.begin;
         let mut command = match tip_move.turning {
             Turning::Axes(end) if u == 1.0 => *end,
@@ -161,7 +205,7 @@ impl AxisPath<'_> {
             Turning::Swing(_, Some(end)) if u == 1.0 => *end,
             Turning::Swing(swing, _) => {
                 let direction = Direction::of(swing.at(u)).unwrap_or(Direction::Z);
-                nearest(tip_move.control, direction, &self.command)?
+                nearest(tip_move.control, direction, near)?
             }
         };
         let basic = self.in_basic(tip_move.curve.at(u));

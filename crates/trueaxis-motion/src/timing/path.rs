@@ -1,91 +1,31 @@
-//! The smooth path: straight pieces and blends, and what the axes allow on them.
+//! What the axes allow on a piece of the path.
 
-use super::scurve::Bounds;
-use super::{AxisLimits, LimitKind, Limiting, Node};
-use trueaxis_machine::axis::{Command, MAX_AXES};
+use super::element::{Part, Segment};
+use super::scurve::{Bounds, ramp_length, ramp_time};
+use super::{AxisLimits, LimitKind, Limiting};
+use trueaxis_machine::axis::MAX_AXES;
 
 /// Largest velocity, acceleration and jerk of the path where no axis limits it.
-const CEILING: Bounds = Bounds { v: 1e6, a: 1e9, j: 1e12 };
+pub(super) const CEILING: Bounds = Bounds { v: 1e6, a: 1e9, j: 1e12 };
 
-/// Shares of a blend: its curvature takes at most so much of an axis' acceleration and jerk. The
-/// rest speeds the path up and slows it down. Found by trial on the programs of the bench: where
-/// the curvature binds, the velocity that it allows counts for more than the change of velocity.
-const ACCELERATION_SHARE: f64 = 0.75;
-const JERK_SHARE: f64 = 0.9;
-/// The mixed term 3 q″ σ̇ σ̈ takes at most so much of the jerk where the curvature takes less.
-const MIXED_SHARE: f64 = 0.2;
+/// Shares of an axis' acceleration and jerk that a curve may take where they bind the velocity; the
+/// rest speeds the path up and slows it down. The best of them is chosen for each arc.
+const SHARES: [[f64; 2]; 4] = [[0.6, 0.4], [0.8, 0.6], [0.9, 0.8], [0.97, 0.93]];
+/// On a sampled curve.
+const SAMPLED_SHARES: [f64; 2] = [0.75, 0.9];
 
 /// Reciprocals of the limits: 0 where an axis is unlimited.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Reciprocals {
-    v: [f64; MAX_AXES],
-    a: [f64; MAX_AXES],
-    j: [f64; MAX_AXES],
+    pub v: [f64; MAX_AXES],
+    pub a: [f64; MAX_AXES],
+    pub j: [f64; MAX_AXES],
 }
 
 impl Reciprocals {
     pub(super) fn of(limits: &AxisLimits) -> Self {
         let each = |values: &[f64; MAX_AXES]| values.map(|x| 1.0 / x);
         Self { v: each(&limits.velocity), a: each(&limits.acceleration), j: each(&limits.jerk) }
-    }
-}
-
-/// The straight line from one node to the next.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Segment {
-    /// dq/dσ of each axis.
-    pub slope: Command,
-    pub length: f64,
-    pub feed: f64,
-}
-
-impl Segment {
-    pub(super) fn between(from: &Command, node: &Node) -> Self {
-        let mut slope = [0.0; MAX_AXES];
-        for (i, s) in slope.iter_mut().enumerate() {
-            *s = (node.command[i] - from[i]) / node.length;
-        }
-        Self { slope, length: node.length, feed: node.feed }
-    }
-}
-
-/// How the path gets round a node.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Corner {
-    /// There is none: the path goes straight on.
-    None,
-    /// A blend over ± this length.
-    Blend(f64),
-    /// It stops, because this axis may not leave the corner.
-    Stop(usize),
-}
-
-/// The largest blend that each axis' tolerance and half of both segments allow,
-/// docs/model.md eq. 42.
-///
-/// `least` is the shortest blend that differs from none.
-pub(super) fn corner(node: &Node, before: &Segment, after: &Segment, least: f64) -> Corner {
-    let half = 0.5 * before.length.min(after.length);
-    let mut d = half;
-    let (mut bends, mut tightest) = (false, 0);
-    for i in 0..MAX_AXES {
-        let (e, f) = (before.slope[i], after.slope[i]);
-        let change = (f - e).abs();
-        // Below this the change is rounding of the positions.
-        let rounding = 4.0 * f64::EPSILON * node.command[i].abs() / half;
-        if change <= 1e-12 * (e.abs() + f.abs()) + rounding {
-            continue;
-        }
-        bends = true;
-        let allowed = node.tolerance[i] * (16.0 / 3.0) / change;
-        if allowed < d {
-            (d, tightest) = (allowed, i);
-        }
-    }
-    match bends {
-        false => Corner::None,
-        true if d < least.max(1e-9 * half) => Corner::Stop(tightest),
-        true => Corner::Blend(d),
     }
 }
 
@@ -101,20 +41,20 @@ pub(super) struct Piece {
 
 /// The largest of some numbers and where it is.
 #[derive(Clone, Copy, Default)]
-struct Largest {
-    value: f64,
-    axis: usize,
+pub(super) struct Largest {
+    pub value: f64,
+    pub axis: usize,
 }
 
 impl Largest {
-    fn take(&mut self, value: f64, axis: usize) {
+    pub(super) fn take(&mut self, value: f64, axis: usize) {
         if value > self.value {
             *self = Self { value, axis };
         }
     }
 
     /// 1/value, no more than a ceiling.
-    fn reciprocal(self, ceiling: f64) -> f64 {
+    pub(super) fn reciprocal(self, ceiling: f64) -> f64 {
         if self.value * ceiling > 1.0 { 1.0 / self.value } else { ceiling }
     }
 }
@@ -123,7 +63,7 @@ impl Largest {
 pub(super) fn straight(limits: &Reciprocals, segment: &Segment) -> Piece {
     let [mut v, mut a, mut j] = [Largest::default(); 3];
     for i in 0..MAX_AXES {
-        let m = segment.slope[i].abs();
+        let m = segment.element.begin.slope[i].abs();
         v.take(m * limits.v[i], i);
         a.take(m * limits.a[i], i);
         j.take(m * limits.j[i], i);
@@ -139,143 +79,118 @@ pub(super) fn straight(limits: &Reciprocals, segment: &Segment) -> Piece {
     }
 }
 
-/// Limits on a blend of half length d, docs/model.md eq. 43.
-pub(super) fn blend(limits: &Reciprocals, before: &Segment, after: &Segment, d: f64) -> Piece {
+/// Limits on a curved part of an element, docs/model.md eq. 43b.
+pub(super) fn curved(limits: &Reciprocals, part: &Part, feed: f64) -> Piece {
     let [mut v, mut bend, mut twist] = [Largest::default(); 3];
-    // |q′|, |q″|, |q‴| at most.
-    let mut slope = [0.0_f64; MAX_AXES];
-    let (mut second, mut third) = (slope, slope);
-    let (k, c) = (0.75 / d, 1.5 / (d * d));
     for i in 0..MAX_AXES {
-        let change = (after.slope[i] - before.slope[i]).abs();
-        slope[i] = before.slope[i].abs().max(after.slope[i].abs());
-        (second[i], third[i]) = (k * change, c * change);
-        v.take(slope[i] * limits.v[i], i);
-        bend.take(second[i] * limits.a[i], i);
-        twist.take(third[i] * limits.j[i], i);
+        v.take((part.steady[i] + part.slope[i]) * limits.v[i], i);
+        bend.take(part.bend[i] * limits.a[i], i);
+        twist.take(part.twist[i] * limits.j[i], i);
     }
-    let feed = before.feed.min(after.feed).min(CEILING.v);
+    let feed = feed.min(CEILING.v);
     let mut velocity = v.reciprocal(feed);
-    let mut why = (velocity < feed).then_some(Limiting { axis: v.axis, kind: LimitKind::Velocity });
-    if velocity * velocity * bend.value > ACCELERATION_SHARE {
-        velocity = (ACCELERATION_SHARE / bend.value).sqrt();
-        why = Some(Limiting { axis: bend.axis, kind: LimitKind::Corner });
+    let kind = LimitKind::Velocity;
+    let why = (velocity < feed).then_some(Limiting { axis: v.axis, kind });
+    velocity = velocity.min(CEILING.v);
+    let with = |[a, j]: [f64; 2]| {
+        let (mut velocity, mut why) = (velocity, why);
+        if velocity * velocity * bend.value > a {
+            velocity = (a / bend.value).sqrt();
+            why = Some(Limiting { axis: bend.axis, kind: LimitKind::Corner });
+        }
+        if velocity.powi(3) * twist.value > j {
+            velocity = (j / twist.value).cbrt();
+            why = Some(Limiting { axis: twist.axis, kind: LimitKind::Corner });
+        }
+        changes(limits, part, velocity, why)
+    };
+    let free = velocity * velocity * bend.value <= SHARES[0][0]
+        && velocity.powi(3) * twist.value <= SHARES[0][1];
+    if free || !part.circular {
+        return with(SAMPLED_SHARES);
     }
-    if velocity.powi(3) * twist.value > JERK_SHARE {
-        velocity = (JERK_SHARE / twist.value).cbrt();
-        why = Some(Limiting { axis: twist.axis, kind: LimitKind::Corner });
-    }
-    let mut a = Largest::default();
-    for i in 0..MAX_AXES {
-        let bending = second[i] * limits.a[i] * velocity * velocity;
-        a.take(slope[i] * limits.a[i] / (1.0 - bending), i);
-        let twisting = third[i] * limits.j[i] * velocity.powi(3);
-        let mixed = 3.0 * second[i] * velocity * limits.j[i];
-        a.take(mixed / MIXED_SHARE.max(0.5 * twisting), i);
-    }
-    let acceleration = a.reciprocal(CEILING.a);
-    let mut j = Largest::default();
-    for i in 0..MAX_AXES {
-        let twisting = third[i] * limits.j[i] * velocity.powi(3);
-        let mixed = 3.0 * second[i] * velocity * acceleration * limits.j[i];
-        j.take(slope[i] * limits.j[i] / (1.0 - jerk_of_curvature(twisting, mixed)), i);
-    }
-    Piece {
-        bounds: Bounds { v: velocity, a: acceleration, j: j.reciprocal(CEILING.j) },
-        velocity: why,
-        acceleration_axis: a.axis,
-        jerk_axis: j.axis,
-    }
-}
-
-/// Limits on a blend from velocity and acceleration alone, each with all that an axis has.
-pub(super) fn blend_without_jerk(
-    limits: &Reciprocals,
-    before: &Segment,
-    after: &Segment,
-    d: f64,
-) -> Bounds {
-    let [mut v, mut bend, mut a] = [Largest::default(); 3];
-    for i in 0..MAX_AXES {
-        let change = (after.slope[i] - before.slope[i]).abs();
-        let slope = before.slope[i].abs().max(after.slope[i].abs());
-        v.take(slope * limits.v[i], i);
-        bend.take(0.75 / d * change * limits.a[i], i);
-        a.take(slope * limits.a[i], i);
-    }
-    let ceiling = before.feed.min(after.feed).min(CEILING.v);
-    let bent = if bend.value > 0.0 { (1.0 / bend.value).sqrt() } else { ceiling };
-    Bounds { v: v.reciprocal(ceiling).min(bent), a: a.reciprocal(CEILING.a), j: CEILING.j }
-}
-
-/// The largest P·|1 − 2u| + Q·4u(1 − u) for 0 ≤ u ≤ 1: |h″| is largest at the ends of the blend, h′
-/// in its middle; docs/model.md eq. 43.
-fn jerk_of_curvature(p: f64, q: f64) -> f64 {
-    if p >= 2.0 * q { p } else { q + p * p / (4.0 * q) }
-}
-
-/// q and its first three derivatives by σ at x = σ − σᵢ from a node, docs/model.md eq. 42.
-pub(super) fn derivatives(at: &Command, slopes: [&Command; 2], d: f64, x: f64) -> [Command; 4] {
-    let mut result = [[0.0; MAX_AXES]; 4];
-    let inside = d > 0.0 && x.abs() < d;
-    for i in 0..MAX_AXES {
-        let (e, f) = (slopes[0][i], slopes[1][i]);
-        let values = if inside {
-            let (u, change) = ((x + d) / (2.0 * d), f - e);
-            [
-                at[i] + e * x + change * 2.0 * d * u * u * u * (1.0 - 0.5 * u),
-                e + change * u * u * (3.0 - 2.0 * u),
-                change * 6.0 * u * (1.0 - u) / (2.0 * d),
-                change * (6.0 - 12.0 * u) / (4.0 * d * d),
-            ]
+    // From rest to rest along this part; a part too short for that is passed on the way.
+    let cost_s = |piece: &Piece| {
+        let b = &piece.bounds;
+        let ramp_s = if 2.0 * ramp_length(0.0, b.v, b) < part.length {
+            ramp_time(b.v, b.a, b.j)
         } else {
-            let slope = if x < 0.0 { e } else { f };
-            [at[i] + slope * x, slope, 0.0, 0.0]
+            0.0
         };
-        for (row, value) in result.iter_mut().zip(values) {
-            row[i] = value;
+        part.length / b.v + ramp_s
+    };
+    let [first, rest @ ..] = SHARES.map(with);
+    rest.into_iter()
+        .fold(first, |best, next| if cost_s(&next) < cost_s(&best) { next } else { best })
+}
+
+/// What a curve at a velocity leaves for its changes, docs/model.md eq. 43b.
+fn changes(limits: &Reciprocals, part: &Part, v: f64, velocity: Option<Limiting>) -> Piece {
+    let (mut a, mut acceleration_axis) = (CEILING.a, 0);
+    for i in 0..MAX_AXES {
+        let (c, m) = (part.steady[i] * limits.a[i], part.slope[i] * limits.a[i]);
+        let s = part.bend[i] * limits.a[i] * v * v;
+        let most = match part.circular {
+            // (m a)² + s² = (1 − c a)²
+            true => root([m * m - c * c, 2.0 * c, s * s - 1.0]),
+            false => (1.0 - s) / (c + m),
+        };
+        if most < a {
+            (a, acceleration_axis) = (most, i);
         }
     }
-    result
+    let (mut j, mut jerk_axis) = (CEILING.j, 0);
+    for i in 0..MAX_AXES {
+        let (c, m) = (part.steady[i] * limits.j[i], part.slope[i] * limits.j[i]);
+        let t = part.twist[i] * limits.j[i] * v * v * v;
+        // 3 q″ σ̇ σ̈, where σ̇ σ̈ ≤ MIXED V^1.5 √J in a change of velocity, and ≤ V A.
+        let mixed = 3.0 * part.bend[i] * limits.j[i];
+        let (by_ramp, by_bound) = (mixed * MIXED * v * v.sqrt(), mixed * v * a);
+        let most = match part.circular {
+            // (m j + t)² + mixed² = (1 − c j)², with mixed² = by_ramp² j or by_bound²
+            true => {
+                let (square, line) = (m * m - c * c, 2.0 * (m * t + c));
+                root([square, line + by_ramp * by_ramp, t * t - 1.0]).max(root([
+                    square,
+                    line,
+                    t * t + by_bound * by_bound - 1.0,
+                ]))
+            }
+            // (c + m) j + t + mixed = 1
+            false => {
+                let x = root([c + m, by_ramp, t - 1.0]);
+                (x * x).max((1.0 - t - by_bound) / (c + m))
+            }
+        };
+        if most < j {
+            (j, jerk_axis) = (most, i);
+        }
+    }
+    Piece { bounds: Bounds { v, a, j }, velocity, acceleration_axis, jerk_axis }
+}
+
+/// The largest σ̇ σ̈ of a change of velocity up to V with jerk J is √(8/27) V^1.5 √J: its second half is
+/// σ̇ = V − σ̈²/(2J).
+const MIXED: f64 = 0.544_331_053_951_817_4;
+
+/// The positive root of p x² + q x + r = 0 for q ≥ 0, r ≤ 0; 0 where there is none, infinite where
+/// nothing binds.
+fn root([p, q, r]: [f64; 3]) -> f64 {
+    if r >= 0.0 {
+        return 0.0;
+    }
+    -2.0 * r / (q + (q * q - 4.0 * p * r).max(0.0).sqrt())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::timing::Turn;
 
-    fn segment(x: f64, y: f64, length: f64) -> Segment {
-        Segment { slope: [x, y, 0.0, 0.0, 0.0, 0.0], length, feed: 50.0 }
-    }
-
-    fn node(tolerance: f64) -> Node {
-        Node {
-            command: [0.0; 6],
-            length: 10.0,
-            feed: 50.0,
-            stop: false,
-            tolerance: [tolerance; 6],
-            dwell_s: 0.0,
-        }
-    }
-
-    /// A right angle, 0.03 mm: d = 0.03 · 16/3 = 0.16; without tolerance it is a stop.
-    #[test]
-    fn blend_of_a_right_angle() {
-        let (a, b) = (segment(1.0, 0.0, 10.0), segment(0.0, 1.0, 10.0));
-        let Corner::Blend(d) = corner(&node(0.03), &a, &b, 0.0) else { panic!() };
-        assert!((d - 0.16).abs() < 1e-12);
-        assert_eq!(corner(&node(0.0), &a, &b, 0.0), Corner::Stop(0));
-        assert_eq!(corner(&node(0.0), &a, &a, 0.0), Corner::None);
-    }
-
-    /// In the middle of that blend each axis is 3/16 · 0.16 = 0.03 off and has half its slope.
-    #[test]
-    fn the_middle_of_a_blend() {
-        let (a, b) = (segment(1.0, 0.0, 10.0), segment(0.0, 1.0, 10.0));
-        let [q, slope, second, third] = derivatives(&[0.0; 6], [&a.slope, &b.slope], 0.16, 0.0);
-        assert!((q[0] + 0.03).abs() < 1e-15 && (q[1] - 0.03).abs() < 1e-15);
-        assert!((slope[0] - 0.5).abs() < 1e-15 && third[0].abs() < 1e-9);
-        assert!((second[1] - 0.75 / 0.16).abs() < 1e-12);
+    fn segment(x: f64, y: f64, feed: f64) -> Segment {
+        let to = [x, y, 0.0, 0.0, 0.0, 0.0];
+        let element = super::super::Element::straight(&[0.0; 6], &to, 1.0);
+        Segment { element, length: 1.0, feed }
     }
 
     /// 45°: both axes may go 100/√½ = 141.4 mm/s; the feed of 50 mm/s is less.
@@ -284,16 +199,35 @@ mod tests {
         let mut limits = AxisLimits::UNLIMITED;
         limits.velocity = [100.0; 6];
         let half = 0.5_f64.sqrt();
-        let mut line = segment(half, half, 1.0);
+        let line = segment(half, half, 50.0);
         assert!(straight(&Reciprocals::of(&limits), &line).velocity.is_none());
-        line.feed = 200.0;
-        let piece = straight(&Reciprocals::of(&limits), &line);
+        let piece = straight(&Reciprocals::of(&limits), &segment(half, half, 200.0));
         assert!((piece.bounds.v - 100.0 / half).abs() < 1e-9 && piece.velocity.is_some());
     }
 
-    /// P = 0.6, Q = 0.4: u with |1−2u| = 0.75 gives 0.45 + 0.4·0.4375 = 0.625.
+    /// Radius 20 at 100 mm/s: v²/r = 500 of 2000 mm/s² leaves √(2000² − 500²) = 1936 mm/s²; of
+    /// 20,000 mm/s³ the curve takes v³/r² = 2500.
     #[test]
-    fn the_jerk_terms_are_not_largest_together() {
-        assert!((jerk_of_curvature(0.6, 0.4) - 0.625).abs() < 1e-15);
+    fn a_circle_far_from_the_limits() {
+        let mut limits = AxisLimits::UNLIMITED;
+        limits.acceleration = [2000.0; 6];
+        limits.jerk = [20_000.0; 6];
+        let circle = Turn {
+            length: 125.0,
+            rate: 0.05,
+            cos: [20.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+            sin: [0.0, 20.0, 0.0, 0.0, 0.0, 0.0],
+            steady: [0.0; 6],
+            growth: 0.0,
+        };
+        let part = circle.element().parts[0];
+        let Bounds { v, a, j } = curved(&Reciprocals::of(&limits), &part, 100.0).bounds;
+        assert!(v == 100.0 && (a - 3.75e6_f64.sqrt()).abs() < 1e-9);
+        // (j + 2500)² + (3 · 0.05 · 0.5443 · 1000 √j)² = 20000²
+        let used = (j + 2500.0).hypot(0.15 * MIXED * 1000.0 * j.sqrt());
+        assert!((used - 20_000.0).abs() < 1e-6, "{j}");
+        // So fast that the curve takes most: no more than the limits.
+        let fast = curved(&Reciprocals::of(&limits), &part, 1e3).bounds;
+        assert!(fast.v < 200.0 && fast.v > 0.8 * 200.0 && fast.j > 0.0, "{fast:?}");
     }
 }

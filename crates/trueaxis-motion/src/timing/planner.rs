@@ -1,6 +1,8 @@
 //! Runs, look-ahead and time stamps; bounded memory, constant work per node.
 
-use super::path::{Corner, Piece, Reciprocals, Segment, blend, corner, straight};
+use super::element::{Element, Segment};
+use super::joint::{Passage, passage};
+use super::path::{Piece, Reciprocals, curved, straight};
 use super::scurve::{Bounds, Phases, ramp_length, ramp_time, reach, time_at};
 use super::{AxisLimits, LimitKind, Limiting, Node, Phase, Receive, Timed, TimingError};
 use std::collections::VecDeque;
@@ -13,6 +15,8 @@ const MAX_WAITING: usize = 1 << 16;
 const RESOLUTION: f64 = 1e-13;
 /// No more nodes than this lie in one run.
 const MAX_NODES_OF_RUN: usize = 1024;
+/// Nor in one run of pieces with the same limits.
+const MAX_NODES_OF_LINE: usize = 1 << 14;
 
 /// When a run ends: see [`Run::with`]. Found by trial on the programs of the bench.
 const PAYS: f64 = 0.5;
@@ -98,8 +102,31 @@ impl Planner {
 
     /// The next node; hands on every node whose time is settled by now.
     ///
-    /// A refused node changes nothing: the path may go on with another.
+    /// The axes go straight there. A refused node changes nothing: the path may go on with another.
     pub fn push(&mut self, node: &Node, out: &mut impl Receive) -> Result<(), TimingError> {
+        let from = self.last.as_ref().map_or(node.command, |(last, _)| last.command);
+        self.push_along(node, |node| Segment::between(&from, node).element, &[], out)
+    }
+
+    /// The next node and the element that leads there; `marks` are places on it, by their distance
+    /// from its begin in ascending order, that are timed as nodes are.
+    pub fn push_element(
+        &mut self,
+        node: &Node,
+        element: Element,
+        marks: &[f64],
+        out: &mut impl Receive,
+    ) -> Result<(), TimingError> {
+        self.push_along(node, |_| element, marks, out)
+    }
+
+    fn push_along(
+        &mut self,
+        node: &Node,
+        element: impl FnOnce(&Node) -> Element,
+        marks: &[f64],
+        out: &mut impl Receive,
+    ) -> Result<(), TimingError> {
         node.check(self.pushed)?;
         if node.length < self.sigma * RESOLUTION {
             let (what, value) = ("the length", node.length);
@@ -112,11 +139,21 @@ impl Planner {
             self.last = Some((*node, None));
             return Ok(());
         };
-        let after = Segment::between(&corner_node.command, node);
+        let after = Segment { element: element(node), length: node.length, feed: node.feed };
         if let Some(before) = before {
             self.pass_corner(&corner_node, &before, &after, out);
         }
-        self.sigma += node.length;
+        let (begin, end) = (self.sigma, self.sigma + node.length);
+        // A mark has no limit of its own: its run says what holds the velocity there.
+        let mark = |at: &f64| Waiting {
+            sigma: (begin + at).min(end),
+            blend: 0.0,
+            feed: node.feed,
+            velocity: f64::INFINITY,
+            why: None,
+        };
+        self.waiting.extend(marks.iter().map(mark));
+        self.sigma = end;
         self.last = Some((*node, Some(after)));
         Ok(())
     }
@@ -164,26 +201,43 @@ impl Planner {
         }
         let feed = before.feed.min(after.feed);
         let least = self.sigma * RESOLUTION;
-        match corner(node, before, after, least) {
-            Corner::Stop(axis) => {
-                let why = Limiting { axis, kind: LimitKind::Corner };
-                self.stop_at(node, before, Some(why), out);
-            }
-            Corner::None => {
-                let line = straight(&self.limits, before);
-                self.add_piece(&line, self.sigma, out);
+        match passage(&self.limits, node, [before, after], least) {
+            Passage::Rest(why) => self.stop_at(node, before, Some(why), out),
+            Passage::Through => {
+                let line = self.add_element(before, self.sigma, out);
                 self.wait(&line, 0.0, feed);
             }
-            Corner::Blend(d) => {
+            Passage::Round(d, round) => {
                 // Between two blends that meet, rounding leaves no straight piece but the blend's.
                 if self.sigma - d - self.planned > 1e-9 * before.length {
-                    self.add_piece(&straight(&self.limits, before), self.sigma - d, out);
+                    self.add_element(before, self.sigma - d, out);
                 }
-                let round = blend(&self.limits, before, after, d);
                 self.add_piece(&round, self.sigma + d, out);
                 self.wait(&round, d, feed);
             }
         }
+    }
+
+    /// Adds what is left of a segment, up to a place; returns the last piece.
+    fn add_element(&mut self, segment: &Segment, to: f64, out: &mut impl Receive) -> Piece {
+        if segment.is_straight() {
+            let line = straight(&self.limits, segment);
+            self.add_piece(&line, to, out);
+            return line;
+        }
+        let parts = &segment.element.parts;
+        let mut end = self.sigma - segment.length;
+        let mut last = None;
+        for (k, part) in parts.iter().enumerate() {
+            end += part.length;
+            let until = if k + 1 == parts.len() { to } else { end.min(to) };
+            if until > self.planned || (last.is_none() && k + 1 == parts.len()) {
+                let piece = curved(&self.limits, part, segment.feed);
+                self.add_piece(&piece, until, out);
+                last = Some(piece);
+            }
+        }
+        last.unwrap_or_else(|| straight(&self.limits, segment))
     }
 
     fn stop_at(
@@ -193,8 +247,7 @@ impl Planner {
         why: Option<Limiting>,
         out: &mut impl Receive,
     ) {
-        let line = straight(&self.limits, before);
-        self.add_piece(&line, self.sigma, out);
+        let line = self.add_element(before, self.sigma, out);
         // A programmed stop misses no feed.
         let feed = if why.is_some() { before.feed } else { 0.0 };
         self.wait(
@@ -310,13 +363,11 @@ impl Planner {
 
     /// Hands on the nodes and phases of a run in the order of time.
     fn stamp(&mut self, run: &Run, phases: &[Phase], end: f64, out: &mut impl Receive) {
-        let mut nodes = run.nodes;
         for (i, phase) in phases.iter().enumerate() {
             let last = i + 1 == phases.len();
-            let stop = if last { f64::INFINITY } else { phases[i + 1].sigma };
+            let stop = if last { run.to } else { phases[i + 1].sigma.min(run.to) };
             out.phase(phase);
-            while nodes > 0 {
-                let Some(waiting) = self.waiting.front().filter(|w| w.sigma <= stop) else { break };
+            while let Some(waiting) = self.waiting.front().filter(|w| w.sigma <= stop) {
                 let (tau, velocity) = if waiting.sigma >= run.to {
                     (phase.duration_s, end)
                 } else {
@@ -325,11 +376,9 @@ impl Planner {
                 };
                 let waiting = *waiting;
                 self.waiting.pop_front();
-                nodes -= 1;
                 self.emit(run, &waiting, phase.t_s + tau, velocity, out);
             }
         }
-        debug_assert_eq!(nodes, 0, "every node of a run lies in one of its phases");
     }
 
     fn emit(&mut self, run: &Run, at: &Waiting, t_s: f64, velocity: f64, out: &mut impl Receive) {
@@ -369,9 +418,16 @@ impl Run {
         let change_s = ramp_time(fastest - bounds.v, bounds.a, bounds.j);
         let long = length > LONG * ramp_length(0.0, bounds.v, &bounds);
         let weaker = bounds.a < WEAK * a.a.max(b.a) || bounds.j < WEAK * a.j.max(b.j);
+        // One line in many blocks is still one line.
+        let same = [(a.v, b.v), (a.a, b.a), (a.j, b.j)];
+        let same = same.iter().all(|(a, b)| (a - b).abs() <= 1e-6 * a);
+        let [enough, most] = match same {
+            true => [MAX_NODES_OF_LINE; 2],
+            false => [ENOUGH_NODES, MAX_NODES_OF_RUN],
+        };
         if lost_s > PAYS * change_s + 1e-12 * ideal_s
-            || (long && (weaker || self.nodes >= ENOUGH_NODES))
-            || self.nodes >= MAX_NODES_OF_RUN
+            || (long && (weaker || self.nodes >= enough))
+            || self.nodes >= most
         {
             return None;
         }

@@ -1,6 +1,8 @@
 //! The same path with velocity and acceleration limits only.
 
-use super::path::{Corner, Reciprocals, Segment, blend_without_jerk, corner, straight};
+use super::element::Segment;
+use super::joint::{Passage, blend_without_jerk, passage};
+use super::path::{Reciprocals, straight};
 use super::scurve::Bounds;
 use super::{AxisLimits, Node, TimingError};
 
@@ -52,14 +54,13 @@ fn stretches(limits: &Reciprocals, nodes: &[Node]) -> Result<Vec<Stretch>, Timin
         let after = nodes.get(i + 1).map(|next| Segment::between(&node.command, next));
         let bounds = straight(limits, &before).bounds;
         let must_stop = node.stop || node.dwell_s > 0.0;
-        let corner = match &after {
-            Some(after) if !must_stop => corner(node, &before, after, 0.0),
-            _ => Corner::Stop(0),
-        };
-        let (d, stop_s) = match corner {
-            Corner::Blend(d) => (d, None),
-            Corner::None => (0.0, None),
-            Corner::Stop(_) => (0.0, Some(node.dwell_s)),
+        let (d, stop_s) = match &after {
+            Some(after) if !must_stop => match passage(limits, node, [&before, after], 0.0) {
+                Passage::Round(d, _) => (d, None),
+                Passage::Through => (0.0, None),
+                Passage::Rest(_) => (0.0, Some(0.0)),
+            },
+            _ => (0.0, Some(node.dwell_s)),
         };
         let length = (before.length - entered - d).max(0.0);
         list.push(Stretch { length, bounds, stop_s });

@@ -1,0 +1,225 @@
+//! The same move for the clock: lines and arcs by their formulas, other curves sampled as finely as
+//! they bend, whatever the pieces that are drawn.
+
+use super::{AxisPath, PathStep};
+use crate::curve::Curve;
+use crate::timing::{Element, Part, Tangent, Turn};
+use trueaxis_geometry::Vec3;
+use trueaxis_machine::axis::{Command, MAX_AXES};
+
+/// At first a sampled curve has a cell for so many rad of the rotary axes and of a circle.
+const CELL_RAD: f64 = 0.2;
+const MOST_CELLS: f64 = 4096.0;
+/// A cell is halved so often at most: near a pole an axis may jump however small the cell.
+const MOST_HALVINGS: u32 = 8;
+/// Differences below this part of a position are rounding.
+const ROUNDING: f64 = 2e-12;
+
+/// Axis positions at u = 0 … 1 of a move, near others; `None` where they cannot be reached.
+type Course<'a> = dyn FnMut(f64, &Command) -> Option<Command> + 'a;
+
+impl AxisPath<'_> {
+    /// From here on moves are handed out for the clock too, each before its nodes.
+    #[must_use]
+    pub fn with_elements(mut self) -> Self {
+        self.has_elements = true;
+        self
+    }
+
+    pub(super) fn announce(
+        &self,
+        length: f64,
+        element: impl FnOnce() -> Option<Element>,
+        out: &mut dyn FnMut(PathStep),
+    ) {
+        if self.has_elements
+            && length > 0.0
+            && length.is_finite()
+            && let Some(element) = element().filter(moves)
+        {
+            out(PathStep::Element { element: Box::new(element), length });
+        }
+    }
+
+    /// The way of the axes along a curve while rotary axes stand or go evenly. `to_axes` leads from
+    /// vectors of the program frame to the linear axes.
+    pub(super) fn element_of_axes(
+        curve: &Curve,
+        [begin, end]: [&Command; 2],
+        length: f64,
+        to_axes: impl Fn(Vec3) -> Command,
+    ) -> Element {
+        let Curve::Helix { axis, arm, radius_change, sweep, rise, .. } = *curve else {
+            return Element::straight(begin, end, length);
+        };
+        let along = to_axes(axis * rise);
+        let radius = arm.norm();
+        // The linear axes: along the axis of the helix. The others: evenly.
+        let linear = [Vec3::x(), Vec3::y(), Vec3::z()].map(&to_axes);
+        let steady = std::array::from_fn(|i| match linear.iter().any(|v| v[i] != 0.0) {
+            true => along[i] / length,
+            false => (end[i] - begin[i]) / length,
+        });
+        let turn = Turn {
+            length,
+            rate: sweep / length,
+            cos: to_axes(arm),
+            sin: to_axes(axis.cross(&arm)),
+            steady,
+            growth: if radius > 0.0 { radius_change / radius / length } else { 0.0 },
+        };
+        turn.element()
+    }
+}
+
+fn moves(element: &Element) -> bool {
+    let any = |values: &Command| values.iter().any(|x| *x != 0.0);
+    any(&element.begin.slope) || !element.parts.is_empty()
+}
+
+/// A curve without a formula: its derivatives by differences in cells, each so small that the
+/// polynomial of five points is the curve.
+pub(super) fn sampled(
+    begin: &Command,
+    length: f64,
+    turned_rad: f64,
+    course: &mut Course<'_>,
+) -> Option<Element> {
+    let cells = (turned_rad / CELL_RAD).ceil().clamp(1.0, MOST_CELLS);
+    let mut sampler = Sampler { length, course, parts: Vec::new(), ends: [Tangent::default(); 2] };
+    let mut at = *begin;
+    for k in 0..cells as u32 {
+        let [from, to] = [k, k + 1].map(|k| f64::from(k) / cells);
+        at = sampler.cell([from, to], &at, 0)?;
+    }
+    let [begin, end] = sampler.ends;
+    Some(Element { begin, end, parts: sampler.parts })
+}
+
+struct Sampler<'a, 'b> {
+    length: f64,
+    course: &'a mut Course<'b>,
+    parts: Vec<Part>,
+    ends: [Tangent; 2],
+}
+
+impl Sampler<'_, '_> {
+    /// From u0 to u1; returns the axes there.
+    fn cell(&mut self, [u0, u1]: [f64; 2], begin: &Command, halvings: u32) -> Option<Command> {
+        let mut points = [*begin; 5];
+        for k in 1..5 {
+            let u = if k == 4 { u1 } else { u0 + (u1 - u0) * 0.25 * k as f64 };
+            points[k] = (self.course)(u, &points[k - 1])?;
+        }
+        if halvings < MOST_HALVINGS && (0..MAX_AXES).any(|i| is_coarse(points.map(|q| q[i]))) {
+            let middle = 0.5 * (u0 + u1);
+            let there = self.cell([u0, middle], begin, halvings + 1)?;
+            return self.cell([middle, u1], &there, halvings + 1);
+        }
+        let length = self.length * (u1 - u0);
+        let zero = [0.0; MAX_AXES];
+        let mut part =
+            Part { length, steady: zero, slope: zero, bend: zero, twist: zero, circular: false };
+        let mut ends = [Tangent::default(); 2];
+        for i in 0..MAX_AXES {
+            let [slope, bend, twist] = derivatives(points.map(|q| q[i]), 0.25 * length);
+            let most = |values: &[f64]| values.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+            part.slope[i] = most(&slope) * BETWEEN;
+            part.bend[i] = most(&bend) * BETWEEN;
+            part.twist[i] = most(&twist) * BETWEEN;
+            for (end, k) in ends.iter_mut().zip([0, 4]) {
+                (end.slope[i], end.bend[i]) = (slope[k], bend[k]);
+            }
+        }
+        if self.parts.is_empty() {
+            self.ends[0] = ends[0];
+        }
+        self.ends[1] = ends[1];
+        self.parts.push(part);
+        Some(points[4])
+    }
+}
+
+/// Between two of five points a derivative may be a little larger than at them.
+const BETWEEN: f64 = 1.02;
+
+/// Five equal differences: of second and third order, and that of fourth order, which is too large
+/// where the polynomial of the points may not be the curve.
+fn is_coarse(q: [f64; 5]) -> bool {
+    let first = (q[4] - q[0]).abs();
+    let second = (q[4] - 2.0 * q[2] + q[0]).abs();
+    let third = (q[4] - 2.0 * q[3] + 2.0 * q[1] - q[0]).abs();
+    let fourth = (q[4] - 4.0 * q[3] + 6.0 * q[2] - 4.0 * q[1] + q[0]).abs();
+    fourth > 1e-3 * (second + third) + 1e-5 * first + 1e-8 * (1.0 + q[0].abs())
+}
+
+/// First three derivatives of the polynomial of fourth degree through five points at a distance h.
+fn derivatives(q: [f64; 5], h: f64) -> [[f64; 5]; 3] {
+    let row = |weights: [f64; 5], scale: f64| {
+        weights.iter().zip(q).map(|(w, q)| w * q).sum::<f64>() / scale
+    };
+    let (one, two, three) = (12.0 * h, 12.0 * h * h, 2.0 * h * h * h);
+    let slope = [
+        row([-25.0, 48.0, -36.0, 16.0, -3.0], one),
+        row([-3.0, -10.0, 18.0, -6.0, 1.0], one),
+        row([1.0, -8.0, 0.0, 8.0, -1.0], one),
+        row([-1.0, 6.0, -18.0, 10.0, 3.0], one),
+        row([3.0, -16.0, 36.0, -48.0, 25.0], one),
+    ];
+    let mut bend = [
+        row([35.0, -104.0, 114.0, -56.0, 11.0], two),
+        row([11.0, -20.0, 6.0, 4.0, -1.0], two),
+        row([-1.0, 16.0, -30.0, 16.0, -1.0], two),
+        row([-1.0, 4.0, 6.0, -20.0, 11.0], two),
+        row([11.0, -56.0, 114.0, -104.0, 35.0], two),
+    ];
+    let mut twist = [
+        row([-5.0, 18.0, -24.0, 14.0, -3.0], three),
+        row([-3.0, 10.0, -12.0, 6.0, -1.0], three),
+        row([-1.0, 2.0, 0.0, -2.0, 1.0], three),
+        row([1.0, -6.0, 12.0, -10.0, 3.0], three),
+        row([3.0, -14.0, 24.0, -18.0, 5.0], three),
+    ];
+    let rounding = ROUNDING * (1.0 + q[0].abs());
+    if twist.iter().all(|t| (t * h * h * h).abs() < rounding) {
+        twist = [0.0; 5];
+    }
+    if bend.iter().all(|b| (b * h * h).abs() < rounding) {
+        bend = [0.0; 5];
+    }
+    [slope, bend, twist]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// x⁴ at 0, 1, 2, 3, 4: 4x³, 12x², 24x.
+    #[test]
+    fn derivatives_of_a_fourth_power() {
+        let q = [0.0_f64, 1.0, 2.0, 3.0, 4.0].map(|x| x.powi(4));
+        let [slope, bend, twist] = derivatives(q, 1.0);
+        for (k, x) in [0.0_f64, 1.0, 2.0, 3.0, 4.0].into_iter().enumerate() {
+            assert!((slope[k] - 4.0 * x.powi(3)).abs() < 1e-9);
+            assert!((bend[k] - 12.0 * x * x).abs() < 1e-9);
+            assert!((twist[k] - 24.0 * x).abs() < 1e-9);
+        }
+    }
+
+    /// A quarter of a circle of radius 10: |q″| ≤ 1/10, |q‴| ≤ 1/100, and as fine whoever asks.
+    #[test]
+    fn a_sampled_circle_has_its_curvature() {
+        let length = 5.0 * std::f64::consts::PI;
+        let mut course = |u: f64, _: &Command| {
+            let (sin, cos) = (u * length / 10.0).sin_cos();
+            Some([10.0 * sin, 10.0 * (1.0 - cos), 0.0, 0.0, 0.0, 0.0])
+        };
+        let element = sampled(&[0.0; 6], length, 0.0, &mut course).unwrap();
+        let most = |of: fn(&Part) -> f64| element.parts.iter().map(of).fold(0.0, f64::max);
+        assert!((most(|p| p.bend[0]) / BETWEEN - 0.1).abs() < 1e-3);
+        assert!((most(|p| p.twist[0]) / BETWEEN - 0.01).abs() < 1e-3);
+        assert!((element.end.slope[1] - 1.0).abs() < 1e-5 && element.end.slope[0].abs() < 1e-5);
+        let covered: f64 = element.parts.iter().map(|p| p.length).sum();
+        assert!((covered - length).abs() < 1e-12);
+    }
+}
