@@ -15,6 +15,7 @@ mod element;
 mod joint;
 mod path;
 mod planner;
+mod run;
 mod scurve;
 pub mod three_phase;
 mod timeline;

@@ -11,6 +11,8 @@ pub(super) const CEILING: Bounds = Bounds { v: 1e6, a: 1e9, j: 1e12 };
 /// Shares of an axis' acceleration and jerk that a curve may take where they bind the velocity; the
 /// rest speeds the path up and slows it down. The best of them is chosen for each arc.
 const SHARES: [[f64; 2]; 4] = [[0.6, 0.4], [0.8, 0.6], [0.9, 0.8], [0.97, 0.93]];
+/// The shares on an arc that is too short to start and stop on it.
+const PASSED: usize = 1;
 /// On a sampled curve.
 const SAMPLED_SHARES: [f64; 2] = [0.75, 0.9];
 
@@ -109,19 +111,16 @@ pub(super) fn curved(limits: &Reciprocals, part: &Part, feed: f64) -> Piece {
     if free || !part.circular {
         return with(SAMPLED_SHARES);
     }
+    let pieces = SHARES.map(with);
+    let fits = |piece: &Piece| 2.0 * ramp_length(0.0, piece.bounds.v, &piece.bounds) < part.length;
     // From rest to rest along this part; a part too short for that is passed on the way.
     let cost_s = |piece: &Piece| {
-        let b = &piece.bounds;
-        let ramp_s = if 2.0 * ramp_length(0.0, b.v, b) < part.length {
-            ramp_time(b.v, b.a, b.j)
-        } else {
-            0.0
-        };
-        part.length / b.v + ramp_s
+        let Bounds { v, a, j } = piece.bounds;
+        part.length / v + ramp_time(v, a, j)
     };
-    let [first, rest @ ..] = SHARES.map(with);
-    rest.into_iter()
-        .fold(first, |best, next| if cost_s(&next) < cost_s(&best) { next } else { best })
+    let candidates = pieces.iter().filter(|piece| fits(piece));
+    let best = candidates.min_by(|one, other| cost_s(one).total_cmp(&cost_s(other)));
+    *best.unwrap_or(&pieces[PASSED])
 }
 
 /// What a curve at a velocity leaves for its changes, docs/model.md eq. 43b.

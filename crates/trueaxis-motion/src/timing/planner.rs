@@ -2,8 +2,9 @@
 
 use super::element::{Element, Segment};
 use super::joint::{Passage, passage};
-use super::path::{Piece, Reciprocals, curved, straight};
-use super::scurve::{Bounds, Phases, ramp_length, ramp_time, reach, time_at};
+use super::path::{Piece, Reciprocals};
+use super::run::{Chain, Run, duration_s};
+use super::scurve::{Bounds, Phases, reach, time_at};
 use super::{AxisLimits, LimitKind, Limiting, Node, Phase, Receive, Timed, TimingError};
 use std::collections::VecDeque;
 
@@ -11,40 +12,10 @@ use std::collections::VecDeque;
 const WINDOW: std::ops::RangeInclusive<usize> = 64..=4096;
 /// No more nodes than this wait for their time.
 const MAX_WAITING: usize = 1 << 16;
+/// The longest section between two stops for which blends and stops are compared as a whole.
+const LONGEST_SECTION: usize = 32;
 /// Lengths below this part of the whole path drown in its rounding.
 const RESOLUTION: f64 = 1e-13;
-/// No more nodes than this lie in one run.
-const MAX_NODES_OF_RUN: usize = 1024;
-/// Nor in one run of pieces with the same limits.
-const MAX_NODES_OF_LINE: usize = 1 << 14;
-
-/// When a run ends: see [`Run::with`]. Found by trial on the programs of the bench.
-const PAYS: f64 = 0.5;
-const LONG: f64 = 0.5;
-const WEAK: f64 = 0.8;
-/// A long run of so many nodes ends too, so that its times can be handed on.
-const ENOUGH_NODES: usize = 16;
-
-/// A stretch of pieces with common limits; the acceleration is zero where two runs meet.
-#[derive(Debug, Clone, Copy)]
-struct Run {
-    /// Place of its begin and end.
-    from: f64,
-    to: f64,
-    bounds: Bounds,
-    /// The largest V of its pieces, and the time that they would take with their own V.
-    fastest: f64,
-    ideal_s: f64,
-    velocity: Option<Limiting>,
-    acceleration_axis: usize,
-    jerk_axis: usize,
-    nodes: usize,
-    /// Rest at its end, if it ends with a stop.
-    stop_s: Option<f64>,
-    /// The look-ahead's largest velocity at its begin.
-    allowed: f64,
-}
-
 /// A node that waits for its time.
 #[derive(Debug, Clone, Copy)]
 struct Waiting {
@@ -66,9 +37,15 @@ pub struct Planner {
     last: Option<(Node, Option<Segment>)>,
     sigma: f64,
     pushed: usize,
-    /// End of the last piece.
-    planned: f64,
-    open: Option<Run>,
+    chain: Chain,
+    /// Runs that wait for their place in the queue.
+    closed: Vec<Run>,
+    /// The segments since the last stop and their ends, unless there are too many or the first of
+    /// their runs are handed on already; and how many blends are between them.
+    section: Vec<(Segment, f64)>,
+    section_begin: f64,
+    is_section_whole: bool,
+    section_rounds: usize,
     runs: VecDeque<Run>,
     waiting: VecDeque<Waiting>,
     look_at: usize,
@@ -88,8 +65,12 @@ impl Planner {
             last: None,
             sigma: 0.0,
             pushed: 0,
-            planned: 0.0,
-            open: None,
+            chain: Chain::default(),
+            closed: Vec::new(),
+            section: Vec::new(),
+            section_begin: 0.0,
+            is_section_whole: true,
+            section_rounds: 0,
             runs: VecDeque::new(),
             waiting: VecDeque::new(),
             look_at: *WINDOW.start(),
@@ -141,7 +122,7 @@ impl Planner {
         };
         let after = Segment { element: element(node), length: node.length, feed: node.feed };
         if let Some(before) = before {
-            self.pass_corner(&corner_node, &before, &after, out);
+            self.pass_corner(&corner_node, before, &after, out);
         }
         let (begin, end) = (self.sigma, self.sigma + node.length);
         // A mark has no limit of its own: its run says what holds the velocity there.
@@ -161,7 +142,7 @@ impl Planner {
     /// The last node was the end: stops there and hands on all that waits.
     pub fn finish(mut self, out: &mut impl Receive) {
         if let Some((node, Some(before))) = self.last.take() {
-            self.stop_at(&node, &before, None, out);
+            self.stop_at(&node, before, None, out);
         }
     }
 
@@ -192,7 +173,7 @@ impl Planner {
     fn pass_corner(
         &mut self,
         node: &Node,
-        before: &Segment,
+        before: Segment,
         after: &Segment,
         out: &mut impl Receive,
     ) {
@@ -201,53 +182,48 @@ impl Planner {
         }
         let feed = before.feed.min(after.feed);
         let least = self.sigma * RESOLUTION;
-        match passage(&self.limits, node, [before, after], least) {
+        match passage(&self.limits, node, [&before, after], least) {
             Passage::Rest(why) => self.stop_at(node, before, Some(why), out),
             Passage::Through => {
-                let line = self.add_element(before, self.sigma, out);
+                let line = self.add_element(&before, self.sigma, out);
                 self.wait(&line, 0.0, feed);
+                self.keep(before, false);
             }
             Passage::Round(d, round) => {
                 // Between two blends that meet, rounding leaves no straight piece but the blend's.
-                if self.sigma - d - self.planned > 1e-9 * before.length {
-                    self.add_element(before, self.sigma - d, out);
+                if self.sigma - d - self.chain.planned > 1e-9 * before.length {
+                    self.add_element(&before, self.sigma - d, out);
                 }
                 self.add_piece(&round, self.sigma + d, out);
                 self.wait(&round, d, feed);
+                self.keep(before, true);
             }
         }
     }
 
     /// Adds what is left of a segment, up to a place; returns the last piece.
     fn add_element(&mut self, segment: &Segment, to: f64, out: &mut impl Receive) -> Piece {
-        if segment.is_straight() {
-            let line = straight(&self.limits, segment);
-            self.add_piece(&line, to, out);
-            return line;
-        }
-        let parts = &segment.element.parts;
-        let mut end = self.sigma - segment.length;
-        let mut last = None;
-        for (k, part) in parts.iter().enumerate() {
-            end += part.length;
-            let until = if k + 1 == parts.len() { to } else { end.min(to) };
-            if until > self.planned || (last.is_none() && k + 1 == parts.len()) {
-                let piece = curved(&self.limits, part, segment.feed);
-                self.add_piece(&piece, until, out);
-                last = Some(piece);
-            }
-        }
-        last.unwrap_or_else(|| straight(&self.limits, segment))
+        let (closed, ends) = (&mut self.closed, [self.sigma, to]);
+        let piece =
+            self.chain.add_segment(&self.limits, segment, ends, &mut |run| closed.push(run));
+        self.close(out);
+        piece
+    }
+
+    fn add_piece(&mut self, piece: &Piece, to: f64, out: &mut impl Receive) {
+        let closed = &mut self.closed;
+        self.chain.add_piece(piece, to, &mut |run| closed.push(run));
+        self.close(out);
     }
 
     fn stop_at(
         &mut self,
         node: &Node,
-        before: &Segment,
+        before: Segment,
         why: Option<Limiting>,
         out: &mut impl Receive,
     ) {
-        let line = self.add_element(before, self.sigma, out);
+        let line = self.add_element(&before, self.sigma, out);
         // A programmed stop misses no feed.
         let feed = if why.is_some() { before.feed } else { 0.0 };
         self.wait(
@@ -255,10 +231,12 @@ impl Planner {
             0.0,
             feed,
         );
-        if let Some(mut run) = self.open.take() {
+        if let Some(mut run) = self.chain.open.take() {
             run.stop_s = Some(node.dwell_s);
             self.runs.push_back(run);
         }
+        self.keep(before, false);
+        self.choose_stops(node.dwell_s);
         self.look_ahead(out);
     }
 
@@ -266,44 +244,67 @@ impl Planner {
     fn wait(&mut self, piece: &Piece, blend: f64, feed: f64) {
         let (velocity, why) = (piece.bounds.v, piece.velocity);
         self.waiting.push_back(Waiting { sigma: self.sigma, blend, feed, velocity, why });
-        if let Some(run) = &mut self.open {
+        if let Some(run) = &mut self.chain.open {
             run.nodes += 1;
         }
     }
 
-    /// Adds a piece up to a place: to the open run, or as a new one.
-    fn add_piece(&mut self, piece: &Piece, to: f64, out: &mut impl Receive) {
-        let length = to - self.planned;
-        if length <= 0.0 {
-            return;
+    fn close(&mut self, out: &mut impl Receive) {
+        while !self.closed.is_empty() {
+            self.runs.push_back(self.closed.remove(0));
+            if self.runs.len() >= self.look_at || self.waiting.len() >= MAX_WAITING {
+                self.look_ahead(out);
+            }
         }
-        let single = Run {
-            from: self.planned,
-            to,
-            bounds: piece.bounds,
-            fastest: piece.bounds.v,
-            ideal_s: length / piece.bounds.v,
-            velocity: piece.velocity,
-            acceleration_axis: piece.acceleration_axis,
-            jerk_axis: piece.jerk_axis,
-            nodes: 0,
-            stop_s: None,
-            allowed: 0.0,
-        };
-        self.planned = to;
-        self.open = Some(match self.open.take() {
-            None => single,
-            Some(run) => run.with(&single).unwrap_or_else(|| {
-                self.close(run, out);
-                single
-            }),
-        });
     }
 
-    fn close(&mut self, run: Run, out: &mut impl Receive) {
-        self.runs.push_back(run);
-        if self.runs.len() >= self.look_at || self.waiting.len() >= MAX_WAITING {
-            self.look_ahead(out);
+    /// From the last stop to this one: rests at every node if that takes less time than its blends,
+    /// docs/model.md eq. 45b.
+    fn choose_stops(&mut self, stop_s: f64) {
+        let section = std::mem::take(&mut self.section);
+        let is_whole = std::mem::replace(&mut self.is_section_whole, true);
+        let rounds = std::mem::take(&mut self.section_rounds);
+        let begin = std::mem::replace(&mut self.section_begin, self.sigma);
+        if !is_whole || rounds == 0 {
+            return;
+        }
+        let kept = self.runs.partition_point(|run| run.from < begin);
+        let mut chain = Chain { planned: begin, open: None };
+        let mut stops: Vec<Run> = Vec::new();
+        for (segment, end) in &section {
+            let ends = [*end, *end];
+            chain.add_segment(&self.limits, segment, ends, &mut |run| stops.push(run));
+            stops.extend(chain.open.take().map(|run| Run { nodes: 1, stop_s: Some(0.0), ..run }));
+        }
+        if let Some(last) = stops.last_mut() {
+            last.stop_s = Some(stop_s);
+        }
+        let mut rounded: Vec<Run> = self.runs.iter().skip(kept).copied().collect();
+        if duration_s(&mut stops) >= duration_s(&mut rounded) {
+            return;
+        }
+        self.runs.truncate(kept);
+        self.runs.extend(stops);
+        let last = self.waiting.len().saturating_sub(1);
+        for waiting in self.waiting.iter_mut().take(last).filter(|w| w.sigma > begin) {
+            // Marks stay as they are.
+            if waiting.velocity.is_finite() {
+                (waiting.blend, waiting.velocity) = (0.0, 0.0);
+                let kind = LimitKind::Corner;
+                waiting.why = waiting.why.or(Some(Limiting { axis: 0, kind }));
+            }
+        }
+    }
+
+    /// Keeps a segment of the section since the last stop.
+    fn keep(&mut self, segment: Segment, is_round: bool) {
+        self.section_rounds += usize::from(is_round);
+        if self.section.len() >= LONGEST_SECTION {
+            self.is_section_whole = false;
+            self.section.clear();
+        }
+        if self.is_section_whole {
+            self.section.push((segment, self.sigma));
         }
     }
 
@@ -343,6 +344,10 @@ impl Planner {
     /// The first run of the queue, from the velocity that it begins with.
     fn emit_run(&mut self, out: &mut impl Receive) {
         let Some(run) = self.runs.pop_front() else { return };
+        if run.from >= self.section_begin {
+            self.is_section_whole = false;
+            self.section.clear();
+        }
         let length = run.to - run.from;
         let next = self.runs.front().map_or(0.0, |next| next.allowed.min(next.bounds.v));
         let end = match run.stop_s {
@@ -400,58 +405,5 @@ impl Planner {
             limiting,
         });
         self.passed += 1;
-    }
-}
-
-impl Run {
-    /// This run and the next piece as one, unless that costs more time than it saves.
-    ///
-    /// A run of its own pays if its pieces lose more time by a common velocity than a change of
-    /// velocity takes; and a long run is not slowed down by the weak acceleration of a short piece.
-    fn with(&self, next: &Self) -> Option<Self> {
-        let (a, b) = (&self.bounds, &next.bounds);
-        let bounds = Bounds { v: a.v.min(b.v), a: a.a.min(b.a), j: a.j.min(b.j) };
-        let length = next.to - self.from;
-        let ideal_s = self.ideal_s + next.ideal_s;
-        let fastest = self.fastest.max(next.fastest);
-        let lost_s = length / bounds.v - ideal_s;
-        let change_s = ramp_time(fastest - bounds.v, bounds.a, bounds.j);
-        let long = length > LONG * ramp_length(0.0, bounds.v, &bounds);
-        let weaker = bounds.a < WEAK * a.a.max(b.a) || bounds.j < WEAK * a.j.max(b.j);
-        // One line in many blocks is still one line.
-        let same = [(a.v, b.v), (a.a, b.a), (a.j, b.j)];
-        let same = same.iter().all(|(a, b)| (a - b).abs() <= 1e-6 * a);
-        let [enough, most] = match same {
-            true => [MAX_NODES_OF_LINE; 2],
-            false => [ENOUGH_NODES, MAX_NODES_OF_RUN],
-        };
-        if lost_s > PAYS * change_s + 1e-12 * ideal_s
-            || (long && (weaker || self.nodes >= enough))
-            || self.nodes >= most
-        {
-            return None;
-        }
-        let weakest = |mine: bool, one: usize, other: usize| if mine { one } else { other };
-        Some(Self {
-            from: self.from,
-            to: next.to,
-            bounds,
-            fastest,
-            ideal_s,
-            velocity: if a.v <= b.v { self.velocity } else { next.velocity },
-            acceleration_axis: weakest(a.a <= b.a, self.acceleration_axis, next.acceleration_axis),
-            jerk_axis: weakest(a.j <= b.j, self.jerk_axis, next.jerk_axis),
-            ..*self
-        })
-    }
-
-    /// What makes its changes of velocity slow: large ones its acceleration, small ones its jerk.
-    fn ramp_limit(&self) -> Limiting {
-        let Bounds { v, a, j } = self.bounds;
-        if v * j >= a * a {
-            Limiting { axis: self.acceleration_axis, kind: LimitKind::Acceleration }
-        } else {
-            Limiting { axis: self.jerk_axis, kind: LimitKind::Jerk }
-        }
     }
 }

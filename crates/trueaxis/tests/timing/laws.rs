@@ -101,7 +101,7 @@ fn share(values: &[f64; 6], limits: &[f64; 6]) -> f64 {
 }
 
 /// No axis moves, speeds up or jerks more than it can, by the analytic derivatives.
-fn assert_within(timeline: &Timeline, limits: &AxisLimits, count: usize) {
+pub fn assert_within(timeline: &Timeline, limits: &AxisLimits, count: usize) {
     for t in instants(timeline, count) {
         let state = at(timeline, t);
         let [v, a, j] = [
@@ -115,7 +115,7 @@ fn assert_within(timeline: &Timeline, limits: &AxisLimits, count: usize) {
 
 /// The same by differences, which also see every jump: by the mean value theorem a difference over
 /// a step is no more than the limit, for any step.
-fn assert_differences_within(timeline: &Timeline, limits: &AxisLimits, count: usize) {
+pub fn assert_differences_within(timeline: &Timeline, limits: &AxisLimits, count: usize) {
     let end = timeline.duration_s();
     let h = end / count as f64 / 3.0;
     for k in 0..count {
