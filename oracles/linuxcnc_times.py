@@ -3,7 +3,7 @@ planner: three axes of 333 mm/s and 2000 mm/s², no jerk limit (2.9 has none). C
 1 ms in which an axis moves. Writes crates/trueaxis/tests/data/linuxcnc-times.csv.
 
 Run in the repository root, Debian 12: apt-get install linuxcnc-uspace; python3 oracles/linuxcnc_times.py
-(as root with RTAPI_UID=65534; LinuxCNC wants a terminal, which `script` of util-linux gives it).
+(as root with RTAPI_UID=65534 in the environment; LinuxCNC wants a terminal, which `script` of util-linux gives it).
 """
 
 import glob
@@ -138,7 +138,8 @@ with tempfile.TemporaryDirectory() as folder:
     (at / "drive.py").write_text(DRIVE.replace("{folder}", folder))
     os.chmod(at / "drive.py", 0o755)
     subprocess.run(["script", "-qec", f"linuxcnc {folder}/times.ini", "/dev/null"], check=True,
-                   cwd=folder)
+                   stdout=subprocess.DEVNULL, cwd=folder,
+                   env=os.environ | {"RTAPI_FIFO_PATH": f"{folder}/fifo"})
     version = subprocess.run(["dpkg-query", "-W", "-f", "${Version}", "linuxcnc-uspace"],
                              capture_output=True, text=True, check=True).stdout
     lines = [f"# LinuxCNC {version}, python3 oracles/linuxcnc_times.py", "program,time_s"]
