@@ -79,6 +79,8 @@ pub enum PathStep {
     },
     /// The next place.
     Node(Node),
+    /// The move could not be made to its end.
+    Abandoned,
     /// Another tool is in the spindle from here on.
     Tool(u32),
 }
@@ -192,10 +194,11 @@ impl<'m> AxisPath<'m> {
         match step {
             Step::Move(m) => {
                 self.pieces = 0;
-                if let Err(fault) = self.move_by(m, out)
-                    && self.faults.len() < MOST_FAULTS
-                {
-                    self.faults.push(fault);
+                if let Err(fault) = self.move_by(m, out) {
+                    out(PathStep::Abandoned);
+                    if self.faults.len() < MOST_FAULTS {
+                        self.faults.push(fault);
+                    }
                 }
             }
             Step::Event(event, origin) => self.event(event, *origin, out),

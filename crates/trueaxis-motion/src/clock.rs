@@ -96,14 +96,11 @@ impl Clock {
         }
     }
 
-    /// The next nodes, up to the last one of a move, lie on this element. Returns how many nodes
-    /// of the move before were left without a stamp because it was not completed.
-    pub fn begin(&mut self, element: Box<Element>, length: f64) -> usize {
-        let left = self.drop_element();
+    /// The next nodes, up to the last one of a move, lie on this element.
+    pub fn begin(&mut self, element: Box<Element>, length: f64) {
         if self.timing == Timing::LookAhead {
             self.element = Some((element, length));
         }
-        left
     }
 
     /// Whether the next node lies on an element.
@@ -111,7 +108,7 @@ impl Clock {
         self.element.is_some()
     }
 
-    /// The move is not completed: how many of its nodes have no stamp.
+    /// The move is not completed: how many of its nodes will get no stamp.
     pub fn drop_element(&mut self) -> usize {
         self.element = None;
         std::mem::take(&mut self.marks).len()

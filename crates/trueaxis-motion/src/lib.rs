@@ -368,10 +368,8 @@ struct Stretch<'w, 'o> {
 impl Stretch<'_, '_> {
     fn take(&mut self, step: PathStep) {
         match step {
-            PathStep::Element { element, length } => {
-                let left = self.clock.begin(element, length);
-                self.nodes.truncate(self.nodes.len() - left);
-            }
+            PathStep::Element { element, length } => self.clock.begin(element, length),
+            PathStep::Abandoned => self.abandon(),
             // A full circle ends where it began.
             PathStep::Node(node)
                 if node.command == self.at && node.dwell_s == 0.0 && !self.clock.on_element() => {}
@@ -383,8 +381,7 @@ impl Stretch<'_, '_> {
                         self.nodes.push(node);
                     }
                     Err(error) => {
-                        let left = self.clock.drop_element();
-                        self.nodes.truncate(self.nodes.len() - left);
+                        self.abandon();
                         self.faults.push(Fault::untimed(&node, &error));
                     }
                 }
@@ -394,6 +391,12 @@ impl Stretch<'_, '_> {
             }
             PathStep::Tool(number) => self.change_tool(number),
         }
+    }
+
+    /// Nodes of a move that does not come to its end get no time.
+    fn abandon(&mut self) {
+        let left = self.clock.drop_element();
+        self.nodes.truncate(self.nodes.len().saturating_sub(left));
     }
 
     /// All nodes that have their time, in batches of one temperature.
@@ -429,8 +432,6 @@ impl Stretch<'_, '_> {
     }
 
     fn rest(&mut self) {
-        let left = self.clock.drop_element();
-        self.nodes.truncate(self.nodes.len() - left);
         let stamps = &mut self.stamps;
         self.clock.finish(&mut |stamp| stamps.push(stamp));
         self.evaluate();

@@ -88,7 +88,7 @@ fn law_five_axis_moves_take_the_same_time_however_drawn() {
     let table = machine("w C' A' b X Y Z t", ISSUE);
     assert_same_however_drawn(
         &table,
-        Control::Sinumerik,
+        Control::Sinumerik840d,
         "TRAORI\nORIWKS ORIAXES\nG1 X50 Y0 Z20 A=10 C=0 F4000\nG64 X60 Y10 A=20 C=40\n\
          X60 Y30 A=15 C=70\nORIVECT\nG1 X40 Y40 A3=0.3 B3=0.2 C3=1\n\
          G2 X20 Y40 I-10 J0 A3=-0.2 B3=0.3 C3=1\nTRAFOOF\nG0 Z300\nM30\n",
