@@ -5,11 +5,14 @@
 //!   jerk of every axis at every instant.
 //!
 //! ```text
-//! Node ──corner──> pieces (straight, blend) with V, A, J of the path      docs/model.md eq. 42, 43
+//! Element ─passage─> pieces (line, arc, cell, blend) with V, A, J of the path
+//!                                                                         docs/model.md eq. 42, 43
 //!      ──merge───> runs of pieces with common V, A, J; acceleration 0 between them
 //!      ──look-ahead (backward), then forward──> velocity between the runs  docs/model.md eq. 45
 //!      ──7 phases per run──> time stamp of every node, Phase by Phase     docs/model.md eq. 44
 //! ```
+//!
+//! What is drawn on an element has no effect on time (docs/decisions/0018-time-on-elements.md).
 
 mod element;
 mod joint;

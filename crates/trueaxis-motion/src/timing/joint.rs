@@ -25,8 +25,8 @@ enum Corner {
     Stop(usize),
 }
 
-/// A change of curvature of 1 over ± 1, docs/model.md eq. 42b: the second derivative goes from 0 to 1
-/// with the third −m, m, −m, and changes it at ± s.
+/// A change of curvature of 1 over ± 1: the second derivative goes from 0 to 1 with the third −m, m,
+/// −m, and changes it at ± s, docs/model.md eq. 42b.
 mod step {
     /// (1/2)^(1/3)
     pub const S: f64 = 0.793_700_525_984_099_8;

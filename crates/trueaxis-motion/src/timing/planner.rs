@@ -201,7 +201,7 @@ impl Planner {
         }
     }
 
-    /// Adds what is left of a segment, up to a place; returns the last piece.
+    /// Adds the rest of a segment, up to a place; returns the last piece.
     fn add_element(&mut self, segment: &Segment, to: f64, out: &mut impl Receive) -> Piece {
         let (closed, ends) = (&mut self.closed, [self.sigma, to]);
         let piece =

@@ -76,7 +76,7 @@ impl Chain {
         });
     }
 
-    /// Adds what is left of a segment that ends at a place, up to another; returns the last piece.
+    /// Adds the rest of a segment that ends at a place, up to another; returns the last piece.
     pub fn add_segment(
         &mut self,
         limits: &Reciprocals,
