@@ -353,9 +353,8 @@ const DIALECT: [(&str, &str); 59] = [
     ("who is to", "which error, which contribution"),
 ];
 
-/// Kinds of files whose words are checked: of sources their comments and strings (`prose_of_source`), of those
-/// in `src` only.
-const PROSE: [&str; 2] = ["md", "rs"];
+/// Kinds of files whose words are checked: of sources their comments and strings (`prose_of_source`).
+const PROSE: [&str; 3] = ["md", "rs", "ts"];
 
 /// Not checked: the first is generated from texts in `crates/trueaxis/tests/papers` and from doc
 /// comments of tests, the second names the modules of the code, the third is the list itself.
@@ -435,10 +434,7 @@ fn dialect() -> Vec<String> {
     let mut found = Vec::new();
     for path in files(&root()).into_iter().filter(|p| has_extension(p, &PROSE)) {
         let name = shown(&path);
-        // The pages of diagnostics quote the messages as they are.
-        let is_test = name.ends_with(".rs") && !name.contains("/src/");
-        if UNCHECKED.iter().any(|u| name == *u) || name.starts_with("docs/diagnostics/") || is_test
-        {
+        if UNCHECKED.iter().any(|u| name == *u) {
             continue;
         }
         let words = words(&path);

@@ -321,7 +321,7 @@ test("two windows never overwrite each other in silence", () =>
     const theirs = text();
     assert.match(theirs, /EC0Y = "30 urad"/);
 
-    // The other one is told, its edits stay; to save all the same is refused.
+    // The other window is informed, its edits stay; to save all the same is refused.
     const banner = two.page.locator(".banner");
     await banner.waitFor({ state: "visible" });
     await two.page.click('[data-test="keep"]');
@@ -357,7 +357,7 @@ test("two windows never overwrite each other in silence", () =>
     await two.page.click('button:text("Undo")');
     await two.page.waitForFunction(() => document.querySelector('[data-error="EB0Z"]').value === "5 urad");
 
-    assert.equal(await one.page.locator(".banner").isVisible(), false, "the window that saved is not told");
+    assert.equal(await one.page.locator(".banner").isVisible(), false, "the window that saved is not informed");
     for (const { context, complaints } of [one, two]) {
       // A refused save is no complaint of the console.
       assert.deepEqual(complaints, []);

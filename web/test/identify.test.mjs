@@ -79,7 +79,7 @@ test("verdict, scores, errors with uncertainty, residuals, correlation", async (
     await page.textContent("#tab-identify .pictures"),
     /EY0A and EA0Z \(\+0\.97\d\): their difference is better known than each/,
   );
-  // The arrows are magnified by what is written beside them.
+  // The arrows are magnified by the factor that is written next to them.
   const factor = await page.textContent("#tab-identify .vectors .factor");
   assert.ok((await page.textContent("#tab-identify .vectors svg")).includes(`arrows ${factor}`));
   await page.getByRole("button", { name: "XY", exact: true }).click();
@@ -92,7 +92,7 @@ test("verdict, scores, errors with uncertainty, residuals, correlation", async (
   await context.close();
 });
 
-test("what cannot be told is said in words, and the machine can be saved", async () => {
+test("what is not observable is said in words, and the machine can be saved", async () => {
   const { page, context, complaints } = await open(browser, server.address);
   await openCampaign(page, single);
   const document = await cli("identify", single);

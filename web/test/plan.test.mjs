@@ -134,7 +134,7 @@ test("readings dropped on a plan are identified with its campaign", async () => 
   await openCampaign(page, probe);
   await drop(page, "#tab-plan", "probe.csv", readFileSync(path.join(folder, "probe.csv"), "utf8"));
   await page.waitForSelector('#tab-identify [data-test="verdict"]');
-  // The bars of this campaign are of the errors that were planned for, and what could not be told still cannot.
+  // The bars of this campaign are of the errors that were planned for, and what was not observable still is not.
   const document = await cli("plan", probe);
   const text = await page.textContent('#tab-identify [data-test="confounded"]');
   for (const one of document.unobservable) assert.ok(text.includes(one.combination), one.combination);

@@ -61,7 +61,7 @@ function assertIndices(shown, document) {
   for (const [key, { value }] of Object.entries(values)) assert.equal(shown[key].value, micro(value), key);
 }
 
-test("verdict, indices, blame and Monte Carlo are those of the command line", async () => {
+test("verdict, indices, error budget and Monte Carlo are those of the command line", async () => {
   const expected = await cli("predict", NAS, "--no-report");
   const { page, complaints } = await openExample(NAS);
   const shown = await shownIndices(page);
@@ -80,7 +80,7 @@ test("verdict, indices, blame and Monte Carlo are those of the command line", as
     new RegExp(`${micro(worst.value_mm)}.*${percent(worst.used_ratio)} used`),
   );
 
-  const titles = await page.$$eval("[data-page=blame] svg g > title", (all) =>
+  const titles = await page.$$eval("[data-page=budget] svg g > title", (all) =>
     all.map((t) => t.textContent.split(",")[0]),
   );
   const gains = expected.blame
@@ -139,7 +139,7 @@ test("an error that is switched off: as if its machine file said zero", async ()
     const original = await cli("predict", NAS, "--no-report");
 
     const { page, complaints } = await openExample(NAS);
-    await whatIf(page, () => page.click('[data-page=blame] svg g[aria-label^="EY0A:"]'));
+    await whatIf(page, () => page.click('[data-page=budget] svg g[aria-label^="EY0A:"]'));
     assert.equal(await page.isChecked("[data-error=EY0A] input[type=checkbox]"), false);
     const shown = await shownIndices(page);
     assertIndices(shown, expected);

@@ -145,11 +145,11 @@ test("the curves: a click picks the time, a drag looks closer", async () => {
 
 test("a collision is a mark that jumps to it", async () => {
   const { page, complaints, context, document } = await example(collision, engraver);
-  const trouble = document.troubles.find((t) => t.grave);
+  const issue = document.troubles.find((t) => t.grave);
   assert.match(await shown(page, "verdict"), /collision/);
-  await page.click(".timeline-mark.grave");
-  await shows(page, trouble.from_s);
-  await page.waitForSelector(`.source-line[data-line="${trouble.line}"][aria-current="true"] .source-mark.error`);
+  await page.click(".timeline-mark.critical");
+  await shows(page, issue.from_s);
+  await page.waitForSelector(`.source-line[data-line="${issue.line}"][aria-current="true"] .source-mark.error`);
   assert.deepEqual(complaints, []);
   await context.close();
 });
@@ -185,7 +185,7 @@ test("tool and stock of the set-up are in the picture", async () => {
   }
 });
 
-/** As if somebody dropped the file on the page. */
+/** As if a user dropped the file on the page. */
 async function drop(page, name, text) {
   await page.evaluate(
     ([file, words]) => {

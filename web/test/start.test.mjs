@@ -58,7 +58,7 @@ test("every example of a tab that is there opens with one click", async () => {
   await context.close();
 });
 
-test("a file that no tab opens is told so, and nothing is sent", async () => {
+test("a file that no tab opens is named, and nothing is sent", async () => {
   const { page, context, complaints } = await open(browser, server.address, { dark: true, width: 1024, height: 768 });
   await page.waitForSelector(".card");
   await page.setInputFiles(".drop-input", { name: "holiday.jpg", mimeType: "image/jpeg", buffer: Buffer.from("x") });

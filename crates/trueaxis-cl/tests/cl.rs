@@ -126,27 +126,30 @@ fn tables_and_inches() {
 
 #[test]
 fn what_is_wrong_is_told_with_its_line() {
-    let told = |text: &str| read(text).1;
+    let reported = |text: &str| read(text).1;
     assert_eq!(
-        told("UNITS/MM\nMULTAX/ON\nGOTO/1,2,3\n"),
+        reported("UNITS/MM\nMULTAX/ON\nGOTO/1,2,3\n"),
         [(3, "no-tool-axis"), (3, "no-tool-axis")]
     );
-    assert_eq!(told("UNITS/MM\nGOTO/1,2,3\n"), [(2, "no-tool-axis")]);
-    assert_eq!(told("UNITS/MM\nGOTO/1,2,3,0,0,0\nGOTO/0,0,0,0,0,1\n"), [(2, "zero-tool-axis")]);
-    assert_eq!(told("UNITS/MM\nGOTO/1,2,3,0,0,1.00011\n"), [(2, "axis-not-unit")]);
-    assert_eq!(told("UNITS/MM\nGOTO/1,2,3,0,0,1.00009\n"), []);
-    assert_eq!(told("UNITS/MM\nGOTO/1,nan,3\nGOTO/0,0,0,0,0,1\n"), [(2, "bad-number")]);
-    assert_eq!(told("UNITS/MM\nGOTO/1,2\nGOTO/0,0,0,0,0,1\n"), [(2, "bad-number")]);
-    assert_eq!(told("UNITS/MM\nGOTO/1,2,3,4\nGOTO/0,0,0,0,0,1\n"), [(2, "bad-point")]);
-    assert_eq!(told("UNITS/MM\nGOTO/1e9,2,3\nGOTO/0,0,0,0,0,1\n"), [(2, "too-far")]);
-    assert_eq!(told("UNITS/FURLONG\nGOTO/0,0,0,0,0,1\n"), [(0, "no-units"), (1, "unknown-unit")]);
-    assert_eq!(told("UNITS/MM\nGOFWD/C1\nGOTO/0,0,0,0,0,1\n"), [(2, "motion-not-read")]);
-    assert_eq!(told("UNITS/MM\nABRACA/1\nGOTO/0,0,0,0,0,1\n"), [(2, "unknown-word")]);
-    assert_eq!(told("UNITS/MM\nROTABL/90\nGOTO/0,0,0,0,0,1\n"), [(2, "not-applied")]);
-    assert_eq!(told("UNITS/MM\nFEDRAT/-5\nGOTO/0,0,0,0,0,1\n"), [(2, "bad-feed")]);
-    assert_eq!(told("UNITS/MM\n"), [(0, "no-points")]);
+    assert_eq!(reported("UNITS/MM\nGOTO/1,2,3\n"), [(2, "no-tool-axis")]);
+    assert_eq!(reported("UNITS/MM\nGOTO/1,2,3,0,0,0\nGOTO/0,0,0,0,0,1\n"), [(2, "zero-tool-axis")]);
+    assert_eq!(reported("UNITS/MM\nGOTO/1,2,3,0,0,1.00011\n"), [(2, "axis-not-unit")]);
+    assert_eq!(reported("UNITS/MM\nGOTO/1,2,3,0,0,1.00009\n"), []);
+    assert_eq!(reported("UNITS/MM\nGOTO/1,nan,3\nGOTO/0,0,0,0,0,1\n"), [(2, "bad-number")]);
+    assert_eq!(reported("UNITS/MM\nGOTO/1,2\nGOTO/0,0,0,0,0,1\n"), [(2, "bad-number")]);
+    assert_eq!(reported("UNITS/MM\nGOTO/1,2,3,4\nGOTO/0,0,0,0,0,1\n"), [(2, "bad-point")]);
+    assert_eq!(reported("UNITS/MM\nGOTO/1e9,2,3\nGOTO/0,0,0,0,0,1\n"), [(2, "too-far")]);
+    assert_eq!(
+        reported("UNITS/FURLONG\nGOTO/0,0,0,0,0,1\n"),
+        [(0, "no-units"), (1, "unknown-unit")]
+    );
+    assert_eq!(reported("UNITS/MM\nGOFWD/C1\nGOTO/0,0,0,0,0,1\n"), [(2, "motion-not-read")]);
+    assert_eq!(reported("UNITS/MM\nABRACA/1\nGOTO/0,0,0,0,0,1\n"), [(2, "unknown-word")]);
+    assert_eq!(reported("UNITS/MM\nROTABL/90\nGOTO/0,0,0,0,0,1\n"), [(2, "not-applied")]);
+    assert_eq!(reported("UNITS/MM\nFEDRAT/-5\nGOTO/0,0,0,0,0,1\n"), [(2, "bad-feed")]);
+    assert_eq!(reported("UNITS/MM\n"), [(0, "no-points")]);
     let endless = "GOTO/x\n".repeat(10_000);
-    assert!(told(&endless).len() < 110);
+    assert!(reported(&endless).len() < 110);
 }
 
 proptest! {

@@ -82,13 +82,13 @@ impl Parts {
 
 /// The command ends with `status` and tells `code` with the words.
 #[track_caller]
-fn told(name: &str, parts: &Parts, status: i32, code: &str, words: &str) {
+fn reported(name: &str, parts: &Parts, status: i32, code: &str, words: &str) {
     let (_folder, ran) = parts.run(name, &["--format", "json"]);
     assert_eq!(ran.status, status, "{name}\n{}", ran.err);
     assert_eq!(ran.out.is_empty(), status == 2, "{name}");
     let mut blocks = ran.err.split("\n\n").filter(|b| b.contains(&format!("[{code}]")));
     let block = blocks.find(|b| b.contains(words));
-    assert!(block.is_some(), "{code} `{words}` is not told:\n{}", ran.err);
+    assert!(block.is_some(), "{code} `{words}` is not reported:\n{}", ran.err);
 }
 
 #[test]
@@ -168,28 +168,28 @@ fn a_blank_in_another_set_up() {
         v[7] += 500.0 * v[4];
         Some(v)
     });
-    told("shifted", &shifted, 2, "other-set-up", "lies 0.5");
+    reported("shifted", &shifted, 2, "other-set-up", "lies 0.5");
     let other = parts().with_rows(|_, mut v| {
         v[7] *= 6.0;
         Some(v)
     });
-    told("other", &other, 2, "other-set-up", "allowed are");
+    reported("other", &other, 2, "other-set-up", "allowed are");
     // The table counts from another zero than the path.
     let zero = parts().with_rows(|_, mut v| {
         v[1] += 0.8;
         Some(v)
     });
-    told("zero", &zero, 2, "other-zero", "bangle-adapt.cls:");
+    reported("zero", &zero, 2, "other-zero", "bangle-adapt.cls:");
 }
 
 #[test]
 fn a_path_beyond_what_was_probed() {
     // 24 of 48 points in each row: from 180 degrees on the path has none.
     let half = parts().with_rows(|row, v| (row % 48 < 8).then_some(v));
-    told("half", &half, 2, "beyond-probed", "bangle-adapt.cls:");
+    reported("half", &half, 2, "beyond-probed", "bangle-adapt.cls:");
     // A file in mm that claims inches is far from everything.
     let inch = parts().with_path("UNITS/MM", "UNITS/INCHES");
-    told("inch-slip", &inch, 2, "beyond-probed", "UNITS/MM or INCHES");
+    reported("inch-slip", &inch, 2, "beyond-probed", "UNITS/MM or INCHES");
 }
 
 #[test]
@@ -206,58 +206,82 @@ fn tables_with_slips() {
         };
         base.with_table(&line, &cells.join(","))
     };
-    told("nan", &third("nan"), 2, "not-a-number", at);
-    told("empty", &third(""), 2, "not-a-number", at);
-    told("zero", &third("zero"), 2, "bad-normal", at);
-    told("back", &third("back"), 2, "wrong-side", at);
-    told("large", &third("9000"), 2, "large-deviation", at);
-    told("unit", &parts().with_table("deviation_um", "deviation_deg"), 2, "wrong-unit", ":2:");
-    told("none", &parts().with_table("deviation_um", "deviation"), 2, "missing-unit", ":2:");
-    told("column", &parts().with_table(",k,", ",l,"), 2, "missing-column", "`k`");
+    reported("nan", &third("nan"), 2, "not-a-number", at);
+    reported("empty", &third(""), 2, "not-a-number", at);
+    reported("zero", &third("zero"), 2, "bad-normal", at);
+    reported("back", &third("back"), 2, "wrong-side", at);
+    reported("large", &third("9000"), 2, "large-deviation", at);
+    reported("unit", &parts().with_table("deviation_um", "deviation_deg"), 2, "wrong-unit", ":2:");
+    reported("none", &parts().with_table("deviation_um", "deviation"), 2, "missing-unit", ":2:");
+    reported("column", &parts().with_table(",k,", ",l,"), 2, "missing-column", "`k`");
     let few = parts().with_rows(|row, v| (row < 8).then_some(v));
-    told("few", &few, 2, "too-few-points", "at least 12");
+    reported("few", &few, 2, "too-few-points", "at least 12");
     // All normals point inwards: no point contradicts its neighbours, but the tool is on the other side.
     let inside = parts().with_rows(|_, mut v| {
         v[4..7].iter_mut().for_each(|n| *n = -*n);
         Some(v)
     });
-    told("inside", &inside, 2, "wrong-side", "looks away from the tool");
+    reported("inside", &inside, 2, "wrong-side", "looks away from the tool");
     let twice = parts().with_rows(|row, mut v| {
         v[7] += if row % 3 == 0 { 80.0 } else { 0.0 };
         Some(v)
     });
-    // Then nobody knows the wall well enough, either.
-    told("twice", &twice, 1, "rough-readings", "scatter");
+    // Then the wall is not known well enough, either.
+    reported("twice", &twice, 1, "rough-readings", "scatter");
 }
 
 #[test]
 fn paths_with_slips() {
     let whole = parts();
     let cut = Parts { path: whole.path[..whole.path.len() - 50].to_owned(), ..whole.clone() };
-    told("cut", &cut, 2, "bad-number", "bangle-adapt.cls:200");
-    told("no-end", &whole.clone().with_path("FINI\n", ""), 0, "no-end", "FINI");
+    reported("cut", &cut, 2, "bad-number", "bangle-adapt.cls:200");
+    reported("no-end", &whole.clone().with_path("FINI\n", ""), 0, "no-end", "FINI");
     let circle = "MULTAX/ON\nCIRCLE/0,0,0,0,0,1,5";
-    told("circle", &whole.clone().with_path("MULTAX/ON", circle), 2, "curve", ":7:");
+    reported("circle", &whole.clone().with_path("MULTAX/ON", circle), 2, "curve", ":7:");
     let none = whole.with_study("bangle-adapt.cls", "nowhere.cls");
-    told("missing", &none, 2, "unreadable-file", "nowhere.cls");
+    reported("missing", &none, 2, "unreadable-file", "nowhere.cls");
 }
 
 #[test]
 fn studies_with_slips() {
     let study = |from: &str, to: &str| parts().with_study(from, to);
-    told("layer", &study("depth = \"0.15 mm\"", "depth = \"0.08 mm\""), 2, "other-layer", "0.15");
-    told("deep", &study("depth = \"0.15 mm\"", "depth = \"0.3 mm\""), 2, "layer-too-deep", "-0.06");
-    told(
+    reported(
+        "layer",
+        &study("depth = \"0.15 mm\"", "depth = \"0.08 mm\""),
+        2,
+        "other-layer",
+        "0.15",
+    );
+    reported(
+        "deep",
+        &study("depth = \"0.15 mm\"", "depth = \"0.3 mm\""),
+        2,
+        "layer-too-deep",
+        "-0.06",
+    );
+    reported(
         "noise",
         &study("noise = \"1.5 um\"", "noise = \"0 um\""),
         2,
         "not-positive",
         "study.toml",
     );
-    told("cutter", &study("radius = \"4 mm\"", "radius = \"5 mm\""), 2, "bad-cutter", "5 mm");
-    told("word", &study("[wall]", "[wall]\ninner = \"soft\""), 2, "unknown-word", "\"follows\" or");
-    told("machine", &study("machine.toml", "nothing.toml"), 2, "unreadable-file", "nothing.toml");
-    told("key", &study("[probe]", "[probe]\nnoize = 1"), 2, "unknown-key", "noize");
+    reported("cutter", &study("radius = \"4 mm\"", "radius = \"5 mm\""), 2, "bad-cutter", "5 mm");
+    reported(
+        "word",
+        &study("[wall]", "[wall]\ninner = \"soft\""),
+        2,
+        "unknown-word",
+        "\"follows\" or",
+    );
+    reported(
+        "machine",
+        &study("machine.toml", "nothing.toml"),
+        2,
+        "unreadable-file",
+        "nothing.toml",
+    );
+    reported("key", &study("[probe]", "[probe]\nnoize = 1"), 2, "unknown-key", "noize");
 }
 
 /// A wall that may become too thin is named with its line, and nothing is written.

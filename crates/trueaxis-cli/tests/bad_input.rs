@@ -131,7 +131,7 @@ const STUDIES: &[(&str, &[Expected])] = &[
         "study-coverage-of-simple-rule.toml",
         &[("contradiction", "study-coverage-of-simple-rule.toml:7:12")],
     ),
-    // Only what is wrong is told: not that [setting] and [compare] were unknown.
+    // Only what is wrong is reported: not that [setting] and [compare] were unknown.
     (
         "study-fixture-without-unit.toml",
         &[("missing-unit", "study-fixture-without-unit.toml:6:11")],
@@ -386,6 +386,6 @@ fn endless_files_and_a_full_disk() {
         .output()
         .expect("an end");
     assert_eq!(ended.status.code(), Some(2));
-    let told = String::from_utf8(ended.stderr).expect("UTF-8");
-    assert!(told.starts_with("error[unwritable-output]: standard output"), "{told}");
+    let reported = String::from_utf8(ended.stderr).expect("UTF-8");
+    assert!(reported.starts_with("error[unwritable-output]: standard output"), "{reported}");
 }

@@ -27,7 +27,7 @@ fn row(i: usize, run: usize, side: &str, um: f64) -> Option<String> {
 
 /// The text tells `code` with the words; the command ends with `status`.
 #[track_caller]
-fn told(arguments: &[&str], status: i32, code: &str, words: &str) {
+fn reported(arguments: &[&str], status: i32, code: &str, words: &str) {
     let ran = trueaxis(&[arguments, &["--format", "json"]].concat());
     assert_eq!(ran.status, status, "{arguments:?}\n{}", ran.err);
     match status {
@@ -35,7 +35,7 @@ fn told(arguments: &[&str], status: i32, code: &str, words: &str) {
         _ => assert_eq!(ran.out, ""),
     }
     let block = ran.err.split("\n\n").find(|b| b.contains(&format!("[{code}]")));
-    let block = block.unwrap_or_else(|| panic!("{code} is not told:\n{}", ran.err));
+    let block = block.unwrap_or_else(|| panic!("{code} is not reported:\n{}", ran.err));
     assert!(block.contains(words), "`{words}` is not in\n{block}");
 }
 
@@ -78,28 +78,33 @@ fn positioning() {
         ("clocks", clocks, "time-backwards", "from 999 to 998"),
     ] {
         let file = folder.file(&format!("{name}.csv"), text);
-        told(&["evaluate", "iso230-2", &file], 0, code, words);
+        reported(&["evaluate", "iso230-2", &file], 0, code, words);
     }
     let hot = swapped(&format!("{long},temperature_degC"), &|i, r, v| {
         format!("{},{r},up,{v},{}\n", TARGETS[i], 70 + i)
     });
     let file = folder.file("hot.csv", hot);
-    told(&["evaluate", "iso230-2", &file], 2, "temperature-range", "that would be 21.1 °C");
+    reported(&["evaluate", "iso230-2", &file], 2, "temperature-range", "that would be 21.1 °C");
     let file = folder.file("whole.csv", table(row));
     folder.file("whole.toml", "temperature = \"72 degF\"\n");
-    told(&["evaluate", "iso230-2", &file], 2, "unknown-unit", "(°F − 32)/1.8");
+    reported(&["evaluate", "iso230-2", &file], 2, "unknown-unit", "(°F − 32)/1.8");
 }
 
 #[test]
 fn other_standards() {
     let folder = Folder::new("bad-others");
     let air = folder.file("air.csv", "time_min,x_um,air_degC\n0,1,70\n10,2,71\n70,3,72\n");
-    told(&["evaluate", "iso230-3", &air], 0, "temperature-range", "Fahrenheit");
+    reported(&["evaluate", "iso230-3", &air], 0, "temperature-range", "Fahrenheit");
     let points = (0..=64).map(|i| f64::from(i) / 10.0);
     let circle: String =
         points.map(|a| format!("{},{}\n", 100.0 * a.cos(), 100.0 * a.sin())).collect();
     let circle = folder.file("circle.csv", format!("x_mm,y_mm\n{circle}"));
-    told(&["evaluate", "iso230-4", &circle, "--radius", "150"], 0, "wrong-radius", "100.000 mm");
+    reported(
+        &["evaluate", "iso230-4", &circle, "--radius", "150"],
+        0,
+        "wrong-radius",
+        "100.000 mm",
+    );
 }
 
 #[test]
@@ -134,16 +139,16 @@ fn runs_at_temperatures() {
     ] {
         folder.file("t.csv", text);
         let file = folder.file("study.toml", study);
-        told(&["identify", "expansion", &file], status, code, words);
+        reported(&["identify", "expansion", &file], status, code, words);
     }
     assert_eq!(folder.names(), ["study.toml", "t.csv"]);
-    // What cannot be read is not told a second time as missing.
+    // What cannot be read is not reported a second time as missing.
     let file = folder.file("study.toml", temperatures("68 degF", "77 degF"));
     assert!(!trueaxis(&["identify", "expansion", &file]).err.contains("too-few-runs"));
     // Positions and errors swapped.
     folder.file("t.csv", rows(&|p| [0.01 * p + 0.1 * (p / 300.0).sin(), p, 0.053 * p]));
     let file = folder.file("study.toml", temperatures(c20, c25));
-    told(&["identify", "expansion", &file], 0, "identification", "swapped");
+    reported(&["identify", "expansion", &file], 0, "identification", "swapped");
     // One run of five does not go with the others.
     let mut text = "position_mm,a_um,b_um,c_um,d_um,e_um\n".to_owned();
     let mut study = "name = \"y\"\ntable = \"t.csv\"\n".to_owned();
@@ -158,5 +163,5 @@ fn runs_at_temperatures() {
     }
     folder.file("t.csv", text);
     let file = folder.file("study.toml", study);
-    told(&["identify", "expansion", &file], 0, "identification", "run `c`");
+    reported(&["identify", "expansion", &file], 0, "identification", "run `c`");
 }

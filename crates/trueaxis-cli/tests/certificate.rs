@@ -151,19 +151,19 @@ fn law_the_same_inputs_give_the_same_bytes_anywhere() {
     assert_eq!(read(&here), read(&there));
 }
 
-/// A study, one of its files, what is replaced in it by what, and what must be told.
+/// A study, one of its files, what is replaced in it by what, and what must be reported.
 type Spoiled<'a> = (&'a str, &'a str, &'a str, &'a [&'a str]);
 
 /// What is unusable, with its name and its place; nothing is written.
 fn is_named(study: &str, cases: &[Spoiled<'_>]) {
-    for (i, (file, from, to, told)) in cases.iter().enumerate() {
+    for (i, (file, from, to, reported)) in cases.iter().enumerate() {
         let copy = Copy::new(&format!("{study}-bad-{i}"));
         copy.change(file, from, to);
         let page = copy.0.path("page.html");
         let study = copy.path(study);
         let ran = trueaxis(&["verify", "--certificate", &study, "--report", &page]);
         assert_eq!(ran.status, 2, "{to}: {}", ran.out);
-        for word in *told {
+        for word in *reported {
             assert!(ran.err.contains(word), "{to}: no {word} in\n{}", ran.err);
         }
         assert!(!Path::new(&page).exists() && ran.out.is_empty(), "{to}");
@@ -270,7 +270,7 @@ fn a_certificate_without_uncertainties_is_refused() {
 
 #[test]
 fn what_the_readings_cannot_prove_is_undecided_and_what_they_disprove_fails() {
-    let told = |study: &str, changes: &[[&str; 2]]| {
+    let reported = |study: &str, changes: &[[&str; 2]]| {
         let copy = Copy::new(&format!("certificate-verdict-{}", changes[0][1].len()));
         changes.iter().for_each(|[from, to]| copy.change(study, from, to));
         let ran = copy.certify(study);
@@ -280,12 +280,12 @@ fn what_the_readings_cannot_prove_is_undecided_and_what_they_disprove_fails() {
     };
     let program = "certificate-program.toml";
     // U = 16 µm against 15 µm: nothing can be proved.
-    let (verdict, reason) = told(program, &[["u = \"1.5 um\"", "u = \"8.0 um\""]]);
+    let (verdict, reason) = reported(program, &[["u = \"1.5 um\"", "u = \"8.0 um\""]]);
     assert!(verdict == "undecided" && reason.contains("cannot prove conformity"), "{reason}");
     // 9.5 µm against 10 µm with U = 3 µm.
-    let (verdict, reason) = told(program, &[["limit = \"15 um\"", "limit = \"10 um\""]]);
+    let (verdict, reason) = reported(program, &[["limit = \"15 um\"", "limit = \"10 um\""]]);
     assert!(verdict == "undecided" && reason.contains("nearer to"), "{reason}");
-    let (verdict, reason) = told(program, &[["limit = \"15 um\"", "limit = \"5.0 um\""]]);
+    let (verdict, reason) = reported(program, &[["limit = \"15 um\"", "limit = \"5.0 um\""]]);
     assert!(verdict == "fail" && reason.contains("beyond"), "{reason}");
     // Readings with tables that are called those of a program: within the limit, but not as predicted.
     let changes = [
@@ -294,11 +294,11 @@ fn what_the_readings_cannot_prove_is_undecided_and_what_they_disprove_fails() {
         ["kinematics = false", ""],
         ["loaded = \"xkas2525-tables\"", ""],
     ];
-    let (verdict, reason) = told("certificate.toml", &changes);
+    let (verdict, reason) = reported("certificate.toml", &changes);
     assert!(verdict == "undecided" && reason.contains("not as predicted"), "{reason}");
 }
 
-/// All readings are within 20 µm, but in a corner of the zone, where nobody measured, more is predicted.
+/// All readings are within 20 µm, but in a corner of the zone, where no reading was taken, more is predicted.
 #[test]
 fn a_pass_says_what_is_not_excluded_elsewhere() {
     let copy = Copy::new("certificate-elsewhere");
@@ -307,6 +307,9 @@ fn a_pass_says_what_is_not_excluded_elsewhere() {
     assert_eq!(ran.status, 0, "{}", ran.err);
     let found = ran.json();
     let largest = number(&found["zone"]["largest_um"]);
-    let told = format!("elsewhere in the zone up to {largest:.1} µm are not excluded");
-    assert!(largest > 20.0 && found["reason"].as_str().expect("words").contains(&told), "{found}");
+    let reported = format!("elsewhere in the zone up to {largest:.1} µm are not excluded");
+    assert!(
+        largest > 20.0 && found["reason"].as_str().expect("words").contains(&reported),
+        "{found}"
+    );
 }

@@ -41,7 +41,7 @@ machine = "machine.toml"
 [determination]
 method = "probe-ball"
 date = 2026-11-21
-by = "nobody"
+by = "not named"
 instrument = "probe"
 calibration = "none"
 temperature = "20 ± 0.1 degC"
@@ -51,7 +51,7 @@ kind = "program"
 [validation]
 method = "R-test on other poses"
 date = 2026-11-22
-by = "nobody"
+by = "not named"
 instrument = "R-test"
 calibration = "none"
 temperature = "20 ± 0.1 degC"
@@ -63,7 +63,7 @@ u = "0.5 um"
 limit = "5 um"
 "#;
 
-/// A folder with the mill as it really is, a campaign on it, and the study.
+/// A folder with the actual mill, a campaign on it, and the study.
 fn workshop(name: &str) -> Folder {
     let folder = Folder::new(name);
     std::fs::create_dir_all(folder.path("mill")).expect("a folder");
@@ -207,7 +207,7 @@ fn a_pose_of_the_campaign_proves_nothing() {
     }
 }
 
-/// Where the socket sits is not known: EX0C cannot be told from it, and nobody can say what that leaves.
+/// Where the socket sits is not known: EX0C cannot be separated from it, and the remaining uncertainty is not known.
 #[test]
 fn what_a_campaign_cannot_tell_is_not_certified() {
     let folder = workshop("certificate-campaign-unseen");

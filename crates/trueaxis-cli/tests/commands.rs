@@ -144,7 +144,7 @@ fn outside_the_travel_is_a_warning_beside_the_answer() {
     assert_eq!((batch.status, batch.json()["rows"].as_array().map(Vec::len)), (0, Some(3)));
     assert!(batch.err.contains("in 2 of 3 rows"), "{}", batch.err);
     assert!(batch.err.contains("far.csv:3:1"), "{}", batch.err);
-    // The pose is reached, but not by this machine: entries are marked, and somebody is told.
+    // The pose is reached, but not by this machine: entries are marked, and the user is informed.
     let solved = trueaxis(&["solve", I5, "--tip", "0 0 0", "--axis", "0 0 -1", "--format", "json"]);
     assert_eq!(
         (solved.status, &solved.json()["solutions"][0]["within_limits"]),
@@ -422,7 +422,7 @@ const GANTRY: &str = "machines/gantry-001/machine.toml";
 
 #[test]
 fn paper_pose_at_temperatures() {
-    // Document 001: 431 − 485.1 and 253.1 − 340.0 µm.
+    // Zhang et al. 2019: 431 − 485.1 and 253.1 − 340.0 µm.
     for (at, temperature, i, machine, workpiece) in [
         ("X=3500 Y=0 Z=0", "scale_x=30.5 workpiece=30.5", 0, 431.0, 485.1),
         ("X=0 Y=2300 Z=0", "scale_y=31.2 workpiece=31.2", 1, 253.1, 340.032),
@@ -482,7 +482,7 @@ fn paper_holes_of_the_torque_arm() {
     assert!(worst[2] <= 0.5e-3 * 2_f64.sqrt() + 1e-6, "{worst:?}");
     assert!(worst[1] > worst[0] && worst[0] > 0.046);
     let first = &sets[1]["holes"][0];
-    // Machine-only at (3300, 1150): what is left is the growth, 13.2e-6 · 10.8 K · p.
+    // Machine-only at (3300, 1150): the residual error is the growth, 13.2e-6 · 10.8 K · p.
     let left = numbers(&first["error_um"]);
     near(&left[..2], &[-470.448, -163.944], 0.51);
     assert_eq!(sets[0]["holes"].as_array().map(Vec::len), Some(32));
@@ -523,12 +523,12 @@ fn simulations_over_a_log_tell_the_drift() {
         trueaxis(&words.concat())
     };
     let found = of("--log-start", "1 h").json();
-    let told = &found["temperatures"];
-    assert_eq!((number(&told["from_s"]), &told["log"]), (3600.0, &serde_json::json!(log)));
-    near(&[number(&told["sensors"]["scale_x"]["lowest_degC"])], &[27.6], 1e-9);
+    let reported = &found["temperatures"];
+    assert_eq!((number(&reported["from_s"]), &reported["log"]), (3600.0, &serde_json::json!(log)));
+    near(&[number(&reported["sensors"]["scale_x"]["lowest_degC"])], &[27.6], 1e-9);
     // 9 K in 9000 s: in about 95 s at X = 3000 a tenth of a kelvin, 3 µm less what the workpiece
     // takes along.
-    assert!((1.0..5.0).contains(&number(&told["drift_um"]["value"])), "{told}");
+    assert!((1.0..5.0).contains(&number(&reported["drift_um"]["value"])), "{reported}");
     let held = of("--log-time", "3600").json();
     assert!(held["temperatures"].is_null());
     let late = of("--log-start", "8950");

@@ -7,7 +7,7 @@ use command::{Folder, trueaxis};
 const GANTRY: &str = "machines/gantry-001/machine.toml";
 const MILL: &str = "machines/three-axis-mill/machine.toml";
 
-/// Document 001: the values at the two ends, and both figures of the warning.
+/// Zhang et al. 2019: the values at the two ends, and both figures of the warning.
 #[test]
 fn the_ends_of_the_gantry() {
     for (at, temperatures, value, um) in [
@@ -54,11 +54,11 @@ fn what_the_control_compensates_already_is_no_value() {
         let largest = each.iter().map(|p| p["value_increments"].as_i64().expect("whole").abs());
         (largest.max(), ran.err)
     };
-    let (largest, told) = values(MILL);
-    assert!(largest > Some(3) && !told.contains("already-active"), "{largest:?} {told}");
-    let (largest, told) = values(&active);
+    let (largest, reported) = values(MILL);
+    assert!(largest > Some(3) && !reported.contains("already-active"), "{largest:?} {reported}");
+    let (largest, reported) = values(&active);
     assert_eq!(largest, Some(0));
-    assert!(told.contains("already-active") && told.contains("EXX"), "{told}");
+    assert!(reported.contains("already-active") && reported.contains("EXX"), "{reported}");
 }
 
 #[test]

@@ -119,7 +119,7 @@ fn bad_readings_get_no_confident_answer() {
 
 #[test]
 fn lost_rows_swapped_columns_and_a_ball_on_the_axis_are_told() {
-    let folder = Folder::new("identify-told");
+    let folder = Folder::new("identify-reported");
     // Every place was read twice: of one a reading is lost.
     let campaign = with_readings(&folder, |i, line| match i {
         30 => String::new(),

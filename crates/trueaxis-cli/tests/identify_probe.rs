@@ -90,9 +90,9 @@ fn raw_hits_are_corrected_onto_the_surface() {
     assert!(ran.status == 2 && ran.err.contains("[missing-column]"), "{}", ran.err);
 }
 
-/// The hits are told with `code`, at a line, with the words.
+/// The hits are reported with `code`, at a line, with the words.
 #[track_caller]
-fn told(name: &str, hits: &str, status: i32, code: &str, place: &str, words: &str) {
+fn reported(name: &str, hits: &str, status: i32, code: &str, place: &str, words: &str) {
     let folder = Folder::new(&format!("probe-{name}"));
     folder.file("h.csv", hits);
     let file = folder.file("s.toml", study(""));
@@ -102,7 +102,7 @@ fn told(name: &str, hits: &str, status: i32, code: &str, place: &str, words: &st
         assert_eq!(ran.out, "", "{name}");
     }
     let block = ran.err.split("\n\n").find(|b| b.contains(&format!("[{code}]")));
-    let block = block.unwrap_or_else(|| panic!("{name}: {code} is not told:\n{}", ran.err));
+    let block = block.unwrap_or_else(|| panic!("{name}: {code} is not reported:\n{}", ran.err));
     assert!(block.contains(words), "{name}: `{words}` is not in\n{block}");
     let colon = if place.is_empty() { "" } else { ":" };
     assert!(block.contains(&format!("h.csv{colon}{place}")), "{name}: not at {place}\n{block}");
@@ -121,43 +121,43 @@ fn spoiled_positions_are_named_with_their_line() {
         format!("{a},{:.6},{:.6}", x + by * c, y + by * s)
     };
     let gap = ring(HEADING, |i, a, x, y| plain(i, a, x, y).filter(|_| !(20..30).contains(&i)));
-    told("gap", &gap, 2, "gap-in-directions", "22:", "no hit between 114.0 deg and 180.0 deg");
+    reported("gap", &gap, 2, "gap-in-directions", "22:", "no hit between 114.0 deg and 180.0 deg");
     let two = ring(HEADING, |i, a, x, y| plain(i, a, x, y).filter(|_| !(20..22).contains(&i)));
-    told("two", &two, 0, "gap-in-directions", "22:", "a gap of 18.0 deg");
+    reported("two", &two, 0, "gap-in-directions", "22:", "a gap of 18.0 deg");
     let outside = all(&|a, x, y| far(a, x, y, 4.0));
-    told("outside", &outside, 2, "wrong-side", "2:", "33.0");
+    reported("outside", &outside, 2, "wrong-side", "2:", "33.0");
     let one = at(10, &|a, x, y| far(a, x, y, 4.0));
-    told("one-outside", &one, 2, "wrong-side", "12:", "other side of the surface");
+    reported("one-outside", &one, 2, "wrong-side", "12:", "other side of the surface");
     let slip = at(10, &|a, x, y| far(a, x, y, -2.0));
-    told("slip", &slip, 2, "far-hit", "12:", "stands -1.9");
+    reported("slip", &slip, 2, "far-hit", "12:", "stands -1.9");
     let points = all(&|a, x, y| far(a, x, y, 2.0));
-    told("points", &points, 2, "wrong-reading", "2:", "reading = \"point\"");
+    reported("points", &points, 2, "wrong-reading", "2:", "reading = \"point\"");
     let turned = at(10, &|a, x, y| format!("{},{x},{y}", a + 12.0));
-    told("turned", &turned, 2, "direction-mismatch", "12:", "differ by 12.0 deg");
+    reported("turned", &turned, 2, "direction-mismatch", "12:", "differ by 12.0 deg");
     let back = all(&|a, x, y| format!("{},{x},{y}", a + 180.0));
-    told("back", &back, 2, "wrong-side", "2:", "away from the surface");
+    reported("back", &back, 2, "wrong-side", "2:", "away from the surface");
     let from_y = all(&|a, x, y| format!("{},{x},{y}", a - 90.0));
-    told("from-y", &from_y, 2, "direction-mismatch", "2:", "from which axis");
+    reported("from-y", &from_y, 2, "direction-mismatch", "2:", "from which axis");
     let nan = at(10, &|a, x, _| format!("{a},{x},NaN"));
-    told("nan", &nan, 2, "not-a-number", "12:", "`NaN` is not a finite number");
+    reported("nan", &nan, 2, "not-a-number", "12:", "`NaN` is not a finite number");
     let degrees = ring("angle_mm,x_mm,y_mm", plain);
-    told("unit", &degrees, 2, "wrong-unit", "1:1", "angle");
+    reported("unit", &degrees, 2, "wrong-unit", "1:1", "angle");
     let inches = ring("angle_deg,x_mm,y_mm", |_, a, x, y| {
         Some(format!("{a},{:.6},{:.6}", 10.0 + (x - 10.0) / 25.4, 20.0 + (y - 20.0) / 25.4))
     });
-    told("inches", &inches, 2, "wrong-unit", "2:", "x_in");
+    reported("inches", &inches, 2, "wrong-unit", "2:", "x_in");
     let copies = ring(HEADING, |i, a, x, y| {
         plain(i, a, x, y).map(|l| if i == 10 { format!("{l}\n{l}") } else { l })
     });
-    told("copies", &copies, 0, "duplicate-row", "13:", "same as line 12");
+    reported("copies", &copies, 0, "duplicate-row", "13:", "same as line 12");
     let few = ring(HEADING, |i, a, x, y| plain(i, a, x, y).filter(|_| i % 20 == 0));
-    told("few", &few, 2, "too-few-hits", "2:", "has 3 hits");
+    reported("few", &few, 2, "too-few-hits", "2:", "has 3 hits");
     let radians = ring(HEADING, |_, a, x, y| Some(format!("{},{x},{y}", a.to_radians())));
-    told("radians", &radians, 2, "direction-mismatch", "2:", "unit of their heading");
+    reported("radians", &radians, 2, "direction-mismatch", "2:", "unit of their heading");
     let wild = at(10, &|a, x, y| far(a, x, y, 0.03));
-    told("wild", &wild, 0, "outlier", "12:", "off what its neighbours say");
-    told("heading", "a;b\n1;2\n", 2, "bad-separator", "1:1", "semicolons");
-    told("nothing", "", 2, "empty-table", "", "no row");
+    reported("wild", &wild, 0, "outlier", "12:", "off what its neighbours say");
+    reported("heading", "a;b\n1;2\n", 2, "bad-separator", "1:1", "semicolons");
+    reported("nothing", "", 2, "empty-table", "", "no row");
 }
 
 #[test]
@@ -182,15 +182,15 @@ fn spoiled_radii_are_named_with_their_line() {
     };
     let heads = "angle_deg,radius_mm";
     let mixed = rows(heads, &|i, a, r| format!("{a},{}", if i % 30 == 7 { -r } else { r }));
-    told("mixed", &mixed, 2, "negative-radius", "9:", "is not positive");
+    reported("mixed", &mixed, 2, "negative-radius", "9:", "is not positive");
     let swapped = rows(heads, &|_, a, r| format!("{r},{a}"));
-    told("swap", &swapped, 2, "swapped-columns", "1:1", "swapped?");
+    reported("swap", &swapped, 2, "swapped-columns", "1:1", "swapped?");
     let diameter = rows(heads, &|_, a, r| format!("{a},{}", 2.0 * r));
-    told("diameter", &diameter, 2, "wrong-size", "2:", "radius and diameter");
+    reported("diameter", &diameter, 2, "wrong-size", "2:", "radius and diameter");
     let um = rows("angle_deg,radius_um", &|_, a, r| format!("{a},{r}"));
-    told("um", &um, 2, "wrong-unit", "2:", "unit in the heading");
+    reported("um", &um, 2, "wrong-unit", "2:", "unit in the heading");
     let radians = rows(heads, &|_, a, r| format!("{},{r}", a.to_radians()));
-    told("rad", &radians, 2, "gap-in-directions", "2:", "are the angles radians");
+    reported("rad", &radians, 2, "gap-in-directions", "2:", "are the angles radians");
 }
 
 #[test]

@@ -32,7 +32,7 @@ fn table() -> String {
 
 /// The command ends with `status` and tells `code` with the words.
 #[track_caller]
-fn told(folder: &Folder, study: &str, table: &str, status: i32, code: &str, words: &str) {
+fn reported(folder: &Folder, study: &str, table: &str, status: i32, code: &str, words: &str) {
     folder.file("t.csv", table);
     let file = folder.file("study.toml", study);
     let ran = trueaxis(&["identify", "rtcp", &file, "--format", "json"]);
@@ -41,7 +41,7 @@ fn told(folder: &Folder, study: &str, table: &str, status: i32, code: &str, word
         assert_eq!(ran.out, "");
     }
     let block = ran.err.split("\n\n").find(|b| b.contains(&format!("[{code}]")));
-    let block = block.unwrap_or_else(|| panic!("{code} is not told:\n{}", ran.err));
+    let block = block.unwrap_or_else(|| panic!("{code} is not reported:\n{}", ran.err));
     assert!(block.contains(words), "`{words}` is not in\n{block}");
 }
 
@@ -82,10 +82,10 @@ fn machine_file_and_programs() {
         let arguments = ["identify", "rtcp", EXAMPLE, "--programs", &programs];
         let ran = trueaxis(&[&arguments[..], &["--control", dialect, "--format", "json"]].concat());
         assert_eq!(ran.status, 0, "{}", ran.err);
-        let told = ran.json();
+        let reported = ran.json();
         for k in 0..4 {
-            let off = told["programs"][k]["off_poses_um"].as_f64().unwrap();
-            assert!(off < 0.2, "{dialect}: {told}");
+            let off = reported["programs"][k]["off_poses_um"].as_f64().unwrap();
+            assert!(off < 0.2, "{dialect}: {reported}");
         }
     }
     let text = std::fs::read_to_string(folder.path("nc/04-a-axis-rtcp.nc")).unwrap();
@@ -102,7 +102,7 @@ fn poses_without_readings_are_enough_for_programs() {
     let ran = trueaxis(&["identify", "rtcp", &file, "--programs", &programs]);
     assert_eq!(ran.status, 0, "{}", ran.err);
     let study = study("i5-engraver", "", "");
-    told(&folder, &study, poses, 2, "missing-column", "the table has no reading");
+    reported(&folder, &study, poses, 2, "missing-column", "the table has no reading");
 }
 
 #[test]
@@ -181,7 +181,7 @@ fn spoilt_files() {
         ),
         (with("colour = 'red'", ""), table(), "unknown-key", "colour"),
     ] {
-        told(&folder, &study, &table, 2, code, words);
+        reported(&folder, &study, &table, 2, code, words);
     }
     for (study, table, code, words) in [
         (good(), radians.to_owned(), "little-turned", "in rad"),
@@ -206,7 +206,7 @@ fn spoilt_files() {
         let ran = trueaxis(&["identify", "rtcp", &file, "--format", "json"]);
         assert!(ran.status < 2, "{study}\n{}", ran.err);
         let block = ran.err.split("\n\n").find(|b| b.contains(&format!("[{code}]")));
-        let block = block.unwrap_or_else(|| panic!("{code} is not told:\n{}", ran.err));
+        let block = block.unwrap_or_else(|| panic!("{code} is not reported:\n{}", ran.err));
         assert!(block.contains(words), "`{words}` is not in\n{block}");
     }
     // Cut off anywhere, neither file does harm.

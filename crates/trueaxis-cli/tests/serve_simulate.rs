@@ -219,8 +219,8 @@ fn nobody_waits_for_a_simulation_that_is_stopped() {
     let body = json!({ "machine": I5, "name": "endless.nc", "text": text, "collisions": false });
     let question = json!({ "id": 1, "ask": "simulate", "body": body });
     socket.write_all(&frame(1, question.to_string().as_bytes())).expect("open");
-    let (_, told) = next(&mut socket).expect("its progress");
-    assert!(String::from_utf8_lossy(&told).contains("progress"));
+    let (_, reported) = next(&mut socket).expect("its progress");
+    assert!(String::from_utf8_lossy(&reported).contains("progress"));
     let stopped = ask_socket(&mut socket, &json!({ "id": 1, "stop": true }));
     assert_eq!(stopped["error"]["code"], "stopped");
 }

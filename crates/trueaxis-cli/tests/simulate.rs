@@ -1,4 +1,4 @@
-//! What `simulate` and `trace` leave behind and how they end.
+//! What `simulate` and `trace` write and how they end.
 
 mod command;
 
@@ -126,7 +126,7 @@ fn nothing_is_left_behind_after_an_error() {
     for (file, text) in old {
         assert_eq!(std::fs::read_to_string(file).expect("a file"), text);
     }
-    // Who wants to see what is behind the error gets it, and is told that it is not complete.
+    // What follows the error is shown on request, with the note that it is not complete.
     let ran = run(&all, &["--keep-going"]);
     assert_eq!(ran.status, 2);
     assert!(

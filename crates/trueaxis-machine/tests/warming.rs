@@ -153,8 +153,8 @@ fn law_a_heated_scale_takes_its_history_from_the_log() {
         assert!((eyy(&end, 140.0) - eyy(&direct, 140.0)).abs() < 1e-12);
         // Between rows the field is continuous: no step of more than the bound.
         let (before, until) = warming.at(39.0).expect("inside");
-        let (behind, _) = warming.at(until).expect("inside");
-        assert!((eyy(&before, 140.0) - eyy(&behind, 140.0)).abs() < 3e-4);
+        let (later, _) = warming.at(until).expect("inside");
+        assert!((eyy(&before, 140.0) - eyy(&later, 140.0)).abs() < 3e-4);
         eyy(&end, 140.0)
     });
     assert!(grown[0] > 1.1 * grown[1], "{grown:?}");

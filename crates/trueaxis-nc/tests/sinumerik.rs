@@ -144,7 +144,7 @@ fn settings() -> Settings {
 }
 
 /// What a program does, line by line, then what is wrong with it.
-fn told(text: &[u8], library: &dyn Library, settings: &Settings) -> String {
+fn reported(text: &[u8], library: &dyn Library, settings: &Settings) -> String {
     let program = Program::new("p", text.to_vec(), Control::Sinumerik840d);
     assert!(program.print() == program.source());
     let mut out = String::new();
@@ -173,7 +173,7 @@ fn check_folder(kind: &str) {
     let mut wrong = Vec::new();
     for file in files {
         let settings = Settings { keep_going: kind == "bad", ..settings() };
-        let ours = told(&std::fs::read(&file).unwrap(), &Folder(folder.clone()), &settings);
+        let ours = reported(&std::fs::read(&file).unwrap(), &Folder(folder.clone()), &settings);
         let expected =
             std::fs::read_to_string(file.with_extension("mpf.expected")).unwrap_or_default();
         // A # begins the hand calculation of its line.
@@ -228,16 +228,18 @@ fn bad_programs_are_told_with_their_place() {
 fn long_texts_and_lines_are_bounded() {
     let start = std::time::Instant::now();
     let grow = "DEF STRING[1000000] TEXT=\"x\"\nLOOP\nTEXT=TEXT<<TEXT\nENDLOOP\n";
-    assert!(told(grow.as_bytes(), &NoLibrary, &settings()).contains("Error too-long p:3:"));
+    assert!(reported(grow.as_bytes(), &NoLibrary, &settings()).contains("Error too-long p:3:"));
     let line = "X1 ".repeat(3_000_000);
-    let found = told(line.as_bytes(), &NoLibrary, &settings());
+    let found = reported(line.as_bytes(), &NoLibrary, &settings());
     assert!(found.contains("Error too-many-words p:1:"), "{found}");
     let deep = format!("R1={}1\n", "(".repeat(1_000_000));
-    assert!(told(deep.as_bytes(), &NoLibrary, &settings()).contains("Error too-many-words"));
+    assert!(reported(deep.as_bytes(), &NoLibrary, &settings()).contains("Error too-many-words"));
     let nested = format!("R1={}1\n", "(".repeat(5000));
-    assert!(told(nested.as_bytes(), &NoLibrary, &settings()).contains("Error too-deep p:1:64"));
+    assert!(reported(nested.as_bytes(), &NoLibrary, &settings()).contains("Error too-deep p:1:64"));
     let array = "DEF REAL AA[9999,9999]\n";
-    assert!(told(array.as_bytes(), &NoLibrary, &settings()).contains("Error too-many-variables"));
+    assert!(
+        reported(array.as_bytes(), &NoLibrary, &settings()).contains("Error too-many-variables")
+    );
     assert!(start.elapsed().as_secs() < 20);
 }
 
@@ -315,7 +317,7 @@ fn oracle_syntax_tests_of_an_editor_have_no_unknown_word() {
     for file in std::fs::read_dir(folder).unwrap().flatten().map(|e| e.path()) {
         let source = std::fs::read(&file).unwrap();
         for line in String::from_utf8_lossy(&source).lines() {
-            let found = told(line.as_bytes(), &NoLibrary, &settings());
+            let found = reported(line.as_bytes(), &NoLibrary, &settings());
             for entry in found.lines().filter(|l| l.starts_with("Error")) {
                 let code = entry.split(' ').nth(1).unwrap();
                 let foreign = FOREIGN.iter().any(|w| line.contains(w));

@@ -20,8 +20,8 @@ fn example() -> AdaptStudy {
     let file = "../../examples/06_compensate/bangle-adapt.toml";
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
     let (study, problems) = read_adapt_study(&disk(), &path);
-    let told: Vec<String> = problems.iter().map(ToString::to_string).collect();
-    study.unwrap_or_else(|| panic!("{told:?}"))
+    let reported: Vec<String> = problems.iter().map(ToString::to_string).collect();
+    study.unwrap_or_else(|| panic!("{reported:?}"))
 }
 
 /// The example with a field that is stated, so that nothing is searched for.
@@ -38,8 +38,8 @@ fn quick() -> AdaptStudy {
 
 fn adapted(study: &AdaptStudy) -> Adaptation {
     let (adaptation, problems) = adapt(study);
-    let told: Vec<String> = problems.iter().map(ToString::to_string).collect();
-    adaptation.unwrap_or_else(|| panic!("{told:?}"))
+    let reported: Vec<String> = problems.iter().map(ToString::to_string).collect();
+    adaptation.unwrap_or_else(|| panic!("{reported:?}"))
 }
 
 /// The least and the largest of some values.

@@ -1,7 +1,7 @@
 //! What holds for certificates: their intervals cover the truth, and what they promise of a part comes true.
 //!
 //! Every machine here is virtual: errors are injected, read with noise, identified by the product, compensated
-//! with what was *identified*, and judged on the machine as it *is*.
+//! with what was *identified*, and judged on the actual machine.
 
 mod library;
 
@@ -32,7 +32,7 @@ const STILL: Approach = [0.0; 6];
 /// Standard deviation of a reading, mm.
 const NOISE_MM: f64 = 2e-3;
 
-/// Location errors that can be told apart, and a few error motions of every axis.
+/// Location errors that can be separated, and a few error motions of every axis.
 fn terms(machine: &Machine) -> Vec<Term> {
     let mut terms = minimal_location_errors(machine);
     for axis in machine.axes() {
@@ -63,7 +63,7 @@ fn with_terms(machine: &Machine, terms: &[Term], values: &[f64]) -> Machine {
     made
 }
 
-/// A tracker that reads the place of a reflector so far below the tool tip; nobody knows how it stands.
+/// A tracker that reads the place of a reflector so far below the tool tip; its position is not known.
 fn tracker(machine: &Machine, below_mm: f64) -> Instrument {
     let kind = Kind::CutPiece;
     let free = |error| SetupUnknown { name: kind.unknown_name(error), error, prior_u: None };
@@ -118,12 +118,12 @@ impl Bench {
             machine: machine.clone(),
             machine_path: PathBuf::from("machine.toml"),
             terms: terms(machine),
-            // Of one tool length a tilt of the tool cannot be told from a shift.
+            // Of one tool length a tilt of the tool cannot be distinguished from a shift.
             instruments: vec![tracker(machine, 0.0), tracker(machine, 150.0)],
             tables: vec![Vec::new(); 2],
         };
         let stations = (0..stations).map(|_| inside(random, machine)).collect();
-        // Without a choice among the terms: what is left out by chance has no uncertainty.
+        // Without a choice among the terms: what is omitted by chance has no uncertainty.
         let options = Options { selection: false, folds: 2, ..Options::default() };
         Self { campaign, stations, options }
     }
@@ -194,15 +194,16 @@ impl Coverage {
     ) {
         let compensator = Compensator::of(machine, Scope::Pose).expect("three axes");
         let applied = AppliedCompensation::Program(Box::new(compensator));
-        let told =
+        let reported =
             |q: &Command| Residual::at(machine, (known, &applied), q, &STILL).expect("a pose");
         let true_off = |q: &Command| {
             let (at, _) = applied.go(machine, q, &STILL).expect("a pose");
             let errors = real.errors_at(&at, &STILL).expect("no tables");
             ToolDeviation::of(real, &at, &errors, q)
         };
-        let (at_zero, true_at_zero) = (told(zero), true_off(zero));
-        let predicted: Vec<Residual> = poses.iter().map(|q| told(q).against(&at_zero)).collect();
+        let (at_zero, true_at_zero) = (reported(zero), true_off(zero));
+        let predicted: Vec<Residual> =
+            poses.iter().map(|q| reported(q).against(&at_zero)).collect();
         let within = lengths(&predicted, Sampling { samples: 2000, seed: 3 }).within_mm;
         for ((q, predicted), within_mm) in poses.iter().zip(&predicted).zip(within) {
             let truth = true_off(q) - true_at_zero;

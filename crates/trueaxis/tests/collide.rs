@@ -261,8 +261,8 @@ fn nominal(
     |c| machine.body_poses(c, &ErrorValues::default())
 }
 
-/// A wall of a tenth of a micrometre anywhere in the way of the tool: plain sampling of the same
-/// way, thousands of poses, finds no approach that the sweep has not reported.
+/// A wall of a tenth of a micrometre anywhere on the path of the tool: plain sampling of the same
+/// path, thousands of poses, finds no approach that the sweep has not reported.
 #[test]
 fn law_no_wall_is_jumped_over() {
     let machine = five_axes();
@@ -529,7 +529,7 @@ fn models_go_out_as_stl_and_come_back() {
     }
 }
 
-/// Real machines of others, where they are at hand: every file is read.
+/// Real machines of others, where they are available: every file is read.
 #[test]
 fn oracle_outside_machines_are_read() {
     let folder = root().join("../shared/data/outside/machines");

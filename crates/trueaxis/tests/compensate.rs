@@ -68,7 +68,7 @@ proptest! {
         }
     }
 
-    /// The command with the value on it brings the tool where the nominal machine has it, in the
+    /// The command with the value on it brings the tool to its place on the nominal machine, in the
     /// direction of the axis; here with a fine increment and the errors of the machine itself.
     #[test]
     fn law_the_compensated_command_meets_the_nominal_tool(

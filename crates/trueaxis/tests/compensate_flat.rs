@@ -185,13 +185,13 @@ fn law_an_unrolled_program_is_compensated_as_any_other() {
     let machine = with_lost_motion(&machine("three-axis-mill"), 2e-3);
     for (control, name, text, _) in PROGRAMS {
         let program = program(control, &format!("c-{name}"), text);
-        let (by_itself, told) = compensate_program(
+        let (by_itself, reported) = compensate_program(
             &machine,
             &program,
             &SetUp { files: disk(), ..SetUp::default() },
             &ProgramOptions { increments: None, ..ProgramOptions::default() },
         );
-        assert!(told.iter().any(|d| d.code == "unrolled"), "{name}: {told:?}");
+        assert!(reported.iter().any(|d| d.code == "unrolled"), "{name}: {reported:?}");
         let (done, problems) = flat(&machine, &program);
         let Some(done) = done else { panic!("{name}: {problems:?}") };
         assert_eq!(by_itself.map(|d| d.text), Some(done.text), "{name}");

@@ -42,7 +42,7 @@ fn codes(problems: &Diagnostics) -> Vec<String> {
     errors.map(ToString::to_string).collect()
 }
 
-/// All machines and all ways to write a program; what is left in the worst case, mm and rad.
+/// All machines and all ways to write a program; the largest residual errors, mm and rad.
 fn prove_all(increments: Option<Increments>, points: usize) -> [f64; 4] {
     let options = ProgramOptions { increments, ..ProgramOptions::default() };
     let mut worst = [0.0_f64; 4];
@@ -243,8 +243,8 @@ fn a_block_that_only_turns_takes_the_same_time() {
     let feed = |line: &str| -> Option<f64> { line.split('F').nth(1)?.trim().parse().ok() };
     let turning = new.lines().find(|l| l.contains("C40.") || l.contains("C39.")).unwrap();
     assert!(feed(turning).unwrap() < 100.0, "{new}");
-    let behind = new.lines().find(|l| l.starts_with("G1 X14") || l.starts_with("G1 X13")).unwrap();
-    assert_eq!(feed(behind), Some(1000.0), "{new}");
+    let next = new.lines().find(|l| l.starts_with("G1 X14") || l.starts_with("G1 X13")).unwrap();
+    assert_eq!(feed(next), Some(1000.0), "{new}");
 }
 
 #[test]
@@ -355,7 +355,7 @@ fn law_no_piece_leaves_the_residual_at_1000_places() {
                 ProgramOptions { increments: None, residual_mm, ..ProgramOptions::default() };
             let (done, problems) = compensated(&stated, text.as_bytes(), control, &options);
             let Some(done) = done else { panic!("{name} {:?}", codes(&problems)) };
-            // Lines of the proof do not hide the first block: it begins behind a corrected rapid.
+            // Lines of the proof do not hide the first block: it begins after a corrected rapid.
             let places = tips(&stated, file, &done.text, control, 1000);
             let off = |p: &Vec3| {
                 let each = ends.windows(2).map(|w| {

@@ -161,7 +161,7 @@ fn law_spoiled_files_are_refused() {
                     spoiled[file].text = spoil(&spoiled[file]);
                     let read = control.read(&machine, &spoiled).map(Content::sorted);
                     let name = compiled.files[file].name.as_str();
-                    // Notes for people are not read back.
+                    // Notes for users are not read back.
                     let note = ["vol_comp_0.lis", "CONFIG.CMA", "COMPTAB.TXT"].contains(&name);
                     let unchanged = spoiled[file] == compiled.files[file];
                     match read {
@@ -336,7 +336,7 @@ fn paper_leadscrew_lists_hold_the_error() {
     assert!((added - 0.0010).abs() < 1e-9, "{added}");
 }
 
-/// Document 001: the scale of X, 10.8 µm/(m·K), measured at 28.4 °C and used at 30.5 °C makes the axis go too far by
+/// Zhang et al. 2019: the scale of X, 10.8 µm/(m·K), measured at 28.4 °C and used at 30.5 °C makes the axis go too far by
 /// 22.68 µm/m, and the line takes that back. The tables stay those of 28.4 °C.
 #[test]
 fn paper_a_warm_scale_is_a_line() {

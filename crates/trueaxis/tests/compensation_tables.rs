@@ -256,7 +256,7 @@ fn oracle_linuxcnc_adds_what_the_emulation_adds() {
 }
 
 /// A whole LinuxCNC ran with these very pins and with those of the machine without errors (oracles/linuxcnc_kinematics.py):
-/// its joints put the tip of the actual machine where the program has it, and differ from the nominal ones by what the
+/// its joints put the tip of the actual machine to the programmed point, and differ from the nominal ones by what the
 /// emulation adds. Blocks and pins have six decimals; the part zero was set at zero angles.
 #[test]
 fn oracle_linuxcnc_kinematics_move_the_joints_as_the_emulation_does() {

@@ -195,7 +195,7 @@ proptest! {
         let due = parse_measured(&quantity, dimension).expect("a quantity").value;
         prop_assert_eq!(stated.and_then(|s| s.at(0.0, 0.0).ok()), Some(due));
         prop_assert_eq!(matches!(stated.map(|s| &s.mean), Some(Curve::Constant(_))), axis.is_none() || shape != 2);
-        // Everything before and behind the value stands as it was.
+        // Everything before and after the value is unchanged.
         let written = match value.starts_with('{') {
             true => value.trim().to_owned(),
             false => format!("\"{value}\""),
@@ -210,7 +210,7 @@ proptest! {
         prop_assert_eq!(&back, old);
     }
 
-    /// Whatever somebody types is refused with a reason, or is one value of that error alone.
+    /// Whatever a user types is refused with a reason, or is one value of that error alone.
     #[test]
     fn law_no_value_changes_anything_else(
         value in "(\"|'|\\{ ?)?[-0-9 ±+a-z\"'{}=,#\\[\\]\\\\\n\r\u{0}]{0,30}(\"|'|\\})?",

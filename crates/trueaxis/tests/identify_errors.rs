@@ -152,7 +152,7 @@ fn law_twelve_of_a_hundred_and_fifty_predict_like_the_oracle() {
             }
         }
         let mut values = draw(&mut random, &design, |k| truly.contains(&k));
-        // None so small that nobody could tell it from nothing.
+        // None too small to be distinguished from zero.
         for k in &truly {
             let least = if design.unknown(*k).is_some_and(|u| u.is_angle()) { 8e-6 } else { 2e-3 };
             values[*k] = values[*k].signum() * values[*k].abs().max(least);
@@ -200,9 +200,9 @@ fn law_twelve_of_a_hundred_and_fifty_predict_like_the_oracle() {
             found.selection.threshold
         );
         assert!(ours < 1.2 * theirs, "{name}: {ours} {theirs}");
-        // And the score that is told is what fresh poses show.
-        let told = found.score.held_out.length_mm.expect("lengths");
-        assert!((told / ours - 1.0).abs() < 0.2, "{name}: {told} {ours}");
+        // And the score that is reported is what fresh poses show.
+        let reported = found.score.held_out.length_mm.expect("lengths");
+        assert!((reported / ours - 1.0).abs() < 0.2, "{name}: {reported} {ours}");
         assert_eq!(found.verdict, Verdict::Explained, "{name}: {:?}", found.score);
     }
 }
@@ -256,7 +256,7 @@ fn covers(name: &str, kind: Kind) {
     assert!((0.92..=0.98).contains(&share), "{name}: {share}");
 }
 
-/// The eleven of the axes; the tilts of the spindle are hidden behind them from one tool.
+/// The eleven of the axes; with one tool the tilts of the spindle cannot be separated from them.
 fn without_spindle(machine: &Machine) -> Vec<Term> {
     let mut terms = minimal_location_errors(machine);
     terms.retain(|t| t.error.body.is_axis());
@@ -392,7 +392,7 @@ fn law_a_wrong_convention_is_named() {
     assert!(!found.verdict.is_good() && found.conventions.is_some(), "{:?}", found.verdict);
 }
 
-/// A residual that nobody sought: a field in X of the machine, or a harmonic of C.
+/// A residual that was not looked for: a field in X of the machine, or a harmonic of C.
 #[test]
 fn law_what_is_left_is_told_by_what_it_follows() {
     let mut random = Random(27);
@@ -417,12 +417,12 @@ fn law_what_is_left_is_told_by_what_it_follows() {
         let readings = read(&mut random, &real, &places, &values, 1.0);
         let (found, codes) = run(&sought, &Options::default(), readings);
         let found = found.unwrap_or_else(|| panic!("{codes:?}"));
-        let told = match &found.verdict {
+        let reported = match &found.verdict {
             Verdict::FollowsPlaces(_) => "xyz".to_owned(),
             Verdict::TurnsWith(axis, _) => axis.clone(),
             other => format!("{other:?} {:?} {:?}", found.score, found.fields),
         };
-        assert_eq!(told, expected, "{error}");
+        assert_eq!(reported, expected, "{error}");
     }
 }
 
@@ -570,7 +570,7 @@ fn oracle_readings_of_another_model_give_the_stated_errors() {
     }
 }
 
-/// What oracles/identify.py sees of what can be told apart: numpy's SVD of differences.
+/// What oracles/identify.py sees of what can be separated: numpy's SVD of differences.
 #[test]
 fn oracle_unobservable_combinations_span_the_null_space_of_numpy() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/identify-null-space.json");
@@ -643,7 +643,7 @@ fn oracle_unobservable_combinations_span_the_null_space_of_numpy() {
             let outside = &vector - &basis * basis.tr_mul(&vector);
             assert!(outside.norm() < 1e-5, "{name}: {}", outside.norm());
         }
-        // The sentences are combinations that nobody sees either.
+        // The sentences are combinations that are not observable either.
         for confusion in trueaxis::unknowns::confusion::confusions(&sight) {
             let mut along = DVector::zeros(ours.len());
             confusion.members.iter().for_each(|(k, s)| along[*k] = s * sight.column_length(*k));

@@ -121,7 +121,7 @@ fn law_errors_injected_are_found_by_every_instrument_on_every_machine() {
                 })
                 .collect();
             let stations = stations(&mut random, &machine, 160);
-            // What nobody can see is put to 0: it would come back in second order.
+            // What is not observable is set to 0: it would come back in second order.
             let sight = Observability::of(&normal_matrix(&design, &stations, &[]));
             let values = sight.seen_part(&drawn);
             let real = truth(&machine, &terms, &values);
@@ -138,7 +138,7 @@ fn law_errors_injected_are_found_by_every_instrument_on_every_machine() {
                     worst = (off, design.names()[k].clone());
                 }
             }
-            // As many sentences as there are things that cannot be told.
+            // As many sentences as there are things that cannot be determined.
             let missing = design.unknowns() - found.sight.rank;
             assert_eq!(confusions(&found.sight).len(), missing, "{name} {}", kind.name());
             assert!(worst.0 < 1e-6, "{name} {}: {} by {:.1e}", kind.name(), worst.1, worst.0);

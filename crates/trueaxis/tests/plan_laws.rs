@@ -22,7 +22,7 @@ fn example(name: &str) -> Plan {
     plan.unwrap_or_else(|| panic!("{problems:?}"))
 }
 
-/// A campaign on a machine of the project, from the text behind the first two lines.
+/// A campaign on a machine of the project, from the text after the first two lines.
 fn campaign(machine: &str, rest: &str) -> (Option<Plan>, String) {
     static NEXT: AtomicU32 = AtomicU32::new(0);
     let number = NEXT.fetch_add(1, Ordering::Relaxed);
@@ -33,8 +33,8 @@ fn campaign(machine: &str, rest: &str) -> (Option<Plan>, String) {
     std::fs::write(&file, text).expect("a temporary file");
     let (plan, problems) = read_plan(&disk(), &file);
     std::fs::remove_file(&file).expect("it is there");
-    let told = problems.iter().map(|d| format!("{} {}", d.code, d.message)).collect::<Vec<_>>();
-    (plan, told.join("\n"))
+    let reported = problems.iter().map(|d| format!("{} {}", d.code, d.message)).collect::<Vec<_>>();
+    (plan, reported.join("\n"))
 }
 
 /// Machines with two rotary axes: where the ball stands, and the letters.
@@ -59,8 +59,8 @@ fn law_the_nominal_machine_reads_zero_on_every_path_about_a_ball() {
              [[path]]\nkind = \"S\"\ntilt = \"30 deg\"\npole = \"-1 0 1\"\n\
              [[path]]\nkind = \"random\"\ncount = 40\n{first} = [\"-60 deg\", \"60 deg\"]\n"
         );
-        let (plan, told) = campaign(machine, &rest);
-        let plan = plan.unwrap_or_else(|| panic!("{machine}: {told}"));
+        let (plan, reported) = campaign(machine, &rest);
+        let plan = plan.unwrap_or_else(|| panic!("{machine}: {reported}"));
         assert_eq!(plan.paths.len(), 5);
         let probe = &plan.campaign.instruments[0];
         for path in &plan.paths {
@@ -76,7 +76,7 @@ fn law_the_nominal_machine_reads_zero_on_every_path_about_a_ball() {
     }
 }
 
-/// The tests of ISO 10791-6 in kind: what turns, how the bar lies, which machine a name is for.
+/// The tests in the manner of ISO 10791-6: what turns, how the bar lies, which machine a name is for.
 #[test]
 fn law_kinematic_tests_turn_what_they_say_and_keep_the_bar() {
     for ((machine, ball, axes), family) in
@@ -94,8 +94,8 @@ fn law_kinematic_tests_turn_what_they_say_and_keep_the_bar() {
         let turn = "from = \"-20 deg\"\nto = \"20 deg\"\ncount = 9\n";
         for (number, letter) in [("1", axes[0]), ("2", axes[1])] {
             let name = format!("{family}{number}");
-            let (plan, told) = campaign(machine, &test(&name, turn));
-            let plan = plan.unwrap_or_else(|| panic!("{machine}: {told}"));
+            let (plan, reported) = campaign(machine, &test(&name, turn));
+            let plan = plan.unwrap_or_else(|| panic!("{machine}: {reported}"));
             let names: Vec<_> = plan.paths.iter().map(|p| p.name.clone()).collect();
             assert_eq!(names, ["radial", "tangential", "axial"].map(|b| format!("{name} {b}")));
             let own = &plan.campaign.machine;
@@ -109,8 +109,8 @@ fn law_kinematic_tests_turn_what_they_say_and_keep_the_bar() {
             }
         }
         let cone = test(&format!("{family}3"), "half_angle = \"15 deg\"\ncount = 25\n");
-        let (plan, told) = campaign(machine, &cone);
-        let plan = plan.unwrap_or_else(|| panic!("{machine}: {told}"));
+        let (plan, reported) = campaign(machine, &cone);
+        let plan = plan.unwrap_or_else(|| panic!("{machine}: {reported}"));
         keeps_its_length(&plan, &plan.paths[0]);
         let control = TipControl::of(&plan.campaign.machine).expect("three linear axes");
         for command in &plan.paths[0].stations.commands {
@@ -118,8 +118,8 @@ fn law_kinematic_tests_turn_what_they_say_and_keep_the_bar() {
             assert!((axis.z - 15f64.to_radians().cos()).abs() < 1e-9, "{machine}: {axis}");
         }
         let wrong = if family == "AK" { "BK1" } else { "AK1" };
-        let (plan, told) = campaign(machine, &test(wrong, turn));
-        assert!(plan.is_none() && told.contains("other-topology"), "{machine}: {told}");
+        let (plan, reported) = campaign(machine, &test(wrong, turn));
+        assert!(plan.is_none() && reported.contains("other-topology"), "{machine}: {reported}");
     }
 }
 
@@ -131,7 +131,7 @@ fn keeps_its_length(plan: &Plan, path: &Path) {
     }
 }
 
-/// What the probe of the mill of document 004 reads of one error alone, mm.
+/// What the probe of the mill of Lei and Hsu 2003 reads of one error alone, mm.
 fn single(design: &Design, stations: &Readings, name: &str, size: f64, i: usize) -> [f64; 3] {
     let mut values = vec![0.0; design.unknowns()];
     let k = design.names().iter().position(|n| n == name).expect("an unknown");
@@ -144,9 +144,9 @@ fn law_single_errors_read_what_a_hand_calculation_says() {
     let rest = "[unknown]\nlocation = [\"EX0C\", \"EY0A\", \"EC0A\"]\n\
                 [instrument.probe]\nkind = \"probe-ball\"\nsocket = \"0 0 -330 mm\"\nnoise = \"1 um\"\n\
                 [[path]]\nkind = \"F\"\n";
-    let (plan, told) = campaign("lei-hsu-mill", rest);
-    let plan = plan.unwrap_or_else(|| panic!("{told}"));
-    // Nothing but the sought errors.
+    let (plan, reported) = campaign("lei-hsu-mill", rest);
+    let plan = plan.unwrap_or_else(|| panic!("{reported}"));
+    // Nothing but the unknown errors.
     let machine = plan
         .campaign
         .machine
@@ -162,7 +162,7 @@ fn law_single_errors_read_what_a_hand_calculation_says() {
     for i in 0..stations.len() {
         let [c, a, ..] = stations.commands[i];
         let ((sc, cc), (sa, ca)) = (c.sin_cos(), a.sin_cos());
-        // Document 004, Eq 8 and 9: the ball from the centre of rotation, X0 = (60, 40, 120) mm.
+        // Lei and Hsu 2003, Eq 8 and 9: the ball from the centre of rotation, X0 = (60, 40, 120) mm.
         let x = 60.0 * cc - 40.0 * sc;
         let y = 60.0 * ca * sc + 40.0 * ca * cc - 120.0 * sa;
         let near = |read: [f64; 3], hand: [f64; 3]| {
@@ -292,8 +292,8 @@ fn law_what_is_hidden_is_told_with_what_would_tell() {
                 [instrument.probe]\nkind = \"probe-ball\"\nnoise = \"1 um\"\n\
                 unknown = { socket = \"free\" }\n\
                 [[path]]\nkind = \"C\"\nfrom = \"0 deg\"\nto = \"300 deg\"\n";
-    let (plan, told) = campaign("lei-hsu-mill", rest);
-    let plan = plan.unwrap_or_else(|| panic!("{told}"));
+    let (plan, reported) = campaign("lei-hsu-mill", rest);
+    let plan = plan.unwrap_or_else(|| panic!("{reported}"));
     let design = plan.campaign.design();
     let expectation = expect(&plan.campaign, &design, &plan.paths[0].stations);
     let hidden = expectation
@@ -312,8 +312,8 @@ fn law_what_is_hidden_is_told_with_what_would_tell() {
                 [instrument.probe]\nkind = \"probe-ball\"\nsocket = \"0 0 -330 mm\"\n\
                 noise = \"1 um\"\n[[path]]\nkind = \"C\"\nfrom = \"0 deg\"\nto = \"300 deg\"\n";
     let hidden = |paths: &str| {
-        let (plan, told) = campaign("lei-hsu-mill", &format!("{rest}{paths}"));
-        let plan = plan.unwrap_or_else(|| panic!("{told}"));
+        let (plan, reported) = campaign("lei-hsu-mill", &format!("{rest}{paths}"));
+        let plan = plan.unwrap_or_else(|| panic!("{reported}"));
         let mut stations = Readings::default();
         plan.paths.iter().for_each(|path| stations.append(&path.stations));
         expect(&plan.campaign, &plan.campaign.design(), &stations).unobservable
@@ -330,10 +330,13 @@ fn law_stations_outside_the_travel_are_named() {
     let probe = "[unknown]\nlocation = \"minimal\"\n\
                  [instrument.probe]\nkind = \"probe-ball\"\nball = \"90 0 200 mm\"\nnoise = \"1 um\"\n";
     let path = "[[path]]\nkind = \"A\"\nfrom = \"-90 deg\"\nto = \"90 deg\"\n";
-    let (plan, told) = campaign("i5-engraver", &format!("{probe}{path}"));
+    let (plan, reported) = campaign("i5-engraver", &format!("{probe}{path}"));
     assert!(plan.is_none());
-    assert!(told.contains("outside-travel") && told.contains("station 1 of 25"), "{told}");
-    assert!(told.contains("Y = ") || told.contains("Z = "), "{told}");
+    assert!(
+        reported.contains("outside-travel") && reported.contains("station 1 of 25"),
+        "{reported}"
+    );
+    assert!(reported.contains("Y = ") || reported.contains("Z = "), "{reported}");
     for (path, code) in [
         ("[[path]]\nkind = \"B\"\nfrom = \"0 deg\"\nto = \"9 deg\"\n", "unknown-axis"),
         ("[[path]]\nkind = \"Q\"\n", "unknown-path"),
@@ -345,8 +348,8 @@ fn law_stations_outside_the_travel_are_named() {
         ("[candidates]\nkind = \"random\"\ncount = 5\n", "missing-key"),
         ("", "missing-key"),
     ] {
-        let (plan, told) = campaign("i5-engraver", &format!("{probe}{path}"));
-        assert!(plan.is_none() && told.contains(code), "{path}: {told}");
+        let (plan, reported) = campaign("i5-engraver", &format!("{probe}{path}"));
+        assert!(plan.is_none() && reported.contains(code), "{path}: {reported}");
     }
 }
 
@@ -359,8 +362,8 @@ fn law_linear_paths_are_what_their_names_say() {
          [[path]]\ninstrument = \"laser\"\nkind = \"diagonal\"\ndiagonal = \"+-+\"\ncount = 7\n\
          [[path]]\ninstrument = \"laser\"\nkind = \"targets\"\naxis = \"Y\"\nperiod = \"10 mm\"\n\
          [[path]]\ninstrument = \"bar\"\nkind = \"C\"\nfrom = \"0 deg\"\nto = \"360 deg\"\nbar = \"axial\"\n";
-    let (plan, told) = campaign("i5-engraver", rest);
-    let plan = plan.unwrap_or_else(|| panic!("{told}"));
+    let (plan, reported) = campaign("i5-engraver", rest);
+    let plan = plan.unwrap_or_else(|| panic!("{reported}"));
     let machine = &plan.campaign.machine;
     let nominal = |path: usize, i: usize| {
         let stations = &plan.paths[path].stations;

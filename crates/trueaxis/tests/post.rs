@@ -121,7 +121,7 @@ fn cuts(posted: &Posted, control: Control) -> Vec<Move> {
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Without tool-centre point the engraver's programs are equations 1 to 3 of document 003, with
+    /// Without tool-centre point the engraver's programs are equations 1 to 3 of Zhang et al. 2023, with
     /// d = 35 mm, to the digits of the program.
     ///
     /// X = x cos C + y sin C, Y = (−x sin C + y cos C) cos A + (z + d) sin A,
@@ -264,7 +264,7 @@ fn law_feeds_keep_the_time_of_the_tip() {
 
 #[test]
 fn what_cannot_be_posted_is_told_with_its_line() {
-    let told = |machine: &Machine, text: &str, options: &PostOptions| {
+    let reported = |machine: &Machine, text: &str, options: &PostOptions| {
         let (posted, problems) = post(machine, &cl(text), options);
         assert!(posted.is_none());
         problems.iter().map(|p| (p.place.line, p.code)).collect::<Vec<_>>()
@@ -272,17 +272,17 @@ fn what_cannot_be_posted_is_told_with_its_line() {
     let engraver = machine("i5-engraver");
     let options = PostOptions::of(Control::Fanuc);
     let far = "UNITS/MM\nFEDRAT/9\nGOTO/0,0,0\nGOTO/500,0,0\n";
-    assert_eq!(told(&engraver, far, &options), [(4, "leaves-travel")]);
-    assert_eq!(told(&engraver, "UNITS/MM\nGOTO/0,0,0\n", &options), [(2, "no-feed")]);
+    assert_eq!(reported(&engraver, far, &options), [(4, "leaves-travel")]);
+    assert_eq!(reported(&engraver, "UNITS/MM\nGOTO/0,0,0\n", &options), [(2, "no-feed")]);
     let below = "UNITS/MM\nFEDRAT/9\nGOTO/0,0,0,0,0,-1\n";
-    assert_eq!(told(&engraver, below, &options), [(3, "leaves-travel")]);
+    assert_eq!(reported(&engraver, below, &options), [(3, "leaves-travel")]);
     let mill = machine("three-axis-mill");
     let tilted = "UNITS/MM\nFEDRAT/9\nGOTO/0,0,0\nGOTO/0,0,1,0.6,0,0.8\n";
-    assert_eq!(told(&mill, tilted, &options), [(4, "unreachable")]);
+    assert_eq!(reported(&mill, tilted, &options), [(4, "unreachable")]);
     let inverse =
         PostOptions { feed: FeedRule::InverseTime, ..PostOptions::of(Control::Heidenhain) };
     let two = "UNITS/MM\nFEDRAT/9\nGOTO/0,0,0\nGOTO/1,0,0\n";
-    assert_eq!(told(&mill, two, &inverse), [(3, "unwritable-block")]);
+    assert_eq!(reported(&mill, two, &inverse), [(3, "unwritable-block")]);
 }
 
 /// LinuxCNC's own inverse of tilting rotary tables, with offsets between the axes and tool length,

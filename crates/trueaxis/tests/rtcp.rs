@@ -118,7 +118,7 @@ fn working_point(machine: &Machine) -> Vec3 {
     pose.linear() * machine.tip_mm() + pose.shift_mm()
 }
 
-/// With RTCP off somebody brings the tip near the ball: 0.3 mm off.
+/// With RTCP off the tip is brought near the ball: 0.3 mm off.
 fn stand_by(study: &mut RtcpStudy) {
     let control = trueaxis::machine::tcp::TipControl::of(&study.machine).unwrap();
     for set in study.sets.iter_mut().filter(|s| !s.tcp) {
@@ -206,7 +206,7 @@ proptest! {
     }
 }
 
-/// What the machine file states of other errors is taken off the readings: the offsets come back
+/// What the machine file states of other errors is subtracted from the readings: the offsets come back
 /// within 0.1 µm on a machine with 60 errors more, though the indicator is turned by them.
 #[test]
 fn law_other_errors_of_the_machine_file_do_not_count() {
@@ -273,7 +273,7 @@ fn law_programs_reach_their_poses() {
     }
 }
 
-/// Document 003, steps 1 to 4, on a C table on an A table.
+/// Zhang et al. 2023, steps 1 to 4, on a C table on an A table.
 fn steps(table: &str) -> Calibration {
     let folder = folder();
     let text = format!(
@@ -306,7 +306,7 @@ fn step_one_half_a_turn_shows_twice_the_axis() {
 
 #[test]
 fn step_four_moves_the_second_offset_the_other_way() {
-    // The A axis stands 30 µm farther in Y than the control has it, the C axis where it has it:
+    // The A axis stands 30 µm farther in Y than the control assumes, the C axis where it assumes it:
     // OFFSET1 Y + 30 µm, OFFSET2 Y − 30 µm (errata 003-9, -10).
     let study = engraver_slots();
     let (machine, centres, slots) = study;
@@ -440,7 +440,7 @@ fn law_numbers_and_offsets_belong_together() {
     }
 }
 
-/// The example: readings of oracles/rtcp.py, made from the equations of document 003 with numpy; in
+/// The example: readings of oracles/rtcp.py, made from the equations of Zhang et al. 2023 with numpy; in
 /// its steps 2 and 4 the control has the result of step 1.
 #[test]
 fn oracle_the_engraver_of_numpy() {

@@ -155,7 +155,7 @@ fn outside(path: &str) -> Option<Vec<u8>> {
     let file = root.join(path);
     let bytes = std::fs::read(&file).ok();
     if bytes.is_none() {
-        println!("skipped: {path} is not at hand");
+        println!("skipped: {path} is not available");
     }
     bytes
 }
@@ -212,11 +212,11 @@ fn oracle_the_two_boats_of_linuxcnc_have_their_tool_axes_in_common() {
     }
 }
 
-/// A program for a BC table, made by others from cutter locations that are at hand too.
+/// A program for a BC table, made by others from cutter locations that are available too.
 ///
 /// The table stands 40.5 mm above the B axis and turns the positive way; with that all 41,494 tips
 /// are met to the rounding of the program (three decimals). Its angles do not follow the normals of
-/// the cutter locations: that is told, not hidden.
+/// the cutter locations: that is reported, not hidden.
 #[test]
 fn oracle_simple_curve_meets_its_cutter_locations() {
     let folder = "zhangty019__MultiAxis_3DP_MotionPlanning";

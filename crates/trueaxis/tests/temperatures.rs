@@ -106,7 +106,7 @@ fn law_every_place_of_a_simulation_has_the_temperatures_of_its_time() {
     let machine = machine(&folder);
     let mut warmest = 0.0_f64;
     for (time_s, command, tip_mm) in &places.0 {
-        // Frozen at that very time: the machine as it is there.
+        // Frozen at that very time: the actual machine at that time.
         let conditions = run.log.at(50.0 + time_s).expect("inside");
         let there = machine.at(&conditions, &mut Diagnostics::new()).expect("sound");
         let errors = there.errors_at(command, &[0.0; 6]).expect("everywhere");
@@ -231,7 +231,7 @@ fn holes_over_a_log_are_made_at_their_times() {
         let by_hand = 10e-6 * place.x * 0.05 * found.times_s[i];
         assert!((hole.error_mm.x - by_hand).abs() <= 1.6e-4, "{i} {} {by_hand}", hole.error_mm.x);
     }
-    let held = found.held.expect("beside it");
+    let held = found.held.expect("for comparison");
     assert!(held[0].worst_mm < 1e-12 && found.sets[0].worst_mm > 0.03);
     // Longer than the log.
     let path = holes(&folder, "log = \"hall.csv\"\nstart = \"100 s\"\nduration = \"1 h\"");
@@ -303,7 +303,7 @@ fn law_a_test_piece_over_a_log_lies_between_its_ends() {
     };
     let (logged_mm, cold_mm, hot_mm) = (cut(&logged), cut(&cold), cut(&hot));
     // The first cut is the cold one; the zero was touched cold, so at the end it is the hot one
-    // with a cold zero: the tool has gone by 3 µm/K · 12 K = 36 µm in all.
+    // with a cold zero: the tool has moved by 3 µm/K · 12 K = 36 µm in all.
     let first = (logged_mm[0] - cold_mm[0]).norm();
     assert!(first < 1e-4, "{first}");
     let last = logged_mm.len() - 1;
@@ -311,7 +311,7 @@ fn law_a_test_piece_over_a_log_lies_between_its_ends() {
     assert!((gone - 0.036).abs() < 0.002, "{gone}");
     // Held at 32 °C from the zero on only turns with the workpiece remain.
     assert!((hot_mm[0] - cold_mm[0]).norm() < 0.072);
-    // The result of the start stands beside it, and u contains that of the coefficient.
+    // The result of the start is shown for comparison, and u contains that of the coefficient.
     let prediction = predict(&logged, &|_| {}).expect("predicted");
     let plain = predict(&cold, &|_| {}).expect("predicted");
     let held = prediction.variants.last().expect("held");

@@ -94,7 +94,7 @@ fn oracle_sklearn_and_statsmodels_find_the_same_thermal_model() {
     }
 }
 
-/// The open runs with the zero of the probe unknown in each; `None` where they are not at hand.
+/// The open runs with the zero of the probe unknown in each; `None` where they are not available.
 fn lathe(most_terms: usize, more: &str) -> Option<Logs> {
     let folder = root()
         .join("../shared/data/outside/measure")
@@ -136,7 +136,7 @@ fn oracle_the_open_lathe_runs() {
     };
     assert_eq!(three(&model.scores[0]), [5.79, 5.82, 5.79]);
     assert_eq!(three(model.score()), [2.66, 2.68, 2.77]);
-    // All sensors: better by rows, worse on what comes; and they cannot be told apart.
+    // All sensors: better by rows, worse on what comes; and they cannot be separated.
     assert_eq!(three(&model.all_terms), [2.65, 2.68, 3.08]);
     assert!(model.all_terms.condition > 100.0);
     // With lags rows promise a third less than three terms leave; whole cycles show that the other

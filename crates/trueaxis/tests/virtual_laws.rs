@@ -124,7 +124,7 @@ fn law_without_errors_every_instrument_reads_nominal_on_every_machine() {
     }
 }
 
-/// The places where the socket of document 004 sits on the ball, Eq 8–10.
+/// The places where the socket of Lei and Hsu 2003 sits on the ball, Eq 8–10.
 fn on_the_ball(a_deg: f64, c_deg: f64) -> Command {
     let ((sa, ca), (sc, cc)) = (a_deg.to_radians().sin_cos(), c_deg.to_radians().sin_cos());
     let x = 60.0 * cc - 40.0 * sc + 250.0;
@@ -329,7 +329,7 @@ fn along_x(xs: &[f64], feed: Option<f64>, x: AxisDisturb) -> (Vec<f64>, Vec<f64>
 fn law_a_lag_displaces_by_speed_times_time_and_only_what_moves() {
     let xs: Vec<f64> = (0..60).map(f64::from).collect();
     let lag = AxisDisturb { lag_s: 0.02, ..AxisDisturb::default() };
-    // 10 mm/s · 0.02 s = 0.2 mm behind, when 20 time constants are over.
+    // 10 mm/s · 0.02 s = 0.2 mm lag, when 20 time constants are over.
     let (moving, times) = along_x(&xs, Some(10.0), lag);
     assert!(moving[10..].iter().all(|d| (d + 0.2).abs() < 1e-8), "{:?}", &moving[..12]);
     assert!((times[11] - times[10] - 0.1).abs() < 1e-12);

@@ -90,7 +90,7 @@ function ranges(spec: ChartSpec): { x: [number, number]; y: [number, number] } {
 }
 
 /** The series that the legend names, each with its place among all. */
-function told(spec: ChartSpec): [Series, number][] {
+function named(spec: ChartSpec): [Series, number][] {
   return spec.series.map((one, i): [Series, number] => [one, i]).filter(([one]) => !one.quiet);
 }
 
@@ -100,7 +100,7 @@ function frameOf(
   height: number,
 ): { frame: Frame; x: [number, number]; y: [number, number] } {
   const r = ranges(spec);
-  const legend = told(spec).length > 1 ? 20 : 6;
+  const legend = named(spec).length > 1 ? 20 : 6;
   const frame = { left: 54, right: width - 12, top: legend, bottom: height - 36 };
   if (spec.equal) {
     const per_mm = Math.min(
@@ -285,7 +285,7 @@ function addReadout(d: Drawing, spec: ChartSpec, f: Frame): void {
   );
   const group = s("g", { visibility: "hidden", "data-hover": "" }, line, ...dots, box);
   d.svg.append(group);
-  const longest = told(spec).reduce<Series | null>((a, [b]) => (a && a.x.length >= b.x.length ? a : b), null);
+  const longest = named(spec).reduce<Series | null>((a, [b]) => (a && a.x.length >= b.x.length ? a : b), null);
   if (!longest || longest.x.length === 0) return;
   let at = 0;
   const nearest = (series: Series, px: number, py?: number): number => {
@@ -313,7 +313,9 @@ function addReadout(d: Drawing, spec: ChartSpec, f: Frame): void {
       }
       dot.setAttribute("cx", String(f.x(x)));
       dot.setAttribute("cy", String(f.y(y)));
-      lines.push(`${told(spec).length > 1 ? `${one.name} ` : ""}${withUnit(y, spec.y.digits ?? 2, spec.y.unit ?? "")}`);
+      lines.push(
+        `${named(spec).length > 1 ? `${one.name} ` : ""}${withUnit(y, spec.y.digits ?? 2, spec.y.unit ?? "")}`,
+      );
     });
     const x = f.x(x_here);
     line.setAttribute("x1", String(x));
@@ -370,10 +372,10 @@ function drawChart(d: Drawing, spec: ChartSpec): void {
     );
   }
   spec.series.forEach((one, i) => drawSeries(d.svg, one, one.colour ?? seriesColour(i), frame));
-  if (told(spec).length > 1)
+  if (named(spec).length > 1)
     drawLegend(
       d.svg,
-      told(spec).map(([one, i]) => ({ name: one.name, colour: one.colour ?? seriesColour(i), dash: one.dash })),
+      named(spec).map(([one, i]) => ({ name: one.name, colour: one.colour ?? seriesColour(i), dash: one.dash })),
       frame.left,
       8,
     );

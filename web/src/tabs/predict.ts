@@ -5,7 +5,7 @@ import { latestOnly, Refusal } from "../api.ts";
 import { fill, h } from "../dom.ts";
 import { number } from "../format.ts";
 import type { Frame } from "../frame.ts";
-import { Blame } from "./predict/blame.ts";
+import { ErrorBudget } from "./predict/budget.ts";
 import { Details } from "./predict/details.ts";
 import { Holes } from "./predict/holes.ts";
 import { PieceView } from "./predict/piece.ts";
@@ -15,9 +15,9 @@ import type { HolesHeader, PieceFrame } from "./predict/types.ts";
 import { WhatIf, type Changes } from "./predict/whatif.ts";
 
 type Answer = PieceFrame | Frame<HolesHeader>;
-type Page = "blame" | "what-if" | "numbers";
+type Page = "budget" | "what-if" | "numbers";
 const PAGES: readonly [Page, string][] = [
-  ["blame", "Error budget"],
+  ["budget", "Error budget"],
   ["what-if", "What if"],
   ["numbers", "All numbers"],
 ];
@@ -39,7 +39,7 @@ class PredictTab implements TabHandle {
     summary: Summary;
     view: PieceView;
     sections: Sections;
-    blame: Blame;
+    budget: ErrorBudget;
     what_if: WhatIf;
     details: Details;
   } | null = null;
@@ -141,10 +141,10 @@ class PredictTab implements TabHandle {
   private showPiece(study: string, frame: PieceFrame): void {
     this.base = frame;
     this.piece ??= this.build();
-    const { summary, view, sections, blame, what_if, details } = this.piece;
+    const { summary, view, sections, budget, what_if, details } = this.piece;
     summary.show(study, frame.header.document, null);
     sections.show(frame, null, true);
-    blame.show(frame.header.document, frame.header.document, true);
+    budget.show(frame.header.document, frame.header.document, true);
     details.show(frame, null);
     what_if.open(frame.header);
     // Last: the picture is fitted to the room that the others leave.
@@ -166,7 +166,7 @@ class PredictTab implements TabHandle {
     }
     const place = (page: Page): HTMLElement => this.pages.get(page) as HTMLElement;
     const what_if = new WhatIf(place("what-if"), (changes) => this.change(changes));
-    const blame = new Blame(place("blame"), {
+    const budget = new ErrorBudget(place("budget"), {
       without: (error) => this.tryIt(() => what_if.without(error)),
       correct: (error, text) => this.tryIt(() => what_if.correct(error, text)),
     });
@@ -175,11 +175,11 @@ class PredictTab implements TabHandle {
       summary,
       view,
       sections: new Sections(polar, (index) => view.mark(index)),
-      blame,
+      budget,
       what_if,
       details: new Details(place("numbers")),
     };
-    this.showPage("blame");
+    this.showPage("budget");
     return built;
   }
 
@@ -217,7 +217,7 @@ class PredictTab implements TabHandle {
     this.piece.summary.show(this.study, document, earlier);
     this.piece.view.show(frame, false);
     this.piece.sections.show(frame, before, false);
-    this.piece.blame.show(document, earlier ?? document, false);
+    this.piece.budget.show(document, earlier ?? document, false);
     this.piece.details.show(frame, earlier);
   }
 }

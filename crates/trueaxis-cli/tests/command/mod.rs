@@ -7,7 +7,7 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-/// What a run left behind.
+/// What a run has written.
 pub struct Ran {
     /// Exit status.
     pub status: i32,
@@ -80,6 +80,6 @@ impl Folder {
 
 impl Drop for Folder {
     fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0); // a left-over folder is no failure
+        let _ = std::fs::remove_dir_all(&self.0); // a remaining folder is no failure
     }
 }

@@ -138,7 +138,7 @@ pub(super) struct CuttingClock {
 }
 
 impl CuttingClock {
-    /// For the positions of a test piece: along the way of the tool tip.
+    /// For the positions of a test piece: along the path of the tool tip.
     pub fn of(
         machine: &Machine,
         temperatures: Option<&RunningTemperatures>,

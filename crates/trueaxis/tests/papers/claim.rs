@@ -4,7 +4,7 @@ use crate::shop;
 use std::path::Path;
 use toml::{Table, Value};
 
-/// One number (or a few of one kind) that somebody else states.
+/// One number (or a few of one kind) that an independent source states.
 pub struct Claim {
     pub id: String,
     /// What is compared.
@@ -28,7 +28,7 @@ pub struct Difference {
     pub why: String,
 }
 
-/// What nobody has checked, and what would settle it.
+/// What has not been checked, and what would settle it.
 pub struct Unknown {
     pub what: String,
     pub why: String,

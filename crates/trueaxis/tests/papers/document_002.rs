@@ -1,4 +1,4 @@
-//! Our side of document-002.toml.
+//! Our side of `document-002.toml`: Jiang et al.
 
 use crate::Ours;
 use trueaxis::geometry::Vec3;

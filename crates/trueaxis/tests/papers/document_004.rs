@@ -1,4 +1,4 @@
-//! Our side of document-004.toml: Lei and Hsu 2003.
+//! Our side of `document-004.toml`: Lei and Hsu 2003.
 
 use crate::Ours;
 use crate::shop::{command, list, machine, nominal, root, shown, target};
@@ -170,7 +170,7 @@ fn on_path_s(machine: &Machine, letter: char, tan_squared_psi: f64, theta_deg: f
     shown(machine, &found, &letter.to_string())[0]
 }
 
-/// The angle of path S, in deg, at which an axis turns round between two angles.
+/// The angle of path S, in deg, at which an axis reverses between two angles.
 fn turning_point(letter: char, tan_squared_psi: f64, from_deg: f64, to_deg: f64) -> f64 {
     let machine = mill();
     let at = |theta_deg| on_path_s(&machine, letter, tan_squared_psi, theta_deg);

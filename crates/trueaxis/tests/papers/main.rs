@@ -99,13 +99,13 @@ fn paper_every_claim_holds() {
 #[test]
 fn paper_every_difference_is_told() {
     let records = records();
-    let told: BTreeSet<&str> =
+    let reported: BTreeSet<&str> =
         records.iter().flat_map(|r| &r.differences).map(|d| d.id.as_str()).collect();
     let mut cited: Vec<String> = scan::differences();
     for claim in claims(&records) {
         cited.extend(errata_in(&format!("{} {} {}", claim.what, claim.source, claim.why)));
     }
-    let untold: BTreeSet<_> = cited.iter().filter(|id| !told.contains(id.as_str())).collect();
+    let untold: BTreeSet<_> = cited.iter().filter(|id| !reported.contains(id.as_str())).collect();
     assert!(cited.len() > 10, "the scan found next to nothing");
     assert!(untold.is_empty(), "not in differences.toml: {untold:?}");
 }

@@ -55,14 +55,13 @@ fn head(records: &[Record], tests: &[JudgedTest]) -> String {
         "# Validation\n\n\
          <!-- Generated. Do not edit: change crates/trueaxis/tests/papers and run\n     \
          TRUEAXIS_WRITE_VALIDATION=1 cargo test -p trueaxis --test papers -->\n\n\
-         Why should anybody believe these numbers? This page says what was compared with what, and \
-         what was not. A test computes every figure under *ours* again through the library's public \
+         This page states what was compared with what, and what was not. A test computes every figure under *ours* again through the library's public \
          interface, compares it with *theirs*, and compares this page with what it found: a page \
          that is out of date does not pass.\n\n\
-         *Theirs* is a number that somebody else printed or computed, or one that can be worked out \
+         *Theirs* is a number that an independent source has printed or computed, or one that can be worked out \
          from a printed formula with a pocket calculator. *Allowed difference* is absolute, in the \
-         unit of the row; it follows from the reason beside it, not from how close we came. Numbers such \
-         as 000-21 count the errors and ambiguities found in the five source documents (000 Wu et \
+         unit of the row; it follows from the reason given in the row, not from how close we came. Numbers such \
+         as 000-21 count the errors and ambiguities found in the five source papers (000 Wu et \
          al. 2022, 001 Zhang et al. 2019, 002 Jiang et al., 003 Zhang Jian et al. 2023, 004 Lei and \
          Hsu 2003).\n\n\
          {claims} claims · {differences} differences from the sources · {laws} laws and {} \

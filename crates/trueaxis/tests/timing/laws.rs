@@ -233,7 +233,7 @@ proptest! {
         prop_assert_eq!(streamed, whole.nodes);
     }
 
-    /// Document 002: stamps rise from 0 to T₁ + T₂ + T₃, the phases cover the block, and the mean
+    /// Jiang et al.: stamps rise from 0 to T₁ + T₂ + T₃, the phases cover the block, and the mean
     /// velocity between two stamps is no more than the largest of the block.
     #[test]
     fn law_three_phases(

@@ -8,7 +8,7 @@ use trueaxis::verify::conditions::Conditions;
 use trueaxis::verify::import::Import;
 use trueaxis::verify::{Evaluated, Request, Standard, evaluate};
 
-/// The evaluation, with the codes of what was told.
+/// The evaluation, with the codes of what was reported.
 fn evaluated(
     path: &Path,
     standard: Standard,
@@ -69,7 +69,7 @@ fn oracle_qif_circles() {
 }
 
 /// The seven reports, read by the product: the same readings as the test's own reader finds, and
-/// what does not follow the standard is told.
+/// what does not follow the standard is reported.
 #[test]
 fn oracle_seven_reports_are_imported() {
     let folder = root().join("../shared/data/outside/measure");
@@ -94,13 +94,15 @@ fn oracle_seven_reports_are_imported() {
         };
         let theirs = evaluate(&request, &mut none).expect("an evaluation");
         assert_eq!(ours, document(Standard::Iso230_2, &theirs, &conditions), "{}", report.name);
-        let told: Vec<_> = problems.iter().filter(|d| d.code == "not-by-the-standard").collect();
+        let reported: Vec<_> =
+            problems.iter().filter(|d| d.code == "not-by-the-standard").collect();
         // Only R and E.
         assert!(
-            told.iter()
+            reported
+                .iter()
                 .all(|d| ["prints R = ", "prints E = "].iter().any(|w| d.message.contains(w)))
         );
-        differ += told.len();
+        differ += reported.len();
     }
     println!("{differ} of {} printed R and E are not those of the standard", 2 * reports.len());
     assert!(differ > 0);

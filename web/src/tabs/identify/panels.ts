@@ -19,10 +19,10 @@ import {
 
 export function verdictPanel(doc: IdentifyDocument): HTMLElement {
   const { verdict } = doc;
-  const told = doc.errors.filter((one) => foundValue(one) !== null).length;
+  const known = doc.errors.filter((one) => foundValue(one) !== null).length;
   const found =
     doc.errors.length > 0
-      ? `${told} of ${count(doc.errors.length, "error")} found`
+      ? `${known} of ${count(doc.errors.length, "error")} found`
       : "no error of the machine is unknown";
   return h(
     "section",

@@ -57,14 +57,14 @@ export function showRefusal(host: HTMLElement, error: unknown, more?: Node): voi
           all.length > MOST_TOLD ? h("p", { class: "muted" }, `and ${all.length - MOST_TOLD} more`) : null,
         ]
       : null;
-  const told = refusal.diagnostics.some((d) => refusal.message.endsWith(d.message));
+  const isShown = refusal.diagnostics.some((d) => refusal.message.endsWith(d.message));
   fill(
     host,
     h(
       "section",
       { class: "panel refused", role: "alert" },
-      told ? null : h("h2", {}, refusal.message),
-      told || !refusal.hint ? null : h("p", { class: "hint" }, refusal.hint),
+      isShown ? null : h("h2", {}, refusal.message),
+      isShown || !refusal.hint ? null : h("p", { class: "hint" }, refusal.hint),
       list(errors),
       others.length > 0
         ? h(

@@ -21,21 +21,21 @@ interface Drawn {
 }
 
 /** Where and why a program does not run as it should; nothing if it does. */
-function troubles(program: Program): string[] {
+function issues(program: Program): string[] {
   return [...program.errors, ...program.grave];
 }
 
 export function summaryPanel(doc: PlanDocument): HTMLElement {
   const unsound = doc.paths.filter((path) => programOf(path)?.sound === false).length;
   const seen = doc.expected.length;
-  const told = doc.expected.filter((one) => one.u !== null).length;
+  const determined = doc.expected.filter((one) => one.u !== null).length;
   const time_s = doc.paths.reduce((sum, path) => sum + (programOf(path)?.duration_s ?? 0), 0);
   const [state, word] =
     unsound > 0 ? ["bad", "Program errors"] : doc.rank < seen ? ["warn", "Not all observable"] : ["", "All observable"];
   const words = [
     unsound > 0 ? `${count(unsound, "program")} would run into something or leave the travel` : null,
     doc.rank < seen
-      ? `${doc.rank} of ${seen} combinations observable, ${told} unknowns separately`
+      ? `${doc.rank} of ${seen} combinations observable, ${determined} unknowns separately`
       : "all unknowns are observable",
   ].filter(Boolean);
   return h(
@@ -61,13 +61,13 @@ export function summaryPanel(doc: PlanDocument): HTMLElement {
 export function pathsPanel({ document, paths }: PlanHeader, now: number, choose: (path: number) => void): HTMLElement {
   const row = (path: PathDocument, i: number): HTMLElement => {
     const program = programOf(path);
-    const trouble = program ? troubles(program) : [];
+    const issue = program ? issues(program) : [];
     const minor = program?.minor ?? [];
     const state = !program
       ? h("span", { class: "muted" }, path.program && "missing" in path.program ? path.program.missing : "no program")
       : h("span", { class: program.sound ? "sound" : "unsound" }, program.sound ? "sound" : "not sound");
     const notes = [
-      ...trouble.map((text) => h("p", { class: "unsound" }, text)),
+      ...issue.map((text) => h("p", { class: "unsound" }, text)),
       minor.length > 0
         ? h(
             "details",
@@ -119,7 +119,7 @@ export function pathsPanel({ document, paths }: PlanHeader, now: number, choose:
           h("th", {}, "Path"),
           h("th", { class: "number" }, "Stations"),
           h("th", { class: "number" }, "Runs"),
-          h("th", {}, "Troubles"),
+          h("th", {}, "Issues"),
         ),
       ),
       h("tbody", {}, document.paths.map(row)),

@@ -19,9 +19,9 @@ function across({ deviation }: SimulationDocument): number {
 }
 
 function verdict(header: SimulationHeader): HTMLElement {
-  const grave = header.marks.filter((m) => m.grave);
+  const critical = header.marks.filter((m) => m.grave);
   const kinds = new Map<string, number>();
-  for (const mark of grave) kinds.set(mark.kind, (kinds.get(mark.kind) ?? 0) + 1);
+  for (const mark of critical) kinds.set(mark.kind, (kinds.get(mark.kind) ?? 0) + 1);
   const errors = header.diagnostics.filter((d) => d.severity === "error").length;
   const words = [...kinds].map(([kind, n]) => `${n} × ${kind.replaceAll("-", " ")}`);
   if (errors > 0) words.unshift(errors === 1 ? "one error in the program" : `${errors} errors in the program`);
@@ -59,7 +59,7 @@ export class Summary {
     fill(
       this.element,
       h("div", { class: "panel-head" }, verdict(header), h("span", { class: "muted" }, doc.control)),
-      this.grave(header.marks),
+      this.critical(header.marks),
       h(
         "div",
         { class: "facts" },
@@ -135,13 +135,13 @@ export class Summary {
     );
   }
 
-  private grave(marks: readonly Mark[]): Child {
-    const grave = marks.filter((m) => m.grave);
-    if (grave.length === 0) return null;
+  private critical(marks: readonly Mark[]): Child {
+    const critical = marks.filter((m) => m.grave);
+    if (critical.length === 0) return null;
     return h(
       "ul",
-      { class: "troubles grave" },
-      grave.slice(0, MOST_ROWS).map((m) => this.trouble(m)),
+      { class: "issues critical" },
+      critical.slice(0, MOST_ROWS).map((m) => this.issue(m)),
     );
   }
 
@@ -155,21 +155,21 @@ export class Summary {
       h("summary", {}, rest.length === 1 ? "One remark" : `${rest.length} remarks`),
       h(
         "ul",
-        { class: "troubles" },
-        rest.slice(0, MOST_ROWS).map((m) => this.trouble(m)),
+        { class: "issues" },
+        rest.slice(0, MOST_ROWS).map((m) => this.issue(m)),
       ),
       left_out > 0 ? h("p", { class: "muted" }, `and ${left_out} more`) : null,
     );
   }
 
-  private trouble(mark: Mark): HTMLElement {
+  private issue(mark: Mark): HTMLElement {
     const until = mark.until_s !== null && mark.until_s > mark.time_s ? ` to ${clock(mark.until_s)}` : "";
     return h(
       "li",
       {},
       h(
         "button",
-        { class: "trouble", dataKind: mark.kind, onclick: () => this.seek(mark.time_s) },
+        { class: "issue", dataKind: mark.kind, onclick: () => this.seek(mark.time_s) },
         h("span", { class: "muted number" }, `${clock(mark.time_s)}${until}`),
         h("span", { class: "muted number" }, `line ${mark.line}`),
         h("span", {}, mark.text),

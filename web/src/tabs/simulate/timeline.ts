@@ -9,7 +9,7 @@ const APART = 1 / 220;
 
 interface Cluster {
   marks: Mark[];
-  grave: boolean;
+  critical: boolean;
 }
 
 export class Timeline {
@@ -72,19 +72,19 @@ export class Timeline {
     return `${(this.duration_s > 0 ? (100 * Math.min(this.duration_s, Math.max(0, time_s))) / this.duration_s : 0).toFixed(4)}%`;
   }
 
-  private button({ marks, grave }: Cluster): HTMLElement {
+  private button({ marks, critical }: Cluster): HTMLElement {
     const first = marks[0] as Mark;
     const words =
       marks.length === 1
         ? `${first.text}, line ${first.line}, ${clock(first.time_s)} min:s`
         : `${marks.length} places from ${clock(first.time_s)} min:s, the first in line ${first.line}: ${first.text}`;
     const button = h("button", {
-      class: `timeline-mark ${grave ? "grave" : ""}`,
+      class: `timeline-mark ${critical ? "critical" : ""}`,
       dataKind: first.kind,
       dataTime: first.time_s,
       title: words,
       ariaLabel: words,
-      tabindex: grave ? "0" : "-1",
+      tabindex: critical ? "0" : "-1",
       onclick: () => this.seek(first.time_s),
     });
     button.style.left = this.share(first.time_s);
@@ -114,12 +114,12 @@ export class Timeline {
 /** Neighbours of the same severity become one; the critical ones are drawn last, on top. */
 function clusters(marks: readonly Mark[], duration_s: number): Cluster[] {
   const all: Cluster[] = [];
-  for (const grave of [false, true]) {
+  for (const critical of [false, true]) {
     let open: Cluster | null = null;
-    for (const mark of marks.filter((m) => m.grave === grave).sort((a, b) => a.time_s - b.time_s)) {
+    for (const mark of marks.filter((m) => m.grave === critical).sort((a, b) => a.time_s - b.time_s)) {
       if (open && mark.time_s - (open.marks[0] as Mark).time_s < APART * duration_s) open.marks.push(mark);
       else {
-        open = { marks: [mark], grave };
+        open = { marks: [mark], critical };
         all.push(open);
       }
     }

@@ -146,7 +146,7 @@ impl Found {
             .extend(block.added.iter().take(room).map(|axis| (block.m.origin.line, *axis)));
         self.feeds_changed += u64::from(feed_changed);
         self.circles += u64::from(circle_gone);
-        // How much longer the way of the tip has become.
+        // How much longer the path of the tool tip has become.
         let length = |of: &dyn Fn(&Sample) -> Vec3| -> f64 {
             samples.windows(2).map(|w| (of(&w[1]) - of(&w[0])).norm()).sum()
         };

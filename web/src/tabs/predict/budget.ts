@@ -20,14 +20,14 @@ const MEASURES: readonly [Measure, string][] = [
 /** More bars than this hide what matters. */
 const MOST = 14;
 
-export interface BlameActions {
+export interface BudgetActions {
   /** Shows the part without this error. */
   without(error: string): void;
   /** Shows the part after this correction. */
   correct(error: string, text: string): void;
 }
 
-export class Blame {
+export class ErrorBudget {
   private readonly index = h("select", { ariaLabel: "Index", onchange: () => this.draw() });
   private readonly group = h(
     "select",
@@ -42,18 +42,18 @@ export class Blame {
   private readonly words = h("p", { class: "muted" });
   private readonly place = h("div");
   private readonly corrections = h("div", { class: "corrections" });
-  private readonly actions: BlameActions;
+  private readonly actions: BudgetActions;
   private document: PieceDocument | null = null;
   private figure: Figure<BarSpec> | null = null;
 
-  constructor(host: HTMLElement, actions: BlameActions) {
+  constructor(host: HTMLElement, actions: BudgetActions) {
     this.actions = actions;
     host.append(
       this.corrections,
       h(
         "div",
         { class: "panel" },
-        h("div", { class: "row blame-head" }, this.index, this.group, this.measure),
+        h("div", { class: "row budget-head" }, this.index, this.group, this.measure),
         this.words,
         this.place,
       ),
