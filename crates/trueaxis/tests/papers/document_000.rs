@@ -1,4 +1,4 @@
-//! Our side of `document-000.toml`: Wu et al. 2022.
+//! Our figures for the claims of Wu et al. 2022.
 
 use crate::Ours;
 use crate::shop::{PREDICTION, STUDY, command, list, machine, nominal, shown};

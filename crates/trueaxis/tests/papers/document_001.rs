@@ -1,4 +1,4 @@
-//! Our side of `document-001.toml`: Zhang et al. 2019.
+//! Our figures for the claims of Zhang et al. 2019.
 
 use crate::{Ours, shop};
 use trueaxis::compensate::values::{Order, ValueTable, compensation_values};

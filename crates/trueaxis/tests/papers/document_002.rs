@@ -1,4 +1,4 @@
-//! Our side of `document-002.toml`: Jiang et al.
+//! Our figures for the claims of Jiang et al.
 
 use crate::Ours;
 use trueaxis::geometry::Vec3;

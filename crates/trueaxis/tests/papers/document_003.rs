@@ -1,4 +1,4 @@
-//! Our side of `document-003.toml`: Zhang Jian et al. 2023.
+//! Our figures for the claims of Zhang Jian et al. 2023.
 
 use crate::Ours;
 use crate::shop::{command, machine, shown, target};

@@ -1,4 +1,4 @@
-//! Our side of `document-004.toml`: Lei and Hsu 2003.
+//! Our figures for the claims of Lei and Hsu 2003.
 
 use crate::Ours;
 use crate::shop::{command, list, machine, nominal, root, shown, target};
