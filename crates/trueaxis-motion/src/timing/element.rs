@@ -15,7 +15,7 @@ pub struct Tangent {
 /// A stretch of an element and the largest derivatives of each axis on it, as magnitudes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Part {
-    /// Along σ.
+    /// Along σ. Unit: that of the path.
     pub length: f64,
     /// The share of |q′| that keeps its direction: the rise of a helix.
     pub steady: Command,
@@ -48,9 +48,9 @@ pub struct Element {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Turn {
-    /// Its length.
+    /// Its length. Unit: that of the path.
     pub length: f64,
-    /// ω, rad for each unit of length.
+    /// ω. Unit: rad per that of the path.
     pub rate: f64,
     /// From its axis to its begin.
     pub cos: Command,
@@ -58,7 +58,7 @@ pub struct Turn {
     pub sin: Command,
     /// dq/dσ of a helix along its axis, and of axes that go along evenly.
     pub steady: Command,
-    /// By how much the radius grows for each unit of length, as a part of it.
+    /// By how much the radius grows, as a part of it. Unit: 1 per that of the path.
     pub growth: f64,
 }
 
