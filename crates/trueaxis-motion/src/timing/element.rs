@@ -83,10 +83,9 @@ impl Element {
                 Side::Begin => &self.parts[k],
                 Side::End => &self.parts[self.parts.len() - 1 - k],
             };
-            for i in 0..MAX_AXES {
-                largest[0][i] = largest[0][i].max(part.steady[i] + part.slope[i]);
-                largest[1][i] = largest[1][i].max(part.bend[i]);
-                largest[2][i] = largest[2][i].max(part.twist[i]);
+            let slope: Command = std::array::from_fn(|i| part.steady[i] + part.slope[i]);
+            for (row, values) in largest.iter_mut().zip([&slope, &part.bend, &part.twist]) {
+                row.iter_mut().zip(values).for_each(|(most, x)| *most = most.max(*x));
             }
             covered += part.length;
             if covered >= distance {
@@ -115,17 +114,19 @@ impl Turn {
     pub fn derivatives(&self, sigma: f64) -> [Command; 4] {
         let (sin, cos) = (self.rate * sigma).sin_cos();
         let (w, g, k) = (self.rate, 1.0 + self.growth * sigma, self.growth);
-        let mut result = [[0.0; MAX_AXES]; 4];
-        for i in 0..MAX_AXES {
-            // The arm and its derivatives by angle.
-            let (arm, on) =
-                (self.cos[i] * cos + self.sin[i] * sin, self.sin[i] * cos - self.cos[i] * sin);
-            result[0][i] = self.steady[i] * sigma + g * arm - self.cos[i];
-            result[1][i] = self.steady[i] + g * w * on + k * arm;
-            result[2][i] = -g * w * w * arm + 2.0 * k * w * on;
-            result[3][i] = -g * w * w * w * on - 3.0 * k * w * w * arm;
-        }
-        result
+        let of_axis = |i: usize| {
+            // The arm and its derivative by angle.
+            let arm = self.cos[i] * cos + self.sin[i] * sin;
+            let on = self.sin[i] * cos - self.cos[i] * sin;
+            [
+                self.steady[i] * sigma + g * arm - self.cos[i],
+                self.steady[i] + g * w * on + k * arm,
+                -g * w * w * arm + 2.0 * k * w * on,
+                -g * w * w * w * on - 3.0 * k * w * w * arm,
+            ]
+        };
+        let columns: [[f64; 4]; MAX_AXES] = std::array::from_fn(of_axis);
+        std::array::from_fn(|n| columns.map(|column| column[n]))
     }
 
     /// The arc as an element of the path.
