@@ -227,6 +227,6 @@ mod tests {
         assert!((used - 20_000.0).abs() < 1e-6, "{j}");
         // So fast that the curve takes most: no more than the limits.
         let fast = curved(&Reciprocals::of(&limits), &part, 1e3).bounds;
-        assert!(fast.v < 200.0 && fast.v > 0.8 * 200.0 && fast.j > 0.0, "{fast:?}");
+        assert!(fast.v < 200.0 && fast.v > 0.7 * 200.0 && fast.j > 0.0, "{fast:?}");
     }
 }
