@@ -30,7 +30,7 @@ use clap::{Parser, Subcommand};
 use output::Outcome;
 use std::process::ExitCode;
 
-/// TrueAxis: accuracy of multi-axis machine tools: the actual tool pose, and its effect on the part
+/// TrueAxis computes the actual tool pose of a multi-axis machine tool and its effect on the part
 #[derive(Parser)]
 #[command(name = "trueaxis", version, max_term_width = 100, arg_required_else_help = true)]
 #[command(after_help = "\
@@ -64,7 +64,7 @@ enum Verb {
     Check(check::Arguments),
     /// Describe: nominal and actual pose of the tool, and the contribution of every error
     Pose(pose::Arguments),
-    /// Describe: axis positions for a wanted tool tip and direction
+    /// Describe: axis positions for a required position and direction of the tool
     Solve(solve::Arguments),
     /// Simulate: run an NC program on the actual machine: time, travel, deviations, issues
     Simulate(simulate::Arguments),
@@ -90,7 +90,7 @@ enum Verb {
     Explain(explain::Arguments),
     /// Schema: the JSON documents of --format json: keys, types, meanings and units
     Schema(schema::Arguments),
-    /// All of this in a browser, offline: a local server with a built-in page
+    /// Serve: all functions in a browser, offline: a local server with a built-in page
     #[cfg(feature = "serve")]
     Serve(serve::Arguments),
 }

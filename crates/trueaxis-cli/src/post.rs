@@ -84,9 +84,9 @@ pub struct Arguments {
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum OnOff {
-    /// The program has tips
+    /// The program states positions of the tool tip
     On,
-    /// The program has axis positions
+    /// The program states positions of the axes
     Off,
 }
 

@@ -13,7 +13,7 @@ use trueaxis_serve::{Options, Server};
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
-  trueaxis serve                        the folder that you are in
+  trueaxis serve                        the current folder
   trueaxis serve ~/my-machine --open
   trueaxis serve --listen 0.0.0.0 --port 8080
 
@@ -25,7 +25,7 @@ pub struct Arguments {
     /// The project folder: machine files, programs, studies, readings
     #[arg(value_name = "FOLDER", default_value = ".")]
     folder: PathBuf,
-    /// Also listen to others: an address of this computer, or 0.0.0.0 for all of them
+    /// Also accept connections from other computers: an address of this computer, or 0.0.0.0 for all of them
     #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1")]
     listen: IpAddr,
     /// The port; without it 7841, or any that is free

@@ -14,7 +14,7 @@ Examples:
   trueaxis solve machines/i5-engraver/machine.toml --tip \"10 20 30\" --axis \"0.3 -0.2 0.93\"
   trueaxis solve machines/i5-engraver/machine.toml --path examples/01_describe/path.csv
 
-All solutions of the nominal machine, the best first; those outside the travel stand last. In a
+All solutions of the nominal machine, the best first; those outside the travel are listed last. In a
 singular pose the axis without effect keeps its angle of --from.
 Exit status: 0 done, 2 unusable input, such as a direction that the machine cannot reach.")]
 pub struct Arguments {

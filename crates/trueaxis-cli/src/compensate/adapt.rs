@@ -16,9 +16,9 @@ Examples:
       --cl bangle-adapted.cls --format json
 
 The blank is registered, its form becomes a smooth field, the path is moved along its normals, and a
-virtual cut shows the wall thickness that remains. A program is written only if the wall holds everywhere, nothing
-gouges, and the program, read back and simulated, follows the adapted path within the travel.
-Exit status: 0 done, 1 it must not be cut (then no program is written), 2 unusable input.")]
+virtual cut shows the wall thickness that remains. A program is written only if the wall is thick enough everywhere, nothing
+is gouged, and the program, read back and simulated, follows the adapted path within the travel.
+Exit status: 0 done, 1 the path must not be cut (then no program is written), 2 unusable input.")]
 pub struct AdaptArguments {
     /// The study
     #[arg(value_name = "STUDY.toml")]

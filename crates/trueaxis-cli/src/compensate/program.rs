@@ -43,7 +43,7 @@ pub struct ProgramArguments {
     /// flat program, which is compensated
     #[arg(long)]
     flat: bool,
-    /// Only the tip, with the linear axes
+    /// Correct the position of the tip only, with the linear axes
     #[arg(long)]
     position_only: bool,
     /// Largest residual error of the tip between the ends of blocks
@@ -66,10 +66,10 @@ pub struct ProgramArguments {
         allow_negative_numbers = true
     )]
     increment_deg: String,
-    /// Numbers in full double precision instead
+    /// Write numbers in full double precision instead
     #[arg(long, conflicts_with_all = ["increment", "increment_deg"])]
     no_rounding: bool,
-    /// A larger correction of the tip is refused
+    /// Largest permitted correction of the tip; a larger one is refused
     #[arg(long, value_name = "\"1 mm\"", default_value = "1 mm", allow_negative_numbers = true)]
     limit: String,
     /// A larger correction of the tool axis is refused
