@@ -112,7 +112,6 @@ fn oracle_five_programs_on_linuxcnc() {
         let ours = assert_same_however_drawn(&mill, Control::LinuxCnc, &text);
         // How much longer LinuxCNC takes.
         let more = theirs / ours - 1.0;
-        println!("{name}: {ours:.4} s, LinuxCNC {theirs} s, {:.1} %", 100.0 * more);
         assert!((-0.005..0.05).contains(&more), "{name}: {ours} s, LinuxCNC {theirs} s");
         count += 1;
     }

@@ -79,7 +79,7 @@ fn chain(pieces: &[Piece]) -> Vec<(Node, Shape)> {
                 let sweep = p.length / radius.abs() * radius.signum();
                 let turn = arc(
                     radius.abs(),
-                    heading - radius.signum() * 1.570_796_326_794_896_6,
+                    heading - radius.signum() * std::f64::consts::FRAC_PI_2,
                     sweep,
                     p.rise,
                 );
