@@ -42,7 +42,7 @@ fn oracle_pose_as_json() {
     let ran = trueaxis(&["pose", XKAS, "--at", AT, "--format", "json"]);
     assert_eq!((ran.status, ran.err.as_str()), (0, ""));
     let pose = ran.json();
-    assert_eq!(keys(&pose), ["schema", "nominal", "actual", "deviation", "budget"]);
+    assert_eq!(keys(&pose), ["schema", "nominal", "actual", "deviation", "budget", "diagnostics"]);
     assert_eq!(pose["schema"], "trueaxis/pose/1");
     assert_eq!(keys(&pose["nominal"]), ["tip_mm", "axis"]);
     assert_eq!(keys(&pose["actual"]), ["tip_mm", "axis"]);
@@ -111,7 +111,7 @@ fn poses_in_a_batch_are_the_single_pose() {
     let ran = trueaxis(&["pose", XKAS, "--at-file", file, "--format", "json"]);
     assert_eq!((ran.status, ran.err.as_str()), (0, ""));
     let document = ran.json();
-    assert_eq!(keys(&document), ["schema", "rows"]);
+    assert_eq!(keys(&document), ["schema", "rows", "diagnostics"]);
     let row = &document["rows"][0];
     let names = ["dev_x_um", "dev_y_um", "dev_z_um"];
     near(&names.map(|n| number(&row[n])), &TIP_UM, 1e-9);

@@ -123,7 +123,7 @@ pub struct CycleEntry<'a> {
 }
 
 impl<'a> ThermalDocument<'a> {
-    /// The document of a model; `lines` are those of [`thermal_lines`].
+    /// The document of a model; `lines` are those of the report.
     pub fn of(logs: &'a Logs, model: &'a ThermalModel, lines: &'a Result<String, String>) -> Self {
         let (none, chosen) = (&model.scores[0], model.score());
         let cycles = logs.cycles.iter().enumerate().map(|(g, cycle)| CycleEntry {
