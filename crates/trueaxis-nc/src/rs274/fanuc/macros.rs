@@ -162,7 +162,8 @@ impl Run<'_> {
         let number = self.words.take(b'P').filter(|p| *p >= 1.0 && p.fract() == 0.0);
         let repeats = self.words.take(b'L').unwrap_or(1.0);
         let program = self.current();
-        let found = number.and_then(|n| program.structure().block_number(n as u64, 0));
+        let found =
+            number.and_then(|n| program.structure().block_number(n as u64, block.span.start));
         let (Some(number), Some(entry)) = (number, found) else {
             return Err(mistakes::missing_label(format_args!("N{}", number.unwrap_or(0.0)), at));
         };
