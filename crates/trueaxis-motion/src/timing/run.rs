@@ -146,7 +146,7 @@ impl Run {
         let ideal_s = self.ideal_s + next.ideal_s;
         let fastest = self.fastest.max(next.fastest);
         let lost_s = length / bounds.v - ideal_s;
-        let change_s = ramp_time(fastest - bounds.v, bounds.a, bounds.j);
+        let change_s = ramp_time(self.reachable(next, bounds.v) - bounds.v, bounds.a, bounds.j);
         let long = length > LONG * ramp_length(0.0, bounds.v, &bounds);
         let weaker = bounds.a < WEAK * a.a.max(b.a) || bounds.j < WEAK * a.j.max(b.j);
         // One line in many blocks is still one line.
@@ -175,6 +175,15 @@ impl Run {
             jerk_axis: weakest(a.j <= b.j, self.jerk_axis, next.jerk_axis),
             ..*self
         })
+    }
+
+    /// The velocity that the faster of the two reaches from v: a short one does not get to its limit.
+    fn reachable(&self, next: &Self, v: f64) -> f64 {
+        let fast = if self.fastest >= next.fastest { self } else { next };
+        if v >= 0.5 * fast.fastest {
+            return fast.fastest;
+        }
+        reach(v, fast.to - fast.from, &Bounds { v: fast.fastest, ..fast.bounds })
     }
 
     /// The weak acceleration or jerk of one would cost the other much: it is long enough for a
