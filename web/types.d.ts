@@ -626,6 +626,7 @@ export interface Documents {
   post: Post;
   "predict-holes": PredictHoles;
   predict: Predict;
+  refused: Refused;
   "serve-array": ServeArray;
   "serve-describe-request": ServeDescribeRequest;
   "serve-describe": ServeDescribe;
@@ -6352,6 +6353,23 @@ export interface SamplingEntry {
    * The random seed.
    */
   seed: number;
+}
+/**
+ * The answer of a command that cannot use its input; the exit status is 2.
+ */
+export interface Refused {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/refused/1";
+  /**
+   * The version of TrueAxis.
+   */
+  version: string;
+  /**
+   * What is wrong, at least one error, in the order of the files.
+   */
+  diagnostics: DiagnosticEntry[];
 }
 /**
  * An array of a binary answer.

@@ -8,6 +8,7 @@ use trueaxis::files::disk;
 use trueaxis::files::output::{REPORT, may_write, no_file_twice};
 use trueaxis::input::Diagnostics;
 use trueaxis::questions::{Answer, Content, NewFile, Question, complete};
+use trueaxis::report::refused_json;
 
 /// The form of the answer.
 pub struct Door<'a> {
@@ -40,7 +41,12 @@ impl Door<'_> {
         let in_spite = answer.as_ref().and_then(Answer::in_spite_of_errors);
         let failed = report_and(problems, in_spite.unwrap_or("nothing was written"));
         let usable = !failed || in_spite.is_some();
-        let Some(mut answer) = answer.filter(|_| usable) else { return Err(Outcome::Unusable) };
+        let Some(mut answer) = answer.filter(|_| usable) else {
+            if self.format == Format::Json {
+                show(&Shown::Json(refused_json(&found)));
+            }
+            return Err(Outcome::Unusable);
+        };
         if let Some(path) = self.report {
             write_report(path, answer.page())?;
         }

@@ -114,6 +114,18 @@ fn answers_of_the_commands_fit_their_schemas() {
     }
 }
 
+/// Scripts that read JSON need the reason, too.
+#[test]
+fn a_refusal_is_a_document() {
+    let ran = trueaxis(&["predict", "no-such-study.toml", "--format", "json"]);
+    assert_eq!(ran.status, 2);
+    let document = ran.json();
+    fits("refused", &document);
+    assert_eq!(document["diagnostics"][0]["code"], "unreadable-file");
+    assert_eq!(document["diagnostics"][0]["severity"], "error");
+    assert!(trueaxis(&["predict", "no-such-study.toml"]).out.is_empty());
+}
+
 /// Requests with an answer each, in this order; `SIMULATION` is the number of the simulation before.
 #[cfg(feature = "serve")]
 const REQUESTS: &[(&str, &str)] = &[
@@ -207,7 +219,8 @@ fn saved_files_fit_their_schemas() {
 #[test]
 fn every_document_has_an_example_here() {
     let mut tried: BTreeSet<String> = ANSWERS.iter().map(|(name, _)| (*name).to_owned()).collect();
-    // A machine description is an answer of the server only; diagnostics stand in the other documents.
-    tried.extend(["description", "diagnostic"].map(str::to_owned));
+    // A machine description is an answer of the server only; diagnostics stand in the other
+    // documents; the refusal has a test of its own.
+    tried.extend(["description", "diagnostic", "refused"].map(str::to_owned));
     assert_eq!(names(false), tried);
 }

@@ -32,7 +32,7 @@ pub use check_document::{CheckDocument, check_json};
 pub use comparison::comparison_report;
 pub use comparison_document::VerifyDocument;
 pub use description_document::{DescriptionDocument, description_json};
-pub use diagnostic::{DiagnosticEntry, diagnostic_json, remarks};
+pub use diagnostic::{DiagnosticEntry, RefusedDocument, diagnostic_json, refused_json, remarks};
 pub use expansion::expansion_report;
 pub use expansion_document::{ExpansionDocument, expansion_json};
 pub use pose::{Bodies, Budget, PoseReport, array, bodies, budget, pose_report};

@@ -4,8 +4,8 @@ use crate::explain::{ExplainDocument, ExplainListDocument};
 use crate::questions::RtcpProgramsDocument;
 use crate::report::{
     CertificateDocument, CheckDocument, DescriptionDocument, DiagnosticEntry, DiffDocument,
-    ExpansionDocument, PoseDocument, PoseRowsDocument, PostDocument, SolveDocument,
-    SolvePathDocument, TraceDocument, VerifyDocument,
+    ExpansionDocument, PoseDocument, PoseRowsDocument, PostDocument, RefusedDocument,
+    SolveDocument, SolvePathDocument, TraceDocument, VerifyDocument,
 };
 use schemars::{JsonSchema, Schema, generate::SchemaSettings, json_schema};
 use serde_json::Value;
@@ -32,6 +32,7 @@ pub fn schemas() -> Vec<NamedSchema> {
         named_schema::<PoseDocument>("pose"),
         named_schema::<PoseRowsDocument>("pose-rows"),
         named_schema::<PostDocument<'_>>("post"),
+        named_schema::<RefusedDocument<'_>>("refused"),
         named_schema::<SolveDocument>("solve"),
         named_schema::<SolvePathDocument>("solve-path"),
         named_schema::<TraceDocument<'_>>("trace"),

@@ -44,6 +44,25 @@ pub fn diagnostic_json(diagnostic: &Diagnostic) -> Value {
     document(&DiagnosticEntry::from(diagnostic))
 }
 
+/// The answer of a command that cannot use its input; the exit status is 2.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct RefusedDocument<'a> {
+    /// Which document this is.
+    #[schemars(extend("const" = "trueaxis/refused/1"))]
+    pub schema: &'static str,
+    /// The version of TrueAxis.
+    pub version: &'static str,
+    /// What is wrong, at least one error, in the order of the files.
+    pub diagnostics: Vec<DiagnosticEntry<'a>>,
+}
+
+/// The document `trueaxis/refused/1`.
+pub fn refused_json(problems: &Diagnostics) -> Value {
+    let (schema, version) = ("trueaxis/refused/1", env!("CARGO_PKG_VERSION"));
+    let diagnostics = problems.iter().map(DiagnosticEntry::from).collect();
+    document(&RefusedDocument { schema, version, diagnostics })
+}
+
 /// What was found, as the remarks of a report: the message, then what to do.
 pub fn remarks(problems: &Diagnostics) -> Vec<String> {
     let remark = |d: &Diagnostic| match d.hint.is_empty() {
