@@ -155,18 +155,25 @@ fn large_crates() -> Vec<String> {
 }
 
 /// Every crate, and which of the others it may use. An arrow that is not here needs a decision record.
-const CRATES: [(&str, &[&str]); 14] = [
+const CRATES: [(&str, &[&str]); 15] = [
     ("trueaxis-input", &[]),
     ("trueaxis-geometry", &[]),
     ("trueaxis-report", &[]),
     ("trueaxis-machine", &["input", "geometry"]),
     ("trueaxis-nc", &["input"]),
+    ("trueaxis-writer", &["nc"]),
     ("trueaxis-cl", &["input", "nc"]),
     ("trueaxis-part", &["input", "geometry"]),
     ("trueaxis-standards", &["input", "geometry", "part", "report"]),
     ("trueaxis-motion", &["input", "geometry", "machine", "nc", "report"]),
-    ("trueaxis-calibrate", &["cl", "input", "geometry", "machine", "nc", "motion", "report"]),
-    ("trueaxis-correct", &["cl", "input", "geometry", "machine", "nc", "part", "motion", "report"]),
+    (
+        "trueaxis-calibrate",
+        &["cl", "input", "geometry", "machine", "nc", "motion", "report", "writer"],
+    ),
+    (
+        "trueaxis-correct",
+        &["cl", "input", "geometry", "machine", "nc", "part", "motion", "report", "writer"],
+    ),
     (
         "trueaxis",
         &[
@@ -181,6 +188,7 @@ const CRATES: [(&str, &[&str]); 14] = [
             "cl",
             "correct",
             "report",
+            "writer",
         ],
     ),
     ("trueaxis-serve", &[""]),

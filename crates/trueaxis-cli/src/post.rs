@@ -7,8 +7,8 @@ use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use trueaxis::compensate::post::FeedRule;
 use trueaxis::input::Diagnostics;
-use trueaxis::nc::writer::TipWords;
 use trueaxis::questions::{Post, template};
+use trueaxis::writer::TipWords;
 
 /// The cutter locations, the machine and the control.
 #[derive(Args)]

@@ -50,7 +50,6 @@
 //!
 //! # Further parts
 //!
-//! - [`writer`] writes programs for the same five controls.
 //! - [`moves`] defines moves and events, [`code`] and [`dialect`] the differences between the
 //!   controls, [`lexer`] and [`program`] the text; [`sinumerik`] reads archives of a set-up.
 //!
@@ -75,7 +74,6 @@ pub mod moves;
 mod rs274;
 pub mod sinumerik;
 mod text;
-pub mod writer;
 
 pub use dialect::{Control, Dialect};
 pub use execution::leaves_motion_out;

@@ -17,7 +17,7 @@ use trueaxis::files;
 use trueaxis::geometry::Vec3;
 use trueaxis::nc::Control;
 use trueaxis::nc::moves::{Axis, Feed, FeedMode};
-use trueaxis::nc::writer::{Block, Heading, Target, Writer};
+use trueaxis::writer::{Block, Heading, Target, Writer};
 
 const POINTS: usize = 50_000;
 const ROUNDS: usize = 7;

@@ -14,9 +14,9 @@ use trueaxis::compensate::program::{
 use trueaxis::geometry::Vec3;
 use trueaxis::input::Diagnostics;
 use trueaxis::machine::Machine;
-use trueaxis::nc::writer::TipWords;
 use trueaxis::nc::{Control, Program};
 use trueaxis::simulate::{Batch, Densify, Observer, Options, SetUp, simulate};
+use trueaxis::writer::TipWords;
 
 fn name(control: Control) -> &'static str {
     match control {

@@ -16,8 +16,8 @@ use trueaxis::machine::axis::Command;
 use trueaxis::machine::file::NoTables;
 use trueaxis::machine::tcp::TipControl;
 use trueaxis::nc::moves::{Axis, Feed, FeedMode, Move, MoveKind};
-use trueaxis::nc::writer::TipWords;
 use trueaxis::nc::{Control, NoLibrary, Program, Settings, Step, interpret};
+use trueaxis::writer::TipWords;
 
 fn posted(machine: &Machine, text: &str, options: &PostOptions) -> Posted {
     let (posted, problems) = post(machine, &cl(text), options);

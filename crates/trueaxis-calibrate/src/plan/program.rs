@@ -20,7 +20,7 @@ use trueaxis_machine::file::{read_direction, read_tool_shape};
 use trueaxis_machine::models::ToolSegment;
 use trueaxis_nc::Control;
 use trueaxis_nc::moves::{Axis, Feed, FeedMode, Position};
-use trueaxis_nc::writer::{Block, Heading, Target, ToolCall, WriteError, Writer, axis_coordinates};
+use trueaxis_writer::{Block, Heading, Target, ToolCall, WriteError, Writer, axis_coordinates};
 
 /// How far a probe goes on beyond the nominal place of a hit, mm.
 const OVERTRAVEL_MM: f64 = 1.0;

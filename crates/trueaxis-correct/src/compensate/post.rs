@@ -24,7 +24,7 @@ use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::Control;
-use trueaxis_nc::writer::{Decimals, Templates, TipWords};
+use trueaxis_writer::{Decimals, Templates, TipWords};
 
 /// How feeds are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -9,8 +9,8 @@ use trueaxis_correct::compensate::adapt::{AdaptStudy, Adaptation, adapt, read_ad
 use trueaxis_correct::compensate::post::{PostOptions, post, verify};
 use trueaxis_correct::report::{AdaptReport, AdaptedProgram};
 use trueaxis_input::{Diagnostics, Dimension, Files, Place, parse_quantity};
-use trueaxis_nc::writer::TipWords;
 use trueaxis_report::Report;
+use trueaxis_writer::TipWords;
 
 /// A path moved onto a measured blank, and the wall that it leaves.
 #[derive(Debug, Clone)]

@@ -11,8 +11,8 @@ use trueaxis_correct::compensate::post::{
 };
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_machine::Machine;
-use trueaxis_nc::writer::{BUILT_IN, Decimals, MOST_DECIMALS, Templates, TipWords, WriteError};
 use trueaxis_report::{Report, document};
+use trueaxis_writer::{BUILT_IN, Decimals, MOST_DECIMALS, Templates, TipWords, WriteError};
 
 /// An NC program from cutter locations. Numbers are as typed, in mm and degrees.
 #[derive(Debug, Clone)]

@@ -9,7 +9,7 @@ use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{AxisKind, Command, Travel};
 use trueaxis::machine::tcp::TipControl;
 use trueaxis::nc::Control;
-use trueaxis::nc::writer::TipWords;
+use trueaxis::writer::TipWords;
 
 pub const CONTROLS: [Control; 4] =
     [Control::Fanuc, Control::Sinumerik840d, Control::Heidenhain, Control::LinuxCnc];

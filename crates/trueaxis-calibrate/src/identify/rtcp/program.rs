@@ -11,10 +11,10 @@ use trueaxis_geometry::Vec3;
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
 use trueaxis_motion::{Batch, Observer, Options, SetUp, simulate};
 use trueaxis_nc::moves::{Axis, Feed, FeedMode, Position};
-use trueaxis_nc::writer::{
+use trueaxis_nc::{Control, Program};
+use trueaxis_writer::{
     Block, Heading, Target, TipWords, ToolCall, WriteError, Writer, axis_coordinates,
 };
-use trueaxis_nc::{Control, Program};
 
 /// Onto the ball and from pose to pose, mm/min (deg/min where only rotary axes move).
 const FEED_PER_MINUTE: f64 = 500.0;

@@ -16,8 +16,8 @@ use trueaxis_machine::tcp::TipControl;
 use trueaxis_motion::collide::{BodyModel, Role};
 use trueaxis_motion::{SetUp, SetUpTool};
 use trueaxis_nc::moves::{Axis, Feed, FeedMode, Position};
-use trueaxis_nc::writer::{Block, Heading, ToolCall, Writer};
 use trueaxis_nc::{Control, Program};
+use trueaxis_writer::{Block, Heading, ToolCall, Writer};
 
 /// From touch to touch the probe goes straight if no rotary axis turns by more than this, rad.
 const NEAR_RAD: f64 = 0.3;

@@ -8,7 +8,7 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::tcp::{POLE_RAD, TipControl};
 use trueaxis_nc::Control;
-use trueaxis_nc::writer::TipWords;
+use trueaxis_writer::TipWords;
 
 /// A stroke is halved so often at most.
 const MOST_HALVINGS: u32 = 20;

@@ -10,7 +10,7 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::moves::{Axis, Coordinates, Feed, FeedMode, SpindleDirection};
-use trueaxis_nc::writer::{
+use trueaxis_writer::{
     Block, Heading, Target, Templates, TipWords, ToolCall, WriteError, Writer, axis_coordinates,
 };
 

@@ -1,11 +1,11 @@
 //! What is written the same way, or nearly so, for all controls.
 
-use super::number::{Form, increments, push};
-use super::template::Values;
-use super::{Heading, Modal, Target, TipWords, ToolCall, WriteError, Writer};
-use super::{fanuc, heidenhain, linuxcnc, sinumerik};
-use crate::dialect::Control;
-use crate::moves::{Axis, Coordinates, Feed, FeedMode, SpindleDirection};
+use crate::number::{Form, increments, push};
+use crate::template::Values;
+use crate::{Heading, Modal, Target, TipWords, ToolCall, WriteError, Writer};
+use crate::{fanuc, heidenhain, linuxcnc, sinumerik};
+use trueaxis_nc::Control;
+use trueaxis_nc::moves::{Axis, Coordinates, Feed, FeedMode, SpindleDirection};
 
 /// Comments and messages are cut at this length: controls have short lines.
 const LONGEST_TEXT: usize = 100;

@@ -1,8 +1,8 @@
 //! SINUMERIK 840D: vectors as A3 B3 C3, SUPA for places from the machine zero.
 
-use super::number::Form;
-use super::{Target, WriteResult, Writer};
-use crate::moves::{Coordinates, Feed};
+use crate::number::Form;
+use crate::{Target, WriteResult, Writer};
+use trueaxis_nc::moves::{Coordinates, Feed};
 
 pub(super) const DWELL: (&[u8], Form) = (b"G4 F", Form::Plain);
 

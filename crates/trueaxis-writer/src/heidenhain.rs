@@ -1,8 +1,8 @@
 //! HEIDENHAIN Klartext: numbered blocks, a sign before every coordinate, FMAX for one block.
 
-use super::number::{Form, push};
-use super::{Target, WriteError, WriteResult, Writer};
-use crate::moves::{Axis, Coordinates, Feed, FeedMode};
+use crate::number::{Form, push};
+use crate::{Target, WriteError, WriteResult, Writer};
+use trueaxis_nc::moves::{Axis, Coordinates, Feed, FeedMode};
 
 pub(super) const DWELL: (&[u8], Form) = (b"FUNCTION DWELL TIME", Form::Plain);
 

@@ -1,8 +1,8 @@
 //! LinuxCNC: G53 with and without feed, no vectors.
 
-use super::number::Form;
-use super::{Target, WriteError, WriteResult, Writer};
-use crate::moves::{Coordinates, Feed};
+use crate::number::Form;
+use crate::{Target, WriteError, WriteResult, Writer};
+use trueaxis_nc::moves::{Coordinates, Feed};
 
 pub(super) const DWELL: (&[u8], Form) = (b"G4 P", Form::Plain);
 

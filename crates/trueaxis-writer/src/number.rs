@@ -1,6 +1,6 @@
 //! Numbers as controls read them: whole least increments, printed without rounding twice.
 
-use super::WriteError;
+use crate::WriteError;
 
 /// How numbers look.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

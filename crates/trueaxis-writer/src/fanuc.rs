@@ -1,8 +1,8 @@
 //! FANUC: a point in every number, G53 in rapid only.
 
-use super::number::Form;
-use super::{Target, WriteError, WriteResult, Writer};
-use crate::moves::{Coordinates, Feed};
+use crate::number::Form;
+use crate::{Target, WriteError, WriteResult, Writer};
+use trueaxis_nc::moves::{Coordinates, Feed};
 
 /// X counts seconds.
 pub(super) const DWELL: (&[u8], Form) = (b"G4 X", Form::Point);

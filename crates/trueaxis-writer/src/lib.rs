@@ -5,12 +5,12 @@
 //!                                   Templates: start, tool call, tool-centre point, end
 //! ```
 //!
-//! [`interpret`](crate::interpret) reads the text back as the same moves to the least increment.
+//! [`interpret`](trueaxis_nc::interpret) reads the text back as the same moves to the least increment.
 //! Modal words that do not change are omitted.
 //!
 //! ```
 //! use trueaxis_nc::moves::{Axis, Feed, FeedMode};
-//! use trueaxis_nc::writer::{Block, Heading, Target, Writer};
+//! use trueaxis_writer::{Block, Heading, Target, Writer};
 //! use trueaxis_nc::Control;
 //! let mut writer = Writer::new(Control::Fanuc);
 //! let feed = Feed { mode: FeedMode::PerMinute, value: 500.0 };
@@ -25,7 +25,7 @@
 //! }
 //! let text = String::from_utf8(writer.finish()).unwrap();
 //! assert!(text.contains("\nG0 X10. A-30.\nG94 G1 X12.5 F500.\nA-30.5\nM9\n"));
-//! # Ok::<(), trueaxis_nc::writer::WriteError>(())
+//! # Ok::<(), trueaxis_writer::WriteError>(())
 //! ```
 
 mod fanuc;
@@ -39,11 +39,11 @@ mod words;
 pub use number::MOST_DECIMALS;
 pub use template::{BUILT_IN, Templates};
 
-use crate::dialect::Control;
-use crate::moves::{
+use number::Form;
+use trueaxis_nc::Control;
+use trueaxis_nc::moves::{
     Axis, AxisSet, Coolant, Coordinates, Feed, FeedMode, Position, SpindleDirection,
 };
-use number::Form;
 
 /// The result of writing a block.
 type WriteResult = Result<(), WriteError>;

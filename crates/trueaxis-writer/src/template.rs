@@ -1,11 +1,11 @@
 //! What differs from machine to machine of the same control: start, tool call, tool-centre point
 //! and end, as text with blanks that the user can edit.
 
-use super::WriteError;
-use crate::dialect::Control;
+use crate::WriteError;
 use minijinja::{AutoEscape, Environment, UndefinedBehavior, context};
 use std::fmt;
 use std::sync::Arc;
+use trueaxis_nc::Control;
 
 /// The template of each control as it comes.
 pub const BUILT_IN: [(Control, &str); 5] = [

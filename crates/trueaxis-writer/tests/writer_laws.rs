@@ -2,10 +2,10 @@
 
 use proptest::prelude::*;
 use trueaxis_nc::moves::{Axis, Coolant, Event, Feed, FeedMode, Move, MoveKind, SpindleDirection};
-use trueaxis_nc::writer::{
+use trueaxis_nc::{Control, NoLibrary, Program, Settings, Step, interpret};
+use trueaxis_writer::{
     Block, Decimals, Heading, Target, Templates, TipWords, ToolCall, WriteError, Writer,
 };
-use trueaxis_nc::{Control, NoLibrary, Program, Settings, Step, interpret};
 
 const CONTROLS: [Control; 4] =
     [Control::LinuxCnc, Control::Fanuc, Control::Sinumerik840d, Control::Heidenhain];
