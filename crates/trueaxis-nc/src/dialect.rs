@@ -39,6 +39,8 @@ pub struct Dialect {
     pub quoted_texts: bool,
     /// A comma may stand for the decimal point.
     pub decimal_comma: bool,
+    /// `@1 ^30` are polar coordinates, `$0` is a spindle.
+    pub sign_words: bool,
     /// `O100 sub`, `O<name> call`: control statements begin with the letter O.
     pub o_words: bool,
     /// `IF [ ] GOTO`, `WHILE [ ] DO1`: control statements are key words, labels are N numbers.
@@ -64,6 +66,7 @@ impl Dialect {
         angle_names: false,
         quoted_texts: false,
         decimal_comma: false,
+        sign_words: false,
         o_words: false,
         macro_words: false,
         fix_towards_zero: false,

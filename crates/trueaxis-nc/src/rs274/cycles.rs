@@ -3,15 +3,18 @@
 use super::{Run, fault};
 use crate::execution::drilling::{Drill, MOST_PECKS, Stroke, check_pecks, pecks, reversed};
 use crate::execution::mistakes;
-use crate::moves::{Event, MoveKind, Position, SpindleDirection};
+use crate::moves::{Axis, Event, MoveKind, Position, SpindleDirection};
 use crate::rs274::code::Cycle;
 use crate::text::program::Fault;
 
 /// What drilling cycles keep from block to block.
 #[derive(Debug, Clone, Default)]
 pub(super) struct CycleMemory {
+    /// R and the depth: LinuxCNC keeps them as they were written, FANUC their places.
     r_mm: Option<f64>,
-    bottom_mm: Option<f64>,
+    depth_mm: Option<f64>,
+    /// LinuxCNC keeps R and depth for the same cycle only.
+    last: Option<Cycle>,
     peck_mm: Option<f64>,
     dwell_s: f64,
     /// Where the drill stood when the cycles began.
@@ -28,6 +31,8 @@ impl CycleMemory {
 struct Hole {
     axis: usize,
     r: f64,
+    /// Where the cycles began.
+    begin: f64,
     bottom: f64,
     clear: f64,
     peck: f64,
@@ -60,12 +65,14 @@ impl Run<'_> {
         let polar = self.modes.transforms.polar.is_some();
         let axes = self.core.modes.plane.axes();
         let steps = if polar { [None; 2] } else { [axes[0], axes[1]].map(|a| self.axis_word(a)) };
-        if self.frames.position.0[hole.axis] < hole.r && cycle != Cycle::BackBore {
+        // FANUC looks at where the drill is, LinuxCNC at where the cycles began.
+        let height = if self.is_fanuc() { self.frames.position.0[hole.axis] } else { hole.begin };
+        if height < hole.r && cycle != Cycle::BackBore {
             let mut up = self.frames.position;
             up.0[hole.axis] = hole.r;
             self.step(MoveKind::Rapid, up);
         }
-        for _ in 0..repeats as u32 {
+        for n in 0..repeats as u32 {
             let mut over = self.frames.position;
             for (axis, step) in axes.iter().zip(steps) {
                 let base = if self.core.modes.incremental { over[*axis] } else { 0.0 };
@@ -73,6 +80,14 @@ impl Run<'_> {
             }
             if let Some(place) = self.polar_place() {
                 (over[axes[0]], over[axes[1]]) = (place[0], place[1]);
+            }
+            if let Some(place) = self.polar_target(false)? {
+                (over[Axis::X], over[Axis::Y]) = (place[0], place[1]);
+            }
+            // LinuxCNC goes on at the height to which its last hole has returned, or as high as this one
+            // will.
+            if !self.is_fanuc() && (n > 0 || over.0[hole.axis] <= hole.r) {
+                over.0[hole.axis] = hole.clear;
             }
             self.step(MoveKind::Rapid, over);
             if cycle == Cycle::BackBore {
@@ -86,6 +101,7 @@ impl Run<'_> {
             let strokes = self.strokes(cycle, &hole);
             self.drill(strokes, at)?;
         }
+        self.words.polar = [None; 2];
         Ok(())
     }
 
@@ -97,18 +113,29 @@ impl Run<'_> {
         }
         let incremental = self.core.modes.incremental;
         let fanuc = self.is_fanuc();
-        // FANUC counts R from where the cycles began, LinuxCNC from where the drill is.
-        let base = self.modes.cycle.initial_mm.filter(|_| fanuc).unwrap_or(now);
-        let r_word = self.length(b'R').map(|r| if incremental { r + base } else { r });
-        let r = r_word.or(self.modes.cycle.r_mm);
-        let Some(r) = r else {
+        let memory = &self.modes.cycle;
+        let keeps = fanuc || memory.last == Some(cycle);
+        let (kept_r, kept_depth) =
+            if keeps { (memory.r_mm, memory.depth_mm) } else { (None, None) };
+        let begin = memory.initial_mm.unwrap_or(now);
+        // G91: R counts from where the cycles began, the depth from R. LinuxCNC reads kept words again by
+        // G90 and G91, FANUC keeps their places.
+        let place = |word: Option<f64>, kept: Option<f64>, base: f64| match (word, kept) {
+            (Some(word), _) => Some(if incremental { word + base } else { word }),
+            (None, Some(kept)) if incremental && !fanuc => Some(kept + base),
+            (None, kept) => kept,
+        };
+        let r_word = self.length(b'R');
+        let Some(r) = place(r_word, kept_r, begin) else {
             let message = "the cycle has no R";
             return Err(fault("cycle-without-r", at, message, "write R, the retraction plane"));
         };
-        let depth = self.axis_word(axis).map(|z| if incremental { z + r } else { z });
-        let Some(bottom) = depth.or(self.modes.cycle.bottom_mm) else {
+        let depth = self.axis_word(axis);
+        let Some(bottom) = place(depth, kept_depth, r) else {
             return Err(mistakes::missing_depth(at));
         };
+        let keep = |word: Option<f64>, kept, place| if fanuc { Some(place) } else { word.or(kept) };
+        let (kept_r, kept_depth) = (keep(r_word, kept_r, r), keep(depth, kept_depth, bottom));
         if (r < bottom) != (cycle == Cycle::BackBore) {
             let message = "the retraction plane R is below the bottom of the hole";
             return Err(fault("cycle-r-below-bottom", at, message, "check R and the depth"));
@@ -123,13 +150,11 @@ impl Run<'_> {
         let second = if fanuc { 1000.0 } else { 1.0 };
         let dwell_s = self.words.take(b'P').map_or(self.modes.cycle.dwell_s, |p| p / second);
         let memory = &mut self.modes.cycle;
-        memory.r_mm = Some(r);
-        memory.bottom_mm = Some(bottom);
+        (memory.r_mm, memory.depth_mm, memory.last) = (kept_r, kept_depth, Some(cycle));
         (memory.peck_mm, memory.dwell_s) = (peck, dwell_s);
-        let initial = memory.initial_mm.unwrap_or(now);
-        let top = if fanuc { initial } else { now };
-        let clear = if self.modes.retract_to_r { r } else { r.max(top) };
-        Ok(Hole { axis: axis as usize, r, bottom, clear, peck: peck.unwrap_or(0.0), dwell_s })
+        let clear = if self.modes.retract_to_r { r } else { r.max(begin) };
+        let peck = peck.unwrap_or(0.0);
+        Ok(Hole { axis: axis as usize, r, begin, bottom, clear, peck, dwell_s })
     }
 
     /// What the drill does from R on.

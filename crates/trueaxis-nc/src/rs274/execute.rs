@@ -382,6 +382,9 @@ impl Run<'_> {
 
     fn motion(&mut self, motion: Motion, machine: bool, at: usize) -> Result<(), Fault> {
         self.settle();
+        if !matches!(motion, Motion::Cycle(_)) {
+            self.polar_words(machine)?;
+        }
         let moves = self.words.has_axis() || self.names_direction();
         if motion == Motion::Cancelled {
             self.modes.cycle.forget();

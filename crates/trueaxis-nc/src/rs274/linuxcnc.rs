@@ -1,6 +1,7 @@
 //! LinuxCNC: the table of its codes and its comments that do something.
 
 mod comments;
+pub(super) mod polar;
 
 use crate::dialect::{Control, Dialect};
 use crate::moves::{CompensationSide as Side, PathControl};
@@ -16,6 +17,7 @@ pub(crate) static DIALECT: Dialect = Dialect {
     paren_comments: true,
     angle_names: true,
     o_words: true,
+    sign_words: true,
     parameters: 5602,
     g_codes: &joined::<47, 39, 86>(RS274_G_CODES, G_CODES),
     m_codes: &joined::<14, 24, 38>(RS274_M_CODES, M_CODES),

@@ -71,7 +71,7 @@ fn offset_of(item: &Item) -> usize {
             *offset
         }
         Item::Comment(range) => range.start,
-        Item::Mark(at) => *at,
+        Item::Mark(at) | Item::LooseEnd(at) => *at,
     }
 }
 

@@ -3,6 +3,7 @@
 use super::cycles::CycleMemory;
 use super::fanuc::macros::ModalMacro;
 use super::fanuc::transforms::Transforms;
+use super::linuxcnc::polar::{self, PolarWord};
 use super::{Passage, Run};
 use crate::execution::Settings;
 use crate::execution::mistakes;
@@ -10,6 +11,10 @@ use crate::execution::values::LARGEST;
 use crate::moves::{Axis, AxisSet, CompensationSide, PathControl, Position};
 use crate::rs274::code::{Action, Motion};
 use crate::text::program::{Fault, Item, Program};
+
+/// What to do about a comment in a comment.
+const LOOSE_END: &str =
+    "a comment ends at its first `)`, and what follows is executed; take out the inner brackets";
 
 /// One bit for each letter that names an axis.
 const AXIS_BITS: u32 = {
@@ -57,7 +62,8 @@ impl Modes {
     pub fn new(settings: &Settings, rapid_at_first: bool) -> Self {
         Self {
             arc_absolute: settings.absolute_centers,
-            retract_to_r: false,
+            // FANUC begins with G98, LinuxCNC with G99.
+            retract_to_r: !rapid_at_first,
             motion: rapid_at_first.then_some(Motion::Rapid),
             base: Motion::Rapid,
             cycle: CycleMemory::default(),
@@ -87,13 +93,15 @@ pub(super) struct Words {
     used: u32,
     /// G and M codes in the order of execution.
     pub actions: Vec<(Action, usize)>,
+    /// `@` and `^` of LinuxCNC.
+    pub polar: [PolarWord; 2],
     /// The arguments of a macro call, in the order of the block.
     pub arguments: Vec<(u8, f64)>,
 }
 
 impl Words {
     pub fn clear(&mut self) {
-        (self.present, self.used) = (0, 0);
+        (self.present, self.used, self.polar) = (0, 0, [None; 2]);
         self.actions.clear();
         self.arguments.clear();
     }
@@ -126,7 +134,7 @@ impl Words {
     }
 
     pub fn has_axis(&self) -> bool {
-        self.present & AXIS_BITS != 0
+        self.present & AXIS_BITS != 0 || self.polar != [None; 2]
     }
 
     /// The axes that the block names.
@@ -190,10 +198,18 @@ impl Run<'_> {
     ) -> Result<(), Fault> {
         let gathering = self.gathering(passage, items);
         for item in items {
+            if let Item::LooseEnd(at) = item {
+                let message = "a `)` without its `(`: it is passed over";
+                self.core.warn("loose-comment-end", 0, *at, message, LOOSE_END);
+            }
             let Item::Word { letter, value, offset } = item else { continue };
             let value = self.value(passage, *value)?;
             match letter {
                 _ if value.is_nan() => {}
+                b'@' => polar::put(&mut words.polar[0], '@', value, *offset)?,
+                b'^' => polar::put(&mut words.polar[1], '^', value, *offset)?,
+                // Which spindle turns does not move the tool.
+                b'$' => {}
                 _ if gathering.is_argument(*letter) => words.arguments.push((*letter, value)),
                 b'N' => self.modes.last[1] = value,
                 b'G' => {
@@ -212,6 +228,11 @@ impl Run<'_> {
                 _ => words.put(*letter, value, *offset)?,
             }
         }
+        // G80 beside another motion is that motion.
+        let cancelled = Action::Motion(Motion::Cancelled);
+        if words.actions.iter().any(|(a, _)| matches!(a, Action::Motion(_)) && *a != cancelled) {
+            words.actions.retain(|(a, _)| *a != cancelled);
+        }
         check_groups(words)
     }
 
@@ -223,6 +244,7 @@ impl Run<'_> {
 
     /// Reports what no code of the block used.
     pub(super) fn report_unused(&mut self) -> Result<(), Fault> {
+        self.no_polar_words_left()?;
         let left: Vec<_> = self.words.unused().collect();
         for (letter, offset) in left {
             let name = char::from(letter);

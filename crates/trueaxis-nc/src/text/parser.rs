@@ -178,6 +178,14 @@ impl<'s, 'b> Parser<'s, 'b> {
             }
             let understood = match token.kind {
                 TokenKind::Letter => self.word_or_control(),
+                TokenKind::Symbol if self.is_sign_word(token) => {
+                    self.word(self.source[token.start], token.start)
+                }
+                TokenKind::Symbol if self.is_loose_end(token) => {
+                    self.block.items.push(Item::LooseEnd(token.start));
+                    self.advance();
+                    true
+                }
                 TokenKind::Symbol if self.source[token.start] == b'#' => self.assignment(),
                 TokenKind::Symbol if self.source[token.start] == b':' => self.program_number(),
                 TokenKind::Name if self.dialect.macro_words => self.called_name(),
@@ -207,11 +215,27 @@ impl<'s, 'b> Parser<'s, 'b> {
         false
     }
 
+    fn is_sign_word(&self, token: Token) -> bool {
+        self.dialect.sign_words && b"@^$".contains(&self.source[token.start])
+    }
+
+    /// The `)` after a comment in a comment: FANUC ends the comment at its first `)`.
+    fn is_loose_end(&self, token: Token) -> bool {
+        let comment = |item: &Item| matches!(item, Item::Comment(_) | Item::LooseEnd(_));
+        self.dialect.macro_words
+            && self.source[token.start] == b')'
+            && self.block.items.last().is_some_and(comment)
+    }
+
     fn word_or_control(&mut self) -> bool {
         if let Some(understood) = self.control() {
             return understood;
         }
         let (Some(letter), offset) = (self.letter(), self.here()) else { return false };
+        self.word(letter, offset)
+    }
+
+    fn word(&mut self, letter: u8, offset: usize) -> bool {
         self.advance();
         let plain = self.token.filter(|t| t.kind == TokenKind::Number);
         let value = match plain {

@@ -172,6 +172,8 @@ pub enum Item {
     Comment(Range<usize>),
     /// A tape mark.
     Mark(usize),
+    /// A `)` without its `(`, after a comment.
+    LooseEnd(usize),
 }
 
 /// One parsed line of a program.

@@ -58,8 +58,8 @@ impl Parser<'_, '_> {
         let offset = self.here();
         self.advance();
         let Some(label) = self.label() else { return false };
-        if self.token.is_none() && matches!(label, Label::Number(_)) {
-            // A program of FANUC's style: called by M98, ended by M99.
+        if self.token.is_none() && matches!(label, Label::Number(_) | Label::Name(_)) {
+            // A program of FANUC's style: called by M98, ended by M99; the main program has a name.
             self.push(Keyword::ProgramNumber, Some(label), Vec::new(), offset);
             return true;
         }
