@@ -86,7 +86,8 @@ pub struct ProgramArguments {
     /// and exact stop, instead of looking ahead within the limits of the axes
     #[arg(long, value_name = "MM_PER_S2", allow_negative_numbers = true)]
     three_phase: Option<String>,
-    /// Backward jumps and calls after which the program counts as an endless loop
+    /// Backward jumps and calls after which the program counts as an endless loop; so do twice as many points of
+    /// the path in its loops
     #[arg(long, value_name = "N", default_value = "1000000")]
     most_jumps: u64,
     /// With --three-phase: the velocity changes smoothly

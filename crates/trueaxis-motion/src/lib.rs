@@ -203,7 +203,7 @@ pub fn execute(
     take: &mut dyn FnMut(Step),
 ) -> Outcome {
     let path = AxisPath::new(mounted, setup, Densify::default(), 0.01);
-    execute_on(mounted, program, setup, settings, &mut Followed { path, take })
+    execute_on(mounted, program, setup, settings, &mut Followed { path, take, points: 0 })
 }
 
 /// The same on a machine that follows the moves.
@@ -262,12 +262,18 @@ pub fn place(program: &Program, programs: &[String], fault: &Fault) -> Place {
 struct Followed<'f, 'm> {
     path: AxisPath<'m>,
     take: &'f mut dyn FnMut(Step),
+    points: u64,
 }
 
 impl Follower for Followed<'_, '_> {
     fn take(&mut self, step: Step) {
-        self.path.take(&step, &mut |_| {});
+        let points = &mut self.points;
+        self.path.take(&step, &mut |_| *points += 1);
         (self.take)(step);
+    }
+
+    fn points(&self) -> u64 {
+        self.points
     }
 
     fn place(&self) -> Option<KnownPosition> {
@@ -284,6 +290,10 @@ impl Follower for Walk<'_, '_> {
         self.follow(&step);
     }
 
+    fn points(&self) -> u64 {
+        self.points
+    }
+
     fn place(&self) -> Option<KnownPosition> {
         Some(self.path.place_now())
     }
@@ -298,6 +308,7 @@ struct Walk<'w, 'o> {
     path: AxisPath<'w>,
     stretch: Stretch<'w, 'o>,
     keep_going: bool,
+    points: u64,
 }
 
 impl<'w, 'o> Walk<'w, 'o> {
@@ -327,7 +338,7 @@ impl<'w, 'o> Walk<'w, 'o> {
             observers,
             faults: Vec::new(),
         };
-        Self { path, stretch, keep_going: options.keep_going }
+        Self { path, stretch, keep_going: options.keep_going, points: 0 }
     }
 
     fn follow(&mut self, step: &Step) {
@@ -336,9 +347,12 @@ impl<'w, 'o> Walk<'w, 'o> {
         if !(self.keep_going || sound) || self.stretch.stop.is_requested() {
             return;
         }
-        let stretch = &mut self.stretch;
+        let (stretch, points) = (&mut self.stretch, &mut self.points);
         stretch.observers.iter_mut().for_each(|o| o.step(step));
-        self.path.take(step, &mut |step| stretch.take(step));
+        self.path.take(step, &mut |step| {
+            *points += 1;
+            stretch.take(step);
+        });
     }
 
     fn finish(mut self) -> Vec<Fault> {

@@ -116,7 +116,10 @@ impl<'m> Folder<'m> {
     fn find(&self, name: &str) -> Option<PathBuf> {
         let plain = !name.contains(['/', '\\', ':']) && !name.is_empty() && name != "..";
         let cases = [name.to_owned(), name.to_ascii_lowercase(), name.to_ascii_uppercase()];
-        let endings = ["", ".ngc", ".nc", ".spf", ".SPF", ".mpf", ".MPF", ".h", ".H", ".NC"];
+        let endings = [
+            "", ".ngc", ".nc", ".NC", ".spf", ".SPF", ".mpf", ".MPF", ".h", ".H", ".cnc", ".CNC",
+            ".tap", ".TAP", ".eia", ".EIA",
+        ];
         let mut all = cases.iter().flat_map(|c| endings.iter().map(move |e| format!("{c}{e}")));
         plain
             .then(|| all.find(|n| self.files.is_file(&self.path.join(n))))

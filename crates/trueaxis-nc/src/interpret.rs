@@ -28,7 +28,7 @@ pub fn interpret(
     settings: &Settings,
     take: &mut dyn FnMut(Step),
 ) -> Outcome {
-    interpret_on(program, library, settings, &mut Alone(take))
+    interpret_on(program, library, settings, &mut Alone { take, steps: 0 })
 }
 
 /// Executes a program on a machine that follows it: incremental words and axes that a block does not name

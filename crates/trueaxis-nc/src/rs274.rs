@@ -29,6 +29,7 @@ use crate::execution::{Core, Language, Next, Outcome};
 use crate::moves::{Move, Position};
 use crate::text::program::{Block, Fault, Label, Program, fault};
 use frames::Frames;
+use linuxcnc::modal_state::Saved;
 use parameters::Locals;
 use quick::CodeTable;
 use words::{Modes, Words};
@@ -60,6 +61,8 @@ struct Activation {
     named: bool,
     /// Its `#1` … are those of its caller: M98.
     shares_locals: bool,
+    /// M70 and M73 of LinuxCNC.
+    saved: Saved,
 }
 
 /// A block and the program that it stands in.

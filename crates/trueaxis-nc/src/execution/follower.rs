@@ -17,6 +17,9 @@ pub trait Follower {
 
     /// The present axis positions; `None` without a machine.
     fn axis_positions(&self) -> Option<KnownPosition>;
+
+    /// How many points of the path it has made so far: loops that make many end earlier.
+    fn points(&self) -> u64;
 }
 
 /// A place, and for which axes it is known.
@@ -45,11 +48,19 @@ impl KnownPosition {
 }
 
 /// A program without a machine: its frames alone say where it is.
-pub(crate) struct Alone<'t>(pub &'t mut dyn FnMut(Step));
+pub(crate) struct Alone<'t> {
+    pub take: &'t mut dyn FnMut(Step),
+    pub steps: u64,
+}
 
 impl Follower for Alone<'_> {
     fn take(&mut self, step: Step) {
-        (self.0)(step);
+        self.steps += 1;
+        (self.take)(step);
+    }
+
+    fn points(&self) -> u64 {
+        self.steps
     }
 
     fn place(&self) -> Option<KnownPosition> {

@@ -116,8 +116,9 @@ pub(crate) struct Core<'r> {
     /// Where the block begins that is being executed.
     pub start: usize,
     pub modes: Modes,
-    /// Backward jumps and calls.
+    /// Backward jumps and calls, and the points of the path before the first of them.
     jumps: u64,
+    points_before: u64,
     /// The last reported frame.
     reported_frame: Frame,
     problems: Diagnostics,
@@ -145,6 +146,7 @@ impl<'r> Core<'r> {
             start: 0,
             modes: Modes::new(settings),
             jumps: 0,
+            points_before: 0,
             reported_frame: Frame::IDENTITY,
             problems: Diagnostics::new(),
             errors: 0,
@@ -267,12 +269,19 @@ impl<'r> Core<'r> {
 
     /// Counts a call or a jump backwards.
     pub fn count(&mut self, at: usize) -> Result<(), Fault> {
+        /// A loop of more points counts as so many more rounds.
+        const POINTS_OF_A_JUMP: u64 = 2;
+        let points = self.follower.points();
+        if self.jumps == 0 {
+            self.points_before = points;
+        }
         self.jumps += 1;
         let most = self.settings.most_jumps;
-        if self.jumps <= most {
+        let made = (points - self.points_before) / POINTS_OF_A_JUMP;
+        if self.jumps.max(made) <= most {
             return Ok(());
         }
-        Err(self.for_good(mistakes::endless_loop(most, at)))
+        Err(self.for_good(mistakes::endless_loop(most, POINTS_OF_A_JUMP * most, at)))
     }
 
     /// Looks whether one more call within the `depth` that are there goes too deep.

@@ -5,9 +5,12 @@ use std::fmt::Display;
 use crate::moves::FeedMode;
 use crate::text::program::{Fault, fault};
 
-pub(crate) fn endless_loop(most: u64, at: usize) -> Fault {
-    let message = format!("more than {most} jumps and calls: probably an endless loop");
-    fault("endless-loop", at, message, "check the condition of the loop, or raise the limit")
+pub(crate) fn endless_loop(most: u64, points: u64, at: usize) -> Fault {
+    let message = format!(
+        "more than {most} jumps and calls, or {points} points of the path in them: probably an endless loop"
+    );
+    let hint = "check the condition of the loop, or raise the limit: --most-jumps of simulate";
+    fault("endless-loop", at, message, hint)
 }
 
 pub(crate) fn calls_too_deep(deepest: usize, at: usize) -> Fault {

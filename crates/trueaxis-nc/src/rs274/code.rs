@@ -187,6 +187,21 @@ pub enum Action {
     NotApplied(&'static str),
     /// The same, but the words of its block belong to the other codes.
     NotAppliedAlone(&'static str),
+    /// M70 to M73 of LinuxCNC.
+    ModalState(Saving),
+}
+
+/// What M70 to M73 of LinuxCNC do with the modal state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Saving {
+    /// M70: it is saved.
+    Save,
+    /// M71: what was saved is forgotten.
+    Forget,
+    /// M72: it comes back.
+    Restore,
+    /// M73: it is saved, and the return from the subprogram restores it.
+    SaveUntilReturn,
 }
 
 impl Action {
@@ -196,6 +211,7 @@ impl Action {
             Self::Feed(_) => 2,
             Self::SurfaceSpeed(_) => 3,
             Self::ToolChange => 7,
+            Self::ModalState(_) => 8,
             Self::Spindle(_) | Self::Orient => 8,
             Self::Coolant(_) => 9,
             Self::Note(_)

@@ -279,6 +279,7 @@ impl Run<'_> {
                 self.modes.macros.pop();
             }
             Action::DataInputEnd => {}
+            Action::ModalState(saving) => self.save_or_restore(saving, at)?,
             Action::Note(_)
             | Action::NoteWhole(_)
             | Action::NotApplied(_)
@@ -355,7 +356,7 @@ impl Run<'_> {
         Ok(())
     }
 
-    fn compensation(&mut self, side: CompensationSide, at: usize) {
+    pub(super) fn compensation(&mut self, side: CompensationSide, at: usize) {
         if let Some(number) = self.words.take(b'D') {
             self.modes.last[2] = number;
         }
@@ -371,7 +372,7 @@ impl Run<'_> {
             self.words.take(b'Q');
             self.words.take(b'R');
         }
-        self.modes.path = control;
+        (self.modes.path, self.modes.path_tolerance_mm) = (control, tolerance_mm);
         self.core.emit(Event::Path { control, tolerance_mm });
     }
 

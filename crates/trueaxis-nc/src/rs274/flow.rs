@@ -21,6 +21,7 @@ impl Activation {
             repeats: 0,
             named: false,
             shares_locals: false,
+            saved: super::linuxcnc::modal_state::Saved::default(),
             entry: (at, line),
         }
     }
@@ -337,7 +338,9 @@ impl Run<'_> {
                     return Err(unopened(statement));
                 }
                 self.returned = value;
-                self.stack.pop();
+                if let Some(ended) = self.stack.pop() {
+                    self.restore_at_return(&ended.saved, at);
+                }
                 Ok(Next::Jumped)
             }
         }
@@ -384,6 +387,22 @@ impl Run<'_> {
         }
     }
 
+    /// The names that the file of a subprogram may have: a number of four, five or eight digits, or alone.
+    fn file_names(&self, label: &Label, name: &str) -> Vec<String> {
+        match label {
+            Label::Number(n) if self.is_fanuc() => {
+                vec![
+                    name.to_owned(),
+                    format!("O{n:05}"),
+                    format!("O{n:08}"),
+                    format!("O{n}"),
+                    n.to_string(),
+                ]
+            }
+            _ => vec![name.to_owned()],
+        }
+    }
+
     pub(super) fn find_sub(
         &mut self,
         program: &Program,
@@ -400,7 +419,7 @@ impl Run<'_> {
             return Ok((here, start, line));
         }
         let name = self.name_of(label);
-        let number = self.core.load(&name, [name.clone()], at)?;
+        let number = self.core.load(&name, self.file_names(label, &name), at)?;
         match place(&self.core.programs[number]) {
             Some((start, line)) => Ok((number, start, line)),
             None if program.dialect().macro_words => Ok((number, 0, 1)),

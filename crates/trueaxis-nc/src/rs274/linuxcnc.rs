@@ -1,11 +1,12 @@
 //! LinuxCNC: the table of its codes and its comments that do something.
 
 mod comments;
+pub(super) mod modal_state;
 pub(super) mod polar;
 
 use crate::dialect::{Control, Dialect};
 use crate::moves::{CompensationSide as Side, PathControl};
-use crate::rs274::code::{Action as A, Motion};
+use crate::rs274::code::{Action as A, Motion, Saving};
 use crate::rs274::common_codes::{RS274_G_CODES, RS274_M_CODES, joined};
 
 /// LinuxCNC, RS274/NGC.
@@ -80,10 +81,10 @@ const M_CODES: [(u16, A); 24] = [
     (66, A::Note("M66 wait on input")),
     (67, A::Note("M67 analog output")),
     (68, A::Note("M68 analog output")),
-    (70, A::NotAppliedAlone("M70 save modal state")),
-    (71, A::NotAppliedAlone("M71 forget modal state")),
-    (72, A::NotAppliedAlone("M72 restore modal state")),
-    (73, A::NotAppliedAlone("M73 save modal state of the subprogram")),
+    (70, A::ModalState(Saving::Save)),
+    (71, A::ModalState(Saving::Forget)),
+    (72, A::ModalState(Saving::Restore)),
+    (73, A::ModalState(Saving::SaveUntilReturn)),
     (98, A::Call),
     (99, A::Return),
     (128, A::Kinematics(true)),

@@ -92,7 +92,7 @@ impl Run<'_> {
         self.emit_frame();
     }
 
-    fn select_offset(&mut self, index: usize, at: usize) {
+    pub(super) fn select_offset(&mut self, index: usize, at: usize) {
         if index == self.frames.active {
             return;
         }
@@ -167,7 +167,7 @@ impl Run<'_> {
         Ok(())
     }
 
-    fn set_tool_length(&mut self, length: Position) {
+    pub(super) fn set_tool_length(&mut self, length: Position) {
         if self.modes.transforms.tilted {
             // The tool stands along Z of the tilted plane.
             let longer = length.minus(&self.frames.tool);

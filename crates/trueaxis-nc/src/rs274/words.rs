@@ -43,6 +43,8 @@ pub(super) struct Modes {
     pub length_number: Option<u32>,
     pub compensation: CompensationSide,
     pub path: PathControl,
+    /// P of G64, mm.
+    pub path_tolerance_mm: f64,
     pub transforms: Transforms,
     /// Where G28 or G30 came through last.
     pub via: Option<Position>,
@@ -72,6 +74,7 @@ impl Modes {
             length_number: None,
             compensation: CompensationSide::Off,
             path: PathControl::Continuous,
+            path_tolerance_mm: 0.0,
             transforms: Transforms::default(),
             via: None,
             data_input: false,
@@ -317,6 +320,7 @@ pub(super) fn check_groups(words: &Words) -> Result<(), Fault> {
         | Action::NoteWhole(_)
         | Action::NotApplied(_)
         | Action::NotAppliedAlone(_)
+        | Action::ModalState(_)
         | Action::Kinematics(_)
         | Action::ModalMacroOff
         | Action::DataInputEnd

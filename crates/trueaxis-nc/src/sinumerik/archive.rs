@@ -72,7 +72,7 @@ pub fn read_archive(file: &str, text: &[u8]) -> (Archive, Diagnostics) {
     // A dump has no loops.
     let settings = Settings { keep_going: true, most_jumps: 1000, ..Settings::default() };
     let mut ignore = |_| {};
-    let mut alone = Alone(&mut ignore);
+    let mut alone = Alone { take: &mut ignore, steps: 0 };
     let core = Core::new(&program, &NoLibrary, &settings, &mut alone);
     let mut run = Run::new(&program, core);
     run.archive = Some(Box::default());

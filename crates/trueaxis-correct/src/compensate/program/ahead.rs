@@ -75,13 +75,14 @@ pub(super) struct Gather<'m> {
     stretch: Stretch,
     /// `None` as soon as no receiver is left.
     to: Option<SyncSender<Stretch>>,
+    points: u64,
 }
 
 impl<'m> Gather<'m> {
     /// With the end at which the stretches come out.
     pub fn along(nominal: AxisPath<'m>) -> (Self, Receiver<Stretch>) {
         let (to, from) = sync_channel(WAITING);
-        (Self { nominal, stretch: Stretch::default(), to: Some(to) }, from)
+        (Self { nominal, stretch: Stretch::default(), to: Some(to), points: 0 }, from)
     }
 
     fn send(&mut self) {
@@ -115,6 +116,7 @@ impl Follower for Gather<'_> {
         let changes_tool = matches!(step, Step::Event(Event::ToolChange(_), _));
         let cuts = matches!(step, Step::Move(m) if is_cut(&m));
         let nodes = from..nodes.len();
+        self.points += nodes.len() as u64;
         let begins_cut = AxisSet::default();
         self.stretch.steps.push(Ahead { step, begin, nodes, begins_cut, fault });
         if cuts {
@@ -126,6 +128,10 @@ impl Follower for Gather<'_> {
         if changes_tool || full && !waits {
             self.send();
         }
+    }
+
+    fn points(&self) -> u64 {
+        self.points
     }
 
     fn place(&self) -> Option<KnownPosition> {

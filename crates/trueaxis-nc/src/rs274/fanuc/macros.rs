@@ -265,10 +265,11 @@ impl Run<'_> {
             (frame.at, frame.line, frame.named) = (start, line, start > 0);
             return Ok(Next::Jumped);
         }
-        if let Some(ended) = self.stack.pop()
-            && ended.shares_locals
-        {
-            self.frame().locals = ended.locals;
+        if let Some(ended) = self.stack.pop() {
+            self.restore_at_return(&ended.saved, at);
+            if ended.shares_locals {
+                self.frame().locals = ended.locals;
+            }
         }
         let depth = self.stack.len();
         self.modes.macros.retain(|m| m.depth <= depth);
