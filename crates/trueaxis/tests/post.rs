@@ -327,3 +327,62 @@ fn oracle_linuxcnc_inverse_of_tilting_tables() {
     println!("{count} positions, worst {worst:.2e} mm");
     assert!(count == 400 && worst < 1e-9, "{worst}");
 }
+
+/// Tools one after the other, each with its own place and tool axis: the way to a tool's first place
+/// is no way of the file, and is not judged as one.
+#[test]
+fn law_tool_changes_are_not_on_the_path() {
+    for name in MACHINES {
+        let machine = machine(name);
+        let one = free_form(&machine, 5, 12);
+        let points = |text: &str| {
+            let lines: Vec<_> = text.lines().filter(|l| l.starts_with("GOTO")).collect();
+            lines.join("\n")
+        };
+        let other = points(&free_form(&machine, 6, 12));
+        let text = format!(
+            "UNITS/MM\nMULTAX/ON\nLOADTL/1\nFEDRAT/900\n{}\nLOADTL/2\n{other}\nLOADTL/3\nRAPID\n{}\n",
+            points(&one),
+            points(&one)
+        );
+        for options in ways() {
+            let posted = posted(&machine, &text, &options);
+            let proof = verify(&machine, &posted, &options);
+            assert!(proof.is_within(&options), "{name} {:?} {proof:?}", options.control);
+            assert_eq!(proof.compared, posted.blocks);
+        }
+    }
+}
+
+/// A path that crosses itself with other tool axes, and one whose tip hardly moves while the tool
+/// turns: every place is compared with the tool axis that belongs there.
+#[test]
+fn law_the_tool_axis_is_compared_along_the_path() {
+    let machine = machine("i5-engraver");
+    let mut text = "UNITS/MM\nMULTAX/ON\nFEDRAT/900\n".to_owned();
+    for k in 0..=120 {
+        let u = TAU * f64::from(k) / 120.0;
+        let (tilt, turn) = (0.5 + 0.2 * u.sin(), u);
+        let (s, c) = tilt.sin_cos();
+        let axis = Vec3::new(s * turn.cos(), s * turn.sin(), c);
+        let tip = [10.0 * u.sin(), 5.0 * (2.0 * u).sin(), 2.0];
+        let [x, y, z] = tip;
+        let _ = writeln!(text, "GOTO/{x},{y},{z},{},{},{}", axis.x, axis.y, axis.z);
+    }
+    for (k, way) in [0.0, 0.004, 0.03, 0.2].into_iter().enumerate() {
+        let tilt = 0.2 + 0.4 * f64::from(k as u32 % 2);
+        let _ = writeln!(text, "GOTO/{way},0,2,0,{},{}", -tilt.sin(), tilt.cos());
+        let _ = writeln!(text, "GOTO/0,{way},2,{},0,{}", tilt.sin(), tilt.cos());
+    }
+    for options in ways() {
+        let posted = posted(&machine, &text, &options);
+        let proof = verify(&machine, &posted, &options);
+        assert!(
+            proof.is_within(&options),
+            "{:?} {:?} {proof:?}",
+            options.control,
+            options.tip_words
+        );
+        assert_eq!(proof.compared, posted.blocks);
+    }
+}

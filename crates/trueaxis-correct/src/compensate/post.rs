@@ -96,6 +96,9 @@ pub(crate) struct BlockPlace {
     line: u32,
     /// The stroke.
     stroke: u32,
+    /// Which part of the stroke it begins at; `None` where it is not the way of the stroke: the
+    /// tool comes down to its end after a tool change, or at the beginning.
+    from: Option<f64>,
     /// Which part of the stroke it ends: 1 is its end.
     until: f64,
 }

@@ -13,8 +13,8 @@ use trueaxis_writer::TipWords;
 /// A stroke is halved so often at most.
 const MOST_HALVINGS: u32 = 20;
 
-/// Pieces are cut within this share of the tolerances: between the places that are checked, and
-/// against the nearest place of the path instead of the one at the same time, they come out wider.
+/// Pieces are cut within this share of the tolerances: between the places that are examined, and by
+/// rounding, they come out wider.
 const SHARE: f64 = 0.8;
 
 /// What the control keeps straight between two blocks.

@@ -1,6 +1,6 @@
 //! The proof: the written text, read back and simulated, against the cutter-location file.
 
-use super::path::{Stand, Stroke, Way};
+use super::path::{Stand, Stroke};
 use super::{BlockPlace, PostOptions, Posted, angle};
 use trueaxis_geometry::Vec3;
 use trueaxis_input::Diagnostics;
@@ -65,7 +65,8 @@ impl Largest {
 /// Reads a written program back and states the largest differences from the file.
 ///
 /// It goes through the interpreter of the control and the nominal machine as any program of a user
-/// does; only which stroke a block belongs to is kept from the writing.
+/// does; only which part of which stroke a block belongs to is kept from the writing. Between the ends
+/// of a block the same part of the block and of the stroke are compared.
 pub fn verify(machine: &Machine, posted: &Posted, options: &PostOptions) -> Verification {
     let program = Program::new(&options.name, posted.text.clone(), options.control);
     let densify = Densify::Tolerance {
@@ -93,13 +94,18 @@ struct Compare<'p> {
     next: usize,
     /// Where the tool was last.
     at: Stand,
+    /// The length of the present move so far. Unit: mm or deg.
+    length: f64,
+    /// Its places so far, each with the length up to there.
+    way: Vec<(f64, Stand)>,
     found: Verification,
 }
 
 impl<'p> Compare<'p> {
     fn with(posted: &'p Posted) -> Self {
         let at = Stand { tip: Vec3::repeat(f64::NAN), axis: Vec3::z() };
-        Self { posted, next: 0, at, found: Verification::default() }
+        let found = Verification::default();
+        Self { posted, next: 0, at, length: 0.0, way: Vec::new(), found }
     }
 
     /// The tool is at the ends of all blocks up to one, without having moved since.
@@ -128,47 +134,22 @@ impl<'p> Compare<'p> {
         self.found.compared += 1;
     }
 
-    fn on_the_way(&mut self, index: usize, is: Stand) {
+    /// The places of a block that has come to its end, each against the same place of the path.
+    ///
+    /// A control goes through a block evenly: after a part of its length it belongs at the same part
+    /// of the stroke. The nearest place would not do: where the tip hardly moves, or crosses its own
+    /// path, another tool axis belongs to it.
+    fn along(&mut self, index: usize, length: f64) {
         let place = self.posted.places[index];
-        let (stroke, from) = self.stroke(&place);
-        // The way to the first place of all is not on the path.
-        if place.stroke == 0 {
-            return;
-        }
-        let begins = match index.checked_sub(1).map(|i| self.posted.places[i]) {
-            Some(before) if before.stroke == place.stroke => before.until,
-            _ => 0.0,
-        };
-        let wanted = stroke.at(&from, nearest(stroke, &from, &is, begins, place.until));
+        let (stroke, start) = self.stroke(&place);
         let (line, file_line) = (place.line, stroke.line);
-        self.found.tip_between.take((is.tip - wanted.tip).norm(), line, file_line);
-        self.found.axis_between.take(angle(&is.axis, &wanted.axis), line, file_line);
+        let Some(from) = place.from else { return self.way.clear() };
+        for (so_far, is) in self.way.drain(..) {
+            let wanted = stroke.at(&start, from + (place.until - from) * so_far / length);
+            self.found.tip_between.take((is.tip - wanted.tip).norm(), line, file_line);
+            self.found.axis_between.take(angle(&is.axis, &wanted.axis), line, file_line);
+        }
     }
-}
-
-/// The place of a stroke next to where the tool is.
-fn nearest(stroke: &Stroke, from: &Stand, is: &Stand, begins: f64, ends: f64) -> f64 {
-    let way = stroke.to.tip - from.tip;
-    let u = match stroke.way {
-        Way::Arc { center, normal, angle_rad } => {
-            let flat = |p: Vec3| {
-                let arm = p - center;
-                arm - normal * normal.dot(&arm)
-            };
-            let (a, b) = (flat(from.tip), flat(is.tip));
-            let turned = normal.dot(&a.cross(&b)).atan2(a.dot(&b));
-            let full = std::f64::consts::TAU;
-            let middle = 0.5 * (begins + ends) * angle_rad;
-            let turned = turned + full * ((middle - turned) / full).round();
-            turned / angle_rad
-        }
-        Way::Line if way.norm() > 1e-9 => (is.tip - from.tip).dot(&way) / way.norm_squared(),
-        Way::Line => {
-            let whole = angle(&from.axis, &stroke.to.axis);
-            if whole > 0.0 { angle(&from.axis, &is.axis) / whole } else { ends }
-        }
-    };
-    u.clamp(begins, ends)
 }
 
 impl Observer for Compare<'_> {
@@ -181,11 +162,16 @@ impl Observer for Compare<'_> {
             let index = places.partition_point(|p| p.line < line);
             let on_path = places.get(index).is_some_and(|p| p.line == line);
             self.skip_to(index);
+            self.length += node.length;
             if on_path && node.last {
+                self.along(index, self.length);
                 self.at_end(index, is);
                 self.next = index + 1;
             } else if on_path {
-                self.on_the_way(index, is);
+                self.way.push((self.length, is));
+            }
+            if node.last {
+                self.length = 0.0;
             }
             self.at = is;
         }

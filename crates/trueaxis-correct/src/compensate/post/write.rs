@@ -155,7 +155,7 @@ impl Post<'_> {
                 let node = Node { command: self.exact(&node.stand, &node.command), ..*node };
                 let feed = (!stroke.rapid)
                     .then(|| feed_of(self.machine, self.options, &here, &node, stroke.feed));
-                self.go(&node, feed, Some(index), stroke.line)?;
+                self.go(&node, feed, Some((index, Some(here.u))), stroke.line)?;
                 here = node;
                 Ok(())
             })?;
@@ -203,7 +203,7 @@ impl Post<'_> {
             false => (next.rapid, next.feed),
         };
         let feed = (!rapid).then(|| feed_of(self.machine, self.options, &above, begin, feed));
-        self.go(begin, feed, leg.cuts_first.then_some(leg.first), line)
+        self.go(begin, feed, leg.cuts_first.then_some((leg.first, None)), line)
     }
 
     /// From the end of a leg: back along the tool axis and up.
@@ -250,12 +250,13 @@ impl Post<'_> {
         }
     }
 
-    /// A block to a place; `stroke` where it is on the path.
+    /// A block to a place; `stroke` where it is on the path, with the place on it from which the tool
+    /// comes along the stroke.
     fn go(
         &mut self,
         node: &Node,
         feed: Option<Feed>,
-        stroke: Option<usize>,
+        stroke: Option<(usize, Option<f64>)>,
         line: u32,
     ) -> Result<(), Fault> {
         self.cutter.inside(&node.command, line)?;
@@ -269,9 +270,9 @@ impl Post<'_> {
         };
         let before = self.line;
         self.block(&block, line)?;
-        if let (Some(stroke), true) = (stroke, self.line > before) {
+        if let (Some((stroke, from)), true) = (stroke, self.line > before) {
             let (line, stroke, until) = (self.line, stroke as u32, node.u);
-            self.places.push(BlockPlace { line, stroke, until });
+            self.places.push(BlockPlace { line, stroke, from, until });
             self.blocks += 1;
         }
         if self.blocks > MOST_BLOCKS {
