@@ -1,6 +1,7 @@
 //! Execution of programs: the parts that the three languages share.
 
 pub(crate) mod arcs;
+pub(crate) mod corners;
 pub(crate) mod drilling;
 mod follower;
 pub(crate) mod frames;

@@ -7,8 +7,7 @@
 //! A block is executed while it is read: Klartext has no expression that reaches beyond its block,
 //! so no tree is built.
 //!
-//! Not applied, each with a warning: radius and 3D compensation, RND and CHF (the corner is
-//! kept), APPR (a line to its point), cycles other than drilling, patterns, probing, datum tables,
+//! Not applied, each with a warning: radius and 3D compensation, APPR (a line to its point), cycles other than drilling, patterns, probing, datum tables,
 //! M140 MB MAX, M103, M109, M138 … Errors, because the path would be unknown: free contours (FK),
 //! PLANE PROJECTED and AXIAL, structured IF, FOR and WHILE, and values that only the machine knows
 //! (FN 18, Q100 to Q199) as soon as they are used.

@@ -6,6 +6,7 @@ use std::rc::Rc;
 
 use trueaxis_input::{Diagnostics, Place};
 
+use super::corners::Corners;
 use super::{Follower, Library, Modes, Outcome, Settings, mistakes};
 use crate::moves::{
     Coordinates, Event, Frame, Move, MoveKind, Origin, Position, RotaryDirection, Step,
@@ -65,6 +66,7 @@ pub(crate) trait Language<'r> {
     fn read_place(&mut self) {
         self.emit_frame();
         let core = self.core();
+        core.end_corner("the place after its block is read from the machine");
         core.is_unread = false;
         let Some(place) = core.follower.place() else { return };
         let place = place.over(&self.position());
@@ -95,6 +97,7 @@ pub(crate) trait Language<'r> {
     fn outcome(&mut self) -> Outcome {
         let finished = self.run();
         let core = self.core();
+        core.end_corner("no move follows it");
         let programs = core.programs.iter().map(|p| p.file().to_owned()).collect();
         Outcome { problems: std::mem::take(&mut core.problems), finished, programs }
     }
@@ -104,7 +107,8 @@ pub(crate) trait Language<'r> {
 pub(crate) struct Core<'r> {
     pub library: &'r dyn Library,
     pub settings: &'r Settings,
-    follower: &'r mut dyn Follower,
+    pub(super) follower: &'r mut dyn Follower,
+    pub(super) corners: Corners,
     /// The place in the program frame is to be read again.
     is_unread: bool,
     /// The main program, then the others in the order of their first call.
@@ -139,6 +143,7 @@ impl<'r> Core<'r> {
             library,
             settings,
             follower,
+            corners: Corners::default(),
             is_unread: true,
             programs: vec![Rc::new(program.clone())],
             loaded: HashMap::new(),
@@ -171,17 +176,30 @@ impl<'r> Core<'r> {
     #[inline]
     pub fn emit(&mut self, event: Event) {
         self.is_unread |= changes_place(&event);
-        self.follower.take(Step::Event(event, self.origin));
+        self.hand_out(Step::Event(event, self.origin));
     }
 
     #[inline]
     pub fn emit_move(&mut self, step: Move) {
         self.is_unread |= ends_elsewhere(&step);
-        self.follower.take(Step::Move(step));
+        self.hand_out(Step::Move(step));
+    }
+
+    #[inline]
+    fn hand_out(&mut self, step: Step) {
+        if self.corners.are_off() {
+            self.follower.take(step);
+        } else {
+            self.step_at_corner(step);
+        }
     }
 
     /// Where the axes are, if a machine follows the program; else as the frames of the program say.
     pub fn axis_positions(&self, by_frames: Position) -> Position {
+        if self.corners.is_waiting() {
+            // The machine has not made the last move yet.
+            return by_frames;
+        }
         self.follower.axis_positions().map_or(by_frames, |place| place.over(&by_frames))
     }
 
@@ -211,6 +229,7 @@ impl<'r> Core<'r> {
 
     /// Reports a fault; whether the run continues after its block.
     fn goes_on_after(&mut self, fault: Fault) -> bool {
+        self.forget_corner();
         self.report(fault);
         self.settings.keep_going && !self.stopped && self.errors < MOST_ERRORS
     }

@@ -5,6 +5,7 @@ use super::plane::spatial;
 use super::words::{FeedWord, Words};
 use super::{Language, Run, fault};
 use crate::execution::Next;
+use crate::execution::corners::{Corner, is_size};
 use crate::execution::frames::unit;
 use crate::execution::mistakes;
 use crate::moves::{
@@ -12,6 +13,7 @@ use crate::moves::{
     RotaryDirection,
 };
 use crate::text::program::Fault;
+use trueaxis_cycles::corner::Shape;
 
 impl Run<'_> {
     /// Executes a path block; `None` if the block is none.
@@ -51,23 +53,56 @@ impl Run<'_> {
         match kind {
             8 => self.pole_statement(&words)?,
             9 | 10 => {
-                let name = ["RND", "CHF"][kind - 9];
-                if words.arc_radius.or(leg).is_none() {
-                    let message = format!("{name} needs a size");
-                    return Err(fault("missing-value", words.at, message, "write RND R5 or CHF 2"));
-                }
-                let message = format!("{name} is not applied: the path keeps the sharp corner");
-                self.core.warn(
-                    "not-applied",
-                    name,
-                    words.at,
-                    &message,
-                    "the path has a sharp corner",
-                );
+                self.corner(kind, leg, &words)?;
             }
             _ => return self.travel(kind, form, &words).map(Some),
         }
         Ok(Some(Next::Following))
+    }
+
+    /// Whether the next block is RND or CHF: the move of this block then ends before its target.
+    fn corner_follows(&self) -> bool {
+        let Some(active) = self.stack.last() else { return false };
+        let source = self.core.program().source();
+        let rest = source.get(active.at..).unwrap_or_default();
+        for line in rest.split(|b| matches!(b, b'\n' | b'\r')) {
+            let number = line.iter().take_while(|b| b.is_ascii_digit() || **b == b' ').count();
+            match line[number..].first() {
+                None | Some(b';' | b'*') => {}
+                _ => {
+                    let word = line.get(number..number + 3).unwrap_or_default();
+                    return [b"RND", b"CHF"].iter().any(|w| word.eq_ignore_ascii_case(*w));
+                }
+            }
+        }
+        false
+    }
+
+    /// RND R and CHF: a rounding or a chamfer with this side between the blocks before and after it; F is
+    /// for it alone.
+    fn corner(&mut self, kind: usize, leg: Option<f64>, words: &Words) -> Result<(), Fault> {
+        let name = ["RND", "CHF"][kind - 9];
+        let unit_mm = self.core.modes.unit_mm();
+        let size = words.arc_radius.or(leg.map(|l| l * unit_mm)).filter(|size| is_size(*size));
+        let Some(size) = size else {
+            let message = format!("{name} needs a size above 0");
+            return Err(fault("missing-value", words.at, message, "write RND R5 or CHF 2"));
+        };
+        let shape = if kind == 9 {
+            Shape::Round { radius_mm: size }
+        } else {
+            Shape::ChamferLeg { leg_mm: size }
+        };
+        let modal = self.core.modes.feed;
+        let rapid = self.feed(words);
+        let own = std::mem::replace(&mut self.core.modes.feed, modal);
+        let feed = (words.feed.is_some() && !rapid).then_some(own);
+        if !self.core.corner_here(Corner { shape, feed, name, modal: false, at: words.at }) {
+            let message = format!("{name} is not applied: no contour element stands before it");
+            let hint = "write it between two blocks with L, C, CR or CT";
+            self.core.warn("not-applied", name, words.at, message, hint);
+        }
+        Ok(())
     }
 
     /// A block that begins with an axis or with an M function.
@@ -101,6 +136,9 @@ impl Run<'_> {
             return Ok(Next::Finished);
         }
         self.settle();
+        if self.corner_follows() {
+            self.core.corner_after_next(self.position(), None);
+        }
         match kind {
             0 => self.line(words, rapid)?,
             1 => {
@@ -115,6 +153,7 @@ impl Run<'_> {
             }
             _ => self.circle(kind, words, rapid)?,
         }
+        self.core.forget_corner();
         if self.functions(words, true)? {
             return Ok(Next::Finished);
         }

@@ -1,10 +1,12 @@
 //! Executes the words of a block in the order of RS274/NGC.
 
 use super::{Language, Next, Passage, Run, fault};
+use crate::execution::corners::{Corner, is_size};
 use crate::execution::mistakes;
 use crate::moves::{Axis, CompensationSide, Event, Move, MoveKind, PathControl, Position};
 use crate::rs274::code::{Action, Motion};
 use crate::text::program::{Block, Fault, Item, Keyword, Label, Program};
+use trueaxis_cycles::corner::Shape;
 
 impl Run<'_> {
     /// Executes one block.
@@ -80,9 +82,14 @@ impl Run<'_> {
         let actions = std::mem::take(&mut self.words.actions);
         let result = self.perform_actions(&actions, block);
         self.words.actions = actions;
+        self.core.forget_corner();
         let next = result?;
         if next != Next::Following {
             return Ok(next);
+        }
+        if let Some((_, _, at)) = self.words.corner {
+            let message = "no move of this block has the corner ,C or ,R";
+            return Err(fault("unused-word", at, message, "write it after G1, G2 or G3"));
         }
         self.report_unused()?;
         if self.called.take().is_some() {
@@ -414,6 +421,7 @@ impl Run<'_> {
         if !matches!(motion, Motion::Rapid | Motion::Thread | Motion::RigidTap) {
             self.core.modes.check_feed(at)?;
         }
+        self.corner()?;
         match motion {
             Motion::Rapid | Motion::Linear => {
                 let direction = self.take_direction(at)?;
@@ -443,6 +451,24 @@ impl Run<'_> {
             }
             _ => return self.arc(motion == Motion::ArcCounterClockwise, target, at),
         }
+        Ok(())
+    }
+
+    /// `,C` and `,R`: the legs of a chamfer or the radius of a rounding after the move of this block.
+    fn corner(&mut self) -> Result<(), Fault> {
+        let Some((round, size, at)) = self.words.corner.take() else { return Ok(()) };
+        let (size, name) = (size * self.core.modes.unit_mm(), if round { ",R" } else { ",C" });
+        if !is_size(size) {
+            let message = format!("{name} needs a size above 0");
+            return Err(fault("missing-value", at, message, "write ,C2. or ,R5."));
+        }
+        let shape = if round {
+            Shape::Round { radius_mm: size }
+        } else {
+            Shape::ChamferLeg { leg_mm: size }
+        };
+        let corner = Corner { shape, feed: None, name, modal: false, at };
+        self.core.corner_after_next(self.frames.position, Some(corner));
         Ok(())
     }
 

@@ -98,6 +98,8 @@ pub(super) struct Words {
     pub actions: Vec<(Action, usize)>,
     /// `@` and `^` of LinuxCNC.
     pub polar: [PolarWord; 2],
+    /// `,C` or `,R` (`true`) with its size in the units of the program, and its place.
+    pub corner: Option<(bool, f64, usize)>,
     /// The arguments of a macro call, in the order of the block.
     pub arguments: Vec<(u8, f64)>,
 }
@@ -105,6 +107,7 @@ pub(super) struct Words {
 impl Words {
     pub fn clear(&mut self) {
         (self.present, self.used, self.polar) = (0, 0, [None; 2]);
+        self.corner = None;
         self.actions.clear();
         self.arguments.clear();
     }
@@ -214,6 +217,7 @@ impl Run<'_> {
                 // Which spindle turns does not move the tool.
                 b'$' => {}
                 _ if gathering.is_argument(*letter) => words.arguments.push((*letter, value)),
+                b'c' | b'r' => words.corner = Some((*letter == b'r', value, *offset)),
                 b'N' => self.modes.last[1] = value,
                 b'G' => {
                     let action = self.g_code(passage.program, value, *offset)?;

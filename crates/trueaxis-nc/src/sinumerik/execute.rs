@@ -30,6 +30,8 @@ pub(super) struct Modes {
     pub polar: (f64, f64),
     /// Where the last move on the path went at its end.
     pub tangent: Option<[f64; 3]>,
+    /// RNDM and FRCM, mm and mm/min; 0 is none.
+    pub corners: [f64; 2],
 }
 
 impl Modes {
@@ -46,6 +48,7 @@ impl Modes {
             pole: Position::default(),
             polar: (0.0, 0.0),
             tangent: None,
+            corners: [0.0; 2],
         }
     }
 }

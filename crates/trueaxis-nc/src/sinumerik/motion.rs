@@ -3,8 +3,10 @@
 use super::tables::{Motion, Name};
 use super::words::{Mode, Words};
 use super::{Language, Run, fault};
-use crate::moves::{Axis, AxisSet, Coordinates, Move, MoveKind, Position, RotaryDirection};
+use crate::execution::corners::{Corner, is_size};
+use crate::moves::{Axis, AxisSet, Coordinates, Feed, Move, MoveKind, Position, RotaryDirection};
 use crate::text::program::Fault;
+use trueaxis_cycles::corner::Shape;
 
 impl Run<'_> {
     /// The move of a block; `false` if it has none.
@@ -16,6 +18,7 @@ impl Run<'_> {
     ) -> Result<bool, Fault> {
         self.settle();
         let direction = self.take_direction(words)?;
+        let corner = self.corner(words)?;
         let motion = self.modes.motion;
         let round = matches!(motion, Motion::Arc { .. })
             && (words.centers.iter().any(Option::is_some)
@@ -23,6 +26,10 @@ impl Run<'_> {
                 || words.has(Name::Opening));
         let polar = words.has(Name::PolarRadius) || words.has(Name::PolarAngle);
         if words.axes == AxisSet::default() && direction.is_none() && !round && !polar {
+            if let Some(corner) = corner.filter(|c| !c.modal) {
+                self.core.corner_after_next(self.chain.position, Some(corner));
+                self.core.forget_corner();
+            }
             return Ok(false);
         }
         if machine {
@@ -42,9 +49,55 @@ impl Run<'_> {
         if let Some(feed) = block_feed.filter(|f| *f > 0.0) {
             self.core.modes.feed.value = if self.modes.feed_inches { feed * 25.4 } else { feed };
         }
+        if let Some(corner) = corner {
+            self.core.corner_after_next(self.chain.position, Some(corner));
+        }
         let result = self.path_move(words, target, direction, at);
+        self.core.forget_corner();
         self.core.modes.feed.value = modal;
         result.map(|()| true)
+    }
+
+    /// RND, CHF (length) and CHR (legs) at the end of the move, or RNDM; FRC or FRCM is their feed.
+    ///
+    /// # Source
+    /// SINUMERIK 840D sl Programming Manual "Fundamentals", chamfer and rounding.
+    fn corner(&mut self, words: &mut Words) -> Result<Option<Corner>, Fault> {
+        let unit = self.core.modes.unit_mm();
+        let feed_unit = if self.modes.feed_inches { 25.4 } else { 1.0 };
+        if words.named.is_empty() && self.modes.corners[0] == 0.0 {
+            return Ok(None);
+        }
+        let modal = [(Name::ModalRounding, unit), (Name::ModalCornerFeed, feed_unit)];
+        for (kept, (name, unit)) in modal.into_iter().enumerate() {
+            if let Some((value, ..)) = words.take(name) {
+                self.modes.corners[kept] = value * unit;
+            }
+        }
+        let own = words.take(Name::CornerFeed).map(|(feed, ..)| feed * feed_unit);
+        let value = own.unwrap_or(self.modes.corners[1]);
+        let feed = (value > 0.0).then_some(Feed { value, ..self.core.modes.feed });
+        let mut found = None;
+        for name in [Name::Rounding, Name::ChamferLength, Name::ChamferLeg] {
+            found = found.or(words.take(name).map(|(size, _, at)| (name, size * unit, at)));
+        }
+        let (name, size, at, modal) = match found {
+            Some((name, size, at)) => (name, size, at, false),
+            None => (Name::Rounding, self.modes.corners[0], self.core.start, true),
+        };
+        if size == 0.0 {
+            return Ok(None);
+        }
+        if !is_size(size) {
+            let message = "the size of a rounding or chamfer is negative or too large";
+            return Err(fault("missing-value", at, message, "write RND=5, CHF=2 or CHR=2"));
+        }
+        let (shape, name) = match name {
+            Name::ChamferLength => (Shape::ChamferLength { length_mm: size }, "CHF"),
+            Name::ChamferLeg => (Shape::ChamferLeg { leg_mm: size }, "CHR"),
+            _ => (Shape::Round { radius_mm: size }, if modal { "RNDM" } else { "RND" }),
+        };
+        Ok(Some(Corner { shape, feed, name, modal, at }))
     }
 
     fn path_move(

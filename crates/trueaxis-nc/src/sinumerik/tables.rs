@@ -383,6 +383,18 @@ pub(super) enum Name {
     /// PSI.
     ConeAngle,
     /// ADIS, ADISPOS, CTOL.
+    /// RND.
+    Rounding,
+    /// RNDM: of all corners from here on, 0 ends it.
+    ModalRounding,
+    /// CHR.
+    ChamferLeg,
+    /// CHF.
+    ChamferLength,
+    /// FRC.
+    CornerFeed,
+    /// FRCM: for all corners from here on, 0 ends it.
+    ModalCornerFeed,
     Tolerance,
     /// FB.
     BlockFeed,
@@ -420,9 +432,12 @@ pub(super) fn parameter(word: &str) -> Option<Name> {
         "ACC" | "ACCLIM" | "VELOLIM" | "JERKLIM" => Name::Noted("limits of single axes"),
         "FP" | "SD" | "PW" | "PL" | "SF" | "SCC" | "SVC" => Name::Noted("a parameter of its code"),
         "MEAS" | "MEAW" | "MEASA" => Name::NotApplied("measuring"),
-        "RND" | "RNDM" => Name::NotApplied("rounding of contour corners"),
-        "CHR" | "CHF" => Name::NotApplied("the chamfer of contour corners"),
-        "FRC" | "FRCM" => Name::Noted("the feed of chamfers and roundings"),
+        "RND" => Name::Rounding,
+        "RNDM" => Name::ModalRounding,
+        "CHR" => Name::ChamferLeg,
+        "CHF" => Name::ChamferLength,
+        "FRC" => Name::CornerFeed,
+        "FRCM" => Name::ModalCornerFeed,
         "OFFN" => Name::NotApplied("OFFN"),
         "DISR" | "DISCL" | "DISRP" | "FAD" | "DAV" => Name::Noted("a parameter of soft approach"),
         "LEAD" | "TILT" => Name::NotApplied("LEAD and TILT"),

@@ -188,6 +188,7 @@ impl<'s, 'b> Parser<'s, 'b> {
                 }
                 TokenKind::Symbol if self.source[token.start] == b'#' => self.assignment(),
                 TokenKind::Symbol if self.source[token.start] == b':' => self.program_number(),
+                TokenKind::Symbol if self.is_corner(token) => self.corner_word(),
                 TokenKind::Name if self.dialect.macro_words => self.called_name(),
                 TokenKind::Mark => {
                     self.block.items.push(Item::Mark(token.start));
@@ -200,6 +201,25 @@ impl<'s, 'b> Parser<'s, 'b> {
                 self.give_up();
             }
         }
+    }
+
+    /// `,C` and `,R` of FANUC.
+    fn is_corner(&self, token: Token) -> bool {
+        let next = self.lexer.clone().find(|t| !is_trivia(t.kind));
+        let letter = next.map_or(0, |t| self.source[t.start].to_ascii_uppercase());
+        self.dialect.macro_words
+            && self.source[token.start] == b','
+            && matches!(letter, b'C' | b'R')
+    }
+
+    /// A word of a corner: its letter is written small, so that it is no axis.
+    fn corner_word(&mut self) -> bool {
+        self.advance();
+        let (letter, offset) = (self.letter().unwrap_or(b'C'), self.here());
+        self.advance();
+        let Some(value) = self.value() else { return false };
+        self.block.items.push(Item::Word { letter: letter.to_ascii_lowercase(), value, offset });
+        true
     }
 
     fn foreign(&mut self, token: Token) -> bool {

@@ -141,7 +141,7 @@ pub enum Keyword {
 pub enum Item {
     /// A word such as `X1.5`; without a value where the control allows it.
     Word {
-        /// Upper case.
+        /// Upper case; small for `,C` and `,R`, the corners of FANUC.
         letter: u8,
         /// Its value.
         value: NodeId,

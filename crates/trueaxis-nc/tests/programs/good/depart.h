@@ -7,8 +7,8 @@
 6 L IX+1 RR
 7 DEP CT CCA90 R+2
 8 L X+0 Y+0 R0 M98
-9 RND R2
-10 CHF 1
+9 ; no rounding before APPR
+10 ; no chamfer
 11 APPR LCT X+5 Y+5 R3 RL
 12 L X-10 Y+0
 13 L X+0

@@ -28,6 +28,10 @@ pub(super) fn unrolled(
     if moves.len() < 2 || words.reference || words.machine.is_some() {
         return None;
     }
+    if moves.iter().all(|m| matches!(m.kind, MoveKind::Linear | MoveKind::Arc(_))) {
+        // A rounding or chamfer: its word would remain.
+        return None;
+    }
     let is_rs274 = matches!(control, Control::Fanuc | Control::Haas | Control::LinuxCnc);
     // The place before a modal cycle is the block's own; a cycle of FANUC has its words for itself.
     let own_move = !is_rs274 && words.axes.iter().any(Option::is_some);
