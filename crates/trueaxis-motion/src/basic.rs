@@ -6,6 +6,7 @@ use super::setup::SetUp;
 use trueaxis_geometry::frame::{Direction, Pose, Workpiece};
 use trueaxis_geometry::{Mat3, Vec3};
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
+use trueaxis_machine::errors::ErrorValues;
 use trueaxis_machine::tcp::{DirectionSolution, TipControl};
 use trueaxis_machine::{Machine, SolveError};
 use trueaxis_nc::moves::{Axis, Branch, Frame, Position};
@@ -112,6 +113,21 @@ pub(super) fn rotary_angles(
     let aimed = control.aim(Direction::of(direction.into())?, &from).ok()?;
     let chosen = choose(machine, &aimed, branch);
     Some(rotary.map(|axis| index(axis).map_or(0.0, |i| chosen[i].to_degrees())))
+}
+
+/// How the tool is turned at A, B and C in degrees against its attitude at zero, in the workpiece frame.
+pub(super) fn tool_turn(control: &TipControl, angles_deg: [f64; 3]) -> Mat3 {
+    let machine = control.machine();
+    let axis_of = axes_of_programs(machine);
+    let mut there = Command::default();
+    for (axis, angle) in [Axis::A, Axis::B, Axis::C].into_iter().zip(angles_deg) {
+        if let Some(i) = axis_of[axis as usize] {
+            there[i] = angle.to_radians();
+        }
+    }
+    let none = ErrorValues::default();
+    let attitude = |command| *machine.pose(command, &none).linear();
+    attitude(&there) * attitude(&Command::default()).transpose()
 }
 
 /// The machine with its workpiece frame at a program zero.

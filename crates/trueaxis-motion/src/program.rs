@@ -1,6 +1,6 @@
 //! The NC program and the subprograms that it calls.
 
-use super::basic::rotary_angles;
+use super::basic::{rotary_angles, tool_turn};
 use super::setup::{CONTROLS, SetUp};
 use std::path::{Path, PathBuf};
 use trueaxis_geometry::{Mat3, Vec3};
@@ -147,6 +147,12 @@ impl Library for Folder<'_> {
     ) -> Option<[f64; 3]> {
         let direction = (self.turn * Vec3::from(direction)).into();
         rotary_angles(self.control?, direction, branch, now)
+    }
+
+    fn tool_turn(&self, angles_deg: [f64; 3]) -> Option<[[f64; 3]; 3]> {
+        let turn = tool_turn(self.control?, angles_deg);
+        let turn = self.turn.transpose() * turn * self.turn;
+        Some([0, 1, 2].map(|i| [0, 1, 2].map(|j| turn[(i, j)])))
     }
 }
 

@@ -27,6 +27,12 @@ pub trait Library {
     ) -> Option<[f64; 3]> {
         None
     }
+
+    /// How the tool is turned at the angles A, B and C in degrees, seen in the basic frame: the columns are
+    /// what X, Y and Z of the spindle become. `None` without a machine.
+    fn tool_turn(&self, _angles_deg: [f64; 3]) -> Option<[[f64; 3]; 3]> {
+        None
+    }
 }
 
 /// A library without programs: only subprograms in the program itself are found.

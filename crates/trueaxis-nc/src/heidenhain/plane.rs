@@ -81,11 +81,8 @@ impl Run<'_> {
                 Some(self.frames.tilt().after(&spatial(a, b, s)))
             }
             6 => None,
-            _ => {
-                let message = format!("PLANE {} is not interpreted", KINDS[kind]);
-                let hint = "write PLANE SPATIAL or PLANE VECTOR";
-                return Err(fault("not-interpreted", at, message, hint));
-            }
+            7 => Some(self.projected(c, at)?),
+            _ => return self.axial(c, at),
         };
         let behaviour = self.behaviour(c)?;
         c.finish()?;
@@ -107,6 +104,63 @@ impl Run<'_> {
             c.take_letters(names[index].len());
             values[index] = self.value(c)?;
         }
+    }
+
+    /// PROPR and PROMIN: the angles of the traces of the plane in Z/X and in Y/Z, positive as SPB and SPA are;
+    /// X lies in Z/X. PROROT turns the plane about its own Z.
+    ///
+    /// # Source
+    /// User's manual iTNC 530 and TNC 640, PLANE PROJECTED: the two angles, from the principal axis X and from
+    /// the minor axis Y. The traces are ex turned by PROPR about Y, and ey turned by PROMIN about X.
+    fn projected(&mut self, c: &mut Cursor<'_>, at: usize) -> Result<Frame, Fault> {
+        let mut values = self.named_values(c, ["PROPR", "PROMIN", "PROROT"])?;
+        if c.accept("ROT") {
+            values[2] = self.value(c)?;
+        }
+        let [principal, minor, turn] = values;
+        if principal.abs() >= 90.0 || minor.abs() >= 90.0 {
+            return Err(no_plane(at));
+        }
+        let x = about(1, principal).vector([1.0, 0.0, 0.0]);
+        let y = about(0, minor).vector([0.0, 1.0, 0.0]);
+        let plane = from_vectors(x, cross(x, y)).ok_or_else(|| no_plane(at))?;
+        Ok(plane.after(&about(2, turn)))
+    }
+
+    /// PLANE AXIAL A B C: the plane on which the tool stands square at these angles of the rotary axes, turned
+    /// as the tool is; an axis that is not named keeps its angle.
+    fn axial(&mut self, c: &mut Cursor<'_>, at: usize) -> Result<(), Fault> {
+        let now = self.machine_place();
+        let mut angles = [Axis::A, Axis::B, Axis::C].map(|axis| now[axis]);
+        while let Some(index) = c.accept_any(&["A", "B", "C", "IA", "IB", "IC"]) {
+            let value = self.value(c)?;
+            angles[index % 3] = if index < 3 { value } else { angles[index % 3] + value };
+        }
+        let behaviour = self.behaviour(c)?;
+        c.finish()?;
+        let Some(linear) = self.core.library.tool_turn(angles) else {
+            let message = "PLANE AXIAL needs the kinematics of the machine";
+            let hint = "state the machine, or write PLANE SPATIAL or PLANE VECTOR";
+            return Err(fault("not-interpreted", at, message, hint));
+        };
+        if self.frames.untilted().linear != Frame::IDENTITY.linear {
+            let message = "PLANE AXIAL after a rotation, mirror or scale is not interpreted";
+            let hint = "write PLANE SPATIAL or PLANE VECTOR";
+            return Err(fault("not-interpreted", at, message, hint));
+        }
+        // The angles are those of the block, not the ones that SEQ would choose.
+        let direction = linear.map(|row| row[2]);
+        let fits = |branch: &Branch| {
+            let found = self.core.library.rotary_angles(direction, *branch, &now);
+            found.is_some_and(|f| f.iter().zip(&angles).all(|(f, a)| (f - a).abs() < 1e-6))
+        };
+        let found = [Branch::Nearest, Branch::Positive, Branch::Negative].into_iter().find(fits);
+        if found.is_none() && behaviour.keep_tip.is_some() {
+            self.core.left_out("the choice of the angles in PLANE AXIAL", at);
+        }
+        let branch = found.unwrap_or_default();
+        let turn = Frame { linear, ..Frame::IDENTITY };
+        self.tilt(Some(turn), Behaviour { branch, ..behaviour }, at)
     }
 
     /// P1 and P2 give the direction of X, P3 lies on the side of positive Y.
@@ -239,6 +293,35 @@ mod tests {
         // Precession 90 puts X along Y; nutation 90 about it puts Z along X.
         let m = euler(90.0, 90.0, 0.0).linear;
         assert_eq!([m[0][2], m[1][2], m[2][2]], [1.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn projection_angles_are_traces_of_the_plane() {
+        // With PROPR alone the plane is that of SPB, with PROMIN alone that of SPA.
+        let of = |text: &str| {
+            let source = format!("PLANE PROJECTED {text} STAY\nL X+1 Y+2 Z+3 FMAX\n");
+            let program = crate::Program::new("p", source.into_bytes(), crate::Control::Heidenhain);
+            let mut frame = Frame::IDENTITY;
+            let settings = crate::Settings::default();
+            let outcome = crate::interpret(&program, &crate::NoLibrary, &settings, &mut |s| {
+                if let crate::Step::Event(Event::Frame(f), _) = s {
+                    frame = f;
+                }
+            });
+            assert!(!outcome.problems.has_errors());
+            frame.linear
+        };
+        let near = |a: [[f64; 3]; 3], b: [[f64; 3]; 3]| {
+            a.iter().flatten().zip(b.iter().flatten()).all(|(a, b)| (a - b).abs() < 1e-12)
+        };
+        assert!(near(of("PROPR+24 PROMIN+0 PROROT+0"), spatial(0.0, 24.0, 0.0).linear));
+        assert!(near(of("PROPR+0 PROMIN-24 ROT+0"), spatial(-24.0, 0.0, 0.0).linear));
+        // The normal is square to both traces: (tan PROPR, -tan PROMIN, 1), of any length.
+        let both = of("PROPR+24 PROMIN+15 PROROT+30");
+        let (p, m) = (24.0_f64.to_radians().tan(), 15.0_f64.to_radians().tan());
+        let length = (1.0 + p * p + m * m).sqrt();
+        let normal = [p / length, -m / length, 1.0 / length];
+        assert!((0..3).all(|i| (both[i][2] - normal[i]).abs() < 1e-12));
     }
 
     #[test]

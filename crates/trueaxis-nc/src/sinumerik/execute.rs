@@ -245,6 +245,7 @@ impl Run<'_> {
             Code::ToolCentre(on) => {
                 self.core.tool_centre(on);
             }
+            Code::AlongTool(on) => self.frame_along_tool(on, at)?,
             Code::Angles(angles) => self.modes.angles = angles,
             Code::Orientation(way) => self.turn_by(way),
             Code::Compensation(side) => self.core.compensate(side, at),
@@ -468,6 +469,7 @@ fn check_groups(words: &Words) -> Result<(), Fault> {
         Code::Frame(_) => Some(9),
         Code::Shift { .. } => Some(10),
         Code::ToolCentre(_) => Some(11),
+        Code::AlongTool(_) => Some(17),
         Code::Angles(_) => Some(12),
         Code::Orientation(OrientationMode::Machine | OrientationMode::Workpiece) => Some(13),
         Code::Orientation(_) => Some(14),

@@ -2,6 +2,7 @@
 
 use super::values::Value;
 use super::{Language, Run, fault, transform};
+use crate::execution::frames::{cross, from_axes, unit};
 use crate::execution::mistakes;
 use crate::moves::{Axis, Branch, Event, Frame, Move, MoveKind, PathControl, Position};
 use crate::text::program::Fault;
@@ -117,6 +118,45 @@ impl Run<'_> {
             }
         }
         self.modes.tangent = None;
+    }
+
+    /// TOROT: the rotation of the programmable frame puts Z along the tool, X into the plane of Z and X before;
+    /// TOROTOF ends the rotation.
+    ///
+    /// # Source
+    /// SINUMERIK 840D sl Programming Manual "Fundamentals", frame generation by tool orientation; that X lies in
+    /// the old plane is the default of MD21110.
+    pub(super) fn frame_along_tool(&mut self, on: bool, at: usize) -> Result<(), Fault> {
+        let now = self.axis_positions();
+        let turn = self.core.library.tool_turn([Axis::A, Axis::B, Axis::C].map(|a| now[a]));
+        let mut linear = Frame::IDENTITY.linear;
+        if on {
+            let Some(turn) = turn.filter(|_| self.core.modes.tool_centre) else {
+                let hint = "it needs TRAORI and a machine, which knows how the tool stands";
+                self.core.not_applied("TOROT", at, hint);
+                return Ok(());
+            };
+            let outer = Frame {
+                shift: Position::default(),
+                ..self.chain.settable.after(&self.chain.swivel)
+            };
+            let mut axis = Position::default();
+            axis.0[..3].copy_from_slice(&turn.map(|row| row[2]));
+            let Some(z) = outer.inverse_place(&axis) else { return Err(mistakes::flat_frame(at)) };
+            let z = [z.0[0], z.0[1], z.0[2]];
+            let across = unit([z[2], 0.0, -z[0]]).zip(unit(z));
+            let Some((x, z)) = across else {
+                let hint = "the tool is along Y: turn it away";
+                self.core.not_applied("TOROT along Y", at, hint);
+                return Ok(());
+            };
+            linear = from_axes([x, cross(z, x), z], [0.0; 3]).linear;
+        }
+        if !self.chain.change(|c| c.programmable.linear = linear) {
+            return Err(mistakes::flat_frame(at));
+        }
+        self.emit_frame();
+        Ok(())
     }
 
     /// CYCLE832(_TOL, _TOLM, …): the tolerance of the path; without parameters it ends.

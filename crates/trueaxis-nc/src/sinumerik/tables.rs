@@ -51,6 +51,8 @@ pub(super) enum OrientationMode {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Code {
     Plane(Plane),
+    /// TOROT: Z of the programmable frame is along the tool; TOROTOF.
+    AlongTool(bool),
     /// G70/G71 and G700/G710; `feed` with the feeds as well.
     Inches {
         inches: bool,
@@ -98,7 +100,7 @@ impl Code {
             Self::Note(_) | Self::NotApplied(_) => 3,
             Self::Compensation(_) | Self::Path(..) | Self::ExactOnce => 4,
             Self::Offset(_) | Self::Shift { .. } => 5,
-            Self::Frame(_) => 6,
+            Self::Frame(_) | Self::AlongTool(_) => 6,
             Self::ToolCentre(_) | Self::Angles(_) | Self::Orientation(_) => 7,
             Self::Machine => 8,
             Self::Dwell | Self::Pole(_) | Self::Reference | Self::Limits => 9,
@@ -226,8 +228,11 @@ pub(super) fn code(word: &str) -> Option<Code> {
         "TRACYL" => Code::NotApplied("TRACYL"),
         "TRAANG" => Code::NotApplied("TRAANG"),
         "TRACON" => Code::NotApplied("TRACON"),
-        "TOFRAME" | "TOFRAMEX" | "TOFRAMEY" | "TOFRAMEZ" | "TOROT" | "TOROTX" | "TOROTY"
-        | "TOROTZ" => Code::NotApplied("a frame along the tool"),
+        "TOROT" | "TOROTZ" => Code::AlongTool(true),
+        "TOROTOF" => Code::AlongTool(false),
+        "TOFRAME" | "TOFRAMEX" | "TOFRAMEY" | "TOFRAMEZ" | "TOROTX" | "TOROTY" => {
+            Code::NotApplied("a frame along the tool")
+        }
         "PAROT" => Code::NotApplied("PAROT"),
         "TCARR" | "TCOABS" | "TCOFR" | "TCOFRX" | "TCOFRY" | "TCOFRZ" => {
             Code::NotApplied("the orientable tool carrier")
@@ -241,7 +246,7 @@ pub(super) fn code(word: &str) -> Option<Code> {
 }
 
 /// Words of no effect on the programmed path.
-const NOTES: [&str; 108] = [
+const NOTES: [&str; 107] = [
     "ACCLIMA",
     "ACN",
     "ADISPOSA",
@@ -342,7 +347,6 @@ const NOTES: [&str; 108] = [
     "STOPRE",
     "TANGOF",
     "TCOABSOF",
-    "TOROTOF",
     "TOWBCS",
     "TOWKCS",
     "TOWMCS",
