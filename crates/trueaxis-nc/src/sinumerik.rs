@@ -23,6 +23,7 @@ mod flow;
 mod functions;
 mod motion;
 mod orientation;
+mod patterns;
 mod quick;
 mod reader;
 mod structure;

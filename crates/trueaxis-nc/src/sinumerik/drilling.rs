@@ -7,6 +7,7 @@ use crate::execution::drilling::{Drill, Stroke, dwell, pecks, stop_above};
 use crate::execution::mistakes;
 use crate::moves::{AxisSet, Event, Feed, MoveKind, Position};
 use crate::text::program::Fault;
+use trueaxis_cycles::pattern::{peck_depths, pecks_less_by};
 
 /// Pecks of one hole: more than any program means.
 const MOST_PECKS: f64 = 1e5;
@@ -41,6 +42,9 @@ impl Run<'_> {
             "CYCLE84" => return self.tap(&parameters),
             "CYCLE85" => self.bore(&parameters)?,
             "CYCLE86" => self.bore_oriented(&parameters)?,
+            pattern @ ("HOLES1" | "HOLES2" | "CYCLE801") => {
+                return self.pattern(pattern, &parameters);
+            }
             _ => return Ok(false),
         }
         Ok(true)
@@ -111,8 +115,13 @@ impl Run<'_> {
 
     /// CYCLE83: RTP, RFP, SDIS, DP, DPR, FDEP, FDPR, DAM, DTB, DTS, FRF, VARI.
     ///
-    /// FRF slows the first peck. All pecks are as deep as the first: the degression DAM is not applied,
-    /// which is reported.
+    /// FRF slows the first peck. The degression DAM makes each stroke shorter than the one before: an amount,
+    /// or (negative, or in percent in the calls with _AMODE) a factor down to MDEP. VRT is the way back that
+    /// breaks a chip (1 mm where it is 0), DIS1 the distance before the next stroke, DTD the wait at the bottom.
+    ///
+    /// # Source
+    /// Programming Manual "Cycles", CYCLE83; parameters 12 to 19 are _AXN, _MDEP, _VRT, _DTD, _DIS1, _GMODE,
+    /// _DMODE, _AMODE.
     fn drill_deep(&mut self, parameters: &Parameters<'_>) -> Result<(), Fault> {
         let at = parameters.at;
         let hole = self.hole(parameters, 19)?;
@@ -126,24 +135,16 @@ impl Run<'_> {
             let message = format!("{first} mm is not a possible depth of peck");
             return Err(fault("cycle-without-depth", at, message, "check FDEP and FDPR"));
         }
-        let degression = parameters.or_zero(7)?;
-        let percent = parameters.number(19)?.is_some();
-        if degression != 0.0 && !(percent && degression == 100.0) {
-            self.core.not_applied(
-                "the degression DAM of CYCLE83",
-                at,
-                "all pecks have the depth of the first",
-            );
-        }
         let (bottom_time, top_time) = (parameters.or_zero(8)?, parameters.or_zero(9)?);
         let out = parameters.or_zero(11)? != 0.0;
-        let distance = stop_above(hole.surface - hole.bottom);
+        let depth = hole.surface - hole.bottom;
+        let own = parameters.or_zero(16)? * unit;
+        let distance = if own > 0.0 { own } else { stop_above(depth) };
+        let chip = parameters.number(14)?.filter(|v| *v > 0.0).map_or(1.0, |v| v * unit);
         let feed = self.core.modes.feed;
         let slow = Feed { value: feed.value * first_feed(parameters.number(10)?), ..feed };
-        let depth_below = |depth: &f64| (*depth - first).max(hole.bottom);
-        let depths = std::iter::successors(Some(depth_below(&hole.surface)), |depth| {
-            (*depth > hole.bottom).then(|| depth_below(depth))
-        });
+        let depths = self.peck_depths(parameters, depth, first)?;
+        let depths = depths.into_iter().map(|d| hole.surface - d);
         let (bottom_wait, top_wait) = (self.wait(bottom_time), self.wait(top_time));
         let mut down = pecks(depths, |depth, strokes| {
             strokes.extend(bottom_wait.clone());
@@ -152,15 +153,41 @@ impl Run<'_> {
                 strokes.extend(top_wait.clone());
                 strokes.push(Stroke::Rapid(depth + distance));
             } else {
-                strokes.push(Stroke::Linear(depth + 1.0));
+                strokes.push(Stroke::Linear(depth + chip));
             }
         });
         down.insert(1, Stroke::Feed(feed));
         let mut strokes = vec![Stroke::Rapid(hole.safe), Stroke::Feed(slow)];
         strokes.extend(down);
-        strokes.extend(bottom_wait);
+        let last = parameters.number(15)?.filter(|t| *t != 0.0);
+        strokes.extend(last.map_or(bottom_wait, |t| self.wait(t)));
         strokes.push(Stroke::Rapid(hole.retract));
         self.done(strokes, at)
+    }
+
+    /// The depths of the pecks below the surface by the degression DAM.
+    fn peck_depths(
+        &self,
+        parameters: &Parameters<'_>,
+        depth: f64,
+        first: f64,
+    ) -> Result<Vec<f64>, Fault> {
+        let (unit, most) = (self.core.modes.unit_mm(), MOST_PECKS as usize);
+        let (degression, least) = (parameters.or_zero(7)?, parameters.or_zero(13)? * unit);
+        let percent = parameters.number(19)?.is_some();
+        let factor = match degression {
+            d if d < 0.0 => -d,
+            d if percent && d > 0.0 => d / 100.0,
+            d if d > 0.0 => {
+                let found = pecks_less_by(depth, first, d * unit, most);
+                return found.ok_or_else(|| mistakes::too_many_pecks(MOST_PECKS, parameters.at));
+            }
+            _ => 1.0,
+        };
+        let least = if factor < 1.0 && least <= 0.0 { first * 1e-2 } else { least };
+        let next = |stroke: f64| (stroke * factor.min(1.0)).max(least.min(first));
+        peck_depths(depth, first, most, next)
+            .ok_or_else(|| mistakes::too_many_pecks(MOST_PECKS, parameters.at))
     }
 
     /// CYCLE85: RTP, RFP, SDIS, DP, DPR, DTB, FFR, RFF: in and out with feeds of its own.

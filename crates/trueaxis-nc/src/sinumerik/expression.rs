@@ -202,6 +202,10 @@ impl Run<'_> {
             }
             _ => {}
         }
+        if let Some(value) = technology(&word).filter(|_| !self.has_variable(&word)) {
+            reader.advance();
+            return Ok(Value::Number(value));
+        }
         if reader.symbol_ahead(1) == Some(b'(') && super::functions::is_function(&word) {
             reader.advance();
             return self.function(&word, reader, at);
@@ -235,6 +239,28 @@ impl Run<'_> {
             }
         }
     }
+}
+
+/// The named values of the second parameter of CYCLE832.
+///
+/// # Source
+/// SINUMERIK Programming Manual, "Programming cycles externally", CYCLE832: units 0 to 4, tens 1 with a
+/// tolerance of the orientation; the names are those of the operating manuals.
+fn technology(word: &str) -> Option<f64> {
+    Some(match word {
+        "_OFF" => 0.0,
+        "_FINISH" => 1.0,
+        "_SEMIFIN" => 2.0,
+        "_ROUGH" => 3.0,
+        "_PRECISION" => 4.0,
+        "_ORI_FINISH" => 11.0,
+        "_ORI_SEMIFIN" => 12.0,
+        "_ORI_ROUGH" => 13.0,
+        "_ORI_PRECISION" => 14.0,
+        "_TOP_SURFACE_SMOOTH_OFF" => 1e6,
+        "_TOP_SURFACE_SMOOTH_ON" => 2e6,
+        _ => return None,
+    })
 }
 
 pub(super) fn missing_value(reader: &Reader<'_>) -> Fault {
