@@ -21,7 +21,7 @@ pub(crate) use follower::Alone;
 pub use follower::{Follower, KnownPosition};
 pub(crate) use language::{Core, Language, Next};
 pub use library::{Library, NoLibrary};
-pub(crate) use modes::Modes;
+pub(crate) use modes::{Modes, check_feed};
 pub use stop::Stop;
 
 /// The state of the control before the program begins.

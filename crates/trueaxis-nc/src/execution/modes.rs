@@ -76,16 +76,14 @@ impl Modes {
 
     #[inline]
     pub fn check_feed(&self, at: usize) -> Result<(), Fault> {
-        self.feed.check(at)
+        check_feed(&self.feed, at)
     }
 }
 
-impl Feed {
-    /// A move needs a feed.
-    #[inline]
-    pub(crate) fn check(&self, at: usize) -> Result<(), Fault> {
-        if self.value > 0.0 { Ok(()) } else { Err(mistakes::zero_feed(self.mode, at)) }
-    }
+/// A move needs a feed.
+#[inline]
+pub(crate) fn check_feed(feed: &Feed, at: usize) -> Result<(), Fault> {
+    if feed.value > 0.0 { Ok(()) } else { Err(mistakes::zero_feed(feed.mode, at)) }
 }
 
 impl Core<'_> {

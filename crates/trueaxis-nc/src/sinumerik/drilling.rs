@@ -3,6 +3,7 @@
 use super::swivel::Parameters;
 use super::values::Value;
 use super::{Run, fault};
+use crate::execution::check_feed;
 use crate::execution::drilling::{Drill, Stroke, dwell, pecks, stop_above};
 use crate::execution::mistakes;
 use crate::moves::{AxisSet, Event, Feed, MoveKind, Position};
@@ -86,7 +87,7 @@ impl Run<'_> {
             let message = "the bottom is above the surface, or the retraction plane below it";
             return Err(fault("cycle-heights", at, message, "check RTP, RFP, DP and DPR"));
         }
-        feed.check(at)?;
+        check_feed(&feed, at)?;
         Ok(Hole { retract, safe, surface, bottom })
     }
 

@@ -522,7 +522,7 @@ pub enum Event {
         optional: bool,
     },
     /// A block is executed; reported before its moves, and only with
-    /// [`crate::Settings::report_blocks`].
+    /// `report_blocks` of the settings.
     Block {
         /// The range of its bytes in its program, line end included.
         text: Range<usize>,
