@@ -1,6 +1,7 @@
 //! The geometry of cycles, the same for all controls: what the words of a control mean is in `trueaxis-nc`.
 //!
 //! - [`corner`]: roundings and chamfers between lines and arcs in a plane.
+//! - [`mill`]: pockets and faces; [`thread`]: the passes of a thread.
 //! - [`pattern`]: holes in rows, on circles and in grids; pecks that become shorter.
 //!
 //! Lengths are in mm, angles in the unit that their names state. Points are in the plane of the cycle, its
@@ -16,7 +17,9 @@
 //! ```
 
 pub mod corner;
+pub mod mill;
 pub mod pattern;
+pub mod thread;
 
 /// A point in the plane of a cycle, mm.
 pub type Point = [f64; 2];

@@ -7,6 +7,7 @@ mod follower;
 pub(crate) mod frames;
 mod language;
 mod library;
+pub(crate) mod milling;
 pub(crate) mod mistakes;
 mod modes;
 mod stop;

@@ -18,6 +18,7 @@ mod quick;
 mod reported;
 mod straight;
 mod tables;
+mod threading;
 mod values;
 mod words;
 

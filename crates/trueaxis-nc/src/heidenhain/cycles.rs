@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::frames::Transformation;
 use super::line::Cursor;
+use super::milling::MILLING;
 use super::variables::{StoredValue, Variable};
 use super::words::Words;
 use super::{Language, Run, fault};
@@ -15,7 +16,7 @@ use crate::text::program::Fault;
 /// The machining cycle that a call executes.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Cycle {
-    /// A drilling cycle with its parameters: Q numbers, or the numbers of the lines of old cycles.
+    /// A drilling or milling cycle with its parameters: Q numbers, or the numbers of the lines of old cycles.
     Drilling(u32, BTreeMap<u32, f64>),
     /// Cycle 12.
     Program(String),
@@ -24,7 +25,7 @@ pub(super) enum Cycle {
 }
 
 /// Cycles that are executed by `drilling.rs`.
-const DRILLING: [u32; 12] = [1, 2, 17, 200, 201, 202, 203, 205, 206, 207, 209, 240];
+const DRILLING: [u32; 13] = [1, 2, 17, 200, 201, 202, 203, 205, 206, 207, 209, 240, 241];
 
 impl Run<'_> {
     pub(super) fn cycle_statement(&mut self, c: &mut Cursor<'_>) -> Result<Next, Fault> {
@@ -77,7 +78,7 @@ impl Run<'_> {
     fn labelled_value(&mut self, c: &mut Cursor<'_>) -> Result<f64, Fault> {
         while !c.letters().is_empty() && !c.is("Q") && !c.is("QL") && !c.is("QR") {
             c.take_letters(usize::MAX);
-            while c.accept_symbol(b'.') {}
+            while c.accept_symbol(b'.') || c.accept_point() {}
         }
         self.value(c)
     }
@@ -251,7 +252,10 @@ impl Run<'_> {
         if number == 247 {
             return self.preset(values.get(&339).copied(), at);
         }
-        if DRILLING.contains(&number) {
+        if matches!(number, 220 | 221) {
+            return self.hole_pattern(number, &values, at);
+        }
+        if DRILLING.contains(&number) || MILLING.contains(&number) {
             self.cycle = Some(Cycle::Drilling(number, values));
             return Ok(());
         }
@@ -259,7 +263,7 @@ impl Run<'_> {
             format!("cycle {number} is not executed: its moves are missing from the path");
         let hint = "let the CAM system write the moves of the cycle";
         self.core.warn("cycle-not-executed", number, at, &message, hint);
-        if !matches!(number, 14 | 20 | 220 | 221 | 392 | 400..=499) {
+        if !matches!(number, 14 | 20 | 392 | 400..=499) {
             self.cycle = Some(Cycle::Missing);
         }
         Ok(())
@@ -344,7 +348,7 @@ impl Run<'_> {
     fn execute_cycle(&mut self, at: usize) -> Result<Next, Fault> {
         match self.cycle.clone() {
             Some(Cycle::Drilling(number, values)) => {
-                self.drill_hole(number, &values, at)?;
+                self.machine_hole(number, &values, at)?;
                 Ok(Next::Following)
             }
             Some(Cycle::Program(name)) => self.call_program(&name, at),

@@ -1,4 +1,4 @@
-//! The drilling cycles as moves: 200 to 209, 240 and the old 1, 2 and 17.
+//! The drilling cycles as moves: 200 to 209, 240, 241 and the old 1, 2 and 17.
 
 use std::collections::BTreeMap;
 
@@ -63,7 +63,7 @@ impl Run<'_> {
             return Err(mistakes::missing_depth(at));
         }
         for (q, what) in LEFT_OUT {
-            if values.get(&q).is_some_and(|v| *v != 0.0) && !old {
+            if values.get(&q).is_some_and(|v| *v != 0.0) && !old && (q, number) != (379, 241) {
                 self.core.left_out(&format!("Q{q} of cycle {number}: {what}"), at);
             }
         }
@@ -78,6 +78,7 @@ impl Run<'_> {
         match number {
             201 | 202 => strokes.extend(self.bore(&hole, at)),
             2 | 206 => strokes.extend(self.tap(&hole)),
+            241 => strokes.extend(self.drill_single_lip(&hole, values)),
             17 | 207 | 209 => {
                 let feed = Feed { mode: FeedMode::PerRevolution, value: hole.pitch.abs() };
                 let tap = Stroke::Tap { pitch_mm: hole.pitch, bottom: hole.bottom };
@@ -93,7 +94,7 @@ impl Run<'_> {
                 strokes.extend(hole.wait(hole.dwell_bottom));
             }
         }
-        let end = if matches!(number, 201 | 202 | 2 | 206 | 17 | 207 | 209) {
+        let end = if matches!(number, 201 | 202 | 2 | 206 | 17 | 207 | 209 | 241) {
             hole.start
         } else {
             hole.bottom
@@ -183,6 +184,21 @@ impl Run<'_> {
         }
         strokes.extend([Stroke::Feed(hole.feed_out), Stroke::Linear(hole.start)]);
         strokes.push(Stroke::Feed(hole.feed));
+        strokes
+    }
+
+    /// 241: with Q253 to the deepened starting point Q379, with Q206 to the bottom, with Q208 out again.
+    fn drill_single_lip(&self, hole: &Hole, values: &BTreeMap<u32, f64>) -> Vec<Stroke> {
+        let value = |q: u32| values.get(&q).copied().unwrap_or(0.0);
+        let mut strokes = Vec::new();
+        let begin = hole.surface - value(379).abs() * self.core.modes.unit_mm();
+        if begin < hole.surface && begin > hole.bottom && value(253) > 0.0 {
+            let pre = self.per_minute(value(253));
+            strokes.extend([Stroke::Feed(pre), Stroke::Linear(begin), Stroke::Feed(hole.feed)]);
+        }
+        strokes.push(Stroke::Linear(hole.bottom));
+        strokes.extend(hole.wait(hole.dwell_bottom));
+        strokes.extend([Stroke::Feed(hole.feed_out), Stroke::Linear(hole.start)]);
         strokes
     }
 

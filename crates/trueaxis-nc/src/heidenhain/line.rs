@@ -238,6 +238,15 @@ impl<'s> Cursor<'s> {
         self.token().is_some_and(|t| t.kind == TokenKind::Number)
     }
 
+    /// Takes a point that stands alone, as in `V.ZEIT`.
+    pub fn accept_point(&mut self) -> bool {
+        let found = self.token().is_some_and(|t| self.source[t.start..t.end] == *b".");
+        if found {
+            self.advance();
+        }
+        found
+    }
+
     /// An unsigned number.
     pub fn number(&mut self) -> Result<Option<f64>, Fault> {
         let Some(token) = self.token().filter(|t| t.kind == TokenKind::Number) else {

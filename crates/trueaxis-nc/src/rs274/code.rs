@@ -140,6 +140,10 @@ pub enum Action {
     LocalCall,
     /// The end of a subprogram.
     Return,
+    /// G76 of LinuxCNC: a thread in several passes.
+    Threading,
+    /// G70, G71 and G72 of HAAS: the cycle that is on at holes on a circle, an arc or a line.
+    HolePattern(u8),
     /// Polar coordinates in the plane.
     Polar(bool),
     /// Scale, also negative.
@@ -254,7 +258,7 @@ impl Action {
             | Self::TiltedPlane { .. }
             | Self::Align { .. } => 20,
             Self::MachineCoordinates => 21,
-            Self::Motion(_) | Self::Approach => 22,
+            Self::Motion(_) | Self::Approach | Self::Threading | Self::HolePattern(_) => 22,
             Self::MacroCall | Self::ModalMacro { .. } | Self::Call | Self::LocalCall => 23,
             Self::Stop(_) | Self::End | Self::Return => 24,
         }
@@ -274,6 +278,8 @@ impl Action {
                 | Self::ReferenceCheck
                 | Self::ReferenceReturn
                 | Self::Preset
+                | Self::Threading
+                | Self::HolePattern(_)
                 | Self::Scale
                 | Self::Mirror(_)
                 | Self::Rotation

@@ -4,8 +4,9 @@ use super::{Run, fault};
 use crate::execution::drilling::{Drill, MOST_PECKS, Stroke, check_pecks, pecks, reversed};
 use crate::execution::mistakes;
 use crate::moves::{Axis, Event, MoveKind, Position, SpindleDirection};
-use crate::rs274::code::Cycle;
+use crate::rs274::code::{Cycle, Motion};
 use crate::text::program::Fault;
+use trueaxis_cycles::pattern::{Circle, MOST_HOLES, Row};
 
 /// What drilling cycles keep from block to block.
 #[derive(Debug, Clone, Default)]
@@ -102,6 +103,56 @@ impl Run<'_> {
             self.drill(strokes, at)?;
         }
         self.words.polar = [None; 2];
+        Ok(())
+    }
+
+    /// G70, G71 and G72 of HAAS: the drilling cycle that is on, at holes about or from the place of the tool.
+    ///
+    /// # Source
+    /// Haas Automation, "Mill Operator's Manual": G70 I radius, J angle of the first hole, L number; G71 with K
+    /// the angle from hole to hole; G72 I distance, J angle, L number. Angles are counter-clockwise from +X.
+    pub(super) fn hole_pattern(&mut self, code: u8, at: usize) -> Result<(), Fault> {
+        let size = self.length(b'I').unwrap_or(0.0);
+        let start_deg = self.words.take(b'J').unwrap_or(0.0);
+        let step_deg = self.words.take(b'K');
+        let count = self.words.take(b'L').unwrap_or(0.0);
+        let Some(Motion::Cycle(cycle)) = self.modes.motion else {
+            let message = format!("G{code} needs a drilling cycle that is on");
+            return Err(fault("missing-cycle", at, message, "write G81 Z R F L0 before it"));
+        };
+        if !(1.0..=f64::from(MOST_HOLES)).contains(&count) {
+            let message = format!("expected the number of holes in L, found {count}");
+            return Err(fault("bad-repeats", at, message, "write L6"));
+        }
+        let [first, second, _] = self.core.modes.plane.axes();
+        let (now, count) = (self.frames.position, count as u32);
+        let center = [now[first], now[second]];
+        let step_deg = step_deg.unwrap_or(360.0 / f64::from(count));
+        let holes = match code {
+            72 => {
+                let row = Row {
+                    from: center,
+                    angle_deg: start_deg,
+                    first_mm: 0.0,
+                    spacing_mm: size,
+                    count,
+                };
+                row.holes()
+            }
+            _ => Circle { center, radius_mm: size.abs(), start_deg, step_deg, count }.holes(),
+        };
+        let hole = self.hole(cycle, at)?;
+        for place in holes {
+            let mut over = self.frames.position;
+            (over[first], over[second]) = (place[0], place[1]);
+            self.step(MoveKind::Rapid, over);
+            if over.0[hole.axis] != hole.r {
+                over.0[hole.axis] = hole.r;
+                self.step(MoveKind::Rapid, over);
+            }
+            let strokes = self.strokes(cycle, &hole);
+            self.drill(strokes, at)?;
+        }
         Ok(())
     }
 

@@ -286,6 +286,8 @@ impl Run<'_> {
                 self.modes.macros.pop();
             }
             Action::DataInputEnd => {}
+            Action::Threading => self.thread(at)?,
+            Action::HolePattern(code) => self.hole_pattern(code, at)?,
             Action::ModalState(saving) => self.save_or_restore(saving, at)?,
             Action::Note(_)
             | Action::NoteWhole(_)

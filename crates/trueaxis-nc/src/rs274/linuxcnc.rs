@@ -58,7 +58,7 @@ const G_CODES: [(u16, A); 39] = [
     (720, A::NotApplied("G72 lathe facing cycle")),
     (721, A::NotApplied("G72.1 lathe facing cycle")),
     (722, A::NotApplied("G72.2 lathe facing cycle")),
-    (760, A::NotApplied("G76 threading cycle")),
+    (760, A::Threading),
     (800, A::Motion(Motion::Cancelled)),
     (901, A::ArcAbsolute(true)),
     (911, A::ArcAbsolute(false)),

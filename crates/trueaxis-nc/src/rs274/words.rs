@@ -255,6 +255,10 @@ impl Run<'_> {
         let left: Vec<_> = self.words.unused().collect();
         for (letter, offset) in left {
             let name = char::from(letter);
+            if letter == b'E' && self.extrudes() {
+                self.core.emit(crate::moves::Event::Note("E, the extruder of a printer"));
+                continue;
+            }
             if letter == b'E' || letter == b'O' {
                 if self.core.is_new("unknown-word", u32::from(letter)) {
                     return Err(mistakes::unknown_word(name, offset));
@@ -266,6 +270,21 @@ impl Run<'_> {
             self.core.warn("unused-word", u32::from(letter), offset, message, hint);
         }
         Ok(())
+    }
+
+    /// Whether E is the filament of a printer, an axis without motion of the tool: a word of G0 to G3 and G92.
+    fn extrudes(&self) -> bool {
+        let moves = |m: Motion| {
+            use Motion::{ArcClockwise, ArcCounterClockwise, Linear, Rapid};
+            matches!(m, Rapid | Linear | ArcClockwise | ArcCounterClockwise)
+        };
+        match &self.words.actions[..] {
+            [] => self.modes.motion.is_some_and(moves),
+            all => all.iter().all(|(a, _)| match a {
+                Action::Motion(motion) => moves(*motion),
+                other => matches!(other, Action::Shift | Action::Incremental(_)),
+            }),
+        }
     }
 
     /// A length word in mm.

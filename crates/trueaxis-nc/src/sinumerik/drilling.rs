@@ -6,7 +6,7 @@ use super::{Run, fault};
 use crate::execution::check_feed;
 use crate::execution::drilling::{Drill, Stroke, dwell, pecks, stop_above};
 use crate::execution::mistakes;
-use crate::moves::{AxisSet, Event, Feed, MoveKind, Position};
+use crate::moves::{Axis, AxisSet, Event, Feed, MoveKind, Position};
 use crate::text::program::Fault;
 use trueaxis_cycles::pattern::{peck_depths, pecks_less_by};
 
@@ -264,11 +264,12 @@ impl<'r> Drill<'r> for Run<'r> {
     }
 
     fn move_drill(&mut self, kind: MoveKind, to: Position, _at: usize) -> Result<(), Fault> {
-        let axis = self.core.modes.plane.axes()[2];
-        let waits = matches!(kind, MoveKind::Dwell { .. });
-        if waits || to[axis] != self.chain.position[axis] {
-            let named = AxisSet::default();
-            let named = if waits { named } else { named.with(axis) };
+        let waits = matches!(kind, MoveKind::Dwell { .. } | MoveKind::Arc(_));
+        let mut named = AxisSet::default();
+        for axis in Axis::ALL.into_iter().filter(|a| to[*a] != self.chain.position[*a]) {
+            named = named.with(axis);
+        }
+        if waits || named != AxisSet::default() {
             let step = self.core.plain_move(kind, to, named);
             self.core.emit_move(step);
             self.chain.position = to;

@@ -1,0 +1,320 @@
+//! Strokes of a cutter: bore milling, circular and rectangular pockets, faces.
+//!
+//! Places have the two coordinates of the plane and the height; a path is that of the centre of the cutter.
+
+use crate::{Point, along};
+
+/// Strokes of one cycle: more than any program means.
+const MOST_STROKES: usize = 1_000_000;
+
+/// One stroke.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stroke {
+    /// As fast as the machine can, to a place, mm.
+    Rapid([f64; 3]),
+    /// With the feed of the plane, to a place, mm.
+    Line([f64; 3]),
+    /// With the feed of the depth, to a place, mm.
+    Plunge([f64; 3]),
+    /// A circle or helix with the feed of the plane.
+    Arc {
+        /// Its end, mm.
+        to: [f64; 3],
+        /// Its centre, mm.
+        center: Point,
+        /// Counter-clockwise.
+        ccw: bool,
+        /// The feed of the depth instead: a helix into the material.
+        plunges: bool,
+    },
+}
+
+fn at(p: Point, height: f64) -> [f64; 3] {
+    [p[0], p[1], height]
+}
+
+/// The heights of a pocket or face, mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Heights {
+    /// Where the tool goes in rapid traverse.
+    pub safe_mm: f64,
+    /// The surface.
+    pub top_mm: f64,
+    /// The bottom.
+    pub bottom_mm: f64,
+    /// The deepest layer; the layers are as deep as each other.
+    pub layer_mm: f64,
+}
+
+impl Heights {
+    /// The heights of the layers, the bottom last; `None` if they are too many.
+    pub fn layers(&self) -> Option<Vec<f64>> {
+        let depth = self.top_mm - self.bottom_mm;
+        let count = if self.layer_mm > 0.0 { (depth / self.layer_mm - 1e-9).ceil() } else { 1.0 };
+        if count.is_nan() || count >= 1e5 {
+            return None;
+        }
+        let count = count.max(1.0) as u32;
+        let height = |i: u32| self.top_mm - depth * f64::from(i) / f64::from(count);
+        Some((1..=count).map(height).collect())
+    }
+}
+
+/// A hole larger than the tool, by a helix: from the centre out, down, once around at the bottom and back.
+///
+/// `radius_mm` is that of the path of the centre of the cutter, `pitch_mm` the depth of each turn.
+pub fn bore(center: Point, radius_mm: f64, heights: &Heights, ccw: bool) -> Option<Vec<Stroke>> {
+    let Heights { safe_mm, bottom_mm, layer_mm, .. } = *heights;
+    let (side, other) =
+        (along(center, [1.0, 0.0], radius_mm), along(center, [-1.0, 0.0], radius_mm));
+    let middle = along(center, [0.5, 0.0], radius_mm);
+    let arc = |to: Point, height: f64, about: Point, plunges| Stroke::Arc {
+        to: at(to, height),
+        center: about,
+        ccw,
+        plunges,
+    };
+    let depth = safe_mm - bottom_mm;
+    let turns = if layer_mm > 0.0 { (depth / layer_mm - 1e-9).ceil().max(1.0) } else { 1.0 };
+    if turns.is_nan() || turns >= 1e5 {
+        return None;
+    }
+    let mut strokes = vec![Stroke::Rapid(at(center, safe_mm)), arc(side, safe_mm, middle, false)];
+    let half = depth / (2.0 * turns);
+    for i in 0..turns as u32 {
+        let height = safe_mm - 2.0 * half * f64::from(i);
+        strokes.push(arc(other, height - half, center, true));
+        strokes.push(arc(side, height - 2.0 * half, center, true));
+    }
+    strokes.push(arc(other, bottom_mm, center, false));
+    strokes.push(arc(side, bottom_mm, center, false));
+    strokes.push(arc(center, bottom_mm, middle, false));
+    Some(strokes)
+}
+
+/// A round pocket in layers: in each down at the centre, then circles that grow by the step.
+pub fn round_pocket(
+    center: Point,
+    radius_mm: f64,
+    step_mm: f64,
+    heights: &Heights,
+    ccw: bool,
+) -> Option<Vec<Stroke>> {
+    let rings = (radius_mm / step_mm - 1e-9).ceil();
+    if rings.is_nan() || rings >= 1e4 || step_mm <= 0.0 {
+        return None;
+    }
+    let rings = rings.max(0.0) as u32;
+    let mut strokes = vec![Stroke::Rapid(at(center, heights.safe_mm))];
+    for height in heights.layers()? {
+        strokes.push(Stroke::Plunge(at(center, height)));
+        for i in 1..=rings {
+            let r = radius_mm * f64::from(i) / f64::from(rings);
+            let (side, other) = (along(center, [1.0, 0.0], r), along(center, [-1.0, 0.0], r));
+            strokes.push(Stroke::Line(at(side, height)));
+            for to in [other, side] {
+                strokes.push(Stroke::Arc { to: at(to, height), center, ccw, plunges: false });
+            }
+        }
+        strokes.push(Stroke::Line(at(center, height)));
+        if strokes.len() > MOST_STROKES {
+            return None;
+        }
+    }
+    strokes.push(Stroke::Rapid(at(center, heights.safe_mm)));
+    Some(strokes)
+}
+
+/// A rectangular pocket; the measures are those of the path of the centre of the cutter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RectanglePocket {
+    /// The centre, mm.
+    pub center: Point,
+    /// Half of the sides along the first and second axis of the pocket, mm.
+    pub half_mm: [f64; 2],
+    /// The radius of the corners, mm.
+    pub corner_mm: f64,
+    /// The direction of the first side, degrees.
+    pub angle_deg: f64,
+}
+
+impl RectanglePocket {
+    fn place(&self, p: Point) -> Point {
+        let (sin, cos) = self.angle_deg.to_radians().sin_cos();
+        [self.center[0] + p[0] * cos - p[1] * sin, self.center[1] + p[0] * sin + p[1] * cos]
+    }
+
+    /// Once around a rectangle with rounded corners, from the middle of its first side.
+    fn around(&self, half: Point, corner: f64, height: f64, ccw: bool, strokes: &mut Vec<Stroke>) {
+        let sign = if ccw { 1.0 } else { -1.0 };
+        let (a, b) = (half[0], half[1]);
+        let c = corner.min(a).min(b);
+        // Corners counter-clockwise from the right upper one: where each begins, ends, and its centre.
+        let all = [
+            ([a, b - c], [a - c, b], [a - c, b - c]),
+            ([c - a, b], [-a, b - c], [c - a, b - c]),
+            ([-a, c - b], [c - a, -b], [c - a, c - b]),
+            ([a - c, -b], [a, c - b], [a - c, c - b]),
+        ];
+        let mirrored = |p: Point| self.place([p[0], sign * p[1]]);
+        strokes.push(Stroke::Line(at(mirrored([a, 0.0]), height)));
+        for (begin, end, center) in all {
+            strokes.push(Stroke::Line(at(mirrored(begin), height)));
+            if c > 0.0 {
+                let (to, center) = (at(mirrored(end), height), mirrored(center));
+                strokes.push(Stroke::Arc { to, center, ccw, plunges: false });
+            }
+        }
+        strokes.push(Stroke::Line(at(mirrored([a, 0.0]), height)));
+    }
+
+    /// The pocket in layers: in each down at the centre, then rectangles that grow by the step.
+    pub fn strokes(&self, step_mm: f64, heights: &Heights, ccw: bool) -> Option<Vec<Stroke>> {
+        let narrow = self.half_mm[0].min(self.half_mm[1]);
+        let rings = (narrow / step_mm - 1e-9).ceil();
+        if rings.is_nan() || rings >= 1e4 || step_mm <= 0.0 {
+            return None;
+        }
+        let rings = rings.max(1.0) as u32;
+        let mut strokes = vec![Stroke::Rapid(at(self.center, heights.safe_mm))];
+        for height in heights.layers()? {
+            strokes.push(Stroke::Plunge(at(self.center, height)));
+            for i in 1..=rings {
+                let smaller = narrow * (1.0 - f64::from(i) / f64::from(rings));
+                let half = self.half_mm.map(|h| h - smaller);
+                self.around(half, (self.corner_mm - smaller).max(0.0), height, ccw, &mut strokes);
+            }
+            strokes.push(Stroke::Line(at(self.center, height)));
+            if strokes.len() > MOST_STROKES {
+                return None;
+            }
+        }
+        strokes.push(Stroke::Rapid(at(self.center, heights.safe_mm)));
+        Some(strokes)
+    }
+}
+
+/// A face in parallel strokes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Face {
+    /// Two opposite corners of the face, mm.
+    pub corners: [Point; 2],
+    /// The largest distance from stroke to stroke, mm.
+    pub step_mm: f64,
+    /// How far the centre of the cutter goes past the ends of a stroke, mm.
+    pub over_mm: f64,
+    /// The strokes are along the second axis of the plane.
+    pub along_second: bool,
+    /// Every second stroke goes back.
+    pub back_and_forth: bool,
+}
+
+impl Face {
+    /// The strokes of all layers, with the tool above the first one at the beginning.
+    pub fn strokes(&self, heights: &Heights) -> Option<Vec<Stroke>> {
+        let [a, b] = self.corners;
+        let (i, j) = if self.along_second { (1, 0) } else { (0, 1) };
+        let width = (b[j] - a[j]).abs();
+        let gaps = (width / self.step_mm - 1e-9).ceil().max(1.0);
+        if gaps.is_nan() || gaps >= 1e4 || self.step_mm <= 0.0 {
+            return None;
+        }
+        let gaps = gaps as u32;
+        let sign = if b[i] < a[i] { -1.0 } else { 1.0 };
+        let ends = [a[i] - sign * self.over_mm, b[i] + sign * self.over_mm];
+        let point = |end: usize, line: u32| {
+            let mut p = [0.0; 2];
+            p[i] = ends[end];
+            p[j] = a[j] + (b[j] - a[j]) * f64::from(line) / f64::from(gaps);
+            p
+        };
+        let mut strokes = Vec::new();
+        for height in heights.layers()? {
+            for line in 0..=gaps {
+                let back = self.back_and_forth && line % 2 == 1;
+                let (from, to) = if back { (1, 0) } else { (0, 1) };
+                if line == 0 || !self.back_and_forth {
+                    strokes.push(Stroke::Rapid(at(point(from, line), heights.safe_mm)));
+                    strokes.push(Stroke::Plunge(at(point(from, line), height)));
+                } else {
+                    strokes.push(Stroke::Line(at(point(from, line), height)));
+                }
+                strokes.push(Stroke::Line(at(point(to, line), height)));
+                if !self.back_and_forth || line == gaps {
+                    strokes.push(Stroke::Rapid(at(point(to, line), heights.safe_mm)));
+                }
+            }
+            if strokes.len() > MOST_STROKES {
+                return None;
+            }
+        }
+        Some(strokes)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HEIGHTS: Heights = Heights { safe_mm: 2.0, top_mm: 0.0, bottom_mm: -5.0, layer_mm: 2.0 };
+
+    /// The places at the bottom.
+    fn bottom(strokes: &[Stroke]) -> Vec<Point> {
+        let place = |s: &Stroke| match s {
+            Stroke::Rapid(p) | Stroke::Line(p) | Stroke::Plunge(p) | Stroke::Arc { to: p, .. } => {
+                *p
+            }
+        };
+        strokes.iter().map(place).filter(|p| p[2] == -5.0).map(|p| [p[0], p[1]]).collect()
+    }
+
+    #[test]
+    fn layers_are_alike() {
+        let layers = HEIGHTS.layers().unwrap();
+        assert!(layers.len() == 3 && (layers[0] + 5.0 / 3.0).abs() < 1e-12 && layers[2] == -5.0);
+        assert_eq!(Heights { layer_mm: 1e-9, ..HEIGHTS }.layers(), None);
+    }
+
+    #[test]
+    fn a_bore_ends_with_a_full_circle_at_its_bottom() {
+        let strokes = bore([10.0, 20.0], 4.0, &HEIGHTS, true).unwrap();
+        // 7 mm by at most 2 mm a turn: 4 turns of two halves.
+        let down =
+            strokes.iter().filter(|s| matches!(s, Stroke::Arc { plunges: true, .. })).count();
+        assert_eq!(down, 8);
+        let last = bottom(&strokes);
+        assert_eq!(last, [[14.0, 20.0], [6.0, 20.0], [14.0, 20.0], [10.0, 20.0]]);
+    }
+
+    #[test]
+    fn pockets_reach_their_walls_and_no_ring_is_wider_than_the_step() {
+        let round = bottom(&round_pocket([0.0, 0.0], 10.0, 4.0, &HEIGHTS, true).unwrap());
+        let far = round.iter().map(|p| p[0].hypot(p[1])).fold(0.0, f64::max);
+        assert_eq!((far, round.len()), (10.0, 1 + 3 * 3 + 1));
+        let pocket = RectanglePocket {
+            center: [5.0, 0.0],
+            half_mm: [20.0, 10.0],
+            corner_mm: 3.0,
+            angle_deg: 0.0,
+        };
+        let walls = bottom(&pocket.strokes(4.0, &HEIGHTS, false).unwrap());
+        assert_eq!(walls.iter().map(|p| p[0]).fold(0.0, f64::max), 25.0);
+        assert_eq!(walls.iter().map(|p| p[1]).fold(0.0, f64::min), -10.0);
+        assert!(walls.contains(&[22.0, 10.0]) && walls.contains(&[25.0, 7.0]));
+    }
+
+    #[test]
+    fn faces_are_covered_from_corner_to_corner() {
+        let face = Face {
+            corners: [[0.0, 0.0], [50.0, -30.0]],
+            step_mm: 20.0,
+            over_mm: 5.0,
+            along_second: false,
+            back_and_forth: true,
+        };
+        let places = bottom(&face.strokes(&HEIGHTS).unwrap());
+        let wanted =
+            [[-5.0, 0.0], [55.0, 0.0], [55.0, -15.0], [-5.0, -15.0], [-5.0, -30.0], [55.0, -30.0]];
+        assert_eq!(places, wanted);
+    }
+}
