@@ -5,6 +5,8 @@ out=${OUT:-.}
 $trueaxis simulate machines/wyxzcat-gantry/machine.toml examples/02_simulate/impeller-840d.mpf --report "$out/impeller.html"
 $trueaxis simulate machines/i5-engraver/machine.toml examples/02_simulate/ring-fanuc.nc --report "$out/ring.html" --path "$out/ring.csv"
 $trueaxis trace machines/wyxzcat-gantry/machine.toml examples/02_simulate/impeller-840d.mpf --block 120
+# Increments count from where the tool is, after a swivel and under M128, too.
+$trueaxis simulate machines/head-table/machine.toml examples/02_simulate/incremental.h --report "$out/incremental.html"
 # The same time for every chord.
 for chord in 0.05 0.005 0.0002; do
     $trueaxis simulate machines/three-axis-mill/machine.toml examples/02_simulate/circle-times.ngc --chord $chord --report "$out/circle-times.html"

@@ -291,3 +291,37 @@ fn the_documents_have_their_keys() {
     let ran = run(&["trace", I5, RING, "--block", "99999"], &[]);
     assert_eq!((ran.status, ran.out.as_str()), (2, ""), "{}", ran.err);
 }
+
+/// The places that `examples/02_simulate/README.md` works out by hand: (20, 10, 0), tilted by 30° about Y.
+#[test]
+fn increments_count_from_where_the_tool_is() {
+    let folder = Folder::new("increments");
+    let path = folder.path("places.csv");
+    let program = "examples/02_simulate/incremental.h";
+    let machine = "machines/head-table/machine.toml";
+    let words = ["simulate", machine, program, "--no-report", "--path", &path, "--format", "json"];
+    let document = trueaxis(&words).json();
+    assert_eq!(document["diagnostics"][0]["code"], "unknown-tool-length");
+    assert_eq!(document["motion_left_out"], 0);
+    let text = std::fs::read_to_string(&path).expect("the table");
+    let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let names = lines.next().expect("a head");
+    let column = |name: &str| names.iter().position(|n| *n == name).expect("a column");
+    let rows: Vec<_> = lines.collect();
+    let tip_after = |line: &str| {
+        let last = rows.iter().rfind(|row| row[column("line")] == line).expect("a row of the line");
+        ["tip_x_mm", "tip_y_mm", "tip_z_mm"].map(|name| last[column(name)].parse::<f64>().unwrap())
+    };
+    let (sin, cos) = 30.0_f64.to_radians().sin_cos();
+    let expected = [
+        ("11", [20.0 + 5.0 * sin, 10.0, 5.0 * cos]),
+        ("12", [20.0 - 3.0 * sin, 10.0, -3.0 * cos]),
+        ("14", [20.0 + 5.0 * sin + 12.0 * cos, 10.0, 5.0 * cos - 12.0 * sin]),
+        ("20", [20.0 + 45.0 * sin + 12.0 * cos, 10.0, 45.0 * cos - 12.0 * sin + 5.0]),
+    ];
+    for (line, place) in expected {
+        let tip = tip_after(line);
+        let off = tip.iter().zip(place).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(off < 1e-6, "line {line}: {tip:?}, by hand {place:?}");
+    }
+}

@@ -1,0 +1,24 @@
+0 BEGIN PGM INCREMENTAL MM
+1 ; Increments count from where the tool is, whatever has turned, shifted or grown before them.
+2 ; Two holes in a face that is tilted by 30 degrees, then 5 mm along the tool under M128.
+3 TOOL CALL 1 Z S8000 F1000
+4 L X+0 Y+0 Z+80 R0 FMAX M3
+5 CYCL DEF 7.0 DATUM SHIFT
+6 CYCL DEF 7.1 X+20
+7 CYCL DEF 7.2 Y+10
+8 PLANE SPATIAL SPA+0 SPB+30 SPC+0 TURN FMAX
+9 L X+0 Y+0 FMAX
+10 L Z+5 FMAX
+11 L IZ-8 F200
+12 L IZ+8 FMAX
+13 L IX+12 FMAX
+14 L IZ-8 F200
+15 L IZ+8 FMAX
+16 L IZ+40 FMAX
+17 PLANE RESET STAY
+18 M128
+19 L IX+0 IY+0 IZ+5 F1000
+20 M129
+21 L IZ+5 FMAX
+22 M30
+99 END PGM INCREMENTAL MM
