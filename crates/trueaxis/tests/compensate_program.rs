@@ -7,6 +7,7 @@ mod library;
 
 use library::paths::{cl, free_form, ways};
 use library::{MACHINES, bare, machine, with_lost_motion};
+use std::f64::consts::TAU;
 use trueaxis::compensate::post::post;
 use trueaxis::compensate::program::{
     Increments, MARK, ProgramOptions, Rewritten, compensate_program,
@@ -14,6 +15,7 @@ use trueaxis::compensate::program::{
 use trueaxis::geometry::Vec3;
 use trueaxis::input::Diagnostics;
 use trueaxis::machine::Machine;
+use trueaxis::machine::file::NoTables;
 use trueaxis::nc::{Control, Program};
 use trueaxis::simulate::{Batch, Densify, Observer, Options, SetUp, simulate};
 use trueaxis::writer::TipWords;
@@ -375,4 +377,91 @@ fn law_no_piece_leaves_the_residual_at_1000_places() {
             assert!(pieces as usize > ends.len(), "{name}: nothing was cut");
         }
     }
+}
+
+/// Two turns of radius 50 mm as pieces whose sagitta is the residual: π/acos(1 − ε/r) of them for a
+/// turn, 497 for 1 µm, and no place of the written program farther from the circle than 1 µm.
+#[test]
+fn circles_are_cut_by_their_sagitta() {
+    let text = "G21 G90 G94 F1000\nG0 X50 Y0 Z-50\nG3 X50 Y0 I-50 J0\nG3 X50 Y0 I-50 J0\nM2\n";
+    // An ellipse that no circle keeps within the residual: squareness leaves 5 µm on this radius.
+    let description = "[machine]\nname = \"m\"\nchain = \"w X' Y' b Z t\"\n\
+                       [location]\nEC0X = \"200 urad\"\n";
+    let machine = Machine::check("m.toml", description, &NoTables).0.unwrap();
+    for (increments, places) in [(None, 1e-3), (Some(1e-4), 1e-3 - 0.5 * 3_f64.sqrt() * 1e-4)] {
+        let increments =
+            increments.map(|linear_mm| Increments { linear_mm, ..Increments::default() });
+        let options = ProgramOptions { increments, ..ProgramOptions::default() };
+        let (done, problems) = compensated(&machine, text.as_bytes(), Control::LinuxCnc, &options);
+        let Some(done) = done else { panic!("{:?}", codes(&problems)) };
+        assert_eq!(done.found.circles, 2);
+        let least = TAU / (1.0 - places / 50.0_f64).acos();
+        let pieces = done.found.pieces as f64;
+        let radius = |p: &Vec3| p.x.hypot(p.y) - 50.0;
+        let all = tips(&machine, "c.ngc", &done.text, Control::LinuxCnc, 100);
+        let begin = all.iter().position(|p| radius(p).abs() < 2e-3).unwrap();
+        let worst = all[begin..].iter().map(|p| radius(p).abs()).fold(0.0, f64::max);
+        println!("{increments:?}: {pieces} pieces, {least:.1} at least, {worst:.3e} mm");
+        assert!(pieces >= least && pieces <= 1.03 * least + 4.0, "{pieces} {least}");
+        assert!(worst <= 1e-3 && worst > 0.85 * places, "{worst}");
+    }
+}
+
+/// Lines and circles anywhere on machines with any squareness and straightness: no place is farther
+/// from the programmed element than the residual, and circles get hardly more pieces than their
+/// sagitta asks for.
+#[test]
+fn law_random_elements_keep_the_residual_with_few_pieces() {
+    let mut random = library::Random(17);
+    let (mut cut, mut most) = (0, 0.0_f64);
+    for case in 0..24 {
+        let mut between = |low: f64, high: f64| low + (high - low) * random.unit();
+        let residual_mm = [3e-4, 1e-3, 3e-3][case % 3];
+        let description = format!(
+            "[machine]\nname = \"m\"\nchain = \"w X' Y' b Z t\"\n[location]\nEC0X = \"{} urad\"\n\
+             [motion.X]\nEYX = {{ polynomial = [\"0 um\", \"1 um\", \"{} um\"], scale = \"100 mm\" }}\n",
+            between(100.0, 400.0),
+            between(-8.0, 8.0)
+        );
+        let machine = Machine::check("m.toml", &description, &NoTables).0.unwrap();
+        let (radius, from) = (between(20.0, 120.0), between(0.0, TAU));
+        let sweep = between(1.0, 6.0);
+        let center = [between(-50.0, 50.0), between(-50.0, 50.0)];
+        let at = |angle: f64| [center[0] + radius * angle.cos(), center[1] + radius * angle.sin()];
+        let ([x0, y0], [x1, y1]) = (at(from), at(from + sweep));
+        let (i, j) = (center[0] - x0, center[1] - y0);
+        let far = [x1 + between(50.0, 200.0), y1 + between(-100.0, 100.0)];
+        let text = format!(
+            "G21 G90 G94 F1000\nG0 X{x0:.9} Y{y0:.9} Z-50\nG3 X{x1:.9} Y{y1:.9} I{i:.9} J{j:.9}\n\
+             G1 X{:.9} Y{:.9}\nM2\n",
+            far[0], far[1]
+        );
+        let options = ProgramOptions { increments: None, residual_mm, ..ProgramOptions::default() };
+        let (done, problems) = compensated(&machine, text.as_bytes(), Control::LinuxCnc, &options);
+        let Some(done) = done else { panic!("{:?}\n{text}", codes(&problems)) };
+        let all = tips(&machine, "c.ngc", &done.text, Control::LinuxCnc, 50);
+        let way = Vec3::new(far[0] - x1, far[1] - y1, 0.0);
+        let off = |p: &Vec3| {
+            let arm = [p.x - center[0], p.y - center[1]];
+            let turned = (arm[1].atan2(arm[0]) - from).rem_euclid(TAU);
+            let on_circle = turned < sweep + 1e-3 || turned > TAU - 1e-3;
+            let circle = if on_circle { (arm[0].hypot(arm[1]) - radius).abs() } else { 1.0 };
+            let begin = p - Vec3::new(x1, y1, p.z);
+            let u = (begin.dot(&way) / way.norm_squared()).clamp(0.0, 1.0);
+            circle.min((begin - way * u).norm())
+        };
+        let begin = all.iter().position(|p| off(p) < 1e-8).unwrap();
+        let worst = all[begin..].iter().map(off).fold(0.0, f64::max);
+        assert!(worst <= residual_mm, "case {case}: {worst} of {residual_mm}\n{text}");
+        if done.found.circles > 0 {
+            let least = sweep / 2.0 / (1.0 - residual_mm / radius).acos();
+            // The rapid, and the line with what straightness asks of it.
+            let pieces = done.found.pieces as f64 - 1.0 - 12.0;
+            most = most.max(pieces / least);
+            assert!(pieces <= 1.25 * least, "case {case}: {pieces} pieces, {least} at least");
+            cut += 1;
+        }
+    }
+    println!("{cut} circles cut, at most {most:.3} times the least number of pieces");
+    assert!(cut >= 12, "{cut}");
 }

@@ -92,13 +92,31 @@ impl ProgramOptions {
     }
 }
 
-/// Pieces are cut within this share of the residual: rounding and the places between those that
-/// are examined need the rest.
+/// Circles may leave this share of the residual: rounding adds to it.
 const SHARE: f64 = 0.5;
 
 fn residual_share(options: &ProgramOptions) -> [f64; 2] {
     [SHARE * options.residual_mm, SHARE * options.residual_rad]
 }
+
+/// What straight pieces may leave: the residual less what rounding the ends adds at most, but never
+/// less than half of it.
+///
+/// Three linear axes are rounded by half an increment each, two rotary axes too.
+fn residual_of_pieces(options: &ProgramOptions) -> [f64; 2] {
+    let rounding = options.increments.map_or([0.0; 2], |i| {
+        [0.5 * 3_f64.sqrt() * i.linear_mm, 0.5 * 2_f64.sqrt() * i.rotary_deg.to_radians()]
+    });
+    let share = residual_share(options);
+    [
+        (options.residual_mm - rounding[0]).max(share[0]),
+        (options.residual_rad - rounding[1]).max(share[1]),
+    ]
+}
+
+/// Places of a circle on one piece of the length that its sagitta allows: n places between two ends
+/// are 1/n² of that sagitta off their own chords.
+const PLACES_OF_A_PIECE: f64 = 6.0;
 
 /// A program that was compensated.
 #[derive(Debug, Clone)]
@@ -200,7 +218,8 @@ fn tried(
 fn densify(options: &ProgramOptions, attempt: u32, least: u32) -> Densify {
     let part = 0.5_f64.powi(attempt as i32);
     Densify::Places {
-        chord_mm: 0.2 * options.residual_mm,
+        // A little less, so that what the machine does to the circle does not cost a place.
+        chord_mm: 0.97 * residual_of_pieces(options)[0] / PLACES_OF_A_PIECE.powi(2),
         angle_rad: (ANGLE_DEG * part).to_radians(),
         spacing_mm: SPACING_MM * part,
         least,

@@ -25,9 +25,9 @@ impl Stand {
         [(self.tip - other.tip).norm(), angle(&self.axis, &other.axis)]
     }
 
-    /// The distance of the tip from the segment between two stands, and the angle of the axis to
-    /// that at the nearest place.
-    pub fn off_segment(&self, a: &Self, b: &Self) -> [f64; 2] {
+    /// The distance of the tip from the way between two stands, which bends by `bend`, the second
+    /// difference of the tips, and the angle of the axis to that at the nearest place.
+    pub fn off_segment(&self, a: &Self, b: &Self, bend: &Vec3) -> [f64; 2] {
         let way = b.tip - a.tip;
         let length = way.norm_squared();
         let whole = angle(&a.axis, &b.axis);
@@ -38,7 +38,9 @@ impl Stand {
         } else {
             1.0
         };
-        self.from(&a.between(b, u.clamp(0.0, 1.0)))
+        let u = u.clamp(0.0, 1.0);
+        let chord = a.between(b, u);
+        self.from(&Self { tip: chord.tip - bend * (0.5 * u * (1.0 - u)), ..chord })
     }
 
     fn between(&self, to: &Self, u: f64) -> Self {
@@ -77,21 +79,56 @@ pub(super) struct Cut<'c> {
 }
 
 impl Cut<'_> {
-    /// The samples at which straight pieces end so that no sample between them is missed by more
+    /// The samples at which straight pieces end so that no place between them is missed by more
     /// than the residual; the first one is where the move begins.
     pub fn ends(&self, samples: &[Sample]) -> Vec<usize> {
         let mut ends = Vec::new();
-        let mut wait = self.stretches(samples);
-        while let Some((from, to)) = wait.pop() {
-            if to - from < 2 || self.is_straight(&samples[from..=to]) {
-                ends.push(to);
-            } else {
-                let middle = (from + to) / 2;
-                wait.push((middle, to));
-                wait.push((from, middle));
-            }
+        for (from, to) in self.stretches(samples).into_iter().rev() {
+            let longest = self.longest(samples, (from, to));
+            // As many of the same length are smoother, where they keep the residual too.
+            let count = longest.len();
+            let even = (1..=count).map(|k| from + (to - from) * k / count).collect::<Vec<_>>();
+            let mut begins = std::iter::once(from).chain(even.iter().copied());
+            let fit = even.iter().zip(&mut begins).all(|(end, at)| self.fits(samples, (at, *end)));
+            ends.extend(if fit { even } else { longest });
         }
         ends
+    }
+
+    /// Ends of pieces, each as long as the residual allows.
+    fn longest(&self, samples: &[Sample], (from, to): (usize, usize)) -> Vec<usize> {
+        let mut ends = Vec::new();
+        let mut at = from;
+        while at < to {
+            at = self.farthest(samples, (at, to));
+            ends.push(at);
+        }
+        ends
+    }
+
+    /// The farthest end of a piece: twice as far as long as it fits, then by halves.
+    fn farthest(&self, samples: &[Sample], (from, to): (usize, usize)) -> usize {
+        if self.fits(samples, (from, to)) {
+            return to;
+        }
+        let (mut good, mut step) = (from + 1, 1);
+        while good + step < to && self.fits(samples, (from, good + step)) {
+            good += step;
+            step *= 2;
+        }
+        let mut bad = (good + step).min(to);
+        while bad - good > 1 {
+            let middle = good + (bad - good) / 2;
+            match self.fits(samples, (from, middle)) {
+                true => good = middle,
+                false => bad = middle,
+            }
+        }
+        good
+    }
+
+    fn fits(&self, samples: &[Sample], (from, to): (usize, usize)) -> bool {
+        to - from < 2 || self.is_straight(&samples[from..=to])
     }
 
     /// From turning point to turning point, the last stretch first; what an axis makes up there is a
@@ -111,17 +148,40 @@ impl Cut<'_> {
         stretches
     }
 
+    /// Whether the largest distance from the straight piece is within the residual: at the samples, and
+    /// in the middle between two of them, on the parabola through the distances.
+    ///
+    ///   e(k + ½) = (e_k + e_{k+1})/2 − (e_{k−1} − 2 e_k + e_{k+1})/8
     fn is_straight(&self, samples: &[Sample]) -> bool {
         let (first, last) = (&samples[0], &samples[samples.len() - 1]);
-        samples[1..samples.len() - 1].iter().all(|s| {
-            let u = (s.u - first.u) / (last.u - first.u).max(f64::MIN_POSITIVE);
-            let [tip_mm, axis_rad] = self.missed(first, last, u, s);
-            tip_mm <= self.residual_mm && axis_rad <= self.residual_rad
-        })
+        let within =
+            |off: &Off| off.0.norm() <= self.residual_mm && off.1.norm() <= self.residual_rad;
+        let (mut before, mut here) = (Off::default(), Off::default());
+        for (k, s) in samples.iter().enumerate().skip(1) {
+            let next = match k + 1 == samples.len() {
+                true => Off::default(),
+                false => {
+                    let u = (s.u - first.u) / (last.u - first.u).max(f64::MIN_POSITIVE);
+                    self.missed(first, last, u, s)
+                }
+            };
+            if !within(&next) {
+                return false;
+            }
+            if k >= 2 {
+                let bend = before.minus(&here).minus(&here.minus(&next)).scaled(0.125);
+                let middle = |a: &Off, b: &Off| a.plus(b).scaled(0.5).minus(&bend);
+                if !within(&middle(&before, &here)) || !within(&middle(&here, &next)) {
+                    return false;
+                }
+            }
+            (before, here) = (here, next);
+        }
+        true
     }
 
     /// How far the control is from a sample on its straight way between two others.
-    fn missed(&self, first: &Sample, last: &Sample, u: f64, at: &Sample) -> [f64; 2] {
+    fn missed(&self, first: &Sample, last: &Sample, u: f64, at: &Sample) -> Off {
         let (from, to) = (&first.command, &last.command);
         let even: Command = std::array::from_fn(|i| from[i] + (to[i] - from[i]) * u);
         let there = match self.straight {
@@ -135,7 +195,25 @@ impl Cut<'_> {
                 ..first.believed.between(&last.believed, u)
             },
         };
-        there.from(&at.believed)
+        Off(there.tip - at.believed.tip, there.axis - at.believed.axis)
+    }
+}
+
+/// How far the tip, mm, and the tool axis are off, by small angles in rad.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Off(Vec3, Vec3);
+
+impl Off {
+    fn plus(&self, other: &Self) -> Self {
+        Self(self.0 + other.0, self.1 + other.1)
+    }
+
+    fn minus(&self, other: &Self) -> Self {
+        Self(self.0 - other.0, self.1 - other.1)
+    }
+
+    fn scaled(&self, by: f64) -> Self {
+        Self(self.0 * by, self.1 * by)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::found::{Found, Want};
 use super::stand::Stand;
+use trueaxis_geometry::Vec3;
 use trueaxis_input::Diagnostics;
 use trueaxis_machine::Machine;
 use trueaxis_motion::{AxisWatch, Batch, Densify, IssueList, Observer, Options, SetUp, simulate};
@@ -162,7 +163,21 @@ impl<'f> Compare<'f> {
     /// How far a place is from the way of a piece.
     fn missed(&self, want: &Want, is: &Stand) -> [f64; 2] {
         let stands = &self.found.stands[want.from as usize..want.to as usize];
-        let each = stands.windows(2).map(|w| is.off_segment(&w[0], &w[1]));
+        // The programmed way bends between its stands as it does around them.
+        let bend = |k: usize| match stands.len() {
+            0..3 => Vec3::zeros(),
+            n => {
+                let k = k.clamp(1, n - 2);
+                stands[k - 1].tip - stands[k].tip * 2.0 + stands[k + 1].tip
+            }
+        };
+        let each = stands.windows(2).enumerate().map(|(k, w)| {
+            let chord = (w[1].tip - w[0].tip).norm();
+            let bend = bend(k);
+            // A corner is no bend.
+            let bend = if bend.norm() <= 0.2 * chord { bend } else { Vec3::zeros() };
+            is.off_segment(&w[0], &w[1], &bend)
+        });
         each.min_by(|a, b| a[0].total_cmp(&b[0])).unwrap_or([0.0, 0.0])
     }
 

@@ -11,7 +11,7 @@ use super::number::Of;
 use super::refuse::{again, cone, refusal};
 use super::stand::{Cut, Sample, Stand};
 use super::text::{Edits, Text};
-use super::{ProgramOptions, residual_share};
+use super::{ProgramOptions, residual_of_pieces, residual_share};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_motion::axis_path::{AxisPath, Fault};
@@ -332,7 +332,7 @@ impl<'w> Walk<'w> {
     }
 
     fn cut<'c>(&self, control: &'c trueaxis_machine::tcp::TipControl) -> Cut<'c> {
-        let [residual_mm, residual_rad] = residual_share(self.options);
+        let [residual_mm, residual_rad] = residual_of_pieces(self.options);
         Cut { control, straight: self.written.straight(), residual_mm, residual_rad }
     }
 
