@@ -10,6 +10,7 @@ mod library;
 pub(crate) mod milling;
 pub(crate) mod mistakes;
 mod modes;
+mod own_codes;
 mod stop;
 pub(crate) mod values;
 
@@ -23,6 +24,7 @@ pub use follower::{Follower, KnownPosition};
 pub(crate) use language::{Core, Language, Next};
 pub use library::{Library, NoLibrary};
 pub(crate) use modes::{Modes, check_feed};
+pub use own_codes::OwnCode;
 pub use stop::Stop;
 
 /// The state of the control before the program begins.
@@ -52,6 +54,8 @@ pub struct Settings {
     pub tool_names: BTreeMap<String, u32>,
     /// Work offsets by number, from 1 for G54; zero where none is given.
     pub work_offsets: BTreeMap<u32, Frame>,
+    /// What codes and programs of the machine builder do, by their names in capital letters: `M200`, `G120`, `TOOLIN`.
+    pub codes: BTreeMap<String, OwnCode>,
     /// Named read-only parameters of the machine, such as `_ini[axis_x]max_limit`, lower case.
     pub constants: BTreeMap<String, f64>,
     /// Whether each block and its computed values are reported: [`Event::Block`](crate::Event::Block), [`Event::Computed`](crate::Event::Computed).
@@ -75,6 +79,7 @@ impl Default for Settings {
             unlisted_length_mm: None,
             tool_names: BTreeMap::new(),
             work_offsets: BTreeMap::new(),
+            codes: BTreeMap::new(),
             constants: BTreeMap::new(),
             report_blocks: false,
             stop: Stop::default(),

@@ -204,7 +204,10 @@ impl<'r> Run<'r> {
         if steers {
             self.core.emit(Event::Computed { text: line.start..line.end, value: None });
         }
-        Ok(next)
+        match self.core.own_call.take() {
+            Some((name, at)) if next == Next::Following => self.call_program(&name, at),
+            _ => Ok(next),
+        }
     }
 
     /// A move of which every value is reported; the position is kept.

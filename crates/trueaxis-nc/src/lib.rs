@@ -76,7 +76,9 @@ mod text;
 
 pub use dialect::{Control, Dialect};
 pub use execution::leaves_motion_out;
-pub use execution::{Follower, KnownPosition, Library, NoLibrary, Outcome, Settings, Stop};
+pub use execution::{
+    Follower, KnownPosition, Library, NoLibrary, Outcome, OwnCode, Settings, Stop,
+};
 pub use interpret::{interpret, interpret_on};
 pub use rs274::code;
 pub use text::program::Program;

@@ -109,6 +109,8 @@ pub(crate) struct Core<'r> {
     pub settings: &'r Settings,
     pub(super) follower: &'r mut dyn Follower,
     pub(super) corners: Corners,
+    /// A program that the dictionary calls after this block.
+    pub own_call: Option<(String, usize)>,
     /// The place in the program frame is to be read again.
     is_unread: bool,
     /// The main program, then the others in the order of their first call.
@@ -144,6 +146,7 @@ impl<'r> Core<'r> {
             settings,
             follower,
             corners: Corners::default(),
+            own_call: None,
             is_unread: true,
             programs: vec![Rc::new(program.clone())],
             loaded: HashMap::new(),

@@ -19,7 +19,8 @@ pub(crate) fn calls_too_deep(deepest: usize, at: usize) -> Fault {
 }
 
 pub(crate) fn missing_program(name: &str, why: &str, at: usize) -> Fault {
-    let hint = "put it into the folder of subprograms, or check the spelling";
+    let hint = "put it into the folder of subprograms, check the spelling, or state in [codes] of the set-up \
+                file what it does";
     fault("missing-subprogram", at, format!("the program {name} is missing: {why}"), hint)
 }
 
@@ -80,7 +81,9 @@ pub(crate) fn unknown_word(name: impl Display, at: usize) -> Fault {
 
 pub(crate) fn unknown_g_code(number: f64, at: usize) -> Fault {
     let message = format!("unknown G code G{number} for this control");
-    fault("unknown-g-code", at, message, "check whether the program is for another control")
+    let hint = "check whether the program is for another control; what a code of the machine builder does, \
+                state in [codes] of the set-up file, such as G120 = \"ignore\"";
+    fault("unknown-g-code", at, message, hint)
 }
 
 pub(crate) fn unknown_axis(at: usize) -> Fault {

@@ -161,7 +161,8 @@ impl Core<'_> {
     /// Warns of an M function that is not known.
     pub fn unknown_m_code(&mut self, number: f64, at: usize) {
         let message = format!("unknown M function M{number} for this control");
-        let hint = "if the machine builder defined it, its effect is missing here";
+        let hint = "if the machine builder defined it, its effect is missing here: state it in [codes] of the \
+                    set-up file, such as M200 = \"ignore\"";
         self.warn("unknown-m-code", number, at, message, hint);
     }
 }

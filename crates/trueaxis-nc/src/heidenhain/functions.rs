@@ -104,6 +104,12 @@ impl Run<'_> {
     /// end of the program.
     pub(super) fn functions(&mut self, words: &Words, late: bool) -> Result<bool, Fault> {
         for called in &words.functions {
+            if self.core.settings.codes.contains_key(&format!("M{}", called.number)) {
+                if !late {
+                    self.core.own_number('M', f64::from(called.number), called.at);
+                }
+                continue;
+            }
             let known = FUNCTIONS.iter().find(|(number, ..)| *number == called.number);
             let Some((_, at_end, effect)) = known else {
                 if !late {

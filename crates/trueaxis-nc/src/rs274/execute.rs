@@ -97,6 +97,9 @@ impl Run<'_> {
             let hint = "write M98 or G65 before the name";
             return Err(fault("unexpected-sign", block.span.start, message, hint));
         }
+        if let Some((name, at)) = self.core.own_call.take() {
+            return self.call_own(&name, block, at);
+        }
         if std::mem::take(&mut self.modes.moved) && !self.modes.macros.is_empty() {
             return Ok(self.call_modal(block, false)?.unwrap_or(next));
         }

@@ -1,12 +1,14 @@
 //! Control statements: subs, calls, loops, branches, jumps.
 
+use std::rc::Rc;
+
 use std::collections::HashMap;
 
 use super::parameters::Locals;
 use super::{Activation, Next, Passage, Run, fault};
 use crate::execution::mistakes;
 use crate::moves::Event;
-use crate::text::program::{Fault, Item, Keyword, Label, Mark, NodeId, Program};
+use crate::text::program::{Block, Fault, Item, Keyword, Label, Mark, NodeId, Program};
 
 impl Activation {
     pub(super) fn new(program: usize, at: usize, line: u32) -> Self {
@@ -360,6 +362,23 @@ impl Run<'_> {
         let (number, start, line) = self.find_sub(passage.program, label, at)?;
         self.follow(passage.block);
         self.call(number, (start, line), label.clone(), locals, repeats);
+        Ok(Next::Jumped)
+    }
+
+    /// A program of the user's dictionary, to M99 or to the end of its O word.
+    pub(super) fn call_own(&mut self, name: &str, block: &Block, at: usize) -> Result<Next, Fault> {
+        self.core.count(at)?;
+        self.core.check_depth(self.stack.len(), at)?;
+        let names = ["", ".ngc", ".nc"].map(|ending| format!("{name}{ending}"));
+        let number = self.core.load(name, names, at)?;
+        let plain = name.rsplit_once('.').map_or(name, |(plain, _)| plain);
+        let label = Label::Name(plain.to_ascii_lowercase());
+        let program = Rc::clone(&self.core.programs[number]);
+        let structure = program.structure();
+        let mark = structure.subs.get(&label).map(|i| &structure.marks[*i]);
+        let begin = mark.map_or((0, 1), |mark| (mark.next, mark.line + 1));
+        self.follow(block);
+        self.call(number, begin, label, Locals::default(), 1);
         Ok(Next::Jumped)
     }
 

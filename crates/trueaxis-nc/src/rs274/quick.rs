@@ -30,7 +30,7 @@ impl Run<'_> {
         source: &[u8],
         start: usize,
     ) -> Option<usize> {
-        if !self.modes.macros.is_empty() {
+        if !self.modes.macros.is_empty() || !self.core.settings.codes.is_empty() {
             return None;
         }
         let mut at = start;

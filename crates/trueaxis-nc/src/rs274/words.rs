@@ -219,6 +219,12 @@ impl Run<'_> {
                 _ if gathering.is_argument(*letter) => words.arguments.push((*letter, value)),
                 b'c' | b'r' => words.corner = Some((*letter == b'r', value, *offset)),
                 b'N' => self.modes.last[1] = value,
+                b'G' if self.core.own_number('G', value, *offset) => {
+                    words.actions.push((Action::NoteWhole("a code of the set-up file"), *offset));
+                }
+                b'M' if self.core.own_number('M', value, *offset) => {
+                    words.actions.push((Action::Note("a code of the set-up file"), *offset));
+                }
                 b'G' => {
                     let action = self.g_code(passage.program, value, *offset)?;
                     words.actions.push((action, *offset));

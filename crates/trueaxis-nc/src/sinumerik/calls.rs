@@ -11,7 +11,7 @@ use super::tables;
 use super::values::{Kind, Value, Variable};
 use super::variables::Slot;
 use super::{Next, Run, fault, functions};
-use crate::execution::{Modes as CommonModes, mistakes};
+use crate::execution::{Modes as CommonModes, OwnCode, mistakes};
 use crate::moves::Event;
 use crate::text::program::Fault;
 
@@ -283,6 +283,15 @@ impl Run<'_> {
         rounds: u64,
         at: usize,
     ) -> Result<Next, Fault> {
+        let own = self.core.settings.codes.get(&name.to_ascii_uppercase()).cloned();
+        let name = match &own {
+            Some(OwnCode::Call(program)) => program.as_str(),
+            Some(_) => {
+                self.core.own_code(&name.to_ascii_uppercase(), at);
+                return Ok(Next::Following);
+            }
+            None => name,
+        };
         let cycle = tables::is_cycle(name);
         if cycle {
             let values: Vec<_> = arguments.iter().map(|a| a.value.clone()).collect();

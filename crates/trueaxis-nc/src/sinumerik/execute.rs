@@ -104,6 +104,9 @@ impl Run<'_> {
             self.core.emit(Event::Path { control, tolerance_mm });
         }
         self.report_unused(words);
+        if let Some((name, at)) = self.core.own_call.take() {
+            return self.call(&name, Vec::new(), 1, at);
+        }
         // What the called program moves does not call it again.
         let depth = self.stack.len();
         if moved && ends.is_none() && self.modal_call.as_ref().is_some_and(|c| depth <= c.depth) {
@@ -267,7 +270,7 @@ impl Run<'_> {
             Code::NotApplied(name) => {
                 self.core.not_applied(name, at, "the following moves are computed without it");
             }
-            Code::Motion(_) | Code::Machine => {}
+            Code::Motion(_) | Code::Machine | Code::Own => {}
         }
         Ok(())
     }
@@ -457,7 +460,7 @@ impl Run<'_> {
 /// Two codes of one group cannot stand in one block.
 fn check_groups(words: &Words) -> Result<(), Fault> {
     let group = |code: Code| match code {
-        Code::Note(_) | Code::NotApplied(_) | Code::Machine | Code::ExactOnce => None,
+        Code::Note(_) | Code::NotApplied(_) | Code::Machine | Code::ExactOnce | Code::Own => None,
         Code::Plane(_) => Some(1),
         Code::Inches { .. } => Some(2),
         Code::Incremental(_) => Some(3),

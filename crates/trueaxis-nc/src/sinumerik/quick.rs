@@ -47,6 +47,7 @@ impl Run<'_> {
         match letter {
             b'N' if first => {}
             b'F' => self.words.feed = Some((value, at)),
+            b'G' if !self.core.settings.codes.is_empty() => return None,
             b'G' if value.fract() == 0.0 && (0.0..=999.0).contains(&value) => {
                 let code = tables::g_code(value as u32)?;
                 if !matches!(code, Code::Motion(_)) || !self.words.codes.is_empty() {

@@ -51,6 +51,8 @@ pub(super) enum OrientationMode {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Code {
     Plane(Plane),
+    /// A code of the user's dictionary, with the words of its block.
+    Own,
     /// TOROT: Z of the programmable frame is along the tool; TOROTOF.
     AlongTool(bool),
     /// G70/G71 and G700/G710; `feed` with the feeds as well.
@@ -103,7 +105,7 @@ impl Code {
             Self::Frame(_) | Self::AlongTool(_) => 6,
             Self::ToolCentre(_) | Self::Angles(_) | Self::Orientation(_) => 7,
             Self::Machine => 8,
-            Self::Dwell | Self::Pole(_) | Self::Reference | Self::Limits => 9,
+            Self::Dwell | Self::Pole(_) | Self::Reference | Self::Limits | Self::Own => 9,
             Self::Motion(_) => 10,
         }
     }

@@ -303,6 +303,11 @@ impl Run<'_> {
         }
         let number = value.0;
         match letter {
+            b'G' if self.core.own_number('G', number, at) => {
+                // The axis words of its block are its own.
+                self.words.codes.push((Code::Own, at));
+            }
+            b'M' if self.core.own_number('M', number, at) => {}
             b'G' => {
                 let code = code_number(number).and_then(tables::g_code);
                 let Some(code) = code else {
