@@ -450,7 +450,7 @@ mod tests {
         assert_eq!(codes["M6"], OwnCode::Call("CHANGE".to_owned()));
         assert_eq!(read("[codes]\nM1 = \"off\"\n").1, ["bad-code"]);
         assert_eq!(read("[codes]\nM1 = { }\n").1, ["bad-code"]);
-        assert_eq!(read("[codes]\nM1 = { cal = \"x\" }\n").1, ["bad-code", "unknown-key"]);
+        assert_eq!(read("[codes]\nM1 = { cal = \"x\" }\n").1, ["unknown-key", "bad-code"]);
     }
 
     #[test]
