@@ -68,8 +68,13 @@ pub struct ClCycle {
     pub depth_mm: f64,
     /// Height above the point down to which the tool moves in rapid traverse.
     pub clearance_mm: f64,
-    /// Height above the point to which the tool retracts at the end.
+    /// Height above the point to which the tool retracts at the end, and at which it goes to the next
+    /// hole.
     pub retract_mm: f64,
+    /// The depth of the first peck and of each further one; the tool leaves the hole after each.
+    pub pecks_mm: Option<[f64; 2]>,
+    /// Dwell at the bottom, s.
+    pub dwell_s: f64,
     /// The feed of drilling, if the cycle states one.
     pub feed: Option<Feed>,
 }

@@ -15,6 +15,9 @@ const MAX_COORDINATE_MM: f64 = 1e7;
 /// Largest number of listed problems.
 const MAX_PROBLEMS: usize = 100;
 
+/// Pecks of one hole: more than any file means.
+const MOST_PECKS: f64 = 1e5;
+
 /// Deviation of the length of a tool axis from 1 above which a warning is given.
 const NORM_TOLERANCE: f64 = 1e-4;
 
@@ -426,7 +429,7 @@ impl<'n> Reader<'n> {
     }
 
     /// CYCLE/DRILL,FEDTO,depth,MMPM,feed,RAPTO,clearance,RTRCTO,retract (SolidWorks, Creo), or
-    /// DEPTH … CLEAR … RETURN (CATIA).
+    /// DEPTH … CLEAR … RETURN (CATIA). CYCLE/DEEP with 1STPECK and SUBPECK, or STEP, pecks.
     fn cycle(&mut self, s: &Statement) -> Result<Word, Fault> {
         let kind = s.argument(0).to_ascii_uppercase();
         if matches!(kind.as_str(), "OFF" | "NOMORE") {
@@ -435,11 +438,7 @@ impl<'n> Reader<'n> {
         if kind == "INIT" {
             return Ok(Word::Noted);
         }
-        if !matches!(kind.as_str(), "DRILL" | "FACE" | "REAM" | "CSINK") {
-            let message = format!("CYCLE/{kind} is read as drilling in one stroke");
-            let hint = "pecks, dwells and the retraction of the cycle are omitted; check the hole";
-            self.warn("cycle-not-applied", &kind, s.line, message, hint);
-        }
+        let is_drilling = matches!(kind.as_str(), "DRILL" | "FACE" | "REAM" | "CSINK");
         let named = |names: &[&str]| {
             let at = s.arguments().position(|a| names.iter().any(|n| a.eq_ignore_ascii_case(n)))?;
             number(s.argument(at + 1)).ok()
@@ -461,7 +460,21 @@ impl<'n> Reader<'n> {
             Some(Feed { mode, value: value * unit })
         });
         let retract_mm = length(&["RTRCTO"]).unwrap_or(clearance_mm).max(clearance_mm);
-        Ok(Word::Cycle(ClCycle { depth_mm, clearance_mm, retract_mm, feed }))
+        let peck = length(&["SUBPECK", "STEP"]).filter(|v| *v > 0.0);
+        let first = length(&["1STPECK"]).filter(|v| *v > 0.0).or(peck);
+        let deep = kind.starts_with("DEEP");
+        let pecks_mm = first.filter(|_| deep).map(|first| [first, peck.unwrap_or(first)]);
+        if pecks_mm.is_some_and(|[_, peck]| depth_mm / peck > MOST_PECKS) {
+            let message = "the cycle has more than 100,000 pecks".to_owned();
+            return Err(("bad-cycle", message, "check SUBPECK and the units"));
+        }
+        if !is_drilling && pecks_mm.is_none() {
+            let message = format!("CYCLE/{kind} is read as drilling in one stroke");
+            let hint = "pecks and the retraction of the cycle are omitted; check the hole";
+            self.warn("cycle-not-applied", &kind, s.line, message, hint);
+        }
+        let dwell_s = named(&["DWELL"]).filter(|t| (0.0..1e6).contains(t)).unwrap_or(0.0);
+        Ok(Word::Cycle(ClCycle { depth_mm, clearance_mm, retract_mm, pecks_mm, dwell_s, feed }))
     }
 
     fn delay(&mut self, s: &Statement) -> Result<Word, Fault> {

@@ -17,6 +17,7 @@ use trueaxis::machine::file::NoTables;
 use trueaxis::machine::tcp::TipControl;
 use trueaxis::nc::moves::{Axis, Feed, FeedMode, Move, MoveKind};
 use trueaxis::nc::{Control, NoLibrary, Program, Settings, Step, interpret};
+use trueaxis::simulate::{Batch, Observer, Options, SetUp, simulate};
 use trueaxis::writer::TipWords;
 
 fn posted(machine: &Machine, text: &str, options: &PostOptions) -> Posted {
@@ -384,5 +385,120 @@ fn law_the_tool_axis_is_compared_along_the_path() {
             options.tip_words
         );
         assert_eq!(proof.compared, posted.blocks);
+    }
+}
+
+/// Holes on two levels, as a CAM system writes them; the tool axis is (x, 0, z).
+fn holes([x, z]: [f64; 2]) -> String {
+    let mut text = "UNITS/MM\nMULTAX/ON\nFEDRAT/900\nRAPID\n".to_owned();
+    let goto = |u: f64, v: f64, height: f64| {
+        let (a, b) = (u * z + height * x, -u * x + height * z);
+        format!("GOTO/{a:.9},{v},{b:.9},{x},0,{z}\n")
+    };
+    text += &goto(0.0, 0.0, 80.0);
+    text += "CYCLE/DRILL,FEDTO,5,MMPM,300,RAPTO,3,RTRCTO,25\n";
+    text += &(goto(10.0, 0.0, 0.0) + &goto(20.0, 5.0, 0.0) + &goto(30.0, 5.0, 12.0));
+    text += &(goto(20.0, -5.0, 0.0) + "CYCLE/OFF\n");
+    text += "CYCLE/DEEP2,FEDTO,9,1STPECK,5,SUBPECK,2,MMPM,200,RAPTO,3,RTRCTO,25,DWELL,0.5\n";
+    text + &goto(10.0, -5.0, 0.0) + "CYCLE/OFF\n"
+}
+
+/// (beside, across, height) of the tips of those holes, in order.
+const HOLES: [[f64; 3]; 28] = [
+    [0.0, 0.0, 80.0],
+    [10.0, 0.0, 80.0],
+    [10.0, 0.0, 3.0],
+    [10.0, 0.0, -5.0],
+    [10.0, 0.0, 25.0],
+    [20.0, 5.0, 25.0],
+    [20.0, 5.0, 3.0],
+    [20.0, 5.0, -5.0],
+    [20.0, 5.0, 25.0],
+    // Up to 25 above the higher level before it crosses.
+    [20.0, 5.0, 37.0],
+    [30.0, 5.0, 37.0],
+    [30.0, 5.0, 15.0],
+    [30.0, 5.0, 7.0],
+    [30.0, 5.0, 37.0],
+    [20.0, -5.0, 37.0],
+    [20.0, -5.0, 3.0],
+    [20.0, -5.0, -5.0],
+    [20.0, -5.0, 25.0],
+    [10.0, -5.0, 25.0],
+    [10.0, -5.0, 3.0],
+    // Pecks.
+    [10.0, -5.0, -5.0],
+    [10.0, -5.0, 3.0],
+    [10.0, -5.0, -4.5],
+    [10.0, -5.0, -7.0],
+    [10.0, -5.0, 3.0],
+    [10.0, -5.0, -6.5],
+    [10.0, -5.0, -9.0],
+    [10.0, -5.0, 25.0],
+];
+
+/// Between holes the tool is at the retract height of the higher one, drills from the clearance, and
+/// leaves the hole after every peck.
+#[test]
+fn holes_are_crossed_at_the_retract_height() {
+    for (name, tilt) in [("xkas2525", [0.0, 1.0]), ("xkas2525", [0.6, 0.8])] {
+        let machine = machine(name);
+        for options in ways() {
+            let posted = posted(&machine, &holes(tilt), &options);
+            let proof = verify(&machine, &posted, &options);
+            assert!(proof.is_within(&options), "{name} {:?} {proof:?}", options.control);
+            let places = reached(&machine, &posted, options.control);
+            let [x, z] = tilt;
+            let wanted = HOLES.map(|[u, v, h]| Vec3::new(u * z + h * x, v, h * z - u * x));
+            let near = |p: &Vec3, q: &Vec3| (p - q).norm() < 1e-3;
+            let begin = places.iter().position(|p| near(p, &wanted[0])).unwrap();
+            // A dwell is at the place before it.
+            let mut places = places[begin..].to_vec();
+            places.dedup_by(|p, q| near(p, q));
+            for (p, q) in places.iter().zip(&wanted) {
+                assert!(near(p, q), "{:?} {p:?}, not {q:?}", options.control);
+            }
+            assert!(places.len() > wanted.len());
+        }
+    }
+}
+
+/// The ends of all blocks of a program, by the simulation.
+fn reached(machine: &Machine, posted: &Posted, control: Control) -> Vec<Vec3> {
+    struct Ends(Vec<Vec3>);
+    impl Observer for Ends {
+        fn path(&mut self, batch: &Batch<'_>) {
+            for (i, _) in batch.nodes.iter().enumerate().filter(|(_, node)| node.last) {
+                self.0.push(batch.poses.at(i).nominal_tip.vector());
+            }
+        }
+    }
+    let program = Program::new("p", posted.text.clone(), control);
+    let mut ends = Ends(Vec::new());
+    simulate(machine, &program, &SetUp::default(), &Options::default(), &mut [&mut ends]);
+    ends.0
+}
+
+/// The same holes on a mill without tool-centre point, through LinuxCNC's own interpreter
+/// (`oracles/linuxcnc_holes.py`): it goes where we go, and where the cycles say.
+#[test]
+fn oracle_holes_through_linuxcnc() {
+    let data = include_str!("data/linuxcnc-holes.txt");
+    let (program, points) = data.strip_prefix("program\n").unwrap().split_once("points\n").unwrap();
+    let machine = machine("three-axis-mill");
+    let (tip_words, name) = (None, "holes".to_owned());
+    let options = PostOptions { tip_words, name, ..PostOptions::of(Control::LinuxCnc) };
+    let posted = posted(&machine, include_str!("data/holes.apt"), &options);
+    assert_eq!(String::from_utf8_lossy(&posted.text), program);
+    assert!(verify(&machine, &posted, &options).is_within(&options));
+    let of = |line: &str| -> Vec3 {
+        let all: Vec<f64> = line.split(' ').map(|w| w.parse().unwrap()).collect();
+        // From axes to the tip: the spindle at 600, the tool of 120, the workpiece at 100.
+        Vec3::new(all[0], all[1], all[2] + 380.0)
+    };
+    let theirs: Vec<Vec3> = points.lines().map(of).collect();
+    let begin = theirs.iter().position(|p| (p.z - 80.0).abs() < 1e-9).unwrap();
+    for ([x, y, z], point) in HOLES.iter().zip(&theirs[begin..]) {
+        assert!((point - Vec3::new(*x, *y, *z)).norm() < 1e-4, "{point:?}");
     }
 }

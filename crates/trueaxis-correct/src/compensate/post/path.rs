@@ -56,6 +56,30 @@ pub(super) struct Path {
     pub events: Vec<(usize, Event)>,
 }
 
+/// Nearer than this two places of a file are one.
+const SAME_MM: f64 = 1e-6;
+
+/// Tool axes nearer than this are the same.
+const SAME_RAD: f64 = 1e-6;
+
+/// How far above the last depth the rapid way back into a hole ends.
+const BACK_MM: f64 = 0.5;
+
+/// The depths of the pecks of a hole, its bottom the last.
+fn pecks(cycle: &ClCycle) -> Vec<f64> {
+    let mut depths = Vec::new();
+    if let Some([first, further]) = cycle.pecks_mm {
+        let mut depth = first;
+        // A rest that the digits of the file leave is no peck.
+        while depth < cycle.depth_mm - SAME_MM {
+            depths.push(depth);
+            depth += further;
+        }
+    }
+    depths.push(cycle.depth_mm);
+    depths
+}
+
 /// The great circle between two directions.
 ///
 /// a(u) = (sin((1 − u)θ)·a₀ + sin(uθ)·a₁)/sin θ              docs/model.md eq. 120
@@ -209,15 +233,46 @@ impl Builder<'_> {
         self.push(Stroke { to, way, rapid: point.rapid, feed, line });
     }
 
-    /// A drilling cycle in one stroke: rapid above the hole, down with feed, up in rapid.
+    /// A drilling cycle: over the hole at the retract height, rapid down to the clearance, down with
+    /// feed, at once or by pecks, and up in rapid.
     fn hole(&mut self, tip: Vec3, axis: Vec3, cycle: &ClCycle, point: &ClPoint, line: u32) {
         let Some(feed) = self.feed(false, cycle.feed.or(point.feed), line) else { return };
         let at = |height: f64| Stand { tip: tip + axis * height, axis };
         let way = Way::Line;
-        let rapid = Stroke { to: at(cycle.clearance_mm), way, rapid: true, feed: 0.0, line };
-        self.push(rapid);
-        self.push(Stroke { to: at(-cycle.depth_mm), way, rapid: false, feed, line });
+        let over = self.over_hole(&at(cycle.retract_mm), line);
+        let rapid = Stroke { to: over, way, rapid: true, feed: 0.0, line };
+        if (over.tip - at(cycle.clearance_mm).tip).norm() > SAME_MM {
+            self.push(rapid);
+        }
+        self.push(Stroke { to: at(cycle.clearance_mm), ..rapid });
+        for depth in pecks(cycle) {
+            self.push(Stroke { to: at(-depth), way, rapid: false, feed, line });
+            if depth < cycle.depth_mm {
+                self.push(Stroke { to: at(cycle.clearance_mm), ..rapid });
+                let above = (BACK_MM - depth).min(cycle.clearance_mm);
+                self.push(Stroke { to: at(above), ..rapid });
+            }
+        }
+        if cycle.dwell_s > 0.0 {
+            self.path.events.push((self.path.strokes.len(), Event::Dwell(cycle.dwell_s)));
+        }
         self.push(Stroke { to: at(cycle.retract_mm), ..rapid });
+    }
+
+    /// Where the tool comes to stand over a hole: at its retract height, or higher where it comes
+    /// from higher up; from lower down it rises before it crosses.
+    fn over_hole(&mut self, retracted: &Stand, line: u32) -> Stand {
+        let Some(from) = self.path.strokes.last().map(|s| s.to) else { return *retracted };
+        if angle(&from.axis, &retracted.axis) > SAME_RAD {
+            return *retracted;
+        }
+        let higher = (from.tip - retracted.tip).dot(&retracted.axis);
+        let beside = from.tip - retracted.tip - retracted.axis * higher;
+        if higher < -SAME_MM && beside.norm() > SAME_MM {
+            let to = Stand { tip: from.tip - retracted.axis * higher, ..from };
+            self.push(Stroke { to, way: Way::Line, rapid: true, feed: 0.0, line });
+        }
+        Stand { tip: retracted.tip + retracted.axis * higher.max(0.0), ..*retracted }
     }
 
     fn push(&mut self, stroke: Stroke) {
