@@ -16,7 +16,6 @@
 
 mod arcs;
 mod cycles;
-pub(crate) mod dialect;
 mod drilling;
 mod flow;
 mod frames;

@@ -66,22 +66,22 @@
     clippy::uninlined_format_args
 )]
 
-pub mod dialect;
 mod execution;
 mod heidenhain;
 mod interpret;
 mod rs274;
 pub mod sinumerik;
-mod text;
 
-pub use dialect::{Control, Dialect};
 pub use execution::leaves_motion_out;
 pub use execution::{
     Follower, KnownPosition, Library, NoLibrary, Outcome, OwnCode, Settings, Stop,
 };
 pub use interpret::{interpret, interpret_on};
-pub use rs274::code;
-pub use text::program::Program;
-pub use text::{lexer, program};
+pub use trueaxis_blocks::{Control, Dialect, Program, code, dialect, lexer, program};
+
+/// The text of programs.
+mod text {
+    pub(crate) use trueaxis_blocks::{lexer, program};
+}
 pub use trueaxis_moves as moves;
 pub use trueaxis_moves::{Event, Move, MoveKind, Step};

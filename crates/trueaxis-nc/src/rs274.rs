@@ -4,15 +4,12 @@
 //! only one of them has.
 
 mod arc;
-pub mod code;
-mod common_codes;
 mod cycles;
 mod execute;
-pub(crate) mod fanuc;
+mod fanuc;
 mod flow;
 mod frames;
-pub(crate) mod haas;
-pub(crate) mod linuxcnc;
+mod linuxcnc;
 mod parameters;
 mod quick;
 mod reported;
@@ -25,6 +22,8 @@ mod words;
 use std::cell::Cell;
 use std::collections::HashMap;
 use std::rc::Rc;
+
+pub(crate) use trueaxis_blocks::code;
 
 use crate::execution::{Core, Language, Next, Outcome};
 use crate::moves::{Move, Position};

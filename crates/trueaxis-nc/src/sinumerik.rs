@@ -15,7 +15,6 @@ mod arc;
 mod archive;
 mod calls;
 mod chain;
-pub(crate) mod dialect;
 mod drilling;
 mod execute;
 mod expression;

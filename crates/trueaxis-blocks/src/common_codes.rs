@@ -1,12 +1,12 @@
 //! The codes that mean the same to FANUC and LinuxCNC.
 
-use crate::moves::{
+use crate::code::{Action as A, Cycle, Motion};
+use trueaxis_moves::{
     CompensationSide as Side, Coolant, FeedMode, PathControl, Plane, SpindleDirection,
 };
-use crate::rs274::code::{Action as A, Cycle, Motion};
 
 /// The common codes followed by those of one control.
-pub(super) const fn joined<const N: usize, const M: usize, const ALL: usize>(
+pub(crate) const fn joined<const N: usize, const M: usize, const ALL: usize>(
     common: [(u16, A); N],
     own: [(u16, A); M],
 ) -> [(u16, A); ALL] {
@@ -19,7 +19,7 @@ pub(super) const fn joined<const N: usize, const M: usize, const ALL: usize>(
     all
 }
 
-pub(super) const RS274_G_CODES: [(u16, A); 47] = [
+pub(crate) const RS274_G_CODES: [(u16, A); 47] = [
     (0, A::Motion(Motion::Rapid)),
     (10, A::Motion(Motion::Linear)),
     (20, A::Motion(Motion::ArcClockwise)),
@@ -69,7 +69,7 @@ pub(super) const RS274_G_CODES: [(u16, A); 47] = [
     (990, A::RetractToR(true)),
 ];
 
-pub(super) const RS274_M_CODES: [(u16, A); 14] = [
+pub(crate) const RS274_M_CODES: [(u16, A); 14] = [
     (0, A::Stop(false)),
     (1, A::Stop(true)),
     (2, A::End),

@@ -7,8 +7,8 @@ use std::sync::{Arc, OnceLock};
 use trueaxis_input::{Diagnostics, Place};
 
 use crate::dialect::{Control, Dialect};
-use crate::text::lexer::{Lexer, TokenKind};
-use crate::text::parser::parse_block;
+use crate::lexer::{Lexer, TokenKind};
+use crate::parser::parse_block;
 
 /// An error in a piece of text; it becomes an entry of [`Diagnostics`] with its place.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -23,7 +23,8 @@ pub struct Fault {
     pub hint: &'static str,
 }
 
-pub(crate) fn fault(
+/// An error in a piece of text.
+pub fn fault(
     code: &'static str,
     offset: usize,
     message: impl Into<String>,
@@ -199,7 +200,7 @@ pub struct Block {
 /// grow with the number of blocks beyond the text itself.
 ///
 /// ```
-/// use trueaxis_nc::{Control, Program};
+/// use trueaxis_blocks::{Control, Program};
 /// let program = Program::new("demo.ngc", b"G0 X1\n(done)\nM2\n".to_vec(), Control::LinuxCnc);
 /// assert_eq!(program.blocks().count(), 3);
 /// assert_eq!(program.print(), program.source());
@@ -215,19 +216,23 @@ pub struct Program {
 
 /// A control statement with its place, for jumps.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Mark {
+pub struct Mark {
+    /// The key word.
     pub keyword: Keyword,
+    /// Its label.
     pub label: Label,
     /// The byte offset of the block that contains it.
     pub start: usize,
     /// The byte offset of the next block.
     pub next: usize,
+    /// Its line, from 1.
     pub line: u32,
 }
 
 /// The targets of jumps.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Structure {
+pub struct Structure {
+    /// The control statements in the order of the text.
     pub marks: Vec<Mark>,
     /// The first `sub` of a label.
     pub subs: HashMap<Label, usize>,
@@ -318,7 +323,7 @@ impl Program {
     }
 
     /// The targets of jumps, determined at the first jump.
-    pub(crate) fn structure(&self) -> &Structure {
+    pub fn structure(&self) -> &Structure {
         self.structure.get_or_init(|| self.find_structure())
     }
 
@@ -400,7 +405,7 @@ impl Structure {
 
 /// Converts byte offsets to lines and columns; fast for increasing offsets.
 #[derive(Debug, Clone)]
-pub(crate) struct Places<'p> {
+pub struct Places<'p> {
     program: &'p Program,
     at: usize,
     line: usize,
@@ -408,6 +413,7 @@ pub(crate) struct Places<'p> {
 }
 
 impl<'p> Places<'p> {
+    /// From the beginning of a program.
     pub fn new(program: &'p Program) -> Self {
         Self { program, at: 0, line: 1, column: 1 }
     }
@@ -417,6 +423,7 @@ impl<'p> Places<'p> {
         Self { program, at, line: line as usize, column: 1 }
     }
 
+    /// The place of a byte.
     pub fn of(&mut self, offset: usize) -> Place {
         let source = &self.program.source;
         let offset = offset.min(source.len());
@@ -440,6 +447,6 @@ impl<'p> Places<'p> {
 }
 
 /// Whether a token carries no meaning for the block.
-pub(crate) fn is_trivia(kind: TokenKind) -> bool {
+pub fn is_trivia(kind: TokenKind) -> bool {
     matches!(kind, TokenKind::Space)
 }

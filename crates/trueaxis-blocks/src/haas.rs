@@ -1,10 +1,10 @@
 //! HAAS: FANUC's words and custom macros, with some codes of its own.
 
-use super::common_codes::joined;
-use super::fanuc;
+use crate::code::Action as A;
+use crate::common_codes::joined;
 use crate::dialect::{Control, Dialect};
-use crate::moves::CompensationSide as Side;
-use crate::rs274::code::Action as A;
+use crate::fanuc;
+use trueaxis_moves::CompensationSide as Side;
 
 /// HAAS, milling control.
 ///

@@ -1,9 +1,7 @@
 //! The differences between the controls, as tables.
 
-use crate::heidenhain::dialect as heidenhain;
-use crate::rs274::code::Action;
-use crate::rs274::{fanuc, haas, linuxcnc};
-use crate::sinumerik::dialect as sinumerik;
+use crate::code::Action;
+use crate::{fanuc, haas, heidenhain, linuxcnc, sinumerik};
 
 /// The controls whose programs are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

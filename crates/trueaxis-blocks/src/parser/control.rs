@@ -1,8 +1,8 @@
 //! Control statements of LinuxCNC and FANUC.
 
 use super::Parser;
-use crate::text::lexer::{TokenKind, number_value};
-use crate::text::program::{Item, Keyword, Label};
+use crate::lexer::{TokenKind, number_value};
+use crate::program::{Item, Keyword, Label};
 
 /// The key words after an O label; longer ones first where one begins another.
 const O_WORDS: [(&[u8], Keyword); 15] = [

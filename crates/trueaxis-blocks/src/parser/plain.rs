@@ -1,8 +1,8 @@
 //! Lines of plain words.
 
 use super::{MOST_ITEMS, Parser};
-use crate::text::lexer::TokenKind;
-use crate::text::program::{Item, Node};
+use crate::lexer::TokenKind;
+use crate::program::{Item, Node};
 
 impl Parser<'_, '_> {
     /// The words of a line that are a letter and a plain number, such as N10 and.

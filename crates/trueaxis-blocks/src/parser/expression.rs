@@ -1,8 +1,8 @@
 //! Expressions in brackets.
 
 use super::{DEEPEST, Parser};
-use crate::text::lexer::{Token, TokenKind, number_value};
-use crate::text::program::{Function, Node, NodeId, Operator};
+use crate::lexer::{Token, TokenKind, number_value};
+use crate::program::{Function, Node, NodeId, Operator};
 
 const FUNCTIONS: [(&[u8], Function); 16] = [
     (b"ABS", Function::Abs),

@@ -5,8 +5,8 @@ mod expression;
 mod plain;
 
 use crate::dialect::{Control, Dialect};
-use crate::text::lexer::{Lexer, Token, TokenKind};
-use crate::text::program::{Block, Fault, Item, Node, NodeId, is_trivia};
+use crate::lexer::{Lexer, Token, TokenKind};
+use crate::program::{Block, Fault, Item, Node, NodeId, is_trivia};
 
 /// Largest depth of nested brackets, functions and parameters (a bracket counts twice): ample for
 /// programs, small for the stack.

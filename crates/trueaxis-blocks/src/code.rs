@@ -1,6 +1,6 @@
 //! What a code does, whatever its number on this or that control.
 
-use crate::moves::{CompensationSide, Coolant, FeedMode, PathControl, Plane, SpindleDirection};
+use trueaxis_moves::{CompensationSide, Coolant, FeedMode, PathControl, Plane, SpindleDirection};
 
 /// How a motion is programmed; it lasts until another one comes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

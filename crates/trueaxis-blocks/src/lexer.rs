@@ -45,8 +45,8 @@ pub struct Token {
 /// Cuts a program into tokens, from any byte on.
 ///
 /// ```
-/// use trueaxis_nc::dialect::{Control, Dialect};
-/// use trueaxis_nc::lexer::{Lexer, TokenKind};
+/// use trueaxis_blocks::dialect::{Control, Dialect};
+/// use trueaxis_blocks::lexer::{Lexer, TokenKind};
 /// let source = b"/G1 X-.5 ; slow";
 /// let tokens: Vec<_> = Lexer::new(source, Dialect::of(Control::LinuxCnc), 0).collect();
 /// assert_eq!(tokens[0].kind, TokenKind::Skip);
@@ -203,7 +203,7 @@ fn slow_number(text: &[u8]) -> Option<f64> {
 
 /// A number of at most 15 digits that begins here, and where it ends.
 #[inline]
-pub(crate) fn plain_number(source: &[u8], start: usize) -> Option<(f64, usize)> {
+pub fn plain_number(source: &[u8], start: usize) -> Option<(f64, usize)> {
     const TENS: [f64; 16] =
         [1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
     let mut at = start;
