@@ -122,7 +122,9 @@ fn what_cannot_be_corrected_is_named_and_nothing_is_written() {
     let on_mill = |text: &str, code| {
         refused("a.ngc", MILL, &format!("{begin}{text}\nM2\n"), &["--control", "linuxcnc"], code);
     };
-    on_mill("G20 G1 X5", "inch-program");
+    // The text says millimetres, the call before has said inches.
+    let in_a_call = format!("o1 sub\nG20\no1 endsub\n{begin}o1 call\nG1 X5\nM2\n");
+    refused("i.ngc", MILL, &in_a_call, &["--control", "linuxcnc"], "inch-program");
     on_mill("G84 X100 Y100 Z-60 R-45", "not-unrolled");
     let end = format!("{begin}G1 X300 Y150 Z0\nM2\n");
     refused("t.ngc", MILL, &end, &[], "correction-leaves-travel");
@@ -183,4 +185,74 @@ fn a_program_that_does_not_keep_the_residual_is_not_written() {
     let kept = std::fs::read_to_string(folder.path("out.unproved.ngc")).unwrap();
     assert!(kept.starts_with("(TRUEAXIS COMPENSATED NOT PROVED"), "{kept}");
     assert_eq!(compensate(&[MILL, &program, "-o", &out]).status, 0);
+}
+
+/// The same program in millimetres and in inches, for each control.
+const BOTH_UNITS: [(&str, &str, &str); 4] = [
+    (
+        "p.ngc",
+        "G21\nG90 G94 F508\nG0 X25.4 Y25.4 Z-25.4\nG1 X127 Y50.8\nG2 X152.4 Y76.2 I0 J25.4\nG91 G1 X25.4 Y12.7\nG90 G81 X101.6 \
+         Y76.2 Z-50.8 R-38.1\nG80\nG0 Z-25.4\nM2\n",
+        "G20\nG90 G94 F20\nG0 X1 Y1 Z-1\nG1 X5 Y2\nG2 X6 Y3 I0 J1\nG91 G1 X1 Y0.5\nG90 G81 X4 \
+         Y3 Z-2 R-1.5\nG80\nG0 Z-1\nM2\n",
+    ),
+    (
+        "p.nc",
+        "%\nO1\nG21 G90 G94 F508.\nG0 X25.4 Y25.4 Z-25.4\nG1 X127. Y50.8\nG2 X152.4 Y76.2 R25.4\nG1 X25.4\nM30\n%\n",
+        "%\nO1\nG20 G90 G94 F20.\nG0 X1. Y1. Z-1.\nG1 X5. Y2.\nG2 X6. Y3. R1.\nG1 X1.\nM30\n%\n",
+    ),
+    (
+        "p.mpf",
+        "G710 G90 G94 F508\nG0 X25.4 Y25.4 Z-25.4\nG1 X127 Y50.8\nG2 X152.4 Y76.2 CR=25.4\nG1 X=IC(25.4)\nM30\n",
+        "G700 G90 G94 F20\nG0 X1 Y1 Z-1\nG1 X5 Y2\nG2 X6 Y3 CR=1\nG1 X=IC(1)\nM30\n",
+    ),
+    (
+        "p.h",
+        "0 BEGIN PGM P MM\n1 L X+25.4 Y+25.4 Z-25.4 R0 FMAX\n2 L X+127 Y+50.8 F508\n3 L IX+25.4\n4 M30\n5 END PGM P MM\n",
+        "0 BEGIN PGM P INCH\n1 L X+1 Y+1 Z-1 R0 FMAX\n2 L X+5 Y+2 F200\n3 L IX+1\n4 M30\n5 END PGM P INCH\n",
+    ),
+];
+
+/// The places and times of a program: X, Y, Z in mm, the time of the whole in s.
+fn places(folder: &Folder, program: &str) -> (Vec<[f64; 3]>, f64) {
+    let table = folder.path("places.csv");
+    let words = ["simulate", MILL, program, "--no-report", "--path", &table, "--format", "json"];
+    let time_s = trueaxis(&words).json()["time_s"].as_f64().expect("a time");
+    let text = std::fs::read_to_string(&table).expect("the table");
+    let mut rows = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let names = rows.next().expect("a head");
+    let column = |name: &str| names.iter().position(|n| *n == name).expect("a column");
+    let columns = ["X_mm", "Y_mm", "Z_mm"].map(column);
+    (rows.map(|row| columns.map(|i| row[i].parse().expect("a number"))).collect(), time_s)
+}
+
+#[test]
+fn inches_are_compensated_like_millimetres() {
+    for (name, metric, inch) in BOTH_UNITS {
+        let folder = Folder::new(&format!("units-{name}"));
+        let compensated = [("mm", metric), ("inch", inch)].map(|(unit, text)| {
+            let program = folder.path(&format!("{unit}-{name}"));
+            let out = folder.path(&format!("{unit}-out-{name}"));
+            std::fs::write(&program, text).unwrap();
+            let ran = compensate(&[MILL, &program, "-o", &out]);
+            assert_eq!(ran.status, 0, "{unit} {name}: {}{}", ran.out, ran.err);
+            places(&folder, &out)
+        });
+        let [(metric, metric_s), (inch, inch_s)] = compensated;
+        // Of the same length of way: pieces may be cut at other places.
+        let end = |places: &[[f64; 3]]| places[places.len() - 1];
+        for (a, b) in end(&metric).iter().zip(end(&inch)) {
+            assert!((a - b).abs() < 1.2e-3, "{name}: {a} mm and {b} mm");
+        }
+        let range = |places: &[[f64; 3]], i: usize| {
+            let all = places.iter().map(|p| p[i]);
+            [all.clone().fold(f64::INFINITY, f64::min), all.fold(f64::NEG_INFINITY, f64::max)]
+        };
+        for i in 0..3 {
+            for (a, b) in range(&metric, i).iter().zip(range(&inch, i)) {
+                assert!((a - b).abs() < 1.2e-3, "{name}: {a} mm and {b} mm");
+            }
+        }
+        assert!((metric_s - inch_s).abs() < 1e-3 * metric_s, "{name}: {metric_s} s and {inch_s} s");
+    }
 }

@@ -34,7 +34,7 @@ pub use number::Increments;
 pub use verify::{BlockResidual, Largest, Proof, Residual};
 
 use ahead::Gather;
-use number::Grid;
+use number::{Grid, Unit};
 use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_motion::Densify;
@@ -87,8 +87,8 @@ impl Default for ProgramOptions {
 }
 
 impl ProgramOptions {
-    fn grid(&self) -> Grid {
-        Grid(self.increments)
+    fn grid(&self, unit: Unit) -> Grid {
+        Grid::of(self.increments, unit)
     }
 }
 

@@ -1,6 +1,6 @@
 //! One block with corrected numbers: the same words in the same order, and what has to be added.
 
-use super::number::{Grid, Of};
+use super::number::{Grid, Of, Unit};
 use super::refuse::refusal;
 use super::stand::Stand;
 use super::text::Edits;
@@ -19,6 +19,8 @@ pub(super) struct Block<'b> {
     pub words: &'b Words,
     /// Its numbers are increments unless they say otherwise.
     pub incremental: bool,
+    /// The unit of F.
+    pub feed_unit: Unit,
     pub control: Control,
     pub grid: Grid,
     /// The axes whose words are corrected, if the block is no cut: the others keep their words, and no
@@ -130,7 +132,7 @@ impl Block<'_> {
     fn wanted(&self, path: &AxisPath<'_>, now: &Position, step: &Written) -> Position {
         let exact = path.words_of(&step.command, self.m.coordinates);
         let (Some(control), Some(_), Straight::Axes) =
-            (path.control(), self.grid.0, path.straight())
+            (path.control(), self.grid.increments(), path.straight())
         else {
             return exact;
         };
@@ -251,9 +253,10 @@ impl Block<'_> {
         if near(value) {
             return Ok(0.0);
         }
-        if near(value * 25.4) && !axis.is_rotary() {
-            let message = "the program is in inches, the increments are metric".to_owned();
-            let hint = "let the postprocessor write millimetres";
+        let other = if self.grid.unit() == Unit::Inch { value / 25.4 } else { value * 25.4 };
+        if near(other) && !axis.is_rotary() {
+            let message = "the unit of the block is not the one that its text states".to_owned();
+            let hint = "state G20 or G21 at the beginning of the program and of each subprogram";
             return Err(refusal(self.m.origin, "inch-program", message, hint));
         }
         if self.m.coordinates == Coordinates::Machine || self.words.machine.is_some() {

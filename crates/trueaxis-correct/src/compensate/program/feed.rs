@@ -1,6 +1,7 @@
 //! The feed of a block whose way, or time, is another after the correction.
 
 use super::block::{Block, Put, Written};
+use super::number::Unit;
 use super::refuse::refusal;
 use super::words::Word;
 use trueaxis_motion::axis_path::Fault;
@@ -38,7 +39,13 @@ impl Block<'_> {
             }
             _ => return Ok(None),
         };
-        let text = feed_text(value, self.control);
+        let unit = match (self.m.feed.mode, self.feed_unit, self.control) {
+            (FeedMode::InverseTime, ..) | (_, Unit::Millimetre, _) => 1.0,
+            // HEIDENHAIN counts in tenths of an inch.
+            (.., Control::Heidenhain) => 2.54,
+            _ => 25.4,
+        };
+        let text = feed_text(value / unit, self.control);
         match word {
             Some(Word { value: None, .. }) => {
                 let message = "the feed is computed, and would have to be changed".to_owned();

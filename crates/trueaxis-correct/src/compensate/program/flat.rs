@@ -11,8 +11,8 @@
 
 mod cycles;
 
-use super::number::Grid;
-use super::text::Edits;
+use super::number::{Grid, Unit};
+use super::text::{Edits, Modes};
 use super::words::Words;
 use std::ops::Range;
 use std::path::Path;
@@ -82,7 +82,7 @@ pub(super) fn unrolled(
         out: Vec::new(),
         number: 0,
         origins: Vec::new(),
-        incremental: false,
+        modes: Modes::default(),
         after_cycle: false,
     };
     told.iter().for_each(|block| flat.block(block));
@@ -117,8 +117,7 @@ struct Flat<'p> {
     number: u32,
     /// Where each line comes from.
     origins: Vec<Origin>,
-    /// G91 is in force.
-    incremental: bool,
+    modes: Modes,
     /// The last motion code and feed are those of an unrolled cycle.
     after_cycle: bool,
 }
@@ -155,7 +154,7 @@ impl Flat<'_> {
             edits.put(range, text);
         }
         let words = Words::read(source, program.dialect(), line.clone());
-        self.incremental = words.incremental.unwrap_or(self.incremental);
+        self.modes.follow(&words);
         if self.cycle(program, &line, &words, told) {
             return;
         }
@@ -193,8 +192,7 @@ impl Flat<'_> {
         if !told.computed.is_empty() {
             return false;
         }
-        let Some(cycle) = cycles::unrolled(program, line, words, &told.moves, self.incremental)
-        else {
+        let Some(cycle) = cycles::unrolled(program, line, words, &told.moves, self.modes) else {
             return false;
         };
         let numbered = |flat: &Self, text: &str| match control {
@@ -220,7 +218,7 @@ impl Flat<'_> {
         let ([m], true) = (&told.moves[..], self.after_cycle) else { return };
         let klartext = program.dialect().control == Control::Heidenhain;
         if klartext && words.feed.is_none() && m.kind != MoveKind::Rapid {
-            edits.put(words.end..words.end, format!(" F{}", m.feed.value));
+            edits.put(words.end..words.end, format!(" F{}", cycles::klartext_feed(m, self.modes)));
             self.after_cycle = false;
         } else if klartext {
             self.after_cycle = words.feed.is_none() || m.kind == MoveKind::Rapid;
@@ -312,7 +310,7 @@ fn number(value: f64, source: &[u8], at: usize, program: &Program) -> String {
         // Without its point a number of FANUC may count increments.
         Control::Fanuc | Control::Haas if !is_place => format!("{value}"),
         Control::Heidenhain if address == b'F' || !is_place => format!("{value}"),
-        _ => Grid(None).text(value, super::number::Of::Linear, control),
+        _ => Grid::of(None, Unit::Millimetre).text(value, super::number::Of::Linear, control),
     }
 }
 

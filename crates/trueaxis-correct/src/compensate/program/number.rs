@@ -21,9 +21,31 @@ impl Default for Increments {
 /// Of directions of the tool: finer than any increment of a rotary axis.
 const VECTOR: f64 = 1e-8;
 
-/// How numbers are rounded and what is too little to be written.
+/// How numbers are rounded and what is too little to be written. Values are in mm and degrees, whatever
+/// the unit of the program.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Grid(pub Option<Increments>);
+pub(super) struct Grid {
+    increments: Option<Increments>,
+    unit: Unit,
+}
+
+/// The unit of lengths in a block.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum Unit {
+    #[default]
+    Millimetre,
+    Inch,
+}
+
+impl Unit {
+    /// The factor of a written length to mm.
+    pub fn mm(self) -> f64 {
+        match self {
+            Self::Millimetre => 1.0,
+            Self::Inch => 25.4,
+        }
+    }
+}
 
 /// What a number says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,8 +59,34 @@ pub(super) enum Of {
 }
 
 impl Grid {
+    /// By the increments of the control; without them numbers are written in full.
+    pub fn of(increments: Option<Increments>, unit: Unit) -> Self {
+        Self { increments, unit }
+    }
+
+    pub fn increments(self) -> Option<Increments> {
+        self.increments
+    }
+
+    pub fn unit(self) -> Unit {
+        self.unit
+    }
+
+    /// The factor of a written number to mm or degrees.
+    fn scale(self, of: Of) -> f64 {
+        match of {
+            Of::Linear => self.unit.mm(),
+            Of::Rotary | Of::Direction => 1.0,
+        }
+    }
+
+    /// The step of written numbers. Numbers in inches have as many decimals as bring them to the increment in
+    /// mm or below: 0.00001 in for 1 µm.
     fn step(self, of: Of) -> Option<f64> {
-        self.0.map(|i| match of {
+        self.increments.map(|i| match of {
+            Of::Linear if self.unit == Unit::Inch => {
+                10.0_f64.powf((i.linear_mm / 25.4 * (1.0 + 1e-9)).log10().floor())
+            }
             Of::Linear => i.linear_mm,
             Of::Rotary => i.rotary_deg,
             Of::Direction => VECTOR,
@@ -47,6 +95,11 @@ impl Grid {
 
     /// The nearest number that is written.
     pub fn round(self, value: f64, of: Of) -> f64 {
+        let scale = self.scale(of);
+        self.round_written(value / scale, of) * scale
+    }
+
+    fn round_written(self, value: f64, of: Of) -> f64 {
         // `step` is 1/n or n: whole multiples come out as their nearest doubles.
         match self.step(of) {
             Some(step) if step < 1.0 => {
@@ -66,7 +119,7 @@ impl Grid {
     /// double precision at the size of a machine.
     pub fn same(self, a: f64, b: f64, of: Of) -> bool {
         let least = match (self.step(of), of) {
-            (Some(step), _) => 0.5 * step,
+            (Some(step), _) => 0.5 * step * self.scale(of),
             (None, Of::Direction) => 2e-15,
             (None, Of::Linear | Of::Rotary) => 1e-11,
         };
@@ -75,18 +128,20 @@ impl Grid {
 
     /// The text of a number, as long as it has to be.
     pub fn text(self, value: f64, of: Of, control: Control) -> String {
-        let value = value + 0.0;
-        let mut text = match self.step(of) {
-            Some(step) => {
-                let digits = (-step.log10()).ceil().clamp(0.0, 12.0) as usize;
-                let mut text = format!("{value:.digits$}");
-                if text.contains('.') {
-                    text.truncate(text.trim_end_matches('0').trim_end_matches('.').len());
-                }
-                text
-            }
+        let value = value / self.scale(of) + 0.0;
+        let digits = match self.step(of) {
+            Some(step) => Some((-step.log10()).ceil().clamp(0.0, 12.0) as usize),
+            // 3 in are 76.2 mm, and 76.2 / 25.4 is 2.9999999999999996.
+            None if self.scale(of) != 1.0 => Some(12),
+            None => None,
+        };
+        let mut text = match digits {
+            Some(digits) => format!("{value:.digits$}"),
             None => format!("{value}"),
         };
+        if digits.is_some() && text.contains('.') {
+            text.truncate(text.trim_end_matches('0').trim_end_matches('.').len());
+        }
         if text == "-0" {
             text.remove(0);
         }
@@ -105,14 +160,34 @@ mod tests {
 
     #[test]
     fn numbers_are_whole_increments() {
-        let grid = Grid(Some(Increments::default()));
+        let grid = Grid::of(Some(Increments::default()), Unit::Millimetre);
         assert_eq!(
             grid.text(grid.round(12.3456, Of::Linear), Of::Linear, Control::Fanuc),
             "12.346"
         );
         assert_eq!(grid.text(-0.00001, Of::Linear, Control::Sinumerik840d), "0");
         assert_eq!(grid.text(5.0, Of::Rotary, Control::Heidenhain), "+5");
-        assert_eq!(Grid(None).text(0.1 + 0.2, Of::Linear, Control::Fanuc), "0.30000000000000004");
+        let full = Grid::of(None, Unit::Millimetre);
+        assert_eq!(full.text(0.1 + 0.2, Of::Linear, Control::Fanuc), "0.30000000000000004");
         assert!(grid.same(1.0004, 1.0, Of::Linear) && !grid.same(1.0006, 1.0, Of::Linear));
+    }
+
+    /// 1 µm is 0.0000394 in: five decimals; 2.54 µm is 0.0001 in: four.
+    #[test]
+    fn inches_have_decimals_for_the_increment() {
+        let inch = |um: f64| {
+            Grid::of(Some(Increments { linear_mm: um * 1e-3, rotary_deg: 1e-4 }), Unit::Inch)
+        };
+        let shown =
+            |grid: Grid| grid.text(grid.round(31.4159, Of::Linear), Of::Linear, Control::LinuxCnc);
+        assert_eq!(shown(inch(1.0)), "1.23685");
+        assert_eq!(shown(inch(2.54)), "1.2368");
+        let full = Grid::of(None, Unit::Inch);
+        assert_eq!(full.text(76.2, Of::Linear, Control::LinuxCnc), "3");
+        assert_eq!(inch(1.0).round(31.4159, Of::Rotary), 31.4159);
+        assert!(
+            inch(2.54).same(25.4, 25.4012, Of::Linear)
+                && !inch(2.54).same(25.4, 25.4013, Of::Linear)
+        );
     }
 }

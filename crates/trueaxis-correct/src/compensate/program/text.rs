@@ -1,5 +1,6 @@
 //! The text that is rewritten line by line; all other bytes stay.
 
+use super::number::Unit;
 use super::words::Words;
 use std::ops::Range;
 use trueaxis_nc::{Control, Program};
@@ -21,8 +22,9 @@ pub(super) struct Text<'p> {
     starts: Vec<usize>,
     lines: Vec<Line>,
     /// G91 is in force after this line.
-    incremental: (usize, bool),
-    uses_increments: bool,
+    /// The last line that was looked at for what lasts, and what lasts there.
+    modes: (usize, Modes),
+    has_modes: bool,
 }
 
 /// Changes of one line: what stands in a range becomes other text.
@@ -53,6 +55,23 @@ impl Edits {
     }
 }
 
+/// What lasts from line to line.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Modes {
+    /// G91.
+    pub incremental: bool,
+    pub unit: Unit,
+    pub feed_unit: Unit,
+}
+
+impl Modes {
+    pub fn follow(&mut self, words: &Words) {
+        self.incremental = words.incremental.unwrap_or(self.incremental);
+        self.unit = words.unit.unwrap_or(self.unit);
+        self.feed_unit = words.feed_unit.unwrap_or(self.feed_unit);
+    }
+}
+
 impl<'p> Text<'p> {
     pub fn of(program: &'p Program) -> Self {
         let source = program.source();
@@ -68,8 +87,9 @@ impl<'p> Text<'p> {
             }
         }
         let lines = vec![Line::AsItWas; starts.len()];
-        let uses_increments = source.windows(3).any(|w| w.eq_ignore_ascii_case(b"G91"));
-        Self { program, starts, lines, incremental: (0, false), uses_increments }
+        let any = |word: &[u8]| source.windows(word.len()).any(|w| w.eq_ignore_ascii_case(word));
+        let has_modes = [&b"G91"[..], b"G20", b"G70", b"INCH"].into_iter().any(any);
+        Self { program, starts, lines, modes: (0, Modes::default()), has_modes }
     }
 
     pub fn control(&self) -> Control {
@@ -97,18 +117,19 @@ impl<'p> Text<'p> {
         &self.source()[self.line(line).end..next]
     }
 
-    /// The words of a line from 1, and whether its numbers are increments.
-    pub fn words(&mut self, line: u32) -> (Words, bool) {
+    /// The words of a line from 1, lengths in mm, and what lasts there.
+    pub fn words(&mut self, line: u32) -> (Words, Modes) {
         let (source, dialect) = (self.program.source(), self.program.dialect());
         let index = line as usize;
-        if self.uses_increments && index > self.incremental.0 {
-            for number in self.incremental.0 + 1..=index {
+        if self.has_modes && index > self.modes.0 {
+            for number in self.modes.0 + 1..=index {
                 let words = Words::read(source, dialect, self.line(number as u32));
-                self.incremental.1 = words.incremental.unwrap_or(self.incremental.1);
+                self.modes.1.follow(&words);
             }
-            self.incremental.0 = index;
+            self.modes.0 = index;
         }
-        (Words::read(source, dialect, self.line(line)), self.incremental.1)
+        let words = Words::read(source, dialect, self.line(line));
+        (words.scaled(self.modes.1.unit), self.modes.1)
     }
 
     /// The line was executed and stays as it is; `false` if it was changed before.

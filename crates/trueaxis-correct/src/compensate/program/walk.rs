@@ -7,7 +7,7 @@ use super::arcs::{self, Allowed, PathPlace};
 use super::block::{Block, Written};
 use super::correct::Corrector;
 use super::found::{Found, Want};
-use super::number::Of;
+use super::number::{Grid, Of};
 use super::refuse::{again, cone, refusal};
 use super::stand::{Cut, Sample, Stand};
 use super::text::{Edits, Text};
@@ -239,7 +239,8 @@ impl<'w> Walk<'w> {
         };
         let approaching = std::mem::take(&mut self.approaching);
         let first_time = !self.text.was_executed(m.origin.line);
-        let (words, incremental) = self.text.words(m.origin.line);
+        let (words, modes) = self.text.words(m.origin.line);
+        let grid = self.options.grid(modes.unit);
         let says_circle = words.motion.is_some() || !self.circle_gone;
         let kept = self.kept_circle(m, &samples, words.motion.is_some());
         let ends = if kept { vec![samples.len() - 1] } else { ends };
@@ -247,9 +248,10 @@ impl<'w> Walk<'w> {
             m,
             source: self.text.source(),
             words: &words,
-            incremental,
+            incremental: modes.incremental,
+            feed_unit: modes.feed_unit,
             control: self.text.control(),
-            grid: self.options.grid(),
+            grid,
             only,
             arc: None,
             vectors: self.vectors,
@@ -260,7 +262,7 @@ impl<'w> Walk<'w> {
             pieces: ends.len(),
         };
         if !kept && says_circle && block.has_arc_words() {
-            block.arc = self.fitted(m, &samples);
+            block.arc = self.fitted(m, &samples, grid);
         }
         let ends = match block.arc {
             Some(_) => vec![samples.len() - 1],
@@ -310,7 +312,7 @@ impl<'w> Walk<'w> {
     }
 
     /// The circle that keeps the residual on the corrected places; none at turning points.
-    fn fitted(&self, m: &Move, samples: &[Sample]) -> Option<Arc> {
+    fn fitted(&self, m: &Move, samples: &[Sample], grid: Grid) -> Option<Arc> {
         let MoveKind::Arc(arc) = m.kind else { return None };
         let turns = samples.iter().any(|s| s.turns);
         if !self.arcs || turns || m.coordinates != Coordinates::Program {
@@ -328,7 +330,7 @@ impl<'w> Walk<'w> {
             linear_mm: residual_mm + rounding[0],
             rotary_deg: residual_rad.to_degrees() + rounding[1],
         };
-        arcs::fit(&arc, &places, allowed, |v| self.options.grid().round(v, Of::Linear))
+        arcs::fit(&arc, &places, allowed, |v| grid.round(v, Of::Linear))
     }
 
     fn cut<'c>(&self, control: &'c trueaxis_machine::tcp::TipControl) -> Cut<'c> {

@@ -1,5 +1,6 @@
 //! The words of one block: where their values stand in the text.
 
+use super::number::Unit;
 use std::ops::Range;
 use trueaxis_nc::Control;
 use trueaxis_nc::dialect::Dialect;
@@ -42,6 +43,10 @@ pub(super) struct Words {
     pub reference: bool,
     /// What switches increments: `Some(true)` for G91.
     pub incremental: Option<bool>,
+    /// What switches the unit of lengths: G20, G70, BEGIN PGM … INCH.
+    pub unit: Option<Unit>,
+    /// F counts in that unit, too.
+    pub feed_unit: Option<Unit>,
     /// `/`, with its number.
     pub skip: Option<Range<usize>>,
     /// After number and `/` of the block.
@@ -60,6 +65,16 @@ impl Words {
         let klartext = (control == Control::Heidenhain).then_some(self.motion.as_ref());
         let first = klartext.flatten().map(|m| m.end);
         self.behind_axes.or(first).unwrap_or(self.end)
+    }
+
+    /// Lengths in mm.
+    pub fn scaled(mut self, unit: Unit) -> Self {
+        for axis in Axis::ALL.into_iter().filter(|axis| !axis.is_rotary()) {
+            if let Some(word) = &mut self.axes[axis as usize] {
+                word.value = word.value.map(|value| value * unit.mm());
+            }
+        }
+        self
     }
 
     /// Reads the block between two bytes.
@@ -268,6 +283,17 @@ impl Scan<'_> {
             27.0..=30.0 if self.control != Control::Sinumerik840d => self.words.reference = true,
             74.0 | 75.0 if self.control == Control::Sinumerik840d => self.words.reference = true,
             53.0 | 153.0 => self.words.machine = Some(word.all.clone()),
+            20.0 | 21.0 if self.control != Control::Sinumerik840d => {
+                let unit = if code == 20.0 { Unit::Inch } else { Unit::Millimetre };
+                (self.words.unit, self.words.feed_unit) = (Some(unit), Some(unit));
+            }
+            70.0 | 71.0 | 700.0 | 710.0 if self.control == Control::Sinumerik840d => {
+                let inch = code == 70.0 || code == 700.0;
+                self.words.unit = Some(if inch { Unit::Inch } else { Unit::Millimetre });
+                if code >= 700.0 {
+                    self.words.feed_unit = self.words.unit;
+                }
+            }
             90.0 => self.words.incremental = Some(false),
             91.0 => self.words.incremental = Some(true),
             _ => {}
@@ -311,6 +337,11 @@ impl Scan<'_> {
         let letters = name.as_bytes();
         let axis = |letter: u8| Axis::ALL.into_iter().position(|a| a.letter() == letter);
         match letters {
+            // BEGIN PGM NAME MM, or INCH: the last word counts.
+            b"MM" | b"INCH" => {
+                let unit = if letters == b"MM" { Unit::Millimetre } else { Unit::Inch };
+                (self.words.unit, self.words.feed_unit) = (Some(unit), Some(unit));
+            }
             [b'I', letter] if axis(*letter).is_some() && self.has_value(0) => {
                 let word = self.value(token.start);
                 let word = Word { increment: Some(true), ..word };

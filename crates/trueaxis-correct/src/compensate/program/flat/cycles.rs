@@ -1,7 +1,7 @@
 //! Cycles unrolled: the moves that a block makes as plain blocks.
 
-use super::super::number::{Grid, Of};
-use super::super::text::Edits;
+use super::super::number::{Grid, Of, Unit};
+use super::super::text::{Edits, Modes};
 use super::super::words::Words;
 use std::ops::Range;
 use trueaxis_nc::lexer::{Lexer, TokenKind};
@@ -22,7 +22,7 @@ pub(super) fn unrolled(
     line: &Range<usize>,
     words: &Words,
     moves: &[Move],
-    incremental: bool,
+    modes: Modes,
 ) -> Option<Unrolled> {
     let control = program.dialect().control;
     if moves.len() < 2 || words.reference || words.machine.is_some() {
@@ -36,9 +36,9 @@ pub(super) fn unrolled(
     // The place before a modal cycle is the block's own; a cycle of FANUC has its words for itself.
     let own_move = !is_rs274 && words.axes.iter().any(Option::is_some);
     let cycle = &moves[usize::from(own_move)..];
-    let mut blocks = cycle.iter().map(|m| block(m, control)).collect::<Option<Vec<_>>>()?;
+    let mut blocks = cycle.iter().map(|m| block(m, control, modes)).collect::<Option<Vec<_>>>()?;
     let head = head(program, line, control, own_move);
-    if is_rs274 && incremental {
+    if is_rs274 && modes.incremental {
         blocks.insert(0, "G90".to_owned());
         blocks.push("G91".to_owned());
     }
@@ -46,7 +46,7 @@ pub(super) fn unrolled(
 }
 
 /// One move with all coordinates, absolute.
-fn block(m: &Move, control: Control) -> Option<String> {
+fn block(m: &Move, control: Control, modes: Modes) -> Option<String> {
     let klartext = control == Control::Heidenhain;
     if m.coordinates != Coordinates::Program || m.direction.is_some() {
         return None;
@@ -66,17 +66,25 @@ fn block(m: &Move, control: Control) -> Option<String> {
     };
     let mut text = if klartext { "L".to_owned() } else { code.to_owned() };
     for axis in [Axis::X, Axis::Y, Axis::Z] {
-        let value = Grid(None).text(m.target[axis], Of::Linear, control);
+        let value = Grid::of(None, modes.unit).text(m.target[axis], Of::Linear, control);
         text += &format!(" {axis}{value}");
     }
     if klartext {
         text += &match (m.kind, m.feed.mode) {
             (MoveKind::Rapid, _) => " FMAX".to_owned(),
-            (_, FeedMode::PerMinute) => format!(" F{}", m.feed.value),
+            (_, FeedMode::PerMinute) => format!(" F{}", klartext_feed(m, modes)),
             _ => return None,
         };
     }
     Some(text)
+}
+
+/// F of Klartext: mm/min, or tenths of an inch.
+pub(super) fn klartext_feed(m: &Move, modes: Modes) -> f64 {
+    match modes.feed_unit {
+        Unit::Millimetre => m.feed.value,
+        Unit::Inch => m.feed.value / 2.54,
+    }
 }
 
 /// The block without the words of its cycle.
