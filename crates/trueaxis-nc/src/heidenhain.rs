@@ -7,10 +7,10 @@
 //! A block is executed while it is read: Klartext has no expression that reaches beyond its block,
 //! so no tree is built.
 //!
-//! Not applied, each with a warning: radius and 3D compensation, APPR (a line to its point), cycles other than drilling, patterns, probing, datum tables,
-//! M140 MB MAX, M103, M109, M138 … Errors, because the path would be unknown: free contours (FK),
-//! PLANE PROJECTED and AXIAL, structured IF, FOR and WHILE, and values that only the machine knows
-//! (FN 18, Q100 to Q199) as soon as they are used.
+//! Not applied, each with a warning: radius and 3D compensation, APPR (a line to its point), the cycles that
+//! `docs/cycles.md` does not list, probing, datum tables, M140 MB MAX, M103, M109, M138 … Errors, because the path
+//! would be unknown: free contours (FK), PLANE AXIAL without a machine, structured IF, FOR and WHILE, and values that
+//! only the machine knows (FN 18, Q100 to Q199) as soon as they are used.
 //!
 //! Preset n of cycle 247 is work offset n of the settings; until then work offset 1 is on.
 

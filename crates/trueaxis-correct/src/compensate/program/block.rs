@@ -262,8 +262,9 @@ impl Block<'_> {
         if self.m.coordinates == Coordinates::Machine || self.words.machine.is_some() {
             return Ok(target - value);
         }
-        let message =
-            format!("{axis}{value} leads to {target}: polar or scaled coordinates, or a cycle");
+        let message = format!(
+            "{axis}{value} leads to {target}: polar or scaled coordinates, a corner, or a cycle"
+        );
         let hint = "write plain moves with X, Y and Z; a cycle as its single moves";
         Err(refusal(self.m.origin, "other-coordinates", message, hint))
     }

@@ -22,7 +22,7 @@ pub(super) struct Text<'p> {
     starts: Vec<usize>,
     lines: Vec<Line>,
     /// G91 is in force after this line.
-    /// The last line that was looked at for what lasts, and what lasts there.
+    /// The last line that was examined for what lasts, and what lasts there.
     modes: (usize, Modes),
     has_modes: bool,
 }
