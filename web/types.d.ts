@@ -2013,6 +2013,10 @@ export interface CompensateTables {
    */
   left_um: ProvedEntry;
   /**
+   * The same after the part zero was set with the tables in force, the axes at `reference`, µm.
+   */
+  left_zero_set_um: CompensateTablesResidualEntry;
+  /**
    * The same if the control took them with the wrong sign, µm.
    */
   wrong_sign_um: CompensateTablesResidualEntry;

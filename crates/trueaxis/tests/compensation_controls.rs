@@ -104,22 +104,29 @@ fn law_a_chain_that_knows_its_links_brings_the_tip_back() {
     }
 }
 
-/// Where only the places and directions of the rotary axes are wrong, kinematic parameters are enough.
+/// Where only the places and directions of the rotary axes are wrong, kinematic parameters are enough; vectors that
+/// close are not, and stay out where tables alone leave less.
 #[test]
 fn law_points_and_directions_of_the_rotary_axes_are_enough() {
     for n in 0..FIVE.len() {
         let machine = five(n, &locations("CA", 6.0));
-        for target in [Target::Csv, Target::Sinumerik] {
-            let compiled = compile(&machine, &fine(target)).unwrap();
-            let (before, after) = (compiled.before.max_mm, compiled.after.max_mm);
-            assert!(compiled.joints.is_some() && before > 0.03);
-            // Zeros of the axes are taken back by their own tables, in whole increments of 0.0001 deg.
-            assert!(after < 1.5e-3, "{n} {target:?}: {after} of {before}");
-            let without = Order { kinematics: false, ..fine(target) };
-            let without = compile(&machine, &without).unwrap();
-            let tables = without.after.max_mm;
-            assert!(without.joints.is_none() && tables > 2.0 * after, "{n} {target:?}: {tables}");
-        }
+        let [csv, without] = [true, false].map(|kinematics| {
+            compile(&machine, &Order { kinematics, ..fine(Target::Csv) }).unwrap()
+        });
+        let (before, after) = (csv.before.max_mm, csv.after.max_mm);
+        assert!(csv.joints.is_some() && before > 0.03);
+        // Zeros of the axes are taken back by their own tables, in whole increments of 0.0001 deg.
+        assert!(after < 1.5e-3, "{n}: {after} of {before}");
+        let tables = without.after.max_mm;
+        assert!(without.joints.is_none() && tables > 2.0 * after, "{n}: {tables}");
+        let [vectors, without] = [true, false].map(|kinematics| {
+            compile(&machine, &Order { kinematics, ..fine(Target::Sinumerik) }).unwrap()
+        });
+        let [left, tables] = [&vectors, &without].map(|c| c.after_zero_set.rms_mm);
+        println!("{n}: {left:.5} rms with vectors or not, {tables:.5} without");
+        assert!(left <= tables, "{n}: {left} {tables}");
+        let told = vectors.left_out.iter().any(|l| l.reason.contains("tables alone leave less"));
+        assert_eq!(told, vectors.joints.is_none(), "{n}");
     }
 }
 
@@ -356,4 +363,25 @@ fn paper_a_warm_scale_is_a_line() {
     assert!(now.after.max_mm < at_first.after.max_mm + 2e-4);
     let data = now.files.iter().find(|f| f.name == "TEMP_COMP.SPF").unwrap();
     assert!(data.text.contains("$SA_TEMP_COMP_SLOPE[AX1]=0.0000226"), "{}", data.text);
+}
+
+/// TOOLCARRIER.SPF of a head closes: at zero angles the control adds nothing by it, and the residual error is that of the
+/// text.
+#[test]
+fn vectors_of_a_head_are_taken_as_they_are_written() {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../machines/xkas2525/machine.toml");
+    let machine = trueaxis::files::machine(&path).0.unwrap();
+    let compiled = compile(&machine, &Order::of(Target::Sinumerik)).unwrap();
+    for left in [&compiled.before, &compiled.after, &compiled.after_zero_set] {
+        println!("{:.1} rms, {:.1} at most", left.rms_mm * 1e3, left.max_mm * 1e3);
+    }
+    let control = Target::Sinumerik.control();
+    let content = control.read(&machine, &compiled.files).unwrap();
+    let only = Content { joints: content.joints.clone(), ..Content::default() };
+    let emulation = Emulation::new(&machine, control.as_ref(), &only);
+    let zero = emulation.added(&[0.0; 6], &[0.0; 6]);
+    assert!(content.joints.is_some() && zero.iter().all(|q| q.abs() < 1e-8), "{zero:?}");
+    assert!(compiled.after.rms_mm > compiled.after_zero_set.rms_mm);
+    assert!(compiled.after.rms_mm < 0.5 * compiled.before.rms_mm);
 }

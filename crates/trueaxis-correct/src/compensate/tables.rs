@@ -15,6 +15,7 @@
 //!
 //! docs/decisions/0014-what-a-control-holds.md
 
+mod carrier_chain;
 mod choose;
 mod compile;
 pub mod content;
@@ -192,6 +193,8 @@ pub struct Compiled {
     pub before: Left,
     /// The same with the tables as they were read back.
     pub after: Left,
+    /// The same after the part zero was set with the tables in force, the axes standing at the reference.
+    pub after_zero_set: Left,
     /// The convention check: the same if the control took every value with the other sign.
     pub wrong_sign: Left,
     /// Each error of the machine alone.

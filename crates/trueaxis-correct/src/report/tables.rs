@@ -150,16 +150,23 @@ fn check_text(machine: &Machine, table: &table::Table) -> String {
 }
 
 fn left<'a>(report: &TablesReport<'_>) -> Section<'a> {
-    let Compiled { before, after, wrong_sign, .. } = report.compiled;
+    let Compiled { before, after, after_zero_set, wrong_sign, .. } = report.compiled;
     let row = |(name, left): (&str, &Left)| {
         let numbers = [left.max_mm * 1e3, left.rms_mm * 1e3, left.axis_rad * 1e6];
         std::iter::once(name.to_owned()).chain(numbers.map(|v| fixed(v, 2)))
     };
-    let rows = [("without tables", before), ("with tables", after), ("wrong sign", wrong_sign)];
+    let rows = [
+        ("without tables", before),
+        ("with tables", after),
+        ("with tables, zero set", after_zero_set),
+        ("wrong sign", wrong_sign),
+    ];
     let note = format!(
-        "{} poses, each from both sides, files read back; the most is left at {}",
+        "{} poses, each from both sides, files read back; the most is left at {}. Zero set: the part \
+         zero was set with the tables in force, the axes at {}",
         after.poses,
-        place_text(report.machine, &after.at)
+        place_text(report.machine, &after.at),
+        place_text(report.machine, &report.compiled.reference)
     );
     let headings = ["", "at most, µm", "rms, µm", "tool axis, µrad"];
     Section::new("Tool tip over the travel of all axes")

@@ -53,6 +53,8 @@ pub struct TablesDocument<'a> {
     pub before_um: ResidualEntry,
     /// The same with the tables, µm.
     pub left_um: ProvedEntry<'a>,
+    /// The same after the part zero was set with the tables in force, the axes at `reference`, µm.
+    pub left_zero_set_um: ResidualEntry,
     /// The same if the control took them with the wrong sign, µm.
     pub wrong_sign_um: ResidualEntry,
     /// What to do at the control.
@@ -272,6 +274,7 @@ impl<'a> TablesDocument<'a> {
                 residual: ResidualEntry::of(machine, &compiled.after),
                 test_piece: report.piece.map(PieceEntry::from),
             },
+            left_zero_set_um: ResidualEntry::of(machine, &compiled.after_zero_set),
             wrong_sign_um: ResidualEntry::of(machine, &compiled.wrong_sign),
             notes: compiled.advice,
         }

@@ -8,7 +8,7 @@ use super::grid::{GridFault, Gridded};
 use super::joints::Joints;
 use super::lever::Lever;
 use super::place::{PlaceFault, Placed};
-use super::proof::{error_losses, left_over};
+use super::proof::{error_losses, left_after_zero_set, left_over};
 use super::table::{PER_UNIT, Table, count_of, counts};
 use super::{
     Compiled, LeftOut, Made, Order, TablesError, What, grid, known, lever, place, shown,
@@ -24,6 +24,34 @@ use trueaxis_machine::errors::ErrorName;
 /// # Errors
 /// [`TablesError`]; then there is no file.
 pub fn compile(machine: &Machine, order: &Order) -> Result<Compiled, TablesError> {
+    let with = compile_with(machine, order)?;
+    let control = order.target.control();
+    let carrier = with.joints.as_ref().and_then(|j| control.carrier_chain(machine, j));
+    if carrier.is_none() {
+        return Ok(with);
+    }
+    // Vectors that close leave what is constant and what the tool or the workpiece is tilted by: tables may do more.
+    let mut without = compile_with(machine, &Order { kinematics: false, ..*order })?;
+    if with.after_zero_set.rms_mm <= without.after_zero_set.rms_mm {
+        return Ok(with);
+    }
+    without.order = *order;
+    for (index, name) in machine.stated_errors() {
+        if control.knows_location(machine, name) {
+            let stated = machine.bodies()[index.body].stated(name.kind, name.component);
+            let largest = stated.map_or(0.0, |s| s.at(0.0, 0.0).map_or(0.0, f64::abs));
+            let what = What::Error(name);
+            without.left_out.push(LeftOut { what, largest, reason: BETTER_BY_TABLES });
+        }
+    }
+    Ok(without)
+}
+
+/// Why the vectors of the rotary axes are not written.
+const BETTER_BY_TABLES: &str =
+    "not by the control's vectors, which add nothing at zero angles: tables alone leave less";
+
+fn compile_with(machine: &Machine, order: &Order) -> Result<Compiled, TablesError> {
     let control = order.target.control();
     for axis in machine.axes() {
         if !control.letters().contains(axis.name.letter()) {
@@ -57,13 +85,15 @@ pub fn compile(machine: &Machine, order: &Order) -> Result<Compiled, TablesError
     let files = control.write(machine, &content);
     let read = recovered(machine, control.as_ref(), &content, &files)?;
     let left = |content: &Content| left_over(&Emulation::new(machine, control.as_ref(), content));
+    let with_tables = Emulation::new(machine, control.as_ref(), &read);
     Ok(Compiled {
         order: *order,
         reference,
         before: left(&Content::default())?,
         wrong_sign: left(&read.negated(machine))?,
         errors: error_losses(machine, &reference, (control.as_ref(), &read), order),
-        after: left(&read)?,
+        after: left_over(&with_tables)?,
+        after_zero_set: left_after_zero_set(&with_tables, &reference)?,
         files,
         tables,
         known: knowledge.made,

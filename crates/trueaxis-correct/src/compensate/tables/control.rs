@@ -1,8 +1,10 @@
 //! What controls have in common: what a table may be, written, read back, and applied.
 
 use super::TablesError;
+use super::carrier_chain::CarrierChain;
 use super::content::Content;
 use super::grid::GridRule;
+use super::joints::Joints;
 use super::place::Rule;
 use super::table::{PER_UNIT, Table};
 use trueaxis_machine::Machine;
@@ -124,6 +126,12 @@ pub trait Control {
     /// What a table adds to the command of its output axis, in counts, as this control interpolates it.
     fn value(&self, table: &Table, position: f64, side: f64) -> f64 {
         table.at(position, side)
+    }
+
+    /// What its transformation does with the vectors that it writes for these joints; `None` where it follows the
+    /// axes from the machine zero, whatever their places are.
+    fn carrier_chain(&self, _machine: &Machine, _joints: &Joints) -> Option<CarrierChain> {
+        None
     }
 
     /// What the control needs besides the files, in words.

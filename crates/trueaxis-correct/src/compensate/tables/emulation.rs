@@ -1,5 +1,6 @@
 //! A control that has read the files: what it adds to every command.
 
+use super::carrier_chain::CarrierChain;
 use super::content::Content;
 use super::control::Control;
 use super::lever::placed;
@@ -15,12 +16,14 @@ pub struct Emulation<'a> {
     machine: &'a Machine,
     control: &'a dyn Control,
     content: &'a Content,
+    carrier: Option<CarrierChain>,
 }
 
 impl<'a> Emulation<'a> {
     /// The control after it has read this content.
     pub fn new(machine: &'a Machine, control: &'a dyn Control, content: &'a Content) -> Self {
-        Self { machine, control, content }
+        let carrier = content.joints.as_ref().and_then(|j| control.carrier_chain(machine, j));
+        Self { machine, control, content, carrier }
     }
 
     /// The actual machine.
@@ -50,6 +53,9 @@ impl<'a> Emulation<'a> {
     fn by_chain(&self, command: &Command, approach: &Approach) -> Command {
         if self.content.known.is_empty() && self.content.joints.is_none() {
             return Command::default();
+        }
+        if let Some(carrier) = &self.carrier {
+            return carrier.added(self.machine, command);
         }
         let known = |at: &Command| {
             let content = (self.control, self.content);

@@ -204,7 +204,7 @@ pub fn own_component(axis: &Axis) -> Component {
 }
 
 /// From an error of the tip to the steps of the linear axes that make it, the least ones if there is a choice.
-fn linear_inverse(machine: &Machine, command: &Command) -> impl Fn(&Vec3) -> Vec<(usize, f64)> {
+pub fn linear_inverse(machine: &Machine, command: &Command) -> impl Fn(&Vec3) -> Vec<(usize, f64)> {
     let linear = machine.axes().iter().enumerate().filter(|(_, a)| a.kind == AxisKind::Linear);
     let axes: Vec<usize> = linear.map(|(i, _)| i).collect();
     let columns: Vec<Vec3> = axes

@@ -1,5 +1,6 @@
 //! What the tables of a control leave: over the volume, of each error alone, of a test piece.
 
+use super::carrier_chain::CarrierChain;
 use super::choose::off;
 use super::content::Content;
 use super::control::Control;
@@ -10,6 +11,7 @@ use super::lever::{Lever, correction, errors_near, placed, sum};
 use super::table::Table;
 use super::{Order, TablesError};
 use crate::predict::{Cutting, Error, Judge, Study};
+use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, AxisKind, Command, MAX_AXES};
 use trueaxis_machine::chain::{ChainBody, CommandFault};
@@ -60,6 +62,30 @@ pub struct ErrorLoss {
 /// # Errors
 /// No pose at all at which the errors are known.
 pub fn left_over(leaves: &Emulation<'_>) -> Result<Left, TablesError> {
+    left_from(leaves, Vec3::zeros())
+}
+
+/// The same after the part zero was set where the axes stand at a command, with the tables in force: what is off there
+/// is taken along everywhere.
+///
+/// # Errors
+/// As of [`left_over`]; that the errors are not known at the command.
+pub fn left_after_zero_set(leaves: &Emulation<'_>, command: &Command) -> Result<Left, TablesError> {
+    let mut zero = Vec3::zeros();
+    for side in [1.0, -1.0] {
+        let approach = [side; MAX_AXES];
+        let added = leaves.added(command, &approach);
+        match off(leaves.machine(), command, &added, &approach) {
+            Some([tip, _]) => zero += tip * 0.5,
+            None => {
+                leaves.machine().errors_at(command, &approach)?;
+            }
+        }
+    }
+    left_from(leaves, zero)
+}
+
+fn left_from(leaves: &Emulation<'_>, zero: Vec3) -> Result<Left, TablesError> {
     let mut left = Left::default();
     let (mut squares, mut count) = (0.0, 0.0);
     for command in commands(leaves.machine().axes(), POSES) {
@@ -70,6 +96,7 @@ pub fn left_over(leaves: &Emulation<'_>) -> Result<Left, TablesError> {
             let Some([tip, axis]) = off(leaves.machine(), &command, &added, &approach) else {
                 continue;
             };
+            let tip = tip - zero;
             seen = true;
             squares += tip.norm_squared();
             count += 1.0;
@@ -139,6 +166,7 @@ struct Best<'a> {
     content: &'a Content,
     reference: Command,
     lever: Lever<'a>,
+    carrier: Option<CarrierChain>,
 }
 
 impl<'a> Best<'a> {
@@ -148,7 +176,8 @@ impl<'a> Best<'a> {
         (control, content): (&'a dyn Control, &'a Content),
     ) -> Result<Self, CommandFault> {
         let lever = Lever::new(rest, reference)?;
-        Ok(Self { chain, rest, control, content, reference, lever })
+        let carrier = control.carrier_chain(chain, &Joints::actual(chain));
+        Ok(Self { chain, rest, control, content, reference, lever, carrier })
     }
 
     fn added(&self, command: &Command, approach: &Approach) -> Result<Command, CommandFault> {
@@ -169,6 +198,9 @@ impl<'a> Best<'a> {
     }
 
     fn by_chain(&self, command: &Command, approach: &Approach) -> Result<Command, CommandFault> {
+        if let Some(carrier) = &self.carrier {
+            return Ok(carrier.added(self.chain, command));
+        }
         let joints = Joints::actual(self.chain);
         let errors = |at: &Command| match self.control.knows_links() {
             true => errors_near(self.chain, at, command, approach),

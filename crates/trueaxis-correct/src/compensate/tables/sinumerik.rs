@@ -8,8 +8,10 @@
 //! tables without reversal go into `$AA_ENC_COMP`; with reversal into two `$AN_CEC` tables of one direction
 //! each, as the manual does it. docs/compensation-tables.md has the pages.
 
+use super::carrier_chain::CarrierChain;
 use super::content::Content;
 use super::control::{Control, File, ReadFault, checked, ended};
+use super::joints::Joints;
 use super::place::{Rule, Spacing};
 use super::table::{Node, Table, axis_order, decimal, parse_decimal};
 use super::{temp_comp, tool_carrier};
@@ -110,12 +112,19 @@ impl Control for Sinumerik {
         Ok(Content { tables, lines, joints, ..Content::default() })
     }
 
+    fn carrier_chain(&self, machine: &Machine, joints: &Joints) -> Option<CarrierChain> {
+        let written = tool_carrier::write(machine, joints)?;
+        let nominal = tool_carrier::write(machine, &Joints::nominal(machine))?;
+        CarrierChain::of(machine, &written, &nominal)
+    }
+
     fn advice(&self) -> &'static [&'static str] {
         &[
             "MD38000 and MD18342 at least the number of points; they re-format the memory: save the data first",
             "before loading: MD32700 $MA_ENC_COMP_ENABLE and MD32710 $MA_CEC_ENABLE 0, after it 1; SD41300 $SN_CEC_TABLE_ENABLE[t] = 1",
             "MD10200 and MD10210 at least 10 000 increments per mm and degree; MD32720 $MA_CEC_MAX_SUM above the largest value",
             "TEMP_COMP.SPF (with --temperature): SD43900, SD43910, SD43920 for those temperatures; MD32750 $MA_TEMP_COMP_TYPE = 3; the PLC is to write them as the temperatures change",
+            "TOOLCARRIER.SPF adds nothing at zero angles, whatever its vectors are: set the part zero with the vectors in force, where `zero set` counts",
             "TOOLCARRIER.SPF: the vectors of the rotary axes, for CYCLE800 and for TRAORI of type 72; for types 24, 40 and 56 they are MD24500 ff. (Commissioning Manual SINUMERIK Operate)",
             "check the sign with one table and a dial: switched on at the place that is named, the axis must move by what the table adds; if it moves the other way, do not use the tables",
         ]

@@ -23,13 +23,16 @@ use trueaxis_machine::errors::{BodyName, ErrorName, ErrorValues};
 /// The file.
 pub const NAME: &str = "TOOLCARRIER.SPF";
 /// The number of the tool carrier.
-const CARRIER: usize = 1;
+pub const CARRIER: usize = 1;
 
 /// What turns: both axes the tool, both the workpiece, one each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
+pub enum Kind {
+    /// Both the tool.
     Head,
+    /// Both the workpiece.
     Table,
+    /// Axis 1 the tool, axis 2 the workpiece.
     Both,
 }
 
@@ -44,7 +47,7 @@ impl Kind {
 }
 
 /// The two rotary axes in the order of the control, if there are two.
-fn axes(machine: &Machine) -> Option<(Kind, [BodyName; 2])> {
+pub fn axes(machine: &Machine) -> Option<(Kind, [BodyName; 2])> {
     let side = machine.workpiece_side();
     let outwards = (0..side).rev().chain(side..machine.bodies().len());
     let rotary = outwards.filter_map(|i| machine.bodies()[i].axis).map(|i| &machine.axes()[i]);
