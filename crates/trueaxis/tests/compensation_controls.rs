@@ -123,7 +123,6 @@ fn law_points_and_directions_of_the_rotary_axes_are_enough() {
             compile(&machine, &Order { kinematics, ..fine(Target::Sinumerik) }).unwrap()
         });
         let [left, tables] = [&vectors, &without].map(|c| c.after_zero_set.rms_mm);
-        println!("{n}: {left:.5} rms with vectors or not, {tables:.5} without");
         assert!(left <= tables, "{n}: {left} {tables}");
         let told = vectors.left_out.iter().any(|l| l.reason.contains("tables alone leave less"));
         assert_eq!(told, vectors.joints.is_none(), "{n}");
@@ -374,7 +373,6 @@ fn vectors_of_a_head_are_taken_as_they_are_written() {
     let machine = trueaxis::files::machine(&path).0.unwrap();
     let compiled = compile(&machine, &Order::of(Target::Sinumerik)).unwrap();
     for left in [&compiled.before, &compiled.after, &compiled.after_zero_set] {
-        println!("{:.1} rms, {:.1} at most", left.rms_mm * 1e3, left.max_mm * 1e3);
     }
     let control = Target::Sinumerik.control();
     let content = control.read(&machine, &compiled.files).unwrap();
