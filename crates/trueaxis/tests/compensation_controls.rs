@@ -372,7 +372,13 @@ fn vectors_of_a_head_are_taken_as_they_are_written() {
         .join("../../machines/xkas2525/machine.toml");
     let machine = trueaxis::files::machine(&path).0.unwrap();
     let compiled = compile(&machine, &Order::of(Target::Sinumerik)).unwrap();
-    for left in [&compiled.before, &compiled.after, &compiled.after_zero_set] {
+    // docs/compensation-tables.md states these, rms and largest, µm.
+    let expected = [(98.1, 205.1), (47.3, 102.2), (38.1, 71.7)];
+    let found = [&compiled.before, &compiled.after, &compiled.after_zero_set];
+    for (left, (rms, most)) in found.into_iter().zip(expected) {
+        let [left_rms, left_most] = [left.rms_mm * 1e3, left.max_mm * 1e3];
+        assert!((left_rms - rms).abs() < 0.06, "{left_rms} µm rms, stated {rms}");
+        assert!((left_most - most).abs() < 0.06, "{left_most} µm, stated {most}");
     }
     let control = Target::Sinumerik.control();
     let content = control.read(&machine, &compiled.files).unwrap();
