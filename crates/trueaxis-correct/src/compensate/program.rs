@@ -34,7 +34,6 @@ pub use number::Increments;
 pub use verify::{BlockResidual, Largest, Proof, Residual};
 
 use ahead::Gather;
-use number::{Grid, Unit};
 use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_motion::Densify;
@@ -83,12 +82,6 @@ impl Default for ProgramOptions {
             pose_by_pose: false,
             mark: String::new(),
         }
-    }
-}
-
-impl ProgramOptions {
-    fn grid(&self, unit: Unit) -> Grid {
-        Grid::of(self.increments, unit)
     }
 }
 

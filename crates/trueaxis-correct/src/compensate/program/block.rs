@@ -132,7 +132,7 @@ impl Block<'_> {
     fn wanted(&self, path: &AxisPath<'_>, now: &Position, step: &Written) -> Position {
         let exact = path.words_of(&step.command, self.m.coordinates);
         let (Some(control), Some(_), Straight::Axes) =
-            (path.control(), self.grid.increments(), path.straight())
+            (path.control(), self.grid.increments, path.straight())
         else {
             return exact;
         };
@@ -253,7 +253,7 @@ impl Block<'_> {
         if near(value) {
             return Ok(0.0);
         }
-        let other = if self.grid.unit() == Unit::Inch { value / 25.4 } else { value * 25.4 };
+        let other = if self.grid.unit == Unit::Inch { value / 25.4 } else { value * 25.4 };
         if near(other) && !axis.is_rotary() {
             let message = "the unit of the block is not the one that its text states".to_owned();
             let hint = "state G20 or G21 at the beginning of the program and of each subprogram";

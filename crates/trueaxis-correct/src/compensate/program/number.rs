@@ -25,8 +25,8 @@ const VECTOR: f64 = 1e-8;
 /// the unit of the program.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Grid {
-    increments: Option<Increments>,
-    unit: Unit,
+    pub increments: Option<Increments>,
+    pub unit: Unit,
 }
 
 /// The unit of lengths in a block.
@@ -64,14 +64,6 @@ impl Grid {
         Self { increments, unit }
     }
 
-    pub fn increments(self) -> Option<Increments> {
-        self.increments
-    }
-
-    pub fn unit(self) -> Unit {
-        self.unit
-    }
-
     /// The factor of a written number to mm or degrees.
     fn scale(self, of: Of) -> f64 {
         match of {
@@ -100,19 +92,11 @@ impl Grid {
     }
 
     fn round_written(self, value: f64, of: Of) -> f64 {
-        // `step` is 1/n or n: whole multiples come out as their nearest doubles.
-        match self.step(of) {
-            Some(step) if step < 1.0 => {
-                let parts = (1.0 / step).round();
-                if (parts * step - 1.0).abs() < 1e-9 {
-                    (value * parts).round() / parts
-                } else {
-                    (value / step).round() * step
-                }
-            }
-            Some(step) => (value / step).round() * step,
-            None => value,
-        }
+        let Some(step) = self.step(of) else { return value };
+        // 1/n or n: whole multiples come out as their nearest doubles.
+        let parts = (1.0 / step).round();
+        let is_part = step < 1.0 && (parts * step - 1.0).abs() < 1e-9;
+        if is_part { (value * parts).round() / parts } else { (value / step).round() * step }
     }
 
     /// Whether two numbers are one when written; without rounding their difference is that of

@@ -240,7 +240,7 @@ impl<'w> Walk<'w> {
         let approaching = std::mem::take(&mut self.approaching);
         let first_time = !self.text.was_executed(m.origin.line);
         let (words, modes) = self.text.words(m.origin.line);
-        let grid = self.options.grid(modes.unit);
+        let grid = Grid::of(self.options.increments, modes.unit);
         let says_circle = words.motion.is_some() || !self.circle_gone;
         let kept = self.kept_circle(m, &samples, words.motion.is_some());
         let ends = if kept { vec![samples.len() - 1] } else { ends };
