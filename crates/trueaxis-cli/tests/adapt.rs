@@ -85,7 +85,7 @@ impl Parts {
 fn reported(name: &str, parts: &Parts, status: i32, code: &str, words: &str) {
     let (_folder, ran) = parts.run(name, &["--format", "json"]);
     assert_eq!(ran.status, status, "{name}\n{}", ran.err);
-    assert_eq!(ran.out.is_empty(), status == 2, "{name}");
+    assert_eq!(ran.has_no_answer(), status == 2, "{name}");
     let mut blocks = ran.err.split("\n\n").filter(|b| b.contains(&format!("[{code}]")));
     let block = blocks.find(|b| b.contains(words));
     assert!(block.is_some(), "{code} `{words}` is not reported:\n{}", ran.err);

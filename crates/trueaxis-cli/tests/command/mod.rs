@@ -24,6 +24,15 @@ impl Ran {
     }
 }
 
+impl Ran {
+    /// There is no answer: nothing on standard output, or the document of a refusal.
+    #[allow(dead_code, reason = "not every test file refuses")]
+    pub fn has_no_answer(&self) -> bool {
+        let document = serde_json::from_str::<Value>(&self.out);
+        self.out.is_empty() || document.is_ok_and(|d| d["schema"] == "trueaxis/refused/1")
+    }
+}
+
 /// The root of the repository.
 pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
