@@ -2,7 +2,9 @@
 //!
 //! Places have the two coordinates of the plane and the height; a path is that of the centre of the cutter.
 
-use crate::{Point, along};
+use trueaxis_contour::plane::along;
+
+use crate::Point;
 
 /// Strokes of one cycle: more than any program means.
 const MOST_STROKES: usize = 1_000_000;

@@ -1,6 +1,8 @@
 //! Patterns of holes: rows, circles and grids, each hole after the other.
 
-use crate::{Point, along, length, minus};
+use trueaxis_contour::plane::{along, length, minus};
+
+use crate::Point;
 
 /// Holes of one pattern: more than any program means.
 pub const MOST_HOLES: u32 = 100_000;

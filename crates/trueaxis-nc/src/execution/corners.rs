@@ -1,6 +1,7 @@
 //! Roundings and chamfers: a move that has a corner at its end waits for the next one.
 
-use trueaxis_cycles::corner::{CornerError, Element, Shape, Transition, transition};
+use trueaxis_contour::Element;
+use trueaxis_contour::corner::{CornerError, Shape, Transition, transition};
 
 use super::Core;
 use crate::moves::{

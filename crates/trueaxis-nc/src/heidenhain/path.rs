@@ -13,7 +13,7 @@ use crate::moves::{
     RotaryDirection,
 };
 use crate::text::program::Fault;
-use trueaxis_cycles::corner::Shape;
+use trueaxis_contour::corner::Shape;
 
 impl Run<'_> {
     /// Executes a path block; `None` if the block is none.

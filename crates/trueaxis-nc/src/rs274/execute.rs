@@ -6,7 +6,7 @@ use crate::execution::mistakes;
 use crate::moves::{Axis, CompensationSide, Event, Move, MoveKind, PathControl, Position};
 use crate::rs274::code::{Action, Motion};
 use crate::text::program::{Block, Fault, Item, Keyword, Label, Program};
-use trueaxis_cycles::corner::Shape;
+use trueaxis_contour::corner::Shape;
 
 impl Run<'_> {
     /// Executes one block.

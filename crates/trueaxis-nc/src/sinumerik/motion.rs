@@ -6,7 +6,7 @@ use super::{Language, Run, fault};
 use crate::execution::corners::{Corner, is_size};
 use crate::moves::{Axis, AxisSet, Coordinates, Feed, Move, MoveKind, Position, RotaryDirection};
 use crate::text::program::Fault;
-use trueaxis_cycles::corner::Shape;
+use trueaxis_contour::corner::Shape;
 
 impl Run<'_> {
     /// The move of a block; `false` if it has none.

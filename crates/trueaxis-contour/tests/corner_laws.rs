@@ -1,7 +1,8 @@
 //! Corners of random lines and arcs: the inserted element touches its neighbours.
 
 use proptest::prelude::*;
-use trueaxis_cycles::corner::{Element, Shape, transition};
+use trueaxis_contour::Element;
+use trueaxis_contour::corner::{Shape, transition};
 
 fn element(from: [f64; 2]) -> impl Strategy<Value = Element> {
     let line = (5.0..40.0, 0.0..std::f64::consts::TAU).prop_map(move |(l, a): (f64, f64)| {
