@@ -19,10 +19,23 @@ pub enum Motion {
     RigidTap,
     /// A straight line until the probe trips.
     Probe,
+    /// A spline in the plane.
+    Spline(Spline),
     /// A drilling cycle.
     Cycle(Cycle),
     /// None: axis words are not allowed.
     Cancelled,
+}
+
+/// The splines of LinuxCNC.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Spline {
+    /// G5: cubic, with two inner points.
+    Cubic,
+    /// G5.1: quadratic, with one.
+    Quadratic,
+    /// G5.2: blocks of control points, until G5.3.
+    Nurbs,
 }
 
 /// The drilling cycles.
@@ -140,6 +153,8 @@ pub enum Action {
     LocalCall,
     /// The end of a subprogram.
     Return,
+    /// G5.3 of LinuxCNC: the control points are complete.
+    NurbsEnd,
     /// G76 of LinuxCNC: a thread in several passes.
     Threading,
     /// G70, G71 and G72 of HAAS: the cycle that is on at holes on a circle, an arc or a line.
@@ -250,6 +265,7 @@ impl Action {
             | Self::ReferenceCheck
             | Self::ReferenceReturn
             | Self::Preset
+            | Self::NurbsEnd
             | Self::ScaleOff
             | Self::Scale
             | Self::Mirror(_)

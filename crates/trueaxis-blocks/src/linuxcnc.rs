@@ -1,6 +1,6 @@
 //! LinuxCNC: the table of its codes.
 
-use crate::code::{Action as A, Motion, Saving};
+use crate::code::{Action as A, Motion, Saving, Spline};
 use crate::common_codes::{RS274_G_CODES, RS274_M_CODES, joined};
 use crate::dialect::{Control, Dialect};
 use trueaxis_moves::{CompensationSide as Side, PathControl};
@@ -22,10 +22,10 @@ pub(crate) static DIALECT: Dialect = Dialect {
 };
 
 const G_CODES: [(u16, A); 39] = [
-    (50, A::NotApplied("G5 cubic spline")),
-    (51, A::NotApplied("G5.1 quadratic spline")),
-    (52, A::NotApplied("G5.2 NURBS")),
-    (53, A::NotApplied("G5.3 NURBS")),
+    (50, A::Motion(Motion::Spline(Spline::Cubic))),
+    (51, A::Motion(Motion::Spline(Spline::Quadratic))),
+    (52, A::Motion(Motion::Spline(Spline::Nurbs))),
+    (53, A::NurbsEnd),
     (70, A::Diameter(true)),
     (80, A::Diameter(false)),
     (171, A::NotAppliedAlone("G17.1 UV plane")),

@@ -1,6 +1,7 @@
 //! The geometry of cycles, the same for all controls: what the words of a control mean is in `trueaxis-nc`.
 //!
 //! - [`mill`]: pockets and faces; [`thread`]: the passes of a thread.
+//! - [`spline`]: rational B-splines and the arcs through them.
 //! - [`pattern`]: holes in rows, on circles and in grids; pecks that become shorter.
 //!
 //! Lengths are in mm, angles in the unit that their names state. Points are in the plane of the cycle, its
@@ -8,6 +9,7 @@
 
 pub mod mill;
 pub mod pattern;
+pub mod spline;
 pub mod thread;
 
 pub use trueaxis_contour::plane::Point;

@@ -173,6 +173,7 @@ impl Run<'_> {
         if motion == Motion::Probe && self.is_fanuc() {
             return;
         }
+        self.modes.spline.select(self.modes.motion, motion);
         self.modes.motion = Some(motion);
         if !matches!(motion, Motion::Cycle(_) | Motion::Cancelled) {
             self.modes.base = motion;
@@ -289,6 +290,7 @@ impl Run<'_> {
                 self.modes.macros.pop();
             }
             Action::DataInputEnd => {}
+            Action::NurbsEnd => self.nurbs_end(at)?,
             Action::Threading => self.thread(at)?,
             Action::HolePattern(code) => self.hole_pattern(code, at)?,
             Action::ModalState(saving) => self.save_or_restore(saving, at)?,
@@ -407,6 +409,9 @@ impl Run<'_> {
             return if moves { self.cycle(cycle, at) } else { Ok(()) };
         }
         self.modes.cycle.forget();
+        if let Motion::Spline(spline) = motion {
+            return self.spline(spline, at);
+        }
         let arc = matches!(motion, Motion::ArcClockwise | Motion::ArcCounterClockwise);
         if !moves && !arc {
             if motion == Motion::Probe {

@@ -3,3 +3,4 @@
 mod comments;
 pub(super) mod modal_state;
 pub(super) mod polar;
+pub(super) mod splines;

@@ -4,6 +4,7 @@ use super::cycles::CycleMemory;
 use super::fanuc::macros::ModalMacro;
 use super::fanuc::transforms::Transforms;
 use super::linuxcnc::polar::{self, PolarWord};
+use super::linuxcnc::splines::SplineMemory;
 use super::{Passage, Run};
 use crate::execution::Settings;
 use crate::execution::mistakes;
@@ -46,6 +47,7 @@ pub(super) struct Modes {
     /// P of G64, mm.
     pub path_tolerance_mm: f64,
     pub transforms: Transforms,
+    pub spline: SplineMemory,
     /// Where G28 or G30 came through last.
     pub via: Option<Position>,
     /// G10 L50 is active: blocks are data until G11.
@@ -76,6 +78,7 @@ impl Modes {
             path: PathControl::Continuous,
             path_tolerance_mm: 0.0,
             transforms: Transforms::default(),
+            spline: SplineMemory::default(),
             via: None,
             data_input: false,
             macros: Vec::new(),
