@@ -4,7 +4,7 @@
 //! L. Piegl, W. Tiller, "The NURBS Book", 2nd edition, equations (2.5) and (4.1); biarcs with equal tangents: K. M.
 //! Bolton, "Biarc curves", Computer-Aided Design 7 (1975) 89–92.
 
-use crate::{Point, along, cross, dot, length, minus};
+use trueaxis_contour::plane::{Point, along, cross, dot, length, minus};
 
 /// Pieces of one curve: more than any program means.
 const MOST_PIECES: usize = 1_000_000;
