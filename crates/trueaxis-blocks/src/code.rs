@@ -81,8 +81,12 @@ pub enum Action {
     Inches(bool),
     /// X words are diameters.
     Diameter(bool),
-    /// Radius compensation; noted, not applied.
+    /// Radius compensation with the radius of a number.
     Compensation(CompensationSide),
+    /// Radius compensation with a diameter.
+    CompensationDirect(CompensationSide),
+    /// Compensation perpendicular to I J K; not applied.
+    SpatialCompensation,
     /// Tool length of the table (H).
     ToolLength,
     /// Tool length as the axis words say.
@@ -243,7 +247,7 @@ impl Action {
             Self::Dwell => 11,
             Self::Plane(_) => 12,
             Self::Inches(_) | Self::Diameter(_) => 13,
-            Self::Compensation(_) => 14,
+            Self::Compensation(_) | Self::CompensationDirect(_) | Self::SpatialCompensation => 14,
             Self::ToolLength
             | Self::ToolLengthDirect
             | Self::ToolLengthNegative

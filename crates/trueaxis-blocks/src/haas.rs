@@ -4,7 +4,6 @@ use crate::code::Action as A;
 use crate::common_codes::joined;
 use crate::dialect::{Control, Dialect};
 use crate::fanuc;
-use trueaxis_moves::CompensationSide as Side;
 
 /// HAAS, milling control.
 ///
@@ -29,7 +28,7 @@ const G_CODES: [(u16, A); 19] = [
     (710, A::HolePattern(71)),
     (720, A::HolePattern(72)),
     (1030, A::NoteWhole("G103 limit of block look-ahead")),
-    (1410, A::Compensation(Side::Left)),
+    (1410, A::SpatialCompensation),
     (1500, A::NotApplied("G150 general pocket")),
     (1530, A::NotApplied("G153 high-speed peck boring")),
     (1540, A::WorkOffsetFurther),

@@ -86,6 +86,17 @@ impl Element {
         }
     }
 
+    /// The same element with the radius of one of its ends: those of a written arc differ by rounding.
+    #[must_use]
+    pub fn through(&self, end: Point) -> Self {
+        match *self {
+            Self::Arc { center, start_rad, sweep_rad, .. } => {
+                Self::Arc { center, radius_mm: length(minus(end, center)), start_rad, sweep_rad }
+            }
+            line @ Self::Line { .. } => line,
+        }
+    }
+
     /// The part of the element between its end (or its start) and a point on it.
     pub(crate) fn cut_off(&self, p: Point, at_end: bool) -> f64 {
         match *self {

@@ -1,7 +1,8 @@
-//! Contours in a plane: lines and arcs, the corners between them, and the path of a tool beside them.
+//! Contours in a plane: lines and arcs, the corners between them, and the path of a tool along them.
 //!
 //! - [`Element`]: a line or an arc.
 //! - [`corner`]: roundings and chamfers between two elements.
+//! - [`radius`]: the path of the centre of a tool with cutter radius compensation.
 //!
 //! Lengths are in mm, angles in the unit that their names state. Points are in the plane of the contour, its
 //! first axis first; seen against the axis perpendicular to it, the second axis is counter-clockwise from
@@ -20,5 +21,6 @@
 pub mod corner;
 mod element;
 pub mod plane;
+pub mod radius;
 
 pub use element::Element;

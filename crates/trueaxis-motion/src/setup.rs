@@ -24,6 +24,8 @@ pub struct SetUpTool {
     pub tip_mm: Vec3,
     /// Cutting diameter, mm, if stated.
     pub diameter_mm: Option<f64>,
+    /// What the control offsets by with radius compensation, mm, if it is not half of the diameter.
+    pub radius_offset_mm: Option<f64>,
     /// Radius of the corner, mm.
     pub corner_radius_mm: f64,
     /// Its cylinders from the tip upwards, the cutter first; empty: a cylinder of its diameter.
@@ -275,6 +277,7 @@ fn read_archive(root: &Section<'_>, item: &Item<'_>, folder: &Path, setup: &mut 
             name: tool.name,
             tip_mm: -Vec3::new(length[0], length[1], length[2]),
             diameter_mm: Some(2.0 * tool.radius_mm).filter(|d| *d > 0.0),
+            radius_offset_mm: Some(tool.radius_mm),
             corner_radius_mm: tool.corner_radius_mm,
             shape: Vec::new(),
         });
@@ -383,6 +386,7 @@ fn read_tool(section: &Section<'_>, machine: &Machine) -> Option<SetUpTool> {
             "the diameter of a tool is positive and its length is not negative".to_owned();
         section.error("bad-tool", message, "length = \"100 mm\", diameter = \"10 mm\"");
     }
+    tool.radius_offset_mm = section.quantity("radius_offset", Dimension::Length);
     let corner = section.quantity("corner_radius", Dimension::Length);
     tool.corner_radius_mm = corner.unwrap_or(tool.corner_radius_mm);
     if let Some(shape) = read_tool_shape(section) {
@@ -399,8 +403,10 @@ impl SetUp {
             length.0[..3].copy_from_slice((-t.tip_mm).as_slice());
             length
         };
+        let radius = |t: &SetUpTool| t.radius_offset_mm.or(t.diameter_mm.map(|d| d / 2.0));
         Settings {
             keep_going,
+            radii: self.tools.iter().filter_map(|(n, t)| Some((*n, radius(t)?))).collect(),
             tools: self.tools.iter().map(|(number, t)| (*number, length(t))).collect(),
             tool_names: self.tools.iter().map(|(n, t)| (t.name.clone(), *n)).collect(),
             work_offsets: self.work_offsets.clone(),

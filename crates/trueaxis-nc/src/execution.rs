@@ -11,6 +11,7 @@ pub(crate) mod milling;
 pub(crate) mod mistakes;
 mod modes;
 mod own_codes;
+pub(crate) mod radius;
 mod stop;
 pub(crate) mod values;
 
@@ -50,6 +51,8 @@ pub struct Settings {
     pub tools: BTreeMap<u32, Position>,
     /// The length that tool-centre-point control takes for tools that are not listed, mm, where it is not 0.
     pub unlisted_length_mm: Option<f64>,
+    /// Tool radii with their wear by tool number, mm; those that are not listed are not known.
+    pub radii: BTreeMap<u32, f64>,
     /// Tool numbers by name.
     pub tool_names: BTreeMap<String, u32>,
     /// Work offsets by number, from 1 for G54; zero where none is given.
@@ -77,6 +80,7 @@ impl Default for Settings {
             plane: Plane::Xy,
             tools: BTreeMap::new(),
             unlisted_length_mm: None,
+            radii: BTreeMap::new(),
             tool_names: BTreeMap::new(),
             work_offsets: BTreeMap::new(),
             codes: BTreeMap::new(),
@@ -89,7 +93,7 @@ impl Default for Settings {
 
 /// Whether a warning of this code means that motion is missing, or ends at another place than on the control.
 pub fn leaves_motion_out(code: &str) -> bool {
-    matches!(code, "not-applied" | "compensation-not-applied")
+    matches!(code, "not-applied" | "unknown-tool-radius")
 }
 
 /// The result of an execution.

@@ -25,6 +25,7 @@ mod milling;
 mod path;
 mod patterns;
 mod plane;
+mod radius;
 mod statements;
 mod tools;
 mod values;
@@ -157,7 +158,8 @@ impl<'r> Run<'r> {
             tool_length_mm: 0.0,
             tool_radius_mm: None,
         };
-        let tools = settings.tools.iter().map(|(n, p)| (*n, (p[Axis::Z], None))).collect();
+        let radius = |n: &u32| settings.radii.get(n).copied();
+        let tools = settings.tools.iter().map(|(n, p)| (*n, (p[Axis::Z], radius(n)))).collect();
         Self {
             labels: HashMap::new(),
             stack: vec![Activation::main()],

@@ -12,6 +12,7 @@ mod frames;
 mod linuxcnc;
 mod parameters;
 mod quick;
+mod radius;
 mod reported;
 mod straight;
 mod tables;

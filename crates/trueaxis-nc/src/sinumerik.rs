@@ -24,6 +24,7 @@ mod motion;
 mod orientation;
 mod patterns;
 mod quick;
+mod radius;
 mod reader;
 mod structure;
 mod swivel;

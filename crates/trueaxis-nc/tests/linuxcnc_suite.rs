@@ -11,9 +11,7 @@ use std::path::{Path, PathBuf};
 use support::{Call, expected_calls, our_calls, outside, tidy_end};
 
 /// Tests that differ, and why; `docs/validation.md` has the same table.
-const DIFFERENCES: [(&str, &str); 6] = [
-    ("crazy-paths", "radius compensation is not applied"),
-    ("inverse-time-with-comp", "radius compensation is not applied"),
+const DIFFERENCES: [(&str, &str); 4] = [
     ("g71-endless-loop2", "lathe cycle G71 is not applied"),
     ("g71-endless-loop_2", "lathe cycle G71 is not applied"),
     ("g72-facing", "lathe cycle G72 is not applied"),
@@ -150,10 +148,8 @@ fn rotate_taps(calls: &mut [Call], order: [usize; 3]) {
 }
 
 /// Programs that LinuxCNC rejects and we accept, and why.
-const ACCEPTED: [(&str, &str); 4] = [
+const ACCEPTED: [(&str, &str); 2] = [
     ("g64-r-on-g61", "a word that nothing uses is a warning"),
-    ("ccomp-arcexit", "radius compensation is not applied"),
-    ("ccomp-gouging", "radius compensation is not applied"),
     ("g64-m19-r-ambiguous", "R goes to M19"),
 ];
 

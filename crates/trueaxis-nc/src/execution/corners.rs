@@ -84,7 +84,7 @@ impl Core<'_> {
             }
             match &mut self.corners.held {
                 Some(held) => held.later.push(step),
-                None => self.follower.take(step),
+                None => self.send(step),
             }
             return;
         };
@@ -102,12 +102,12 @@ impl Core<'_> {
                 self.corners.held = Some(Box::new(held));
             }
             Some((_, corner)) => {
-                self.follower.take(Step::Move(m));
+                self.send(Step::Move(m));
                 if let Some(corner) = corner {
                     self.sharp_corner(corner, "only lines with feed and arcs can have one");
                 }
             }
-            None => self.follower.take(Step::Move(m)),
+            None => self.send(Step::Move(m)),
         }
     }
 
@@ -126,9 +126,9 @@ impl Core<'_> {
                 (None, next)
             }
             Ok(Some((first, own, begins, next))) => {
-                self.follower.take(Step::Move(first));
-                self.follower.take(Step::Move(own));
-                held.later.into_iter().for_each(|s| self.follower.take(s));
+                self.send(Step::Move(first));
+                self.send(Step::Move(own));
+                held.later.into_iter().for_each(|s| self.send(s));
                 (Some(begins), next)
             }
             Ok(None) => {
@@ -145,8 +145,8 @@ impl Core<'_> {
     }
 
     fn release(&mut self, held: Held) {
-        self.follower.take(Step::Move(held.step));
-        held.later.into_iter().for_each(|s| self.follower.take(s));
+        self.send(Step::Move(held.step));
+        held.later.into_iter().for_each(|s| self.send(s));
     }
 
     /// Sends a move that waits for a corner as it is.
@@ -261,7 +261,7 @@ fn inserted(held: &Held, corner: &Corner, found: &Transition, target: Position) 
 }
 
 /// The turns begun of an arc of which a part remains.
-fn shorten(m: &mut Move, whole: &Element, part: f64) {
+pub(super) fn shorten(m: &mut Move, whole: &Element, part: f64) {
     if let (MoveKind::Arc(arc), Element::Arc { sweep_rad, .. }) = (&mut m.kind, whole) {
         let turns = (sweep_rad.abs() * part / std::f64::consts::TAU - 1e-9).ceil();
         arc.turns = (turns as u32).max(1);

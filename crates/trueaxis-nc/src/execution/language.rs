@@ -1,12 +1,13 @@
 //! What every run has, whatever the language of its program: where it is, what it reports, what it
 //! hands out and where its limits lie.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
 
 use trueaxis_input::{Diagnostics, Place};
 
 use super::corners::Corners;
+use super::radius::Active;
 use super::{Follower, Library, Modes, Outcome, Settings, mistakes};
 use crate::moves::{
     Coordinates, Event, Frame, Move, MoveKind, Origin, Position, RotaryDirection, Step,
@@ -64,13 +65,18 @@ pub(crate) trait Language<'r> {
 
     #[doc(hidden)]
     fn read_place(&mut self) {
-        self.emit_frame();
         let core = self.core();
         core.end_corner("the place after its block is read from the machine");
+        core.stop_on_contour();
+        self.emit_frame();
+        let core = self.core();
         core.is_unread = false;
-        let Some(place) = core.follower.place() else { return };
-        let place = place.over(&self.position());
-        self.set_position(place);
+        if let Some(known) = core.follower.place() {
+            let place = core.contour_place(known).over(&self.position());
+            self.set_position(place);
+        }
+        let place = self.position();
+        self.core().contour_from(place);
     }
 
     /// Executes the program; `false` after an error or a stop on request.
@@ -79,7 +85,13 @@ pub(crate) trait Language<'r> {
         self.emit_frame();
         while !self.core().settings.stop.is_requested() {
             self.settle();
-            match self.advance(&mut room) {
+            let next = self.advance(&mut room);
+            if let Some(fault) = self.core().fault.take().filter(|_| next.is_ok())
+                && !self.core().goes_on_after(fault)
+            {
+                return false;
+            }
+            match next {
                 Ok(Next::Finished) => return true,
                 Ok(Next::Following | Next::Jumped) => {}
                 Err(fault) => {
@@ -98,6 +110,7 @@ pub(crate) trait Language<'r> {
         let finished = self.run();
         let core = self.core();
         core.end_corner("no move follows it");
+        core.end_contour();
         let programs = core.programs.iter().map(|p| p.file().to_owned()).collect();
         Outcome { problems: std::mem::take(&mut core.problems), finished, programs }
     }
@@ -109,6 +122,9 @@ pub(crate) struct Core<'r> {
     pub settings: &'r Settings,
     pub(super) follower: &'r mut dyn Follower,
     pub(super) corners: Corners,
+    pub(super) radius: Option<Box<Active>>,
+    /// What is wrong with the contour, reported after its block.
+    fault: Option<Fault>,
     /// A program that the dictionary calls after this block.
     pub own_call: Option<(String, usize)>,
     /// The place in the program frame is to be read again.
@@ -122,11 +138,13 @@ pub(crate) struct Core<'r> {
     /// Where the block begins that is being executed.
     pub start: usize,
     pub modes: Modes,
+    /// Tool radii by number, mm.
+    pub radii: BTreeMap<u32, f64>,
     /// Backward jumps and calls, and the points of the path before the first of them.
     jumps: u64,
     points_before: u64,
     /// The last reported frame.
-    reported_frame: Frame,
+    pub(super) reported_frame: Frame,
     problems: Diagnostics,
     errors: usize,
     /// Nothing can go on, whatever the settings say.
@@ -146,6 +164,8 @@ impl<'r> Core<'r> {
             settings,
             follower,
             corners: Corners::default(),
+            radius: None,
+            fault: None,
             own_call: None,
             is_unread: true,
             programs: vec![Rc::new(program.clone())],
@@ -153,6 +173,7 @@ impl<'r> Core<'r> {
             origin: Origin { program: 0, line: 1 },
             start: 0,
             modes: Modes::new(settings),
+            radii: settings.radii.clone(),
             jumps: 0,
             points_before: 0,
             reported_frame: Frame::IDENTITY,
@@ -191,15 +212,30 @@ impl<'r> Core<'r> {
     #[inline]
     fn hand_out(&mut self, step: Step) {
         if self.corners.are_off() {
-            self.follower.take(step);
+            self.send(step);
         } else {
             self.step_at_corner(step);
         }
     }
 
+    /// A step after the corners: to the contour if there is one, else to the machine.
+    #[inline]
+    pub(super) fn send(&mut self, step: Step) {
+        if self.radius.is_none() {
+            self.follower.take(step);
+        } else {
+            self.step_on_contour(step);
+        }
+    }
+
+    /// A fault that shows after the words that cause it.
+    pub(super) fn hold_fault(&mut self, fault: Fault) {
+        self.fault.get_or_insert(fault);
+    }
+
     /// Where the axes are, if a machine follows the program; else as the frames of the program say.
     pub fn axis_positions(&self, by_frames: Position) -> Position {
-        if self.corners.is_waiting() {
+        if self.corners.is_waiting() || self.radius.is_some() {
             // The machine has not made the last move yet.
             return by_frames;
         }
@@ -210,6 +246,7 @@ impl<'r> Core<'r> {
     pub fn emit_frame(&mut self, frame: Frame) -> bool {
         let changed = frame != self.reported_frame;
         if changed {
+            self.stop_on_contour();
             self.reported_frame = frame;
             self.emit(Event::Frame(frame));
         }
@@ -344,7 +381,7 @@ impl<'r> Core<'r> {
 }
 
 /// Whether the same axis positions are another place in the program after an event.
-fn changes_place(event: &Event) -> bool {
+pub(super) fn changes_place(event: &Event) -> bool {
     matches!(
         event,
         Event::Frame(_)

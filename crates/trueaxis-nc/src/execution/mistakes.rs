@@ -2,6 +2,8 @@
 
 use std::fmt::Display;
 
+use trueaxis_contour::radius::Gouge;
+
 use crate::moves::FeedMode;
 use crate::text::program::{Fault, fault};
 
@@ -171,4 +173,57 @@ pub(crate) fn check_groups<C: Copy + PartialEq>(
 pub(crate) fn too_many_pecks(most: f64, at: usize) -> Fault {
     let message = format!("the block drills more than {most} times");
     fault("too-many-pecks", at, message, "check the depth of peck and the number of holes")
+}
+
+/// The tool does not fit at a corner or inside an arc; `before` is the line of the first of two elements.
+pub(crate) fn gouge(gouge: &Gouge, radius_mm: f64, before: Option<u32>, at: usize) -> Fault {
+    let place = before.map_or(String::new(), |line| format!(" after line {line}"));
+    let message =
+        format!("the tool of radius {radius_mm:.4} mm would cut into the contour{place}: {gouge}");
+    let hint = "take a smaller tool, or check the contour and the side of the compensation";
+    fault("gouge", at, message, hint)
+}
+
+pub(crate) fn short_entry(length_mm: f64, radius_mm: f64, at: usize) -> Fault {
+    let message = format!(
+        "the first move of the radius compensation is {length_mm:.4} mm long, not longer than the radius \
+         {radius_mm:.4} mm of the tool"
+    );
+    fault("bad-compensation", at, message, "begin farther away from the contour")
+}
+
+pub(crate) fn entry_arc_aside(at: usize) -> Fault {
+    let message = "no arc leads from the tool to the contour so that both have the same tangent";
+    fault("bad-compensation", at, message, "begin on a line, or farther away from the contour")
+}
+
+pub(crate) fn arc_before_contour(at: usize) -> Fault {
+    let message = "the first move of the radius compensation is an arc";
+    fault("bad-compensation", at, message, "lead to the contour on a line, G0 or G1")
+}
+
+pub(crate) fn arc_after_contour(at: usize) -> Fault {
+    let message = "the first move after the radius compensation is an arc";
+    fault("bad-compensation", at, message, "lead away from the contour on a line, G0 or G1")
+}
+
+pub(crate) fn plane_on_contour(at: usize) -> Fault {
+    let message = "the plane changes while the radius compensation is on";
+    fault("bad-compensation", at, message, "end the compensation before (G40, R0)")
+}
+
+pub(crate) fn cycle_on_contour(at: usize) -> Fault {
+    let message = "a cycle begins while the radius compensation is on";
+    fault("bad-compensation", at, message, "end the compensation before (G40, R0)")
+}
+
+pub(crate) fn no_contour_element(at: usize) -> Fault {
+    let message = "with radius compensation only lines and arcs of the plane are possible";
+    fault("bad-compensation", at, message, "end the compensation before (G40, R0)")
+}
+
+pub(crate) fn unequal_scales(at: usize) -> Fault {
+    let message =
+        "the scales of the two axes of the plane differ while the radius compensation is on";
+    fault("bad-compensation", at, message, "scale both axes alike, or end the compensation before")
 }

@@ -1,5 +1,6 @@
 //! What lasts from block to block in every language: units, plane, feed, spindle, tool.
 
+use super::radius::Behaviour;
 use super::{Core, Settings, mistakes};
 use crate::moves::{
     Axis, AxisSet, CompensationSide, Event, Feed, FeedMode, Move, MoveKind, Plane, Position,
@@ -135,14 +136,36 @@ impl Core<'_> {
         self.emit(Event::ToolCentre(on));
     }
 
-    pub fn compensate(&mut self, side: CompensationSide, at: usize) {
+    /// Radius compensation with a radius, mm, from a place; a negative radius changes the side.
+    pub fn compensate(
+        &mut self,
+        side: CompensationSide,
+        radius: Option<f64>,
+        behaviour: Behaviour,
+        place: Position,
+        at: usize,
+    ) {
         self.emit(Event::Compensation(side));
-        if side != CompensationSide::Off {
-            let message = "radius compensation is not applied";
-            let hint =
-                "the moves are those of the program; let the CAM system compensate the radius";
-            self.warn("compensation-not-applied", "", at, message, hint);
+        let radius = radius.unwrap_or(0.0);
+        match side {
+            CompensationSide::Left if radius != 0.0 => {
+                self.begin_radius(radius, behaviour, place, at);
+            }
+            CompensationSide::Right if radius != 0.0 => {
+                self.begin_radius(-radius, behaviour, place, at);
+            }
+            _ => self.end_radius(),
         }
+    }
+
+    /// Warns that a radius is not stated anywhere.
+    pub fn unknown_radius(&mut self, whose: impl std::fmt::Display, at: usize) {
+        let message = format!(
+            "radius compensation: the radius {whose} is not stated, 0 is taken; the path is the written one"
+        );
+        let hint = "state diameter, or radius_offset, of the tool in a set-up file (--setup); radius_offset = \"0 mm\" \
+                    if the program has the path of the centre";
+        self.warn("unknown-tool-radius", whose, at, message, hint);
     }
 
     /// Warns that the tool table does not have a tool.

@@ -9,8 +9,7 @@ use crate::execution::corners::{Corner, is_size};
 use crate::execution::frames::unit;
 use crate::execution::mistakes;
 use crate::moves::{
-    Axis, AxisSet, CompensationSide, Coordinates, Event, Feed, FeedMode, MoveKind, Position,
-    RotaryDirection,
+    Axis, AxisSet, Coordinates, Feed, FeedMode, MoveKind, Position, RotaryDirection,
 };
 use crate::text::program::Fault;
 use trueaxis_contour::corner::Shape;
@@ -158,20 +157,6 @@ impl Run<'_> {
             return Ok(Next::Finished);
         }
         self.cycle_of_block(words)
-    }
-
-    /// DEP ends the compensation by itself.
-    fn end_compensation(&mut self) {
-        if self.modes.side != CompensationSide::Off {
-            self.modes.side = CompensationSide::Off;
-            self.core.emit(Event::Compensation(CompensationSide::Off));
-        }
-    }
-
-    fn compensation(&mut self, words: &Words) {
-        let Some(side) = words.side.filter(|s| *s != self.modes.side) else { return };
-        self.modes.side = side;
-        self.core.compensate(side, words.at);
     }
 
     /// Sets the feed; `true` if this block is rapid.

@@ -3,7 +3,7 @@
 use super::{Language, Next, Passage, Run, fault};
 use crate::execution::corners::{Corner, is_size};
 use crate::execution::mistakes;
-use crate::moves::{Axis, CompensationSide, Event, Move, MoveKind, PathControl, Position};
+use crate::moves::{Axis, Event, Move, MoveKind, PathControl, Position};
 use crate::rs274::code::{Action, Motion};
 use crate::text::program::{Block, Fault, Item, Keyword, Label, Program};
 use trueaxis_contour::corner::Shape;
@@ -193,6 +193,10 @@ impl Run<'_> {
         if !actions.iter().any(|(a, _)| a.rank() == Action::ToolLength.rank()) {
             self.reselect_length(block.span.start)?;
         }
+        let moves = |a: &Action| matches!(a, Action::Motion(m) if !matches!(m, Motion::Cycle(_)));
+        if actions.iter().all(|(a, _)| moves(a)) {
+            self.reselect_radius(block.span.start)?;
+        }
         let p = self.words.look(b'P').filter(|p| p.fract() == 0.0 && (1.0..=300.0).contains(p));
         let alone = |a: &Action| {
             matches!(a, Action::WorkOffset(1) | Action::Incremental(_) | Action::Plane(_))
@@ -266,7 +270,12 @@ impl Run<'_> {
             Action::Plane(plane) => self.core.select_plane(plane),
             Action::Inches(inches) => self.core.modes.inches = inches,
             Action::Diameter(diameter) => self.core.modes.diameter = diameter,
-            Action::Compensation(side) => self.compensation(side, at),
+            Action::Compensation(side) => self.compensation(side, false, at)?,
+            Action::CompensationDirect(side) => self.compensation(side, true, at)?,
+            Action::SpatialCompensation => {
+                self.words.take(b'D');
+                self.core.left_out("G141 3D cutter compensation", at);
+            }
             Action::Path(control) => self.path(control),
             Action::Incremental(incremental) => self.core.modes.incremental = incremental,
             Action::ArcAbsolute(absolute) => self.modes.arc_absolute = absolute,
@@ -370,15 +379,6 @@ impl Run<'_> {
         Ok(())
     }
 
-    pub(super) fn compensation(&mut self, side: CompensationSide, at: usize) {
-        if let Some(number) = self.words.take(b'D') {
-            self.modes.last[2] = number;
-        }
-        self.words.take(b'L');
-        self.modes.compensation = side;
-        self.core.compensate(side, at);
-    }
-
     fn path(&mut self, control: PathControl) {
         let mut tolerance_mm = 0.0;
         if control == PathControl::Continuous {
@@ -406,6 +406,9 @@ impl Run<'_> {
             return Ok(());
         }
         if let Motion::Cycle(cycle) = motion {
+            if moves && self.core.has_radius() {
+                return Err(mistakes::cycle_on_contour(at));
+            }
             return if moves { self.cycle(cycle, at) } else { Ok(()) };
         }
         self.modes.cycle.forget();

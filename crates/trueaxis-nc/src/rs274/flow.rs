@@ -341,7 +341,7 @@ impl Run<'_> {
                 }
                 self.returned = value;
                 if let Some(ended) = self.stack.pop() {
-                    self.restore_at_return(&ended.saved, at);
+                    self.restore_at_return(&ended.saved, at)?;
                 }
                 Ok(Next::Jumped)
             }

@@ -1,5 +1,6 @@
 //! Tool lengths, work offsets, shifts and reference points.
 
+use super::radius::RADIUS_WEAR;
 use super::{Language, Run, fault};
 use crate::execution::mistakes;
 use crate::moves::{Axis, AxisSet, Coordinates, Event, Move, MoveKind, Position};
@@ -385,7 +386,11 @@ impl Run<'_> {
         let length = self.frames.tools.get(&number).copied().unwrap_or_default();
         let old = match level {
             11 => self.frames.wear.get(&number).copied().unwrap_or_default(),
-            12 | 13 => 0.0,
+            12 => self.core.radii.get(&number).copied().unwrap_or(0.0),
+            13 => {
+                let wear = self.globals.get(&(RADIUS_WEAR + number)).copied();
+                wear.unwrap_or(0.0) * self.core.modes.unit_mm()
+            }
             _ => length[Axis::Z],
         };
         let value = if self.core.modes.incremental { old + value } else { value };
@@ -393,7 +398,12 @@ impl Run<'_> {
             11 => {
                 self.frames.wear.insert(number, value);
             }
-            12 | 13 => self.core.emit(Event::Note("G10 L12 L13 radius of a tool")),
+            12 => {
+                self.core.radii.insert(number, value);
+            }
+            13 => {
+                self.globals.insert(RADIUS_WEAR + number, value / self.core.modes.unit_mm());
+            }
             _ => {
                 let mut length = length;
                 length[Axis::Z] = value;
@@ -405,9 +415,12 @@ impl Run<'_> {
     /// G10 L1 (as written), L10 (from the present place) and L11 (from the place in G59.3).
     fn set_tool(&mut self, number: u32, level: u32) {
         let words = Axis::ALL.map(|a| self.axis_word(a));
-        let others = b"RIJQ".map(|letter| self.words.take(letter));
+        if let Some(radius) = self.length(b'R') {
+            self.core.radii.insert(number, radius);
+        }
+        let others = b"IJQ".map(|letter| self.words.take(letter));
         if others.iter().any(Option::is_some) {
-            self.core.emit(Event::Note("G10 radius and angles of a tool"));
+            self.core.emit(Event::Note("G10 angles of a tool"));
         }
         let mut length = self.frames.tool_length(number);
         let mut target = self.frames.position;

@@ -50,6 +50,7 @@ impl Archive {
         settings.work_offsets.extend(self.work_offsets.iter().map(|(n, frame)| (*n, *frame)));
         for (number, tool) in &self.tools {
             settings.tools.insert(*number, tool.length_mm);
+            settings.radii.insert(*number, tool.radius_mm);
             if !tool.name.is_empty() {
                 settings.tool_names.insert(tool.name.clone(), *number);
             }

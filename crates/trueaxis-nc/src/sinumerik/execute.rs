@@ -251,7 +251,7 @@ impl Run<'_> {
             Code::AlongTool(on) => self.frame_along_tool(on, at)?,
             Code::Angles(angles) => self.modes.angles = angles,
             Code::Orientation(way) => self.turn_by(way),
-            Code::Compensation(side) => self.core.compensate(side, at),
+            Code::Compensation(side) => self.compensation(side, at),
             Code::Path(control, with_distance) => {
                 let distance = if with_distance { words.take(Name::Tolerance) } else { None };
                 self.report_path(

@@ -266,7 +266,7 @@ impl Run<'_> {
             return Ok(Next::Jumped);
         }
         if let Some(ended) = self.stack.pop() {
-            self.restore_at_return(&ended.saved, at);
+            self.restore_at_return(&ended.saved, at)?;
             if ended.shares_locals {
                 self.frame().locals = ended.locals;
             }

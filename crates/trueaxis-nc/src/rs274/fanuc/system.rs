@@ -58,7 +58,12 @@ impl Run<'_> {
                 }
                 Table::Length(entry) => self.shown(&length(entry), axis),
                 Table::Wear(entry) => Some(wear(entry) / self.core.modes.unit_mm()),
-                Table::Radius => Some(self.globals.get(&number).copied().unwrap_or(0.0)),
+                Table::Radius => {
+                    let radius = self.core.radii.get(&number.saturating_sub(13_000)).copied();
+                    let known = radius.filter(|_| number > 13_000);
+                    let own = self.globals.get(&number).copied();
+                    known.map(|r| r / self.core.modes.unit_mm()).or(own).or(Some(0.0))
+                }
             };
         }
         match number {
@@ -180,7 +185,13 @@ impl Run<'_> {
                 Table::Wear(entry) => {
                     self.frames.wear.insert(entry, value);
                 }
-                Table::Radius => return Ok(false),
+                Table::Radius => {
+                    if number > 13_000 {
+                        let radius_mm = value * self.core.modes.unit_mm();
+                        self.core.radii.insert(number - 13_000, radius_mm);
+                    }
+                    return Ok(false);
+                }
             }
             return Ok(true);
         }

@@ -46,7 +46,7 @@ impl Run<'_> {
                     let hint = "write M70 before it, in the same program or subprogram";
                     return Err(fault("no-saved-state", at, message, hint));
                 };
-                self.restore(&state, at);
+                self.restore(&state, at)?;
                 return Ok(());
             }
         };
@@ -56,10 +56,15 @@ impl Run<'_> {
     }
 
     /// The end of a subprogram: what M73 has saved in it comes back.
-    pub(in crate::rs274) fn restore_at_return(&mut self, saved: &Saved, at: usize) {
+    pub(in crate::rs274) fn restore_at_return(
+        &mut self,
+        saved: &Saved,
+        at: usize,
+    ) -> Result<(), Fault> {
         if let Some(state) = saved.state.as_ref().filter(|_| saved.until_return) {
-            self.restore(state, at);
+            self.restore(state, at)?;
         }
+        Ok(())
     }
 
     fn modal_state(&self) -> ModalState {
@@ -76,7 +81,7 @@ impl Run<'_> {
         }
     }
 
-    fn restore(&mut self, state: &ModalState, at: usize) {
+    fn restore(&mut self, state: &ModalState, at: usize) -> Result<(), Fault> {
         let now = self.core.modes.clone();
         let saved = &state.modes;
         self.core.modes = execution::Modes {
@@ -107,7 +112,12 @@ impl Run<'_> {
         }
         self.modes.length_code = state.length_code;
         if state.compensation != self.modes.compensation {
-            self.compensation(state.compensation, at);
+            let before = CompensationSide::Off;
+            self.compensation(before, false, at)?;
+            if state.compensation != before {
+                self.compensation(state.compensation, false, at)?;
+            }
         }
+        Ok(())
     }
 }

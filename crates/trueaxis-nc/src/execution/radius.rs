@@ -1,0 +1,504 @@
+//! Cutter radius compensation: the moves of a program become those of the centre of the tool.
+//!
+//! A move along the contour waits for the next one, because its end depends on the corner. What comes in
+//! between without motion in the plane happens at the end of the first of the two. Where the program
+//! changes its frame, its tool or its side, the tool stops perpendicular to the end of the contour.
+
+use trueaxis_contour::Element;
+use trueaxis_contour::plane::{Point, along, dot, length, minus};
+use trueaxis_contour::radius::{Link, Rules, centre, check_fit, passage};
+
+use super::corners::shorten;
+use super::language::changes_place;
+use super::{Core, KnownPosition, mistakes};
+use crate::moves::{
+    Arc, Axis, AxisSet, Coordinates, Event, Feed, FeedMode, Frame, Move, MoveKind, Origin, Plane,
+    Position, Step,
+};
+
+/// How a tool comes to the contour.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Entry {
+    /// To the place perpendicular to the start of the contour: FANUC type A, SINUMERIK NORM, HEIDENHAIN.
+    Perpendicular,
+    /// The entry is the first element: its end is compensated, and the corner after it is like all others.
+    Element,
+}
+
+/// What a control does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Behaviour {
+    pub rules: Rules,
+    pub entry: Entry,
+    /// Its first move may be an arc.
+    pub enters_on_arcs: bool,
+    /// A move without motion in the plane goes to the programmed place if the compensation has ended.
+    pub ends_at_once: bool,
+    /// Of the slightly different radii of a written arc that at its end counts.
+    pub radius_at_end: bool,
+    /// The feed counts on the contour, not at the centre.
+    pub feed_on_contour: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Phase {
+    /// The next move in the plane leads to the contour.
+    Entering,
+    /// On the contour.
+    On,
+    /// On the contour, but the next element begins where the centre is.
+    Aslant,
+    /// The next move in the plane leads away.
+    Leaving,
+}
+
+/// A move that waits for the next one.
+struct Waiting {
+    step: Move,
+    /// Its element of the contour; none for an entry that ends perpendicular to the next one.
+    element: Option<Element>,
+    /// How much of it may still be cut off; 1: all.
+    room: f64,
+    /// Where the centre is after it if no corner follows.
+    end: Point,
+    /// What happened since.
+    later: Vec<Step>,
+}
+
+pub(super) struct Active {
+    behaviour: Behaviour,
+    phase: Phase,
+    plane: Plane,
+    /// The distance of the centre to the left of the contour, mm on the workpiece.
+    true_left_mm: f64,
+    /// The same in the program frame, which may be scaled.
+    left_mm: f64,
+    /// The end of the contour so far.
+    place: Position,
+    /// Where the centre is there.
+    centre: Point,
+    waiting: Option<Waiting>,
+    /// From the contour to the centre in the basic frame, while the place in the program frame is unread.
+    vector: Option<[f64; 3]>,
+}
+
+impl Active {
+    fn point(&self, p: &Position) -> Point {
+        let [a, b, _] = self.plane.axes();
+        [p[a], p[b]]
+    }
+
+    fn put(&self, p: &mut Position, at: Point) {
+        let [a, b, _] = self.plane.axes();
+        (p[a], p[b]) = (at[0], at[1]);
+    }
+
+    /// From the contour to the centre, in the program frame.
+    fn offset(&self) -> [f64; 3] {
+        let (mut vector, here) = (Position::default(), self.point(&self.place));
+        self.put(&mut vector, minus(self.centre, here));
+        [vector.0[0], vector.0[1], vector.0[2]]
+    }
+}
+
+impl Core<'_> {
+    /// The compensation begins, or changes its side or radius: from here the centre of a tool runs to the
+    /// left (negative: to the right) of the contour.
+    pub fn begin_radius(
+        &mut self,
+        true_left_mm: f64,
+        behaviour: Behaviour,
+        place: Position,
+        at: usize,
+    ) {
+        self.end_corner("the radius compensation begins");
+        self.end_contour();
+        let plane = self.modes.plane;
+        let Some(scale) = scale_of(&self.reported_frame, plane) else {
+            self.hold_fault(mistakes::unequal_scales(at));
+            return;
+        };
+        let left_mm = true_left_mm / scale;
+        if let Some(active) = &mut self.radius {
+            active.phase = match active.phase {
+                Phase::On | Phase::Aslant if active.left_mm * left_mm > 0.0 => Phase::Aslant,
+                Phase::On | Phase::Aslant => Phase::On,
+                _ => Phase::Entering,
+            };
+            (active.true_left_mm, active.left_mm) = (true_left_mm, left_mm);
+            active.behaviour = behaviour;
+            return;
+        }
+        let [a, b, _] = plane.axes();
+        self.radius = Some(Box::new(Active {
+            behaviour,
+            phase: Phase::Entering,
+            plane,
+            true_left_mm,
+            left_mm,
+            place,
+            centre: [place[a], place[b]],
+            waiting: None,
+            vector: None,
+        }));
+    }
+
+    /// The compensation ends with the next move in the plane, or at once.
+    pub fn end_radius(&mut self) {
+        self.end_corner("the radius compensation ends");
+        self.end_contour();
+        match &mut self.radius {
+            Some(active) if active.phase != Phase::Entering => active.phase = Phase::Leaving,
+            _ => self.radius = None,
+        }
+    }
+
+    /// Whether the centre of the tool runs along a contour.
+    pub fn has_radius(&self) -> bool {
+        self.radius.is_some()
+    }
+
+    /// Sends the move that waits for a corner to the place perpendicular to its end.
+    pub(super) fn end_contour(&mut self) {
+        let Some(active) = &mut self.radius else { return };
+        let Some(waiting) = active.waiting.take() else { return };
+        active.centre = waiting.end;
+        let end = waiting.end;
+        self.release_waiting(waiting, end, 0.0);
+    }
+
+    /// The program is about to count from another place: the tool stops at the contour.
+    pub(super) fn stop_on_contour(&mut self) {
+        self.end_contour();
+        let frame = self.reported_frame;
+        if let Some(active) = &mut self.radius {
+            let offset = active.offset();
+            active.vector.get_or_insert_with(|| frame.vector(offset));
+        }
+    }
+
+    /// A step while the compensation is on.
+    pub(super) fn step_on_contour(&mut self, step: Step) {
+        match step {
+            Step::Move(m) => self.move_on_contour(m),
+            Step::Event(event, origin) => self.event_on_contour(event, origin),
+        }
+    }
+
+    fn event_on_contour(&mut self, event: Event, origin: Origin) {
+        if changes_place(&event) || event == Event::End {
+            self.stop_on_contour();
+        }
+        let Some(active) = &mut self.radius else { return };
+        if let Event::Plane(plane) = event
+            && plane != active.plane
+        {
+            match active.phase {
+                Phase::On | Phase::Aslant => {
+                    self.hold_fault(mistakes::plane_on_contour(self.start));
+                }
+                Phase::Entering => {
+                    active.plane = plane;
+                    active.centre = active.point(&active.place);
+                    self.follower.take(Step::Event(event, origin));
+                }
+                Phase::Leaving => {
+                    self.radius = None;
+                    self.follower.take(Step::Event(event, origin));
+                }
+            }
+            return;
+        }
+        let step = Step::Event(event, origin);
+        match &mut active.waiting {
+            Some(waiting) => waiting.later.push(step),
+            None => self.follower.take(step),
+        }
+    }
+
+    fn move_on_contour(&mut self, m: Move) {
+        let Some(active) = &mut self.radius else { return };
+        if m.coordinates == Coordinates::Machine || matches!(m.kind, MoveKind::Align { .. }) {
+            self.end_contour();
+            if let Some(active) = &mut self.radius {
+                active.phase = Phase::Entering;
+            }
+            self.follower.take(Step::Move(m));
+            return;
+        }
+        let arc = matches!(m.kind, MoveKind::Arc(_) | MoveKind::SpatialArc(_));
+        let still = active.point(&m.target) == active.point(&active.place) && !arc;
+        let at_once = active.phase == Phase::Leaving && active.behaviour.ends_at_once;
+        if matches!(m.kind, MoveKind::Dwell { .. }) || still && !at_once {
+            self.move_across(m);
+            return;
+        }
+        match active.phase {
+            Phase::Entering => self.enter(m),
+            Phase::On | Phase::Aslant => self.follow_contour(m),
+            Phase::Leaving => {
+                if arc {
+                    self.hold_fault(mistakes::arc_after_contour(self.start));
+                }
+                self.radius = None;
+                self.follower.take(Step::Move(m));
+            }
+        }
+    }
+
+    /// A move without motion in the plane: the centre stays where it is there.
+    fn move_across(&mut self, mut m: Move) {
+        let Some(active) = &mut self.radius else { return };
+        active.place = m.target;
+        match &mut active.waiting {
+            Some(waiting) => waiting.later.push(Step::Move(m)),
+            None => {
+                active.put(&mut m.target, active.centre);
+                self.follower.take(Step::Move(m));
+            }
+        }
+    }
+
+    fn enter(&mut self, m: Move) {
+        let at = self.start;
+        let Some(active) = &mut self.radius else { return };
+        let (from, to) = (active.centre, active.point(&m.target));
+        let arc = matches!(m.kind, MoveKind::Arc(_) | MoveKind::SpatialArc(_));
+        if arc && !active.behaviour.enters_on_arcs {
+            self.hold_fault(mistakes::arc_before_contour(at));
+            return;
+        }
+        let radius = active.left_mm.abs();
+        if active.behaviour.entry == Entry::Element && length(minus(to, from)) <= radius {
+            self.hold_fault(mistakes::short_entry(length(minus(to, from)), radius, at));
+            return;
+        }
+        let (element, mut step) = match m.kind {
+            MoveKind::Arc(arc) => match entry_arc(from, to, &arc, active.left_mm) {
+                Some((element, center_mm)) => {
+                    let turned = MoveKind::Arc(Arc { center_mm, ..arc });
+                    (element, Move { kind: turned, ..m })
+                }
+                None => {
+                    self.hold_fault(mistakes::entry_arc_aside(at));
+                    return;
+                }
+            },
+            _ => (Element::line(from, to), m),
+        };
+        let across = (active.place, active.plane.axes()[2]);
+        step.feed = feed_of_centre(&element, &m, across, 0.0, active.behaviour);
+        let end = centre(&element, 1.0, active.left_mm);
+        let element = (active.behaviour.entry == Entry::Element).then_some(element);
+        let waiting = Waiting { step, element, room: f64::INFINITY, end, later: Vec::new() };
+        active.place = m.target;
+        active.centre = end;
+        active.phase = Phase::On;
+        active.waiting = Some(waiting);
+    }
+
+    fn follow_contour(&mut self, m: Move) {
+        let Some(active) = &mut self.radius else { return };
+        let (left_mm, corner) = (active.left_mm, active.place);
+        let Some(mut element) = element(active.plane, &corner, &m) else {
+            self.hold_fault(mistakes::no_contour_element(self.start));
+            return;
+        };
+        if active.behaviour.radius_at_end {
+            element = element.through(active.point(&m.target));
+        }
+        if let Err(gouge) = check_fit(&element, left_mm) {
+            self.hold_fault(mistakes::gouge(&gouge, left_mm.abs(), None, self.start));
+            return;
+        }
+        let begin = centre(&element, 0.0, left_mm);
+        let mut step = m;
+        let across = active.plane.axes()[2];
+        step.feed = feed_of_centre(&element, &m, (corner, across), left_mm, active.behaviour);
+        let mut m = m;
+        if m.feed.mode == FeedMode::InverseTime {
+            m.feed = step.feed;
+        }
+        let mut room = 1.0;
+        if let Some(waiting) = active.waiting.take() {
+            room -= self.pass_on(waiting, &element, begin, &m);
+        } else if active.phase == Phase::Aslant {
+            active.phase = Phase::On;
+        } else if length(minus(begin, active.centre)) > 1e-9 {
+            self.go_round(&[Link::Line { to: begin }], corner, &m);
+        }
+        let Some(active) = &mut self.radius else { return };
+        let end = centre(&element.through(active.point(&m.target)), 1.0, left_mm);
+        (active.place, active.centre) = (m.target, end);
+        let element = Some(element);
+        active.waiting = Some(Waiting { step, element, room, end, later: Vec::new() });
+    }
+
+    /// Sends the move that waited, and the way to the next element; the part of that one that is cut off.
+    fn pass_on(&mut self, waiting: Waiting, next: &Element, begin: Point, m: &Move) -> f64 {
+        let Some(active) = &self.radius else { return 0.0 };
+        let (left_mm, corner, rules) = (active.left_mm, active.place, active.behaviour.rules);
+        let Some(first) = &waiting.element else {
+            self.release_waiting(waiting, begin, 0.0);
+            return 0.0;
+        };
+        match passage(first, next, active.point(&corner), left_mm, waiting.room, rules) {
+            Ok(p) => {
+                self.release_waiting(waiting, p.end, p.first_cut);
+                self.go_round(&p.links, corner, m);
+                p.second_cut
+            }
+            Err(gouge) => {
+                let line = waiting.step.origin.line;
+                let end = waiting.end;
+                self.release_waiting(waiting, end, 0.0);
+                self.hold_fault(mistakes::gouge(&gouge, left_mm.abs(), Some(line), self.start));
+                0.0
+            }
+        }
+    }
+
+    /// Sends a move that waited, with the end of its path of the centre, and what came after it.
+    fn release_waiting(&mut self, waiting: Waiting, end: Point, cut: f64) {
+        let Some(active) = &self.radius else { return };
+        let [a, b, _] = active.plane.axes();
+        let put = |p: &mut Position| (p[a], p[b]) = (end[0], end[1]);
+        let mut step = waiting.step;
+        put(&mut step.target);
+        step.named = step.named.with(a).with(b);
+        if let Some(element) = &waiting.element {
+            shorten(&mut step, element, waiting.room.min(1.0) - cut);
+        }
+        self.follower.take(Step::Move(step));
+        for mut later in waiting.later {
+            if let Step::Move(m) = &mut later {
+                put(&mut m.target);
+            }
+            self.follower.take(later);
+        }
+    }
+
+    /// Sends the pieces between two elements; they belong to the second one.
+    fn go_round(&mut self, links: &[Link], corner: Position, next: &Move) {
+        let Some(active) = &self.radius else { return };
+        let [a, b, _] = active.plane.axes();
+        let named = AxisSet::default().with(a).with(b);
+        let last = links.len();
+        for (index, link) in links.iter().enumerate() {
+            let (kind, to) = match *link {
+                Link::Line { to } => (MoveKind::Linear, to),
+                Link::Arc { center, to, ccw } => {
+                    let plane = active.plane;
+                    (MoveKind::Arc(Arc { plane, center_mm: center, turns: 1, ccw }), to)
+                }
+            };
+            let mut target = corner;
+            (target[a], target[b]) = (to[0], to[1]);
+            let mut step = Move::plain(kind, target, named, next.feed, next.origin);
+            if next.kind == MoveKind::Rapid {
+                // There is no arc in rapid traverse.
+                step.kind = MoveKind::Rapid;
+                if index + 1 < last && matches!(link, Link::Arc { .. }) {
+                    continue;
+                }
+            }
+            self.follower.take(Step::Move(step));
+        }
+    }
+
+    /// From the contour to the centre in the present program frame.
+    fn vector_now(&self) -> Position {
+        let turned = Frame { shift: Position::default(), ..self.reported_frame };
+        let known = self.radius.as_ref().filter(|a| a.phase != Phase::Entering);
+        let [x, y, z] = known.and_then(|a| a.vector).unwrap_or_default();
+        let vector = Position([x, y, z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        turned.inverse_place(&vector).unwrap_or_default()
+    }
+
+    /// The place on the contour where a machine says where the centre is.
+    pub(super) fn contour_place(&self, mut known: KnownPosition) -> KnownPosition {
+        if self.radius.is_some() {
+            known.position = known.position.minus(&self.vector_now());
+        }
+        known
+    }
+
+    /// The contour goes on from here, in another frame perhaps.
+    pub(super) fn contour_from(&mut self, place: Position) {
+        let (vector, scale) = (self.vector_now(), scale_of(&self.reported_frame, self.modes.plane));
+        let Some(active) = &mut self.radius else { return };
+        (active.place, active.vector) = (place, None);
+        active.centre = active.point(&place.plus(&vector));
+        match scale {
+            Some(scale) => active.left_mm = active.true_left_mm / scale,
+            None => self.hold_fault(mistakes::unequal_scales(self.start)),
+        }
+    }
+}
+
+/// By how much a frame scales its plane; `None` if not equally in all directions.
+fn scale_of(frame: &Frame, plane: Plane) -> Option<f64> {
+    let [a, b, _] = plane.axes();
+    let stretched = [a, b].map(|axis| {
+        let column = frame.linear.map(|row| row[axis as usize]);
+        column.iter().map(|x| x * x).sum::<f64>().sqrt()
+    });
+    let equal = (stretched[0] - stretched[1]).abs() <= 1e-9 * stretched[0];
+    (equal && stretched[0] > 0.0).then_some(stretched[0])
+}
+
+/// The element of a contour that a move makes in the plane.
+fn element(plane: Plane, start: &Position, m: &Move) -> Option<Element> {
+    let [first, second, third] = plane.axes();
+    let (from, to) = ([start[first], start[second]], [m.target[first], m.target[second]]);
+    match m.kind {
+        MoveKind::Rapid | MoveKind::Linear => Some(Element::line(from, to)),
+        MoveKind::Arc(arc) if arc.plane == plane => {
+            Some(Element::arc(from, to, arc.center_mm, arc.ccw, arc.turns))
+        }
+        MoveKind::SpatialArc(arc) if arc.normal[third as usize].abs() > 1.0 - 1e-12 => {
+            let center = [arc.center_mm[first as usize], arc.center_mm[second as usize]];
+            Some(Element::arc(from, to, center, arc.normal[third as usize] > 0.0, arc.turns))
+        }
+        _ => None,
+    }
+}
+
+/// An entry on an arc: it leads from the centre of the tool to its place perpendicular to the end of the
+/// written arc, where both have the same tangent. With the chord d from the end to the start and the unit
+/// vector e from the end to the written centre, its own centre is at the distance d² / (2 e·d) along e.
+/// Its path is that of the centre; the element is at the distance of the tool from it.
+fn entry_arc(from: Point, to: Point, arc: &Arc, left_mm: f64) -> Option<(Element, Point)> {
+    let written = Element::arc(from, to, arc.center_mm, arc.ccw, arc.turns);
+    let end = centre(&written.through(to), 1.0, left_mm);
+    let inward = minus(arc.center_mm, to);
+    let e = [inward[0] / length(inward), inward[1] / length(inward)];
+    let d = minus(from, end);
+    let distance = dot(d, d) / (2.0 * dot(e, d));
+    let sound = distance > 0.0 && distance < 1e9;
+    let center = along(end, e, distance);
+    sound.then(|| (Element::arc(from, to, center, arc.ccw, arc.turns).through(to), center))
+}
+
+/// The feed of the centre of the tool.
+fn feed_of_centre(
+    element: &Element,
+    m: &Move,
+    (start, axis): (Position, Axis),
+    left_mm: f64,
+    behaviour: Behaviour,
+) -> Feed {
+    let value = match (m.feed.mode, *element) {
+        (FeedMode::InverseTime, _) => {
+            // The time is that of the written move; the corner before it has the same feed.
+            let across = m.target[axis] - start[axis];
+            let path_mm = element.length_mm().hypot(across);
+            return Feed { mode: FeedMode::PerMinute, value: m.feed.value * path_mm };
+        }
+        (_, Element::Arc { radius_mm, sweep_rad, .. }) if behaviour.feed_on_contour => {
+            m.feed.value * (radius_mm - left_mm * sweep_rad.signum()) / radius_mm
+        }
+        _ => return m.feed,
+    };
+    Feed { value, ..m.feed }
+}

@@ -1,0 +1,48 @@
+//! RL, RR and R0: the path of the centre of the tool.
+//!
+//! # Source
+//! HEIDENHAIN iTNC 530 user's manual, "Tool radius compensation": transitional arcs at outside corners, the
+//! intersection of the two paths at inside ones, entry and exit perpendicular to the contour.
+
+use trueaxis_contour::radius::{Outside, Rules};
+
+use super::Run;
+use super::words::Words;
+use crate::execution::radius::{Behaviour, Entry};
+use crate::moves::CompensationSide;
+
+const HEIDENHAIN: Behaviour = Behaviour {
+    rules: Rules { outside: Outside::Arc, smooth_rad: 0.0 },
+    entry: Entry::Perpendicular,
+    enters_on_arcs: false,
+    ends_at_once: false,
+    radius_at_end: false,
+    feed_on_contour: false,
+};
+
+impl Run<'_> {
+    /// DEP, a program call and M2 end the compensation by themselves.
+    pub(super) fn end_compensation(&mut self) {
+        self.change_side(CompensationSide::Off, 0);
+    }
+
+    pub(super) fn compensation(&mut self, words: &Words) {
+        if let Some(side) = words.side {
+            self.change_side(side, words.at);
+        }
+    }
+
+    fn change_side(&mut self, side: CompensationSide, at: usize) {
+        if side == self.modes.side {
+            return;
+        }
+        self.modes.side = side;
+        let radius = self.modes.tool_radius_mm;
+        if side != CompensationSide::Off && radius.is_none() {
+            let tool = self.core.modes.tool;
+            self.core.unknown_radius(format_args!("of tool {tool}"), at);
+        }
+        let place = self.frames.position;
+        self.core.compensate(side, radius, HEIDENHAIN, place, at);
+    }
+}
