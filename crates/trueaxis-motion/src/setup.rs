@@ -415,6 +415,14 @@ impl SetUp {
         }
     }
 
+    /// The same with tools of radius 0: moves with radius compensation are those of the contour.
+    #[must_use]
+    pub fn on_contour(&self) -> Self {
+        let mut setup = self.clone();
+        setup.tools.values_mut().for_each(|tool| tool.radius_offset_mm = Some(0.0));
+        setup
+    }
+
     /// The machine whose workpiece frame is that of the results.
     pub fn mounted(&self, machine: &Machine) -> Machine {
         let frame = self.workpiece_at.map(|number| self.work_offsets.get(&number));

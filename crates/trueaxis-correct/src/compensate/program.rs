@@ -152,6 +152,7 @@ pub fn compensate_program(
         problems.error("already-compensated", Place::whole(program.file()), message, hint);
         return (None, problems);
     }
+    let setup = &setup.on_contour();
     let machine = &super::not_twice(machine, Place::whole(program.file()), &mut problems);
     if !options.flat {
         let (done, found) = tried(machine, program, setup, options);
