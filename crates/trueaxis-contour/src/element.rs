@@ -117,6 +117,17 @@ impl Element {
         }
     }
 
+    /// The same part, counted backwards where that is the shorter way round.
+    pub(crate) fn shorter_way(&self, part: f64) -> f64 {
+        match *self {
+            Self::Line { .. } => part,
+            Self::Arc { sweep_rad, .. } => {
+                let round = TAU / sweep_rad.abs();
+                if part > round / 2.0 { part - round } else { part }
+            }
+        }
+    }
+
     /// The part of the element that ends (or begins) at a distance from the corner.
     pub(crate) fn part_at(&self, distance: f64) -> Option<f64> {
         let part = match *self {

@@ -3,6 +3,7 @@
 //! - [`Element`]: a line or an arc.
 //! - [`corner`]: roundings and chamfers between two elements.
 //! - [`radius`]: the path of the centre of a tool with cutter radius compensation.
+//! - [`lead`]: ways to a contour and away from it.
 //!
 //! Lengths are in mm, angles in the unit that their names state. Points are in the plane of the contour, its
 //! first axis first; seen against the axis perpendicular to it, the second axis is counter-clockwise from
@@ -20,6 +21,7 @@
 
 pub mod corner;
 mod element;
+pub mod lead;
 pub mod plane;
 pub mod radius;
 

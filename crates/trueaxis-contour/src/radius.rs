@@ -31,9 +31,14 @@ pub enum Outside {
     /// On the tangents to where they meet; if the contour turns by more than 90°, along each tangent by the
     /// radius and on a line from one to the other.
     Tangents,
-    /// On the tangents to where they meet; if the contour turns by more than 90°, on an arc.
-    TangentsOrArc,
+    /// Along both paths, which go on as lines or circles, to where they meet; if the contour turns by more
+    /// than [`POINTED_DEG`], on an arc.
+    Meeting,
 }
+
+/// The largest turn of an outside corner at which the paths go on to where they meet, degrees: the value that
+/// SINUMERIK comes with (MD20210).
+pub const POINTED_DEG: f64 = 100.0;
 
 /// What a control does at corners.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,11 +73,13 @@ pub enum Link {
 pub struct Passage {
     /// Where it leaves the path along the first element, mm.
     pub end: Point,
-    /// The part of the first element that is cut off at its end, from 0 to 1. Unit: 1.
+    /// The part of the first element that is cut off at its end, up to 1; negative: by which it goes on.
+    /// Unit: 1.
     pub first_cut: f64,
     /// What lies between the two.
     pub links: Vec<Link>,
-    /// The part of the second element that is cut off at its start, from 0 to 1. Unit: 1.
+    /// The part of the second element that is cut off at its start, up to 1; negative: by which it begins
+    /// before. Unit: 1.
     pub second_cut: f64,
 }
 
@@ -146,10 +153,21 @@ pub fn passage(
     } else {
         turn_rad * left_mm > 0.0
     };
-    if !inside {
-        return Ok(direct(round(corner, ends, [t1, t2], left_mm, turn_rad.abs(), rules.outside)));
+    if !inside && rules.outside == Outside::Meeting && turn_rad.abs() <= POINTED_DEG.to_radians() {
+        let found = meeting(first, second, corner, left_mm, Fit::Longer);
+        if let Some(found) = found {
+            return Ok(found);
+        }
     }
-    match meeting(first, second, corner, left_mm, first_room) {
+    if !inside && rules.outside == Outside::Tangents {
+        return Ok(on_tangents([first, second], ends, left_mm, turn_rad.abs()));
+    }
+    if !inside {
+        // Round the corner with the contour on the other side.
+        let arc = Link::Arc { center: corner, to: ends[1], ccw: left_mm < 0.0 };
+        return Ok(direct(vec![arc]));
+    }
+    match meeting(first, second, corner, left_mm, Fit::Within(first_room)) {
         Some(found) => Ok(found),
         None if turn_rad.abs() < ROUNDED_RAD => Ok(direct(vec![Link::Line { to: ends[1] }])),
         None => Err(Gouge::Corner),
@@ -164,52 +182,83 @@ fn curvature(element: &Element) -> f64 {
     }
 }
 
-/// The way round an outside corner.
-fn round(
-    corner: Point,
+/// The way round an outside corner on the tangents. Lines become longer; at arcs lines are added.
+fn on_tangents(
+    [first, second]: [&Element; 2],
     [from, to]: [Point; 2],
-    [t1, t2]: [Point; 2],
     left_mm: f64,
     turn_rad: f64,
-    outside: Outside,
-) -> Vec<Link> {
+) -> Passage {
+    let (t1, t2) = (first.tangent(1.0), second.tangent(0.0));
     let wide = turn_rad <= PI / 2.0 + SMOOTH_RAD;
-    match outside {
-        Outside::Tangents | Outside::TangentsOrArc if wide => {
-            let meet = along(from, t1, left_mm.abs() * (turn_rad / 2.0).tan());
-            vec![Link::Line { to: meet }, Link::Line { to }]
+    let extension = left_mm.abs() * if wide { (turn_rad / 2.0).tan() } else { 1.0 };
+    let (leaves, meets) = (along(from, t1, extension), along(to, t2, -extension));
+    let mut passage = Passage { end: from, first_cut: 0.0, links: Vec::new(), second_cut: 0.0 };
+    match first {
+        Element::Line { .. } => {
+            (passage.end, passage.first_cut) = (leaves, -extension / first.length_mm());
         }
-        Outside::Tangents => {
-            let (first, second) = (along(from, t1, left_mm.abs()), along(to, t2, -left_mm.abs()));
-            vec![Link::Line { to: first }, Link::Line { to: second }, Link::Line { to }]
+        Element::Arc { .. } => passage.links.push(Link::Line { to: leaves }),
+    }
+    if !wide {
+        passage.links.push(Link::Line { to: meets });
+    }
+    match second {
+        Element::Line { .. } => passage.second_cut = -extension / second.length_mm(),
+        Element::Arc { .. } => passage.links.push(Link::Line { to }),
+    }
+    passage
+}
+
+/// Where two paths may meet.
+#[derive(Clone, Copy)]
+enum Fit {
+    /// Within both elements, of the first one within the part that is left.
+    Within(f64),
+    /// Beyond the end of the first one and before the start of the second one.
+    Longer,
+}
+
+impl Fit {
+    fn accepts(self, first_cut: f64, second_cut: f64) -> bool {
+        match self {
+            Self::Within(room) => {
+                (-ROUNDING..=room + ROUNDING).contains(&first_cut)
+                    && (-ROUNDING..=1.0 + ROUNDING).contains(&second_cut)
+            }
+            Self::Longer => first_cut < ROUNDING && second_cut < ROUNDING,
         }
-        // Round the corner with the contour on the other side.
-        _ => vec![Link::Arc { center: corner, to, ccw: left_mm < 0.0 }],
     }
 }
 
-/// Where the paths along two elements meet at an inside corner.
+/// Where the paths along two elements meet.
 fn meeting(
     first: &Element,
     second: &Element,
     corner: Point,
     left_mm: f64,
-    first_room: f64,
+    fit: Fit,
 ) -> Option<Passage> {
     // The ends of a written arc have slightly different radii: that at the corner counts.
     let (a, b) = (first.through(corner).parallel(left_mm)?, second.parallel(left_mm)?);
     let mut best: Option<(f64, Passage)> = None;
     for end in Curve::meet(a, b) {
-        let first_cut = first.cut_off(first.foot(end), true);
-        let second_cut = second.cut_off(second.foot(end), false);
-        let fits = (-ROUNDING..=first_room + ROUNDING).contains(&first_cut)
-            && (-ROUNDING..=1.0 + ROUNDING).contains(&second_cut);
-        if !fits || !end[0].is_finite() || !end[1].is_finite() {
+        let mut cuts =
+            [first.cut_off(first.foot(end), true), second.cut_off(second.foot(end), false)];
+        if matches!(fit, Fit::Longer) {
+            cuts = [first.shorter_way(cuts[0]), second.shorter_way(cuts[1])];
+        }
+        let [first_cut, second_cut] = cuts;
+        if !fit.accepts(first_cut, second_cut) || !end[0].is_finite() || !end[1].is_finite() {
             continue;
         }
-        let removed = first_cut * first.length_mm() + second_cut * second.length_mm();
+        let removed =
+            (first_cut * first.length_mm()).abs() + (second_cut * second.length_mm()).abs();
         if best.as_ref().is_none_or(|(least, _)| removed < *least) {
-            let (first_cut, second_cut) = (first_cut.max(0.0), second_cut.max(0.0));
+            if matches!(fit, Fit::Within(_)) {
+                cuts = cuts.map(|c| c.max(0.0));
+            }
+            let [first_cut, second_cut] = cuts;
             best = Some((removed, Passage { end, first_cut, links: Vec::new(), second_cut }));
         }
     }

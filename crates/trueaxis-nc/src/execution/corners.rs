@@ -4,6 +4,7 @@ use trueaxis_contour::Element;
 use trueaxis_contour::corner::{CornerError, Shape, Transition, transition};
 
 use super::Core;
+use super::radius::element::element;
 use crate::moves::{
     Arc, Axis, Coordinates, Event, Feed, FeedMode, Move, MoveKind, Origin, Plane, Position, Step,
 };
@@ -191,19 +192,6 @@ fn is_element(m: &Move) -> bool {
         && m.coordinates == Coordinates::Program
         && m.direction.is_none()
         && m.feed.mode != FeedMode::InverseTime
-}
-
-fn element(plane: Plane, start: &Position, m: &Move) -> Option<Element> {
-    let [first, second, _] = plane.axes();
-    let point = |p: &Position| [p[first], p[second]];
-    let (from, to) = (point(start), point(&m.target));
-    match m.kind {
-        MoveKind::Linear => Some(Element::line(from, to)),
-        MoveKind::Arc(arc) if arc.plane == plane => {
-            Some(Element::arc(from, to, arc.center_mm, arc.ccw, arc.turns))
-        }
-        _ => None,
-    }
 }
 
 /// Why there is no corner.

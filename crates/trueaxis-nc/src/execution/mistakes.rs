@@ -197,6 +197,11 @@ pub(crate) fn entry_arc_aside(at: usize) -> Fault {
     fault("bad-compensation", at, message, "begin on a line, or farther away from the contour")
 }
 
+pub(crate) fn bad_approach(name: &str, why: &dyn std::error::Error, at: usize) -> Fault {
+    let message = format!("{name} is not possible: {why}");
+    fault("bad-compensation", at, message, "begin farther away from the contour")
+}
+
 pub(crate) fn arc_before_contour(at: usize) -> Fault {
     let message = "the first move of the radius compensation is an arc";
     fault("bad-compensation", at, message, "lead to the contour on a line, G0 or G1")

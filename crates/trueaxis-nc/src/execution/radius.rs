@@ -4,16 +4,23 @@
 //! between without motion in the plane happens at the end of the first of the two. Where the program
 //! changes its frame, its tool or its side, the tool stops perpendicular to the end of the contour.
 
+pub(super) mod element;
+mod lead;
+
 use trueaxis_contour::Element;
-use trueaxis_contour::plane::{Point, along, dot, length, minus};
+use trueaxis_contour::lead::{Begin, Lead};
+use trueaxis_contour::plane::{Point, length, minus};
 use trueaxis_contour::radius::{Link, Rules, centre, check_fit, passage};
+
+pub(crate) use lead::Approach;
+
+use element::{element, entry_arc, feed_of_centre, scale_of};
 
 use super::corners::shorten;
 use super::language::changes_place;
 use super::{Core, KnownPosition, mistakes};
 use crate::moves::{
-    Arc, Axis, AxisSet, Coordinates, Event, Feed, FeedMode, Frame, Move, MoveKind, Origin, Plane,
-    Position, Step,
+    Arc, Coordinates, Event, FeedMode, Frame, Move, MoveKind, Origin, Plane, Position, Step,
 };
 
 /// How a tool comes to the contour.
@@ -21,6 +28,8 @@ use crate::moves::{
 pub(crate) enum Entry {
     /// To the place perpendicular to the start of the contour: FANUC type A, SINUMERIK NORM, HEIDENHAIN.
     Perpendicular,
+    /// The same, round the start of the contour where the way would cross the contour: SINUMERIK KONT.
+    Round,
     /// The entry is the first element: its end is compensated, and the corner after it is like all others.
     Element,
 }
@@ -36,8 +45,18 @@ pub(crate) struct Behaviour {
     pub ends_at_once: bool,
     /// Of the slightly different radii of a written arc that at its end counts.
     pub radius_at_end: bool,
-    /// The feed counts on the contour, not at the centre.
-    pub feed_on_contour: bool,
+    pub feed_at: FeedAt,
+}
+
+/// Where the feed of arcs counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum FeedAt {
+    /// At the centre of the tool.
+    Centre,
+    /// On the contour.
+    Contour,
+    /// On the contour, but the centre is not faster than programmed.
+    Inside,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,11 +73,17 @@ enum Phase {
 
 /// A move that waits for the next one.
 struct Waiting {
+    /// It leads to the contour in this way.
+    approach: Option<Approach>,
+    /// Where the centre was before it.
+    start: Point,
     step: Move,
     /// Its element of the contour; none for an entry that ends perpendicular to the next one.
     element: Option<Element>,
-    /// How much of it may still be cut off; 1: all.
-    room: f64,
+    /// How much of it there is; more than 1 where it begins before its element.
+    part: f64,
+    /// It is the entry: any length of it may be cut off.
+    is_entry: bool,
     /// Where the centre is after it if no corner follows.
     end: Point,
     /// What happened since.
@@ -73,6 +98,12 @@ pub(super) struct Active {
     true_left_mm: f64,
     /// The same in the program frame, which may be scaled.
     left_mm: f64,
+    /// 1 if the tool is to the left, -1 if it is to the right.
+    side: f64,
+    /// The unit tangent of the contour there. Unit: 1.
+    tangent: Point,
+    /// The way of the next move.
+    approach: Option<Approach>,
     /// The end of the contour so far.
     place: Position,
     /// Where the centre is there.
@@ -111,6 +142,13 @@ impl Core<'_> {
         place: Position,
         at: usize,
     ) {
+        if let Some(active) = &mut self.radius
+            && active.true_left_mm == true_left_mm
+            && active.phase != Phase::Leaving
+        {
+            active.behaviour = behaviour;
+            return;
+        }
         self.end_corner("the radius compensation begins");
         self.end_contour();
         let plane = self.modes.plane;
@@ -126,6 +164,7 @@ impl Core<'_> {
                 _ => Phase::Entering,
             };
             (active.true_left_mm, active.left_mm) = (true_left_mm, left_mm);
+            active.side = true_left_mm.signum();
             active.behaviour = behaviour;
             return;
         }
@@ -136,6 +175,9 @@ impl Core<'_> {
             plane,
             true_left_mm,
             left_mm,
+            side: true_left_mm.signum(),
+            tangent: [1.0, 0.0],
+            approach: None,
             place,
             centre: [place[a], place[b]],
             waiting: None,
@@ -150,6 +192,13 @@ impl Core<'_> {
         match &mut self.radius {
             Some(active) if active.phase != Phase::Entering => active.phase = Phase::Leaving,
             _ => self.radius = None,
+        }
+    }
+
+    /// The contour is followed in another way from here on.
+    pub fn follow_by(&mut self, behaviour: Behaviour) {
+        if let Some(active) = &mut self.radius {
+            active.behaviour = behaviour;
         }
     }
 
@@ -240,6 +289,7 @@ impl Core<'_> {
                 if arc {
                     self.hold_fault(mistakes::arc_after_contour(self.start));
                 }
+                self.lead_out(&m);
                 self.radius = None;
                 self.follower.take(Step::Move(m));
             }
@@ -289,8 +339,15 @@ impl Core<'_> {
         let across = (active.place, active.plane.axes()[2]);
         step.feed = feed_of_centre(&element, &m, across, 0.0, active.behaviour);
         let end = centre(&element, 1.0, active.left_mm);
-        let element = (active.behaviour.entry == Entry::Element).then_some(element);
-        let waiting = Waiting { step, element, room: f64::INFINITY, end, later: Vec::new() };
+        let round = Approach { lead: Lead::Round, kind: step.kind, feed: step.feed, name: "KONT" };
+        let approach = match active.behaviour.entry {
+            Entry::Round => Some(active.approach.take().unwrap_or(round)),
+            _ => active.approach.take(),
+        };
+        let is_element = active.behaviour.entry == Entry::Element && approach.is_none();
+        let element = is_element.then_some(element);
+        let (start, part, is_entry, later) = (from, 1.0, true, Vec::new());
+        let waiting = Waiting { approach, start, step, element, part, is_entry, end, later };
         active.place = m.target;
         active.centre = end;
         active.phase = Phase::On;
@@ -319,9 +376,9 @@ impl Core<'_> {
         if m.feed.mode == FeedMode::InverseTime {
             m.feed = step.feed;
         }
-        let mut room = 1.0;
+        let mut part = 1.0;
         if let Some(waiting) = active.waiting.take() {
-            room -= self.pass_on(waiting, &element, begin, &m);
+            part -= self.pass_on(waiting, &element, begin, &m);
         } else if active.phase == Phase::Aslant {
             active.phase = Phase::On;
         } else if length(minus(begin, active.centre)) > 1e-9 {
@@ -330,8 +387,17 @@ impl Core<'_> {
         let Some(active) = &mut self.radius else { return };
         let end = centre(&element.through(active.point(&m.target)), 1.0, left_mm);
         (active.place, active.centre) = (m.target, end);
-        let element = Some(element);
-        active.waiting = Some(Waiting { step, element, room, end, later: Vec::new() });
+        active.tangent = element.tangent(1.0);
+        if left_mm == 0.0 {
+            // It was the approach of a tool without radius.
+            self.radius = None;
+            self.follower.take(Step::Move(m));
+            return;
+        }
+        let (element, approach, start) = (Some(element), None, begin);
+        let (is_entry, later) = (false, Vec::new());
+        let waiting = Waiting { approach, start, step, element, part, is_entry, end, later };
+        active.waiting = Some(waiting);
     }
 
     /// Sends the move that waited, and the way to the next element; the part of that one that is cut off.
@@ -339,10 +405,14 @@ impl Core<'_> {
         let Some(active) = &self.radius else { return 0.0 };
         let (left_mm, corner, rules) = (active.left_mm, active.place, active.behaviour.rules);
         let Some(first) = &waiting.element else {
-            self.release_waiting(waiting, begin, 0.0);
+            let tangent = next.tangent(0.0);
+            let (corner, side) = (active.point(&corner), active.side);
+            self.lead_in(waiting, &Begin { corner, centre: begin, tangent, side });
             return 0.0;
         };
-        match passage(first, next, active.point(&corner), left_mm, waiting.room, rules) {
+        // What lies before its element is no room for a corner at its end.
+        let room = if waiting.is_entry { f64::INFINITY } else { waiting.part.min(1.0) };
+        match passage(first, next, active.point(&corner), left_mm, room, rules) {
             Ok(p) => {
                 self.release_waiting(waiting, p.end, p.first_cut);
                 self.go_round(&p.links, corner, m);
@@ -362,17 +432,24 @@ impl Core<'_> {
     fn release_waiting(&mut self, waiting: Waiting, end: Point, cut: f64) {
         let Some(active) = &self.radius else { return };
         let [a, b, _] = active.plane.axes();
-        let put = |p: &mut Position| (p[a], p[b]) = (end[0], end[1]);
         let mut step = waiting.step;
-        put(&mut step.target);
+        (step.target[a], step.target[b]) = (end[0], end[1]);
         step.named = step.named.with(a).with(b);
         if let Some(element) = &waiting.element {
-            shorten(&mut step, element, waiting.room.min(1.0) - cut);
+            shorten(&mut step, element, waiting.part - cut);
         }
         self.follower.take(Step::Move(step));
-        for mut later in waiting.later {
+        self.release_later(waiting.later, end);
+    }
+
+    /// What came without motion in the plane, where the centre is.
+    fn release_later(&mut self, steps: Vec<Step>, end: Point) {
+        let Some([a, b, _]) = self.radius.as_ref().map(|active| active.plane.axes()) else {
+            return;
+        };
+        for mut later in steps {
             if let Step::Move(m) = &mut later {
-                put(&mut m.target);
+                (m.target[a], m.target[b]) = (end[0], end[1]);
             }
             self.follower.take(later);
         }
@@ -382,7 +459,7 @@ impl Core<'_> {
     fn go_round(&mut self, links: &[Link], corner: Position, next: &Move) {
         let Some(active) = &self.radius else { return };
         let [a, b, _] = active.plane.axes();
-        let named = AxisSet::default().with(a).with(b);
+        let named = next.named.with(a).with(b);
         let last = links.len();
         for (index, link) in links.iter().enumerate() {
             let (kind, to) = match *link {
@@ -434,71 +511,4 @@ impl Core<'_> {
             None => self.hold_fault(mistakes::unequal_scales(self.start)),
         }
     }
-}
-
-/// By how much a frame scales its plane; `None` if not equally in all directions.
-fn scale_of(frame: &Frame, plane: Plane) -> Option<f64> {
-    let [a, b, _] = plane.axes();
-    let stretched = [a, b].map(|axis| {
-        let column = frame.linear.map(|row| row[axis as usize]);
-        column.iter().map(|x| x * x).sum::<f64>().sqrt()
-    });
-    let equal = (stretched[0] - stretched[1]).abs() <= 1e-9 * stretched[0];
-    (equal && stretched[0] > 0.0).then_some(stretched[0])
-}
-
-/// The element of a contour that a move makes in the plane.
-fn element(plane: Plane, start: &Position, m: &Move) -> Option<Element> {
-    let [first, second, third] = plane.axes();
-    let (from, to) = ([start[first], start[second]], [m.target[first], m.target[second]]);
-    match m.kind {
-        MoveKind::Rapid | MoveKind::Linear => Some(Element::line(from, to)),
-        MoveKind::Arc(arc) if arc.plane == plane => {
-            Some(Element::arc(from, to, arc.center_mm, arc.ccw, arc.turns))
-        }
-        MoveKind::SpatialArc(arc) if arc.normal[third as usize].abs() > 1.0 - 1e-12 => {
-            let center = [arc.center_mm[first as usize], arc.center_mm[second as usize]];
-            Some(Element::arc(from, to, center, arc.normal[third as usize] > 0.0, arc.turns))
-        }
-        _ => None,
-    }
-}
-
-/// An entry on an arc: it leads from the centre of the tool to its place perpendicular to the end of the
-/// written arc, where both have the same tangent. With the chord d from the end to the start and the unit
-/// vector e from the end to the written centre, its own centre is at the distance d² / (2 e·d) along e.
-/// Its path is that of the centre; the element is at the distance of the tool from it.
-fn entry_arc(from: Point, to: Point, arc: &Arc, left_mm: f64) -> Option<(Element, Point)> {
-    let written = Element::arc(from, to, arc.center_mm, arc.ccw, arc.turns);
-    let end = centre(&written.through(to), 1.0, left_mm);
-    let inward = minus(arc.center_mm, to);
-    let e = [inward[0] / length(inward), inward[1] / length(inward)];
-    let d = minus(from, end);
-    let distance = dot(d, d) / (2.0 * dot(e, d));
-    let sound = distance > 0.0 && distance < 1e9;
-    let center = along(end, e, distance);
-    sound.then(|| (Element::arc(from, to, center, arc.ccw, arc.turns).through(to), center))
-}
-
-/// The feed of the centre of the tool.
-fn feed_of_centre(
-    element: &Element,
-    m: &Move,
-    (start, axis): (Position, Axis),
-    left_mm: f64,
-    behaviour: Behaviour,
-) -> Feed {
-    let value = match (m.feed.mode, *element) {
-        (FeedMode::InverseTime, _) => {
-            // The time is that of the written move; the corner before it has the same feed.
-            let across = m.target[axis] - start[axis];
-            let path_mm = element.length_mm().hypot(across);
-            return Feed { mode: FeedMode::PerMinute, value: m.feed.value * path_mm };
-        }
-        (_, Element::Arc { radius_mm, sweep_rad, .. }) if behaviour.feed_on_contour => {
-            m.feed.value * (radius_mm - left_mm * sweep_rad.signum()) / radius_mm
-        }
-        _ => return m.feed,
-    };
-    Feed { value, ..m.feed }
 }

@@ -1,8 +1,11 @@
 //! Circles: C, CR, CT, CP, CTP; approach and departure.
 
+use trueaxis_contour::lead::Lead;
+
 use super::words::Words;
 use super::{Run, fault};
 use crate::execution::frames::unit;
+use crate::execution::radius::Approach;
 use crate::execution::{arcs, mistakes};
 use crate::moves::{Arc, Axis, CompensationSide, MoveKind, Position};
 use crate::text::program::Fault;
@@ -139,7 +142,10 @@ impl Run<'_> {
         Ok(Some(Circle { center, ccw, turns: 1, target }))
     }
 
-    /// APPR: how the contour is reached depends on what follows; a line is moved instead.
+    /// APPR LT LEN, LN LEN, CT CCA R and LCT R: the way depends on the element that follows.
+    ///
+    /// DIFFERENCE: the manuals do not state whether LEN and R count on the contour or for the centre of the
+    /// tool. Here they count for the centre: R5 with a tool of radius 10 would not be possible otherwise.
     pub(super) fn approach(
         &mut self,
         form: usize,
@@ -152,17 +158,32 @@ impl Run<'_> {
         } else {
             words.target(&self.frames.position)
         };
-        let message = format!("APPR {name} is replaced by a line to its first contour point");
-        let hint = "the tangential part of the approach is missing";
-        self.core.warn("not-applied", format!("APPR {name}"), words.at, &message, hint);
         if !rapid {
             self.core.modes.check_feed(words.at)?;
         }
-        let before = self.frames.position;
         let kind = if rapid { MoveKind::Rapid } else { MoveKind::Linear };
+        let feed = self.core.modes.feed;
+        let lead = match (form % 4, words.length, words.sweep.zip(words.arc_radius)) {
+            _ if form == 8 => None,
+            (0, Some(length_mm), _) => Some(Lead::Tangent { length_mm }),
+            (1, Some(length_mm), _) => Some(Lead::Normal { length_mm }),
+            (2, _, Some((sweep, radius_mm))) if radius_mm != 0.0 => {
+                Some(Lead::Arc { radius_mm, sweep_rad: sweep.to_radians() })
+            }
+            (3, ..) => {
+                words.arc_radius.filter(|r| *r > 0.0).map(|r| Lead::LineAndArc { radius_mm: r })
+            }
+            _ => None,
+        };
+        if let Some(lead) = lead {
+            self.approach_next(Approach { lead, kind, feed, name }, words.at);
+        } else if form < 8 {
+            let message = format!("APPR {name} needs LEN, or CCA and R");
+            let hint = "write APPR LT … LEN5, APPR LN … LEN5, APPR CT … CCA90 R5 or APPR LCT … R5";
+            return Err(fault("missing-value", words.at, message, hint));
+        }
         self.step(kind, target, words.at)?;
-        let now = self.frames.position;
-        self.tangent = unit(std::array::from_fn(|i| now.0[i] - before.0[i]));
+        self.tangent = None;
         Ok(())
     }
 
@@ -175,7 +196,10 @@ impl Run<'_> {
         let flat = self.tangent.map(|t| [t[first as usize], t[second as usize]]);
         let along = flat.and_then(|t| unit([t[0], t[1], 0.0]));
         // Away from the workpiece: to the left with RL.
-        let left = if self.modes.side == CompensationSide::Right { -1.0 } else { 1.0 };
+        let left = if self.modes.side == CompensationSide::Left { 1.0 } else { -1.0 };
+        if let Some(centre) = self.core.leave_contour() {
+            self.frames.position = centre;
+        }
         let now = self.frames.position;
         let mut target = words.target(&now);
         match (form, along, words.length, words.sweep.zip(words.arc_radius)) {

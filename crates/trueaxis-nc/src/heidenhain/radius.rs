@@ -8,7 +8,7 @@ use trueaxis_contour::radius::{Outside, Rules};
 
 use super::Run;
 use super::words::Words;
-use crate::execution::radius::{Behaviour, Entry};
+use crate::execution::radius::{Approach, Behaviour, Entry, FeedAt};
 use crate::moves::CompensationSide;
 
 const HEIDENHAIN: Behaviour = Behaviour {
@@ -17,13 +17,20 @@ const HEIDENHAIN: Behaviour = Behaviour {
     enters_on_arcs: false,
     ends_at_once: false,
     radius_at_end: false,
-    feed_on_contour: false,
+    feed_at: FeedAt::Centre,
 };
 
 impl Run<'_> {
     /// DEP, a program call and M2 end the compensation by themselves.
     pub(super) fn end_compensation(&mut self) {
         self.change_side(CompensationSide::Off, 0);
+    }
+
+    /// The next move leads to the contour in its own way. With R0 it does so as with RR and the radius 0.
+    pub(super) fn approach_next(&mut self, approach: Approach, at: usize) {
+        let side = if self.modes.side == CompensationSide::Left { 1.0 } else { -1.0 };
+        let place = self.frames.position;
+        self.core.approach_next(approach, side, HEIDENHAIN, place, at);
     }
 
     pub(super) fn compensation(&mut self, words: &Words) {

@@ -9,7 +9,7 @@ use trueaxis_contour::radius::{Outside, Rules};
 
 use super::{Run, fault};
 use crate::execution::mistakes;
-use crate::execution::radius::{Behaviour, Entry};
+use crate::execution::radius::{Behaviour, Entry, FeedAt};
 use crate::moves::{CompensationSide, Plane};
 use crate::text::program::Fault;
 
@@ -20,7 +20,7 @@ const LINUXCNC: Behaviour = Behaviour {
     enters_on_arcs: true,
     ends_at_once: true,
     radius_at_end: true,
-    feed_on_contour: false,
+    feed_at: FeedAt::Centre,
 };
 
 const FANUC: Behaviour = Behaviour {
@@ -29,7 +29,7 @@ const FANUC: Behaviour = Behaviour {
     enters_on_arcs: false,
     ends_at_once: false,
     radius_at_end: false,
-    feed_on_contour: false,
+    feed_at: FeedAt::Centre,
 };
 
 /// The variables of FANUC that hold the wear of the radius begin after this one.

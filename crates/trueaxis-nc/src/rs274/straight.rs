@@ -154,6 +154,7 @@ impl Run<'_> {
             || modes.data_input
             || !modes.macros.is_empty()
             || modes.transforms.polar.is_some()
+            || self.core.has_radius()
             || self.core.modes.feed.mode == FeedMode::InverseTime;
         if !lasting || special {
             return;

@@ -1,11 +1,14 @@
 //! Executes the words of a block: modes, tool, spindle, frames, then the move.
 
-use super::tables::{Angles, Code, Motion, Name, OrientationMode};
+use super::radius::AS_SWITCHED_ON;
+use super::tables::{Angles, Code, ContourRule, Motion, Name, OrientationMode};
 use super::words::Words;
 use super::{Language, Next, Run, transform};
+use crate::execution::radius::Behaviour;
 use crate::execution::{Modes as CommonModes, Settings, mistakes};
 use crate::moves::{
-    Axis, Cone, Coolant, Event, MoveKind, OrientationPath, PathControl, Position, SpindleDirection,
+    Axis, CompensationSide, Cone, Coolant, Event, MoveKind, OrientationPath, PathControl, Position,
+    SpindleDirection,
 };
 use crate::text::program::Fault;
 
@@ -32,6 +35,9 @@ pub(super) struct Modes {
     pub tangent: Option<[f64; 3]>,
     /// RNDM and FRCM, mm and mm/min; 0 is none.
     pub corners: [f64; 2],
+    /// How the contour is followed with radius compensation.
+    pub behaviour: Behaviour,
+    pub side: CompensationSide,
 }
 
 impl Modes {
@@ -49,6 +55,8 @@ impl Modes {
             polar: (0.0, 0.0),
             tangent: None,
             corners: [0.0; 2],
+            behaviour: AS_SWITCHED_ON,
+            side: CompensationSide::Off,
         }
     }
 }
@@ -252,6 +260,7 @@ impl Run<'_> {
             Code::Angles(angles) => self.modes.angles = angles,
             Code::Orientation(way) => self.turn_by(way),
             Code::Compensation(side) => self.compensation(side, at),
+            Code::Contour(rule) => self.contour_rule(rule),
             Code::Path(control, with_distance) => {
                 let distance = if with_distance { words.take(Name::Tolerance) } else { None };
                 self.report_path(
@@ -467,6 +476,9 @@ fn check_groups(words: &Words) -> Result<(), Fault> {
         Code::Diameter(_) => Some(4),
         Code::Feed(_) | Code::SurfaceSpeed(..) => Some(5),
         Code::Compensation(_) => Some(6),
+        Code::Contour(ContourRule::OutsideOnArc | ContourRule::OutsideToMeeting) => Some(18),
+        Code::Contour(ContourRule::Norm | ContourRule::Kont) => Some(19),
+        Code::Contour(_) => Some(20),
         Code::Path(..) => Some(7),
         Code::Offset(_) => Some(8),
         Code::Frame(_) => Some(9),

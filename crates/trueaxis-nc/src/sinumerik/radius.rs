@@ -7,20 +7,23 @@
 use trueaxis_contour::radius::{Outside, Rules};
 
 use super::Run;
-use crate::execution::radius::{Behaviour, Entry};
+use super::tables::ContourRule;
+use crate::execution::radius::{Behaviour, Entry, FeedAt};
 use crate::moves::CompensationSide;
 
-const AS_SWITCHED_ON: Behaviour = Behaviour {
+/// G450, NORM; the feed is that of the centre of the tool (CFTCP).
+pub(super) const AS_SWITCHED_ON: Behaviour = Behaviour {
     rules: Rules { outside: Outside::Arc, smooth_rad: 0.0 },
     entry: Entry::Perpendicular,
     enters_on_arcs: false,
     ends_at_once: false,
     radius_at_end: false,
-    feed_on_contour: true,
+    feed_at: FeedAt::Centre,
 };
 
 impl Run<'_> {
     pub(super) fn compensation(&mut self, side: CompensationSide, at: usize) {
+        self.modes.side = side;
         let (tool, edge) = (self.core.modes.tool, self.modes.edge);
         let mut radius = Some(0.0);
         if side != CompensationSide::Off && edge > 0 {
@@ -29,7 +32,29 @@ impl Run<'_> {
                 self.core.unknown_radius(format_args!("of tool {tool}"), at);
             }
         }
-        let place = self.chain.position;
-        self.core.compensate(side, radius, AS_SWITCHED_ON, place, at);
+        let (place, behaviour) = (self.chain.position, self.modes.behaviour);
+        self.core.compensate(side, radius, behaviour, place, at);
+    }
+
+    /// T or D while the compensation is on: from the next block on the radius is another one.
+    pub(super) fn other_radius(&mut self, at: usize) {
+        if self.modes.side != CompensationSide::Off {
+            self.compensation(self.modes.side, at);
+        }
+    }
+
+    /// G450, G451, NORM, KONT, CFTCP, CFC and CFIN.
+    pub(super) fn contour_rule(&mut self, rule: ContourRule) {
+        let behaviour = &mut self.modes.behaviour;
+        match rule {
+            ContourRule::OutsideOnArc => behaviour.rules.outside = Outside::Arc,
+            ContourRule::OutsideToMeeting => behaviour.rules.outside = Outside::Meeting,
+            ContourRule::Norm => behaviour.entry = Entry::Perpendicular,
+            ContourRule::Kont => behaviour.entry = Entry::Round,
+            ContourRule::FeedAtCentre => behaviour.feed_at = FeedAt::Centre,
+            ContourRule::FeedOnContour => behaviour.feed_at = FeedAt::Contour,
+            ContourRule::FeedOnInside => behaviour.feed_at = FeedAt::Inside,
+        }
+        self.core.follow_by(self.modes.behaviour);
     }
 }

@@ -78,6 +78,7 @@ pub(super) enum Code {
     Angles(Angles),
     Orientation(OrientationMode),
     Compensation(Side),
+    Contour(ContourRule),
     Path(PathControl, bool),
     /// G9.
     ExactOnce,
@@ -93,13 +94,32 @@ pub(super) enum Code {
     NotApplied(&'static str),
 }
 
+/// How the contour is followed with radius compensation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum ContourRule {
+    /// G450.
+    OutsideOnArc,
+    /// G451.
+    OutsideToMeeting,
+    /// NORM: straight to the first place of the contour.
+    Norm,
+    /// KONT: round the first place of the contour.
+    Kont,
+    /// CFTCP.
+    FeedAtCentre,
+    /// CFC.
+    FeedOnContour,
+    /// CFIN: on the contour, but not faster.
+    FeedOnInside,
+}
+
 impl Code {
     /// The place in the order of execution within a block.
     pub fn rank(self) -> u8 {
         match self {
             Self::Plane(_) | Self::Inches { .. } | Self::Incremental(_) | Self::Diameter(_) => 0,
             Self::Feed(_) | Self::SurfaceSpeed(..) => 1,
-            Self::Note(_) | Self::NotApplied(_) => 3,
+            Self::Note(_) | Self::NotApplied(_) | Self::Contour(_) => 3,
             Self::Compensation(_) | Self::Path(..) | Self::ExactOnce => 4,
             Self::Offset(_) | Self::Shift { .. } => 5,
             Self::Frame(_) | Self::AlongTool(_) => 6,
@@ -164,6 +184,8 @@ pub(super) fn g_code(number: u32) -> Option<Code> {
         140..=143 | 147 | 148 | 247 | 248 | 347 | 348 | 340 | 341 => {
             Some(Code::NotApplied("soft approach and retraction"))
         }
+        450 => Some(Code::Contour(ContourRule::OutsideOnArc)),
+        451 => Some(Code::Contour(ContourRule::OutsideToMeeting)),
         _ => g_note(number).map(Code::Note),
     }
 }
@@ -171,8 +193,6 @@ pub(super) fn g_code(number: u32) -> Option<Code> {
 fn g_note(number: u32) -> Option<&'static str> {
     Some(match number {
         290 => "G290 Siemens language",
-        450 => "G450 transition circle",
-        451 => "G451 intersection",
         460 => "G460 collision detection",
         461 => "G461 extension by an arc",
         462 => "G462 extension by a line",
@@ -243,12 +263,18 @@ pub(super) fn code(word: &str) -> Option<Code> {
         "TANGON" => Code::NotApplied("tangential control"),
         "TRAILON" | "COUPON" | "LEADON" | "EGON" => Code::NotApplied("a coupling of axes"),
         "PTP" => Code::NotApplied("PTP motion"),
+        "NORM" => Code::Contour(ContourRule::Norm),
+        "KONT" => Code::Contour(ContourRule::Kont),
+        "KONTC" | "KONTT" => Code::NotApplied("KONTC and KONTT: NORM is used, the approach"),
+        "CFTCP" => Code::Contour(ContourRule::FeedAtCentre),
+        "CFC" => Code::Contour(ContourRule::FeedOnContour),
+        "CFIN" => Code::Contour(ContourRule::FeedOnInside),
         _ => return is_note(word).map(Code::Note),
     })
 }
 
 /// Words of no effect on the programmed path.
-const NOTES: [&str; 107] = [
+const NOTES: [&str; 100] = [
     "ACCLIMA",
     "ACN",
     "ADISPOSA",
@@ -260,9 +286,6 @@ const NOTES: [&str; 107] = [
     "CDOF",
     "CDOF2",
     "CDON",
-    "CFC",
-    "CFIN",
-    "CFTCP",
     "CLRINT",
     "COMPCAD",
     "COMPCURV",
@@ -308,14 +331,10 @@ const NOTES: [&str; 107] = [
     "FTOCOF",
     "FXS",
     "JERKLIMA",
-    "KONT",
-    "KONTC",
-    "KONTT",
     "LEADOF",
     "LFOF",
     "LFON",
     "METRIC",
-    "NORM",
     "ORIC",
     "ORID",
     "ORIRESET",

@@ -88,14 +88,14 @@ impl Run<'_> {
             }
             length = self.chain.tool_length(tool, plane);
         }
-        if length == self.chain.tool {
-            return;
+        if length != self.chain.tool {
+            if self.chain.change(|c| c.tool = length) {
+                self.core.emit(Event::ToolLength(length));
+            } else {
+                let fault = mistakes::flat_frame(at);
+                self.core.report(fault);
+            }
         }
-        if self.chain.change(|c| c.tool = length) {
-            self.core.emit(Event::ToolLength(length));
-        } else {
-            let fault = mistakes::flat_frame(at);
-            self.core.report(fault);
-        }
+        self.other_radius(at);
     }
 }

@@ -1,5 +1,8 @@
 //! What several tests need: outside files, and canonical calls in mm.
 #![allow(dead_code, reason = "each test uses a part")]
+#![allow(clippy::print_stdout, reason = "what is skipped")]
+
+pub mod radius;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

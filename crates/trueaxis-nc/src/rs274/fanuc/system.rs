@@ -4,6 +4,7 @@ use crate::execution::mistakes;
 use crate::moves::{Axis, CompensationSide, Event, FeedMode, PathControl, Plane, Position};
 use crate::rs274::Run;
 use crate::rs274::code::{Cycle, Motion};
+use crate::rs274::radius::RADIUS_WEAR;
 use crate::text::program::{Fault, Item, Program};
 
 /// A table of positions that FANUC variables stand for.
@@ -189,8 +190,11 @@ impl Run<'_> {
                     if number > 13_000 {
                         let radius_mm = value * self.core.modes.unit_mm();
                         self.core.radii.insert(number - 13_000, radius_mm);
+                    } else if number > RADIUS_WEAR {
+                        self.globals.insert(number, value);
+                    } else {
+                        return Ok(false);
                     }
-                    return Ok(false);
                 }
             }
             return Ok(true);
