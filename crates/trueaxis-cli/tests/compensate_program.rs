@@ -256,3 +256,27 @@ fn inches_are_compensated_like_millimetres() {
         assert!((metric_s - inch_s).abs() < 1e-3 * metric_s, "{name}: {metric_s} s and {inch_s} s");
     }
 }
+
+/// The words of the contour are corrected, G41 stays, and the centre of the tool keeps the residual.
+#[test]
+fn radius_compensation_stays_where_the_centre_keeps_its_path() {
+    const I5: &str = "machines/i5-engraver/machine.toml";
+    const PROGRAM: &str = "examples/06_compensate/everyday-fanuc.nc";
+    const SET_UP: &str = "examples/06_compensate/everyday-fanuc.setup.toml";
+    let folder = Folder::new("radius");
+    let out = folder.path("out.nc");
+    let ran = compensate(&[I5, PROGRAM, "--setup", SET_UP, "-o", &out]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let left = ran.err.split("leaves its path by up to ").nth(1).expect("the number");
+    let left: f64 = left.split(' ').next().and_then(|n| n.parse().ok()).expect("a number");
+    assert!(left > 0.1 && left < 2.0, "{left} µm");
+    assert!(std::fs::read_to_string(&out).unwrap().contains("G41 D1"));
+    // A tool that does not fit into the lead-in of radius 10.
+    let text = std::fs::read_to_string(command::root().join(SET_UP)).unwrap();
+    let set_up = folder.path("large.toml");
+    std::fs::write(&set_up, text.replace("diameter = \"8 mm\"", "diameter = \"30 mm\"")).unwrap();
+    let none = folder.path("none.nc");
+    let ran = compensate(&[I5, PROGRAM, "--setup", &set_up, "-o", &none]);
+    assert!(ran.status == 2 && ran.err.contains("tool-too-large"), "{}", ran.err);
+    assert!(!std::path::Path::new(&none).exists());
+}

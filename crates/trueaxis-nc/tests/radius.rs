@@ -138,7 +138,7 @@ fn where_the_tool_does_not_fit() {
         ("X20\nX0 Y-3.5265\n", 5),
     ] {
         let (_, found) = path(Fanuc, &format!("{start}{contour}G40 X60 Y20\nM30\n"), 3.0);
-        assert_eq!(found, [("gouge", line)], "{contour}");
+        assert_eq!(found, [("tool-too-large", line)], "{contour}");
     }
     for (text, code) in [
         ("G41 D1 G2 X10 Y0 I5 F500\n", "bad-compensation"),

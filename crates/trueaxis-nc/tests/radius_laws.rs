@@ -203,7 +203,7 @@ fn centre_of(
     let text = written(control, contour, notation);
     let (pieces, found) = path(control, &text, radius);
     let Some(first) = found.first() else { return Some(pieces[1..pieces.len() - 1].to_vec()) };
-    assert_eq!(first.0, "gouge", "{found:?}\n{text}");
+    assert_eq!(first.0, "tool-too-large", "{found:?}\n{text}");
     None
 }
 

@@ -18,6 +18,7 @@ mod found;
 mod guard;
 mod lines;
 mod number;
+mod radius;
 mod ready;
 mod refuse;
 mod stand;
@@ -126,6 +127,8 @@ pub struct Rewritten {
     pub conventions: Vec<Convention>,
     /// What the proof holds against the program; empty if it is proved.
     pub unproved: Diagnostics,
+    /// The first line that each line became.
+    numbers: Vec<u32>,
 }
 
 /// Places are examined so finely; each further try halves it.
@@ -152,10 +155,9 @@ pub fn compensate_program(
         problems.error("already-compensated", Place::whole(program.file()), message, hint);
         return (None, problems);
     }
-    let setup = &setup.on_contour();
     let machine = &super::not_twice(machine, Place::whole(program.file()), &mut problems);
     if !options.flat {
-        let (done, found) = tried(machine, program, setup, options);
+        let (done, found) = on_contour(machine, program, setup, options);
         let Some(why) = found.iter().find(|d| UNROLLED_FOR.contains(&d.code)) else {
             problems.append(found);
             return (done, problems);
@@ -164,10 +166,10 @@ pub fn compensate_program(
         let hint = "the lines of the report are those of the unrolled program";
         problems.note("unrolled", why.place.clone(), message, hint);
     }
-    match flat::unrolled(&setup.mounted(machine), program, setup, &mut problems) {
+    match flat::unrolled(&setup.mounted(machine), program, &setup.on_contour(), &mut problems) {
         None => (None, problems),
         Some(unrolled) => {
-            let (done, found) = tried(machine, &unrolled, setup, options);
+            let (done, found) = on_contour(machine, &unrolled, setup, options);
             problems.append(found);
             (done, problems)
         }
@@ -183,6 +185,46 @@ const UNROLLED_FOR: [&str; 6] = [
     "several-moves",
     "other-coordinates",
 ];
+
+/// Corrects the words of the contour; where the program adds the radius of a tool to it, the centre of the tool
+/// must keep the residual, too.
+fn on_contour(
+    machine: &Machine,
+    program: &Program,
+    setup: &SetUp,
+    options: &ProgramOptions,
+) -> (Option<Rewritten>, Diagnostics) {
+    let (mut done, mut problems) = tried(machine, program, &setup.on_contour(), options);
+    let Some(rewritten) = done.as_mut().filter(|_| radius::is_used(machine, program, setup)) else {
+        return (done, problems);
+    };
+    let written = Program::new(program.file(), rewritten.text.clone(), program.dialect().control);
+    let places = densify(options, 1, 2);
+    let mut ends: Vec<u32> =
+        rewritten.found.wants.iter().filter(|w| w.end_only).map(|w| w.line).collect();
+    ends.sort_unstable();
+    let lines = [&rewritten.numbers[..], &ends];
+    let left = match radius::left(machine, [program, &written], setup, lines, places) {
+        Ok(left) => left,
+        Err(found) => {
+            problems.append(found);
+            return (None, problems);
+        }
+    };
+    let place = Place { file: program.file().to_owned(), line: left.line as usize, column: 1 };
+    let message = format!(
+        "with radius compensation the centre of the tool leaves its path by up to {:.3} µm",
+        left.value * 1e3
+    );
+    if left.value <= residual_with_rounding(options) {
+        let hint = "the words of the contour are corrected, its radius compensation stays";
+        problems.note("radius-compensation-kept", place, message, hint);
+    } else {
+        let hint = "accept a larger --residual, or let the CAM system write the path of the centre";
+        rewritten.unproved.warn("not-proved", place, message, hint);
+    }
+    (done, problems)
+}
 
 /// Tries with finer and finer places until the program keeps the residual.
 fn tried(
@@ -270,7 +312,8 @@ fn once(
     let proof = verify::prove(machine, [program, &written], setup, &found, &numbers, finer);
     let text = written.source().to_vec();
     let unproved = Diagnostics::new();
-    (Some(Rewritten { text, found, proof, confidence, conventions, unproved }), problems)
+    let rewritten = Rewritten { text, found, proof, confidence, conventions, unproved, numbers };
+    (Some(rewritten), problems)
 }
 
 /// Executes a program, and writes it in a thread of its own.

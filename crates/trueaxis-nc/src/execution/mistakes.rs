@@ -181,7 +181,7 @@ pub(crate) fn gouge(gouge: &Gouge, radius_mm: f64, before: Option<u32>, at: usiz
     let message =
         format!("the tool of radius {radius_mm:.4} mm would cut into the contour{place}: {gouge}");
     let hint = "take a smaller tool, or check the contour and the side of the compensation";
-    fault("gouge", at, message, hint)
+    fault("tool-too-large", at, message, hint)
 }
 
 pub(crate) fn short_entry(length_mm: f64, radius_mm: f64, at: usize) -> Fault {

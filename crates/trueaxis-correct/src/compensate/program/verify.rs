@@ -18,7 +18,7 @@ pub struct Largest {
 }
 
 impl Largest {
-    fn take(&mut self, value: f64, line: u32) {
+    pub(super) fn take(&mut self, value: f64, line: u32) {
         // NaN counts as the worst.
         if value > self.value || value.is_nan() {
             *self = Self { value, line };
