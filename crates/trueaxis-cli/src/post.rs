@@ -5,8 +5,8 @@ use crate::door::Door;
 use crate::output::{Answer, Format, Outcome, finish};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
-use trueaxis::compensate::post::FeedRule;
 use trueaxis::input::Diagnostics;
+use trueaxis::post::FeedRule;
 use trueaxis::questions::{Post, template};
 use trueaxis::writer::TipWords;
 

@@ -42,6 +42,11 @@ pub type Vec3 = nalgebra::Vector3<f64>;
 /// A 3×3 matrix that acts on column vectors.
 pub type Mat3 = nalgebra::Matrix3<f64>;
 
+/// The angle between two unit vectors, to rounding everywhere, rad.
+pub fn angle(a: &Vec3, b: &Vec3) -> f64 {
+    a.cross(b).norm().atan2(a.dot(b))
+}
+
 /// The kind of motion of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AxisKind {

@@ -12,11 +12,11 @@ use std::fmt::Write;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 use trueaxis::cl::{ClFile, Reading};
-use trueaxis::compensate::post::{PostOptions, post};
 use trueaxis::files;
 use trueaxis::geometry::Vec3;
 use trueaxis::nc::Control;
 use trueaxis::nc::moves::{Axis, Feed, FeedMode};
+use trueaxis::post::{PostOptions, post};
 use trueaxis::writer::{Block, Heading, Target, Writer};
 
 const POINTS: usize = 50_000;

@@ -49,6 +49,7 @@ pub use trueaxis_machine::describe;
 pub use trueaxis_motion as simulate;
 pub use trueaxis_nc as nc;
 pub use trueaxis_part as part;
+pub use trueaxis_post as post;
 pub use trueaxis_writer as writer;
 
 pub use trueaxis_report::{NamedSchema, VERSION};

@@ -8,7 +8,6 @@ mod library;
 use library::paths::{cl, free_form, ways};
 use library::{MACHINES, bare, machine, with_lost_motion};
 use std::f64::consts::TAU;
-use trueaxis::compensate::post::post;
 use trueaxis::compensate::program::{
     Increments, MARK, ProgramOptions, Rewritten, compensate_program,
 };
@@ -17,6 +16,7 @@ use trueaxis::input::Diagnostics;
 use trueaxis::machine::Machine;
 use trueaxis::machine::file::NoTables;
 use trueaxis::nc::{Control, Program};
+use trueaxis::post::post;
 use trueaxis::simulate::{Batch, Densify, Observer, Options, SetUp, simulate};
 use trueaxis::writer::TipWords;
 

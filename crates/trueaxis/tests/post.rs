@@ -9,7 +9,6 @@ use library::{MACHINES, machine};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
-use trueaxis::compensate::post::{FeedRule, PostOptions, Posted, post, verify};
 use trueaxis::geometry::Vec3;
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::Command;
@@ -17,6 +16,7 @@ use trueaxis::machine::file::NoTables;
 use trueaxis::machine::tcp::TipControl;
 use trueaxis::nc::moves::{Axis, Feed, FeedMode, Move, MoveKind};
 use trueaxis::nc::{Control, NoLibrary, Program, Settings, Step, interpret};
+use trueaxis::post::{FeedRule, PostOptions, Posted, post, verify};
 use trueaxis::simulate::{Batch, Observer, Options, SetUp, simulate};
 use trueaxis::writer::TipWords;
 

@@ -5,7 +5,7 @@
 //!     ClFile ──foot on the nominal surface──> contacts ──field──> moved along the normals
 //!            ──check──> thin walls, gouges, folds                        each with its line
 //!            ──virtual_cut──> wall-thickness map, before and after       independent of the above
-//!     adapted ClFile ──compensate::post──> program with its proof
+//!     adapted ClFile ──trueaxis_post──> program with its proof
 //! ```
 //!
 //! The contact is computed from the place of the tool, its axis and the cutter, with the normal of the

@@ -6,9 +6,9 @@ use crate::report;
 use serde_json::Value;
 use std::path::PathBuf;
 use trueaxis_correct::compensate::adapt::{AdaptStudy, Adaptation, adapt, read_adapt_study};
-use trueaxis_correct::compensate::post::{PostOptions, post, verify};
 use trueaxis_correct::report::{AdaptReport, AdaptedProgram};
 use trueaxis_input::{Diagnostics, Dimension, Files, Place, parse_quantity};
+use trueaxis_post::{PostOptions, post, verify};
 use trueaxis_report::Report;
 use trueaxis_writer::TipWords;
 

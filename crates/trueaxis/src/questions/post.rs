@@ -6,11 +6,9 @@ use crate::report::{self, PostReport};
 use serde_json::Value;
 use std::path::PathBuf;
 use trueaxis_cl::{ClFile, Reading};
-use trueaxis_correct::compensate::post::{
-    FeedRule, PostOptions, Posted, Verification, post, verify,
-};
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_machine::Machine;
+use trueaxis_post::{FeedRule, PostOptions, Posted, Verification, post, verify};
 use trueaxis_report::{Report, document};
 use trueaxis_writer::{BUILT_IN, Decimals, MOST_DECIMALS, Templates, TipWords, WriteError};
 

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 use trueaxis_cl::ClFile;
-use trueaxis_correct::compensate::post::{Largest, PostOptions, Posted, Verification};
 use trueaxis_machine::Machine;
+use trueaxis_post::{Largest, PostOptions, Posted, Verification};
 use trueaxis_report::{Report, Section, Standing, Table};
 
 /// A program with what it was made from.

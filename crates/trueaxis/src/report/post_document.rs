@@ -3,7 +3,7 @@
 use super::post::PostReport;
 use schemars::JsonSchema;
 use serde::Serialize;
-use trueaxis_correct::compensate::post::{Largest, PostOptions, Verification};
+use trueaxis_post::{Largest, PostOptions, Verification};
 
 /// An NC program from cutter locations.
 #[derive(Debug, Serialize, JsonSchema)]

@@ -4,11 +4,11 @@ use super::Random;
 use std::f64::consts::TAU;
 use std::fmt::Write;
 use trueaxis::cl::{ClFile, Reading};
-use trueaxis::compensate::post::PostOptions;
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{AxisKind, Command, Travel};
 use trueaxis::machine::tcp::TipControl;
 use trueaxis::nc::Control;
+use trueaxis::post::PostOptions;
 use trueaxis::writer::TipWords;
 
 pub const CONTROLS: [Control; 4] =

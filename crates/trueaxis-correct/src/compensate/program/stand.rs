@@ -1,7 +1,6 @@
 //! Where the tool stands at axis positions, and how far two stands are from each other.
 
-use crate::compensate::post::angle;
-use trueaxis_geometry::Vec3;
+use trueaxis_geometry::{Vec3, angle};
 use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_motion::axis_path::Straight;

@@ -1,22 +1,22 @@
 //! The strokes of the tool: what the records of the file add up to.
 
-use super::{PostOptions, angle};
+use crate::PostOptions;
 use trueaxis_cl::{ClCircle, ClCycle, ClFile, ClPoint, Word};
-use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::rotation;
+use trueaxis_geometry::{Vec3, angle};
 use trueaxis_input::{Diagnostics, Place};
 use trueaxis_nc::moves::{Coolant, Feed, FeedMode, SpindleDirection};
 
 /// Where the tool stands in the workpiece.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Stand {
+pub(crate) struct Stand {
     pub tip: Vec3,
     pub axis: Vec3,
 }
 
 /// How the tip gets there.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Way {
+pub(crate) enum Way {
     Line,
     /// About a centre, right-handed about a normal.
     Arc {
@@ -28,7 +28,7 @@ pub(super) enum Way {
 
 /// One motion of the file.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Stroke {
+pub(crate) struct Stroke {
     pub to: Stand,
     pub way: Way,
     pub rapid: bool,
@@ -40,7 +40,7 @@ pub(super) struct Stroke {
 
 /// What happens before a stroke.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Event {
+pub(crate) enum Event {
     Tool { number: u32, text: String },
     Spindle(SpindleDirection, f64),
     Coolant(Coolant),
@@ -51,7 +51,7 @@ pub(super) enum Event {
 
 /// Strokes, and events each before the stroke of a number.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Path {
+pub(crate) struct Path {
     pub strokes: Vec<Stroke>,
     pub events: Vec<(usize, Event)>,
 }
@@ -84,7 +84,7 @@ fn pecks(cycle: &ClCycle) -> Vec<f64> {
 ///
 /// a(u) = (sin((1 − u)θ)·a₀ + sin(uθ)·a₁)/sin θ              docs/model.md eq. 120
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Turn {
+pub(crate) struct Turn {
     from: Vec3,
     to: Vec3,
     theta: f64,
@@ -106,7 +106,7 @@ impl Turn {
 }
 
 /// One place of a great circle.
-pub(super) fn between(from: &Vec3, to: &Vec3, u: f64) -> Vec3 {
+pub(crate) fn between(from: &Vec3, to: &Vec3, u: f64) -> Vec3 {
     Turn::between(from, to).at(u)
 }
 

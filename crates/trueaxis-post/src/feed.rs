@@ -1,7 +1,7 @@
 //! How fast each block goes.
 
-use super::cut::Node;
-use super::{FeedRule, PostOptions};
+use crate::cut::Node;
+use crate::{FeedRule, PostOptions};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::AxisKind;
 use trueaxis_nc::moves::{Feed, FeedMode};
@@ -18,7 +18,7 @@ const GREATEST: f64 = 999_999.0;
 /// t = |Δtip|/F,  G93: 1/t,  G94 without tool-centre point: |(Δx, Δy, Δz)|/t      docs/model.md eq. 122
 ///
 /// Where the tip stands, the feed counts degrees of the rotary axes, as controls do.
-pub(super) fn feed_of(
+pub(crate) fn feed_of(
     machine: &Machine,
     options: &PostOptions,
     from: &Node,

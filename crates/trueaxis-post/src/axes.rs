@@ -1,9 +1,9 @@
 //! From strokes to axis positions: poles, branches, turns, and where the tool must go back.
 
-use super::path::{Path, Stroke, Way, between};
-use super::{Fault, angle};
-use trueaxis_geometry::Vec3;
+use crate::Fault;
+use crate::path::{Path, Stroke, Way, between};
 use trueaxis_geometry::frame::{Direction, Point};
+use trueaxis_geometry::{Vec3, angle};
 use trueaxis_machine::axis::Command;
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_machine::{FollowFault, Machine, Target};
@@ -16,7 +16,7 @@ const MOST_CUTS: u32 = 60;
 
 /// Strokes in a row that one continuous motion makes, and the axis positions at their ends.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Leg {
+pub(crate) struct Leg {
     /// The stroke at whose end the leg begins.
     pub first: usize,
     /// Whether that stroke is still to be cut by this leg.
@@ -27,7 +27,7 @@ pub(super) struct Leg {
 
 /// Turns tool axes near a pole onto it and cuts strokes that pass it, so that the swing of the first
 /// rotary axis is seen; the largest turn, rad.
-pub(super) fn pass_poles(path: &mut Path, control: &TipControl, pole_rad: f64) -> f64 {
+pub(crate) fn pass_poles(path: &mut Path, control: &TipControl, pole_rad: f64) -> f64 {
     let Some(pole) = control.pole() else { return 0.0 };
     let pole = pole.vector();
     let near = pole_rad.max(POLE_RAD);
@@ -135,7 +135,7 @@ fn closest_to(from: &Vec3, to: &Vec3, pole: &Vec3) -> f64 {
 }
 
 /// Axis positions for all strokes, in as few legs as continuous motions allow.
-pub(super) fn legs(machine: &Machine, path: &Path) -> Result<Vec<Leg>, Fault> {
+pub(crate) fn legs(machine: &Machine, path: &Path) -> Result<Vec<Leg>, Fault> {
     let target = |stroke: &Stroke| Target {
         tip: Point::from_vector(stroke.to.tip),
         axis: Direction::of(stroke.to.axis).unwrap_or(Direction::Z),
@@ -144,7 +144,7 @@ pub(super) fn legs(machine: &Machine, path: &Path) -> Result<Vec<Leg>, Fault> {
     let mut legs: Vec<Leg> = Vec::new();
     let mut from = Command::default();
     let mut begins: Vec<usize> = vec![0];
-    let changes = path.events.iter().filter(|(_, e)| matches!(e, super::path::Event::Tool { .. }));
+    let changes = path.events.iter().filter(|(_, e)| matches!(e, crate::path::Event::Tool { .. }));
     begins.extend(changes.map(|(at, _)| *at).filter(|at| *at > 0 && *at < targets.len()));
     begins.dedup();
     begins.push(targets.len());

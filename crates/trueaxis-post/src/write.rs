@@ -1,10 +1,10 @@
 //! Legs as blocks: safe start and end, events, moves.
 
-use super::axes::Leg;
-use super::cut::{Cutter, Node};
-use super::feed::feed_of;
-use super::path::{Event, Path, Stand};
-use super::{BlockPlace, Fault, PostOptions, Posted};
+use crate::axes::Leg;
+use crate::cut::{Cutter, Node};
+use crate::feed::feed_of;
+use crate::path::{Event, Path, Stand};
+use crate::{BlockPlace, Fault, PostOptions, Posted};
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
@@ -34,7 +34,7 @@ struct Post<'p> {
     blocks: usize,
 }
 
-pub(super) fn write(
+pub(crate) fn write(
     machine: &Machine,
     control: &TipControl,
     path: Path,

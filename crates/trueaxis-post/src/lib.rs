@@ -19,7 +19,6 @@ mod write;
 pub use verify::{Largest, Verification, verify};
 
 use trueaxis_cl::ClFile;
-use trueaxis_geometry::Vec3;
 use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_machine::tcp::TipControl;
@@ -126,7 +125,7 @@ pub struct Posted {
 /// text comes back where a number of the program would leave the travel of an axis.
 ///
 /// ```
-/// use trueaxis_correct::compensate::post::{PostOptions, post};
+/// use trueaxis_post::{PostOptions, post};
 /// use trueaxis_machine::{Machine, file::NoTables};
 /// use trueaxis_cl::{ClFile, Reading};
 /// use trueaxis_nc::Control;
@@ -179,9 +178,4 @@ pub(crate) struct Fault {
     code: &'static str,
     message: String,
     hint: &'static str,
-}
-
-/// The angle between two unit vectors, to rounding everywhere.
-pub(crate) fn angle(a: &Vec3, b: &Vec3) -> f64 {
-    a.cross(b).norm().atan2(a.dot(b))
 }

@@ -1,9 +1,9 @@
 //! Cuts strokes so that what the control does between two blocks stays near the stroke.
 
-use super::path::{Stand, Stroke, Turn, Way, between};
-use super::{Fault, PostOptions, angle};
-use trueaxis_geometry::Vec3;
+use crate::path::{Stand, Stroke, Turn, Way, between};
+use crate::{Fault, PostOptions};
 use trueaxis_geometry::frame::Direction;
+use trueaxis_geometry::{Vec3, angle};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::tcp::{POLE_RAD, TipControl};
@@ -30,7 +30,7 @@ enum Between {
 
 /// Cuts strokes for one machine.
 #[derive(Debug)]
-pub(super) struct Cutter<'c> {
+pub(crate) struct Cutter<'c> {
     machine: &'c Machine,
     control: &'c TipControl,
     between: Between,
@@ -43,7 +43,7 @@ pub(super) struct Cutter<'c> {
 
 /// A place on a stroke with its axis positions.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Node {
+pub(crate) struct Node {
     /// 1 at the end of the stroke.
     pub u: f64,
     pub stand: Stand,

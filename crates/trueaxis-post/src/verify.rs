@@ -1,8 +1,8 @@
 //! The proof: the written text, read back and simulated, against the cutter-location file.
 
-use super::path::{Stand, Stroke};
-use super::{BlockPlace, PostOptions, Posted, angle};
-use trueaxis_geometry::Vec3;
+use crate::path::{Stand, Stroke};
+use crate::{BlockPlace, PostOptions, Posted};
+use trueaxis_geometry::{Vec3, angle};
 use trueaxis_input::Diagnostics;
 use trueaxis_machine::Machine;
 use trueaxis_motion::{AxisWatch, Batch, Densify, IssueList, Observer, Options, SetUp, simulate};
