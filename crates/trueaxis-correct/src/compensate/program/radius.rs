@@ -1,5 +1,5 @@
-//! Programs with radius compensation: their words are those of the contour, the tool is beside it. What is
-//! left is therefore examined once more where the centre of the tool is.
+//! Programs with radius compensation: their words are those of the contour, the tool runs along it at a distance.
+//! The residual error is therefore examined once more where the centre of the tool is.
 
 use std::collections::HashMap;
 
