@@ -174,10 +174,7 @@ const CRATES: [(&str, &[&str]); 20] = [
         "trueaxis-calibrate",
         &["cl", "input", "geometry", "machine", "nc", "motion", "report", "writer"],
     ),
-    (
-        "trueaxis-correct",
-        &["cl", "input", "geometry", "machine", "nc", "part", "motion", "report"],
-    ),
+    ("trueaxis-correct", &["cl", "input", "geometry", "machine", "nc", "part", "motion", "report"]),
     ("trueaxis-post", &["cl", "input", "geometry", "machine", "nc", "motion", "writer"]),
     (
         "trueaxis",
