@@ -185,7 +185,7 @@ pub fn simulate(
     let faults = walk.finish();
     let mut problems = outcome.problems;
     problems.append(log_problems);
-    setup.warn_of_zeros(program.file(), &mut problems);
+    setup.check_for(program, &mut problems);
     note_assumed_limits(&machine, program, &mut problems);
     for fault in faults {
         let place = place(program, &outcome.programs, &fault);

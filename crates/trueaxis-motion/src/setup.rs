@@ -3,6 +3,8 @@
 //! Work offsets, tools and the start of the axes come from a set-up file (TOML), with nothing
 //! assumed but zeros where it is silent.
 
+mod codes;
+
 use super::collide::{BodyModel, Mesh, Role, ToolShape, load_stl, triangles_of};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -13,7 +15,7 @@ use trueaxis_machine::chain::Link;
 use trueaxis_machine::file::{read_pose, read_shape, read_tool_shape, read_vector_mm};
 use trueaxis_machine::models::{Shape, ToolSegment};
 use trueaxis_nc::moves::{Axis, Frame, Position};
-use trueaxis_nc::{Control, OwnCode, Settings, sinumerik};
+use trueaxis_nc::{Control, OwnCode, Program, Settings, sinumerik};
 
 /// A tool of the set-up.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -76,6 +78,8 @@ pub struct SetUp {
     pub tools: BTreeMap<u32, SetUpTool>,
     /// What codes and programs of the machine builder do, by their names in capital letters.
     pub codes: BTreeMap<String, OwnCode>,
+    /// Where the set-up file states them.
+    pub code_places: BTreeMap<String, Place>,
     /// Where the axes are before the program, mm and degrees.
     pub start: Option<Position>,
     /// The work offset whose program zero is the workpiece frame of all results.
@@ -149,7 +153,9 @@ fn read(root: &Section<'_>, machine: &Machine, folder: &Path) -> SetUp {
             }
         }
     });
-    root.section("codes", |section| setup.codes = read_codes(section));
+    root.section("codes", |section| {
+        (setup.codes, setup.code_places) = codes::read(section, setup.control);
+    });
     if let Some(item) = root.get("archive") {
         read_archive(root, &item, folder, &mut setup);
     }
@@ -166,40 +172,6 @@ fn read(root: &Section<'_>, machine: &Machine, folder: &Path) -> SetUp {
         number
     });
     setup
-}
-
-/// `M200 = "ignore"`, `"stop"` or `{ call = "file" }`: codes and programs of the machine builder.
-fn read_codes(section: &Section<'_>) -> BTreeMap<String, OwnCode> {
-    let hint = "M200 = \"ignore\", \"stop\" or { call = \"file\" }";
-    let mut codes = BTreeMap::new();
-    for (key, place, item) in section.entries() {
-        let own = match item.as_text() {
-            Some("ignore") => Some(OwnCode::Ignore),
-            Some("stop") => Some(OwnCode::Stop),
-            Some(other) => {
-                let message = format!("`{other}` is not what a code can do");
-                item.error("bad-code", message, hint);
-                continue;
-            }
-            None => item
-                .section(key, |s| s.text("call").map(str::to_owned))
-                .flatten()
-                .map(OwnCode::Call),
-        };
-        let Some(own) = own else {
-            section.error_at(place, "bad-code", format!("`{key}` does nothing"), hint);
-            continue;
-        };
-        codes.insert(plain_code(key), own);
-    }
-    codes
-}
-
-/// `m06` is `M6`; names of programs in capital letters.
-fn plain_code(key: &str) -> String {
-    let name = key.trim().to_ascii_uppercase();
-    let number = name.strip_prefix(['M', 'G']).and_then(|n| n.parse::<f64>().ok());
-    number.map_or(name.clone(), |number| format!("{}{number}", &name[..1]))
 }
 
 /// `[stock]`, `[part]` and every `[[fixture]]`; places in the workpiece frame.
@@ -432,14 +404,27 @@ impl SetUp {
         }
     }
 
-    /// What a user must know who gave no set-up.
-    pub fn warn_of_zeros(&self, program: &str, problems: &mut Diagnostics) {
+    /// What a user must know who gave no set-up, and names of codes that the control of the program cannot have.
+    pub fn check_for(&self, program: &Program, problems: &mut Diagnostics) {
+        if self.control.is_none() {
+            for (name, place) in &self.code_places {
+                if let Err(hint) = codes::check_name(name, Some(program.dialect().control)) {
+                    let message = codes::not_a_name(name, Some(program.dialect().control));
+                    problems.error("bad-code", place.clone(), message, hint);
+                }
+            }
+        }
         if !self.given {
             let message = "no set-up file: work offsets and tool lengths are 0, and programs with \
                            tool-centre-point control count from the workpiece frame of the \
                            machine file"
                 .to_owned();
-            problems.warn("no-set-up", Place::whole(program), message, "give --setup FILE.toml");
+            problems.warn(
+                "no-set-up",
+                Place::whole(program.file()),
+                message,
+                "give --setup FILE.toml",
+            );
         }
     }
 }
@@ -447,25 +432,6 @@ impl SetUp {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn codes_of_the_machine_builder() {
-        let read = |text: &str| {
-            let source = SourceText::new("setup.toml", text);
-            let codes = source.read(|root| root.section("codes", read_codes));
-            let problems: Vec<_> = source.finish().iter().map(|p| p.code).collect();
-            (codes.unwrap_or_default(), problems)
-        };
-        let (codes, problems) = read(
-            "[codes]\nM200 = \"ignore\"\nm06 = { call = \"CHANGE\" }\n\"G5.1\" = \"stop\"\nToolIn = \"ignore\"\n",
-        );
-        assert!(problems.is_empty());
-        assert_eq!(codes.keys().collect::<Vec<_>>(), ["G5.1", "M200", "M6", "TOOLIN"]);
-        assert_eq!(codes["M6"], OwnCode::Call("CHANGE".to_owned()));
-        assert_eq!(read("[codes]\nM1 = \"off\"\n").1, ["bad-code"]);
-        assert_eq!(read("[codes]\nM1 = { }\n").1, ["bad-code"]);
-        assert_eq!(read("[codes]\nM1 = { cal = \"x\" }\n").1, ["unknown-key", "bad-code"]);
-    }
 
     #[test]
     fn offsets_have_the_numbers_of_their_controls() {

@@ -291,7 +291,7 @@ fn once(
     let (outcome, walk) =
         both(nominal, walk, |ahead| execute_on(&mounted, program, setup, &settings, ahead));
     problems.append(outcome.problems);
-    setup.warn_of_zeros(program.file(), &mut problems);
+    setup.check_for(program, &mut problems);
     if let Some(fault) = &walk.fault {
         refuse(&mut problems, &outcome.programs, fault);
     }
