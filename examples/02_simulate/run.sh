@@ -11,5 +11,7 @@ $trueaxis simulate machines/head-table/machine.toml examples/02_simulate/increme
 for chord in 0.05 0.005 0.0002; do
     $trueaxis simulate machines/three-axis-mill/machine.toml examples/02_simulate/circle-times.ngc --chord $chord --report "$out/circle-times.html"
 done
+# G41: the path is that of the centre of the tool.
+$trueaxis simulate machines/three-axis-mill/machine.toml examples/02_simulate/square-g41.nc --report "$out/square.html" --path "$out/square.csv"
 # The holder collides with the table: exit status 1, and both bodies are named.
 ! $trueaxis simulate machines/i5-engraver/machine.toml examples/02_simulate/collision-fanuc.nc --report "$out/collision.html"

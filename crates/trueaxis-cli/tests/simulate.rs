@@ -292,6 +292,17 @@ fn the_documents_have_their_keys() {
     assert_eq!((ran.status, ran.out.as_str()), (2, ""), "{}", ran.err);
 }
 
+/// Where the tip is after a line, by the table of `--path`.
+fn tip_after(path: &str, line: &str) -> [f64; 3] {
+    let text = std::fs::read_to_string(path).expect("the table");
+    let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let names = lines.next().expect("a head");
+    let column = |name: &str| names.iter().position(|n| *n == name).expect("a column");
+    let rows: Vec<_> = lines.collect();
+    let last = rows.iter().rfind(|row| row[column("line")] == line).expect("a row of the line");
+    ["tip_x_mm", "tip_y_mm", "tip_z_mm"].map(|name| last[column(name)].parse().expect("a number"))
+}
+
 /// The places that `examples/02_simulate/README.md` works out by hand: (20, 10, 0), tilted by 30° about Y.
 #[test]
 fn increments_count_from_where_the_tool_is() {
@@ -303,15 +314,7 @@ fn increments_count_from_where_the_tool_is() {
     let document = trueaxis(&words).json();
     assert_eq!(document["diagnostics"][0]["code"], "unknown-tool-length");
     assert_eq!(document["motion_left_out"], 0);
-    let text = std::fs::read_to_string(&path).expect("the table");
-    let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
-    let names = lines.next().expect("a head");
-    let column = |name: &str| names.iter().position(|n| *n == name).expect("a column");
-    let rows: Vec<_> = lines.collect();
-    let tip_after = |line: &str| {
-        let last = rows.iter().rfind(|row| row[column("line")] == line).expect("a row of the line");
-        ["tip_x_mm", "tip_y_mm", "tip_z_mm"].map(|name| last[column(name)].parse::<f64>().unwrap())
-    };
+    let tip_after = |line: &str| tip_after(&path, line);
     let (sin, cos) = 30.0_f64.to_radians().sin_cos();
     let expected = [
         ("11", [20.0 + 5.0 * sin, 10.0, 5.0 * cos]),
@@ -323,5 +326,30 @@ fn increments_count_from_where_the_tool_is() {
         let tip = tip_after(line);
         let off = tip.iter().zip(place).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         assert!(off < 1e-6, "line {line}: {tip:?}, by hand {place:?}");
+    }
+}
+
+/// The places that `docs/radius-compensation.md` works out by hand.
+#[test]
+fn radius_compensation_goes_round_the_square() {
+    let folder = Folder::new("square");
+    let path = folder.path("places.csv");
+    let program = "examples/02_simulate/square-g41.nc";
+    let words = ["simulate", "machines/three-axis-mill/machine.toml", program];
+    let ran =
+        trueaxis(&[&words[..], &["--no-report", "--path", &path, "--format", "json"]].concat());
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    assert_eq!(ran.json()["motion_left_out"], 0);
+    for (line, x, y) in [
+        ("8", -3.0, 0.0),
+        ("9", -3.0, 23.0),
+        ("10", 23.0, 23.0),
+        ("11", 23.0, -3.0),
+        ("12", 13.0, -3.0),
+        ("13", 13.0, -20.0),
+        ("14", 0.0, -20.0),
+    ] {
+        let tip = tip_after(&path, line);
+        assert!((tip[0] - x).hypot(tip[1] - y) < 1e-9, "line {line}: {tip:?}");
     }
 }

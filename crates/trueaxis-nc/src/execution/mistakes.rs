@@ -217,8 +217,8 @@ pub(crate) fn plane_on_contour(at: usize) -> Fault {
     fault("bad-compensation", at, message, "end the compensation before (G40, R0)")
 }
 
-pub(crate) fn cycle_on_contour(at: usize) -> Fault {
-    let message = "a cycle begins while the radius compensation is on";
+pub(crate) fn cycle_on_contour(what: &str, at: usize) -> Fault {
+    let message = format!("{what} begins while the radius compensation is on");
     fault("bad-compensation", at, message, "end the compensation before (G40, R0)")
 }
 

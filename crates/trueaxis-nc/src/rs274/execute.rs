@@ -407,7 +407,7 @@ impl Run<'_> {
         }
         if let Motion::Cycle(cycle) = motion {
             if moves && self.core.has_radius() {
-                return Err(mistakes::cycle_on_contour(at));
+                return Err(mistakes::cycle_on_contour("a cycle", at));
             }
             return if moves { self.cycle(cycle, at) } else { Ok(()) };
         }

@@ -44,7 +44,9 @@ impl Run<'_> {
         at: usize,
     ) -> Result<(), Fault> {
         let written = self.words.take(b'D');
-        self.words.take(b'L');
+        if self.words.take(b'L').is_some_and(|nose| nose != 0.0 && nose != 9.0) {
+            self.core.left_out("L of G41.1, the orientation of a lathe tool,", at);
+        }
         if side != CompensationSide::Off && !self.is_fanuc() {
             self.check_linuxcnc(at)?;
         }

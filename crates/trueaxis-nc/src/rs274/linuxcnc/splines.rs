@@ -5,6 +5,7 @@
 //! draws each as a rational B-spline, with two arcs between points at four equal steps of the parameter for each
 //! control point (`NURBS_FEED` of its task).
 
+use crate::execution::mistakes;
 use crate::moves::{Arc, Axis, AxisSet, Move, MoveKind, Plane};
 use crate::rs274::code::{Motion, Spline};
 use crate::rs274::{Run, fault};
@@ -37,6 +38,9 @@ impl SplineMemory {
 impl Run<'_> {
     /// G5, G5.1 and a block of G5.2.
     pub(in crate::rs274) fn spline(&mut self, spline: Spline, at: usize) -> Result<(), Fault> {
+        if self.core.has_radius() {
+            return Err(mistakes::cycle_on_contour("a spline", at));
+        }
         self.core.modes.check_feed(at)?;
         if spline == Spline::Nurbs {
             return self.control_point(at);
