@@ -113,6 +113,8 @@ pub struct Machine {
     pub(crate) model: ErrorModel,
     /// The tip in the frame of the tool, mm.
     pub(crate) tip_mm: Vec3,
+    /// Whether it is stated; else it is 0.
+    pub(crate) tip_stated: bool,
     pub(crate) tools: Vec<crate::tool::ToolAssembly>,
     pub(crate) models: Vec<crate::models::Model>,
     pub(crate) heat: HeatModel,
@@ -197,6 +199,11 @@ impl Machine {
         self.tip_mm
     }
 
+    /// Whether the tip of the tool is stated, by the machine file or later; else it is 0.
+    pub fn is_tip_stated(&self) -> bool {
+        self.tip_stated
+    }
+
     /// The tool assemblies that the machine file lists.
     pub fn tools(&self) -> &[crate::tool::ToolAssembly] {
         &self.tools
@@ -210,6 +217,7 @@ impl Machine {
     /// The same machine with another tool tip, mm in the frame of the tool.
     pub fn with_tip(mut self, tip_mm: Vec3) -> Self {
         self.tip_mm = tip_mm;
+        self.tip_stated = true;
         self
     }
 

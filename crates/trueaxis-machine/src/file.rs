@@ -156,6 +156,7 @@ fn read_machine(root: &Section<'_>, tables: &dyn Tables) -> Option<Machine> {
         bodies,
         model: head.model,
         tip_mm: tool.tip_mm,
+        tip_stated: tool.tip_stated,
         tools: tool.assemblies,
         models,
         heat,
@@ -363,6 +364,7 @@ fn read_workpiece(section: &Section<'_>, body: &mut ChainBody) {
 #[derive(Default)]
 struct ToolSide {
     tip_mm: Vec3,
+    tip_stated: bool,
     assemblies: Vec<ToolAssembly>,
 }
 
@@ -376,6 +378,7 @@ fn read_tool(section: &Section<'_>, body: &mut ChainBody) -> ToolSide {
         let message = "`length` and `tip` both state the position of the tip".to_owned();
         section.error("duplicate-tip", message, "keep one of them");
     }
+    let tip_stated = length.is_some() || tip.is_some();
     let tip_mm = tip.unwrap_or(Vec3::new(0.0, 0.0, -length.unwrap_or(0.0)));
     let mut assemblies = Vec::new();
     section.section("library", |library| {
@@ -386,7 +389,7 @@ fn read_tool(section: &Section<'_>, body: &mut ChainBody) -> ToolSide {
             }
         }
     });
-    ToolSide { tip_mm, assemblies }
+    ToolSide { tip_mm, tip_stated, assemblies }
 }
 
 fn read_assembly(name: &str, section: &Section<'_>) -> Option<ToolAssembly> {

@@ -465,3 +465,33 @@ fn law_random_elements_keep_the_residual_with_few_pieces() {
     println!("{cut} circles cut, at most {most:.3} times the least number of pieces");
     assert!(cut >= 12, "{cut}");
 }
+
+/// A mill whose head turns, 100 µrad out of square about X; `tool` is its section, or nothing.
+fn head_mill(tool: &str) -> Machine {
+    let text = format!(
+        "[machine]\nname = \"m\"\nchain = \"w X b Y Z B t\"\n[location]\nEA0Z = \"100 urad\"\n{tool}"
+    );
+    Machine::check("m.toml", &text, &NoTables).0.unwrap()
+}
+
+#[test]
+fn a_tool_length_that_matters_is_stated_by_somebody() {
+    let tcp = b"G21 G90 G17 G94\nT1 M6\nG43.4 H1\nG1 X0 Y0 Z0 B0 F1000\nX10 B10\nG49\nM30\n";
+    let plain = b"G21 G90 G17 G94\nT1 M6\nG43 H1\nG1 X0 Y0 Z0 F1000\nX10\nG49\nM30\n";
+    let length = "[tool]\nlength = \"0 mm\"\n";
+    let refused = |machine: &Machine, text: &[u8], residual_mm: f64| {
+        let options = ProgramOptions { residual_mm, ..ProgramOptions::default() };
+        let problems = compensated(machine, text, Control::Fanuc, &options).1;
+        let found = problems.iter().find(|d| d.code == "tool-length-needed");
+        found.map(|d| (d.place.line, d.message.clone()))
+    };
+    let (line, _) = refused(&head_mill(""), tcp, 1e-3).expect("axes depend on the length");
+    assert_eq!(line, 3);
+    // 100 mm · 100 µrad = 10 µm.
+    let (_, message) = refused(&head_mill(""), plain, 1e-3).expect("the errors depend on it");
+    assert!(message.contains("10.0 µm"), "{message}");
+    assert_eq!(refused(&head_mill(""), plain, 0.011), None);
+    // A length of 0 that is stated is a length.
+    assert_eq!(refused(&head_mill(length), tcp, 1e-3), None);
+    assert_eq!(refused(&head_mill("").with_tip(Vec3::new(0.0, 0.0, -50.0)), tcp, 1e-3), None);
+}

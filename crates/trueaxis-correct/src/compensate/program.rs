@@ -16,6 +16,7 @@ mod feed;
 mod flat;
 mod found;
 mod guard;
+mod length;
 mod lines;
 mod number;
 mod radius;
@@ -294,6 +295,10 @@ fn once(
     setup.check_for(program, &mut problems);
     if let Some(fault) = &walk.fault {
         refuse(&mut problems, &outcome.programs, fault);
+    }
+    if !problems.has_errors() {
+        let wanted = (program.file(), setup, options.residual_mm);
+        length::require(&mounted, &walk, wanted, &mut problems);
     }
     if problems.has_errors() {
         return (None, problems);

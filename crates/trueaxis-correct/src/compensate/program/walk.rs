@@ -39,6 +39,10 @@ pub(super) struct Walk<'w> {
     last: Option<Origin>,
     /// The tool axis is programmed by vectors.
     vectors: bool,
+    /// The line that first switched tool-centre-point control on.
+    pub tip_followed: Option<u32>,
+    /// The program or the set-up gave the control a tool length.
+    pub length_stated: bool,
     /// The feed that the next block has to state again.
     feed_again: Option<f64>,
     /// Circles may stay circles.
@@ -87,6 +91,8 @@ impl<'w> Walk<'w> {
             fault: None,
             last: None,
             vectors: false,
+            tip_followed: None,
+            length_stated: false,
             feed_again: None,
             arcs: true,
             circle_gone: false,
@@ -135,7 +141,11 @@ impl<'w> Walk<'w> {
                     self.corrector = next.with_history_of(&self.corrector);
                 }
             }
-            Event::ToolCentre(_) => self.vectors = false,
+            Event::ToolCentre(on) => {
+                self.vectors = false;
+                self.tip_followed = self.tip_followed.or(on.then_some(origin.line));
+            }
+            Event::ToolLength(length) => self.length_stated |= length.0.iter().any(|l| *l != 0.0),
             _ => {}
         }
         Ok(())
