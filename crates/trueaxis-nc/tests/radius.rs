@@ -213,6 +213,36 @@ fn frames_on_the_way() {
 }
 
 #[test]
+fn after_the_end_a_machine_place_does_not_begin_it_again() {
+    let text =
+        "G17 G90 G94 F500\nG0 X-10 Y-10\nG41 D1 G1 X0 Y0\nY20\nG40\nG53 G0 Z0\nX-10 Y50\nX0\nM30\n";
+    let found = sound(Fanuc, text, 3.0);
+    assert!(near(found[found.len() - 2].to, [-10.0, 50.0]), "{found:?}");
+    assert!(near(found[found.len() - 1].to, [0.0, 50.0]), "{found:?}");
+}
+
+#[test]
+fn places_of_the_machine_interrupt_it() {
+    // Perpendicular to the end, to the place of the machine, and in again perpendicular to the next element.
+    let text = "G17 G90 G94 F500\nG0 X-10 Y-10\nG41 D1 G1 X0 Y0\nY20\nG53 G0 X-50 Y0\nG1 X0 Y40\nY60\nG28 X-9 Y60\n\
+                G40 X5 Y5\nM30\n";
+    let ends = [
+        [-10.0, -10.0],
+        [-3.0, 0.0],
+        [-3.0, 20.0],
+        [-50.0, 0.0],
+        [-3.0, 40.0],
+        [-3.0, 60.0],
+        [-9.0, 60.0],
+        [0.0, 0.0],
+        [5.0, 5.0],
+    ];
+    assert_ends(&sound(Fanuc, text, 3.0), &ends);
+    let linuxcnc = "G90 F500\nG41.1 D6 G1 X0 Y-10\nY20\nG53 G0 X0\nM2\n";
+    assert_eq!(path(LinuxCnc, linuxcnc, 3.0).1, [("bad-compensation", 4)]);
+}
+
+#[test]
 fn feeds_at_the_centre_and_on_the_contour() {
     let text = |code: &str| {
         format!(

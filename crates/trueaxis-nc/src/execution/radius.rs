@@ -269,8 +269,9 @@ impl Core<'_> {
         let Some(active) = &mut self.radius else { return };
         if m.coordinates == Coordinates::Machine || matches!(m.kind, MoveKind::Align { .. }) {
             self.end_contour();
-            if let Some(active) = &mut self.radius {
-                active.phase = Phase::Entering;
+            match &mut self.radius {
+                Some(active) if active.phase != Phase::Leaving => active.phase = Phase::Entering,
+                _ => self.radius = None,
             }
             self.follower.take(Step::Move(m));
             return;

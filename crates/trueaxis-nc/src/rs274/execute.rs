@@ -396,6 +396,13 @@ impl Run<'_> {
     }
 
     fn motion(&mut self, motion: Motion, machine: bool, at: usize) -> Result<(), Fault> {
+        if machine && self.core.has_radius() {
+            return self.off_contour("G53", at, |run| run.motion_as_written(motion, machine, at));
+        }
+        self.motion_as_written(motion, machine, at)
+    }
+
+    fn motion_as_written(&mut self, motion: Motion, machine: bool, at: usize) -> Result<(), Fault> {
         self.settle();
         if !matches!(motion, Motion::Cycle(_)) {
             self.polar_words(machine)?;

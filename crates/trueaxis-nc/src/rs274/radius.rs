@@ -80,6 +80,29 @@ impl Run<'_> {
         Ok(())
     }
 
+    /// Moves to places of the machine. FANUC interrupts the compensation for them, LinuxCNC does not allow them.
+    pub(super) fn off_contour(
+        &mut self,
+        name: &str,
+        at: usize,
+        moves: impl FnOnce(&mut Self) -> Result<(), Fault>,
+    ) -> Result<(), Fault> {
+        if self.core.has_radius()
+            && !self.is_fanuc()
+            && self.modes.compensation != CompensationSide::Off
+        {
+            return Err(mistakes::cycle_on_contour(name, at));
+        }
+        let Some((centre, back)) = self.core.interrupt_contour() else { return moves(self) };
+        self.frames.position = centre;
+        moves(self)?;
+        if let Some((left_mm, behaviour)) = back {
+            let place = self.frames.position;
+            self.core.begin_radius(left_mm, behaviour, place, at);
+        }
+        Ok(())
+    }
+
     fn run_along(&mut self, side: CompensationSide, radius: Option<f64>, at: usize) {
         let behaviour = if self.is_fanuc() { FANUC } else { LINUXCNC };
         let place = self.frames.position;

@@ -45,8 +45,14 @@ impl Run<'_> {
                 }
                 self.change_shift(shift, true);
             }
-            Action::Reference(index) => self.reference(usize::from(index) - 1),
-            Action::ReferenceCheck => self.check_reference(at),
+            Action::Reference(index) => self.off_contour("G28 or G30", at, |run| {
+                run.reference(usize::from(index) - 1);
+                Ok(())
+            })?,
+            Action::ReferenceCheck => self.off_contour("G27", at, |run| {
+                run.check_reference(at);
+                Ok(())
+            })?,
             Action::ReferenceReturn => self.leave_reference(),
             Action::SetReference(index) => {
                 self.frames.references[usize::from(index) - 1] = self.axis_positions();

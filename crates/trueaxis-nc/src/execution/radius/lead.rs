@@ -48,6 +48,15 @@ impl Core<'_> {
         Some(place)
     }
 
+    /// The tool leaves the contour for a place of the machine: where its centre is, and with what it comes back,
+    /// unless the compensation has ended.
+    pub fn interrupt_contour(&mut self) -> Option<(Position, Option<(f64, Behaviour)>)> {
+        let active = self.radius.as_ref()?;
+        let back =
+            (active.phase != Phase::Leaving).then_some((active.true_left_mm, active.behaviour));
+        self.leave_contour().map(|place| (place, back))
+    }
+
     /// Sends the way round the end of the contour, if the next move would cross it: KONT.
     pub(super) fn lead_out(&mut self, m: &Move) {
         let Some(active) = self.radius.as_ref().filter(|a| a.behaviour.entry == Entry::Round)
