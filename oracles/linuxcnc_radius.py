@@ -2,7 +2,8 @@
 
 usage: python3 oracles/linuxcnc_radius.py [COUNT [SEED]]      (default: 500 contours, as committed)
 tool: rs274 of LinuxCNC 2.9.0~pre1+git20230208.f1270d6ed7 (Debian 12, package linuxcnc-uspace)
-Lines, arcs, rapids, moves along the tool axis in between, in G17 and G18, left and right, entry on a line or an arc. Behind
+Lines, arcs, rapids, moves along the tool axis in between, in G17 and G18, left and right, entry on a line or an arc, off
+and on again. Behind
 `program` stands the program, behind `calls` what LinuxCNC makes of it (R rapid, L line: X Y Z; A arc: first and second coordinate of
 the end and of the centre, turns, third coordinate; mm), or `error` with its message. Of a program with an error the calls before it
 are not kept.
@@ -72,6 +73,16 @@ def contour(rng):
             arc(rng.uniform(1.5, 15), sweep, rng.random() < 0.5)
         else:
             lines.append(f"G1 {third}{word(rng.uniform(-5, 5))}")
+    if rng.random() < 0.15:
+        # Off and on again, with or without a move in between.
+        lines.append("G40")
+        if rng.random() < 0.5:
+            go(rng.choice(["G0", "G1"]), rng.uniform(3, 20))
+        lines.append(f"{rng.choice(['G41.1', 'G42.1'])} D{rng.choice([1, 2, 4])}")
+        heading += rng.uniform(-2, 2)
+        for _ in range(rng.randint(2, 4)):
+            go(rng.choice(["G0", "G1"]), rng.uniform(5, 20))
+            heading += rng.uniform(-2, 2)
     if rng.random() < 0.9:
         lines.append("G40")
         heading += rng.uniform(-2, 2)

@@ -158,6 +158,10 @@ impl Core<'_> {
         };
         let left_mm = true_left_mm / scale;
         if let Some(active) = &mut self.radius {
+            if active.phase == Phase::Leaving && active.behaviour.ends_at_once {
+                // The control counts from the end of the contour as if the centre were there.
+                active.centre = active.point(&active.place);
+            }
             active.phase = match active.phase {
                 Phase::On | Phase::Aslant if active.left_mm * left_mm > 0.0 => Phase::Aslant,
                 Phase::On | Phase::Aslant => Phase::On,
