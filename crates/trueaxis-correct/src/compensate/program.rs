@@ -158,7 +158,12 @@ pub fn compensate_program(
     }
     let machine = &super::not_twice(machine, Place::whole(program.file()), &mut problems);
     if !options.flat {
-        let (done, found) = on_contour(machine, program, setup, options);
+        let (done, found) = match on_contour(machine, program, setup, options) {
+            OnContour::Done(done, found) => (*done, found),
+            OnContour::Lost(why) => {
+                return centre_path(machine, program, setup, options, why, problems);
+            }
+        };
         let Some(why) = found.iter().find(|d| UNROLLED_FOR.contains(&d.code)) else {
             problems.append(found);
             return (done, problems);
@@ -167,14 +172,62 @@ pub fn compensate_program(
         let hint = "the lines of the report are those of the unrolled program";
         problems.note("unrolled", why.place.clone(), message, hint);
     }
-    match flat::unrolled(&setup.mounted(machine), program, &setup.on_contour(), &mut problems) {
+    let mounted = setup.mounted(machine);
+    let kept = &setup.on_contour();
+    match flat::unrolled(&mounted, program, kept, flat::Contour::Kept, &mut problems) {
+        None => (None, problems),
+        Some(unrolled) => match on_contour(machine, &unrolled, setup, options) {
+            OnContour::Done(done, found) => {
+                // An approach has no words of its own, its path has.
+                let no_words = found.iter().find(|d| ONLY_AS_PATH.contains(&d.code));
+                if let Some(why) = no_words.filter(|_| radius::is_used(machine, program, setup)) {
+                    let (place, message) = (why.place.clone(), why.message.clone());
+                    let why = Lost { place, message };
+                    return centre_path(machine, program, setup, options, why, problems);
+                }
+                problems.append(found);
+                (*done, problems)
+            }
+            OnContour::Lost(why) => centre_path(machine, program, setup, options, why, problems),
+        },
+    }
+}
+
+/// The path of the centre of the tool, without radius compensation.
+fn centre_path(
+    machine: &Machine,
+    program: &Program,
+    setup: &SetUp,
+    options: &ProgramOptions,
+    why: Lost,
+    mut problems: Diagnostics,
+) -> (Option<Rewritten>, Diagnostics) {
+    let hint = "the path of the centre is written, without G41, G42, RL and RR: the radius of the \
+                set-up file is in it, and the control must not add it again";
+    problems.note("radius-compensation-removed", why.place, why.message, hint);
+    let mounted = setup.mounted(machine);
+    match flat::unrolled(&mounted, program, setup, flat::Contour::Centre, &mut problems) {
         None => (None, problems),
         Some(unrolled) => {
-            let (done, found) = on_contour(machine, &unrolled, setup, options);
+            let (done, found) = tried(machine, &unrolled, &setup.on_contour(), options);
             problems.append(found);
             (done, problems)
         }
     }
+}
+
+/// What became of the words of a contour.
+enum OnContour {
+    /// They are corrected, or why not.
+    Done(Box<Option<Rewritten>>, Diagnostics),
+    /// The centre of the tool would not keep the residual.
+    Lost(Lost),
+}
+
+/// Where the centre of the tool would miss its path.
+struct Lost {
+    place: Place,
+    message: String,
 }
 
 /// What a flat program with numbers does not have.
@@ -194,10 +247,10 @@ fn on_contour(
     program: &Program,
     setup: &SetUp,
     options: &ProgramOptions,
-) -> (Option<Rewritten>, Diagnostics) {
+) -> OnContour {
     let (mut done, mut problems) = tried(machine, program, &setup.on_contour(), options);
     let Some(rewritten) = done.as_mut().filter(|_| radius::is_used(machine, program, setup)) else {
-        return (done, problems);
+        return OnContour::Done(Box::new(done), problems);
     };
     let written = Program::new(program.file(), rewritten.text.clone(), program.dialect().control);
     let places = densify(options, 1, 2);
@@ -209,23 +262,27 @@ fn on_contour(
         Ok(left) => left,
         Err(found) => {
             problems.append(found);
-            return (None, problems);
+            return OnContour::Done(Box::new(None), problems);
         }
     };
     let place = Place { file: program.file().to_owned(), line: left.line as usize, column: 1 };
-    let message = format!(
-        "with radius compensation the centre of the tool leaves its path by up to {:.3} µm",
-        left.value * 1e3
-    );
-    if left.value <= residual_with_rounding(options) {
-        let hint = "the words of the contour are corrected, its radius compensation stays";
-        problems.note("radius-compensation-kept", place, message, hint);
-    } else {
-        let hint = "accept a larger --residual, or let the CAM system write the path of the centre";
-        rewritten.unproved.warn("not-proved", place, message, hint);
+    let message = match left.value.is_nan() {
+        true => "with the corrections the tool would not fit into the contour".to_owned(),
+        false => format!(
+            "with radius compensation the centre of the tool leaves its path by up to {:.3} µm",
+            left.value * 1e3
+        ),
+    };
+    if left.value.is_nan() || left.value > residual_with_rounding(options) {
+        return OnContour::Lost(Lost { place, message });
     }
-    (done, problems)
+    let hint = "the words of the contour are corrected, its radius compensation stays";
+    problems.note("radius-compensation-kept", place, message, hint);
+    OnContour::Done(Box::new(done), problems)
 }
+
+/// What an unrolled program still has where the way to a contour and away from it is in one block.
+const ONLY_AS_PATH: [&str; 2] = ["other-coordinates", "several-moves"];
 
 /// Tries with finer and finer places until the program keeps the residual.
 fn tried(

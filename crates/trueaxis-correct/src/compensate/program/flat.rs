@@ -9,6 +9,7 @@
 //! Subprograms, loops, jumps, repeated parts and variables are gone then; comments of executed blocks
 //! stay. Blocks keep no numbers (nothing jumps to them), those of Klartext are counted again.
 
+mod centre;
 mod cycles;
 
 use super::number::{Grid, Unit};
@@ -21,7 +22,9 @@ use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_motion::{SetUp, execute};
 use trueaxis_nc::lexer::{Lexer, TokenKind};
-use trueaxis_nc::moves::{AxisSet, Event, Move, MoveKind, Origin, Step};
+use trueaxis_nc::moves::{
+    AxisSet, CompensationSide, Event, Move, MoveKind, Origin, Position, Step,
+};
 use trueaxis_nc::{Control, Program, Settings};
 
 /// A block that was executed.
@@ -31,6 +34,17 @@ struct Told {
     /// Parts of it and their values; without one they only steer.
     computed: Vec<(Range<usize>, Option<f64>)>,
     moves: Vec<Move>,
+    /// The tool runs along a contour, or begins or ends to do so.
+    on_contour: bool,
+}
+
+/// What becomes of radius compensation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Contour {
+    /// It stays.
+    Kept,
+    /// The path of the centre of the tool is written, without it.
+    Centre,
 }
 
 /// Steps that are handed over at once.
@@ -41,13 +55,16 @@ pub(super) fn unrolled(
     mounted: &Machine,
     program: &Program,
     setup: &SetUp,
+    contour: Contour,
     problems: &mut Diagnostics,
 ) -> Option<Program> {
     let settings = Settings { report_blocks: true, ..setup.settings(false) };
     let mut told: Vec<Told> = Vec::new();
+    let mut on_contour = false;
     let outcome = execute(mounted, program, setup, &settings, &mut |step| match step {
         Step::Event(Event::Block { text }, origin) => {
-            told.push(Told { origin, text, computed: Vec::new(), moves: Vec::new() });
+            let (computed, moves) = (Vec::new(), Vec::new());
+            told.push(Told { origin, text, computed, moves, on_contour });
         }
         Step::Event(Event::Computed { text, value }, _) => {
             if let Some(block) = told.last_mut() {
@@ -57,6 +74,12 @@ pub(super) fn unrolled(
         Step::Move(m) => {
             if let Some(block) = told.last_mut().filter(|b| b.origin == m.origin) {
                 block.moves.push(m);
+            }
+        }
+        Step::Event(Event::Compensation(side), _) => {
+            on_contour = side != CompensationSide::Off;
+            if let Some(block) = told.last_mut() {
+                block.on_contour = true;
             }
         }
         Step::Event(..) => {}
@@ -84,13 +107,15 @@ pub(super) fn unrolled(
         origins: Vec::new(),
         modes: Modes::default(),
         after_cycle: false,
+        contour,
+        place: None,
     };
     told.iter().for_each(|block| flat.block(block));
     flat.close();
     let name = format!("{} (unrolled)", program.file());
     let text = Program::new(&name, flat.out, control);
     let origins = flat.origins;
-    match differs(mounted, [program, &text], setup) {
+    match differs(mounted, [program, &text], setup, contour) {
         None => Some(text),
         Some(at) => {
             let origin = origins.get(at.saturating_sub(1) as usize).copied().unwrap_or_default();
@@ -120,6 +145,9 @@ struct Flat<'p> {
     modes: Modes,
     /// The last motion code and feed are those of an unrolled cycle.
     after_cycle: bool,
+    contour: Contour,
+    /// Where the last move ended.
+    place: Option<Position>,
 }
 
 impl Flat<'_> {
@@ -155,6 +183,10 @@ impl Flat<'_> {
         }
         let words = Words::read(source, program.dialect(), line.clone());
         self.modes.follow(&words);
+        if self.centre(program, &line, told) {
+            return;
+        }
+        self.place = told.moves.last().map(|m| m.target).or(self.place);
         if self.cycle(program, &line, &words, told) {
             return;
         }
@@ -170,6 +202,38 @@ impl Flat<'_> {
         if says || (was_blank && !changed) {
             let text = text.trim_ascii_start();
             self.line(text, told.origin);
+        }
+    }
+
+    /// Writes the path of the centre of the tool; `false` if the block has no radius compensation.
+    fn centre(&mut self, program: &Program, line: &Range<usize>, told: &Told) -> bool {
+        if self.contour == Contour::Kept || !told.on_contour {
+            return false;
+        }
+        let from = self.place;
+        let Some(found) = centre::written(program, line, &told.moves, from, self.modes) else {
+            return false;
+        };
+        self.place = told.moves.last().map(|m| m.target).or(from);
+        self.lines(program.dialect().control, &found, told.origin);
+        true
+    }
+
+    /// What remains of a block, and its moves.
+    fn lines(&mut self, control: Control, unrolled: &cycles::Unrolled, origin: Origin) {
+        let numbered = |flat: &Self, text: &str| match control {
+            Control::Heidenhain => {
+                format!("{} {}", flat.number, text.trim_start_matches(|c: char| c.is_ascii_digit()))
+            }
+            _ => text.to_owned(),
+        };
+        if !unrolled.head.trim().is_empty() {
+            let head = numbered(self, unrolled.head.trim());
+            self.line(head.as_bytes(), origin);
+        }
+        for block in unrolled.moves.iter().flat_map(|text| text.lines()) {
+            let block = numbered(self, block);
+            self.line(block.as_bytes(), origin);
         }
     }
 
@@ -195,20 +259,7 @@ impl Flat<'_> {
         let Some(cycle) = cycles::unrolled(program, line, words, &told.moves, self.modes) else {
             return false;
         };
-        let numbered = |flat: &Self, text: &str| match control {
-            Control::Heidenhain => {
-                format!("{} {}", flat.number, text.trim_start_matches(|c: char| c.is_ascii_digit()))
-            }
-            _ => text.to_owned(),
-        };
-        if !cycle.head.trim().is_empty() {
-            let head = numbered(self, cycle.head.trim());
-            self.line(head.as_bytes(), told.origin);
-        }
-        for block in cycle.moves.iter().flat_map(|text| text.lines()) {
-            let block = numbered(self, block);
-            self.line(block.as_bytes(), told.origin);
-        }
+        self.lines(control, &cycle, told.origin);
         self.after_cycle = true;
         true
     }
@@ -315,7 +366,12 @@ fn number(value: f64, source: &[u8], at: usize, program: &Program) -> String {
 }
 
 /// The line of the second program where it begins to do something else than the first.
-fn differs(mounted: &Machine, [a, b]: [&Program; 2], setup: &SetUp) -> Option<u32> {
+fn differs(
+    mounted: &Machine,
+    [a, b]: [&Program; 2],
+    setup: &SetUp,
+    contour: Contour,
+) -> Option<u32> {
     std::thread::scope(|scope| {
         let (to, from) = sync_channel::<Vec<Step>>(4);
         scope.spawn(move || {
@@ -329,12 +385,13 @@ fn differs(mounted: &Machine, [a, b]: [&Program; 2], setup: &SetUp) -> Option<u3
             });
             let _ = to.send(steps);
         });
-        let mut expected = Expected { from, steps: Vec::new().into_iter() };
+        let mut expected = Expected { from, steps: Vec::new().into_iter(), contour };
         let (mut found, mut last) = (None, 0);
         let outcome = execute(mounted, b, setup, &setup.settings(false), &mut |step| {
-            let Some((step, origin)) = plain(step).filter(|_| found.is_none()) else { return };
+            let plain = plain(step, contour).filter(|_| found.is_none());
+            let Some((step, origin)) = plain else { return };
             last = origin.line;
-            if expected.next() != Some(step) {
+            if !expected.next().is_some_and(|known| is_same(&known, &step, contour)) {
                 found = Some(origin.line);
             }
         });
@@ -347,6 +404,7 @@ fn differs(mounted: &Machine, [a, b]: [&Program; 2], setup: &SetUp) -> Option<u3
 struct Expected {
     from: Receiver<Vec<Step>>,
     steps: std::vec::IntoIter<Step>,
+    contour: Contour,
 }
 
 impl Expected {
@@ -354,7 +412,7 @@ impl Expected {
         loop {
             match self.steps.next() {
                 Some(step) => {
-                    if let Some((step, _)) = plain(step) {
+                    if let Some((step, _)) = plain(step, self.contour) {
                         return Some(step);
                     }
                 }
@@ -365,7 +423,7 @@ impl Expected {
 }
 
 /// A step as if it stood nowhere; `None` for what has nothing to do with machining.
-fn plain(step: Step) -> Option<(Step, Origin)> {
+fn plain(step: Step, contour: Contour) -> Option<(Step, Origin)> {
     let nowhere = Origin::default();
     match step {
         Step::Move(mut m) => {
@@ -375,6 +433,28 @@ fn plain(step: Step) -> Option<(Step, Origin)> {
             Some((Step::Move(m), origin))
         }
         Step::Event(Event::Note(_) | Event::Log(_), _) => None,
+        Step::Event(Event::Compensation(_), _) if contour == Contour::Centre => None,
         Step::Event(event, origin) => Some((Step::Event(event, nowhere), origin)),
     }
+}
+
+/// Whether two steps are the same; where centres of arcs were computed, to rounding.
+fn is_same(known: &Step, step: &Step, contour: Contour) -> bool {
+    /// What rounding makes of numbers of this size, mm and mm/min.
+    const ROUNDING: f64 = 1e-7;
+    let (Step::Move(a), Step::Move(b), Contour::Centre) = (known, step, contour) else {
+        return known == step;
+    };
+    let near = |a: f64, b: f64| (a - b).abs() < ROUNDING;
+    let kind = match (a.kind, b.kind) {
+        (MoveKind::Arc(x), MoveKind::Arc(y)) => {
+            let centre = x.center_mm.iter().zip(y.center_mm).all(|(x, y)| near(*x, y));
+            centre && (x.plane, x.ccw, x.turns) == (y.plane, y.ccw, y.turns)
+        }
+        (x, y) => x == y,
+    };
+    let places = a.target.0.iter().zip(b.target.0).all(|(a, b)| near(*a, b));
+    let feed =
+        a.kind == MoveKind::Rapid || a.feed.mode == b.feed.mode && near(a.feed.value, b.feed.value);
+    kind && places && feed && a.coordinates == b.coordinates && a.direction == b.direction
 }

@@ -29,8 +29,10 @@ pub(super) fn is_used(machine: &Machine, program: &Program, setup: &SetUp) -> bo
 /// How far the tip leaves its path in the written program at most, with the line of the program as it was;
 /// `numbers` are the lines that its lines became. Blocks that count at their ends alone do so here, too.
 ///
+/// Not a number if the tool does not fit into the written contour any more.
+///
 /// # Errors
-/// What is wrong with one of the two, such as a tool that does not fit into the contour.
+/// What is wrong with the program as it was, such as a tool that does not fit into the contour.
 pub(super) fn left(
     machine: &Machine,
     [was, is]: [&Program; 2],
@@ -46,7 +48,10 @@ pub(super) fn left(
     }
     let mut compare = Compare { path: &path, numbers, ends, left: Largest::default() };
     let run = simulate(machine, is, setup, &options, &mut [&mut compare]);
-    if run.problems.has_errors() { Err(run.problems) } else { Ok(compare.left) }
+    if run.problems.has_errors() {
+        compare.left.value = f64::NAN;
+    }
+    Ok(compare.left)
 }
 
 /// Where the tool shall be: the pieces of each line that have feed.

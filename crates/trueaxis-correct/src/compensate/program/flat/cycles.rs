@@ -92,7 +92,9 @@ fn head(program: &Program, line: &Range<usize>, control: Control, own_move: bool
     let source = program.source();
     let text = |range: Range<usize>| String::from_utf8_lossy(&source[range]).into_owned();
     match control {
-        Control::Fanuc | Control::Haas | Control::LinuxCnc => rs274_head(program, line),
+        Control::Fanuc | Control::Haas | Control::LinuxCnc => {
+            head_without(program, line, &CYCLE_CODES, b"NFSTMDH")
+        }
         Control::Heidenhain if own_move => {
             let text = text(line.clone());
             text.replace("M99", "").replace("M89", "").trim_end().to_owned()
@@ -108,8 +110,13 @@ const CYCLE_CODES: [f64; 19] = [
     98.0, 99.0, 91.0,
 ];
 
-/// G codes other than the cycle's, F, S, T, M, D and H.
-fn rs274_head(program: &Program, line: &Range<usize>) -> String {
+/// G codes other than some, and the words of some letters.
+pub(super) fn head_without(
+    program: &Program,
+    line: &Range<usize>,
+    codes: &[f64],
+    letters: &[u8],
+) -> String {
     let source = program.source();
     let mut edits = Edits::default();
     let tokens: Vec<_> = Lexer::new(source, program.dialect(), line.start)
@@ -126,8 +133,8 @@ fn rs274_head(program: &Program, line: &Range<usize>) -> String {
         let value = String::from_utf8_lossy(&source[token.end..range.end]).trim().parse::<f64>();
         let stays = match source[token.start].to_ascii_uppercase() {
             _ if token.kind == TokenKind::Comment => true,
-            b'G' => value.is_ok_and(|code| !CYCLE_CODES.contains(&code)),
-            letter => b"NFSTMDH".contains(&letter),
+            b'G' => value.is_ok_and(|code| !codes.contains(&code)),
+            letter => letters.contains(&letter),
         };
         if !stays {
             edits.put(range, String::new());
