@@ -221,6 +221,38 @@ fn after_the_end_a_machine_place_does_not_begin_it_again() {
     assert!(near(found[found.len() - 1].to, [0.0, 50.0]), "{found:?}");
 }
 
+/// A change of the tool length stops the tool at the end of an element; the corner after it is the same.
+#[test]
+fn an_interrupted_contour_keeps_its_outside_corners() {
+    let (fanuc, siemens) = ("G10 L2 P1 Z1\nG54\n", "TRANS Z1\n");
+    for (control, start, rule, d, change) in [
+        (Fanuc, "", "", "D1", fanuc),
+        (Sinumerik840d, "T1 D1\nM6\n", "G450", "", siemens),
+        (Sinumerik840d, "T1 D1\nM6\n", "G451", "", siemens),
+    ] {
+        let program = |change: &str| {
+            format!(
+                "{start}G17 G90 G94 F500 {rule}\nG0 X-10 Y-10\nG41 {d} G1 X0 Y0\nY20\n{change}G2 X20 Y20 I10 J0\n\
+                 {change}G1 Y0\nX0\nG40 X-10 Y-10\nM30\n"
+            )
+        };
+        let corners = |text: &str| {
+            let ends: Vec<Point> = sound(control, text, 3.0).iter().map(|p| p.to).collect();
+            ends.into_iter().filter(|p| p[1] > 20.1 || p[0] > 20.1).collect::<Vec<_>>()
+        };
+        let (plain, interrupted) = (corners(&program("")), corners(&program(change)));
+        for p in &plain {
+            assert!(
+                interrupted.iter().any(|q| near(*p, *q)),
+                "{control:?} {rule}: {p:?} {interrupted:?}"
+            );
+        }
+    }
+    // Inside, the tool has gone too far already: that is a warning.
+    let inside = "G17 G90 G94 F500\nG0 X10 Y10\nG42 D1 G1 X0 Y10\nY20\nG10 L2 P1 Z1\nX20\nG40 X10 Y10\nM30\n";
+    assert_eq!(path(Fanuc, inside, 3.0).1, [("not-applied", 6)]);
+}
+
 #[test]
 fn places_of_the_machine_interrupt_it() {
     // Perpendicular to the end, to the place of the machine, and in again perpendicular to the next element.

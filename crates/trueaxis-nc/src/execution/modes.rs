@@ -168,6 +168,15 @@ impl Core<'_> {
         self.warn("unknown-tool-radius", whose, at, message, hint);
     }
 
+    /// Warns that the end of an element was not cut short before an inside corner.
+    pub fn interrupted_inside(&mut self) {
+        let line = self.origin.line;
+        let message = "the radius compensation is interrupted before an inside corner (a change of frame, tool \
+                       length or direction): the tool cuts into the contour there";
+        let hint = "change it where the contour does not turn towards the tool, or end the compensation before";
+        self.warn("not-applied", format!("inside corner {line}"), self.start, message, hint);
+    }
+
     /// Warns that the tool table does not have a tool.
     pub fn unknown_length(&mut self, tool: u32, at: usize) {
         let taken = match self.settings.unlisted_length_mm {

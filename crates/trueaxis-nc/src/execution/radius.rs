@@ -9,7 +9,7 @@ mod lead;
 
 use trueaxis_contour::Element;
 use trueaxis_contour::lead::{Begin, Lead};
-use trueaxis_contour::plane::{Point, length, minus};
+use trueaxis_contour::plane::{Point, along, length, minus};
 use trueaxis_contour::radius::{Link, Rules, centre, check_fit, passage};
 
 pub(crate) use lead::Approach;
@@ -65,8 +65,10 @@ enum Phase {
     Entering,
     /// On the contour.
     On,
-    /// On the contour, but the next element begins where the centre is.
+    /// On the contour, but the next element begins where the centre is: the radius has changed.
     Aslant,
+    /// On the contour, but the next element has the tool on the other side.
+    Across,
     /// The next move in the plane leads away.
     Leaving,
 }
@@ -100,8 +102,6 @@ pub(super) struct Active {
     left_mm: f64,
     /// 1 if the tool is to the left, -1 if it is to the right.
     side: f64,
-    /// The unit tangent of the contour there. Unit: 1.
-    tangent: Point,
     /// The way of the next move.
     approach: Option<Approach>,
     /// The end of the contour so far.
@@ -122,6 +122,12 @@ impl Active {
     fn put(&self, p: &mut Position, at: Point) {
         let [a, b, _] = self.plane.axes();
         (p[a], p[b]) = (at[0], at[1]);
+    }
+
+    /// The direction in which the contour has come: the offset is perpendicular to it. Unit: 1.
+    fn tangent(&self) -> Point {
+        let [x, y] = minus(self.centre, self.point(&self.place));
+        [y / self.left_mm, -x / self.left_mm]
     }
 
     /// From the contour to the centre, in the program frame.
@@ -163,9 +169,9 @@ impl Core<'_> {
                 active.centre = active.point(&active.place);
             }
             active.phase = match active.phase {
-                Phase::On | Phase::Aslant if active.left_mm * left_mm > 0.0 => Phase::Aslant,
-                Phase::On | Phase::Aslant => Phase::On,
-                _ => Phase::Entering,
+                Phase::Entering | Phase::Leaving => Phase::Entering,
+                _ if active.left_mm * left_mm > 0.0 => Phase::Aslant,
+                _ => Phase::Across,
             };
             (active.true_left_mm, active.left_mm) = (true_left_mm, left_mm);
             active.side = true_left_mm.signum();
@@ -180,7 +186,6 @@ impl Core<'_> {
             true_left_mm,
             left_mm,
             side: true_left_mm.signum(),
-            tangent: [1.0, 0.0],
             approach: None,
             place,
             centre: [place[a], place[b]],
@@ -247,7 +252,7 @@ impl Core<'_> {
             && plane != active.plane
         {
             match active.phase {
-                Phase::On | Phase::Aslant => {
+                Phase::On | Phase::Aslant | Phase::Across => {
                     self.hold_fault(mistakes::plane_on_contour(self.start));
                 }
                 Phase::Entering => {
@@ -289,7 +294,7 @@ impl Core<'_> {
         }
         match active.phase {
             Phase::Entering => self.enter(m),
-            Phase::On | Phase::Aslant => self.follow_contour(m),
+            Phase::On | Phase::Aslant | Phase::Across => self.follow_contour(m),
             Phase::Leaving => {
                 if arc {
                     self.hold_fault(mistakes::arc_after_contour(self.start));
@@ -384,15 +389,12 @@ impl Core<'_> {
         let mut part = 1.0;
         if let Some(waiting) = active.waiting.take() {
             part -= self.pass_on(waiting, &element, begin, &m);
-        } else if active.phase == Phase::Aslant {
-            active.phase = Phase::On;
-        } else if length(minus(begin, active.centre)) > 1e-9 {
-            self.go_round(&[Link::Line { to: begin }], corner, &m);
+        } else {
+            part -= self.go_on(&element, begin, &m);
         }
         let Some(active) = &mut self.radius else { return };
         let end = centre(&element.through(active.point(&m.target)), 1.0, left_mm);
         (active.place, active.centre) = (m.target, end);
-        active.tangent = element.tangent(1.0);
         if left_mm == 0.0 {
             // It was the approach of a tool without radius.
             self.radius = None;
@@ -428,6 +430,38 @@ impl Core<'_> {
                 let end = waiting.end;
                 self.release_waiting(waiting, end, 0.0);
                 self.hold_fault(mistakes::gouge(&gouge, left_mm.abs(), Some(line), self.start));
+                0.0
+            }
+        }
+    }
+
+    /// Sends the way from the perpendicular end of the contour, where it was interrupted, to the next element;
+    /// the part of that one that is cut off.
+    fn go_on(&mut self, next: &Element, begin: Point, m: &Move) -> f64 {
+        let Some(active) = &mut self.radius else { return 0.0 };
+        let (place, centre, left_mm) = (active.place, active.centre, active.left_mm);
+        let straight = [Link::Line { to: begin }];
+        match std::mem::replace(&mut active.phase, Phase::On) {
+            Phase::Aslant => return 0.0,
+            Phase::Across => {
+                self.go_round(&straight, place, m);
+                return 0.0;
+            }
+            _ => {}
+        }
+        let corner = active.point(&place);
+        let before = Element::line(along(corner, active.tangent(), -left_mm.abs()), corner);
+        match passage(&before, next, corner, left_mm, 0.0, active.behaviour.rules) {
+            Ok(found) => {
+                if length(minus(found.end, centre)) > 1e-9 {
+                    self.go_round(&[Link::Line { to: found.end }], place, m);
+                }
+                self.go_round(&found.links, place, m);
+                found.second_cut
+            }
+            Err(_) => {
+                self.interrupted_inside();
+                self.go_round(&straight, place, m);
                 0.0
             }
         }

@@ -64,7 +64,7 @@ impl Core<'_> {
             return;
         };
         // Seen from its target the way out is a way in, with the contour reversed.
-        let [x, y] = active.tangent;
+        let [x, y] = active.tangent();
         let (corner, centre) = (active.point(&active.place), active.centre);
         let begin = Begin { corner, centre, tangent: [-x, -y], side: -active.side };
         let place = active.place;
