@@ -281,57 +281,71 @@ fn radius_compensation_stays_where_the_centre_keeps_its_path() {
     assert!(!std::path::Path::new(&none).exists());
 }
 
-const CONTOURS: [(&str, &str); 3] = [
+/// Programs, and the line in which the same program states the radius of its tool.
+const CONTOURS: [(&str, &str, [&str; 2]); 3] = [
     (
         "c.nc",
         "G21 G17 G90 G94 G40\nT1 M6\nG54 G0 X-10. Y-10. S1000 M3\nG43 H1 Z5.\nG1 Z-2. F200\nG41 D1 X0 Y0 F500\n\
          Y20.\nG2 X20. Y20. I10. J0\nG1 Y0 M8\nX0\nG40 X-10. Y-10.\nG0 Z50. M9\nM30\n",
+        ["T1 M6\n", "T1 M6\nG10 L12 P1 R3.\n"],
     ),
     (
         "c.mpf",
         "T1 D1\nM6\nG71 G17 G90 G94 F500 G54\nG0 X-10 Y-10 Z5 S1000 M3\nG1 Z-2\nG41 G1 X0 Y0\nY20\n\
          G2 X20 Y20 I10 J0\nG1 Y0 M8\nX0\nG40 X-10 Y-10\nG0 Z50 M9\nM30\n",
+        ["T1 D1\n", "$TC_DP6[1,1]=3\nT1 D1\n"],
     ),
     (
         "c.h",
         "0 BEGIN PGM C MM\n1 TOOL CALL 1 Z S1000 F500\n2 L X-10 Y-10 Z+5 R0 FMAX M3\n3 L Z-2 F200\n\
          4 APPR LCT X+0 Y+10 R5 RL F500\n5 L Y+20\n6 CC X+10 Y+20\n7 C X+20 Y+20 DR-\n8 L Y+0 M8\n9 L X+0\n\
          10 L Y+10\n11 DEP LCT X-10 Y-10 R5\n12 L Z+50 R0 FMAX M9\n13 END PGM C MM\n",
+        ["1 TOOL CALL", "TOOL DEF 1 L+100 R+3\n1 TOOL CALL"],
     ),
 ];
 
 /// Arcs that become lines do not keep the residual along the contour: the path of the centre is written.
 #[test]
 fn the_path_of_the_centre_is_written_where_the_contour_does_not_do() {
-    for (name, text) in CONTOURS {
-        let folder = Folder::new(&format!("centre-{name}"));
-        let program = folder.file(name, text);
-        let set_up = folder.file(
-            "s.toml",
-            "workpiece_at = \"G54\"\n[work_offset.G54]\nX = \"100 mm\"\nY = \"100 mm\"\nZ = \"-450 mm\"\n\
-             [tool.1]\nlength = \"100 mm\"\ndiameter = \"6 mm\"\n",
-        );
-        let out = folder.path(&format!("out-{name}"));
-        let words = [MILL, &program, "--setup", &set_up, "-o", &out, "--residual", "2 um"];
-        let ran = compensate(&words);
-        assert_eq!(ran.status, 0, "{name}: {}{}", ran.out, ran.err);
-        assert!(ran.err.contains("radius-compensation-removed"), "{name}: {}", ran.err);
-        let written = std::fs::read_to_string(&out).unwrap();
-        assert!(!["G41", "RL", "APPR"].iter().any(|w| written.contains(w)), "{name}: {written}");
-        assert!(written.contains("M8") && written.contains("M9"), "{name}: {written}");
-        // The tool of radius 3 goes round an arc of radius 10 about (10, 20), within the errors of the machine.
-        let path = folder.path("path.csv");
-        let simulate = ["simulate", MILL, &out, "--setup", &set_up, "--no-report", "--path", &path];
-        assert_eq!(trueaxis(&simulate).status, 0, "{name}");
-        let text = std::fs::read_to_string(&path).unwrap();
-        let mut rows = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
-        let head = rows.next().expect("a head");
-        let column = |of: &str| head.iter().position(|n| *n == of).expect("a column");
-        let [x, y] = ["tip_x_mm", "tip_y_mm"].map(column);
-        let number = |text: &str| text.parse::<f64>().expect("a number");
-        let farthest = rows.map(|r| (number(r[x]), number(r[y]))).filter(|(_, y)| *y > 20.1);
-        let radii: Vec<f64> = farthest.map(|(x, y)| (x - 10.0).hypot(y - 20.0)).collect();
-        assert!(radii.len() > 50, "{name}: {}", radii.len());
-        assert!(radii.iter().all(|r| (r - 13.0).abs() < 0.02), "{name}: {radii:?}");
+    const SET_UP: &str = "workpiece_at = \"G54\"\n[work_offset.G54]\nX = \"100 mm\"\nY = \"100 mm\"\n\
+         Z = \"-450 mm\"\n[tool.1]\nlength = \"100 mm\"\n";
+    let with_diameter = format!("{SET_UP}diameter = \"6 mm\"\n");
+    for (name, text, [line, stated]) in CONTOURS {
+        centre_is_written(name, text, &with_diameter);
+        centre_is_written(name, &text.replace(line, stated), SET_UP);
     }
+    // LinuxCNC's G41.1 states it in the block itself; its contour keeps the residual.
+    let folder = Folder::new("direct");
+    let program = folder.file("c.ngc", CONTOURS[0].1.replace("G41 D1", "G41.1 D6"));
+    let (set_up, out) = (folder.file("s.toml", SET_UP), folder.path("out.ngc"));
+    let ran = compensate(&[MILL, &program, "--setup", &set_up, "-o", &out, "--residual", "2 um"]);
+    assert!(ran.status == 0 && ran.err.contains("radius-compensation-kept"), "{}", ran.err);
+}
+
+fn centre_is_written(name: &str, text: &str, set_up: &str) {
+    let folder = Folder::new(&format!("centre-{name}"));
+    let program = folder.file(name, text);
+    let set_up = folder.file("s.toml", set_up);
+    let out = folder.path(&format!("out-{name}"));
+    let words = [MILL, &program, "--setup", &set_up, "-o", &out, "--residual", "2 um"];
+    let ran = compensate(&words);
+    assert_eq!(ran.status, 0, "{name}: {}{}", ran.out, ran.err);
+    assert!(ran.err.contains("radius-compensation-removed"), "{name}: {}", ran.err);
+    let written = std::fs::read_to_string(&out).unwrap();
+    assert!(!["G41", "RL", "APPR"].iter().any(|w| written.contains(w)), "{name}: {written}");
+    assert!(written.contains("M8") && written.contains("M9"), "{name}: {written}");
+    // The tool of radius 3 goes round an arc of radius 10 about (10, 20), within the errors of the machine.
+    let path = folder.path("path.csv");
+    let simulate = ["simulate", MILL, &out, "--setup", &set_up, "--no-report", "--path", &path];
+    assert_eq!(trueaxis(&simulate).status, 0, "{name}");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let mut rows = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let head = rows.next().expect("a head");
+    let column = |of: &str| head.iter().position(|n| *n == of).expect("a column");
+    let [x, y] = ["tip_x_mm", "tip_y_mm"].map(column);
+    let number = |text: &str| text.parse::<f64>().expect("a number");
+    let farthest = rows.map(|r| (number(r[x]), number(r[y]))).filter(|(_, y)| *y > 20.1);
+    let radii: Vec<f64> = farthest.map(|(x, y)| (x - 10.0).hypot(y - 20.0)).collect();
+    assert!(radii.len() > 50, "{name}: {}", radii.len());
+    assert!(radii.iter().all(|r| (r - 13.0).abs() < 0.02), "{name}: {radii:?}");
 }

@@ -76,6 +76,8 @@ pub struct SetUp {
     pub work_offsets: BTreeMap<u32, Frame>,
     /// Tools by number.
     pub tools: BTreeMap<u32, SetUpTool>,
+    /// Whether moves with radius compensation are those of the contour, not of the centre of the tool.
+    pub on_contour: bool,
     /// What codes and programs of the machine builder do, by their names in capital letters.
     pub codes: BTreeMap<String, OwnCode>,
     /// Where the set-up file states them.
@@ -379,6 +381,7 @@ impl SetUp {
         Settings {
             keep_going,
             radii: self.tools.iter().filter_map(|(n, t)| Some((*n, radius(t)?))).collect(),
+            on_contour: self.on_contour,
             tools: self.tools.iter().map(|(number, t)| (*number, length(t))).collect(),
             tool_names: self.tools.iter().map(|(n, t)| (t.name.clone(), *n)).collect(),
             work_offsets: self.work_offsets.clone(),
@@ -387,12 +390,10 @@ impl SetUp {
         }
     }
 
-    /// The same with tools of radius 0: moves with radius compensation are those of the contour.
+    /// The same, but moves with radius compensation are those of the contour.
     #[must_use]
     pub fn on_contour(&self) -> Self {
-        let mut setup = self.clone();
-        setup.tools.values_mut().for_each(|tool| tool.radius_offset_mm = Some(0.0));
-        setup
+        Self { on_contour: true, ..self.clone() }
     }
 
     /// The machine whose workpiece frame is that of the results.

@@ -496,8 +496,13 @@ pub enum Event {
     ToolName(String),
     /// The plane of arcs and cycles.
     Plane(Plane),
-    /// Radius compensation is programmed; the moves are not compensated.
-    Compensation(CompensationSide),
+    /// Radius compensation is programmed.
+    Compensation {
+        /// The side of the contour on which the tool is.
+        side: CompensationSide,
+        /// The radius that the control adds, mm; a negative one changes the side.
+        radius_mm: f64,
+    },
     /// The mode in which corners are passed.
     Path {
         /// The mode.

@@ -53,6 +53,8 @@ pub struct Settings {
     pub unlisted_length_mm: Option<f64>,
     /// Tool radii with their wear by tool number, mm; those that are not listed are not known.
     pub radii: BTreeMap<u32, f64>,
+    /// Whether moves with radius compensation are those of the contour, not of the centre of the tool.
+    pub on_contour: bool,
     /// Tool numbers by name.
     pub tool_names: BTreeMap<String, u32>,
     /// Work offsets by number, from 1 for G54; zero where none is given.
@@ -81,6 +83,7 @@ impl Default for Settings {
             tools: BTreeMap::new(),
             unlisted_length_mm: None,
             radii: BTreeMap::new(),
+            on_contour: false,
             tool_names: BTreeMap::new(),
             work_offsets: BTreeMap::new(),
             codes: BTreeMap::new(),

@@ -169,6 +169,13 @@ fn the_radius_comes_from_the_table_the_program_and_the_wear() {
     assert_eq!(run("", "G41 D0"), (0.0, vec![]));
     assert_eq!(run("", "G41 D7"), (0.0, vec!["unknown-tool-radius"]));
     assert_eq!(run("", "G41"), (0.0, vec!["unknown-tool-radius"]));
+    // $TC_DP6 counts from the next T or D on, and is read again as a value.
+    let siemens = "T1 D1\nM6\nG17 G90 G94 F500\n$TC_DP6[1,1]=2*$TC_DP6[1,1]\nG0 X-10 Y-10\nD1\nG41 G1 X0 Y0\n\
+                   X=-10+$P_TOOLR Y20\nG40 X-10\nM30\n";
+    let found = sound(Sinumerik840d, siemens, 3.0);
+    // To the left of the way from (0, 0) to (-4, 20), which is 20.396 long.
+    let length = 416_f64.sqrt();
+    assert!(near(found[1].to, [-6.0 * 20.0 / length, -6.0 * 4.0 / length]), "{found:?}");
     // Nominal radius in the program, oversize in the call.
     let klartext = "0 BEGIN PGM A MM\n1 TOOL DEF 5 L+0 R+4\n2 TOOL CALL 5 Z S1 DR+0.5\n3 L X-10 Y-10 R0 FMAX\n\
                     4 L X+0 Y+0 RL F500\n5 L Y+20\n6 L X-10 R0\n7 END PGM A MM\n";

@@ -6,7 +6,7 @@ mod support;
 use std::fmt::Write;
 
 use proptest::prelude::*;
-use support::radius::{Piece, Point, path};
+use support::radius::{On, Piece, Point, path, placed};
 use trueaxis_nc::Control::{self, Fanuc, Haas, Heidenhain, Sinumerik840d};
 
 /// An element of a contour: its end, and the centre of an arc with its sense.
@@ -42,6 +42,13 @@ impl Element {
         let angle = part * sweep(self.from, self.to, (center, ccw));
         let (a, (sin, cos)) = (minus(self.from, center), angle.sin_cos());
         [center[0] + a[0] * cos - a[1] * sin, center[1] + a[0] * sin + a[1] * cos]
+    }
+
+    /// The direction of the contour.
+    fn tangent(&self, part: f64) -> Point {
+        let Some((center, ccw)) = self.arc else { return minus(self.to, self.from) };
+        let arm = minus(self.at(part), center);
+        if ccw { [-arm[1], arm[0]] } else { [arm[1], -arm[0]] }
     }
 
     /// The distance of a point.
@@ -105,6 +112,71 @@ fn chain(
         })
         .collect()
     })
+}
+
+/// The program zero in the workpiece frame, and the angle by which the program frame is turned about it, °.
+type Zero = (Point, f64);
+
+/// What changes at the corner before each element: where the program zero goes, and whether the tool length does.
+type Change = (Option<Zero>, bool);
+
+fn changes() -> impl Strategy<Value = Vec<Change>> {
+    let zero = (-50.0..50.0, -50.0..50.0, -180.0..180.0).prop_map(|(x, y, a)| ([x, y], a));
+    prop::collection::vec((prop::option::of(zero), any::<bool>()), 9)
+}
+
+/// Whether the contour turns away from the tool between two elements.
+fn turns_away(before: &Element, next: &Element, left: bool) -> bool {
+    let [a, b] = [before.tangent(1.0), next.tangent(0.0)];
+    let turn = a[0] * b[1] - a[1] * b[0];
+    if left { turn < -1e-3 } else { turn > 1e-3 }
+}
+
+/// The program of a contour whose state changes at outside corners.
+fn changing(control: Control, contour: &[Element], changes: &[Change], left: bool) -> String {
+    let side = if left { "G41" } else { "G42" };
+    let (start, d) = match control {
+        Fanuc => ("G21 G17 G90 G94 F500\nG54\nG0 X0 Y0\n", "D1"),
+        _ => ("T1 D1\nM6\nG71 G17 G90 G94 F500 G0 X0 Y0\n", ""),
+    };
+    let [x, y] = contour[0].from;
+    let mut text = format!("{start}{side} {d} G1 X{x:.12} Y{y:.12}\n");
+    let (mut zero, mut turn_deg, mut height) = ([0.0, 0.0], 0.0, 0.0);
+    let place = |p: Point, zero: Point, turn_deg: f64| {
+        let (d, (sin, cos)) = (minus(p, zero), f64::to_radians(turn_deg).sin_cos());
+        [cos * d[0] + sin * d[1], cos * d[1] - sin * d[0]]
+    };
+    for (n, e) in contour.iter().enumerate() {
+        let outside = n > 0 && turns_away(&contour[n - 1], e, left);
+        let (frame, length) = changes[n];
+        if let Some((to, angle_deg)) = frame.filter(|_| outside) {
+            (zero, turn_deg) = (to, angle_deg);
+            let [x, y] = zero;
+            let _ = match control {
+                Fanuc => writeln!(text, "G69\nG10 L2 P1 X{x} Y{y}\nG68 X0 Y0 R{angle_deg}"),
+                _ => writeln!(text, "TRANS X={x} Y={y}\nAROT RPL={angle_deg}"),
+            };
+        }
+        if length && outside {
+            height += 1.0;
+            let _ = match control {
+                Fanuc => writeln!(text, "G10 L10 P1 R{height}\nG43 H1"),
+                _ => writeln!(text, "$TC_DP3[1,1]={height}\nD1"),
+            };
+        }
+        let [x, y] = place(e.to, zero, turn_deg);
+        let _ = match e.arc {
+            None => writeln!(text, "G1 X{x:.12} Y{y:.12}"),
+            Some((center, ccw)) => {
+                let [i, j] = minus(place(center, zero, turn_deg), place(e.from, zero, turn_deg));
+                let code = if ccw { "G3" } else { "G2" };
+                writeln!(text, "{code} X{x:.12} Y{y:.12} I{i:.12} J{j:.12}")
+            }
+        };
+    }
+    let [x, y] = place([0.0, 0.0], zero, turn_deg);
+    let _ = writeln!(text, "G40 G1 X{x:.12} Y{y:.12}\nM30");
+    text
 }
 
 fn reversed(contour: &[Element]) -> Vec<Element> {
@@ -286,6 +358,31 @@ proptest! {
             prop_assert_eq!(path.len(), back.len());
             for (a, b) in path.iter().zip(&back) {
                 prop_assert!(norm(minus(a.to, b.to)) < 1e-6);
+            }
+        }
+    }
+
+    /// Other frames and tool lengths on the way do not change the path at outside corners.
+    #[test]
+    fn law_changes_of_state_do_not_count(contour in wide_contour(), changes in changes(), left: bool) {
+        let none = vec![(None, false); 9];
+        for control in [Sinumerik840d, Fanuc] {
+            let run = |changes: &[Change]| {
+                placed(control, &changing(control, &contour, changes, left), SMALL, On::Workpiece)
+            };
+            let ((plain, first), (changed, second)) = (run(&none), run(&changes));
+            prop_assert_eq!(first.len(), second.len(), "{:?} {:?}", first, second);
+            if !first.is_empty() {
+                continue;
+            }
+            for (found, other) in [(&plain, &changed), (&changed, &plain)] {
+                for (p, _) in places(found) {
+                    let off = other.windows(2).map(|w| {
+                        Element { from: w[0].to, to: w[1].to, arc: w[1].arc }.distance(p)
+                    });
+                    let off = off.fold(f64::INFINITY, f64::min);
+                    prop_assert!(off < 1e-6, "{control:?} {p:?} {off}\n{}", changing(control, &contour, &changes, left));
+                }
             }
         }
     }

@@ -145,16 +145,17 @@ impl Core<'_> {
         place: Position,
         at: usize,
     ) {
-        self.emit(Event::Compensation(side));
-        let radius = radius.unwrap_or(0.0);
-        match side {
-            CompensationSide::Left if radius != 0.0 => {
-                self.begin_radius(radius, behaviour, place, at);
-            }
-            CompensationSide::Right if radius != 0.0 => {
-                self.begin_radius(-radius, behaviour, place, at);
-            }
-            _ => self.end_radius(),
+        let radius_mm = radius.filter(|_| side != CompensationSide::Off).unwrap_or(0.0);
+        self.emit(Event::Compensation { side, radius_mm });
+        let left_mm = match side {
+            CompensationSide::Left => radius_mm,
+            CompensationSide::Right => -radius_mm,
+            CompensationSide::Off => 0.0,
+        };
+        if left_mm == 0.0 || self.settings.on_contour {
+            self.end_radius();
+        } else {
+            self.begin_radius(left_mm, behaviour, place, at);
         }
     }
 

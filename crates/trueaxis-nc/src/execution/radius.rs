@@ -4,14 +4,16 @@
 //! between without motion in the plane happens at the end of the first of the two. Where the program
 //! changes its frame, its tool or its side, the tool stops perpendicular to the end of the contour.
 
+mod behaviour;
 pub(super) mod element;
 mod lead;
 
 use trueaxis_contour::Element;
 use trueaxis_contour::lead::{Begin, Lead};
 use trueaxis_contour::plane::{Point, along, length, minus};
-use trueaxis_contour::radius::{Link, Rules, centre, check_fit, passage};
+use trueaxis_contour::radius::{Link, centre, check_fit, passage};
 
+pub(crate) use behaviour::{Behaviour, Entry, FeedAt};
 pub(crate) use lead::Approach;
 
 use element::{element, entry_arc, feed_of_centre, scale_of};
@@ -22,42 +24,6 @@ use super::{Core, KnownPosition, mistakes};
 use crate::moves::{
     Arc, Coordinates, Event, FeedMode, Frame, Move, MoveKind, Origin, Plane, Position, Step,
 };
-
-/// How a tool comes to the contour.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Entry {
-    /// To the place perpendicular to the start of the contour: FANUC type A, SINUMERIK NORM, HEIDENHAIN.
-    Perpendicular,
-    /// The same, round the start of the contour where the way would cross the contour: SINUMERIK KONT.
-    Round,
-    /// The entry is the first element: its end is compensated, and the corner after it is like all others.
-    Element,
-}
-
-/// What a control does.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Behaviour {
-    pub rules: Rules,
-    pub entry: Entry,
-    /// Its first move may be an arc.
-    pub enters_on_arcs: bool,
-    /// A move without motion in the plane goes to the programmed place if the compensation has ended.
-    pub ends_at_once: bool,
-    /// Of the slightly different radii of a written arc that at its end counts.
-    pub radius_at_end: bool,
-    pub feed_at: FeedAt,
-}
-
-/// Where the feed of arcs counts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum FeedAt {
-    /// At the centre of the tool.
-    Centre,
-    /// On the contour.
-    Contour,
-    /// On the contour, but the centre is not faster than programmed.
-    Inside,
-}
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Phase {
@@ -75,10 +41,8 @@ enum Phase {
 
 /// A move that waits for the next one.
 struct Waiting {
-    /// It leads to the contour in this way.
-    approach: Option<Approach>,
-    /// Where the centre was before it.
-    start: Point,
+    /// It leads to the contour in this way, from this place of the centre.
+    approach: Option<(Approach, Point)>,
     step: Move,
     /// Its element of the contour; none for an entry that ends perpendicular to the next one.
     element: Option<Element>,
@@ -356,8 +320,9 @@ impl Core<'_> {
         };
         let is_element = active.behaviour.entry == Entry::Element && approach.is_none();
         let element = is_element.then_some(element);
-        let (start, part, is_entry, later) = (from, 1.0, true, Vec::new());
-        let waiting = Waiting { approach, start, step, element, part, is_entry, end, later };
+        let approach = approach.map(|approach| (approach, from));
+        let (part, is_entry, later) = (1.0, true, Vec::new());
+        let waiting = Waiting { approach, step, element, part, is_entry, end, later };
         active.place = m.target;
         active.centre = end;
         active.phase = Phase::On;
@@ -401,10 +366,8 @@ impl Core<'_> {
             self.follower.take(Step::Move(m));
             return;
         }
-        let (element, approach, start) = (Some(element), None, begin);
-        let (is_entry, later) = (false, Vec::new());
-        let waiting = Waiting { approach, start, step, element, part, is_entry, end, later };
-        active.waiting = Some(waiting);
+        let (element, approach, is_entry, later) = (Some(element), None, false, Vec::new());
+        active.waiting = Some(Waiting { approach, step, element, part, is_entry, end, later });
     }
 
     /// Sends the move that waited, and the way to the next element; the part of that one that is cut off.
@@ -472,7 +435,7 @@ impl Core<'_> {
         let Some(active) = &self.radius else { return };
         let [a, b, _] = active.plane.axes();
         let mut step = waiting.step;
-        (step.target[a], step.target[b]) = (end[0], end[1]);
+        active.put(&mut step.target, end);
         step.named = step.named.with(a).with(b);
         if let Some(element) = &waiting.element {
             shorten(&mut step, element, waiting.part - cut);
@@ -483,12 +446,10 @@ impl Core<'_> {
 
     /// What came without motion in the plane, where the centre is.
     fn release_later(&mut self, steps: Vec<Step>, end: Point) {
-        let Some([a, b, _]) = self.radius.as_ref().map(|active| active.plane.axes()) else {
-            return;
-        };
+        let Some(active) = &self.radius else { return };
         for mut later in steps {
             if let Step::Move(m) = &mut later {
-                (m.target[a], m.target[b]) = (end[0], end[1]);
+                active.put(&mut m.target, end);
             }
             self.follower.take(later);
         }
@@ -499,8 +460,7 @@ impl Core<'_> {
         let Some(active) = &self.radius else { return };
         let [a, b, _] = active.plane.axes();
         let named = next.named.with(a).with(b);
-        let last = links.len();
-        for (index, link) in links.iter().enumerate() {
+        for link in links {
             let (kind, to) = match *link {
                 Link::Line { to } => (MoveKind::Linear, to),
                 Link::Arc { center, to, ccw } => {
@@ -509,15 +469,10 @@ impl Core<'_> {
                 }
             };
             let mut target = corner;
-            (target[a], target[b]) = (to[0], to[1]);
-            let mut step = Move::plain(kind, target, named, next.feed, next.origin);
-            if next.kind == MoveKind::Rapid {
-                // There is no arc in rapid traverse.
-                step.kind = MoveKind::Rapid;
-                if index + 1 < last && matches!(link, Link::Arc { .. }) {
-                    continue;
-                }
-            }
+            active.put(&mut target, to);
+            // There is no arc in rapid traverse.
+            let kind = if next.kind == MoveKind::Rapid { MoveKind::Rapid } else { kind };
+            let step = Move::plain(kind, target, named, next.feed, next.origin);
             self.follower.take(Step::Move(step));
         }
     }

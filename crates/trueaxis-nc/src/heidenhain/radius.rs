@@ -4,24 +4,15 @@
 //! HEIDENHAIN iTNC 530 user's manual, "Tool radius compensation": transitional arcs at outside corners, the
 //! intersection of the two paths at inside ones, entry and exit perpendicular to the contour.
 
-use trueaxis_contour::radius::{Outside, Rules};
-
 use super::Run;
 use super::words::Words;
-use crate::execution::radius::{Approach, Behaviour, Entry, FeedAt};
+use crate::execution::radius::{Approach, Behaviour};
 use crate::moves::CompensationSide;
 
-const HEIDENHAIN: Behaviour = Behaviour {
-    rules: Rules { outside: Outside::Arc, smooth_rad: 0.0 },
-    entry: Entry::Perpendicular,
-    enters_on_arcs: false,
-    ends_at_once: false,
-    radius_at_end: false,
-    feed_at: FeedAt::Centre,
-};
+const HEIDENHAIN: Behaviour = Behaviour::USUAL;
 
 impl Run<'_> {
-    /// DEP, a program call and M2 end the compensation by themselves.
+    /// DEP ends the compensation by itself.
     pub(super) fn end_compensation(&mut self) {
         self.change_side(CompensationSide::Off, 0);
     }

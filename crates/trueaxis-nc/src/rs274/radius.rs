@@ -9,7 +9,7 @@ use trueaxis_contour::radius::{Outside, Rules};
 
 use super::{Run, fault};
 use crate::execution::mistakes;
-use crate::execution::radius::{Behaviour, Entry, FeedAt};
+use crate::execution::radius::{Behaviour, Entry};
 use crate::moves::{CompensationSide, Plane};
 use crate::text::program::Fault;
 
@@ -20,17 +20,11 @@ const LINUXCNC: Behaviour = Behaviour {
     enters_on_arcs: true,
     ends_at_once: true,
     radius_at_end: true,
-    feed_at: FeedAt::Centre,
+    ..Behaviour::USUAL
 };
 
-const FANUC: Behaviour = Behaviour {
-    rules: Rules { outside: Outside::Tangents, smooth_rad: 0.0 },
-    entry: Entry::Perpendicular,
-    enters_on_arcs: false,
-    ends_at_once: false,
-    radius_at_end: false,
-    feed_at: FeedAt::Centre,
-};
+const FANUC: Behaviour =
+    Behaviour { rules: Rules { outside: Outside::Tangents, smooth_rad: 0.0 }, ..Behaviour::USUAL };
 
 /// The variables of FANUC that hold the wear of the radius begin after this one.
 pub(super) const RADIUS_WEAR: u32 = 12_000;

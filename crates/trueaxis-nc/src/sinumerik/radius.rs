@@ -4,7 +4,7 @@
 //! SINUMERIK 840D sl programming manual "Fundamentals", "Tool radius compensation"; function manual W1 for
 //! the largest angle of an intersection (MD20210, 100°).
 
-use trueaxis_contour::radius::{Outside, Rules};
+use trueaxis_contour::radius::Outside;
 
 use super::Run;
 use super::tables::ContourRule;
@@ -12,14 +12,7 @@ use crate::execution::radius::{Behaviour, Entry, FeedAt};
 use crate::moves::CompensationSide;
 
 /// G450, NORM; the feed is that of the centre of the tool (CFTCP).
-pub(super) const AS_SWITCHED_ON: Behaviour = Behaviour {
-    rules: Rules { outside: Outside::Arc, smooth_rad: 0.0 },
-    entry: Entry::Perpendicular,
-    enters_on_arcs: false,
-    ends_at_once: false,
-    radius_at_end: false,
-    feed_at: FeedAt::Centre,
-};
+pub(super) const AS_SWITCHED_ON: Behaviour = Behaviour::USUAL;
 
 impl Run<'_> {
     pub(super) fn compensation(&mut self, side: CompensationSide, at: usize) {
@@ -27,13 +20,19 @@ impl Run<'_> {
         let (tool, edge) = (self.core.modes.tool, self.modes.edge);
         let mut radius = Some(0.0);
         if side != CompensationSide::Off && edge > 0 {
-            radius = self.core.radii.get(&tool).copied();
-            if radius.is_none() {
-                self.core.unknown_radius(format_args!("of tool {tool}"), at);
-            }
+            radius = self.radius_of(tool, at);
         }
         let (place, behaviour) = (self.chain.position, self.modes.behaviour);
         self.core.compensate(side, radius, behaviour, place, at);
+    }
+
+    /// The radius of a tool, mm; `None`, with a warning, if it is not stated anywhere.
+    pub(super) fn radius_of(&mut self, tool: u32, at: usize) -> Option<f64> {
+        let radius = self.core.radii.get(&tool).copied();
+        if radius.is_none() {
+            self.core.unknown_radius(format_args!("of tool {tool}"), at);
+        }
+        radius
     }
 
     /// T or D while the compensation is on: from the next block on the radius is another one.

@@ -11,6 +11,9 @@ use crate::execution::values::finite;
 use crate::moves::{Axis, Event, Frame};
 use crate::text::program::Fault;
 
+/// Tools that a program may define; more are a loop that has gone wrong.
+const MOST_TOOLS: usize = 100_000;
+
 /// What stands in the brackets of a system variable.
 #[derive(Debug, Clone, Default)]
 struct Indices {
@@ -100,6 +103,8 @@ impl Run<'_> {
             // A run of this program is a run on the machine.
             "P_SEARCH" | "P_ISTEST" | "P_SIM" | "P_DRYRUN" | "P_PROG_EVENT" => 0.0,
             "TC_DP3" => self.chain.tools.get(&(number as u32)).map_or(0.0, |t| t[Axis::Z]),
+            "TC_DP6" => self.radius_of(number as u32, at).unwrap_or(0.0),
+            "P_TOOLR" => self.radius_of(self.core.modes.tool, at).unwrap_or(0.0),
             _ => {
                 let message = format!("the value of ${name} is not known here");
                 let hint = "write the value itself";
@@ -226,24 +231,28 @@ impl Run<'_> {
                 at,
             );
         }
-        let axis = match name {
-            "TC_DP3" => Axis::Z,
-            "TC_DP4" => Axis::Y,
-            "TC_DP5" => Axis::X,
-            _ => {
-                self.core.not_applied(
-                    &format!("${name}="),
-                    at,
-                    "only the lengths of tools are applied",
-                );
-                return Ok(());
-            }
-        };
         if edge != 1.0 {
             self.core.not_applied("a cutting edge other than 1", at, "only D1 is applied");
             return Ok(());
         }
-        if self.chain.tools.len() < 100_000 {
+        let axis = match name {
+            "TC_DP3" => Axis::Z,
+            "TC_DP4" => Axis::Y,
+            "TC_DP5" => Axis::X,
+            "TC_DP6" => {
+                // As with the lengths, the control takes it with the next T or D.
+                if self.core.radii.len() < MOST_TOOLS {
+                    self.core.radii.insert(tool, value.number(at)?);
+                }
+                return Ok(());
+            }
+            _ => {
+                let applied = "only the lengths and radii of tools are applied";
+                self.core.not_applied(&format!("${name}="), at, applied);
+                return Ok(());
+            }
+        };
+        if self.chain.tools.len() < MOST_TOOLS {
             self.chain.tools.entry(tool).or_default()[axis] = value.number(at)?;
         }
         Ok(())

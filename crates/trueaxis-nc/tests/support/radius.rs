@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use trueaxis_nc::moves::{Axis, Position};
+use trueaxis_nc::moves::{Axis, Event, Frame, Position};
 use trueaxis_nc::{Control, MoveKind, NoLibrary, Program, Settings, Step, interpret};
 
 pub type Point = [f64; 2];
@@ -19,9 +19,28 @@ pub struct Piece {
     pub line: u32,
 }
 
+/// Where places are counted from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum On {
+    /// The program zero.
+    Program,
+    /// The workpiece, whatever the frame is.
+    Workpiece,
+}
+
+/// The path in coordinates of the program, see [`placed`].
+pub fn path(control: Control, text: &str, radius: f64) -> (Vec<Piece>, Vec<(&'static str, usize)>) {
+    placed(control, text, radius, On::Program)
+}
+
 /// The path of a program in X and Y with tool 1 of a radius and tool 2 with 1 mm more, and the code and line
 /// of what was found.
-pub fn path(control: Control, text: &str, radius: f64) -> (Vec<Piece>, Vec<(&'static str, usize)>) {
+pub fn placed(
+    control: Control,
+    text: &str,
+    radius: f64,
+    on: On,
+) -> (Vec<Piece>, Vec<(&'static str, usize)>) {
     let program = Program::new("p", text.as_bytes().to_vec(), control);
     let settings = Settings {
         radii: BTreeMap::from([(1, radius), (2, radius + 1.0)]),
@@ -29,14 +48,30 @@ pub fn path(control: Control, text: &str, radius: f64) -> (Vec<Piece>, Vec<(&'st
         ..Settings::default()
     };
     let mut pieces = Vec::new();
+    let mut frame = Frame::IDENTITY;
     let outcome = interpret(&program, &NoLibrary, &settings, &mut |step| {
-        let Step::Move(m) = step else { return };
+        let m = match step {
+            Step::Move(m) => m,
+            Step::Event(Event::Frame(now), _) => {
+                frame = if on == On::Workpiece { now } else { frame };
+                return;
+            }
+            Step::Event(..) => return,
+        };
+        let place = |x, y| {
+            let mut at = m.target;
+            (at[Axis::X], at[Axis::Y]) = (x, y);
+            let at = frame.place(&at);
+            [at[Axis::X], at[Axis::Y]]
+        };
         let (arc, turns) = match m.kind {
-            MoveKind::Arc(arc) => (Some((arc.center_mm, arc.ccw)), arc.turns),
+            MoveKind::Arc(arc) => {
+                (Some((place(arc.center_mm[0], arc.center_mm[1]), arc.ccw)), arc.turns)
+            }
             MoveKind::Rapid | MoveKind::Linear => (None, 0),
             _ => return,
         };
-        let to = [m.target[Axis::X], m.target[Axis::Y]];
+        let to = place(m.target[Axis::X], m.target[Axis::Y]);
         pieces.push(Piece {
             to,
             z: m.target[Axis::Z],

@@ -76,7 +76,7 @@ pub(super) fn unrolled(
                 block.moves.push(m);
             }
         }
-        Step::Event(Event::Compensation(side), _) => {
+        Step::Event(Event::Compensation { side, .. }, _) => {
             on_contour = side != CompensationSide::Off;
             if let Some(block) = told.last_mut() {
                 block.on_contour = true;
@@ -433,7 +433,7 @@ fn plain(step: Step, contour: Contour) -> Option<(Step, Origin)> {
             Some((Step::Move(m), origin))
         }
         Step::Event(Event::Note(_) | Event::Log(_), _) => None,
-        Step::Event(Event::Compensation(_), _) if contour == Contour::Centre => None,
+        Step::Event(Event::Compensation { .. }, _) if contour == Contour::Centre => None,
         Step::Event(event, origin) => Some((Step::Event(event, nowhere), origin)),
     }
 }

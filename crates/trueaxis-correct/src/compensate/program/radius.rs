@@ -14,14 +14,10 @@ use trueaxis_nc::moves::{CompensationSide, Event, Step};
 
 /// Whether the program adds a radius that is not 0 to its contour.
 pub(super) fn is_used(machine: &Machine, program: &Program, setup: &SetUp) -> bool {
-    let settings = setup.settings(false);
-    if settings.radii.values().all(|radius| *radius == 0.0) && setup.given {
-        return false;
-    }
     let mut used = false;
-    execute(machine, program, setup, &settings, &mut |step| {
-        let Step::Event(Event::Compensation(side), _) = step else { return };
-        used |= side != CompensationSide::Off;
+    execute(machine, program, setup, &setup.settings(false), &mut |step| {
+        let Step::Event(Event::Compensation { side, radius_mm }, _) = step else { return };
+        used |= side != CompensationSide::Off && radius_mm != 0.0;
     });
     used
 }

@@ -4,7 +4,7 @@ use trueaxis_contour::Element;
 use trueaxis_contour::plane::{Point, along, dot, length, minus};
 use trueaxis_contour::radius::centre;
 
-use super::{Behaviour, FeedAt};
+use super::behaviour::{Behaviour, FeedAt};
 use crate::moves::{Arc, Axis, Feed, FeedMode, Frame, Move, MoveKind, Plane, Position};
 
 /// By how much a frame scales its plane; `None` if not equally in all directions.

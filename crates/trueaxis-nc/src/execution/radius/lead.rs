@@ -81,11 +81,11 @@ impl Core<'_> {
 
     /// Sends the entry to the contour.
     pub(super) fn lead_in(&mut self, waiting: Waiting, begin: &Begin) {
-        let Some(approach) = waiting.approach else {
+        let Some((approach, start)) = waiting.approach else {
             self.release_waiting(waiting, begin.centre, 0.0);
             return;
         };
-        match approach.lead.pieces(waiting.start, begin) {
+        match approach.lead.pieces(start, begin) {
             Ok(links) => {
                 let place = waiting.step.target;
                 let mut lead = waiting.step;
