@@ -5777,6 +5777,14 @@ export interface Post {
    */
   lines: number;
   /**
+   * Blocks that are arcs.
+   */
+  arcs: number;
+  /**
+   * Holes that the control drills by its own cycle.
+   */
+  holes: number;
+  /**
    * How often the tool retracts so that an axis can rewind.
    */
   rewinds: number;

@@ -18,9 +18,13 @@ Examples:
       --control fanuc -o bangle.nc --verify
   trueaxis post machines/xkas2525/machine.toml examples/06_compensate/blade.cls \\
       --control sinumerik --tcp off -o blade.mpf --verify
+  trueaxis post machines/three-axis-mill/machine.toml examples/06_compensate/plate.cls \\
+      --control heidenhain --tcp length -o plate.h --verify
 
-The points are taken in the workpiece frame of the machine file. With --tcp on the program has tips
-and tool axes, without it axis positions from the machine zero, tool length and workpiece included.
+The points are taken in the workpiece frame of the machine file. With --tcp on and --tcp length the program has
+places of the tip from the workpiece zero (G54), with --tcp off positions of the axes from the machine zero, tool
+length and workpiece included. Arcs and drilling cycles of the file are written as such where the control has them
+in that place (docs/post.md).
 Exit status: 0 done, 1 --verify found more than the tolerances (then nothing is written), 2 unusable
 input, or the path leaves the travel.")]
 pub struct Arguments {
@@ -32,12 +36,15 @@ pub struct Arguments {
     /// The control of the program: sinumerik, fanuc, haas, linuxcnc or heidenhain
     #[arg(long, alias = "dialect", value_name = "NAME")]
     control: String,
-    /// Whether the control keeps the tool tip on the path (RTCP, TRAORI, TCPM)
+    /// What the control compensates, and so what the numbers of the program are
     #[arg(long, value_enum, default_value = "on")]
-    tcp: OnOff,
+    tcp: Tcp,
     /// How the tool axis is written with --tcp on
     #[arg(long, value_enum, default_value = "angles")]
     orientation: Orientation,
+    /// Write lines for arcs and drilling cycles, too
+    #[arg(long)]
+    lines_only: bool,
     /// Largest distance between path and program, mm
     #[arg(long, value_name = "MM", default_value = "0.01", allow_negative_numbers = true)]
     tolerance: String,
@@ -80,6 +87,16 @@ pub struct Arguments {
     /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Tcp {
+    /// The tool tip, in any direction (RTCP, TRAORI, TCPM): positions of the tip
+    On,
+    /// The tool length alone (G43): positions of the tip, with the rotary axes at 0
+    Length,
+    /// Nothing: positions of the axes from the machine zero
+    Off,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -131,7 +148,12 @@ pub fn run(arguments: Arguments) -> Outcome {
         machine: arguments.machine.choice(None),
         file: arguments.file,
         control: arguments.control,
-        tip_words: (arguments.tcp == OnOff::On).then_some(words),
+        tip_words: match arguments.tcp {
+            Tcp::On => Some(words),
+            Tcp::Length => Some(TipWords::Length),
+            Tcp::Off => None,
+        },
+        lines_only: arguments.lines_only,
         tolerance: arguments.tolerance,
         axis_tolerance: arguments.axis_tolerance,
         pole_tolerance: arguments.pole_tolerance,

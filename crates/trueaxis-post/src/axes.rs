@@ -1,12 +1,13 @@
 //! From strokes to axis positions: poles, branches, turns, and where the tool must go back.
 
-use crate::Fault;
 use crate::path::{Path, Stroke, Way, between};
+use crate::{Fault, PostOptions};
 use trueaxis_geometry::frame::{Direction, Point};
 use trueaxis_geometry::{Vec3, angle};
-use trueaxis_machine::axis::Command;
+use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_machine::{FollowFault, Machine, Target};
+use trueaxis_writer::TipWords;
 
 /// Nearer to a pole than this the tool axis is taken for the pole: an angle that no part shows.
 const POLE_RAD: f64 = 2e-7;
@@ -66,6 +67,10 @@ pub(crate) fn pass_poles(path: &mut Path, control: &TipControl, pole_rad: f64) -
     moved.push(strokes.len());
     for (at, _) in &mut path.events {
         *at = moved[*at];
+    }
+    for hole in &mut path.holes {
+        (hole.begin, hole.down) = (moved[hole.begin], moved[hole.down]);
+        hole.last = moved[hole.last + 1] - 1;
     }
     path.strokes = strokes;
     // What is below the digits of programs is not reported as a deviation.
@@ -168,6 +173,58 @@ pub(crate) fn legs(machine: &Machine, path: &Path) -> Result<Vec<Leg>, Fault> {
         }
     }
     Ok(legs)
+}
+
+/// With tool length compensation alone the places of the program are those of the tip only where no rotary axis is
+/// turned and the linear axes are parallel to the workpiece frame.
+pub(crate) fn check_upright(
+    machine: &Machine,
+    control: &TipControl,
+    path: &Path,
+    legs: &[Leg],
+    options: &PostOptions,
+) -> Result<(), Fault> {
+    if options.tip_words != Some(TipWords::Length) {
+        return Ok(());
+    }
+    let refused = |line, message: &str| Fault {
+        line,
+        code: "turned-tool",
+        message: message.to_owned(),
+        hint: "write --tcp on, or --tcp off for positions of the axes",
+    };
+    let turned = |command: &Command| {
+        let mut axes = machine.axes().iter().zip(command);
+        axes.any(|(axis, q)| axis.kind == AxisKind::Rotary && q.abs() > POLE_RAD)
+    };
+    if legs.iter().any(|leg| leg.commands.iter().any(turned)) {
+        let (_, upright) = control.tip_and_axis(&Command::default());
+        let tilted = |stroke: &&Stroke| angle(&stroke.to.axis, &upright) > POLE_RAD;
+        let line = path.strokes.iter().find(tilted).map_or(0, |stroke| stroke.line);
+        let message = "a rotary axis is turned here: tool length compensation does not follow it";
+        return Err(refused(line, message));
+    }
+    let tip = machine.tip_mm();
+    let straight = tip.x.hypot(tip.y) < 1e-9 && tip.z <= 0.0;
+    let placed = |tip: Vec3| {
+        let mut command = Command::default();
+        control.place(tip, &mut command).then_some(command)
+    };
+    let at = |i: usize| placed(Vec3::ith(i, 1000.0));
+    let parallel = (0..3).all(|i| {
+        let (Some(from), Some(to)) = (placed(Vec3::zeros()), at(i)) else { return false };
+        machine.axes().iter().enumerate().all(|(k, axis)| {
+            let wanted = if axis.name.letter() == ['X', 'Y', 'Z'][i] { 1000.0 } else { 0.0 };
+            (to[k] - from[k] - wanted).abs() < 1e-6
+        })
+    });
+    match straight && parallel {
+        true => Ok(()),
+        false => Err(refused(
+            0,
+            "the tool or the linear axes are not parallel to the axes of the workpiece",
+        )),
+    }
 }
 
 fn explained(line: u32, fault: &FollowFault) -> Fault {

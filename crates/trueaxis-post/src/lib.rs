@@ -5,13 +5,17 @@
 //!            ──axes──> legs: axis positions, best branch and turn     a leg ends where an axis must
 //!                                                                     rewind or the tool changes
 //!            ──cut───> pieces within chord and angle tolerance
+//!            ──circles, holes──> arcs and cycles of the control where it has them
 //!            ──feed, write──> text                                    Writer of trueaxis-nc
 //!     text ──simulate──> the largest difference from the strokes      verify
 //! ```
 
 mod axes;
+mod circles;
 mod cut;
+mod drilled;
 mod feed;
+mod holes;
 mod path;
 mod verify;
 mod write;
@@ -46,6 +50,8 @@ pub struct PostOptions {
     /// How the tool axis is written with tool-centre point; `None`: the control has none, axis
     /// positions are written.
     pub tip_words: Option<TipWords>,
+    /// Arcs and drilling cycles are written as lines, too.
+    pub lines_only: bool,
     /// Between path and chord, mm.
     pub tolerance_mm: f64,
     /// Of the tool axis between blocks, rad.
@@ -74,6 +80,7 @@ impl PostOptions {
         Self {
             control,
             tip_words: Some(TipWords::Angles),
+            lines_only: false,
             tolerance_mm: 0.01,
             axis_tolerance_rad: 0.05_f64.to_radians(),
             pole_rad: 0.0,
@@ -102,6 +109,15 @@ pub(crate) struct BlockPlace {
     until: f64,
 }
 
+/// A hole that the control drills by its own cycle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct HolePlace {
+    /// The lines of the program from and to, from 1.
+    lines: [u32; 2],
+    /// Which of the holes.
+    hole: usize,
+}
+
 /// A program and where it comes from.
 #[derive(Debug, Clone)]
 pub struct Posted {
@@ -115,8 +131,18 @@ pub struct Posted {
     pub rewinds: usize,
     /// How far tool axes were turned to pass through a pole, rad; 0 if none was.
     pub pole_deviation_rad: f64,
+    /// Blocks that are arcs.
+    pub arcs: usize,
     places: Vec<BlockPlace>,
+    drilled: Vec<HolePlace>,
     path: path::Path,
+}
+
+impl Posted {
+    /// How many holes are drilled by cycles of the control.
+    pub fn holes(&self) -> usize {
+        self.drilled.len()
+    }
 }
 
 /// Writes the program of a cutter-location file.
@@ -159,6 +185,9 @@ pub fn post(
     let mut path = path;
     let pole_deviation_rad = axes::pass_poles(&mut path, &control, options.pole_rad);
     let posted = axes::legs(machine, &path)
+        .and_then(|legs| {
+            axes::check_upright(machine, &control, &path, &legs, options).map(|()| legs)
+        })
         .and_then(|legs| write::write(machine, &control, path, &legs, options));
     match posted {
         Ok(posted) => (Some(Posted { pole_deviation_rad, ..posted }), problems),

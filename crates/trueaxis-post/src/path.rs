@@ -49,15 +49,33 @@ pub(crate) enum Event {
     Comment(String),
 }
 
+/// A drilling cycle at one point of the file, and the strokes that it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Drilled {
+    /// The first stroke of the way to it.
+    pub begin: usize,
+    /// The first stroke that begins over it.
+    pub down: usize,
+    /// The stroke back to the retract height.
+    pub last: usize,
+    /// The point and the tool axis.
+    pub surface: Stand,
+    pub cycle: ClCycle,
+    /// mm/min.
+    pub feed: f64,
+}
+
 /// Strokes, and events each before the stroke of a number.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Path {
     pub strokes: Vec<Stroke>,
     pub events: Vec<(usize, Event)>,
+    /// Which strokes are drilling cycles, in order.
+    pub holes: Vec<Drilled>,
 }
 
 /// Nearer than this two places of a file are one.
-const SAME_MM: f64 = 1e-6;
+pub(crate) const SAME_MM: f64 = 1e-6;
 
 /// Tool axes nearer than this are the same.
 const SAME_RAD: f64 = 1e-6;
@@ -239,11 +257,15 @@ impl Builder<'_> {
         let Some(feed) = self.feed(false, cycle.feed.or(point.feed), line) else { return };
         let at = |height: f64| Stand { tip: tip + axis * height, axis };
         let way = Way::Line;
+        let begin = self.path.strokes.len();
         let over = self.over_hole(&at(cycle.retract_mm), line);
         let rapid = Stroke { to: over, way, rapid: true, feed: 0.0, line };
         if (over.tip - at(cycle.clearance_mm).tip).norm() > SAME_MM {
             self.push(rapid);
         }
+        // Where the retract height is the clearance, the tool arrives there.
+        let arrived = (over.tip - at(cycle.clearance_mm).tip).norm() > SAME_MM;
+        let down = self.path.strokes.len() + usize::from(!arrived);
         self.push(Stroke { to: at(cycle.clearance_mm), ..rapid });
         for depth in pecks(cycle) {
             self.push(Stroke { to: at(-depth), way, rapid: false, feed, line });
@@ -256,7 +278,10 @@ impl Builder<'_> {
         if cycle.dwell_s > 0.0 {
             self.path.events.push((self.path.strokes.len(), Event::Dwell(cycle.dwell_s)));
         }
+        let last = self.path.strokes.len();
         self.push(Stroke { to: at(cycle.retract_mm), ..rapid });
+        let (surface, cycle) = (Stand { tip, axis }, *cycle);
+        self.path.holes.push(Drilled { begin, down, last, surface, cycle, feed });
     }
 
     /// Where the tool comes to stand over a hole: at its retract height, or higher where it comes

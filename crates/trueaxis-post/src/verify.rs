@@ -1,12 +1,18 @@
 //! The proof: the written text, read back and simulated, against the cutter-location file.
 
-use crate::path::{Stand, Stroke};
+use crate::path::{Event, Stand, Stroke};
 use crate::{BlockPlace, PostOptions, Posted};
 use trueaxis_geometry::{Vec3, angle};
 use trueaxis_input::Diagnostics;
 use trueaxis_machine::Machine;
-use trueaxis_motion::{AxisWatch, Batch, Densify, IssueList, Observer, Options, SetUp, simulate};
+use trueaxis_machine::axis::Command;
+use trueaxis_machine::tcp::TipControl;
+use trueaxis_motion::{
+    AxisWatch, Batch, Densify, IssueList, Observer, Options, SetUp, SetUpTool, simulate,
+};
 use trueaxis_nc::Program;
+use trueaxis_nc::moves::{Axis, Frame, Position};
+use trueaxis_writer::TipWords;
 
 /// The largest differences between program and file.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -54,7 +60,7 @@ pub struct Largest {
 }
 
 impl Largest {
-    fn take(&mut self, value: f64, program_line: u32, file_line: u32) {
+    pub(crate) fn take(&mut self, value: f64, program_line: u32, file_line: u32) {
         // NaN counts as the worst.
         if value > self.value || value.is_nan() {
             *self = Self { value, program_line, file_line };
@@ -77,35 +83,72 @@ pub fn verify(machine: &Machine, posted: &Posted, options: &PostOptions) -> Veri
     let simulation = Options { densify, ..Options::default() };
     let mut compare = Compare::with(posted);
     let mut watch = AxisWatch::on(machine);
-    let run = simulate(
-        machine,
-        &program,
-        &SetUp::default(),
-        &simulation,
-        &mut [&mut compare, &mut watch],
-    );
+    let setup = set_up(machine, posted, options);
+    let run = simulate(machine, &program, &setup, &simulation, &mut [&mut compare, &mut watch]);
+    compare.end_hole();
     compare.skip_to(posted.places.len());
     Verification { issues: IssueList::of([watch.log]), problems: run.problems, ..compare.found }
 }
 
-struct Compare<'p> {
-    posted: &'p Posted,
+/// The set-up for which the program is: with tool length compensation alone its work offset is at the workpiece
+/// zero, and the control knows the length of the tool.
+fn set_up(machine: &Machine, posted: &Posted, options: &PostOptions) -> SetUp {
+    let mut setup = SetUp::default();
+    let Some(control) =
+        TipControl::of(machine).filter(|_| options.tip_words == Some(TipWords::Length))
+    else {
+        return setup;
+    };
+    let mut command = Command::default();
+    if !control.place(Vec3::zeros(), &mut command) {
+        return setup;
+    }
+    let mut zero = Position::default();
+    for (axis, q) in machine.axes().iter().zip(command) {
+        let letter = axis.name.letter();
+        if let Some(axis) =
+            [Axis::X, Axis::Y, Axis::Z].into_iter().find(|a| char::from(a.letter()) == letter)
+        {
+            zero[axis] = q;
+        }
+    }
+    let tip_mm = machine.tip_mm();
+    zero[Axis::Z] += tip_mm.z;
+    setup.given = true;
+    setup.work_offsets.insert(1, Frame::shifted(zero));
+    setup.workpiece_at = Some(1);
+    let tools = posted.path.events.iter().filter_map(|(_, event)| match event {
+        Event::Tool { number, .. } => Some(*number),
+        _ => None,
+    });
+    setup.tools =
+        tools.chain([1]).map(|n| (n, SetUpTool { tip_mm, ..SetUpTool::default() })).collect();
+    setup
+}
+
+pub(crate) struct Compare<'p> {
+    pub posted: &'p Posted,
     /// The next block of the path.
     next: usize,
     /// Where the tool was last.
-    at: Stand,
+    pub at: Stand,
     /// The length of the present move so far. Unit: mm or deg.
     length: f64,
     /// Its places so far, each with the length up to there.
     way: Vec<(f64, Stand)>,
-    found: Verification,
+    /// The next hole of a cycle.
+    pub next_hole: usize,
+    /// Its places so far, and whether each is reached in rapid traverse.
+    pub drilled: Vec<(Stand, bool)>,
+    pub found: Verification,
 }
 
 impl<'p> Compare<'p> {
     fn with(posted: &'p Posted) -> Self {
         let at = Stand { tip: Vec3::repeat(f64::NAN), axis: Vec3::z() };
         let found = Verification::default();
-        Self { posted, next: 0, at, length: 0.0, way: Vec::new(), found }
+        let (way, drilled) = (Vec::new(), Vec::new());
+        Self { posted, next: 0, at, length: 0.0, way, next_hole: 0, drilled, found }
     }
 
     /// The tool is at the ends of all blocks up to one, without having moved since.
@@ -158,6 +201,10 @@ impl Observer for Compare<'_> {
             let pose = batch.poses.at(i);
             let is = Stand { tip: pose.nominal_tip.vector(), axis: pose.nominal_axis.vector() };
             let line = node.origin.line;
+            if self.take_drilled(line, is, !node.speed.is_finite()) {
+                (self.at, self.length) = (is, 0.0);
+                continue;
+            }
             let places = &self.posted.places;
             let index = places.partition_point(|p| p.line < line);
             let on_path = places.get(index).is_some_and(|p| p.line == line);

@@ -4,34 +4,39 @@ use crate::axes::Leg;
 use crate::cut::{Cutter, Node};
 use crate::feed::feed_of;
 use crate::path::{Event, Path, Stand};
-use crate::{BlockPlace, Fault, PostOptions, Posted};
+use crate::{BlockPlace, Fault, HolePlace, PostOptions, Posted};
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::moves::{Axis, Coordinates, Feed, FeedMode, SpindleDirection};
 use trueaxis_writer::{
-    Block, Heading, Target, Templates, TipWords, ToolCall, WriteError, Writer, axis_coordinates,
+    Block, Heading, Hole, Target, Templates, TipWords, ToolCall, WriteError, Writer,
+    axis_coordinates,
 };
 
 /// No control takes a longer program, and no memory should.
 const MOST_BLOCKS: usize = 10_000_000;
 
 /// Everything that is needed while the text grows.
-struct Post<'p> {
-    machine: &'p Machine,
-    control: &'p TipControl,
-    options: &'p PostOptions,
-    path: &'p Path,
-    cutter: &'p Cutter<'p>,
+pub(crate) struct Post<'p> {
+    pub machine: &'p Machine,
+    pub control: &'p TipControl,
+    pub options: &'p PostOptions,
+    pub path: &'p Path,
+    pub cutter: &'p Cutter<'p>,
     writer: Writer,
     /// The axis of programs for each axis of the machine.
-    names: Vec<Axis>,
-    coordinates: Coordinates,
+    pub names: Vec<Axis>,
+    pub coordinates: Coordinates,
     /// Lines written so far.
-    line: u32,
-    places: Vec<BlockPlace>,
-    blocks: usize,
+    pub line: u32,
+    pub places: Vec<BlockPlace>,
+    pub drilled: Vec<HolePlace>,
+    /// The cycle that is on.
+    pub hole: Option<Hole>,
+    pub blocks: usize,
+    pub arcs: usize,
 }
 
 pub(crate) fn write(
@@ -54,13 +59,27 @@ pub(crate) fn write(
         coordinates: axis_coordinates(options.control),
         line: 0,
         places: Vec::with_capacity(path.strokes.len()),
+        drilled: Vec::new(),
+        hole: None,
         blocks: 0,
+        arcs: 0,
     };
     post.program(legs)?;
     let (text, places, blocks) = (post.writer.finish(), post.places, post.blocks);
+    let (drilled, arcs) = (post.drilled, post.arcs);
     let rewinds = legs.iter().filter(|leg| !leg.cuts_first).count();
     let strokes = path.strokes.len();
-    Ok(Posted { text, strokes, blocks, rewinds, pole_deviation_rad: 0.0, places, path })
+    Ok(Posted {
+        text,
+        strokes,
+        blocks,
+        rewinds,
+        arcs,
+        pole_deviation_rad: 0.0,
+        places,
+        drilled,
+        path,
+    })
 }
 
 fn names(machine: &Machine) -> Result<Vec<Axis>, Fault> {
@@ -76,9 +95,13 @@ fn names(machine: &Machine) -> Result<Vec<Axis>, Fault> {
 }
 
 impl Post<'_> {
-    fn block(&mut self, block: &Block<'_>, line: u32) -> Result<(), Fault> {
+    pub(crate) fn block(&mut self, block: &Block<'_>, line: u32) -> Result<(), Fault> {
+        self.try_block(block).map_err(|e| unwritable(&e, line))
+    }
+
+    pub(crate) fn try_block(&mut self, block: &Block<'_>) -> Result<(), WriteError> {
         let before = self.writer.text().len();
-        self.writer.write(block).map_err(|e| unwritable(&e, line))?;
+        self.writer.write(block)?;
         let new = &self.writer.text()[before..];
         self.line += new.iter().filter(|b| **b == b'\n').count() as u32;
         Ok(())
@@ -89,10 +112,13 @@ impl Post<'_> {
         let tip = self.machine.tip_mm();
         let tool =
             format!("tool length {:.4} mm, tolerance {} mm", -tip.z, self.options.tolerance_mm);
+        let upright = "work offset at the workpiece zero, tool lengths in the control";
+        let length = self.options.tip_words == Some(TipWords::Length);
+        let comments = [&made, &tool, upright];
         let heading = Heading {
             name: &self.options.name,
             number: self.options.number,
-            comments: &[&made, &tool],
+            comments: if length { &comments } else { &comments[..2] },
             machine_coordinates: self.options.tip_words.is_none(),
             tolerance_mm: 0.5 * self.options.tolerance_mm,
         };
@@ -113,7 +139,7 @@ impl Post<'_> {
     }
 
     /// What happens before a stroke.
-    fn events(&mut self, stroke: usize) -> Result<(), Fault> {
+    pub(crate) fn events(&mut self, stroke: usize) -> Result<(), Fault> {
         let path = self.path;
         let from = path.events.partition_point(|(at, _)| *at < stroke);
         for (_, event) in path.events[from..].iter().take_while(|(at, _)| *at == stroke) {
@@ -139,16 +165,25 @@ impl Post<'_> {
             self.events(leg.first)?;
         }
         let path = self.path;
-        let first = &path.strokes[leg.first];
-        let begin =
-            Node { u: 1.0, stand: first.to, command: self.exact(&first.to, &leg.commands[0]) };
+        let begin = self.end_of(leg, leg.first);
         self.enter(leg, &begin)?;
         let mut at = begin;
-        for (k, command) in leg.commands.iter().enumerate().skip(1) {
-            let index = leg.first + k;
-            let stroke = &path.strokes[index];
+        let mut index = leg.first;
+        while index + 1 < leg.first + leg.commands.len() {
+            index += 1;
+            if let Some(last) = self.drill(leg, index, &at)? {
+                (index, at) = (last, self.end_of(leg, last));
+                continue;
+            }
+            self.end_holes()?;
+            let (stroke, command) = (&path.strokes[index], &leg.commands[index - leg.first]);
             self.events(index)?;
             let from = Node { u: 0.0, ..at };
+            let end = self.end_of(leg, index);
+            if self.write_circle(stroke, [&from, &end], leg, index)? {
+                at = end;
+                continue;
+            }
             let mut here = from;
             let cutter = self.cutter;
             cutter.cut(stroke, &from, *command, &mut |node| {
@@ -161,7 +196,14 @@ impl Post<'_> {
             })?;
             at = here;
         }
+        self.end_holes()?;
         self.leave(&at)
+    }
+
+    /// The end of a stroke of a leg.
+    pub(crate) fn end_of(&self, leg: &Leg, index: usize) -> Node {
+        let stand = self.path.strokes[index].to;
+        Node { u: 1.0, stand, command: self.exact(&stand, &leg.commands[index - leg.first]) }
     }
 
     /// The rotary axes as they are printed, and the linear axes that go with exactly them.
@@ -252,7 +294,7 @@ impl Post<'_> {
 
     /// A block to a place; `stroke` where it is on the path, with the place on it from which the tool
     /// comes along the stroke.
-    fn go(
+    pub(crate) fn go(
         &mut self,
         node: &Node,
         feed: Option<Feed>,
@@ -286,7 +328,7 @@ impl Post<'_> {
         Ok(())
     }
 
-    fn target(&self, node: &Node) -> Target {
+    pub(crate) fn target(&self, node: &Node) -> Target {
         let mut target = Target::default();
         let vectors = self.options.tip_words == Some(TipWords::Vectors);
         if self.options.tip_words.is_some() {
@@ -302,7 +344,8 @@ impl Post<'_> {
         }
         for (i, name) in self.names.iter().enumerate() {
             let rotary = self.machine.axes()[i].kind == AxisKind::Rotary;
-            if rotary || self.options.tip_words.is_none() {
+            let length = self.options.tip_words == Some(TipWords::Length);
+            if rotary && !length || self.options.tip_words.is_none() {
                 target = target.at(*name, self.shown(i, node.command[i]));
             }
         }

@@ -28,14 +28,18 @@
 //! # Ok::<(), trueaxis_writer::WriteError>(())
 //! ```
 
+mod arc;
 mod fanuc;
 mod heidenhain;
+mod holes;
 mod linuxcnc;
 mod number;
 mod sinumerik;
 mod template;
 mod words;
 
+pub use arc::CircularArc;
+pub use holes::Hole;
 pub use number::MOST_DECIMALS;
 pub use template::{BUILT_IN, Templates};
 
@@ -69,6 +73,15 @@ pub enum Block<'a> {
     Rapid(Target),
     /// A straight line with feed.
     Line(Target, Feed),
+    /// An arc or a turn of a helix about Z of the program, with feed.
+    Arc(Target, CircularArc, Feed),
+    /// A hole at the place where the tool stands, by the control's own cycle. Those that follow differ in their
+    /// place alone: [`Block::NextHole`].
+    Hole(&'a Hole),
+    /// The same hole at another place of the plane, which is reached at the retract height.
+    NextHole([f64; 2]),
+    /// The last hole of the cycle is done.
+    HolesEnd,
     /// A dwell, s.
     Dwell(f64),
     /// A message to the operator.
@@ -132,6 +145,8 @@ pub enum TipWords {
     Angles,
     /// By a vector: G43.5 I J K, A3 B3 C3, LN TX TY TZ. LinuxCNC has none.
     Vectors,
+    /// Not at all: the tool stands along Z with the rotary axes at 0, and its length is compensated (G43).
+    Length,
 }
 
 /// The target of a block.
@@ -264,9 +279,13 @@ pub struct Writer {
     number: u32,
     name: String,
     machine_coordinates: bool,
-    vectors: bool,
+    words: TipWords,
+    /// SINUMERIK: D0 is on.
+    without_length: bool,
     tool: u32,
     modal: Modal,
+    /// The cycle that is on.
+    hole: Option<Hole>,
 }
 
 impl Writer {
@@ -285,9 +304,11 @@ impl Writer {
             number: 0,
             name: String::new(),
             machine_coordinates: false,
-            vectors: false,
+            words: TipWords::Angles,
+            without_length: false,
             tool: 1,
             modal: Modal::default(),
+            hole: None,
         }
     }
 
@@ -324,6 +345,13 @@ impl Writer {
         match block {
             Block::Rapid(target) => self.straight(target, None),
             Block::Line(target, feed) => self.straight(target, Some(feed)),
+            Block::Arc(target, arc, feed) => arc::write(self, target, arc, feed),
+            Block::Hole(hole) => holes::first(self, hole),
+            Block::NextHole(place) => holes::next(self, *place),
+            Block::HolesEnd => {
+                holes::end(self);
+                Ok(())
+            }
             Block::Start(heading) => self.start(heading),
             Block::Tool(call) => self.tool(call),
             Block::TipOn(words) => self.tip_on(*words),
@@ -366,6 +394,17 @@ impl Writer {
             Control::Fanuc | Control::Haas => fanuc::straight(self, target, feed),
             Control::LinuxCnc => linuxcnc::straight(self, target, feed),
             Control::Sinumerik840d => sinumerik::straight(self, target, feed),
+        }
+    }
+
+    /// Its name in messages.
+    fn control_name(&self) -> &'static str {
+        match self.control {
+            Control::Fanuc => "FANUC",
+            Control::Haas => "HAAS",
+            Control::LinuxCnc => "LinuxCNC",
+            Control::Sinumerik840d => "SINUMERIK",
+            Control::Heidenhain => "HEIDENHAIN",
         }
     }
 

@@ -49,6 +49,7 @@ pub(super) struct Values {
     pub text: String,
     pub speed: String,
     pub vectors: bool,
+    pub length: bool,
 }
 
 impl Templates {
@@ -89,6 +90,7 @@ impl Templates {
             text => values.text.clone(),
             speed => values.speed.clone(),
             vectors => values.vectors,
+            length => values.length,
         };
         let fault = |e: &minijinja::Error| WriteError::Template(shown(e));
         let template = self.environment.get_template("template").map_err(|e| fault(&e))?;

@@ -42,7 +42,8 @@ impl Writer {
         Values {
             name: self.name.clone(),
             tool: self.tool,
-            vectors: self.vectors,
+            vectors: self.words == TipWords::Vectors,
+            length: self.words == TipWords::Length,
             machine_coordinates: self.machine_coordinates,
             ..Values::default()
         }
@@ -94,7 +95,10 @@ impl Writer {
             let instead = "write the rotary axes";
             return Err(WriteError::NotInDialect { control, what, instead });
         }
-        self.vectors = vectors;
+        self.words = words;
+        if std::mem::take(&mut self.without_length) {
+            self.line(b"D1");
+        }
         self.by_template("tip_on", &self.values())
     }
 
@@ -314,7 +318,7 @@ impl Writer {
     }
 
     /// G93, G94 or G95, where it is another one.
-    fn feed_mode(&mut self, feed: Option<&Feed>) {
+    pub(super) fn feed_mode(&mut self, feed: Option<&Feed>) {
         let mode = feed.map(|f| f.mode);
         if mode.is_none() || mode == self.modal.feed_mode {
             return;

@@ -23,6 +23,8 @@ pub struct Post {
     pub control: String,
     /// How tip and tool axis are written; none for axis positions.
     pub tip_words: Option<TipWords>,
+    /// Whether arcs and cycles are written as lines, too.
+    pub lines_only: bool,
     /// Largest distance between path and program.
     pub tolerance: String,
     /// Largest angle of the tool axis between blocks.
@@ -98,6 +100,7 @@ impl Post {
         let name = self.output.file_stem();
         Some(PostOptions {
             tip_words: self.tip_words,
+            lines_only: self.lines_only,
             tolerance_mm: tolerance_mm?,
             axis_tolerance_rad: axis_tolerance?.to_radians(),
             pole_rad: pole?.to_radians(),

@@ -46,6 +46,13 @@ pub fn post_report(report: &PostReport<'_>) -> Report<'static> {
         if report.is_sound() { "written to" } else { "not written to" },
         output.display()
     ));
+    let count =
+        |n: usize, one: &str, many: &str| format!("{n} {}", if n == 1 { one } else { many });
+    if posted.arcs + posted.holes() > 0 {
+        let arcs = count(posted.arcs, "arc", "arcs");
+        let holes = count(posted.holes(), "hole drilled by a cycle", "holes drilled by cycles");
+        answer = answer.line(format!("{arcs}, {holes} of the control"));
+    }
     if posted.rewinds > 0 {
         answer = answer
             .line(format!("the tool retracts {} times for an axis to rewind", posted.rewinds));

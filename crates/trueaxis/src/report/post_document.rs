@@ -27,6 +27,10 @@ pub struct PostDocument<'a> {
     pub blocks: usize,
     /// Lines of the program.
     pub lines: usize,
+    /// Blocks that are arcs.
+    pub arcs: usize,
+    /// Holes that the control drills by its own cycle.
+    pub holes: usize,
     /// How often the tool retracts so that an axis can rewind.
     pub rewinds: usize,
     /// How far the tool axis was turned to pass through a pole, degrees.
@@ -82,6 +86,8 @@ impl<'a> From<&PostReport<'a>> for PostDocument<'a> {
             strokes: posted.strokes,
             blocks: posted.blocks,
             lines: report.lines(),
+            arcs: posted.arcs,
+            holes: posted.holes(),
             rewinds: posted.rewinds,
             pole_deviation_deg: posted.pole_deviation_rad.to_degrees(),
             tolerance_mm: options.tolerance_mm,
