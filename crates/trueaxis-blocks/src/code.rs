@@ -161,6 +161,8 @@ pub enum Action {
     NurbsEnd,
     /// G76 of LinuxCNC: a thread in several passes.
     Threading,
+    /// G70 to G72.2 of LinuxCNC, ten times the number: a profile turned on a lathe.
+    Turning(u16),
     /// G70, G71 and G72 of HAAS: the cycle that is on at holes on a circle, an arc or a line.
     HolePattern(u8),
     /// Polar coordinates in the plane.
@@ -278,7 +280,11 @@ impl Action {
             | Self::TiltedPlane { .. }
             | Self::Align { .. } => 20,
             Self::MachineCoordinates => 21,
-            Self::Motion(_) | Self::Approach | Self::Threading | Self::HolePattern(_) => 22,
+            Self::Motion(_)
+            | Self::Approach
+            | Self::Threading
+            | Self::Turning(_)
+            | Self::HolePattern(_) => 22,
             Self::MacroCall | Self::ModalMacro { .. } | Self::Call | Self::LocalCall => 23,
             Self::Stop(_) | Self::End | Self::Return => 24,
         }
@@ -299,6 +305,7 @@ impl Action {
                 | Self::ReferenceReturn
                 | Self::Preset
                 | Self::Threading
+                | Self::Turning(_)
                 | Self::HolePattern(_)
                 | Self::Scale
                 | Self::Mirror(_)

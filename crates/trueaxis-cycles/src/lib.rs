@@ -1,6 +1,7 @@
 //! The geometry of cycles, the same for all controls: what the words of a control mean is in `trueaxis-nc`.
 //!
 //! - [`mill`]: pockets and faces; [`thread`]: the passes of a thread.
+//! - [`turning`]: a profile turned on a lathe.
 //! - [`spline`]: rational B-splines and the arcs through them.
 //! - [`pattern`]: holes in rows, on circles and in grids; pecks that become shorter.
 //!
@@ -11,5 +12,6 @@ pub mod mill;
 pub mod pattern;
 pub mod spline;
 pub mod thread;
+pub mod turning;
 
 pub use trueaxis_contour::plane::Point;

@@ -31,6 +31,7 @@ use crate::moves::{Move, Position};
 use crate::text::program::{Block, Fault, Label, Program, fault};
 use frames::Frames;
 use linuxcnc::modal_state::Saved;
+use linuxcnc::turning::Turning;
 use parameters::Locals;
 use quick::CodeTable;
 use words::{Modes, Words};
@@ -90,6 +91,8 @@ struct Run<'r> {
     guessed: Cell<Option<u32>>,
     /// The program that the block calls by name.
     called: Option<Label>,
+    /// The profile of a turning cycle that is being read.
+    turning: Option<Box<Turning>>,
     /// The text of the block's comment, for #3000 and #3006.
     remark: String,
 }
@@ -102,9 +105,12 @@ impl<'r> Language<'r> for Run<'r> {
     }
 
     fn advance(&mut self, block: &mut Block) -> Result<Next, Fault> {
+        if self.turning.is_some() && self.profile_is_complete() {
+            return self.turn_profile();
+        }
         let Some(top) = self.stack.last() else { return Ok(Next::Finished) };
         let program = Rc::clone(&self.core.programs[top.program]);
-        if !self.core.settings.report_blocks {
+        if !self.core.settings.report_blocks && self.turning.is_none() {
             self.straight_lines(program.source());
         }
         let Some(top) = self.stack.last() else { return Ok(Next::Finished) };
@@ -121,6 +127,7 @@ impl<'r> Language<'r> for Run<'r> {
     }
 
     fn pass_over(&mut self, block: &Block) {
+        self.forget_profile();
         self.follow(block);
         if self.core.program().dialect().o_words {
             // LinuxCNC leaves all subs and goes on in the main program.
@@ -156,6 +163,7 @@ impl<'r> Run<'r> {
             opened: false,
             guessed: Cell::new(None),
             called: None,
+            turning: None,
             remark: String::new(),
             core,
         }
@@ -173,7 +181,7 @@ impl<'r> Run<'r> {
         line: u32,
         block: &mut Block,
     ) -> Result<Next, Fault> {
-        let quick = match self.core.settings.report_blocks {
+        let quick = match self.core.settings.report_blocks || self.turning.is_some() {
             true => None,
             false => self.quick(program.dialect(), program.source(), at),
         };

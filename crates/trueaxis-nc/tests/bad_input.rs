@@ -92,7 +92,7 @@ fn unknown_words_are_never_dropped() {
     first("M777\n", "unknown-m-code", "p:1:1");
     first("G0 X1 H3\n", "unused-word", "p:1:7");
     first("G41 D1\n", "unknown-tool-radius", "p:1:1");
-    first("G70 P1 Z-1\n", "not-applied", "p:1:1");
+    first("G70 P1 Z-1\n", "bad-turning", "p:1:1");
 }
 
 #[test]

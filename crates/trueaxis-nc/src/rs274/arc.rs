@@ -29,7 +29,7 @@ impl Run<'_> {
         Ok(())
     }
 
-    fn by_center(&mut self, ends: [[f64; 2]; 2], at: usize) -> Result<[f64; 2], Fault> {
+    pub(super) fn by_center(&mut self, ends: [[f64; 2]; 2], at: usize) -> Result<[f64; 2], Fault> {
         let letters = self.core.modes.plane.axes().map(|a| b"IJK"[a as usize]);
         let given = [letters[0], letters[1]].map(|l| self.length(l));
         if given == [None, None] {

@@ -55,6 +55,9 @@ impl Run<'_> {
         }
         self.assign(passage, rest)?;
         self.system_reads(passage.block.span.start);
+        if self.turning.is_some() {
+            return self.profile_block(passage.block);
+        }
         self.perform(passage.block)
     }
 
@@ -148,6 +151,7 @@ impl Run<'_> {
                     self.motion(Motion::Rapid, machine, *at)?;
                     moved = true;
                 }
+                Action::Turning(code) => return self.turning(*code, *at, block),
                 Action::Call => return self.subprogram_call(block),
                 Action::LocalCall => return self.local_call(block),
                 Action::Return => return self.subprogram_return(block),

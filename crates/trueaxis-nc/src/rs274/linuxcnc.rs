@@ -4,3 +4,4 @@ mod comments;
 pub(super) mod modal_state;
 pub(super) mod polar;
 pub(super) mod splines;
+pub(super) mod turning;
