@@ -217,3 +217,47 @@ fn what_does_not_unroll_is_named() {
         None => assert!(problems.iter().any(|d| d.code == "not-unrolled"), "{problems:?}"),
     }
 }
+
+const TURNING: &str = "\
+G18 G21 G90 G94 F500
+G0 X130 Y110 Z-40
+o100 sub
+  G0 X105 Z-50
+  o101 repeat [2]
+    G1 X[#<_x>+5] Z[#<_z>-4] F20
+    G1 Z[#<_z>-3] A0.5
+  o101 endrepeat
+  G3 X119 Z-68 R4
+  G1 X125
+o100 endsub
+G71 Q100 X130 Z-45 D0.5 I4 R1 F300 (rough)
+X131
+G70 Q100 X130 Z-45 F200
+M2
+";
+
+/// A turning cycle becomes its moves; the blocks of its profile are none.
+#[test]
+fn law_turning_cycles_unroll_to_their_moves() {
+    let program = program(Control::LinuxCnc, "turning.ngc", TURNING);
+    let (done, problems) = flat(&bare("three-axis-mill"), &program);
+    let Some(done) = done else { panic!("{problems:?}") };
+    let new = String::from_utf8(done.text).unwrap();
+    let unrolled = Program::new("turning.ngc", new.clone().into_bytes(), Control::LinuxCnc);
+    let (was, is) = (moves(&program), moves(&unrolled));
+    assert!(was.len() > 40, "{}", was.len());
+    assert_eq!(was.len(), is.len(), "{new}");
+    for (a, b) in was.iter().zip(&is) {
+        let apart = a.target.minus(&b.target).0.iter().fold(0.0_f64, |m, d| m.max(d.abs()));
+        assert!(apart < 1e-3 && a.feed == b.feed, "{a:?}\n{b:?}");
+        let same = std::mem::discriminant(&a.kind) == std::mem::discriminant(&b.kind);
+        assert!(same, "{a:?}\n{b:?}");
+    }
+    assert!(["G71", "G70", "Q100", "o100"].iter().all(|w| !new.contains(w)), "{new}");
+    let machine = with_lost_motion(&machine("three-axis-mill"), 2e-3);
+    let options = ProgramOptions { increments: None, ..ProgramOptions::default() };
+    let setup = SetUp { files: disk(), ..SetUp::default() };
+    let (done, problems) = compensate_program(&machine, &program, &setup, &options);
+    let Some(done) = done else { panic!("{problems:?}") };
+    assert!(done.proof.after.tip_end.value <= 1e-9, "{:?}", done.proof.after);
+}

@@ -33,8 +33,10 @@ impl Run<'_> {
             let begins = matches!(item, Item::Control { keyword: Keyword::ProgramNumber, .. });
             is_control(item) && !begins
         });
-        if steers || next == Next::Jumped {
-            self.report_steering(passage, steers);
+        // The blocks of a profile move only where its cycle does.
+        let profile = self.turning.is_some();
+        if steers || profile || next == Next::Jumped {
+            self.report_steering(passage, steers || profile);
         }
         Ok(next)
     }

@@ -5,7 +5,7 @@ use super::super::text::{Edits, Modes};
 use super::super::words::Words;
 use std::ops::Range;
 use trueaxis_nc::lexer::{Lexer, TokenKind};
-use trueaxis_nc::moves::{Axis, Coordinates, FeedMode, Move, MoveKind};
+use trueaxis_nc::moves::{Axis, Coordinates, FeedMode, Move, MoveKind, Position};
 use trueaxis_nc::{Control, Program};
 
 /// A block that makes several moves, as plain text.
@@ -36,7 +36,9 @@ pub(super) fn unrolled(
     // The place before a modal cycle is the block's own; a cycle of FANUC has its words for itself.
     let own_move = !is_rs274 && words.axes.iter().any(Option::is_some);
     let cycle = &moves[usize::from(own_move)..];
-    let mut blocks = cycle.iter().map(|m| block(m, control, modes)).collect::<Option<Vec<_>>>()?;
+    let starts = std::iter::once(None).chain(cycle.iter().map(|m| Some(m.target)));
+    let texts = cycle.iter().zip(starts).map(|(m, from)| block(m, from, control, modes));
+    let mut blocks = texts.collect::<Option<Vec<_>>>()?;
     let head = head(program, line, control, own_move);
     if is_rs274 && modes.incremental {
         blocks.insert(0, "G90".to_owned());
@@ -45,8 +47,8 @@ pub(super) fn unrolled(
     Some(Unrolled { head, moves: blocks })
 }
 
-/// One move with all coordinates, absolute.
-fn block(m: &Move, control: Control, modes: Modes) -> Option<String> {
+/// One move with all coordinates, absolute; an arc has its centre from its start.
+fn block(m: &Move, from: Option<Position>, control: Control, modes: Modes) -> Option<String> {
     let klartext = control == Control::Heidenhain;
     if m.coordinates != Coordinates::Program || m.direction.is_some() {
         return None;
@@ -54,6 +56,13 @@ fn block(m: &Move, control: Control, modes: Modes) -> Option<String> {
     let code = match m.kind {
         MoveKind::Rapid => "G0",
         MoveKind::Linear => "G1",
+        MoveKind::Arc(arc) if control == Control::LinuxCnc && arc.turns == 1 => {
+            if arc.ccw {
+                "G3"
+            } else {
+                "G2"
+            }
+        }
         MoveKind::Dwell { seconds } => {
             return Some(match control {
                 Control::Fanuc | Control::Haas => format!("G4 P{}", (seconds * 1000.0).round()),
@@ -68,6 +77,13 @@ fn block(m: &Move, control: Control, modes: Modes) -> Option<String> {
     for axis in [Axis::X, Axis::Y, Axis::Z] {
         let value = Grid::of(None, modes.unit).text(m.target[axis], Of::Linear, control);
         text += &format!(" {axis}{value}");
+    }
+    if let MoveKind::Arc(arc) = m.kind {
+        for (axis, center) in arc.plane.axes().into_iter().zip(arc.center_mm) {
+            let value = center - from?[axis];
+            let value = Grid::of(None, modes.unit).text(value, Of::Linear, control);
+            text += &format!(" {}{value}", char::from(b"IJK"[axis as usize]));
+        }
     }
     if klartext {
         text += &match (m.kind, m.feed.mode) {
@@ -92,6 +108,9 @@ fn head(program: &Program, line: &Range<usize>, control: Control, own_move: bool
     let source = program.source();
     let text = |range: Range<usize>| String::from_utf8_lossy(&source[range]).into_owned();
     match control {
+        Control::LinuxCnc if is_turning(program, line) => {
+            head_without(program, line, &TURNING_CODES, b"NFSTMH")
+        }
         Control::Fanuc | Control::Haas | Control::LinuxCnc => {
             head_without(program, line, &CYCLE_CODES, b"NFSTMDH")
         }
@@ -102,6 +121,14 @@ fn head(program: &Program, line: &Range<usize>, control: Control, own_move: bool
         Control::Sinumerik840d if own_move => text(line.clone()),
         _ => String::new(),
     }
+}
+
+/// The turning cycles of LinuxCNC: their D is a distance.
+const TURNING_CODES: [f64; 7] = [70.0, 71.0, 71.1, 71.2, 72.0, 72.1, 72.2];
+
+fn is_turning(program: &Program, line: &Range<usize>) -> bool {
+    let all = head_without(program, line, &[], b"");
+    head_without(program, line, &TURNING_CODES, b"") != all
 }
 
 /// Codes of cycles and of their retraction; what moves is written for each move.
