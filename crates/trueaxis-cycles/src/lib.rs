@@ -1,6 +1,7 @@
 //! The geometry of cycles, the same for all controls: what the words of a control mean is in `trueaxis-nc`.
 //!
-//! - [`mill`]: pockets and faces; [`thread`]: the passes of a thread.
+//! - [`mill`]: bores and faces; [`pocket`]: pockets; [`outline`]: their outlines.
+//! - [`thread`]: the passes of a thread.
 //! - [`spline`]: rational B-splines and the arcs through them.
 //! - [`pattern`]: holes in rows, on circles and in grids; pecks that become shorter.
 //!
@@ -8,7 +9,9 @@
 //! first axis first.
 
 pub mod mill;
+pub mod outline;
 pub mod pattern;
+pub mod pocket;
 pub mod spline;
 pub mod thread;
 

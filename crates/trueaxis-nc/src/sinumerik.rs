@@ -20,6 +20,7 @@ mod execute;
 mod expression;
 mod flow;
 mod functions;
+mod milling;
 mod motion;
 mod orientation;
 mod patterns;

@@ -1,0 +1,87 @@
+//! Pockets: the cutter sweeps all that it can reach within the wall, and nothing outside it.
+
+mod support;
+
+use proptest::prelude::*;
+use support::{distance_at, outside_rectangle, pieces, places_below};
+use trueaxis_cycles::mill::Heights;
+use trueaxis_cycles::outline::Outline;
+use trueaxis_cycles::pocket::{Insert, Pocket};
+
+fn inserts() -> impl Strategy<Value = Insert> {
+    prop_oneof![
+        Just(Insert::Rapid),
+        Just(Insert::Straight),
+        (0.1..20.0, 0.2..9.0)
+            .prop_map(|(radius_mm, pitch_mm)| Insert::Helix { radius_mm, pitch_mm }),
+        (1.0..60.0).prop_map(|angle_deg| Insert::Ramp { angle_deg }),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 400, ..ProptestConfig::default() })]
+
+    /// A pocket of the size 2 (a + r), 2 (b + r) whose wall is at `r` from the outermost path, as wide as `rings`
+    /// steps (in radii); half of the points lie on the diagonals of its corners.
+    #[test]
+    fn law_pockets_are_swept_and_their_walls_left(
+        (rings, long, c, r, turned) in (0.05..6.0, 1.0..4.0, -0.5..1.0, 1.0..12.0, any::<bool>()),
+        (angle_deg, round, ccw) in (-180.0..180.0, any::<bool>(), any::<bool>()),
+        (step, layer_mm, insert) in (0.1..2.0, 0.7..9.0, inserts()),
+        center in [-30.0..30.0, -30.0..30.0],
+        points in prop::collection::vec([-1.0..1.0, -1.0..1.0], 60),
+    ) {
+        let rings = if rings > 1.0 { f64::round(rings) } else { rings };
+        let (a, b) = (rings * step * r, rings * step * r * long);
+        let (a, b) = if turned { (b, a) } else { (a, b) };
+        let corner_mm = f64::max(c, 0.0) * f64::min(a, b);
+        let (half_mm, corner_mm, angle_deg) =
+            if round { ([a, a], a, 0.0) } else { ([a, b], corner_mm, angle_deg) };
+        let outline = match round {
+            true => Outline::Circle { radius_mm: a },
+            false => Outline::Rectangle { half_mm, corner_mm, angle_deg },
+        };
+        let pocket = Pocket { center, outline, cutter_mm: r, step_mm: step * r, insert, ccw };
+        let heights = Heights { safe_mm: 2.0, top_mm: 0.0, bottom_mm: -10.0, layer_mm };
+        let outside = |p| outside_rectangle(half_mm, corner_mm, angle_deg, center, p);
+        let at = |p: [f64; 2]| {
+            let (sin, cos) = f64::to_radians(angle_deg).sin_cos();
+            let [x, y] = match p[0] > 0.0 {
+                true => [p[0] * (half_mm[0] + r), p[1] * (half_mm[1] + r)],
+                // On the diagonal of a corner, from the corner of the outermost path inwards.
+                false => half_mm.map(|h| (h + p[0] * half_mm[0].min(half_mm[1])) * f64::signum(p[1])),
+            };
+            [center[0] + x * cos - y * sin, center[1] + x * sin + y * cos]
+        };
+        let rough = pocket.strokes(&heights).unwrap();
+        let floor = pocket.floor(&Heights { top_mm: -9.0, ..heights }).unwrap();
+        for (strokes, bottoms) in [(&rough, heights.layers().unwrap()), (&floor, vec![-10.0])] {
+            let path = pieces(strokes, [center[0], center[1], 50.0]);
+            for p in places_below(&path, 2.0) {
+                prop_assert!(outside(p) < 1e-6, "{p:?} {pocket:?}");
+            }
+            for p in points.iter().map(|p| at(*p)).filter(|p| outside(*p) < r - 1e-6) {
+                for height in &bottoms {
+                    let left = distance_at(&path, *height, p);
+                    prop_assert!(left < r + 1e-6, "{p:?} at {height}: {left} {pocket:?}");
+                }
+            }
+        }
+        if let Some(strokes) = pocket.helices(&heights, false) {
+            let path = pieces(&strokes, [center[0], center[1], 50.0]);
+            for p in points.iter().map(|p| at(*p)).filter(|p| outside(*p) < r - 1e-6) {
+                prop_assert!(distance_at(&path, -10.0, p) < r + 1e-6, "{p:?} {pocket:?}");
+            }
+            prop_assert!(places_below(&path, 2.0).into_iter().all(|p| outside(p) < 1e-6));
+        }
+        // The wall: every point of it is touched, and the way to it stays inside.
+        let path = pieces(&pocket.wall(&heights).unwrap(), [center[0], center[1], 50.0]);
+        for p in places_below(&path, 2.0) {
+            prop_assert!(outside(p) < 1e-6, "{p:?} {pocket:?}");
+        }
+        for p in points.iter().map(|p| at(*p)).filter(|p| (outside(*p)).abs() < r - 1e-6) {
+            let near = distance_at(&path, -10.0, p);
+            prop_assert!(near < r + 1e-6, "{p:?}: {near} {pocket:?}");
+        }
+    }
+}

@@ -1,0 +1,296 @@
+//! Milling cycles: the same path in every notation, frame, plane and unit, and the printed examples of manuals.
+
+use std::collections::BTreeMap;
+
+use proptest::prelude::*;
+use trueaxis_nc::moves::{Axis, Event, Frame, Move, MoveKind, Position};
+use trueaxis_nc::{Control, NoLibrary, Program, Settings, Step, interpret};
+
+/// A move on the workpiece: its end, its centre if it is an arc, rapid or its feed.
+#[derive(Debug, Clone, Copy)]
+struct Piece {
+    to: [f64; 3],
+    center: Option<[f64; 3]>,
+    feed: f64,
+}
+
+/// The moves of a program on the workpiece with tool 1 of a radius, and the codes of what was found.
+fn run(control: Control, text: &str, radius: f64) -> (Vec<Piece>, Vec<&'static str>) {
+    let program = Program::new("p", text.as_bytes().to_vec(), control);
+    let settings = Settings {
+        radii: BTreeMap::from([(1, radius), (2, radius + 1.0)]),
+        tools: BTreeMap::from([(1, Position::default()), (2, Position::default())]),
+        ..Settings::default()
+    };
+    let (mut pieces, mut frame) = (Vec::new(), Frame::IDENTITY);
+    let outcome = interpret(&program, &NoLibrary, &settings, &mut |step| match step {
+        Step::Event(Event::Frame(now), _) => frame = now,
+        Step::Event(..) => {}
+        Step::Move(m) => pieces.push(piece(&m, &frame)),
+    });
+    (pieces, outcome.problems.iter().map(|p| p.code).collect())
+}
+
+fn piece(m: &Move, frame: &Frame) -> Piece {
+    let place = |p: &Position| {
+        let p = frame.place(p);
+        [p[Axis::X], p[Axis::Y], p[Axis::Z]]
+    };
+    let center = match m.kind {
+        MoveKind::Arc(arc) => {
+            let [a, b, _] = arc.plane.axes();
+            let mut center = m.target;
+            (center[a], center[b]) = (arc.center_mm[0], arc.center_mm[1]);
+            Some(place(&center))
+        }
+        _ => None,
+    };
+    let feed = if m.kind == MoveKind::Rapid { f64::INFINITY } else { m.feed.value };
+    Piece { to: place(&m.target), center, feed }
+}
+
+fn sound(control: Control, text: &str, radius: f64) -> Vec<Piece> {
+    let (pieces, found) = run(control, text, radius);
+    assert!(found.is_empty(), "{found:?}\n{text}");
+    pieces
+}
+
+fn near(a: [f64; 3], b: [f64; 3]) -> bool {
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6)
+}
+
+/// The pieces without those that lead nowhere.
+fn moving(pieces: &[Piece]) -> Vec<Piece> {
+    let mut found: Vec<Piece> = Vec::new();
+    for p in pieces {
+        if p.center.is_some() || found.last().is_none_or(|last| !near(last.to, p.to)) {
+            found.push(*p);
+        }
+    }
+    found
+}
+
+fn assert_same(a: &[Piece], b: &[Piece], what: &str) {
+    let (a, b) = (moving(a), moving(b));
+    assert_eq!(a.len(), b.len(), "{what}");
+    for (a, b) in a.iter().zip(&b) {
+        let centers = match (a.center, b.center) {
+            (Some(a), Some(b)) => near(a, b),
+            (a, b) => a.is_none() && b.is_none(),
+        };
+        let feeds = a.feed == b.feed || (a.feed - b.feed).abs() < 1e-6;
+        assert!(near(a.to, b.to) && centers && feeds, "{a:?} {b:?}\n{what}");
+    }
+}
+
+const SINUMERIK: Control = Control::Sinumerik840d;
+
+/// Calls of milling cycles in mm with the tool of radius 4: lengths are multiples of 1 mm about (x, y).
+fn sinumerik_calls(x: f64, y: f64, angle: f64) -> Vec<String> {
+    vec![
+        format!("POCKET3(10,0,2,-7,40,26,6,{x},{y},{angle},3,0.5,0.25,300,100,0,11,5)"),
+        format!("POCKET3(10,0,2,-7,40,26,6,{x},{y},{angle},3,0.5,0.25,300,100,2,22,5,0,0,0,3,2)"),
+        format!("POCKET3(10,0,2,-7,20,36,0,{x},{y},{angle},0,0,0,300,100,1,31,0,0,0,0,20,0)"),
+        format!("POCKET4(10,0,2,-7,20,{x},{y},3,0.5,0.25,300,100,0,21,5,0,0,3,2)"),
+        format!(
+            "POCKET4(10,0,2,7,40,{x},{y},3,0.5,0.25,300,100,3,1014,50,0,0,3,2,0,1,2,10100,110,111)"
+        ),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 32, ..ProptestConfig::default() })]
+
+    /// A milling cycle in a frame that is shifted and turned is the same cycle, shifted and turned.
+    #[test]
+    fn law_milling_cycles_move_with_their_frame(
+        x in -50.0..50.0, y in -50.0..50.0, turn in -180.0..180.0,
+    ) {
+        for call in 0..sinumerik_calls(0.0, 0.0, 0.0).len() {
+            let head = "T1 D1 M6\nS1000 M3 F200\n";
+            let there = format!(
+                "{head}TRANS X{x:.9} Y{y:.9}\nAROT Z{turn:.9}\nG0 X0 Y0 Z50\n{}\nM30\n", sinumerik_calls(0.0, 0.0, 0.0)[call]
+            );
+            let here = format!(
+                "{head}G0 X{x:.9} Y{y:.9} Z50\n{}\nM30\n",
+                sinumerik_calls(x, y, f64::round(turn * 1e9) / 1e9)[call]
+            );
+            // Only the rectangle turns: circles begin along the first axis of the plane.
+            if call >= 3 && turn != 0.0 {
+                let round = here.replace("G0 X", "ROT Z0\nG0 X");
+                let turned = there.replace(&format!("AROT Z{turn:.9}"), "AROT Z0");
+                assert_same(&sound(SINUMERIK, &turned, 4.0), &sound(SINUMERIK, &round, 4.0), &there);
+                continue;
+            }
+            assert_same(&sound(SINUMERIK, &there, 4.0), &sound(SINUMERIK, &here, 4.0), &there);
+        }
+    }
+}
+
+/// In G18 and G19 the axes change places; inches are 25.4 mm; a tool change before it changes nothing.
+#[test]
+fn milling_cycles_in_other_planes_units_and_notations() {
+    for call in sinumerik_calls(3.0, -4.0, 30.0) {
+        let head = "T1 D1 M6\nS1000 M3 F200\n";
+        let xy = sound(SINUMERIK, &format!("{head}G0 X3 Y-4 Z50\n{call}\nM30\n"), 4.0);
+        let yz = sound(SINUMERIK, &format!("{head}G19\nG0 Y3 Z-4 X50\n{call}\nM30\n"), 4.0);
+        let turned: Vec<_> = yz
+            .iter()
+            .map(|p| {
+                let turn = |p: [f64; 3]| [p[1], p[2], p[0]];
+                Piece { to: turn(p.to), center: p.center.map(turn), ..*p }
+            })
+            .collect();
+        let named = call.contains("POCKET4") && call.contains(",110,");
+        if !named {
+            assert_same(&xy[1..], &turned[1..], &call);
+        }
+        let other = format!("T2 D1 M6\nG0 X1 Y1 Z60\n{head}G0 X3 Y-4 Z50\n{call}\nM30\n");
+        assert_same(&xy[1..], &sound(SINUMERIK, &other, 4.0)[2..], &call);
+        // The place after the cycle: incremental words count from there.
+        let after = format!("{head}G0 X3 Y-4 Z50\n{call}\nG91 G0 X1 Y1 Z1\nM30\n");
+        let end = sound(SINUMERIK, &after, 4.0).last().unwrap().to;
+        assert!(near(end, [4.0, -3.0, 11.0]), "{call} {end:?}");
+    }
+    let inch = "T1 D1 M6\nM3 F20\nG700\nG0 X1 Y1 Z2\nPOCKET4(0.5,0,0.1,-0.3,1,1,1,0.1,0.01,0.01,30,10,0,11,0.2)\nM30\n";
+    let mm = "T1 D1 M6\nM3 F20\nG0 X25.4 Y25.4 Z50.8\n\
+        POCKET4(12.7,0,2.54,-7.62,25.4,25.4,25.4,2.54,0.254,0.254,762,254,0,11,5.08)\nM30\n";
+    assert_same(&sound(SINUMERIK, inch, 4.0), &sound(SINUMERIK, mm, 4.0), inch);
+    // MCALL: a pocket without a centre of its own at each place.
+    let many = "T1 D1 M6\nM3 F200\nG0 X0 Y0 Z50\nMCALL POCKET4(10,0,2,-7,20,,,3,0,0,300,100,0,11,5)\n\
+        X10 Y5\nX60\nMCALL\nM30\n";
+    let two = "T1 D1 M6\nM3 F200\nG0 X0 Y0 Z50\nX10 Y5\nPOCKET4(10,0,2,-7,20,10,5,3,0,0,300,100,0,11,5)\n\
+        X60\nPOCKET4(10,0,2,-7,20,60,5,3,0,0,300,100,0,11,5)\nM30\n";
+    assert_same(&sound(SINUMERIK, many, 4.0), &sound(SINUMERIK, two, 4.0), many);
+}
+
+/// The reach of the cutter at a height: X and Y from, to.
+fn reach(pieces: &[Piece], z: f64) -> [f64; 4] {
+    let mut found = [f64::MAX, f64::MIN, f64::MAX, f64::MIN];
+    for p in pieces.iter().filter(|p| (p.to[2] - z).abs() < 1e-9) {
+        found[0] = found[0].min(p.to[0]);
+        found[1] = found[1].max(p.to[0]);
+        found[2] = found[2].min(p.to[1]);
+        found[3] = found[3].max(p.to[1]);
+    }
+    found.map(|v| (v * 1e6).round() / 1e6)
+}
+
+/// The printed examples of the manual's POCKET3 (60 x 40 at X60 Y40, R8, 17.5 deep, allowances 0.75 and 0.2,
+/// infeed 4 at most) and POCKET4 (radius 25 in G19 at Y50 Z60, 20 deep, helix of 2 with 3 a turn).
+#[test]
+fn printed_pockets() {
+    let text = "G90 T1 D1 M6\nS600 M4\nG17 G0 X60 Y40 Z5\n\
+        POCKET3(5,0,0.5,-17.5,60,40,8,60,40,0,4,0.75,0.2,1000,750,0,11,5)\nM30\n";
+    let pieces = sound(SINUMERIK, text, 5.0);
+    // The wall is at 30 and 20, the centre 5.75 before it; the floor 0.2 above -17.5, in 5 layers of 3.46.
+    assert_eq!(reach(&pieces, -17.3), [60.0 - 24.25, 60.0 + 24.25, 40.0 - 14.25, 40.0 + 14.25]);
+    assert!(pieces.iter().any(|p| (p.to[2] + 3.46).abs() < 1e-9 && p.feed == 750.0));
+    assert!(near(pieces.last().unwrap().to, [60.0, 40.0, 5.0]));
+    let text = "G19 G90 G0 S650 M3\nT1 D1 M6\nX30 Y50 Z60\n\
+        POCKET4(3,0,0.5,-20,25,50,60,6,0,0,200,100,1,21,0,0,0,2,3)\nM30\n";
+    let pieces = sound(SINUMERIK, text, 5.0);
+    let turned: Vec<_> =
+        pieces.iter().map(|p| Piece { to: [p.to[1], p.to[2], p.to[0]], ..*p }).collect();
+    assert_eq!(reach(&turned, -20.0)[..2], [30.0, 70.0]);
+    // Conventional milling with M3: G2 within a pocket, on a helix of 2 mm first.
+    assert!(pieces.iter().any(|p| near(p.to, [0.5, 52.0, 60.0])));
+}
+
+/// What is not executed says so, and moves nothing.
+#[test]
+fn variants_that_are_not_executed_are_named() {
+    let calls = [
+        ("POCKET4(10,0,2,-7,20,0,0,3,0,0,300,100,0,15,5)", "not-executed"),
+        (
+            "POCKET3(10,0,2,-7,40,26,6,0,0,0,3,0,0,300,100,0,11,5,,,,,,,,,12100,11,0)",
+            "not-executed",
+        ),
+        (
+            "POCKET3(10,0,2,-7,40,26,6,0,0,0,3,0,0,300,100,0,11,5,,,,,,,,,21100,11,0)",
+            "not-executed",
+        ),
+        (
+            "POCKET3(10,0,2,-7,40,26,6,0,0,0,3,0,0,300,100,0,11,5,,,,,,,,,11100,12,0)",
+            "not-executed",
+        ),
+        ("POCKET4(10,0,2,-7,3,0,0,3,0,0,300,100,0,11,5)", "not-applied"),
+        ("POCKET4(10,0,2,-7,20,0,0,0.00000001,0,0,300,100,0,11,5)", "not-applied"),
+        ("POCKET4(10,0,2,7,20,0,0,3,0,0,300,100,0,11,5)", "cycle-heights"),
+        ("POCKET4(10,0,2,,20,0,0,3,0,0,300,100,0,11,5)", "cycle-without-depth"),
+        ("POCKET4(9999999999999,0,2,-7,20,0,0,3,0,0,300,100,0,11,5)", "too-large"),
+    ];
+    for (call, code) in calls {
+        let (pieces, found) =
+            run(SINUMERIK, &format!("T1 D1 M6\nM3 F9\nG0 X0 Y0 Z50\n{call}\nM30\n"), 4.0);
+        assert_eq!(found, [code], "{call}");
+        assert_eq!(pieces.len(), 1, "{call}");
+    }
+    let (_, found) = run(
+        SINUMERIK,
+        "T3 D1 M6\nM3 F9\nPOCKET4(10,0,2,-7,20,0,0,3,0,0,300,100,0,11,5)\nM30\n",
+        4.0,
+    );
+    assert_eq!(found, ["unknown-tool-length", "not-applied"]);
+    let (_, found) = run(
+        SINUMERIK,
+        "T1 D1 M6\nM3 F9\nG41 G1 X10\nPOCKET4(10,0,2,-7,20,0,0,3,0,0,300,100,0,11,5)\nM30\n",
+        4.0,
+    );
+    assert_eq!(found, ["bad-compensation"]);
+}
+
+const KLARTEXT: &str = "TOOL DEF 1 L+0 R+4\nTOOL CALL 1 Z S100\n";
+
+/// A slot as a pocket whose corners are as large as they can be; Q367 and Q374 by hand.
+#[test]
+fn slots_of_klartext() {
+    let depth = "Q201=-6 Q202=4 Q206=50 Q207=200 Q200=2 Q203=0 Q204=20 Q351=+1 Q366=0 Q215=0";
+    let slot = |more: &str| {
+        let text = format!(
+            "{KLARTEXT}L X+10 Y+20 Z+50 FMAX\nCYCL DEF 253 SLOT {depth} Q218=40 Q219=12 {more}\nCYCL CALL\n"
+        );
+        sound(Control::Heidenhain, &text, 4.0)
+    };
+    // 40 x 12 with a cutter of 8: the centre goes 16 to both sides and 2 up and down.
+    let plain = slot("Q374=0 Q367=0");
+    assert_eq!(reach(&plain, -6.0), [-6.0, 26.0, 18.0, 22.0]);
+    assert!(near(plain.last().unwrap().to, [10.0, 20.0, 20.0]));
+    let pocket = format!(
+        "{KLARTEXT}L X+10 Y+20 Z+50 FMAX\nCYCL DEF 251 POCKET {depth} Q218=40 Q219=12 Q220=6 Q370=1\nCYCL CALL\n"
+    );
+    assert_same(&plain, &sound(Control::Heidenhain, &pocket, 4.0), "slot");
+    // The tool at the left end, at the centre of the right circle; turned by 90 degrees.
+    assert_eq!(reach(&slot("Q374=0 Q367=1"), -6.0), [14.0, 46.0, 18.0, 22.0]);
+    assert_eq!(reach(&slot("Q374=0 Q367=3"), -6.0), [-20.0, 12.0, 18.0, 22.0]);
+    assert_eq!(reach(&slot("Q374=90 Q367=4"), -6.0), [8.0, 12.0, -16.0, 16.0]);
+    // Allowances: roughed to them, then finished with Q385; only roughed with Q215=1.
+    let both = slot("Q374=0 Q367=0 Q368=0.5 Q369=1 Q385=333 Q338=3");
+    assert_eq!(reach(&both, -5.0), [-5.5, 25.5, 18.5, 21.5]);
+    assert_eq!(reach(&both, -3.0), [-6.0, 26.0, 18.0, 22.0]);
+    assert_eq!(reach(&both, -6.0), [-6.0, 26.0, 18.0, 22.0]);
+    assert!(both.iter().any(|p| p.feed == 333.0));
+    // As wide as the cutter: to and fro only; narrower: not at all.
+    for (size, z) in [("Q218=40 Q219=8", Some(-6.0)), ("Q218=40 Q219=7", None)] {
+        let text =
+            format!("{KLARTEXT}L X+0 Y+0 Z+50 FMAX\nCYCL DEF 253 SLOT {depth} {size}\nCYCL CALL\n");
+        let (pieces, found) = run(Control::Heidenhain, &text, 4.0);
+        match z {
+            Some(z) => assert_eq!(reach(&pieces, z), [-16.0, 16.0, 0.0, 0.0]),
+            None => assert_eq!((found, pieces.len()), (vec!["not-applied"], 1)),
+        }
+    }
+}
+
+/// The tool at each corner of a pocket (Q367), turned about the pocket's own axes.
+#[test]
+fn pockets_of_klartext_by_their_corners() {
+    for (place, x, y) in [(1, 15.0, 10.0), (2, -15.0, 10.0), (3, -15.0, -10.0), (4, 15.0, -10.0)] {
+        let text = format!(
+            "{KLARTEXT}L X+0 Y+0 Z+50 FMAX\nCYCL DEF 251 POCKET Q215=0 Q218=30 Q219=20 Q220=5 Q367={place} Q224=0 \
+             Q201=-6 Q202=9 Q206=50 Q207=200 Q200=2 Q203=0 Q204=20 Q351=+1 Q366=0 Q370=1\nCYCL CALL\n"
+        );
+        let wanted = [x - 11.0, x + 11.0, y - 6.0, y + 6.0];
+        assert_eq!(reach(&sound(Control::Heidenhain, &text, 4.0), -6.0), wanted, "Q367={place}");
+    }
+}
