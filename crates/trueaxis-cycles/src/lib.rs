@@ -1,6 +1,7 @@
 //! The geometry of cycles, the same for all controls: what the words of a control mean is in `trueaxis-nc`.
 //!
 //! - [`mill`]: bores and faces; [`pocket`]: pockets; [`outline`]: their outlines.
+//! - [`contour`]: the centre of a cutter along a whole contour.
 //! - [`thread`]: the passes of a thread.
 //! - [`spline`]: rational B-splines and the arcs through them.
 //! - [`pattern`]: holes in rows, on circles and in grids; pecks that become shorter.
@@ -8,6 +9,7 @@
 //! Lengths are in mm, angles in the unit that their names state. Points are in the plane of the cycle, its
 //! first axis first.
 
+pub mod contour;
 pub mod mill;
 pub mod outline;
 pub mod pattern;

@@ -152,16 +152,22 @@ impl Run<'_> {
             self.core.not_applied(&subject, at, "check the size, the tool and the infeeds");
             return Ok(());
         };
-        let [first, second, third] = self.core.modes.plane.axes();
-        self.rapid_to(|to| to[third] = to[third].max(cut.retract));
-        self.rapid_to(|to| (to[first], to[second]) = (begin[0], begin[1]));
+        self.go_over(cut, begin);
         self.mill(&strokes, cut.feeds, at)?;
+        let [_, _, third] = self.core.modes.plane.axes();
         self.rapid_to(|to| to[third] = cut.retract);
         self.modes.tangent = None;
         Ok(())
     }
 
-    fn rapid_to(&mut self, change: impl FnOnce(&mut crate::moves::Position)) {
+    /// To a point of the plane, at the retraction plane or above it.
+    pub(super) fn go_over(&mut self, cut: &Cut, begin: Point) {
+        let [first, second, third] = self.core.modes.plane.axes();
+        self.rapid_to(|to| to[third] = to[third].max(cut.retract));
+        self.rapid_to(|to| (to[first], to[second]) = (begin[0], begin[1]));
+    }
+
+    pub(super) fn rapid_to(&mut self, change: impl FnOnce(&mut crate::moves::Position)) {
         let (from, mut to) = (self.chain.position, self.chain.position);
         change(&mut to);
         if to != from {
