@@ -1,6 +1,6 @@
 //! The geometry of cycles, the same for all controls: what the words of a control mean is in `trueaxis-nc`.
 //!
-//! - [`mill`]: bores and faces; [`pocket`]: pockets; [`outline`]: their outlines.
+//! - [`mill`]: bores; [`face`]: faces; [`pocket`]: pockets; [`outline`]: their outlines.
 //! - [`contour`]: the centre of a cutter along a whole contour.
 //! - [`thread`]: the passes of a thread.
 //! - [`spline`]: rational B-splines and the arcs through them.
@@ -10,6 +10,7 @@
 //! first axis first.
 
 pub mod contour;
+pub mod face;
 pub mod mill;
 pub mod outline;
 pub mod pattern;

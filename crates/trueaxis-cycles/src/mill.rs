@@ -1,4 +1,4 @@
-//! Strokes of a cutter: bore milling, faces; pockets are in [`crate::pocket`].
+//! Strokes of a cutter, and bores.
 //!
 //! Places have the two coordinates of the plane and the height; a path is that of the centre of the cutter.
 
@@ -94,64 +94,6 @@ pub fn bore(center: Point, radius_mm: f64, heights: &Heights, ccw: bool) -> Opti
     Some(strokes)
 }
 
-/// A face in parallel strokes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Face {
-    /// Two opposite corners of the face, mm.
-    pub corners: [Point; 2],
-    /// The largest distance from stroke to stroke, mm.
-    pub step_mm: f64,
-    /// How far the centre of the cutter goes past the ends of a stroke, mm.
-    pub over_mm: f64,
-    /// The strokes are along the second axis of the plane.
-    pub along_second: bool,
-    /// Every second stroke goes back.
-    pub back_and_forth: bool,
-}
-
-impl Face {
-    /// The strokes of all layers, with the tool above the first one at the beginning.
-    pub fn strokes(&self, heights: &Heights) -> Option<Vec<Stroke>> {
-        let [a, b] = self.corners;
-        let (i, j) = if self.along_second { (1, 0) } else { (0, 1) };
-        let width = (b[j] - a[j]).abs();
-        let gaps = (width / self.step_mm - 1e-9).ceil().max(1.0);
-        if gaps.is_nan() || gaps >= 1e4 || self.step_mm <= 0.0 {
-            return None;
-        }
-        let gaps = gaps as u32;
-        let sign = if b[i] < a[i] { -1.0 } else { 1.0 };
-        let ends = [a[i] - sign * self.over_mm, b[i] + sign * self.over_mm];
-        let point = |end: usize, line: u32| {
-            let mut p = [0.0; 2];
-            p[i] = ends[end];
-            p[j] = a[j] + (b[j] - a[j]) * f64::from(line) / f64::from(gaps);
-            p
-        };
-        let mut strokes = Vec::new();
-        for height in heights.layers()? {
-            for line in 0..=gaps {
-                let back = self.back_and_forth && line % 2 == 1;
-                let (from, to) = if back { (1, 0) } else { (0, 1) };
-                if line == 0 || !self.back_and_forth {
-                    strokes.push(Stroke::Rapid(at(point(from, line), heights.safe_mm)));
-                    strokes.push(Stroke::Plunge(at(point(from, line), height)));
-                } else {
-                    strokes.push(Stroke::Line(at(point(from, line), height)));
-                }
-                strokes.push(Stroke::Line(at(point(to, line), height)));
-                if !self.back_and_forth || line == gaps {
-                    strokes.push(Stroke::Rapid(at(point(to, line), heights.safe_mm)));
-                }
-            }
-            if strokes.len() > MOST_STROKES {
-                return None;
-            }
-        }
-        Some(strokes)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -184,20 +126,5 @@ mod tests {
         assert_eq!(down, 8);
         let last = bottom(&strokes);
         assert_eq!(last, [[14.0, 20.0], [6.0, 20.0], [14.0, 20.0], [10.0, 20.0]]);
-    }
-
-    #[test]
-    fn faces_are_covered_from_corner_to_corner() {
-        let face = Face {
-            corners: [[0.0, 0.0], [50.0, -30.0]],
-            step_mm: 20.0,
-            over_mm: 5.0,
-            along_second: false,
-            back_and_forth: true,
-        };
-        let places = bottom(&face.strokes(&HEIGHTS).unwrap());
-        let wanted =
-            [[-5.0, 0.0], [55.0, 0.0], [55.0, -15.0], [-5.0, -15.0], [-5.0, -30.0], [55.0, -30.0]];
-        assert_eq!(places, wanted);
     }
 }

@@ -3,10 +3,20 @@
 mod support;
 
 use proptest::prelude::*;
-use support::{distance_at, outside_rectangle, pieces, places_below};
+use support::{distance_at, pieces, places_below};
+use trueaxis_cycles::Point;
 use trueaxis_cycles::mill::Heights;
 use trueaxis_cycles::outline::Outline;
 use trueaxis_cycles::pocket::{Insert, Pocket};
+
+/// How far a point is outside a rectangle with rounded corners (negative: inside), mm.
+fn outside_rectangle(half: Point, corner: f64, angle_deg: f64, center: Point, p: Point) -> f64 {
+    let (sin, cos) = angle_deg.to_radians().sin_cos();
+    let d = [p[0] - center[0], p[1] - center[1]];
+    let own = [d[0] * cos + d[1] * sin, -d[0] * sin + d[1] * cos];
+    let q = [0, 1].map(|i| own[i].abs() - half[i] + corner);
+    q[0].max(0.0).hypot(q[1].max(0.0)) + q[0].max(q[1]).min(0.0) - corner
+}
 
 fn inserts() -> impl Strategy<Value = Insert> {
     prop_oneof![

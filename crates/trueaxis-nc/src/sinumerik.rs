@@ -19,6 +19,7 @@ mod contour;
 mod drilling;
 mod execute;
 mod expression;
+mod face;
 mod flow;
 mod functions;
 mod milling;

@@ -98,6 +98,51 @@ fn sinumerik_calls(x: f64, y: f64, angle: f64) -> Vec<String> {
     ]
 }
 
+/// The same face in both cycles: 60 x 40 from (x, y), strokes of 10, 5 off the face, 1.5 left; CYCLE61 has no angle.
+fn faces(x: f64, y: f64, angle: f64) -> [String; 2] {
+    let (x1, y1) = (x + 60.0, y + 40.0);
+    [
+        format!("CYCLE71(10,0,5,-11,{x},{y},60,40,{angle},6,6,5,1.5,400,31,0)"),
+        format!("CYCLE61(10,0,5,11,{x},{y},{x1},{y1},6,75,1.5,400,31,0,1,11011)"),
+    ]
+}
+
+/// CYCLE71 and CYCLE61 are the same without an angle; the printed CYCLE71 (60 x 40 at X100 Y100, 10 degrees).
+#[test]
+fn faces_of_both_cycles() {
+    let run = |call: &str| {
+        sound(SINUMERIK, &format!("T1 D1 M6\nM3 F9\nG0 X0 Y0 Z50\n{call}\nM30\n"), 4.0)
+    };
+    let [old, new] = faces(7.0, -3.0, 0.0);
+    assert_same(&run(&old), &run(&new), &old);
+    // Opposite corners, absolute and incremental; a limit keeps the cutter inside.
+    let incremental = "CYCLE61(10,0,5,-9.5,7,-3,60,40,6,6,0,400,31,0,1,0)";
+    assert_same(
+        &run(&new)[..],
+        &run(&incremental.replace("-9.5,7", "-11,7").replace("6,6,0,", "6,6,1.5,")),
+        &new,
+    );
+    let limited = run("CYCLE61(10,0,5,-9.5,7,-3,60,40,6,6,0,400,31,1011,1,0)");
+    let [low, high, bottom, top] = reach(&limited, -9.5);
+    assert_eq!((low, high, top), (11.0, 63.0, 33.0));
+    assert!(bottom < -3.0 + 4.0, "{bottom}");
+    let printed = "T1 D1 M6\nM3 F2000\nG17 G0 G90 G54 G94 X0 Y0 Z20\n\
+        CYCLE71(10,0,2,-11,100,100,60,40,10,6,10,5,0,4000,31,2)\nG0 G90 X0 Y0\nM30\n";
+    let pieces = sound(SINUMERIK, printed, 10.0);
+    // Two layers of 5.5; in its own axes from X-15 to 75, from Y0 to 32 (40 + 2 - 10).
+    let (sin, cos) = 10.0_f64.to_radians().sin_cos();
+    let own: Vec<_> = pieces
+        .iter()
+        .map(|p| {
+            let d = [p.to[0] - 100.0, p.to[1] - 100.0];
+            Piece { to: [d[0] * cos + d[1] * sin, d[1] * cos - d[0] * sin, p.to[2]], ..*p }
+        })
+        .collect();
+    assert_eq!(reach(&own, -11.0), [-15.0, 75.0, 0.0, 32.0]);
+    assert_eq!(reach(&own, -5.5), [-15.0, 75.0, 0.0, 32.0]);
+    assert!(pieces.iter().filter(|p| p.to[2] < 0.0).all(|p| p.feed == 4000.0));
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, cases: 32, ..ProptestConfig::default() })]
 
@@ -115,8 +160,8 @@ proptest! {
                 "{head}G0 X{x:.9} Y{y:.9} Z50\n{}\nM30\n",
                 sinumerik_calls(x, y, f64::round(turn * 1e9) / 1e9)[call]
             );
-            // Only the rectangle turns: circles begin along the first axis of the plane.
-            if call >= 3 && turn != 0.0 {
+            // Circles begin along the first axis of the plane, and CYCLE61 has no angle.
+            if matches!(call, 3 | 4 | 6) && turn != 0.0 {
                 let round = here.replace("G0 X", "ROT Z0\nG0 X");
                 let turned = there.replace(&format!("AROT Z{turn:.9}"), "AROT Z0");
                 assert_same(&sound(SINUMERIK, &turned, 4.0), &sound(SINUMERIK, &round, 4.0), &there);
@@ -149,8 +194,12 @@ fn milling_cycles_in_other_planes_units_and_notations() {
         assert_same(&xy[1..], &sound(SINUMERIK, &other, 4.0)[2..], &call);
         // The place after the cycle: incremental words count from there.
         let after = format!("{head}G0 X3 Y-4 Z50\n{call}\nG91 G0 X1 Y1 Z1\nM30\n");
-        let end = sound(SINUMERIK, &after, 4.0).last().unwrap().to;
-        assert!(near(end, [4.0, -3.0, 11.0]), "{call} {end:?}");
+        let pieces = sound(SINUMERIK, &after, 4.0);
+        let [.., before, end] = &pieces[..] else { panic!() };
+        let wanted = [before.to[0] + 1.0, before.to[1] + 1.0, 11.0];
+        assert!(near(end.to, wanted), "{call} {end:?}");
+        let over_centre = near(before.to, [3.0, -4.0, 10.0]);
+        assert_eq!(over_centre, call.starts_with("POCKET"), "{call}");
     }
     let inch = "T1 D1 M6\nM3 F20\nG700\nG0 X1 Y1 Z2\nPOCKET4(0.5,0,0.1,-0.3,1,1,1,0.1,0.01,0.01,30,10,0,11,0.2)\nM30\n";
     let mm = "T1 D1 M6\nM3 F20\nG0 X25.4 Y25.4 Z50.8\n\

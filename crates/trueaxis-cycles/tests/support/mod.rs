@@ -70,12 +70,3 @@ pub fn places_below(pieces: &[Piece], height: f64) -> Vec<Point> {
     let deep = pieces.iter().filter(|p| p.heights.iter().any(|h| *h < height - 1e-9));
     deep.flat_map(|p| (0..=16).map(|i| p.element.point(f64::from(i) / 16.0))).collect()
 }
-
-/// How far a point is outside a rectangle with rounded corners (negative: inside), mm.
-pub fn outside_rectangle(half: Point, corner: f64, angle_deg: f64, center: Point, p: Point) -> f64 {
-    let (sin, cos) = angle_deg.to_radians().sin_cos();
-    let d = [p[0] - center[0], p[1] - center[1]];
-    let own = [d[0] * cos + d[1] * sin, -d[0] * sin + d[1] * cos];
-    let q = [0, 1].map(|i| own[i].abs() - half[i] + corner);
-    q[0].max(0.0).hypot(q[1].max(0.0)) + q[0].max(q[1]).min(0.0) - corner
-}
