@@ -163,6 +163,11 @@ pub enum Action {
     Threading,
     /// G70, G71 and G72 of HAAS: the cycle that is on at holes on a circle, an arc or a line.
     HolePattern(u8),
+    /// G12 and G13 of HAAS: a circular pocket, counter-clockwise or not.
+    CircularPocket {
+        /// G13.
+        ccw: bool,
+    },
     /// Polar coordinates in the plane.
     Polar(bool),
     /// Scale, also negative.
@@ -278,7 +283,8 @@ impl Action {
             | Self::TiltedPlane { .. }
             | Self::Align { .. } => 20,
             Self::MachineCoordinates => 21,
-            Self::Motion(_) | Self::Approach | Self::Threading | Self::HolePattern(_) => 22,
+            Self::Motion(_) | Self::Approach | Self::Threading => 22,
+            Self::HolePattern(_) | Self::CircularPocket { .. } => 22,
             Self::MacroCall | Self::ModalMacro { .. } | Self::Call | Self::LocalCall => 23,
             Self::Stop(_) | Self::End | Self::Return => 24,
         }
@@ -300,6 +306,7 @@ impl Action {
                 | Self::Preset
                 | Self::Threading
                 | Self::HolePattern(_)
+                | Self::CircularPocket { .. }
                 | Self::Scale
                 | Self::Mirror(_)
                 | Self::Rotation

@@ -1,4 +1,5 @@
-//! Pockets: the cutter sweeps all that it can reach within the wall, and nothing outside it.
+//! Pockets: the cutter sweeps all that it can reach within the wall, and nothing outside it. Spigots: it sweeps
+//! a band around them, and comes from outside the blank.
 
 mod support;
 
@@ -8,6 +9,7 @@ use trueaxis_cycles::Point;
 use trueaxis_cycles::mill::Heights;
 use trueaxis_cycles::outline::Outline;
 use trueaxis_cycles::pocket::{Insert, Pocket};
+use trueaxis_cycles::spigot::Spigot;
 
 /// How far a point is outside a rectangle with rounded corners (negative: inside), mm.
 fn outside_rectangle(half: Point, corner: f64, angle_deg: f64, center: Point, p: Point) -> f64 {
@@ -92,6 +94,47 @@ proptest! {
         for p in points.iter().map(|p| at(*p)).filter(|p| (outside(*p)).abs() < r - 1e-6) {
             let near = distance_at(&path, -10.0, p);
             prop_assert!(near < r + 1e-6, "{p:?}: {near} {pocket:?}");
+        }
+    }
+
+    /// A spigot of the size 2 a, 2 b and its path at the distance r.
+    #[test]
+    fn law_spigots_are_left_and_the_band_around_them_is_swept(
+        (a, b, c, r) in (0.5..40.0, 0.5..40.0, 0.0..1.0, 0.5..12.0_f64),
+        (angle_deg, round, ccw) in (-180.0..180.0, any::<bool>(), any::<bool>()),
+        (start_mm, layer_mm) in (0.01..30.0, 0.7..9.0),
+        points in prop::collection::vec([-1.0..1.0, -1.0..1.0], 60),
+    ) {
+        let corner_mm = c * f64::min(a, b);
+        let (half_mm, corner_mm, angle_deg) =
+            if round { ([a, a], a, 0.0) } else { ([a, b], corner_mm, angle_deg) };
+        let wall = match round {
+            true => Outline::Circle { radius_mm: a },
+            false => Outline::Rectangle { half_mm, corner_mm, angle_deg },
+        };
+        let center = [3.0, -4.0];
+        let outline = wall.inside(0.0 - r).unwrap();
+        let spigot = Spigot { center, outline, start_mm, ccw };
+        let heights = Heights { safe_mm: 2.0, top_mm: 0.0, bottom_mm: -10.0, layer_mm };
+        let outside = |p| outside_rectangle(half_mm, corner_mm, angle_deg, center, p);
+        let path = pieces(&spigot.strokes(&heights).unwrap(), [0.0, 0.0, 2.0]);
+        for p in places_below(&path, 2.0) {
+            prop_assert!(outside(p) > r - 1e-6, "{p:?} {spigot:?}");
+        }
+        // Down only at the start: there the cutter is off the path by start_mm.
+        let start = spigot.start();
+        prop_assert!((outside(start) - r - start_mm).abs() < 1e-6, "{spigot:?}");
+        for piece in path.iter().filter(|p| p.heights[0] != p.heights[1] && p.heights[1] < 2.0) {
+            let p = piece.element.point(1.0);
+            prop_assert!((p[0] - start[0]).hypot(p[1] - start[1]) < 1e-9, "{spigot:?}");
+        }
+        for p in points.iter().map(|p| [0, 1].map(|i| center[i] + p[i] * (a + b + 2.0 * r))) {
+            let d = outside(p);
+            if d > 1e-6 && d < 2.0 * r - 1e-6 {
+                for height in heights.layers().unwrap() {
+                    prop_assert!(distance_at(&path, height, p) < r + 1e-6, "{p:?} {spigot:?}");
+                }
+            }
         }
     }
 }

@@ -29,6 +29,7 @@ mod patterns;
 mod quick;
 mod radius;
 mod reader;
+mod spigots;
 mod structure;
 mod swivel;
 mod system;

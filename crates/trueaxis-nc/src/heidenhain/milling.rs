@@ -1,4 +1,5 @@
-//! Milling cycles where the tool stands: 208 bore milling, 251 rectangular and 252 circular pocket, 253 slot.
+//! Milling cycles where the tool stands: 208 bore milling, 251 rectangular and 252 circular pocket, 253 slot, 262
+//! thread.
 
 use std::collections::BTreeMap;
 
@@ -13,7 +14,7 @@ use trueaxis_cycles::outline::Outline;
 use trueaxis_cycles::pocket::{Insert, Pocket};
 
 /// The cycles of this file.
-pub(super) const MILLING: [u32; 4] = [208, 251, 252, 253];
+pub(super) const MILLING: [u32; 7] = [204, 208, 251, 252, 253, 254, 262];
 
 /// A milling cycle with its parameters and what they come to; lengths in mm.
 pub(super) struct Milled<'a> {
@@ -68,6 +69,9 @@ impl Run<'_> {
         values: &BTreeMap<u32, f64>,
         at: usize,
     ) -> Result<(), Fault> {
+        if number == 204 {
+            return self.bore_back(values, at);
+        }
         if MILLING.contains(&number) {
             return self.mill_hole(number, values, at);
         }
@@ -102,14 +106,30 @@ impl Run<'_> {
         if heights.bottom_mm >= heights.top_mm {
             return Err(mistakes::missing_depth(at));
         }
-        for feed in [cycle.feed(if number == 208 { 206 } else { 207 }, 0), cycle.feed(206, 0)] {
-            crate::execution::check_feed(&feed, at)?;
+        let feeds = match number {
+            208 => [206, 206],
+            262 => [207, 207],
+            _ => [206, 207],
+        };
+        for q in feeds {
+            crate::execution::check_feed(&cycle.feed(q, 0), at)?;
         }
         if cycle.value(366) != 0.0 {
             let what = format!("Q366 of cycle {number}: the helix or ramp into the material");
             self.core.left_out(&what, at);
         }
-        let passes = if number == 208 { self.bored(&cycle) } else { self.cleared(&cycle) };
+        let passes = match number {
+            208 => self.bored(&cycle),
+            254 if cycle.value(367) != 0.0 => {
+                let subject = "cycle 254 with Q367 other than 0";
+                let hint = "state the centre of the arc: Q216, Q217 and Q367=0";
+                self.core.not_applied(subject, at, hint);
+                return Ok(());
+            }
+            254 => self.arc_slots(&cycle),
+            262 => self.threaded(&cycle),
+            _ => self.cleared(&cycle),
+        };
         let Some(passes) = passes else {
             let subject =
                 format!("cycle {number} that is smaller than the tool or has endless steps");
