@@ -165,6 +165,11 @@ pub enum Action {
     Turning(u16),
     /// G70, G71 and G72 of HAAS: the cycle that is on at holes on a circle, an arc or a line.
     HolePattern(u8),
+    /// G12 and G13 of HAAS: a circular pocket, counter-clockwise or not.
+    CircularPocket {
+        /// G13.
+        ccw: bool,
+    },
     /// Polar coordinates in the plane.
     Polar(bool),
     /// Scale, also negative.
@@ -284,6 +289,7 @@ impl Action {
             | Self::Approach
             | Self::Threading
             | Self::Turning(_)
+            | Self::CircularPocket { .. }
             | Self::HolePattern(_) => 22,
             Self::MacroCall | Self::ModalMacro { .. } | Self::Call | Self::LocalCall => 23,
             Self::Stop(_) | Self::End | Self::Return => 24,
@@ -307,6 +313,7 @@ impl Action {
                 | Self::Threading
                 | Self::Turning(_)
                 | Self::HolePattern(_)
+                | Self::CircularPocket { .. }
                 | Self::Scale
                 | Self::Mirror(_)
                 | Self::Rotation

@@ -18,8 +18,8 @@ pub(crate) static DIALECT: Dialect = Dialect {
 };
 
 const G_CODES: [(u16, A); 19] = [
-    (120, A::NotApplied("G12 circular pocket")),
-    (130, A::NotApplied("G13 circular pocket")),
+    (120, A::CircularPocket { ccw: false }),
+    (130, A::CircularPocket { ccw: true }),
     (350, A::NotApplied("G35 automatic tool diameter")),
     (360, A::NotApplied("G36 automatic work offset")),
     (370, A::NotApplied("G37 automatic tool length")),

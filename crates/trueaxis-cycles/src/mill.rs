@@ -1,4 +1,4 @@
-//! Strokes of a cutter: bore milling, circular and rectangular pockets, faces.
+//! Strokes of a cutter, and bores.
 //!
 //! Places have the two coordinates of the plane and the height; a path is that of the centre of the cutter.
 
@@ -7,7 +7,7 @@ use trueaxis_contour::plane::along;
 use crate::Point;
 
 /// Strokes of one cycle: more than any program means.
-const MOST_STROKES: usize = 1_000_000;
+pub(crate) const MOST_STROKES: usize = 1_000_000;
 
 /// One stroke.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -94,166 +94,6 @@ pub fn bore(center: Point, radius_mm: f64, heights: &Heights, ccw: bool) -> Opti
     Some(strokes)
 }
 
-/// A round pocket in layers: in each down at the centre, then circles that grow by the step.
-pub fn round_pocket(
-    center: Point,
-    radius_mm: f64,
-    step_mm: f64,
-    heights: &Heights,
-    ccw: bool,
-) -> Option<Vec<Stroke>> {
-    let rings = (radius_mm / step_mm - 1e-9).ceil();
-    if rings.is_nan() || rings >= 1e4 || step_mm <= 0.0 {
-        return None;
-    }
-    let rings = rings.max(0.0) as u32;
-    let mut strokes = vec![Stroke::Rapid(at(center, heights.safe_mm))];
-    for height in heights.layers()? {
-        strokes.push(Stroke::Plunge(at(center, height)));
-        for i in 1..=rings {
-            let r = radius_mm * f64::from(i) / f64::from(rings);
-            let (side, other) = (along(center, [1.0, 0.0], r), along(center, [-1.0, 0.0], r));
-            strokes.push(Stroke::Line(at(side, height)));
-            for to in [other, side] {
-                strokes.push(Stroke::Arc { to: at(to, height), center, ccw, plunges: false });
-            }
-        }
-        strokes.push(Stroke::Line(at(center, height)));
-        if strokes.len() > MOST_STROKES {
-            return None;
-        }
-    }
-    strokes.push(Stroke::Rapid(at(center, heights.safe_mm)));
-    Some(strokes)
-}
-
-/// A rectangular pocket; the measures are those of the path of the centre of the cutter.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RectanglePocket {
-    /// The centre, mm.
-    pub center: Point,
-    /// Half of the sides along the first and second axis of the pocket, mm.
-    pub half_mm: [f64; 2],
-    /// The radius of the corners, mm.
-    pub corner_mm: f64,
-    /// The direction of the first side, degrees.
-    pub angle_deg: f64,
-}
-
-impl RectanglePocket {
-    fn place(&self, p: Point) -> Point {
-        let (sin, cos) = self.angle_deg.to_radians().sin_cos();
-        [self.center[0] + p[0] * cos - p[1] * sin, self.center[1] + p[0] * sin + p[1] * cos]
-    }
-
-    /// Once around a rectangle with rounded corners, from the middle of its first side.
-    fn around(&self, half: Point, corner: f64, height: f64, ccw: bool, strokes: &mut Vec<Stroke>) {
-        let sign = if ccw { 1.0 } else { -1.0 };
-        let (a, b) = (half[0], half[1]);
-        let c = corner.min(a).min(b);
-        // Corners counter-clockwise from the right upper one: where each begins, ends, and its centre.
-        let all = [
-            ([a, b - c], [a - c, b], [a - c, b - c]),
-            ([c - a, b], [-a, b - c], [c - a, b - c]),
-            ([-a, c - b], [c - a, -b], [c - a, c - b]),
-            ([a - c, -b], [a, c - b], [a - c, c - b]),
-        ];
-        let mirrored = |p: Point| self.place([p[0], sign * p[1]]);
-        strokes.push(Stroke::Line(at(mirrored([a, 0.0]), height)));
-        for (begin, end, center) in all {
-            strokes.push(Stroke::Line(at(mirrored(begin), height)));
-            if c > 0.0 {
-                let (to, center) = (at(mirrored(end), height), mirrored(center));
-                strokes.push(Stroke::Arc { to, center, ccw, plunges: false });
-            }
-        }
-        strokes.push(Stroke::Line(at(mirrored([a, 0.0]), height)));
-    }
-
-    /// The pocket in layers: in each down at the centre, then rectangles that grow by the step.
-    pub fn strokes(&self, step_mm: f64, heights: &Heights, ccw: bool) -> Option<Vec<Stroke>> {
-        let narrow = self.half_mm[0].min(self.half_mm[1]);
-        let rings = (narrow / step_mm - 1e-9).ceil();
-        if rings.is_nan() || rings >= 1e4 || step_mm <= 0.0 {
-            return None;
-        }
-        let rings = rings.max(1.0) as u32;
-        let mut strokes = vec![Stroke::Rapid(at(self.center, heights.safe_mm))];
-        for height in heights.layers()? {
-            strokes.push(Stroke::Plunge(at(self.center, height)));
-            for i in 1..=rings {
-                let smaller = narrow * (1.0 - f64::from(i) / f64::from(rings));
-                let half = self.half_mm.map(|h| h - smaller);
-                self.around(half, (self.corner_mm - smaller).max(0.0), height, ccw, &mut strokes);
-            }
-            strokes.push(Stroke::Line(at(self.center, height)));
-            if strokes.len() > MOST_STROKES {
-                return None;
-            }
-        }
-        strokes.push(Stroke::Rapid(at(self.center, heights.safe_mm)));
-        Some(strokes)
-    }
-}
-
-/// A face in parallel strokes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Face {
-    /// Two opposite corners of the face, mm.
-    pub corners: [Point; 2],
-    /// The largest distance from stroke to stroke, mm.
-    pub step_mm: f64,
-    /// How far the centre of the cutter goes past the ends of a stroke, mm.
-    pub over_mm: f64,
-    /// The strokes are along the second axis of the plane.
-    pub along_second: bool,
-    /// Every second stroke goes back.
-    pub back_and_forth: bool,
-}
-
-impl Face {
-    /// The strokes of all layers, with the tool above the first one at the beginning.
-    pub fn strokes(&self, heights: &Heights) -> Option<Vec<Stroke>> {
-        let [a, b] = self.corners;
-        let (i, j) = if self.along_second { (1, 0) } else { (0, 1) };
-        let width = (b[j] - a[j]).abs();
-        let gaps = (width / self.step_mm - 1e-9).ceil().max(1.0);
-        if gaps.is_nan() || gaps >= 1e4 || self.step_mm <= 0.0 {
-            return None;
-        }
-        let gaps = gaps as u32;
-        let sign = if b[i] < a[i] { -1.0 } else { 1.0 };
-        let ends = [a[i] - sign * self.over_mm, b[i] + sign * self.over_mm];
-        let point = |end: usize, line: u32| {
-            let mut p = [0.0; 2];
-            p[i] = ends[end];
-            p[j] = a[j] + (b[j] - a[j]) * f64::from(line) / f64::from(gaps);
-            p
-        };
-        let mut strokes = Vec::new();
-        for height in heights.layers()? {
-            for line in 0..=gaps {
-                let back = self.back_and_forth && line % 2 == 1;
-                let (from, to) = if back { (1, 0) } else { (0, 1) };
-                if line == 0 || !self.back_and_forth {
-                    strokes.push(Stroke::Rapid(at(point(from, line), heights.safe_mm)));
-                    strokes.push(Stroke::Plunge(at(point(from, line), height)));
-                } else {
-                    strokes.push(Stroke::Line(at(point(from, line), height)));
-                }
-                strokes.push(Stroke::Line(at(point(to, line), height)));
-                if !self.back_and_forth || line == gaps {
-                    strokes.push(Stroke::Rapid(at(point(to, line), heights.safe_mm)));
-                }
-            }
-            if strokes.len() > MOST_STROKES {
-                return None;
-            }
-        }
-        Some(strokes)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -286,37 +126,5 @@ mod tests {
         assert_eq!(down, 8);
         let last = bottom(&strokes);
         assert_eq!(last, [[14.0, 20.0], [6.0, 20.0], [14.0, 20.0], [10.0, 20.0]]);
-    }
-
-    #[test]
-    fn pockets_reach_their_walls_and_no_ring_is_wider_than_the_step() {
-        let round = bottom(&round_pocket([0.0, 0.0], 10.0, 4.0, &HEIGHTS, true).unwrap());
-        let far = round.iter().map(|p| p[0].hypot(p[1])).fold(0.0, f64::max);
-        assert_eq!((far, round.len()), (10.0, 1 + 3 * 3 + 1));
-        let pocket = RectanglePocket {
-            center: [5.0, 0.0],
-            half_mm: [20.0, 10.0],
-            corner_mm: 3.0,
-            angle_deg: 0.0,
-        };
-        let walls = bottom(&pocket.strokes(4.0, &HEIGHTS, false).unwrap());
-        assert_eq!(walls.iter().map(|p| p[0]).fold(0.0, f64::max), 25.0);
-        assert_eq!(walls.iter().map(|p| p[1]).fold(0.0, f64::min), -10.0);
-        assert!(walls.contains(&[22.0, 10.0]) && walls.contains(&[25.0, 7.0]));
-    }
-
-    #[test]
-    fn faces_are_covered_from_corner_to_corner() {
-        let face = Face {
-            corners: [[0.0, 0.0], [50.0, -30.0]],
-            step_mm: 20.0,
-            over_mm: 5.0,
-            along_second: false,
-            back_and_forth: true,
-        };
-        let places = bottom(&face.strokes(&HEIGHTS).unwrap());
-        let wanted =
-            [[-5.0, 0.0], [55.0, 0.0], [55.0, -15.0], [-5.0, -15.0], [-5.0, -30.0], [55.0, -30.0]];
-        assert_eq!(places, wanted);
     }
 }

@@ -101,6 +101,59 @@ impl Grid {
     }
 }
 
+/// Places on two families of parallel lines, which need not be perpendicular.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lattice {
+    /// The first place, mm.
+    pub from: Point,
+    /// The directions within a row and from row to row, degrees.
+    pub angles_deg: [f64; 2],
+    /// The distances within a row and from row to row, mm.
+    pub spacing_mm: [f64; 2],
+    /// Places in a row, and rows.
+    pub counts: [u32; 2],
+}
+
+impl Lattice {
+    fn place(&self, column: u32, row: u32) -> Point {
+        let [a, b] = self.angles_deg.map(direction);
+        let begin = along(self.from, b, f64::from(row) * self.spacing_mm[1]);
+        along(begin, a, f64::from(column) * self.spacing_mm[0])
+    }
+
+    /// All places, every second row backwards.
+    pub fn places(&self) -> Vec<Point> {
+        let [columns, rows] = self.counts.map(|n| n.min(MOST_HOLES));
+        let mut places = Vec::new();
+        for row in 0..rows {
+            for i in 0..columns {
+                let column = if row % 2 == 0 { i } else { columns - 1 - i };
+                places.push(self.place(column, row));
+                if places.len() >= MOST_HOLES as usize {
+                    return places;
+                }
+            }
+        }
+        places
+    }
+
+    /// The outermost places, once around.
+    pub fn frame(&self) -> Vec<Point> {
+        let [columns, rows] = self.counts.map(|n| n.clamp(1, MOST_HOLES));
+        let (right, top) = (columns - 1, rows - 1);
+        let mut places: Vec<_> = (0..columns).map(|i| self.place(i, 0)).collect();
+        places.extend((1..rows).map(|i| self.place(right, i)));
+        if top > 0 {
+            places.extend((0..right).rev().map(|i| self.place(i, top)));
+        }
+        if right > 0 {
+            places.extend((1..top).rev().map(|i| self.place(0, i)));
+        }
+        places.truncate(MOST_HOLES as usize);
+        places
+    }
+}
+
 /// The depths of pecks whose strokes become shorter, as positive distances from the surface; the last one is
 /// the whole depth.
 ///
@@ -186,6 +239,18 @@ mod tests {
             Grid { from: [1.0, 2.0], angle_deg: 0.0, spacing_mm: [10.0, 5.0], counts: [2, 3] };
         let rows = [[1.0, 2.0], [11.0, 2.0], [11.0, 7.0], [1.0, 7.0], [1.0, 12.0], [11.0, 12.0]];
         assert!(close(&grid.holes(), &rows));
+        let lattice = Lattice {
+            from: [1.0, 2.0],
+            angles_deg: [0.0, 90.0],
+            spacing_mm: [10.0, 5.0],
+            counts: [3, 3],
+        };
+        assert_eq!(lattice.places().len(), 9);
+        let frame = [(0, 0), (1, 0), (2, 0), (2, 1), (2, 2), (1, 2), (0, 2), (0, 1)];
+        let frame = frame.map(|(i, j)| [1.0 + 10.0 * f64::from(i), 2.0 + 5.0 * f64::from(j)]);
+        assert!(close(&lattice.frame(), &frame));
+        let line = Lattice { counts: [1, 3], ..lattice };
+        assert!(close(&line.frame(), &line.places()));
     }
 
     #[test]

@@ -14,7 +14,9 @@
 //!
 //! Preset n of cycle 247 is work offset n of the settings; until then work offset 1 is on.
 
+mod arc_slot;
 mod arcs;
+mod back_boring;
 mod cycles;
 mod drilling;
 mod flow;
@@ -23,10 +25,12 @@ mod functions;
 mod line;
 mod milling;
 mod path;
+mod pattern_def;
 mod patterns;
 mod plane;
 mod radius;
 mod statements;
+mod thread_mill;
 mod tools;
 mod values;
 mod variables;
@@ -91,6 +95,8 @@ struct Run<'r> {
     /// The last direction that was programmed as a vector.
     direction: Option<[f64; 3]>,
     cycle: Option<Cycle>,
+    /// The places of PATTERN DEF.
+    pattern: Vec<pattern_def::PatternPlace>,
     /// The first corner of the blank.
     blank: Option<[f64; 3]>,
     tools: BTreeMap<u32, (f64, Option<f64>)>,
@@ -172,6 +178,7 @@ impl<'r> Run<'r> {
             tangent: None,
             direction: None,
             cycle: None,
+            pattern: Vec::new(),
             blank: None,
             tools,
             core,

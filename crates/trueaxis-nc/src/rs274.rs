@@ -4,6 +4,7 @@
 //! only one of them has.
 
 mod arc;
+mod circular_pocket;
 mod cycles;
 mod execute;
 mod fanuc;

@@ -15,17 +15,21 @@ mod arc;
 mod archive;
 mod calls;
 mod chain;
+mod contour;
 mod drilling;
 mod execute;
 mod expression;
+mod face;
 mod flow;
 mod functions;
+mod milling;
 mod motion;
 mod orientation;
 mod patterns;
 mod quick;
 mod radius;
 mod reader;
+mod spigots;
 mod structure;
 mod swivel;
 mod system;
@@ -72,6 +76,8 @@ struct Run<'r> {
     /// R parameters; what was never set is `None`.
     r: Vec<Option<f64>>,
     modal_call: Option<ModalCall>,
+    /// The contour that CYCLE62 named.
+    contour: Option<contour::Contour>,
     /// Numbers that names of tools got here.
     names: BTreeMap<String, u32>,
     /// Cells of all live variables.
@@ -135,6 +141,7 @@ impl<'r> Run<'r> {
             spare: None,
             r: Vec::new(),
             modal_call: None,
+            contour: None,
             names: BTreeMap::new(),
             cells: 0,
             depth: 0,

@@ -125,6 +125,8 @@ pub(crate) struct Core<'r> {
     pub(super) radius: Option<Box<Active>>,
     /// What is wrong with the contour, reported after its block.
     fault: Option<Fault>,
+    /// Steps that are collected instead of made: those of a contour that a cycle follows later.
+    collected: Option<Vec<Step>>,
     /// A program that the dictionary calls after this block.
     pub own_call: Option<(String, usize)>,
     /// The place in the program frame is to be read again.
@@ -166,6 +168,7 @@ impl<'r> Core<'r> {
             corners: Corners::default(),
             radius: None,
             fault: None,
+            collected: None,
             own_call: None,
             is_unread: true,
             programs: vec![Rc::new(program.clone())],
@@ -221,11 +224,37 @@ impl<'r> Core<'r> {
     /// A step after the corners: to the contour if there is one, else to the machine.
     #[inline]
     pub(super) fn send(&mut self, step: Step) {
-        if self.radius.is_none() {
+        if let Some(collected) = &mut self.collected {
+            collected.push(step);
+        } else if self.radius.is_none() {
             self.follower.take(step);
         } else {
             self.step_on_contour(step);
         }
+    }
+
+    /// From here on the steps are collected.
+    pub fn collect(&mut self) {
+        self.end_corner("a cycle begins");
+        self.collected = Some(Vec::new());
+    }
+
+    /// How many steps are collected so far.
+    pub fn collected(&self) -> usize {
+        self.collected.as_ref().map_or(0, Vec::len)
+    }
+
+    /// The steps since [`Self::collect`], with the frame as it was before them.
+    pub fn collected_since(&mut self, frame: Frame) -> Vec<Step> {
+        self.end_corner("its contour ends");
+        self.forget_corner();
+        self.reported_frame = frame;
+        self.collected.take().unwrap_or_default()
+    }
+
+    /// The frame that was reported last.
+    pub fn frame_now(&self) -> Frame {
+        self.reported_frame
     }
 
     /// A fault that shows after the words that cause it.

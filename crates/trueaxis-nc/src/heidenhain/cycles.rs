@@ -310,8 +310,9 @@ impl Run<'_> {
             return Ok(Next::Finished);
         }
         if kind == Some(1) {
-            self.core.left_out("CYCL CALL PAT: holes of a pattern", at);
-            return Ok(Next::Following);
+            self.call_pattern(rapid, at)?;
+            let ends = self.functions(&words, true)?;
+            return Ok(if ends { Next::Finished } else { Next::Following });
         }
         if kind == Some(0) {
             let along = self.along();

@@ -246,8 +246,12 @@ impl Run<'_> {
             self.selected = Some(if c.is("QS") { self.text(c)? } else { c.rest() });
             return Ok(Next::Following);
         }
-        if c.accept_any(&["TABLE", "PATTERN", "CONTOUR", "CORR", "CYCLE"]).is_some() {
+        if let Some(what) = c.accept_any(&["PATTERN", "TABLE", "CONTOUR", "CORR", "CYCLE"]) {
             c.leave();
+            if what == 0 {
+                // Its places are in a table that is not read.
+                self.pattern.clear();
+            }
             self.core.left_out("SEL of a table, pattern or contour", at);
             return Ok(Next::Following);
         }

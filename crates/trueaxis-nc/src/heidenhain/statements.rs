@@ -14,9 +14,8 @@ const FREE_CONTOUR: [&str; 9] =
     ["FL", "FLT", "FC", "FCT", "FPOL", "FSELECT", "SPL", "FN_", "FPOLAR"];
 
 /// Known, of no effect on the path of the tool: the whole block is noted.
-const NOTED: [&str; 11] = [
+const NOTED: [&str; 10] = [
     "POLARKIN",
-    "PATTERN",
     "TCH",
     "PRESET",
     "CONTOUR",
@@ -72,11 +71,12 @@ impl Run<'_> {
     /// Statements that set something; an unknown one is an error.
     fn setting(&mut self, c: &mut Cursor<'_>) -> Result<(), Fault> {
         let at = c.offset();
-        match c.accept_any(&["TOOL", "BLK", "PLANE", "TRANS", "FUNCTION"]) {
+        match c.accept_any(&["TOOL", "BLK", "PLANE", "TRANS", "PATTERN", "FUNCTION"]) {
             Some(0) => return self.tool_statement(c),
             Some(1) => return self.blank_form(c),
             Some(2) => return self.plane(c),
             Some(3) => return self.transformation(c),
+            Some(4) => return self.define_pattern(c),
             Some(_) => return self.control_function(c),
             None => {}
         }

@@ -306,6 +306,7 @@ impl Run<'_> {
             Action::NurbsEnd => self.nurbs_end(at)?,
             Action::Threading => self.thread(at)?,
             Action::HolePattern(code) => self.hole_pattern(code, at)?,
+            Action::CircularPocket { ccw } => self.circular_pocket(ccw, at)?,
             Action::ModalState(saving) => self.save_or_restore(saving, at)?,
             Action::Note(_)
             | Action::NoteWhole(_)

@@ -323,7 +323,11 @@ impl Run<'_> {
     }
 
     /// A program by its name: beside the running one in its file, or from the library.
-    fn find_program(&mut self, name: &str, at: usize) -> Result<(usize, Range<usize>, u32), Fault> {
+    pub(super) fn find_program(
+        &mut self,
+        name: &str,
+        at: usize,
+    ) -> Result<(usize, Range<usize>, u32), Fault> {
         let plain = plain_name(name);
         let program = self.core.origin.program as usize;
         let structure = self.structure_of(program);

@@ -43,6 +43,14 @@ impl Run<'_> {
             "CYCLE84" => return self.tap(&parameters),
             "CYCLE85" => self.bore(&parameters)?,
             "CYCLE86" => self.bore_oriented(&parameters)?,
+            "CYCLE61" => self.face(&parameters)?,
+            "CYCLE71" => self.old_face(&parameters)?,
+            "CYCLE76" => self.spigot("CYCLE76", &parameters)?,
+            "CYCLE77" => self.spigot("CYCLE77", &parameters)?,
+            "CYCLE62" => self.name_contour(&parameters)?,
+            "CYCLE72" => self.mill_contour(&parameters)?,
+            "POCKET3" => self.pocket("POCKET3", &parameters)?,
+            "POCKET4" => self.pocket("POCKET4", &parameters)?,
             pattern @ ("HOLES1" | "HOLES2" | "CYCLE801") => {
                 return self.pattern(pattern, &parameters);
             }

@@ -12,7 +12,7 @@ use crate::text::program::Fault;
 
 /// Where the search for a label goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Direction {
+pub(super) enum Direction {
     Forward,
     Backward,
     Both,
@@ -341,7 +341,7 @@ impl Run<'_> {
     }
 
     /// A block of the running program by its name.
-    fn find(&mut self, target: &str, direction: Direction) -> Option<(usize, u32)> {
+    pub(super) fn find(&mut self, target: &str, direction: Direction) -> Option<(usize, u32)> {
         let structure = self.structure();
         let here = self.core.start;
         let span = self.stack.last().map(|t| t.span.clone())?;
@@ -410,7 +410,7 @@ impl Run<'_> {
     }
 
     /// The offset after the block that begins at a byte.
-    fn block_end(&self, start: usize) -> usize {
+    pub(super) fn block_end(&self, start: usize) -> usize {
         let source = self.core.programs[self.core.origin.program as usize].source();
         let found = source[start..].iter().position(|b| *b == b'\n');
         found.map_or(source.len(), |i| start + i + 1)
