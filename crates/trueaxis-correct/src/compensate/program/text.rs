@@ -12,8 +12,8 @@ enum Line {
     AsItWas,
     /// Executed, and nothing had to be changed.
     Seen,
-    /// Other text, with its line ends; how many lines.
-    Changed(Box<[u8]>, u32),
+    /// Other text, with its line ends; how many lines, and how many of them stand before the block.
+    Changed(Box<[u8]>, u32, u32),
 }
 
 /// A program that is being rewritten.
@@ -145,15 +145,22 @@ impl<'p> Text<'p> {
 
     /// The line is changed and others follow it; `false` if it was executed before with another
     /// outcome.
-    pub fn change(&mut self, line: u32, edits: Edits, further: &[String]) -> bool {
-        let mut text = edits.apply(self.source(), self.line(line));
+    pub fn change(&mut self, line: u32, edits: Edits, [before, further]: [&[String]; 2]) -> bool {
         let ending = self.ending(line);
+        let between: &[u8] = if ending.is_empty() { b"\n" } else { ending };
+        let mut text = Vec::new();
+        for first in before {
+            text.extend_from_slice(first.as_bytes());
+            text.extend_from_slice(between);
+        }
+        text.extend(edits.apply(self.source(), self.line(line)));
         for more in further {
-            text.extend_from_slice(if ending.is_empty() { b"\n" } else { ending });
+            text.extend_from_slice(between);
             text.extend_from_slice(more.as_bytes());
         }
         text.extend_from_slice(ending);
-        let changed = Line::Changed(text.into(), 1 + further.len() as u32);
+        let first = before.len() as u32;
+        let changed = Line::Changed(text.into(), first + 1 + further.len() as u32, first);
         let at = &mut self.lines[line as usize - 1];
         match at {
             Line::AsItWas => *at = changed,
@@ -183,9 +190,10 @@ impl<'p> Text<'p> {
                 out.extend_from_slice(ending);
                 number += 1;
             }
-            numbers.push(number);
+            let first = if let Line::Changed(.., first) = line { *first } else { 0 };
+            numbers.push(number + first);
             match line {
-                Line::Changed(text, count) => {
+                Line::Changed(text, count, _) => {
                     out.extend_from_slice(text);
                     number += count;
                 }

@@ -18,6 +18,8 @@ pub(super) struct Word {
     pub value: Option<f64>,
     /// It counts from the present place whatever G90 and G91 say.
     pub increment: Option<bool>,
+    /// `number` is an expression, and `value` what it comes to where the program is executed.
+    pub computed: bool,
 }
 
 /// The words of a block that a correction has to do with.
@@ -213,7 +215,7 @@ impl Scan<'_> {
             self.skip_expression();
         }
         let end = self.tokens[..self.at].last().map_or(from, |t| t.end);
-        Word { all: from..end, number, value, increment }
+        Word { all: from..end, number, value, increment, computed: false }
     }
 
     fn letter(&mut self, token: Token) {
