@@ -177,22 +177,36 @@ pub fn compensate_program(
     }
     let mounted = setup.mounted(machine);
     let kept = &setup.on_contour();
-    match flat::unrolled(&mounted, program, kept, flat::Contour::Kept, &mut problems) {
-        None => (None, problems),
-        Some(unrolled) => match on_contour(machine, &unrolled, setup, options) {
-            OnContour::Done(done, found) => {
-                // An approach has no words of its own, its path has.
-                let no_words = found.iter().find(|d| ONLY_AS_PATH.contains(&d.code));
-                if let Some(why) = no_words.filter(|_| radius::is_used(machine, program, setup)) {
-                    let (place, message) = (why.place.clone(), why.message.clone());
-                    let why = Lost { place, message };
-                    return centre_path(machine, program, setup, options, why, problems);
-                }
-                problems.append(found);
-                (*done, problems)
+    let Some(once) = flat::unrolled(&mounted, program, kept, flat::Contour::Kept, &mut problems)
+    else {
+        return (None, problems);
+    };
+    let mut answer = on_contour(machine, &once, setup, options);
+    // A cycle with computed words has numbers now: the second time it becomes its moves.
+    if matches!(&answer, OnContour::Done(done, found) if reason_to_unroll(done.as_ref().as_ref(), found).is_some())
+    {
+        let contour = flat::Contour::Kept;
+        let twice = flat::unrolled(&mounted, &once, kept, contour, &mut Diagnostics::new());
+        let twice = twice.map(|twice| on_contour(machine, &twice, setup, options));
+        if let Some(better @ OnContour::Done(..)) = twice
+            && better.is_written()
+        {
+            answer = better;
+        }
+    }
+    match answer {
+        OnContour::Done(done, found) => {
+            // An approach has no words of its own, its path has.
+            let no_words = found.iter().find(|d| ONLY_AS_PATH.contains(&d.code));
+            if let Some(why) = no_words.filter(|_| radius::is_used(machine, program, setup)) {
+                let (place, message) = (why.place.clone(), why.message.clone());
+                let why = Lost { place, message };
+                return centre_path(machine, program, setup, options, why, problems);
             }
-            OnContour::Lost(why) => centre_path(machine, program, setup, options, why, problems),
-        },
+            problems.append(found);
+            (*done, problems)
+        }
+        OnContour::Lost(why) => centre_path(machine, program, setup, options, why, problems),
     }
 }
 
@@ -237,6 +251,13 @@ enum OnContour {
     Lost(Lost),
 }
 
+impl OnContour {
+    /// Whether there is a program.
+    fn is_written(&self) -> bool {
+        matches!(self, Self::Done(done, _) if done.is_some())
+    }
+}
+
 /// Where the centre of the tool would miss its path.
 struct Lost {
     place: Place,
@@ -244,7 +265,9 @@ struct Lost {
 }
 
 /// What a flat program with numbers does not have.
-const UNROLLED_FOR: [&str; 6] = [
+const UNROLLED_FOR: [&str; 7] = [
+    // The first move of a cycle.
+    "no-axis-word",
     "computed-feed",
     "executed-again",
     "in-subprogram",

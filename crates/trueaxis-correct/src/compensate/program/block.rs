@@ -215,8 +215,8 @@ impl Block<'_> {
         let is_increment = word.increment.unwrap_or(self.incremental);
         let (value, shown) = if is_increment {
             let old = word.value.ok_or_else(|| self.computed(axis))?;
-            let by = self.grid.round(wanted - now, of);
-            let by = if self.grid.same(by, old, of) { old } else { by };
+            let by = wanted - now;
+            let by = if self.grid.same(by, old, of) { old } else { self.grid.round(by, of) };
             (now + by, Some(by).filter(|by| *by != old))
         } else {
             let turn = self.way(axis) != RotaryDirection::AsWritten;

@@ -313,8 +313,8 @@ impl Block<'_> {
                 };
                 let plus = if was.starts_with(['+', '-']) { "" } else { "+" };
                 let line = format!("FN 1: QL{local} = {plus}{was} + {}{digits}", sign(by));
-                let skip = self.words.skip.as_ref().map(|skip| format!("{} ", self.text_of(skip)));
-                self.before.push(skip.unwrap_or_default() + &line);
+                let skip = if self.words.skip.is_some() { "/ " } else { "" };
+                self.before.push(format!("{skip}{line}"));
                 (format!("+QL{local}"), line)
             }
         };
@@ -394,10 +394,20 @@ fn sign(by: f64) -> char {
 /// Expression and correction of SINUMERIK.
 fn sum(was: &str, by: f64, digits: &str) -> String {
     let is_name = was.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_');
-    match is_name {
+    match is_name || is_in_brackets(was) {
         true => format!("{was}{}{digits}", sign(by)),
         false => format!("({was}){}{digits}", sign(by)),
     }
+}
+
+/// Whether the first bracket of a text is closed by its last character.
+fn is_in_brackets(text: &str) -> bool {
+    let mut depth = 0_i32;
+    let closed = text.bytes().position(|byte| {
+        depth += i32::from(byte == b'(') - i32::from(byte == b')');
+        depth <= 0
+    });
+    text.starts_with('(') && closed == Some(text.len() - 1)
 }
 
 /// Expression and correction of FANUC and LinuxCNC. A sign stays where it is, so that the correction

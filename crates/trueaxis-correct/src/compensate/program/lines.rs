@@ -81,7 +81,7 @@ impl Block<'_> {
         }
     }
 
-    pub(super) fn text_of(&self, range: &Range<usize>) -> String {
+    fn text_of(&self, range: &Range<usize>) -> String {
         String::from_utf8_lossy(&self.source[range.clone()]).into_owned()
     }
 }

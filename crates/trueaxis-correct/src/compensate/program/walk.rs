@@ -150,6 +150,8 @@ impl<'w> Walk<'w> {
                     self.corrector = next.with_history_of(&self.corrector);
                 }
             }
+            // What follows is another execution, also of the same line.
+            Event::Block { .. } => self.last = None,
             Event::ToolCentre(on) => {
                 self.vectors = false;
                 self.tip_followed = self.tip_followed.or(on.then_some(origin.line));
