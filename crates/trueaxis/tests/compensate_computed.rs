@@ -98,8 +98,15 @@ impl Twins {
     fn of(control: Control, seed: u64, inch: bool) -> Self {
         let unit = if inch { 25.4 } else { 1.0 };
         let place = [100.0 / unit, 100.0 / unit, -50.0 / unit];
-        let mut twins =
-            Self { control, random: Random(seed), texts: Default::default(), place, incremental: false, unit, variable: 0 };
+        let mut twins = Self {
+            control,
+            random: Random(seed),
+            texts: Default::default(),
+            place,
+            incremental: false,
+            unit,
+            variable: 0,
+        };
         let [x, y, z] = place;
         let [a, b] = VALUES;
         twins.both(&match control {
@@ -163,7 +170,9 @@ impl Twins {
                 (format!("Q{n} = SIN 30 * Q1 + ({plus_half:+})"), format!("+Q{n}"))
             }
             (Control::Heidenhain, 3) => (format!("Q{n} = ATAN 1 + ({rest:+})"), format!("+Q{n}")),
-            (Control::Heidenhain, 4 | 5) => (format!("FN 1: QL{n} = +Q1 + {plus_a:+}"), format!("+QL{n}")),
+            (Control::Heidenhain, 4 | 5) => {
+                (format!("FN 1: QL{n} = +Q1 + {plus_a:+}"), format!("+QL{n}"))
+            }
             (Control::Heidenhain, _) => (format!("FN 0: Q{n} = {}", -value), format!("-Q{n}")),
             (_, 0) => (String::new(), format!("[#1+[{plus_a:.5}]]")),
             (_, 1) => (String::new(), format!("-[#2-[{plus_b:.5}]]")),
@@ -325,7 +334,11 @@ fn law_variables_and_numbers_lead_to_the_same_places() {
             for (m, n) in is.iter().zip(&same) {
                 for axis in Axis::ALL {
                     let off = (m.target[axis] - n.target[axis]).abs();
-                    assert!(off < 5e-9, "{control:?} {seed} {axis} {off}: {m:?} {n:?}\n{variables}\n{}", written(&a));
+                    assert!(
+                        off < 5e-9,
+                        "{control:?} {seed} {axis} {off}: {m:?} {n:?}\n{variables}\n{}",
+                        written(&a)
+                    );
                 }
                 if let (MoveKind::Arc(p), MoveKind::Arc(q)) = (m.kind, n.kind) {
                     let off = (0..2).map(|k| (p.center_mm[k] - q.center_mm[k]).abs());
@@ -354,7 +367,8 @@ fn law_only_the_correction_is_added() {
                 .map(|both| both.map(|text| moves(&text, control)));
             for k in 0..now[0].len() {
                 for axis in Axis::ALL {
-                    let [a, b] = [&now, &next].map(|of| of[1][k].target[axis] - of[0][k].target[axis]);
+                    let [a, b] =
+                        [&now, &next].map(|of| of[1][k].target[axis] - of[0][k].target[axis]);
                     let off = (a - b).abs();
                     assert!(off < 1e-8, "{control:?} {seed} {axis} {a} {b} at {k}\n{was}\n{is}");
                 }
@@ -418,8 +432,32 @@ fn expressions_stay_and_are_listed() {
     }
 }
 
+/// LinuxCNC 2.9.0~pre1, `rs274 -g` with the written program of [`FORMS`]: STRAIGHT_TRAVERSE and STRAIGHT_FEED, to the printed
+/// four decimals.
+const BY_RS274: [[f64; 3]; 7] = [
+    [100.002, 100.005, -50.0],
+    [105.002, 100.005, -50.0],
+    [110.001, 120.006, -50.0],
+    [0.499, 110.005, -50.0],
+    [89.428, 110.005, -50.0],
+    [99.428, 110.005, -50.0],
+    [140.002, 110.006, -51.0],
+];
+
+#[test]
+fn oracle_linuxcnc_reads_sums_and_the_present_place() {
+    let written = FORMS.iter().find(|(control, ..)| *control == Control::LinuxCnc).map(|f| f.2);
+    let moves = moves(written.unwrap(), Control::LinuxCnc);
+    assert_eq!(moves.len(), BY_RS274.len());
+    for (m, place) in moves.iter().zip(BY_RS274) {
+        for (is, printed) in m.target.0.iter().zip(place) {
+            assert!((is - printed).abs() <= 0.5001e-4, "{m:?} {place:?}");
+        }
+    }
+}
+
 /// Blocks that are executed once, wherever they stand: in a branch, a loop of one round, a subprogram.
-const ONCE: [(Control, &str, &str); 5] = [
+const ONCE: [(Control, &str, &str); 6] = [
     (
         Control::Sinumerik840d,
         "G90 G94 F500\nR1=100 R2=0\nG0 X100 Y100 Z-50\nIF R1>50\nG1 X=R1+8\nELSE\nG1 X=R1-8\nENDIF\n\
@@ -447,6 +485,13 @@ const ONCE: [(Control, &str, &str); 5] = [
          10 LBL 2\n11 L Y+Q2\n12 LBL 0\n13 END PGM A MM\n",
         "5 L X+Q1 F500\n6 LBL 1\nFN 1: QL499 = +Q2 + +0.002\n7 L X+QL499 F500\n8 CALL LBL 2\n9 L M30\n10 LBL 2\n\
          FN 1: QL499 = +Q2 + +0.005\n11 L Y+QL499 IX-0.001\n",
+    ),
+    // Increments begin in the subprogram and end after it.
+    (
+        Control::Fanuc,
+        "%\nO1\nG21 G90 G94 F500.\n#1=2.\nG0 X100. Y100. Z-50.\nM98 P100\nY4.\nG90 X110. Y[#1+105.]\nM30\nO100\n\
+         G91 G1 X[#1+2.]\nM99\n%\n",
+        "Y4. X-0.001\nG90 X110.002 Y[[#1+105.]+0.005]\n",
     ),
     // A block that may be skipped takes its calculation along.
     (
@@ -629,16 +674,28 @@ fn rotary_axes_and_directions_are_corrected_in_place() {
 #[test]
 fn no_hint_leads_to_another_refusal() {
     let words = [
-        (Control::Sinumerik840d, "X=R1 Y=R1 DIV 3\nX=110 MOD 7+R1\nX=ABS(-R1)+TRUNC(5.5)\nX=R[1]+ROUND(R1/7)\nX = R1 ;c"),
-        (Control::Sinumerik840d, "DEF REAL DEEP=-51\nZ=DEEP X=MINVAL(R1,150)\nCYCLE81(0,-45,2,-52)\nX=R1 RND=1\nY120\nX130"),
+        (
+            Control::Sinumerik840d,
+            "X=R1 Y=R1 DIV 3\nX=110 MOD 7+R1\nX=ABS(-R1)+TRUNC(5.5)\nX=R[1]+ROUND(R1/7)\nX = R1 ;c",
+        ),
+        (
+            Control::Sinumerik840d,
+            "DEF REAL DEEP=-51\nZ=DEEP X=MINVAL(R1,150)\nCYCLE81(0,-45,2,-52)\nX=R1 RND=1\nY120\nX130",
+        ),
         (Control::Sinumerik840d, "G111 X=R1 Y0\nAP=30 RP=R1\n"),
         (Control::Sinumerik840d, "MIRROR X0\nX=-R1\n"),
         (Control::Sinumerik840d, "TRANS X=R1-90\nX100\nY101\nF=R1*3\nX=IC(1)\n"),
-        (Control::LinuxCnc, "X[#1 MOD 7 + 100] Y[#1**0.5+100]\nX#<_x> Y#5421\nX[EXISTS[#<_x>]+100]\n"),
+        (
+            Control::LinuxCnc,
+            "X[#1 MOD 7 + 100] Y[#1**0.5+100]\nX#<_x> Y#5421\nX[EXISTS[#<_x>]+100]\n",
+        ),
         (Control::LinuxCnc, "G10 L2 P1 X[#1/10]\nX100\nY#1\nX + [#1] Y --#1\n"),
         (Control::LinuxCnc, "G81 X#1 Y[#1+2] Z-52 R-49\nX[#1+5]\nG80\nG1 X#1(c)Y#1;d\n"),
         (Control::Fanuc, "G68 X#1 Y#1 R30.\nX[#1+5.] Y#1\nG69\nG51 X#1 Y#1 P2000\nX[#1+5.]\nG50\n"),
-        (Control::Fanuc, "G81 X#1 Z-52. R-49.\nX[#1+5.]\nG80\nG28 X#1\nX#1 F#1\nG52 X#1\nX1.\nG52 X0\n"),
+        (
+            Control::Fanuc,
+            "G81 X#1 Z-52. R-49.\nX[#1+5.]\nG80\nG28 X#1\nX#1 F#1\nG52 X#1\nX1.\nG52 X0\n",
+        ),
         (Control::Fanuc, "X#100\nX[ROUND[#1/7.]+100.]\nX##9 Y#[9]\nX#1#101=5.\n"),
         (Control::Heidenhain, "CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X+Q1\nL X+5 FQ1\nL IX+1\n"),
         (Control::Heidenhain, "CC X+Q1 Y+90\nLP PR+10 PA+Q1\nL X+Q1 Y+QL1 ~\n Z-51\n"),
@@ -648,10 +705,13 @@ fn no_hint_leads_to_another_refusal() {
     for (control, lines) in words {
         let start = match control {
             Control::Sinumerik840d => "G90 G94 F500\nR1=100\nG0 X100 Y100 Z-50\nG1\n",
-            Control::Heidenhain => "0 BEGIN PGM A MM\nQ1 = +100\nQL1 = 101\nL X+100 Y+100 Z-50 R0 F500\n",
+            Control::Heidenhain => {
+                "0 BEGIN PGM A MM\nQ1 = +100\nQL1 = 101\nL X+100 Y+100 Z-50 R0 F500\n"
+            }
             _ => "%\nO1\nG21 G90 G94 F500.\n#1=100.\n#9=1\nG0 X100. Y100. Z-50.\nG1\n",
         };
-        let start = if control == Control::LinuxCnc { start.replace("O1\n", "") } else { start.to_owned() };
+        let start =
+            if control == Control::LinuxCnc { start.replace("O1\n", "") } else { start.to_owned() };
         let end = match control {
             Control::Heidenhain => "L M30\nEND PGM A MM\n",
             _ => "M30\n",

@@ -21,10 +21,11 @@ pub(super) struct Text<'p> {
     program: &'p Program,
     starts: Vec<usize>,
     lines: Vec<Line>,
-    /// G91 is in force after this line.
     /// The last line that was examined for what lasts, and what lasts there.
     modes: (usize, Modes),
     has_modes: bool,
+    /// What lasts follows the execution, which may jump, and not the order of the lines.
+    executed: bool,
 }
 
 /// Changes of one line: what stands in a range becomes other text.
@@ -89,7 +90,7 @@ impl<'p> Text<'p> {
         let lines = vec![Line::AsItWas; starts.len()];
         let any = |word: &[u8]| source.windows(word.len()).any(|w| w.eq_ignore_ascii_case(word));
         let has_modes = [&b"G91"[..], b"G20", b"G70", b"INCH"].into_iter().any(any);
-        Self { program, starts, lines, modes: (0, Modes::default()), has_modes }
+        Self { program, starts, lines, modes: (0, Modes::default()), has_modes, executed: false }
     }
 
     pub fn control(&self) -> Control {
@@ -117,11 +118,20 @@ impl<'p> Text<'p> {
         &self.source()[self.line(line).end..next]
     }
 
+    /// A block is executed.
+    pub fn execute(&mut self, block: &Range<usize>) {
+        self.executed = true;
+        if self.has_modes {
+            let (source, dialect) = (self.program.source(), self.program.dialect());
+            self.modes.1.follow(&Words::read(source, dialect, block.clone()));
+        }
+    }
+
     /// The words of a line from 1, lengths in mm, and what lasts there.
     pub fn words(&mut self, line: u32) -> (Words, Modes) {
         let (source, dialect) = (self.program.source(), self.program.dialect());
         let index = line as usize;
-        if self.has_modes && index > self.modes.0 {
+        if self.has_modes && !self.executed && index > self.modes.0 {
             for number in self.modes.0 + 1..=index {
                 let words = Words::read(source, dialect, self.line(number as u32));
                 self.modes.1.follow(&words);

@@ -151,7 +151,12 @@ impl<'w> Walk<'w> {
                 }
             }
             // What follows is another execution, also of the same line.
-            Event::Block { .. } => self.last = None,
+            Event::Block { text } => {
+                self.last = None;
+                if origin.program == 0 {
+                    self.text.execute(text);
+                }
+            }
             Event::ToolCentre(on) => {
                 self.vectors = false;
                 self.tip_followed = self.tip_followed.or(on.then_some(origin.line));
