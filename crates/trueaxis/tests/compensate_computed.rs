@@ -279,13 +279,37 @@ impl Twins {
             _ => format!("[#1+[{round}]]"),
         };
         let plain = format!("{equals}{}", self.number(a + round));
-        for k in 0..2 {
-            let i = if k == 0 { &computed } else { &plain };
-            let text = format!("G3 X{} Y{equals}{own} I{i}\nG1\n", ends_x[k]);
-            self.texts[k].push_str(&text);
+        let words = ends_x.iter().zip([computed, plain]);
+        for (text, (x, i)) in self.texts.iter_mut().zip(words) {
+            text.push_str(&format!("G3 X{x} Y{equals}{own} I{i}\nG1\n"));
         }
         self.place[0] = to_x;
         self.place[1] = if self.incremental { y + to_y } else { to_y };
+    }
+
+    /// A shift of X, computed and as a number: all places of the program are others after it.
+    fn shift(&mut self) {
+        let by = VALUES[0] - 97.0;
+        self.place[0] -= by;
+        let texts = match self.control {
+            Control::Sinumerik840d => ["TRANS X=R1-97".to_owned(), format!("TRANS X={by}")],
+            Control::Fanuc | Control::Haas => ["G52 X[#1-97.]".to_owned(), format!("G52 X{by}")],
+            Control::LinuxCnc => ["G10 L2 P1 X[#1-97]".to_owned(), format!("G10 L2 P1 X{by}")],
+            Control::Heidenhain => ["+Q9".to_owned(), format!("{by:+}")]
+                .map(|x| format!("Q9 = Q1 - 97\nCYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X{x}")),
+        };
+        for (text, shift) in self.texts.iter_mut().zip(texts) {
+            text.push_str(&format!("{shift}\n"));
+        }
+    }
+
+    /// Another tool of the same length.
+    fn tool(&mut self) {
+        self.both(match self.control {
+            Control::Sinumerik840d => "T2 D1\nM6\nG1\n",
+            Control::Heidenhain => "TOOL CALL 2 Z S1000\nL F500\n",
+            Control::Fanuc | Control::Haas | Control::LinuxCnc => "T2 M6\nG1\n",
+        });
     }
 
     fn end(mut self) -> [String; 2] {
@@ -302,6 +326,11 @@ impl Twins {
 fn twins(control: Control, seed: u64, arcs: bool) -> [String; 2] {
     let mut twins = Twins::of(control, seed, seed % 3 == 2);
     for k in 0..20 {
+        match k {
+            5 if seed % 2 == 0 => twins.shift(),
+            11 if seed % 5 > 2 => twins.tool(),
+            _ => {}
+        }
         match arcs && k % 7 == 6 && control != Control::Heidenhain {
             true => twins.arc(),
             false => twins.step(),
