@@ -1693,6 +1693,14 @@ export interface CompensateProgram {
    */
   additions: AddedWord[];
   /**
+   * Computed words that have a correction added.
+   */
+  expressions_corrected: number;
+  /**
+   * The first thousand of them.
+   */
+  expressions: CorrectedExpression[];
+  /**
    * Whether the written program, read back, keeps the residual: only then it is written.
    */
   proved: boolean;
@@ -1814,6 +1822,23 @@ export interface AddedWord {
    * The axis.
    */
   axis: string;
+}
+/**
+ * A computed word that has a correction added.
+ */
+export interface CorrectedExpression {
+  /**
+   * The line of the program as it was.
+   */
+  line: number;
+  /**
+   * The expression as it was.
+   */
+  was: string;
+  /**
+   * What stands there now; in Klartext the calculation before the block.
+   */
+  is: string;
 }
 /**
  * The least increments.

@@ -11,6 +11,7 @@
 mod ahead;
 mod arcs;
 mod block;
+mod computed;
 mod correct;
 mod feed;
 mod flat;
@@ -29,6 +30,7 @@ mod verify;
 mod walk;
 mod words;
 
+pub use computed::Expression;
 pub use correct::CorrectionLimit;
 pub use found::{Found, LargestCorrection};
 pub use guard::{Confidence, Convention, MARK, Wrong, is_compensated};
@@ -36,7 +38,7 @@ pub use number::Increments;
 pub use verify::{BlockResidual, Largest, Proof, Residual};
 
 use ahead::Gather;
-use trueaxis_input::{Diagnostics, Place};
+use trueaxis_input::{Diagnostic, Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_motion::Densify;
 use trueaxis_motion::SetUp;
@@ -44,7 +46,7 @@ use trueaxis_motion::axis_path::AxisPath;
 use trueaxis_motion::axis_path::Fault;
 use trueaxis_motion::execute_on;
 use trueaxis_motion::place;
-use trueaxis_nc::{Follower, Outcome, Program};
+use trueaxis_nc::{Follower, Outcome, Program, Settings};
 use walk::Walk;
 
 /// What is wanted of the compensated program.
@@ -164,33 +166,58 @@ pub fn compensate_program(
                 return centre_path(machine, program, setup, options, why, problems);
             }
         };
-        let Some(why) = found.iter().find(|d| UNROLLED_FOR.contains(&d.code)) else {
+        let Some(why) = reason_to_unroll(done.as_ref(), &found) else {
             problems.append(found);
             return (done, problems);
         };
         let message = format!("{}; the program is unrolled", why.message);
-        let hint = "the lines of the report are those of the unrolled program";
-        problems.note("unrolled", why.place.clone(), message, hint);
+        let hint = "the lines of the report are those of the unrolled program; where the program computes, it \
+                    has the numbers of this run";
+        problems.note("unrolled", why.place, message, hint);
     }
     let mounted = setup.mounted(machine);
     let kept = &setup.on_contour();
-    match flat::unrolled(&mounted, program, kept, flat::Contour::Kept, &mut problems) {
-        None => (None, problems),
-        Some(unrolled) => match on_contour(machine, &unrolled, setup, options) {
-            OnContour::Done(done, found) => {
-                // An approach has no words of its own, its path has.
-                let no_words = found.iter().find(|d| ONLY_AS_PATH.contains(&d.code));
-                if let Some(why) = no_words.filter(|_| radius::is_used(machine, program, setup)) {
-                    let (place, message) = (why.place.clone(), why.message.clone());
-                    let why = Lost { place, message };
-                    return centre_path(machine, program, setup, options, why, problems);
-                }
-                problems.append(found);
-                (*done, problems)
-            }
-            OnContour::Lost(why) => centre_path(machine, program, setup, options, why, problems),
-        },
+    let Some(once) = flat::unrolled(&mounted, program, kept, flat::Contour::Kept, &mut problems)
+    else {
+        return (None, problems);
+    };
+    let mut answer = on_contour(machine, &once, setup, options);
+    // A cycle with computed words has numbers now: the second time it becomes its moves.
+    if matches!(&answer, OnContour::Done(done, found) if reason_to_unroll(done.as_ref().as_ref(), found).is_some())
+    {
+        let contour = flat::Contour::Kept;
+        let twice = flat::unrolled(&mounted, &once, kept, contour, &mut Diagnostics::new());
+        let twice = twice.map(|twice| on_contour(machine, &twice, setup, options));
+        if let Some(better @ OnContour::Done(..)) = twice
+            && better.is_written()
+        {
+            answer = better;
+        }
     }
+    match answer {
+        OnContour::Done(done, found) => {
+            // An approach has no words of its own, its path has.
+            let no_words = found.iter().find(|d| ONLY_AS_PATH.contains(&d.code));
+            if let Some(why) = no_words.filter(|_| radius::is_used(machine, program, setup)) {
+                let (place, message) = (why.place.clone(), why.message.clone());
+                let why = Lost { place, message };
+                return centre_path(machine, program, setup, options, why, problems);
+            }
+            problems.append(found);
+            (*done, problems)
+        }
+        OnContour::Lost(why) => centre_path(machine, program, setup, options, why, problems),
+    }
+}
+
+/// Why the program has to be unrolled: a block that cannot be corrected where it stands, or a proof that does
+/// not hold with corrected expressions.
+fn reason_to_unroll(done: Option<&Rewritten>, found: &Diagnostics) -> Option<Lost> {
+    let lost = |d: &Diagnostic| Lost { place: d.place.clone(), message: d.message.clone() };
+    let refused = found.iter().find(|d| UNROLLED_FOR.contains(&d.code));
+    let computes = done.filter(|done| done.found.expressions_corrected > 0);
+    let unproved = || computes.and_then(|done| done.unproved.iter().next());
+    refused.or_else(unproved).map(lost)
 }
 
 /// The path of the centre of the tool, without radius compensation.
@@ -224,6 +251,13 @@ enum OnContour {
     Lost(Lost),
 }
 
+impl OnContour {
+    /// Whether there is a program.
+    fn is_written(&self) -> bool {
+        matches!(self, Self::Done(done, _) if done.is_some())
+    }
+}
+
 /// Where the centre of the tool would miss its path.
 struct Lost {
     place: Place,
@@ -231,7 +265,9 @@ struct Lost {
 }
 
 /// What a flat program with numbers does not have.
-const UNROLLED_FOR: [&str; 6] = [
+const UNROLLED_FOR: [&str; 7] = [
+    // The first move of a cycle.
+    "no-axis-word",
     "computed-feed",
     "executed-again",
     "in-subprogram",
@@ -335,19 +371,27 @@ fn once(
         let place = place(program, programs, fault);
         problems.error(fault.code, place, fault.message.clone(), fault.hint);
     };
-    let walk = match Walk::new(&mounted, program, setup, options) {
+    let walked = |report_blocks: bool| {
+        let walk = Walk::new(&mounted, program, setup, options)?;
         // The first tries keep circles; where the proof speaks against it, they become lines.
-        Ok(walk) if attempt < ARCS => walk,
-        Ok(walk) => walk.without_arcs(),
-        Err(fault) => {
-            refuse(&mut problems, &[], &fault);
-            return (None, problems);
-        }
+        let walk = if attempt < ARCS { walk } else { walk.without_arcs() };
+        let nominal = AxisPath::new(&mounted, setup, densify(options, attempt, least), 0.01);
+        let settings = Settings { report_blocks, ..setup.settings(false) };
+        Ok(both(nominal, walk, |ahead| execute_on(&mounted, program, setup, &settings, ahead)))
     };
-    let nominal = AxisPath::new(&mounted, setup, densify(options, attempt, least), 0.01);
-    let settings = setup.settings(false);
-    let (outcome, walk) =
-        both(nominal, walk, |ahead| execute_on(&mounted, program, setup, &settings, ahead));
+    let reported = computed::may_compute(program.source(), program.dialect().control);
+    // Another program may compute, too.
+    let alone = |outcome: &Outcome| reported || outcome.programs.len() < 2;
+    let (outcome, walk) = match walked(reported) {
+        Ok((outcome, walk)) if alone(&outcome) => (outcome, walk),
+        done => match done.and_then(|_| walked(true)) {
+            Ok(done) => done,
+            Err(fault) => {
+                refuse(&mut problems, &[], &fault);
+                return (None, problems);
+            }
+        },
+    };
     problems.append(outcome.problems);
     setup.check_for(program, &mut problems);
     if let Some(fault) = &walk.fault {

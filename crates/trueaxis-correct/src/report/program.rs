@@ -1,6 +1,8 @@
 //! A compensated program, in text and on a page.
 
-use crate::compensate::program::{Convention, ProgramOptions, Residual, Rewritten, Wrong};
+use crate::compensate::program::{
+    Convention, Expression, ProgramOptions, Residual, Rewritten, Wrong,
+};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::AxisKind;
 use trueaxis_report::{Report, Section, Standing, Table, numbers};
@@ -106,6 +108,15 @@ impl ProgramReport<'_> {
         if let Some((line, axis)) = found.additions.first() {
             remarks.push(format!("the first added word is {axis} at line {line}"));
         }
+        if let Some(first) = found.expressions.first() {
+            remarks.push(format!(
+                "{} computed words have their correction added: it is that of this run, also if a parameter has \
+                 another value in the next one; blocks that this run did not execute have none",
+                found.expressions_corrected
+            ));
+            let Expression { line, was, is } = first;
+            remarks.push(format!("the first of them is {was} at line {line}, now {is}"));
+        }
         for (why, count) in &found.left {
             remarks.push(format!("{count} blocks are left as they were: {why}"));
         }
@@ -208,6 +219,7 @@ fn work<'a>(r: &ProgramReport<'_>) -> Section<'a> {
         ("blocks written for them", found.pieces),
         ("circles that became lines", found.circles),
         ("words added", found.words_added),
+        ("computed words corrected", found.expressions_corrected),
         ("feeds changed where only rotary axes turn", found.feeds_changed),
     ];
     let change = format!(

@@ -30,6 +30,10 @@ pub struct ProgramDocument<'a> {
     pub words_added: u64,
     /// The first thousand of them.
     pub additions: Vec<AddedWord>,
+    /// Computed words that have a correction added.
+    pub expressions_corrected: u64,
+    /// The first thousand of them.
+    pub expressions: Vec<CorrectedExpression<'a>>,
     /// Whether the written program, read back, keeps the residual: only then it is written.
     pub proved: bool,
     /// Blocks of rotary axes alone with a new F, so that they take the same time.
@@ -75,6 +79,17 @@ pub struct AddedWord {
     pub line: u32,
     /// The axis.
     pub axis: String,
+}
+
+/// A computed word that has a correction added.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct CorrectedExpression<'a> {
+    /// The line of the program as it was.
+    pub line: u32,
+    /// The expression as it was.
+    pub was: &'a str,
+    /// What stands there now; in Klartext the calculation before the block.
+    pub is: &'a str,
 }
 
 /// The least increments.
@@ -182,6 +197,12 @@ impl<'a> ProgramDocument<'a> {
                 .additions
                 .iter()
                 .map(|(line, axis)| AddedWord { line: *line, axis: axis.to_string() })
+                .collect(),
+            expressions_corrected: found.expressions_corrected,
+            expressions: found
+                .expressions
+                .iter()
+                .map(|e| CorrectedExpression { line: e.line, was: &e.was, is: &e.is })
                 .collect(),
             proved: r.rewritten.is_proved(),
             feeds_changed: found.feeds_changed,

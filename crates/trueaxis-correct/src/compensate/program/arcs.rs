@@ -3,6 +3,7 @@
 use super::block::{Block, Put};
 use super::number::Of;
 use super::words::Word;
+use trueaxis_motion::axis_path::Fault;
 use trueaxis_nc::Control;
 use trueaxis_nc::moves::{Arc, Axis, Position};
 
@@ -118,14 +119,20 @@ impl Block<'_> {
     pub(super) fn has_arc_words(&self) -> bool {
         let is_plain = |word: &Option<Word>| word.as_ref().is_none_or(|w| w.value.is_some());
         let centers = self.words.vector.iter().all(is_plain);
-        let one_radius = self.words.circle_words.len() == 1;
         let named = self.words.vector.iter().flatten().count();
+        // A computed radius cannot become a centre.
+        let one_radius = self.words.circle_words.len() == 1 && (named > 0 || !self.resting.circle);
         let only_centers = named > 0 && self.words.circle_words.len() == named;
         self.control != Control::Heidenhain && centers && (one_radius || only_centers)
     }
 
     /// Centre words for the arc that is written, from the place where it begins.
-    pub(super) fn arc_words(&mut self, arc: &Arc, from: &Position, puts: &mut Vec<Put>) {
+    pub(super) fn arc_words(
+        &mut self,
+        arc: &Arc,
+        from: &Position,
+        puts: &mut Vec<Put>,
+    ) -> Result<(), Fault> {
         let [first, second, _] = arc.plane.axes();
         let mut texts = Vec::new();
         for (axis, center) in [first, second].into_iter().zip(arc.center_mm) {
@@ -136,10 +143,16 @@ impl Block<'_> {
                 Axis::Y => "J",
                 _ => "K",
             };
-            let text = self.grid.text(value, Of::Linear, self.control);
-            match &self.words.vector[axis as usize] {
-                Some(word) => self.edits.put(word.number.clone(), text),
-                None => texts.push(Put { letters, text }),
+            match self.words.vector[axis as usize].clone() {
+                Some(word) => {
+                    let mm = self.grid.unit.mm();
+                    let word = Word { value: word.value.map(|v| v * mm), ..word };
+                    self.put_number(&word, value, Of::Linear)?;
+                }
+                None => {
+                    let text = self.grid.text(value, Of::Linear, self.control);
+                    texts.push(Put { letters, text });
+                }
             }
         }
         if self.words.vector.iter().flatten().next().is_some() {
@@ -147,7 +160,7 @@ impl Block<'_> {
             puts.extend(
                 texts.into_iter().filter(|put| !put.text.trim_matches(['0', '.', '-']).is_empty()),
             );
-            return;
+            return Ok(());
         }
         let equals = if self.control == Control::Sinumerik840d { "=" } else { "" };
         let words: Vec<String> =
@@ -155,6 +168,7 @@ impl Block<'_> {
         if let Some(radius) = self.words.circle_words.first() {
             self.edits.put(radius.clone(), words.join(" "));
         }
+        Ok(())
     }
 }
 

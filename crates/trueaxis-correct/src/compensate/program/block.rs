@@ -1,5 +1,6 @@
 //! One block with corrected numbers: the same words in the same order, and what has to be added.
 
+use super::computed::{Expression, Resting};
 use super::number::{Grid, Of, Unit};
 use super::refuse::refusal;
 use super::stand::Stand;
@@ -32,7 +33,15 @@ pub(super) struct Block<'b> {
     pub vectors: bool,
     /// A feed that a block before has replaced.
     pub feed_again: Option<f64>,
+    /// What of it rests on computed values.
+    pub resting: Resting,
+    /// Local parameters of Klartext that are free.
+    pub locals: &'b [u16],
     pub edits: Edits,
+    /// Calculations of Klartext that stand before it.
+    pub before: Vec<String>,
+    /// Its expressions that were corrected.
+    pub expressions: Vec<Expression>,
     /// The lines that follow it.
     pub further: Vec<String>,
     /// Axes that the block has new words for.
@@ -75,6 +84,9 @@ impl Block<'_> {
         step: &Written,
         turns_deg: Option<f64>,
     ) -> Result<Next, Fault> {
+        if step.piece == 0 {
+            self.is_one_point()?;
+        }
         let now = path.words_of(path.command(), self.m.coordinates);
         let wanted = self.wanted(path, &now, step);
         let mut m = Move {
@@ -100,7 +112,7 @@ impl Block<'_> {
             m.direction = self.m.direction;
         }
         if let Some(arc) = self.arc {
-            self.arc_words(&arc, &now, &mut puts);
+            self.arc_words(&arc, &now, &mut puts)?;
         }
         let feed_again = self.feed(&now, step, turns_deg, &m, &mut puts)?;
         if step.piece == 0 {
@@ -187,11 +199,14 @@ impl Block<'_> {
             let value = self.grid.round(wanted, of);
             if !self.grid.same(wanted, now, of) {
                 (m.target[axis], m.named) = (value, m.named.with(axis));
-                let shown = if self.incremental { value - now } else { value };
                 if piece == 0 {
                     self.added.push(axis);
                 }
-                puts.push(Put { letters: LETTERS[axis as usize], text: self.text(shown, of) });
+                let shown = if self.incremental { value - now } else { value };
+                puts.push(match self.increment(axis, value - now, of)? {
+                    Some(put) => put,
+                    None => Put { letters: LETTERS[axis as usize], text: self.text(shown, of) },
+                });
             }
             return Ok(());
         };
@@ -200,8 +215,8 @@ impl Block<'_> {
         let is_increment = word.increment.unwrap_or(self.incremental);
         let (value, shown) = if is_increment {
             let old = word.value.ok_or_else(|| self.computed(axis))?;
-            let by = self.grid.round(wanted - now, of);
-            let by = if self.grid.same(by, old, of) { old } else { by };
+            let by = wanted - now;
+            let by = if self.grid.same(by, old, of) { old } else { self.grid.round(by, of) };
             (now + by, Some(by).filter(|by| *by != old))
         } else {
             let turn = self.way(axis) != RotaryDirection::AsWritten;
@@ -219,11 +234,10 @@ impl Block<'_> {
             }
         };
         m.target[axis] = value;
-        if let Some(shown) = shown {
-            let text = self.text(shown, of);
-            self.edits.put(word.number.clone(), text);
+        match shown {
+            Some(shown) => self.put_number(&word, shown, of),
+            None => Ok(()),
         }
-        Ok(())
     }
 
     /// The word of an axis that is not corrected keeps its text.
@@ -271,7 +285,7 @@ impl Block<'_> {
 
     fn computed(&self, axis: Axis) -> Fault {
         let message = format!("the value of {axis} is computed, and would have to be corrected");
-        let hint = "unroll it: --flat writes numbers instead of variables";
+        let hint = "write a number instead";
         refusal(self.m.origin, "computed-coordinate", message, hint)
     }
 
@@ -330,10 +344,10 @@ impl Block<'_> {
         let mut written = [0.0; 3];
         for i in 0..3 {
             written[i] = self.grid.round(wanted[i], Of::Direction);
-            let text = self.text(written[i], Of::Direction);
             match words[i].as_ref().filter(|_| here.is_some()) {
-                Some(word) => self.edits.put(word.number.clone(), text),
+                Some(word) => self.put_number(word, written[i], Of::Direction)?,
                 None => {
+                    let text = self.text(written[i], Of::Direction);
                     let letters = match self.control {
                         Control::Sinumerik840d => ["A3=", "B3=", "C3="][i],
                         Control::Heidenhain => ["TX", "TY", "TZ"][i],

@@ -47,9 +47,14 @@ impl Block<'_> {
         };
         let text = feed_text(value / unit, self.control);
         match word {
+            None if self.resting.feed => {
+                let message =
+                    "the feed is computed before, and would have to be changed".to_owned();
+                Err(refusal(self.m.origin, "computed-feed", message, "write a number after F"))?;
+            }
             Some(Word { value: None, .. }) => {
                 let message = "the feed is computed, and would have to be changed".to_owned();
-                let hint = "write a number after F, or unroll the program: --flat";
+                let hint = "write a number after F";
                 return Err(refusal(self.m.origin, "computed-feed", message, hint));
             }
             Some(word) => self.edits.put(word.number.clone(), text),

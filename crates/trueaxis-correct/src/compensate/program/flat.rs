@@ -112,7 +112,8 @@ pub(super) fn unrolled(
     };
     told.iter().for_each(|block| flat.block(block));
     flat.close();
-    let name = format!("{} (unrolled)", program.file());
+    let file = program.file();
+    let name = format!("{} (unrolled)", file.strip_suffix(" (unrolled)").unwrap_or(file));
     let text = Program::new(&name, flat.out, control);
     let origins = flat.origins;
     match differs(mounted, [program, &text], setup, contour) {

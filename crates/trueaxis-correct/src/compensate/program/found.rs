@@ -1,6 +1,7 @@
 //! What was found and done on the way through the program.
 
 use super::block::Block;
+use super::computed::Expression;
 use super::correct::Corrected;
 use super::stand::{Sample, Stand};
 use std::collections::BTreeMap;
@@ -25,6 +26,10 @@ pub struct LargestCorrection {
     pub nearest_line: u32,
 }
 
+/// A line leads to the same places again, mm and rad.
+const SAME_MM: f64 = 1e-6;
+const SAME_RAD: f64 = 1e-9;
+
 /// Additions that are listed.
 const MOST_ADDITIONS: usize = 1000;
 
@@ -43,6 +48,10 @@ pub struct Found {
     pub words_added: u64,
     /// The first of them: line and axis.
     pub additions: Vec<(u32, Axis)>,
+    /// Computed words that were corrected: how many, and the first of them.
+    pub expressions_corrected: u64,
+    /// The first of them.
+    pub expressions: Vec<Expression>,
     /// Blocks in which only the rotary axes moved, with a new F so that they take the same time.
     pub feeds_changed: u64,
     /// Places where an axis reverses by less than its reversal error, or by rounding alone.
@@ -64,6 +73,8 @@ pub struct Found {
     stride: u64,
     seen: u64,
     pub(super) wants: Vec<Want>,
+    /// The stands of each line when it was executed first: from one up to before the other.
+    led: Vec<[u32; 2]>,
     pub(super) stands: Vec<Stand>,
 }
 
@@ -144,6 +155,9 @@ impl Found {
         let room = MOST_ADDITIONS.saturating_sub(self.additions.len());
         self.additions
             .extend(block.added.iter().take(room).map(|axis| (block.m.origin.line, *axis)));
+        self.expressions_corrected += block.expressions.len() as u64;
+        let room = MOST_ADDITIONS.saturating_sub(self.expressions.len());
+        self.expressions.extend(block.expressions.iter().take(room).cloned());
         self.feeds_changed += u64::from(feed_changed);
         self.circles += u64::from(circle_gone);
         // How much longer the path of the tool tip has become.
@@ -169,6 +183,30 @@ impl Found {
                 keep = !keep;
                 keep
             });
+        }
+    }
+
+    /// Whether a line leads as it did before.
+    pub(super) fn leads_as_before(&self, line: u32, samples: &[Sample], end_only: bool) -> bool {
+        let before = self.led.get(line as usize).filter(|[from, to]| from < to);
+        let (Some([from, to]), [first, .., last]) = (before, samples) else {
+            return true;
+        };
+        let same = |stand: u32, sample: &Sample| {
+            let [tip, axis] = sample.wanted.from(&self.stands[stand as usize]);
+            tip < SAME_MM && axis < SAME_RAD
+        };
+        same(to - 1, last) && (end_only || to - from == 1 || same(*from, first))
+    }
+
+    /// A line was executed; its stands begin with this one.
+    pub(super) fn executed(&mut self, line: u32, from: usize) {
+        let index = line as usize;
+        if self.led.len() <= index {
+            self.led.resize(index + 1, [0; 2]);
+        }
+        if self.led[index] == [0; 2] {
+            self.led[index] = [from as u32, self.stands.len() as u32];
         }
     }
 

@@ -18,6 +18,13 @@ impl Default for Increments {
     }
 }
 
+/// A correction that is added to a computed value leads to the number that would be written without
+/// variables, within this: mm or degrees.
+const SUM: f64 = 1e-9;
+
+/// The same of directions. Unit: 1.
+const SUM_OF_DIRECTION: f64 = 1e-12;
+
 /// Of directions of the tool: finer than any increment of a rotary axis.
 const VECTOR: f64 = 1e-8;
 
@@ -110,6 +117,27 @@ impl Grid {
         (a - b).abs() <= least
     }
 
+    /// The digits of what is added to a computed value: as many as lead to the written number; `None`
+    /// if nothing is to be added.
+    pub fn difference(self, by: f64, of: Of) -> Option<String> {
+        let near = if of == Of::Direction { SUM_OF_DIRECTION } else { SUM } / self.scale(of);
+        let size = (by / self.scale(of)).abs();
+        let least = match self.step(of) {
+            Some(_) if size <= near => return None,
+            Some(step) => (-step.log10()).ceil().clamp(0.0, 12.0) as usize,
+            None => return (size > 0.0).then(|| format!("{size}")),
+        };
+        let written = |digits: usize| (10_f64.powi(digits as i32), digits);
+        let is_near =
+            |(scale, _): &(f64, usize)| ((size * scale).round() / scale - size).abs() <= near;
+        let digits = (least..15).map(written).find(is_near).map_or(15, |(_, digits)| digits);
+        let text = format!("{size:.digits$}");
+        Some(match text.contains('.') {
+            true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+            false => text,
+        })
+    }
+
     /// The text of a number, as long as it has to be.
     pub fn text(self, value: f64, of: Of, control: Control) -> String {
         let value = value / self.scale(of) + 0.0;
@@ -154,6 +182,21 @@ mod tests {
         let full = Grid::of(None, Unit::Millimetre);
         assert_eq!(full.text(0.1 + 0.2, Of::Linear, Control::Fanuc), "0.30000000000000004");
         assert!(grid.same(1.0004, 1.0, Of::Linear) && !grid.same(1.0006, 1.0, Of::Linear));
+    }
+
+    /// 33.333333… + d = 33.313, in mm and in inches; 10 + 0.012 needs no more than its three decimals.
+    #[test]
+    fn differences_lead_to_whole_increments() {
+        let grid = Grid::of(Some(Increments::default()), Unit::Millimetre);
+        let text = |by: f64| grid.difference(by, Of::Linear);
+        assert_eq!(text(33.313 - 100.0 / 3.0).as_deref(), Some("0.020333333"));
+        assert_eq!(text(10.012 - 10.0).as_deref(), Some("0.012"));
+        assert_eq!(text(-2.0).as_deref(), Some("2"));
+        assert_eq!(text(1e-12), None);
+        let inch = Grid::of(Some(Increments::default()), Unit::Inch);
+        assert_eq!(inch.difference(25.4 * 0.00012, Of::Linear).as_deref(), Some("0.00012"));
+        let full = Grid::of(None, Unit::Millimetre);
+        assert_eq!(full.difference(0.25, Of::Linear).as_deref(), Some("0.25"));
     }
 
     /// 1 µm is 0.0000394 in: five decimals; 2.54 µm is 0.0001 in: four.

@@ -13,7 +13,7 @@ pub(super) fn again(origin: Origin) -> Fault {
     let message = "the block is executed again at other places, as in a loop: its words cannot be \
                    right for all of them"
         .to_owned();
-    let hint = "unroll it: --flat writes the rounds one after the other";
+    let hint = "write its rounds one after the other";
     refusal(origin, "executed-again", message, hint)
 }
 

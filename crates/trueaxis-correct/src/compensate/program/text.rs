@@ -12,8 +12,8 @@ enum Line {
     AsItWas,
     /// Executed, and nothing had to be changed.
     Seen,
-    /// Other text, with its line ends; how many lines.
-    Changed(Box<[u8]>, u32),
+    /// Other text, with its line ends; how many lines, and how many of them stand before the block.
+    Changed(Box<[u8]>, u32, u32),
 }
 
 /// A program that is being rewritten.
@@ -21,10 +21,11 @@ pub(super) struct Text<'p> {
     program: &'p Program,
     starts: Vec<usize>,
     lines: Vec<Line>,
-    /// G91 is in force after this line.
     /// The last line that was examined for what lasts, and what lasts there.
     modes: (usize, Modes),
     has_modes: bool,
+    /// What lasts follows the execution, which may jump, and not the order of the lines.
+    executed: bool,
 }
 
 /// Changes of one line: what stands in a range becomes other text.
@@ -89,7 +90,7 @@ impl<'p> Text<'p> {
         let lines = vec![Line::AsItWas; starts.len()];
         let any = |word: &[u8]| source.windows(word.len()).any(|w| w.eq_ignore_ascii_case(word));
         let has_modes = [&b"G91"[..], b"G20", b"G70", b"INCH"].into_iter().any(any);
-        Self { program, starts, lines, modes: (0, Modes::default()), has_modes }
+        Self { program, starts, lines, modes: (0, Modes::default()), has_modes, executed: false }
     }
 
     pub fn control(&self) -> Control {
@@ -117,11 +118,20 @@ impl<'p> Text<'p> {
         &self.source()[self.line(line).end..next]
     }
 
+    /// A block is executed.
+    pub fn execute(&mut self, block: &Range<usize>) {
+        self.executed = true;
+        if self.has_modes {
+            let (source, dialect) = (self.program.source(), self.program.dialect());
+            self.modes.1.follow(&Words::read(source, dialect, block.clone()));
+        }
+    }
+
     /// The words of a line from 1, lengths in mm, and what lasts there.
     pub fn words(&mut self, line: u32) -> (Words, Modes) {
         let (source, dialect) = (self.program.source(), self.program.dialect());
         let index = line as usize;
-        if self.has_modes && index > self.modes.0 {
+        if self.has_modes && !self.executed && index > self.modes.0 {
             for number in self.modes.0 + 1..=index {
                 let words = Words::read(source, dialect, self.line(number as u32));
                 self.modes.1.follow(&words);
@@ -145,15 +155,22 @@ impl<'p> Text<'p> {
 
     /// The line is changed and others follow it; `false` if it was executed before with another
     /// outcome.
-    pub fn change(&mut self, line: u32, edits: Edits, further: &[String]) -> bool {
-        let mut text = edits.apply(self.source(), self.line(line));
+    pub fn change(&mut self, line: u32, edits: Edits, [before, further]: [&[String]; 2]) -> bool {
         let ending = self.ending(line);
+        let between: &[u8] = if ending.is_empty() { b"\n" } else { ending };
+        let mut text = Vec::new();
+        for first in before {
+            text.extend_from_slice(first.as_bytes());
+            text.extend_from_slice(between);
+        }
+        text.extend(edits.apply(self.source(), self.line(line)));
         for more in further {
-            text.extend_from_slice(if ending.is_empty() { b"\n" } else { ending });
+            text.extend_from_slice(between);
             text.extend_from_slice(more.as_bytes());
         }
         text.extend_from_slice(ending);
-        let changed = Line::Changed(text.into(), 1 + further.len() as u32);
+        let first = before.len() as u32;
+        let changed = Line::Changed(text.into(), first + 1 + further.len() as u32, first);
         let at = &mut self.lines[line as usize - 1];
         match at {
             Line::AsItWas => *at = changed,
@@ -183,9 +200,10 @@ impl<'p> Text<'p> {
                 out.extend_from_slice(ending);
                 number += 1;
             }
-            numbers.push(number);
+            let first = if let Line::Changed(.., first) = line { *first } else { 0 };
+            numbers.push(number + first);
             match line {
-                Line::Changed(text, count) => {
+                Line::Changed(text, count, _) => {
                     out.extend_from_slice(text);
                     number += count;
                 }

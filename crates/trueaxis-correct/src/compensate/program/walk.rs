@@ -5,12 +5,14 @@ mod samples;
 use super::ahead::{Ahead, Stretch};
 use super::arcs::{self, Allowed, PathPlace};
 use super::block::{Block, Written};
+use super::computed::{Computed, free_locals};
 use super::correct::Corrector;
 use super::found::{Found, Want};
 use super::number::{Grid, Of};
 use super::refuse::{again, cone, refusal};
 use super::stand::{Cut, Sample, Stand};
-use super::text::{Edits, Text};
+use super::text::{Edits, Modes, Text};
+use super::words::Words;
 use super::{ProgramOptions, residual_of_pieces, residual_share};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
@@ -43,6 +45,10 @@ pub(super) struct Walk<'w> {
     pub tip_followed: Option<u32>,
     /// The program or the set-up gave the control a tool length.
     pub length_stated: bool,
+    /// What blocks compute.
+    computed: Computed,
+    /// Local parameters of Klartext that the program does not use.
+    locals: Vec<u16>,
     /// The feed that the next block has to state again.
     feed_again: Option<f64>,
     /// Circles may stay circles.
@@ -93,6 +99,8 @@ impl<'w> Walk<'w> {
             vectors: false,
             tip_followed: None,
             length_stated: false,
+            computed: Computed::of(program.dialect().control),
+            locals: free_locals(program.source(), program.dialect().control),
             feed_again: None,
             arcs: true,
             circle_gone: false,
@@ -133,12 +141,20 @@ impl<'w> Walk<'w> {
 
     fn event(&mut self, step: &Step, event: &Event, origin: Origin) -> Result<(), Fault> {
         self.written.take(step, &mut |_| {});
+        self.computed.follow(event, self.text.source(), origin.program == 0);
         match event {
             Event::ToolChange(number) => {
                 if let Some(tool) = self.setup.tools.get(number) {
                     let machine = self.machine.clone().with_tip(tool.tip_mm);
                     let next = corrector(&machine, self.options, origin)?;
                     self.corrector = next.with_history_of(&self.corrector);
+                }
+            }
+            // What follows is another execution, also of the same line.
+            Event::Block { text } => {
+                self.last = None;
+                if origin.program == 0 {
+                    self.text.execute(text);
                 }
             }
             Event::ToolCentre(on) => {
@@ -159,11 +175,30 @@ impl<'w> Walk<'w> {
         };
         self.vectors |= m.direction.is_some();
         let begins_cut = (m.kind == MoveKind::Rapid).then_some(ahead.begins_cut);
+        self.written_by(m, &way, begins_cut)?;
+        let words = (m.origin.program == 0 && m.origin.line > 0).then(|| self.words(m.origin.line));
+        let incremental = words.as_ref().is_some_and(|(_, modes)| modes.incremental);
+        self.computed.moved(m, words.as_ref().map(|(words, _)| words), incremental);
+        Ok(())
+    }
+
+    /// The words of a line of the program, with the values of those that are computed.
+    fn words(&mut self, line: u32) -> (Words, Modes) {
+        let (words, modes) = self.text.words(line);
+        (self.computed.evaluate(words, self.text.source(), modes.unit), modes)
+    }
+
+    fn written_by(
+        &mut self,
+        m: &Move,
+        way: &Way<'_>,
+        begins_cut: Option<AxisSet>,
+    ) -> Result<(), Fault> {
         match self.why_left(m, way.nodes) {
             Some(why) => self.leave(m, why),
             None if begins_cut == Some(AxisSet::default()) => self.leave(m, NO_CUT_BEGINS),
             None if self.written.turns_on_cone() => Err(cone(m.origin)),
-            None => self.rewrite(m, &way, begins_cut),
+            None => self.rewrite(m, way, begins_cut),
         }
     }
 
@@ -249,11 +284,17 @@ impl<'w> Walk<'w> {
         };
         let approaching = std::mem::take(&mut self.approaching);
         let first_time = !self.text.was_executed(m.origin.line);
-        let (words, modes) = self.text.words(m.origin.line);
+        let (words, modes) = self.words(m.origin.line);
+        let end_only = whole || approaching;
+        let leads = self.found.leads_as_before(m.origin.line, &samples, end_only);
+        if !first_time && (self.computed.is_in_words(&words) || !leads) {
+            return Err(again(m.origin));
+        }
         let grid = Grid::of(self.options.increments, modes.unit);
         let says_circle = words.motion.is_some() || !self.circle_gone;
         let kept = self.kept_circle(m, &samples, words.motion.is_some());
         let ends = if kept { vec![samples.len() - 1] } else { ends };
+        let locals = self.locals.clone();
         let mut block = Block {
             m,
             source: self.text.source(),
@@ -266,7 +307,11 @@ impl<'w> Walk<'w> {
             arc: None,
             vectors: self.vectors,
             feed_again: self.feed_again.take(),
+            resting: self.computed.of_block(&words),
+            locals: &locals,
             edits: Edits::default(),
+            before: Vec::new(),
+            expressions: Vec::new(),
             further: Vec::new(),
             added: Vec::new(),
             pieces: ends.len(),
@@ -281,7 +326,7 @@ impl<'w> Walk<'w> {
         block.pieces = ends.len();
         self.circle_gone &= block.arc.is_none();
         let turns_deg = self.turns_deg(m, way);
-        let mut from = 0;
+        let (mut from, first_stand) = (0, self.found.stands.len());
         for (piece, to) in ends.iter().enumerate() {
             let share = samples[*to].u - samples[from].u;
             let way = (samples[from].command, samples[*to].command);
@@ -313,11 +358,14 @@ impl<'w> Walk<'w> {
         let is_circle = matches!(m.kind, MoveKind::Arc(_) | MoveKind::SpatialArc(_));
         let is_line = is_circle && !kept && block.arc.is_none();
         self.found.note(&block, is_line, self.feed_again.is_some(), &samples);
-        let (edits, further) = (block.edits, block.further);
+        let (edits, before, further) = (block.edits, block.before, block.further);
         let unchanged = edits.is_empty() && further.is_empty();
         let line = m.origin.line;
-        let fits =
-            if unchanged { self.text.keep(line) } else { self.text.change(line, edits, &further) };
+        self.found.executed(line, first_stand);
+        let fits = match unchanged {
+            true => self.text.keep(line),
+            false => self.text.change(line, edits, [&before, &further]),
+        };
         if fits { Ok(()) } else { Err(again(m.origin)) }
     }
 
@@ -388,7 +436,7 @@ impl<'w> Walk<'w> {
         }
         let message =
             "the move stands in a subprogram, which may be called elsewhere too".to_owned();
-        let hint = "unroll it: --flat puts its blocks into the main program";
+        let hint = "put its blocks into the main program";
         Err(refusal(m.origin, "in-subprogram", message, hint))
     }
 

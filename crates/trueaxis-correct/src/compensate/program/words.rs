@@ -18,6 +18,8 @@ pub(super) struct Word {
     pub value: Option<f64>,
     /// It counts from the present place whatever G90 and G91 say.
     pub increment: Option<bool>,
+    /// `number` is an expression, and `value` what it comes to where the program is executed.
+    pub computed: bool,
 }
 
 /// The words of a block that a correction has to do with.
@@ -89,6 +91,9 @@ impl Words {
         scan.words
     }
 }
+
+/// Operators that are words.
+const OPERATORS: [&str; 6] = ["DIV", "MOD", "AND", "OR", "XOR", "EX"];
 
 struct Scan<'s> {
     source: &'s [u8],
@@ -164,18 +169,33 @@ impl Scan<'_> {
         let mut depth = 0_i32;
         while let Some(token) = self.token(0) {
             let byte = self.source[token.start];
-            let operator = token.kind == TokenKind::Symbol && !matches!(byte, b'$' | b'~' | b',');
-            let after = self.at > 0 && {
-                let last = self.tokens[self.at - 1];
-                last.kind == TokenKind::Symbol && !matches!(self.source[last.start], b']' | b')')
-            };
-            if depth == 0 && !operator && !after {
+            // The bracket of AC( ) is not its own.
+            let closes = depth == 0 && matches!(byte, b')' | b']');
+            if closes || depth == 0 && !self.goes_on(token) {
                 return;
             }
             depth +=
                 i32::from(matches!(byte, b'(' | b'[')) - i32::from(matches!(byte, b')' | b']'));
             self.at += 1;
         }
+    }
+
+    /// Whether a token outside of brackets belongs to the expression before it.
+    fn goes_on(&self, token: Token) -> bool {
+        let byte = self.source[token.start];
+        let operator = |token: Token| match token.kind {
+            TokenKind::Symbol => !matches!(self.source[token.start], b'~' | b'$' | b','),
+            TokenKind::Word => OPERATORS.contains(&self.upper(token).as_str()),
+            _ => false,
+        };
+        let function = token.kind == TokenKind::Word && (self.is(1, b'[') || self.is(1, b'('));
+        let Some(last) = self.at.checked_sub(1).map(|at| self.tokens[at]) else { return false };
+        // R1, Q1.
+        let number = token.kind == TokenKind::Number
+            && last.end == token.start
+            && matches!(last.kind, TokenKind::Letter | TokenKind::Word);
+        let open = operator(last) && !matches!(self.source[last.start], b']' | b')');
+        operator(token) && byte != b'=' || function || number || open
     }
 
     /// The value of a word whose letters end before the present token.
@@ -196,7 +216,7 @@ impl Scan<'_> {
         let computes = |s: &Self| match s.token(0) {
             Some(t) if t.kind == TokenKind::Symbol => !matches!(s.source[t.start], b'~' | b'$'),
             Some(t) if t.kind == TokenKind::Word && equals => {
-                ["DIV", "MOD", "EX"].contains(&s.upper(t).as_str())
+                OPERATORS.contains(&s.upper(t).as_str())
             }
             _ => false,
         };
@@ -211,9 +231,10 @@ impl Scan<'_> {
         }
         if value.is_none() {
             self.skip_expression();
+            self.at += usize::from(bracket && self.is(0, b')'));
         }
         let end = self.tokens[..self.at].last().map_or(from, |t| t.end);
-        Word { all: from..end, number, value, increment }
+        Word { all: from..end, number, value, increment, computed: false }
     }
 
     fn letter(&mut self, token: Token) {
