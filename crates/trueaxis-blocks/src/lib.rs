@@ -13,10 +13,12 @@ pub mod dialect;
 mod fanuc;
 mod haas;
 mod heidenhain;
+pub mod klartext;
 pub mod lexer;
 mod linuxcnc;
 mod parser;
 pub mod program;
+pub mod siemens;
 mod sinumerik;
 
 pub use dialect::{Control, Dialect};

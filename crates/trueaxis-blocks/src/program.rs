@@ -33,6 +33,12 @@ pub fn fault(
     Fault { code, offset, message: message.into(), hint }
 }
 
+/// A bracket that is not closed.
+pub fn unclosed_bracket(at: usize) -> Fault {
+    let hint = "write one closing bracket for each opening one";
+    fault("unbalanced-brackets", at, "this bracket is not closed", hint)
+}
+
 /// A node of the expressions of a block.
 pub type NodeId = u32;
 

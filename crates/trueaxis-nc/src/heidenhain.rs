@@ -22,7 +22,6 @@ mod drilling;
 mod flow;
 mod frames;
 mod functions;
-mod line;
 mod milling;
 mod path;
 mod pattern_def;
@@ -49,6 +48,7 @@ use cycles::Cycle;
 use flow::{Activation, Labels};
 use frames::Frames;
 use line::{Cursor, Line};
+use trueaxis_blocks::klartext as line;
 use variables::Variables;
 
 /// Executes a program of Klartext.

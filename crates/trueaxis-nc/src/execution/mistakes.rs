@@ -5,6 +5,7 @@ use std::fmt::Display;
 use trueaxis_contour::radius::Gouge;
 
 use crate::moves::FeedMode;
+pub(crate) use crate::text::program::unclosed_bracket;
 use crate::text::program::{Fault, fault};
 
 pub(crate) fn endless_loop(most: u64, points: u64, at: usize) -> Fault {
@@ -52,11 +53,6 @@ pub(crate) fn zero_feed(mode: FeedMode, at: usize) -> Fault {
         _ => ("a feed move without feed", "write F before the first feed move"),
     };
     fault("zero-feed", at, message, hint)
-}
-
-pub(crate) fn unclosed_bracket(at: usize) -> Fault {
-    let hint = "write one closing bracket for each opening one";
-    fault("unbalanced-brackets", at, "this bracket is not closed", hint)
 }
 
 /// Brackets, functions and signs within each other.

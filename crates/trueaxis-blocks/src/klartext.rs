@@ -1,18 +1,17 @@
 //! One block of Klartext: its line, or several of them joined by `~`, as words and numbers.
 
-use super::fault;
 use crate::dialect::Dialect;
-use crate::execution::mistakes;
-use crate::moves::Axis;
-use crate::text::lexer::{Lexer, Token, TokenKind, number_value};
-use crate::text::program::{Fault, is_trivia};
+use crate::lexer::{Lexer, Token, TokenKind, number_value};
+use crate::program::{Fault, fault, is_trivia, unclosed_bracket};
+use trueaxis_moves::Axis;
 
 /// Words of one block: more than any control takes, little for the memory.
 const MOST_TOKENS: usize = 10_000;
 
 /// A block without its number, comments and blanks.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Line {
+pub struct Line {
+    /// Its words, numbers and signs.
     pub tokens: Vec<Token>,
     /// The first byte.
     pub start: usize,
@@ -114,7 +113,7 @@ fn ends_with_tilde(line: &[u8]) -> bool {
 
 /// Walks through the words of a block.
 #[derive(Debug, Clone)]
-pub(super) struct Cursor<'s> {
+pub struct Cursor<'s> {
     source: &'s [u8],
     tokens: &'s [Token],
     at: usize,
@@ -127,6 +126,7 @@ pub(super) struct Cursor<'s> {
 }
 
 impl<'s> Cursor<'s> {
+    /// The words of a block.
     pub fn new(source: &'s [u8], line: &'s Line) -> Self {
         let start = line.tokens.first().map_or(line.start, |t| t.start);
         Self { source, tokens: &line.tokens, at: 0, taken: 0, start, depth: 0 }
@@ -136,6 +136,7 @@ impl<'s> Cursor<'s> {
         self.tokens.get(self.at).copied()
     }
 
+    /// Whether nothing follows.
     pub fn done(&self) -> bool {
         self.at >= self.tokens.len()
     }
@@ -192,6 +193,7 @@ impl<'s> Cursor<'s> {
         }
     }
 
+    /// Whether the next word is this one.
     pub fn is(&self, word: &str) -> bool {
         self.letters().eq_ignore_ascii_case(word.as_bytes())
     }
@@ -215,12 +217,14 @@ impl<'s> Cursor<'s> {
         words.iter().position(|w| self.accept(w))
     }
 
+    /// The next sign, if a sign follows.
     pub fn symbol(&self) -> Option<u8> {
         let sign =
             |t: &Token| matches!(t.kind, TokenKind::Symbol | TokenKind::Mark | TokenKind::Skip);
         self.token().filter(sign).map(|t| self.source[t.start])
     }
 
+    /// Takes a sign if it follows.
     pub fn accept_symbol(&mut self, symbol: u8) -> bool {
         let found = self.symbol() == Some(symbol);
         if found {
@@ -231,9 +235,10 @@ impl<'s> Cursor<'s> {
 
     /// Takes the bracket that closes the one at `open`.
     pub fn close(&mut self, open: usize) -> Result<(), Fault> {
-        if self.accept_symbol(b')') { Ok(()) } else { Err(mistakes::unclosed_bracket(open)) }
+        if self.accept_symbol(b')') { Ok(()) } else { Err(unclosed_bracket(open)) }
     }
 
+    /// Whether a number follows.
     pub fn is_number(&self) -> bool {
         self.token().is_some_and(|t| t.kind == TokenKind::Number)
     }

@@ -4,22 +4,34 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use super::reader::{self, Reader};
-use crate::text::program::Program;
+use crate::program::Program;
 
 /// The control structures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Keyword {
+pub enum Keyword {
+    /// IF without a jump.
     If,
+    /// ELSE.
     Else,
+    /// ENDIF.
     EndIf,
+    /// FOR.
     For,
+    /// ENDFOR.
     EndFor,
+    /// WHILE.
     While,
+    /// ENDWHILE.
     EndWhile,
+    /// LOOP.
     Loop,
+    /// ENDLOOP.
     EndLoop,
+    /// REPEAT.
     Repeat,
+    /// UNTIL.
     Until,
+    /// ENDLABEL.
     EndLabel,
 }
 
@@ -57,12 +69,14 @@ impl Keyword {
 
 /// A control structure with its place.
 #[derive(Debug, Clone)]
-pub(super) struct Mark {
+pub struct Mark {
+    /// Which word it is.
     pub keyword: Keyword,
     /// The block that contains it.
     pub start: usize,
     /// The block after it.
     pub next: usize,
+    /// Its line, from 1.
     pub line: u32,
     /// The end of what begins here, or the beginning of what ends here.
     pub partner: Option<usize>,
@@ -72,27 +86,32 @@ pub(super) struct Mark {
 
 /// One program of a file with several.
 #[derive(Debug, Clone)]
-pub(super) struct Section {
+pub struct Section {
     /// Upper case, without `_N_` and `_SPF`.
     pub name: String,
+    /// Its bytes.
     pub span: Range<usize>,
+    /// Its line, from 1.
     pub line: u32,
 }
 
 /// Blocks that jumps can reach.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Structure {
+pub struct Structure {
+    /// The words of structure, in order.
     pub marks: Vec<Mark>,
+    /// Which of them begins at a byte.
     pub by_start: HashMap<usize, usize>,
     /// Block and line, in the order of the text.
     pub labels: HashMap<String, Vec<(usize, u32)>>,
     /// Number, block and line, sorted.
     pub numbers: Vec<(u64, usize, u32)>,
+    /// The programs of the text, each after its head.
     pub sections: Vec<Section>,
 }
 
 /// `_N_NAME_SPF`, `NAME.SPF` and `/_N_WKS_DIR/_N_NAME_SPF` as NAME.
-pub(super) fn plain_name(name: &str) -> String {
+pub fn plain_name(name: &str) -> String {
     let last = name.rsplit(['/', '\\']).next().unwrap_or(name).trim().to_ascii_uppercase();
     let last = last.strip_prefix("_N_").unwrap_or(&last);
     let ends = ["_SPF", "_MPF", ".SPF", ".MPF"];
@@ -101,7 +120,7 @@ pub(super) fn plain_name(name: &str) -> String {
 }
 
 /// The main program of a file: its first byte, line and end.
-pub(super) fn main_section(source: &[u8]) -> (usize, u32, usize) {
+pub fn main_section(source: &[u8]) -> (usize, u32, usize) {
     if !source.contains(&b'%') {
         return (0, 1, source.len());
     }
@@ -134,6 +153,7 @@ fn line_of(source: &[u8], start: usize) -> Range<usize> {
 }
 
 impl Structure {
+    /// Looks through a program once.
     pub fn of(program: &Program) -> Self {
         let mut found = Self::default();
         let source = program.source();

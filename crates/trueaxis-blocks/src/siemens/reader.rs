@@ -1,27 +1,26 @@
 //! The tokens of one line, read one by one.
 
-use crate::execution::mistakes;
-use crate::text::lexer::{Lexer, Token, TokenKind, number_value};
-use crate::text::program::{Fault, Program};
-
-use super::fault;
+use crate::lexer::{Lexer, Token, TokenKind, number_value};
+use crate::program::{Fault, Program, fault, unclosed_bracket};
 
 /// Tokens of one block: more than any control takes, little for the memory.
 const MOST_TOKENS: usize = 10_000;
 
 /// What a line is apart from its tokens.
 #[derive(Debug)]
-pub(super) struct Line {
+pub struct Line {
     /// The offset after the line end.
     pub end: usize,
     /// Where the last token ends.
     pub stop: usize,
+    /// Begins with `/`.
     pub skip: bool,
+    /// What is wrong with it, if anything is.
     pub fault: Option<Fault>,
 }
 
 /// Collects the tokens of the line that begins at a byte; blanks and comments are left out.
-pub(super) fn read_line(program: &Program, start: usize, tokens: &mut Vec<Token>) -> Line {
+pub fn read_line(program: &Program, start: usize, tokens: &mut Vec<Token>) -> Line {
     tokens.clear();
     let source = program.source();
     let end = source.len();
@@ -64,30 +63,37 @@ fn is_closed(text: &[u8]) -> bool {
 
 /// Goes through the tokens of a block.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Reader<'t> {
+pub struct Reader<'t> {
+    /// The whole text.
     pub source: &'t [u8],
     tokens: &'t [Token],
+    /// The number of the next token.
     pub at: usize,
     stop: usize,
 }
 
 impl<'t> Reader<'t> {
+    /// Reads tokens of a text up to a place of it.
     pub fn new(source: &'t [u8], tokens: &'t [Token], stop: usize) -> Self {
         Self { source, tokens, at: 0, stop }
     }
 
+    /// The next token.
     pub fn peek(&self) -> Option<Token> {
         self.tokens.get(self.at).copied()
     }
 
+    /// The token after so many others.
     pub fn ahead(&self, count: usize) -> Option<Token> {
         self.tokens.get(self.at + count).copied()
     }
 
+    /// Goes on by one token.
     pub fn advance(&mut self) {
         self.at += 1;
     }
 
+    /// Whether nothing follows.
     pub fn is_empty(&self) -> bool {
         self.at >= self.tokens.len()
     }
@@ -97,6 +103,7 @@ impl<'t> Reader<'t> {
         self.peek().map_or(self.stop, |t| t.start)
     }
 
+    /// The bytes of a token.
     pub fn text(&self, token: Token) -> &'t [u8] {
         &self.source[token.start..token.end]
     }
@@ -105,10 +112,12 @@ impl<'t> Reader<'t> {
         token.filter(|t| t.kind == TokenKind::Symbol).map(|t| self.source[t.start])
     }
 
+    /// The next sign, if a sign follows.
     pub fn symbol(&self) -> Option<u8> {
         self.symbol_of(self.peek())
     }
 
+    /// The sign after so many tokens, if there is one.
     pub fn symbol_ahead(&self, count: usize) -> Option<u8> {
         self.symbol_of(self.ahead(count))
     }
@@ -120,6 +129,7 @@ impl<'t> Reader<'t> {
         (first.end == second.start).then_some(signs)
     }
 
+    /// Takes a sign if it follows.
     pub fn accept(&mut self, symbol: u8) -> bool {
         let found = self.symbol() == Some(symbol);
         self.at += usize::from(found);
@@ -136,6 +146,7 @@ impl<'t> Reader<'t> {
         self.letter_ahead(0)
     }
 
+    /// The letter after so many tokens, if there is one.
     pub fn letter_ahead(&self, count: usize) -> Option<u8> {
         let token = self.ahead(count).filter(|t| t.kind == TokenKind::Letter)?;
         Some(self.source[token.start].to_ascii_uppercase())
@@ -146,6 +157,7 @@ impl<'t> Reader<'t> {
         self.word_ahead(0)
     }
 
+    /// The word after so many tokens, in capital letters, if there is one.
     pub fn word_ahead(&self, count: usize) -> Option<String> {
         let token = self.ahead(count).filter(|t| t.kind == TokenKind::Word)?;
         Some(String::from_utf8_lossy(self.text(token)).to_ascii_uppercase())
@@ -165,6 +177,7 @@ impl<'t> Reader<'t> {
         Some((name, 2))
     }
 
+    /// Takes a word if it follows.
     pub fn accept_word(&mut self, word: &str) -> bool {
         let token = self.peek().filter(|t| t.kind == TokenKind::Word);
         let found = token.is_some_and(|t| self.text(t).eq_ignore_ascii_case(word.as_bytes()));
@@ -172,6 +185,7 @@ impl<'t> Reader<'t> {
         found
     }
 
+    /// The number after so many tokens, if there is one.
     pub fn number_ahead(&self, count: usize) -> Option<Token> {
         self.ahead(count).filter(|t| t.kind == TokenKind::Number)
     }
@@ -215,7 +229,7 @@ impl<'t> Reader<'t> {
 
     /// Takes the bracket that closes the one at `open`.
     pub fn close(&mut self, open: usize) -> Result<(), Fault> {
-        if self.accept(b')') { Ok(()) } else { Err(mistakes::unclosed_bracket(open)) }
+        if self.accept(b')') { Ok(()) } else { Err(unclosed_bracket(open)) }
     }
 
     /// Takes a sign that must be there.
