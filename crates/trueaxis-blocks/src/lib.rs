@@ -18,6 +18,7 @@ mod linuxcnc;
 mod parser;
 pub mod program;
 mod sinumerik;
+pub mod sinumerik_words;
 
 pub use dialect::{Control, Dialect};
 pub use program::Program;

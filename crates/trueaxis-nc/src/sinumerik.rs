@@ -33,7 +33,6 @@ mod spigots;
 mod structure;
 mod swivel;
 mod system;
-mod tables;
 mod tools;
 mod transform;
 mod values;
@@ -54,6 +53,7 @@ use chain::Chain;
 use execute::Modes;
 use reader::Reader;
 use structure::Structure;
+use trueaxis_blocks::sinumerik_words as tables;
 use words::Words;
 
 /// Executes a program of SINUMERIK.

@@ -406,7 +406,10 @@ fn patterns_of_klartext() {
         let deep = deep.iter().filter(|p| p.feed == 100.0);
         deep.map(|p| [p.to[0], p.to[1]].map(|v| (v * 1e3).round() / 1e3 + 0.0)).collect()
     };
-    assert_eq!(places("POS1 (X+25 Y+33,5 Z+0) ~\n POS2 (X+50 Y+75 Z+0)"), [[25.0, 33.5], [50.0, 75.0]]);
+    assert_eq!(
+        places("POS1 (X+25 Y+33,5 Z+0) ~\n POS2 (X+50 Y+75 Z+0)"),
+        [[25.0, 33.5], [50.0, 75.0]]
+    );
     assert_eq!(
         places("ROW1 (X+25 Y+33.5 D+8 NUM3 ROT+90 Z+0)"),
         [[25.0, 33.5], [25.0, 41.5], [25.0, 49.5]]
@@ -444,7 +447,9 @@ fn patterns_of_klartext() {
     assert_eq!((found.first(), found.last()), (Some(&50.0), Some(&14.0)));
     assert!(wanted.iter().all(|z| found.contains(z)), "{found:?}");
     // Without a pattern, or with one in a table, nothing is moved, which is said.
-    let text = format!("{KLARTEXT}PATTERN DEF POS1 (X+1 Y+2 Z+0)\nSEL PATTERN \"A\"\nCYCL CALL PAT FMAX\n");
+    let text = format!(
+        "{KLARTEXT}PATTERN DEF POS1 (X+1 Y+2 Z+0)\nSEL PATTERN \"A\"\nCYCL CALL PAT FMAX\n"
+    );
     assert_eq!(run(Control::Heidenhain, &text, 4.0).1, ["not-applied", "not-applied"]);
     for (bad, code) in [
         ("PATTERN DEF POS1 (X+1 Z+0)", "missing-value"),
@@ -464,16 +469,23 @@ fn patterns_of_klartext() {
 fn patterns_are_calls_one_by_one() {
     let cycle = "CYCL DEF 253 S Q215=0 Q218=30 Q219=12 Q374=20 Q367=0 Q207=200 Q201=-6 Q202=4 Q206=50 Q200=2 Q203=1 Q204=10 Q351=+1";
     let pattern = "PATTERN DEF ROW1 (X+5 Y+7 D+40 NUM3 ROT+0 Z+0)";
-    for frame in ["", "CYCL DEF 10.0 ROTATION\nCYCL DEF 10.1 ROT+35\n", "CYCL DEF 7.0 D\nCYCL DEF 7.1 X+9\nCYCL DEF 7.2 Y-4\n"] {
+    for frame in [
+        "",
+        "CYCL DEF 10.0 ROTATION\nCYCL DEF 10.1 ROT+35\n",
+        "CYCL DEF 7.0 D\nCYCL DEF 7.1 X+9\nCYCL DEF 7.2 Y-4\n",
+    ] {
         let head = format!("{KLARTEXT}{frame}L X+0 Y+0 Z+10 FMAX\n{cycle}\n");
         let many = format!("{head}{pattern}\nCYCL CALL PAT FMAX\n");
         let single = format!("{head}L X+5 Y+7 FMAX M99\nL X+45 FMAX M99\nL X+85 FMAX M99\n");
-        let (a, b) = (sound(Control::Heidenhain, &many, 4.0), sound(Control::Heidenhain, &single, 4.0));
+        let (a, b) =
+            (sound(Control::Heidenhain, &many, 4.0), sound(Control::Heidenhain, &single, 4.0));
         // The pattern goes up to 11 (Q203 + Q204) first.
-        let no_lift: Vec<_> = a.iter().enumerate().filter(|(i, _)| *i != 1).map(|(_, p)| *p).collect();
+        let no_lift: Vec<_> =
+            a.iter().enumerate().filter(|(i, _)| *i != 1).map(|(_, p)| *p).collect();
         let last = |p: &[Piece]| p.last().unwrap().to;
         assert!(near(last(&a), last(&b)), "{many}");
-        let cut = |p: &[Piece]| p.iter().filter(|p| p.feed.is_finite()).copied().collect::<Vec<_>>();
+        let cut =
+            |p: &[Piece]| p.iter().filter(|p| p.feed.is_finite()).copied().collect::<Vec<_>>();
         assert_same(&cut(&no_lift), &cut(&b), &many);
     }
 }
@@ -500,8 +512,16 @@ fn circular_pockets_of_haas() {
     assert!(near(deeper.last().unwrap().to, [10.0, 20.0, 4.0]));
     // D0 is the path of the centre; in inches everything is 25.4 times as large.
     assert_eq!(radii(&haas("G13 I12. F100. Z-3. D0"), -3.0), [-12.0, 12.0]);
-    let inch = sound(Control::Haas, "T1 M6\nG20 G54 G90 G0 X1. Y2.\nZ1.\nG13 I0.5 F10. Z-.1 D1\nM30\n", 4.0);
-    let mm = sound(Control::Haas, "T1 M6\nG21 G54 G90 G0 X25.4 Y50.8\nZ25.4\nG13 I12.7 F254. Z-2.54 D1\nM30\n", 4.0);
+    let inch = sound(
+        Control::Haas,
+        "T1 M6\nG20 G54 G90 G0 X1. Y2.\nZ1.\nG13 I0.5 F10. Z-.1 D1\nM30\n",
+        4.0,
+    );
+    let mm = sound(
+        Control::Haas,
+        "T1 M6\nG21 G54 G90 G0 X25.4 Y50.8\nZ25.4\nG13 I12.7 F254. Z-2.54 D1\nM30\n",
+        4.0,
+    );
     assert_same(&inch, &mm, "inch");
     // G2 or G3: which way the first quarter goes is seen at its centre; the half circle to the path comes before.
     for (bad, code) in [

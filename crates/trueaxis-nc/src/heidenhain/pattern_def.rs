@@ -99,9 +99,8 @@ impl Run<'_> {
                 element.place[usize::from(first == b'Y')] = Some(self.value(c)?);
                 continue;
             }
-            let found = WORDS.iter().position(|w| {
-                letters.starts_with(w.as_bytes()) && plain(w.len())
-            });
+            let found =
+                WORDS.iter().position(|w| letters.starts_with(w.as_bytes()) && plain(w.len()));
             let Some(index) = found else { return Err(c.unknown()) };
             c.take_letters(WORDS[index].len());
             element.words[index] = Some(self.value(c)?);

@@ -116,7 +116,11 @@ impl Run<'_> {
     }
 
     /// The radius of D; `None`, with a warning, if it is not stated anywhere.
-    pub(super) fn radius_of(&mut self, written: Option<f64>, at: usize) -> Result<Option<f64>, Fault> {
+    pub(super) fn radius_of(
+        &mut self,
+        written: Option<f64>,
+        at: usize,
+    ) -> Result<Option<f64>, Fault> {
         let number = match written {
             Some(d) if d.fract() == 0.0 && (0.0..1e9).contains(&d) => d as u32,
             Some(d) => return Err(mistakes::bad_tool(format_args!("D{d}"), at)),

@@ -1,14 +1,17 @@
 //! What the words of this control do, as tables.
 
-use crate::moves::{CompensationSide as Side, FeedMode, PathControl, Plane};
+use trueaxis_moves::{CompensationSide as Side, FeedMode, PathControl, Plane};
 
 /// How a motion is programmed; it lasts until another one comes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Motion {
+pub enum Motion {
+    /// G0.
     Rapid,
+    /// G1.
     Linear,
     /// G2 and G3.
     Arc {
+        /// G3.
         ccw: bool,
     },
     /// CIP.
@@ -23,7 +26,7 @@ pub(super) enum Motion {
 
 /// The definition of the tool axis by angles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Angles {
+pub enum Angles {
     /// A2 about Z, B2 about X', C2 about Z''.
     Euler,
     /// C2 about Z, B2 about Y', A2 about X''.
@@ -34,12 +37,18 @@ pub(super) enum Angles {
 
 /// The interpolation of the tool axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum OrientationMode {
+pub enum OrientationMode {
+    /// ORIAXES.
     Axes,
+    /// ORIVECT.
     Vector,
+    /// ORICONCW.
     ConeClockwise,
+    /// ORICONCCW.
     ConeCounterClockwise,
+    /// ORICONIO.
     ConeThrough,
+    /// ORICONTO.
     ConeTangential,
     /// ORIMKS.
     Machine,
@@ -49,7 +58,8 @@ pub(super) enum OrientationMode {
 
 /// One thing that a word does.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Code {
+pub enum Code {
+    /// G17, G18, G19.
     Plane(Plane),
     /// A code of the user's dictionary, with the words of its block.
     Own,
@@ -57,11 +67,16 @@ pub(super) enum Code {
     AlongTool(bool),
     /// G70/G71 and G700/G710; `feed` with the feeds as well.
     Inches {
+        /// G70, G700.
         inches: bool,
+        /// The feed as well.
         feed: bool,
     },
+    /// G90, G91.
     Incremental(bool),
+    /// DIAMON, DIAMOF.
     Diameter(bool),
+    /// G93, G94, G95.
     Feed(FeedMode),
     /// G96 and its relatives: the feed that comes with it.
     SurfaceSpeed(bool, FeedMode),
@@ -71,17 +86,26 @@ pub(super) enum Code {
     Frame(&'static str),
     /// G58, G59.
     Shift {
+        /// G59.
         fine: bool,
     },
+    /// SUPA, G53 and G153, or ORIMKS.
     Machine,
+    /// TRAORI, TRAFOOF.
     ToolCentre(bool),
+    /// How A2, B2 and C2 are read.
     Angles(Angles),
+    /// How the orientation changes.
     Orientation(OrientationMode),
+    /// G40, G41, G42.
     Compensation(Side),
+    /// How a contour is followed.
     Contour(ContourRule),
+    /// G60, G64 and their relatives; with a distance or without.
     Path(PathControl, bool),
     /// G9.
     ExactOnce,
+    /// G4.
     Dwell,
     /// G110 (0), G111 (1), G112 (2).
     Pole(u8),
@@ -89,14 +113,17 @@ pub(super) enum Code {
     Reference,
     /// G25, G26.
     Limits,
+    /// How the axes move.
     Motion(Motion),
+    /// Known, of no effect on the path.
     Note(&'static str),
+    /// Known, but not executed.
     NotApplied(&'static str),
 }
 
 /// How the contour is followed with radius compensation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum ContourRule {
+pub enum ContourRule {
     /// G450.
     OutsideOnArc,
     /// G451.
@@ -137,7 +164,7 @@ impl Code {
 }
 
 /// What a G number does.
-pub(super) fn g_code(number: u32) -> Option<Code> {
+pub fn g_code(number: u32) -> Option<Code> {
     let motion = |m| Some(Code::Motion(m));
     match number {
         0 => motion(Motion::Rapid),
@@ -209,7 +236,7 @@ fn g_note(number: u32) -> Option<&'static str> {
 }
 
 /// What a word of several letters does.
-pub(super) fn code(word: &str) -> Option<Code> {
+pub fn code(word: &str) -> Option<Code> {
     Some(match word {
         "CIP" => Code::Motion(Motion::ThroughPoint),
         "CT" => Code::Motion(Motion::Tangent),
@@ -384,18 +411,19 @@ const MORE_NOTES: [&str; 15] = [
 ];
 
 /// The word itself if it has no effect on the programmed path.
-pub(super) fn is_note(word: &str) -> Option<&'static str> {
+pub fn is_note(word: &str) -> Option<&'static str> {
     let mut all = NOTES.iter().chain(&MORE_NOTES);
     all.find(|n| **n == word).copied()
 }
 
 /// Addresses of several letters, with `=`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Name {
+pub enum Name {
     /// CR.
     Radius,
     /// AR.
     Opening,
+    /// TURN.
     Turn,
     /// AP.
     PolarAngle,
@@ -420,6 +448,7 @@ pub(super) enum Name {
     CornerFeed,
     /// FRCM: for all corners from here on, 0 ends it.
     ModalCornerFeed,
+    /// ADIS, CTOL and their relatives.
     Tolerance,
     /// FB.
     BlockFeed,
@@ -429,11 +458,14 @@ pub(super) enum Name {
     Angle,
     /// POS[X] and its relatives.
     AxisPlace,
+    /// Known, of no effect on the path.
     Noted(&'static str),
+    /// Known, but not executed.
     NotApplied(&'static str),
 }
 
-pub(super) fn parameter(word: &str) -> Option<Name> {
+/// A word with `=` and what it is.
+pub fn parameter(word: &str) -> Option<Name> {
     Some(match word {
         "CR" => Name::Radius,
         "AR" => Name::Opening,
@@ -474,7 +506,7 @@ pub(super) fn parameter(word: &str) -> Option<Name> {
 }
 
 /// Statements that fill their block and have no effect on the path here.
-pub(super) fn takes_block(word: &str) -> bool {
+pub fn takes_block(word: &str) -> bool {
     const WORDS: [&str; 47] = [
         "ID",
         "IDS",
@@ -528,7 +560,7 @@ pub(super) fn takes_block(word: &str) -> bool {
 }
 
 /// Cycles that the control brings with it.
-pub(super) fn is_cycle(name: &str) -> bool {
+pub fn is_cycle(name: &str) -> bool {
     const BEGINNINGS: [&str; 12] = [
         "CYCLE",
         "POCKET",
