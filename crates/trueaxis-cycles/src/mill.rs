@@ -94,6 +94,35 @@ pub fn bore(center: Point, radius_mm: f64, heights: &Heights, ccw: bool) -> Opti
     Some(strokes)
 }
 
+/// Radii from the first one on by steps up to the last one, which is among them.
+pub fn growing(first_mm: f64, last_mm: f64, step_mm: f64) -> Vec<f64> {
+    let mut radii = vec![first_mm];
+    let mut radius = first_mm + step_mm;
+    while step_mm > 0.0 && radius < last_mm - 1e-9 {
+        radii.push(radius);
+        radius += step_mm;
+    }
+    radii.extend((last_mm > first_mm).then_some(last_mm));
+    radii
+}
+
+/// Circles about a centre at a height: down to it, on a half circle to the first one, and back from the last one.
+pub fn circles_about(center: Point, height: f64, radii: &[f64], ccw: bool) -> Vec<Stroke> {
+    let place = |x: f64| [center[0] + x, center[1], height];
+    let arc = |x: f64, about: f64| {
+        let center = [center[0] + about, center[1]];
+        Stroke::Arc { to: place(x), center, ccw, plunges: false }
+    };
+    let mut strokes = vec![Stroke::Plunge(place(0.0))];
+    for (i, r) in radii.iter().enumerate() {
+        strokes.push(if i == 0 { arc(*r, r / 2.0) } else { Stroke::Line(place(*r)) });
+        strokes.extend([arc(-r, 0.0), arc(*r, 0.0)]);
+    }
+    let out = radii.last().copied().unwrap_or(0.0);
+    strokes.push(arc(0.0, out / 2.0));
+    strokes
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

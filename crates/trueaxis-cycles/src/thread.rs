@@ -99,6 +99,36 @@ impl Thread {
     }
 }
 
+/// The coarse pitch of a metric thread by its size, mm.
+///
+/// # Source
+/// ISO 261, coarse pitches.
+pub fn coarse_pitch_mm(size_mm: f64) -> Option<f64> {
+    const PITCHES: [(f64, f64); 20] = [
+        (2.0, 0.4),
+        (2.5, 0.45),
+        (3.0, 0.5),
+        (4.0, 0.7),
+        (5.0, 0.8),
+        (6.0, 1.0),
+        (8.0, 1.25),
+        (10.0, 1.5),
+        (12.0, 1.75),
+        (14.0, 2.0),
+        (16.0, 2.0),
+        (18.0, 2.5),
+        (20.0, 2.5),
+        (22.0, 2.5),
+        (24.0, 3.0),
+        (27.0, 3.0),
+        (30.0, 3.5),
+        (36.0, 4.0),
+        (42.0, 4.5),
+        (48.0, 5.0),
+    ];
+    PITCHES.iter().find(|(size, _)| *size == size_mm).map(|(_, pitch)| *pitch)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

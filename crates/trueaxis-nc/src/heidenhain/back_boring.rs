@@ -28,10 +28,10 @@ impl Run<'_> {
         let length = |q: u32| value(q) * mm;
         let [first, second, along] = self.core.modes.plane.axes();
         let (axis, sign) = match value(214) {
-            d if d == 1.0 => (first, -1.0),
-            d if d == 2.0 => (second, -1.0),
-            d if d == 3.0 => (first, 1.0),
-            d if d == 4.0 => (second, 1.0),
+            1.0 => (first, -1.0),
+            2.0 => (second, -1.0),
+            3.0 => (first, 1.0),
+            4.0 => (second, 1.0),
             d => {
                 let subject = format!("cycle 204 with Q214={d}");
                 self.core.not_applied(&subject, at, "state the direction aside: Q214=1 to 4");
@@ -50,9 +50,11 @@ impl Run<'_> {
         let edge = surface - length(250).abs();
         let (below, end) = (edge - clear - length(252), edge + length(249) - length(252));
         let center = self.frames.position;
-        let aside = |mut p: Position| {
-            p[axis] += sign * length(251).abs();
-            p
+        let off = sign * length(251).abs();
+        let aside = |place: &Position| {
+            let mut aside = *place;
+            aside[axis] = place[axis] + off;
+            aside
         };
         let up = |height: f64| {
             let mut p = center;
@@ -65,9 +67,9 @@ impl Run<'_> {
         let modal = self.core.modes.feed;
         self.step(MoveKind::Rapid, over, at)?;
         self.core.emit(orient.clone());
-        self.step(MoveKind::Rapid, aside(over), at)?;
+        self.step(MoveKind::Rapid, aside(&over), at)?;
         self.core.modes.feed = feed(253);
-        self.step(MoveKind::Linear, aside(under), at)?;
+        self.step(MoveKind::Linear, aside(&under), at)?;
         self.step(MoveKind::Linear, under, at)?;
         self.core.emit(turning.clone());
         self.core.modes.feed = feed(254);
@@ -79,8 +81,8 @@ impl Run<'_> {
         self.core.modes.feed = feed(253);
         self.step(MoveKind::Linear, under, at)?;
         self.core.emit(orient);
-        self.step(MoveKind::Linear, aside(under), at)?;
-        self.step(MoveKind::Linear, aside(over), at)?;
+        self.step(MoveKind::Linear, aside(&under), at)?;
+        self.step(MoveKind::Linear, aside(&over), at)?;
         self.core.modes.feed = modal;
         self.step(MoveKind::Rapid, over, at)?;
         self.core.emit(turning);

@@ -146,16 +146,16 @@ impl Run<'_> {
         safe: f64,
         passes: &Passes,
     ) -> Result<(), Fault> {
-        self.to_height(safe, cycle.at)?;
+        self.rise_to(safe, cycle.at)?;
         for (strokes, feeds) in passes {
             self.mill(strokes, *feeds, cycle.at)?;
         }
-        self.to_height(cycle.clear(), cycle.at)?;
+        self.rise_to(cycle.clear(), cycle.at)?;
         self.tangent = None;
         Ok(())
     }
 
-    fn to_height(&mut self, height: f64, at: usize) -> Result<(), Fault> {
+    fn rise_to(&mut self, height: f64, at: usize) -> Result<(), Fault> {
         let mut place = self.frames.position;
         place[self.along()] = height;
         if place == self.frames.position {
@@ -228,10 +228,10 @@ fn wall(cycle: &Milled<'_>) -> (Outline, Point) {
             let corner_mm = half[0].min(half[1]);
             let inner = half[0] - half[1];
             let x = match place {
-                p if p == 1.0 => half[0],
-                p if p == 2.0 => inner,
-                p if p == 3.0 => -inner,
-                p if p == 4.0 => -half[0],
+                1.0 => half[0],
+                2.0 => inner,
+                3.0 => -inner,
+                4.0 => -half[0],
                 _ => 0.0,
             };
             (Outline::Rectangle { half_mm: half, corner_mm, angle_deg: cycle.value(374) }, [x, 0.0])
@@ -239,10 +239,10 @@ fn wall(cycle: &Milled<'_>) -> (Outline, Point) {
         _ => {
             let [a, b] = half;
             let offset = match place {
-                p if p == 1.0 => [a, b],
-                p if p == 2.0 => [-a, b],
-                p if p == 3.0 => [-a, -b],
-                p if p == 4.0 => [a, -b],
+                1.0 => [a, b],
+                2.0 => [-a, b],
+                3.0 => [-a, -b],
+                4.0 => [a, -b],
                 _ => [0.0; 2],
             };
             let corner_mm = cycle.length(220).abs();

@@ -5,7 +5,7 @@ use crate::execution::milling::Mill;
 use crate::execution::mistakes;
 use crate::moves::{MoveKind, Plane};
 use crate::text::program::Fault;
-use trueaxis_cycles::mill::Stroke;
+use trueaxis_cycles::mill::{circles_about, growing};
 
 /// Circles and rounds of one block: more than any program means.
 const MOST: f64 = 1e4;
@@ -13,7 +13,7 @@ const MOST: f64 = 1e4;
 impl Run<'_> {
     /// G12 (clockwise) and G13 I K Q Z D F L: down to Z, on a half circle to the circle of the radius I, around it, then
     /// around circles that grow by Q up to K, and on a half circle back to the centre, where the tool stays in depth; L
-    /// times, with G91 deeper by Z each time. The radius of D is taken off the circles.
+    /// times, with G91 deeper by Z each time. The circles are smaller by the radius of D.
     ///
     /// # Source
     /// See the table of sources in `docs/cycles.md`. The way from circle to circle is ours.
@@ -62,7 +62,7 @@ impl Run<'_> {
             let now = self.frames.position[third];
             let base = if incremental { now } else { 0.0 };
             let height = depth.map_or(now, |z| base + z);
-            let strokes = round([center[x], center[y]], height, &radii, ccw);
+            let strokes = circles_about([center[x], center[y]], height, &radii, ccw);
             self.mill(&strokes, [feed, feed], at)?;
         }
         Ok(())
@@ -81,40 +81,16 @@ fn circles(
         let message = "G12 and G13 need I, the radius of the first circle";
         return Err(fault("missing-value", at, message, "write I10"));
     };
-    let mut circles = vec![first];
-    match (last, step.map(f64::abs)) {
+    let circles = match (last, step.map(f64::abs)) {
         (Some(last), Some(step)) if step > 0.0 && (last - first) / step < MOST => {
-            let mut radius = first + step;
-            while radius < last - 1e-9 {
-                circles.push(radius);
-                radius += step;
-            }
-            if last > first {
-                circles.push(last);
-            }
+            growing(first, last, step)
         }
         (Some(_), _) => {
             let message = "K needs Q, the step from circle to circle, above 0 and not too small";
             return Err(fault("missing-value", at, message, "write Q2"));
         }
-        (None, _) => {}
-    }
+        (None, _) => vec![first],
+    };
     let radii: Vec<f64> = circles.into_iter().map(|radius| radius - tool).collect();
     Ok((radii[0] > 0.0).then_some(radii))
-}
-
-fn round(center: [f64; 2], height: f64, radii: &[f64], ccw: bool) -> Vec<Stroke> {
-    let at = |x: f64| [center[0] + x, center[1], height];
-    let arc = |x: f64, about: f64| {
-        let center = [center[0] + about, center[1]];
-        Stroke::Arc { to: at(x), center, ccw, plunges: false }
-    };
-    let mut strokes = vec![Stroke::Plunge(at(0.0))];
-    for (i, r) in radii.iter().enumerate() {
-        strokes.push(if i == 0 { arc(*r, r / 2.0) } else { Stroke::Line(at(*r)) });
-        strokes.extend([arc(-r, 0.0), arc(*r, 0.0)]);
-    }
-    let out = radii.last().copied().unwrap_or(0.0);
-    strokes.push(arc(0.0, out / 2.0));
-    strokes
 }

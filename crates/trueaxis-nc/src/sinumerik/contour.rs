@@ -121,9 +121,9 @@ impl Run<'_> {
             cut.heights.bottom_mm = (cut.heights.bottom_mm + floor).min(cut.heights.top_mm);
         }
         let left_mm = match parameters.or_zero(11)? {
-            side if side == 41.0 => distance,
-            side if side == 42.0 => -distance,
-            side if side == 40.0 => 0.0,
+            41.0 => distance,
+            42.0 => -distance,
+            40.0 => 0.0,
             side => {
                 let message = format!("expected 40, 41 or 42 for RL, found {side}");
                 return Err(fault("missing-value", at, message, "write 41 for a tool to the left"));

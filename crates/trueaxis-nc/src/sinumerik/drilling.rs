@@ -9,6 +9,7 @@ use crate::execution::mistakes;
 use crate::moves::{Axis, AxisSet, Event, Feed, MoveKind, Position};
 use crate::text::program::Fault;
 use trueaxis_cycles::pattern::{peck_depths, pecks_less_by};
+use trueaxis_cycles::thread::coarse_pitch_mm;
 
 /// Pecks of one hole: more than any program means.
 const MOST_PECKS: f64 = 1e5;
@@ -221,7 +222,7 @@ impl Run<'_> {
         let size = parameters.or_zero(7)?.abs();
         let pitch = parameters.number(8)?.filter(|p| *p != 0.0);
         let pitch =
-            pitch.map(|p| p.abs() * self.core.modes.unit_mm()).or_else(|| coarse_pitch(size));
+            pitch.map(|p| p.abs() * self.core.modes.unit_mm()).or_else(|| coarse_pitch_mm(size));
         let Some(pitch_mm) = pitch else {
             let message = "the cycle has no pitch";
             return Err(fault("cycle-without-pitch", at, message, "write PIT or MPIT"));
@@ -293,34 +294,4 @@ fn first_feed(factor: Option<f64>) -> f64 {
         Some(f) if f > 1.0 && f <= 100.0 => f / 100.0,
         _ => 1.0,
     }
-}
-
-/// The coarse pitch of a metric thread by its size, mm.
-///
-/// # Source
-/// ISO 261, coarse pitches.
-fn coarse_pitch(size_mm: f64) -> Option<f64> {
-    const PITCHES: [(f64, f64); 20] = [
-        (2.0, 0.4),
-        (2.5, 0.45),
-        (3.0, 0.5),
-        (4.0, 0.7),
-        (5.0, 0.8),
-        (6.0, 1.0),
-        (8.0, 1.25),
-        (10.0, 1.5),
-        (12.0, 1.75),
-        (14.0, 2.0),
-        (16.0, 2.0),
-        (18.0, 2.5),
-        (20.0, 2.5),
-        (22.0, 2.5),
-        (24.0, 3.0),
-        (27.0, 3.0),
-        (30.0, 3.5),
-        (36.0, 4.0),
-        (42.0, 4.5),
-        (48.0, 5.0),
-    ];
-    PITCHES.iter().find(|(size, _)| *size == size_mm).map(|(_, pitch)| *pitch)
 }

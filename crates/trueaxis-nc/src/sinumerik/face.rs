@@ -104,7 +104,7 @@ impl Run<'_> {
         let allowance = if finish { 0.0 } else { parameters.or_zero(floor as usize)?.abs() * unit };
         face.cutter_mm = cut.tool_mm;
         face.step_mm = match face.step_mm {
-            step if step == 0.0 => 1.6 * cut.tool_mm,
+            0.0 => 1.6 * cut.tool_mm,
             step if percent => step / 50.0 * cut.tool_mm,
             step => step * unit,
         };

@@ -27,15 +27,6 @@ pub(super) struct Cut {
     pub feeds: [Feed; 2],
 }
 
-/// Where the parameters of POCKET3 and POCKET4 stand that do not stand at the same place.
-struct Places {
-    center: usize,
-    /// MID; the following ones up to AP1 follow it.
-    layer: usize,
-    /// AD; the following ones up to AMODE follow it.
-    premachined: usize,
-}
-
 impl Run<'_> {
     /// The radius of the cutter; `None`, with a warning, where it is not known.
     pub(super) fn cutter(&mut self, name: &str, at: usize) -> Option<f64> {
@@ -211,11 +202,8 @@ impl Run<'_> {
     ) -> Result<(), Fault> {
         let at = parameters.at;
         let is_round = name == "POCKET4";
-        let places = match is_round {
-            true => Places { center: 5, layer: 7, premachined: 16 },
-            false => Places { center: 7, layer: 10, premachined: 20 },
-        };
-        let (m, n) = (places.layer, places.premachined);
+        // Where PA, MID (up to AP1) and AD (up to AMODE) stand.
+        let (place, m, n) = if is_round { (5, 7, 16) } else { (7, 10, 20) };
         let [reference, mode, amounts] = [n + 6, n + 7, n + 8].map(|i| parameters.or_zero(i));
         let (reference, mode, amounts) = (reference?, mode?, amounts?);
         let kind = parameters.or_zero(m + 6)?;
@@ -227,7 +215,7 @@ impl Run<'_> {
         let feeds = [Some(m + 3), Some(m + 4)];
         let layer = parameters.or_zero(m)?;
         let Some(cut) = self.cut(name, parameters, depth, layer, feeds)? else { return Ok(()) };
-        let center = self.cycle_point(parameters, places.center)?;
+        let center = self.cycle_point(parameters, place)?;
         let unit = self.core.modes.unit_mm();
         let own = |i: usize| parameters.or_zero(i).map(|v| v.abs() * unit);
         let (side, floor) = (own(m + 1)?, own(m + 2)?);
