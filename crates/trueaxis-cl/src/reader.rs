@@ -44,6 +44,8 @@ struct Reader<'n> {
     units_given: bool,
     /// The vector of TLAXIS.
     axis: Option<[f64; 3]>,
+    /// The last coordinate system that Creo stated.
+    system: Option<Vec<f64>>,
     /// TLAXIS was declared a comment by SYN.
     no_tool_axis: bool,
     multi_axis: bool,
@@ -73,6 +75,7 @@ impl<'n> Reader<'n> {
             unit_mm,
             units_given: false,
             axis: None,
+            system: None,
             no_tool_axis: false,
             multi_axis: false,
             points: [0; 2],
@@ -140,6 +143,9 @@ impl<'n> Reader<'n> {
     }
 
     fn word(&mut self, s: &Statement) -> Word {
+        if s.of_creo {
+            return self.record_of_creo(s);
+        }
         if s.word.is_empty() {
             return self.without_word(s);
         }
@@ -157,6 +163,27 @@ impl<'n> Reader<'n> {
                 self.error(s.line, fault);
                 Word::Noted
             }
+        }
+    }
+
+    /// The cutter counts; the coordinate system says where the zero of the points is on the part, and all others are
+    /// for Creo alone.
+    fn record_of_creo(&mut self, s: &Statement) -> Word {
+        match s.word.as_str() {
+            "CUTTER" => self.known(Major::Cutter, s).unwrap_or(Word::Noted),
+            "CSYS" => {
+                let system: Vec<f64> = s.arguments().filter_map(|text| number(text).ok()).collect();
+                let other = self.system.as_ref().is_some_and(|before| *before != system);
+                if other {
+                    let message =
+                        "the coordinate system changes here: the points are used unchanged";
+                    let hint = "write a file for each set-up, or check that all points count from one zero";
+                    self.warn("not-applied", "CSYS", s.line, message.to_owned(), hint);
+                }
+                self.system = Some(system);
+                Word::Noted
+            }
+            _ => Word::Noted,
         }
     }
 

@@ -19,6 +19,8 @@ pub(super) struct Statement {
     arguments: Vec<Range<usize>>,
     /// What is said in `$$` comments.
     pub comment: String,
+    /// It is a record of Creo for its own use: `$$-> CSYS / …`.
+    pub of_creo: bool,
 }
 
 impl Statement {
@@ -92,13 +94,16 @@ impl<'s> Scanner<'s> {
         };
         into.span = first.clone();
         let text = String::from_utf8_lossy(&self.source[first]);
-        into.word.push_str(major_word(&text));
+        let record = record_of_creo(&text);
+        into.of_creo = record.is_some();
+        let text = record.unwrap_or(&text);
+        into.word.push_str(major_word(text));
         into.word.make_ascii_uppercase();
         if TEXTS.contains(&into.word.as_str()) {
-            into.text.push_str(&text);
+            into.text.push_str(text);
             return true;
         }
-        let mut goes_on = take_line(&text, into);
+        let mut goes_on = take_line(text, into);
         while goes_on {
             let Some(line) = self.next_line() else { break };
             into.span.end = line.end;
@@ -107,6 +112,11 @@ impl<'s> Scanner<'s> {
         find_arguments(into);
         true
     }
+}
+
+/// What follows `$$->`: to other systems a comment, to Creo a statement that may go on in the next lines.
+fn record_of_creo(line: &str) -> Option<&str> {
+    line.trim_start().strip_prefix("$$")?.trim_start().strip_prefix("->")
 }
 
 /// Adds a line without its comment; `true` if the statement goes on in the next line.
@@ -212,6 +222,16 @@ mod tests {
         assert_eq!(found[0].2, ["1", "2", "3"]);
         assert_eq!(found[0].3, "top");
         assert_eq!(found[3].2, ["1.5", "-2", "3"]);
+    }
+
+    #[test]
+    fn records_of_creo_go_on_too() {
+        let found = all(
+            "$$-> CSYS / 1.0, 0.0, 0.0, 5.0, $\n  0.0, 1.0, 0.0, 0.0\n$$* note, $\nGOTO / 1, 2, 3\n",
+        );
+        assert_eq!(found.len(), 3);
+        assert_eq!((found[0].1.as_str(), found[0].2.len()), ("CSYS", 8));
+        assert_eq!((found[1].1.as_str(), found[2].1.as_str()), ("", "GOTO"));
     }
 
     #[test]

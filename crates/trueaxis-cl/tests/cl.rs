@@ -111,6 +111,24 @@ fn a_file_by_hand() {
     assert!(has(Word::Circle(circle)));
 }
 
+/// Creo writes records for itself behind `$$->`, in several lines: they are no points.
+#[test]
+fn records_of_creo_are_no_points() {
+    let text = "$$-> MFGNO / PLATE\nPARTNO / PLATE\n$$-> FEATNO / 39\nUNITS / MM\nLOADTL / 1\n$$-> CUTTER / 10.0\n\
+                $$-> CSYS / 1.0, 0.0, 0.0, 0.0, $\n            0.0, 1.0, 0.0, 0.0, $\n            0.0, 0.0, 1.0, 0.0\n\
+                SPINDL / RPM, 1000.0, CLW\nFEDRAT / 100.0, MMPM\nGOTO / 1.0, 2.0, 3.0\n$$-> END /\nFINI\n";
+    let (file, found) = read(text);
+    assert_lossless(&file);
+    assert_eq!(found, [(12, "no-tool-axis")]);
+    let points: Vec<_> = file.points().map(|(line, p)| (line, p.tip_mm)).collect();
+    assert_eq!(points, [(12, [1.0, 2.0, 3.0])]);
+    let cutter = |w: &Word| matches!(w, Word::Cutter { diameter_mm, .. } if *diameter_mm == 10.0);
+    assert!(file.records().iter().any(|r| cutter(&r.word)));
+    // Another coordinate system on the way is a warning.
+    let two = text.replace("$$-> END /", "$$-> CSYS / 1.0, 0.0, 0.0, 50.0\nGOTO / 1.0, 2.0, 3.0");
+    assert_eq!(read(&two).1, [(12, "no-tool-axis"), (13, "not-applied")]);
+}
+
 #[test]
 fn tables_and_inches() {
     let (file, found) = read("x,y,z,i,j,k\n1,2,3,0,0,1\n4 5 6 0 1 0\n7;8;9;1;0;0\n");

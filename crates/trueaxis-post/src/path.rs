@@ -210,7 +210,8 @@ impl Builder<'_> {
             }
             Word::Tool(number) => {
                 self.tools += 1;
-                if self.tools == 2 {
+                // Places of the tip do not depend on the length.
+                if self.tools == 2 && self.options.tip_words.is_none() {
                     let message = "the file has more than one tool: all are taken to be as long as \
                                    the machine's";
                     let hint = "post each tool by itself with --tool-length";
