@@ -7,7 +7,7 @@ use trueaxis_contour::plane::along;
 use crate::Point;
 
 /// Strokes of one cycle: more than any program means.
-pub(crate) const MOST_STROKES: usize = 1_000_000;
+pub const MOST_STROKES: usize = 1_000_000;
 
 /// One stroke.
 #[derive(Debug, Clone, Copy, PartialEq)]

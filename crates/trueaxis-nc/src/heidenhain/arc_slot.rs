@@ -2,7 +2,7 @@
 
 use super::Run;
 use super::milling::{Milled, Passes};
-use trueaxis_cycles::mill::Heights;
+use trueaxis_cycles::mill::{Heights, MOST_STROKES};
 use trueaxis_cycles::slot::ArcSlot;
 
 impl Run<'_> {
@@ -45,6 +45,9 @@ impl Run<'_> {
                 let layer_mm = cycle.length(338).abs();
                 let strokes = slot(0.0)?.strokes(&Heights { layer_mm, ..heights })?;
                 passes.push((strokes, [cycle.feed(385, 207), deep]));
+            }
+            if passes.iter().map(|(strokes, _)| strokes.len()).sum::<usize>() > MOST_STROKES {
+                return None;
             }
         }
         Some(passes)

@@ -177,6 +177,7 @@ impl Run<'_> {
             self.core.modes.check_feed(at)?;
         }
         for PatternPlace { place, surface } in places {
+            self.core.count(at)?;
             let clear = of(203) + surface + of(200).abs().max(of(204));
             let height = if number < 200 { begin } else { begin.max(clear) };
             let mut to = self.frames.position;

@@ -32,10 +32,6 @@ impl Run<'_> {
             self.core.left_out(&format!("{name} outside G17"), at);
             return Ok(());
         }
-        if !(1.0..=MOST).contains(&rounds) {
-            let message = format!("expected a number of rounds in L, found {rounds}");
-            return Err(fault("bad-repeats", at, message, "write L2"));
-        }
         self.core.modes.check_feed(at)?;
         let tool = self.radius_of(written, at)?;
         let hint = "state the radius of D in a set-up file (--setup), or write D0 for the path of the centre";
@@ -48,6 +44,10 @@ impl Run<'_> {
             self.core.not_applied(&subject, at, "check I and D");
             return Ok(());
         };
+        if rounds < 1.0 || rounds * radii.len() as f64 > MOST * 10.0 {
+            let message = format!("expected a number of rounds in L, found {rounds}");
+            return Err(fault("bad-repeats", at, message, "write L2; check Q too"));
+        }
         let incremental = self.core.modes.incremental;
         let mut center = self.frames.position;
         for (axis, word) in [x, y].into_iter().zip(over) {

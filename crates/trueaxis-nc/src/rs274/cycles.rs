@@ -257,21 +257,22 @@ impl Run<'_> {
     /// with feed, and out the same way.
     fn bore_back(&mut self, hole: &Hole, over: Position) {
         let turn = Event::Spindle(self.core.modes.turning);
-        let at_height = |mut place: Position, height| {
-            place.0[hole.axis] = height;
-            place
+        let at_height = |place: &Position, height| {
+            let mut there = *place;
+            there.0[hole.axis] = height;
+            there
         };
         let mut beside = over;
         beside[self.core.modes.plane.axes()[0]] += hole.peck;
         self.core.emit(Event::SpindleOrient { angle_deg: 0.0 });
         self.step(MoveKind::Rapid, beside);
-        self.step(MoveKind::Rapid, at_height(beside, hole.r));
-        self.step(MoveKind::Rapid, at_height(over, hole.r));
+        self.step(MoveKind::Rapid, at_height(&beside, hole.r));
+        self.step(MoveKind::Rapid, at_height(&over, hole.r));
         self.core.emit(turn.clone());
-        self.step(MoveKind::Linear, at_height(over, hole.bottom));
+        self.step(MoveKind::Linear, at_height(&over, hole.bottom));
         self.step(MoveKind::Dwell { seconds: hole.dwell_s }, self.frames.position);
         self.core.emit(Event::SpindleOrient { angle_deg: 0.0 });
-        self.step(MoveKind::Rapid, at_height(beside, hole.bottom));
+        self.step(MoveKind::Rapid, at_height(&beside, hole.bottom));
         self.step(MoveKind::Rapid, beside);
         self.step(MoveKind::Rapid, over);
         self.core.emit(turn);

@@ -17,7 +17,7 @@ use trueaxis_contour::lead::Lead;
 use trueaxis_contour::plane::{length, minus};
 use trueaxis_cycles::Point;
 use trueaxis_cycles::contour::{CentrePath, centre_path, end_of, stroke};
-use trueaxis_cycles::mill::{Heights, Stroke};
+use trueaxis_cycles::mill::{Heights, MOST_STROKES, Stroke};
 
 /// Steps of one contour: more than any program means.
 const MOST_STEPS: usize = 100_000;
@@ -185,7 +185,8 @@ impl Run<'_> {
         let way_out = ways.lead_out.and_then(|lead| path.way_out(lead)).unwrap_or_default();
         let start = way_in.first().map_or(path.begin, end_of);
         let Heights { safe_mm, top_mm, .. } = cut.heights;
-        let Some(layers) = cut.heights.layers() else {
+        let few = |layers: &Vec<f64>| layers.len() * path.links.len() <= MOST_STROKES;
+        let Some(layers) = cut.heights.layers().filter(few) else {
             return self.carry_out(cut, start, None, at);
         };
         self.go_over(cut, start);
@@ -255,7 +256,6 @@ impl Run<'_> {
         for step in steps {
             let m: &Move = match step {
                 Step::Move(m) if !matches!(m.kind, MoveKind::Dwell { .. }) => m,
-                Step::Move(_) | Step::Event(Event::Note(_) | Event::Message(_), _) => continue,
                 Step::Event(
                     Event::Frame(_)
                     | Event::ToolChange(_)
@@ -268,7 +268,7 @@ impl Run<'_> {
                     let message = "the contour of CYCLE72 changes the frame, the plane or the tool";
                     return Err(bad_contour(message, at));
                 }
-                Step::Event(..) => continue,
+                _ => continue,
             };
             let to = [m.target[a], m.target[b]];
             let straight = matches!(m.kind, MoveKind::Linear | MoveKind::Rapid);
