@@ -149,6 +149,7 @@ fn what_cannot_be_turned_is_refused() {
         "G41.1 D1\nG71 Q1 X20 Z2",
         "G71 Q1 X20 Z2 I0.00001",
         "G71 Q1 X20 Z2 D50",
+        "G71 Q1 X20 Z2 U1",
     ] {
         let found = problems(&turned("", SHAFT, &cycle.replace("1e9", "1000000000")));
         let line = 7 + cycle.matches('\n').count();
@@ -174,6 +175,23 @@ fn what_cannot_be_turned_is_refused() {
         let text = turned("", [SHAFT[0], SHAFT[1], third], good);
         let found = problems(&text);
         assert!(found.contains(&(code, line)), "{third}: {found:?}");
+    }
+}
+
+/// The radii of arcs of three decimals differ at their ends; they have a curve at a distance all the same.
+#[test]
+fn rounded_arcs_are_shifted() {
+    // An arc of 45° about X4 Z0 with the radius 3: 3 √2 / 2 = 2.1213. Then a line along its tangent.
+    let profile = ["G0 X1 Z0", "G2 X1.879 Z-2.121 I3 K0", "G1 X4 Z-4.242\nG1 X8"];
+    for cycle in ["G71 Q1 X10 Z2 D1 I1 R0.3", "G70 Q1 X10 Z2 E0.5 D1 P2"] {
+        let calls = ours(&turned("", profile, cycle)).expect("moves");
+        // 3 − D from the centre, and straight on: the end of the line is where X8 is shifted to.
+        let distance = if cycle.starts_with("G71") { 1.0 } else { 0.5 };
+        let far = 3.0 - distance;
+        let on_arc = |c: &&Call| c.0 == 'A' && ((c.1[0] - 4.0).hypot(c.1[1]) - far).abs() < 1e-3;
+        assert!(calls.iter().any(|c| on_arc(&c)), "{cycle} {calls:?}");
+        let last = calls.iter().rfind(|c| c.end()[0] == 8.0).expect("the end");
+        assert!((last.end()[1] - (distance - 4.242)).abs() < 1e-9, "{cycle} {calls:?}");
     }
 }
 

@@ -32,9 +32,11 @@ pub(super) fn parallel(profile: &[Stretch], left: f64, short_mm: f64) -> Option<
     for stretch in raw {
         append(&mut kept, stretch);
     }
+    // The radii of a written arc differ at its ends by rounding.
+    let slack = 2.0 * profile.iter().map(Stretch::ends_apart).fold(0.0, f64::max);
     let far = |p: Point| {
         let least = profile.iter().map(|s| s.distance(p)).fold(f64::INFINITY, f64::min);
-        least > left.abs() * (1.0 - 1e-6) - 1e-6
+        least > left.abs() * (1.0 - 1e-6) - 1e-6 - slack
     };
     let good = kept.iter().all(|s| far(s.from) && far(s.middle()) && far(s.to));
     (good && !kept.is_empty()).then_some(kept)

@@ -47,6 +47,11 @@ impl Stretch {
         self.arc.map_or(0.0, |(center, _)| length(minus(self.from, center)))
     }
 
+    /// By how much the radius of an arc differs at its end, mm.
+    pub(super) fn ends_apart(&self) -> f64 {
+        self.arc.map_or(0.0, |(c, _)| (length(minus(self.to, c)) - self.radius()).abs())
+    }
+
     /// The unit tangent at a point of it.
     fn tangent(&self, p: Point) -> Point {
         let along = match self.arc {

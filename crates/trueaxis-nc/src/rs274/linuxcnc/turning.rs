@@ -79,6 +79,9 @@ impl Run<'_> {
                 Some("P is not a number of passes")
             }
             (_, Cycle::Rough(_)) if on_contour => Some("G41 or G42 is on"),
+            _ if b"UW".iter().any(|l| self.words.look(*l).is_some()) => Some(
+                "U or W, which later versions read as a shift of the profile, stands in its block",
+            ),
             _ if self.turning.is_some() => Some("it is in the profile of another one"),
             _ => None,
         };
