@@ -89,10 +89,11 @@ fn agrees(theirs: &[Call], ours: &[Call]) -> bool {
 }
 
 /// DIFFERENCE: with a distance D or E from the profile this LinuxCNC shifts it in several steps and takes the first
-/// intersection of two circles even where the arcs do not reach it (its manual calls the cycles "somewhat fragile").
-/// Its curve then is not at the distance: 24 programs of 280. Ours is (`law_a_turning_cycle_keeps_its_distance…`).
-/// In 6 more the first or last element is too short for the distance, where we refuse; of 40 programs that it
-/// refuses, 5 end within the cycle on an arc of its own that does not fit. Without a distance all agree.
+/// intersection of two circles even where the arcs do not reach it (its manual calls the cycles "somewhat fragile"):
+/// 24 programs of 280. Ours keeps the distance (`law_a_turning_cycle_keeps_its_distance_from_the_profile`).
+/// In 6 more the first or last element is too short for the distance, or two lines continue each other, where we
+/// refuse; of 40 programs that it refuses, 5 end within the cycle on an arc of its own that does not fit. Without a
+/// distance all agree.
 #[test]
 fn oracle_turning_cycles_of_linuxcnc() {
     let (mut agree, mut differ, mut refused) = ([0; 2], 0, [[0; 2]; 2]);
