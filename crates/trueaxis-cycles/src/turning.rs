@@ -23,7 +23,7 @@ use trueaxis_contour::plane::{Point, cross, dot, minus};
 pub use stretch::Stretch;
 
 /// Stretches of one profile: more than any program means.
-const MOST_STRETCHES: usize = 2000;
+const MOST_STRETCHES: usize = 1000;
 
 /// Arcs about a corner shorter than so many times the tolerance are left out.
 const SHORT: f64 = 10.0;

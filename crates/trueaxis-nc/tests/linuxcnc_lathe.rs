@@ -156,6 +156,10 @@ fn what_cannot_be_turned_is_refused() {
         let line = 7 + cycle.matches('\n').count();
         assert!(found.contains(&("bad-turning", line)), "{cycle}: {found:?}");
     }
+    // A profile of more elements than any program means, and a cycle that is called without end.
+    let long: String = (1..1100).map(|n| format!("G1 X{} Z-{n}\n", 5 + n % 7)).collect();
+    let found = problems(&turned("", ["G0 X5 Z0", &long, "X40"], "G70 Q1 X50 Z2 E0.2 P20"));
+    assert!(found.iter().any(|p| p.0 == "bad-turning"), "{found:?}");
     assert_eq!(problems(&turned("", SHAFT, "G71 Q2 X20 Z2"))[0], ("missing-subprogram", 7));
     assert_eq!(problems("G18 F0\nO1 SUB\nG0 X5 Z0\nZ-5\nO1 ENDSUB\nG71 Q1 X9 Z2\nM2\n")[0].1, 6);
     for (third, code, line) in [

@@ -34,8 +34,11 @@ pub(super) fn parallel(profile: &[Stretch], left: f64, short_mm: f64) -> Option<
     }
     // The radii of a written arc differ at its ends by rounding.
     let slack = 2.0 * profile.iter().map(Stretch::ends_apart).fold(0.0, f64::max);
+    let widened = |s: &Stretch| [s.span()[0] - left.abs(), s.span()[1] + left.abs()];
+    let spans: Vec<([f64; 2], &Stretch)> = profile.iter().map(|s| (widened(s), s)).collect();
     let far = |p: Point| {
-        let least = profile.iter().map(|s| s.distance(p)).fold(f64::INFINITY, f64::min);
+        let near = spans.iter().filter(|([low, high], _)| *low <= p[0] && p[0] <= *high);
+        let least = near.map(|(_, s)| s.distance(p)).fold(f64::INFINITY, f64::min);
         least > left.abs() * (1.0 - 1e-6) - 1e-6 - slack
     };
     let good = kept.iter().all(|s| far(s.from) && far(s.middle()) && far(s.to));
@@ -90,7 +93,12 @@ fn append(kept: &mut Vec<Stretch>, mut next: Stretch) {
 
 /// The first place of a curve at which a stretch meets it, other than where it begins.
 fn first_meeting(kept: &[Stretch], next: &Stretch) -> Option<(usize, Point)> {
+    let [low, high] = next.span();
     for (index, stretch) in kept.iter().enumerate() {
+        let [from, to] = stretch.span();
+        if to < low - SAME_MM || from > high + SAME_MM {
+            continue;
+        }
         let joined = |p: &Point| {
             index + 1 == kept.len() && length(minus(*p, next.from)) < 1e-7
                 || length(minus(*p, next.from)) < SAME_MM && length(minus(*p, stretch.to)) < SAME_MM

@@ -47,6 +47,15 @@ impl Stretch {
         self.arc.map_or(0.0, |(center, _)| length(minus(self.from, center)))
     }
 
+    /// A range of the first coordinate that holds it.
+    pub(super) fn span(&self) -> [f64; 2] {
+        let (mut low, mut high) = (self.from[0].min(self.to[0]), self.from[0].max(self.to[0]));
+        if let Some((center, _)) = self.arc {
+            (low, high) = (low.min(center[0] - self.radius()), high.max(center[0] + self.radius()));
+        }
+        [low, high]
+    }
+
     /// By how much the radius of an arc differs at its end, mm.
     pub(super) fn ends_apart(&self) -> f64 {
         self.arc.map_or(0.0, |(c, _)| (length(minus(self.to, c)) - self.radius()).abs())

@@ -75,7 +75,7 @@ impl Run<'_> {
             (_, Cycle::Rough(how)) if how.step_mm <= 0.0 => {
                 Some("I, from pass to pass, is not above 0")
             }
-            (_, Cycle::Finish { passes, .. }) if !(0.0..=1000.0).contains(&passes) => {
+            (_, Cycle::Finish { passes, .. }) if !(0.0..=20.0).contains(&passes) => {
                 Some("P is not a number of passes")
             }
             (_, Cycle::Rough(_)) if on_contour => Some("G41 or G42 is on"),
