@@ -318,7 +318,7 @@ fn on_contour(
 }
 
 /// What an unrolled program still has where the way to a contour and away from it is in one block.
-const ONLY_AS_PATH: [&str; 2] = ["other-coordinates", "several-moves"];
+const ONLY_AS_PATH: [&str; 3] = ["other-coordinates", "several-moves", "no-axis-word"];
 
 /// Tries with finer and finer places until the program keeps the residual.
 fn tried(
