@@ -215,7 +215,8 @@ pub fn compensate_program(
 fn reason_to_unroll(done: Option<&Rewritten>, found: &Diagnostics) -> Option<Lost> {
     let lost = |d: &Diagnostic| Lost { place: d.place.clone(), message: d.message.clone() };
     let refused = found.iter().find(|d| UNROLLED_FOR.contains(&d.code));
-    let computes = done.filter(|done| done.found.expressions_corrected > 0);
+    let computes =
+        done.filter(|done| done.found.expressions_corrected > 0 || done.found.led_elsewhere);
     let unproved = || computes.and_then(|done| done.unproved.iter().next());
     refused.or_else(unproved).map(lost)
 }
