@@ -215,7 +215,8 @@ pub fn compensate_program(
 fn reason_to_unroll(done: Option<&Rewritten>, found: &Diagnostics) -> Option<Lost> {
     let lost = |d: &Diagnostic| Lost { place: d.place.clone(), message: d.message.clone() };
     let refused = found.iter().find(|d| UNROLLED_FOR.contains(&d.code));
-    let computes = done.filter(|done| done.found.expressions_corrected > 0);
+    let computes =
+        done.filter(|done| done.found.expressions_corrected > 0 || done.found.led_elsewhere);
     let unproved = || computes.and_then(|done| done.unproved.iter().next());
     refused.or_else(unproved).map(lost)
 }
@@ -318,7 +319,7 @@ fn on_contour(
 }
 
 /// What an unrolled program still has where the way to a contour and away from it is in one block.
-const ONLY_AS_PATH: [&str; 2] = ["other-coordinates", "several-moves"];
+const ONLY_AS_PATH: [&str; 3] = ["other-coordinates", "several-moves", "no-axis-word"];
 
 /// Tries with finer and finer places until the program keeps the residual.
 fn tried(

@@ -73,6 +73,8 @@ pub struct Found {
     stride: u64,
     seen: u64,
     pub(super) wants: Vec<Want>,
+    /// A line led to other places when it was executed again: the proof tells whether that does harm.
+    pub(super) led_elsewhere: bool,
     /// The stands of each line when it was executed first: from one up to before the other.
     led: Vec<[u32; 2]>,
     pub(super) stands: Vec<Stand>,

@@ -287,9 +287,10 @@ impl<'w> Walk<'w> {
         let (words, modes) = self.words(m.origin.line);
         let end_only = whole || approaching;
         let leads = self.found.leads_as_before(m.origin.line, &samples, end_only);
-        if !first_time && (self.computed.is_in_words(&words) || !leads) {
+        if !first_time && self.computed.is_in_words(&words) {
             return Err(again(m.origin));
         }
+        self.found.led_elsewhere |= !first_time && !leads;
         let grid = Grid::of(self.options.increments, modes.unit);
         let says_circle = words.motion.is_some() || !self.circle_gone;
         let kept = self.kept_circle(m, &samples, words.motion.is_some());
