@@ -111,7 +111,7 @@ fn a_file_by_hand() {
     assert!(has(Word::Circle(circle)));
 }
 
-/// Creo writes records for itself behind `$$->`, in several lines: they are no points.
+/// Creo writes records for itself after `$$->`, in several lines: they are no points.
 #[test]
 fn records_of_creo_are_no_points() {
     let text = "$$-> MFGNO / PLATE\nPARTNO / PLATE\n$$-> FEATNO / 39\nUNITS / MM\nLOADTL / 1\n$$-> CUTTER / 10.0\n\
