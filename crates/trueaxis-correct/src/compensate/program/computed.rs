@@ -108,7 +108,7 @@ impl Computed {
                 (self.frame, self.transformed) = (true, *on);
                 self.frame_rests();
             }
-            Event::Compensation(side) => self.on_contour = *side != CompensationSide::Off,
+            Event::Compensation { side, .. } => self.on_contour = *side != CompensationSide::Off,
             _ => {}
         }
     }
