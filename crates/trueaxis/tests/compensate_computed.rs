@@ -327,7 +327,7 @@ fn twins(control: Control, seed: u64, arcs: bool) -> [String; 2] {
     let mut twins = Twins::of(control, seed, seed % 3 == 2);
     for k in 0..20 {
         match k {
-            5 if seed % 2 == 0 => twins.shift(),
+            5 if seed.is_multiple_of(2) => twins.shift(),
             11 if seed % 5 > 2 => twins.tool(),
             _ => {}
         }
