@@ -108,7 +108,7 @@ pub enum TurningError {
     ArcIn,
     /// A pocket has no far side.
     Open,
-    /// More passes than [`MOST_PASSES`](passes::MOST_PASSES), or stretches than [`MOST_STRETCHES`].
+    /// More passes or stretches than any part has.
     TooMany,
 }
 

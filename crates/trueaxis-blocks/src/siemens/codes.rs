@@ -456,7 +456,7 @@ pub enum Name {
     SpindlePlace,
     /// ANG.
     Angle,
-    /// POS[X] and its relatives.
+    /// `POS[X]` and its relatives.
     AxisPlace,
     /// Known, and without effect on the path.
     Noted(&'static str),
