@@ -5,7 +5,7 @@
 //! - [`rtcp`]: the rotary centres for the tool-centre-point control;
 //! - [`probe`]: the offset of a stylus ball and its pre-travel by direction;
 //! - [`errors`](mod@errors): the errors of the machine from any mix of instruments, the whole way from
-//!   readings to a verdict; what is unknown and how readings follow it stands in [`crate::unknowns`].
+//!   readings to a verdict; what is unknown and how readings follow it stands in [`trueaxis_measure::unknowns`].
 
 pub mod checks;
 pub mod conflict;

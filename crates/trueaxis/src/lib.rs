@@ -39,13 +39,14 @@ pub mod verify;
 
 pub use schemas::schemas;
 
-pub use trueaxis_calibrate::{identify, instruments, measure, plan, unknowns};
+pub use trueaxis_calibrate::{identify, plan};
 pub use trueaxis_cl as cl;
 pub use trueaxis_correct::{compensate, predict};
 pub use trueaxis_geometry as geometry;
 pub use trueaxis_input as input;
 pub use trueaxis_machine as machine;
 pub use trueaxis_machine::describe;
+pub use trueaxis_measure::{instruments, measure, unknowns};
 pub use trueaxis_motion as simulate;
 pub use trueaxis_nc as nc;
 pub use trueaxis_part as part;

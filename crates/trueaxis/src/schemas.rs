@@ -38,6 +38,7 @@ pub fn schemas() -> Vec<NamedSchema> {
         named_schema::<TraceDocument<'_>>("trace"),
         named_schema::<VerifyDocument<'_>>("verify"),
     ];
+    all.extend(trueaxis_measure::schemas());
     all.extend(trueaxis_calibrate::schemas());
     all.extend(trueaxis_correct::schemas());
     all.extend(trueaxis_motion::schemas());

@@ -1,16 +1,16 @@
 //! What is wrong with readings before anything is fitted to them.
 
 use super::records::Records;
-use crate::instruments::instrument::Sight;
-use crate::measure::Readings;
-use crate::unknowns::design::Design;
-use crate::unknowns::term::Basis;
 use std::collections::BTreeMap;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::statistics::robust_deviation;
 use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::axis::AxisKind;
 use trueaxis_machine::errors::{Component, ErrorIndex, ErrorKind, ErrorValues};
+use trueaxis_measure::instruments::instrument::Sight;
+use trueaxis_measure::measure::Readings;
+use trueaxis_measure::unknowns::design::Design;
+use trueaxis_measure::unknowns::term::Basis;
 
 /// An axis of rotation that passes so near to the ball says nothing by turning, mm.
 const ON_AXIS_MM: f64 = 0.5;

@@ -5,12 +5,12 @@
 //! ```
 
 use super::selection::Sums;
-use crate::measure::Readings;
-use crate::unknowns::design::Design;
-use crate::unknowns::fit::Observability;
 use nalgebra::DVector;
 use trueaxis_geometry::statistics::chi_square_above;
 use trueaxis_input::{Diagnostics, Place};
+use trueaxis_measure::measure::Readings;
+use trueaxis_measure::unknowns::design::Design;
+use trueaxis_measure::unknowns::fit::Observability;
 
 /// One in a thousand by chance.
 const TAIL: f64 = 1e-3;

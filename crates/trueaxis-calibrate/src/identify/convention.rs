@@ -6,15 +6,15 @@
 //! errors would only change theirs.
 
 use super::checks::deviations;
-use crate::instruments::instrument::Sight;
-use crate::measure::Readings;
-use crate::unknowns::design::Design;
-use crate::unknowns::fit::Observability;
 use nalgebra::DVector;
 use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_machine::axis::AxisKind;
 use trueaxis_machine::twist::Reference;
+use trueaxis_measure::instruments::instrument::Sight;
+use trueaxis_measure::measure::Readings;
+use trueaxis_measure::unknowns::design::Design;
+use trueaxis_measure::unknowns::fit::Observability;
 
 /// Rows that are tried.
 const SAMPLE: usize = 600;

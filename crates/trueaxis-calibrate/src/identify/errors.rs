@@ -14,16 +14,16 @@ use super::records::{Loss, Options, Records};
 use super::score::{Residuals, Score, repeatability};
 use super::selection;
 use super::selection::{Candidates, Selection, Sums, parts_by_place, select};
-use crate::measure::{Campaign, Readings};
 use crate::plan::Unobservable;
-use crate::unknowns::confusion::{Confusion, confusions};
-use crate::unknowns::design::{Design, Unknown};
-use crate::unknowns::fit::{Fit, FitError, by_rows, fit_by, linear_residuals};
 use nalgebra::DVector;
 use trueaxis_geometry::statistics::{chi_square_above, normal_quantile_above, robust_deviation};
 use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::axis::MAX_AXES;
 use trueaxis_machine::errors::ErrorKind;
+use trueaxis_measure::measure::{Campaign, Readings};
+use trueaxis_measure::unknowns::confusion::{Confusion, confusions};
+use trueaxis_measure::unknowns::design::{Design, Unknown};
+use trueaxis_measure::unknowns::fit::{Fit, FitError, by_rows, fit_by, linear_residuals};
 
 /// The residual may be that many times the floor and still be explained.
 const EXPLAINED: f64 = 1.25;

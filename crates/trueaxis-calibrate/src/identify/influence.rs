@@ -5,12 +5,12 @@
 //!     D = rᵀ(I − H)⁻¹ H (I − H)⁻¹ r / p      Cook's distance of the whole row    docs/model.md eq. 129
 //! ```
 
-use crate::measure::Readings;
-use crate::unknowns::design::Design;
-use crate::unknowns::fit::Fit;
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 use trueaxis_geometry::statistics::{robust_deviation, student_above};
+use trueaxis_measure::measure::Readings;
+use trueaxis_measure::unknowns::design::Design;
+use trueaxis_measure::unknowns::fit::Fit;
 
 /// What one row does.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,12 +4,12 @@
 //! are fitted to residuals and judged on places that were held out. docs/model.md eq. 130
 
 use super::selection::Sums;
-use crate::measure::Readings;
-use crate::unknowns::design::Design;
 use nalgebra::{DMatrix, DVector};
 use trueaxis_machine::axis::AxisKind;
 use trueaxis_machine::errors::{Component, ErrorIndex, ErrorKind, ErrorValues};
 use trueaxis_machine::twist::Reference;
+use trueaxis_measure::measure::Readings;
+use trueaxis_measure::unknowns::design::Design;
 
 /// More rows than this say nothing more.
 const MOST_ROWS: usize = 20_000;

@@ -5,8 +5,6 @@
 //! becomes a comment. The file is read back before anybody gets it.
 
 use super::errors::Identification;
-use crate::measure::Campaign;
-use crate::unknowns::term::{Term, stated};
 use std::collections::BTreeMap;
 use trueaxis_input::Severity;
 use trueaxis_machine::Machine;
@@ -15,6 +13,8 @@ use trueaxis_machine::describe::lines::Lines;
 use trueaxis_machine::describe::replacement::{Entry, curve_text, plain, put, take_out_of_table};
 use trueaxis_machine::errors::{ErrorKind, ErrorName};
 use trueaxis_machine::file::Tables;
+use trueaxis_measure::measure::Campaign;
+use trueaxis_measure::unknowns::term::{Term, stated};
 
 /// A machine file and the tables that it names.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,8 +1,8 @@
 //! The readings of a campaign with the file that each came from.
 
-use crate::measure::{Campaign, Readings};
-use crate::unknowns::fit::{Model, Rule};
 use trueaxis_input::{CsvTable, Diagnostics, Item, Place, Section};
+use trueaxis_measure::measure::{Campaign, Readings};
+use trueaxis_measure::unknowns::fit::{Model, Rule};
 
 /// Readings, and where each stands.
 #[derive(Debug, Clone, Default)]

@@ -28,11 +28,6 @@ pub use file::{Purpose, parse_rtcp, read_rtcp};
 use super::errors::birge;
 use super::influence::influences;
 use super::machine_file::with_locations;
-use crate::measure::path::Placing;
-use crate::measure::{Instrument, Reading, Readings};
-use crate::unknowns::confusion::confusions;
-use crate::unknowns::design::Design;
-use crate::unknowns::fit::{Fit, FitError, fit};
 use nalgebra::{DMatrix, DVector};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -43,6 +38,11 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::errors::{ErrorName, ErrorValues};
 use trueaxis_machine::file::Tables;
+use trueaxis_measure::measure::path::Placing;
+use trueaxis_measure::measure::{Instrument, Reading, Readings};
+use trueaxis_measure::unknowns::confusion::confusions;
+use trueaxis_measure::unknowns::design::Design;
+use trueaxis_measure::unknowns::fit::{Fit, FitError, fit};
 
 /// Angles that differ by less are the same pose, rad.
 const SAME_RAD: f64 = 1e-6;

@@ -1,8 +1,8 @@
 //! How well a model does: in sample, held out, against the floor, against no model.
 
-use crate::measure::Readings;
-use crate::unknowns::design::Design;
 use std::collections::BTreeMap;
+use trueaxis_measure::measure::Readings;
+use trueaxis_measure::unknowns::design::Design;
 
 /// Root mean squares of residuals.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

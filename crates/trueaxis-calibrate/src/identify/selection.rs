@@ -11,14 +11,14 @@
 //! highest whose error is within one standard error of the least. Everything happens on the sums of
 //! the parts, so a candidate costs n² and not another look at the readings.
 
-use crate::measure::Readings;
-use crate::unknowns::design::Design;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use trueaxis_geometry::statistics::SplitMix64;
+use trueaxis_measure::measure::Readings;
+use trueaxis_measure::unknowns::design::Design;
 
 /// Thresholds of z-scores; the first lets nothing in, the last everything.
 pub const THRESHOLDS: [f64; 11] = [f64::INFINITY, 8.0, 6.0, 5.0, 4.5, 4.0, 3.5, 3.0, 2.5, 2.0, 0.0];

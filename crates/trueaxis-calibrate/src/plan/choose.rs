@@ -3,14 +3,14 @@
 use super::expect::{Expectation, expect};
 use super::file::{Candidates, Plan};
 use super::program::{check, program};
-use crate::measure::Readings;
-use crate::measure::path::Path;
-use crate::unknowns::design::Design;
-use crate::unknowns::fit::{Observability, normal_matrix};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 use trueaxis_geometry::exchange::{Candidate, Exchange, Selection};
 use trueaxis_machine::axis::{AxisKind, Command};
+use trueaxis_measure::measure::Readings;
+use trueaxis_measure::measure::path::Path;
+use trueaxis_measure::unknowns::design::Design;
+use trueaxis_measure::unknowns::fit::{Observability, normal_matrix};
 use trueaxis_nc::Control;
 
 /// What is known of a combination before anything is read, against all candidates together: so
@@ -123,7 +123,7 @@ fn stations_of(candidates: &Candidates, poses: &[Vec<usize>], numbers: &[usize])
         for i in &poses[*number] {
             let group = u32::try_from(group).unwrap_or(u32::MAX);
             let row = candidates.stations.row(*i);
-            stations.push(crate::measure::Reading { group, ..row });
+            stations.push(trueaxis_measure::measure::Reading { group, ..row });
         }
     }
     stations

@@ -1,13 +1,13 @@
 //! What readings will determine: the uncertainty of every unknown, and what is not observable.
 
 use super::remedy::remedies;
-use crate::measure::{Campaign, Readings};
-use crate::unknowns::confusion::{Confusion, confusions};
-use crate::unknowns::design::{Design, Unknown};
-use crate::unknowns::fit::{Observability, normal_matrix};
 use nalgebra::DMatrix;
 use schemars::JsonSchema;
 use serde::Serialize;
+use trueaxis_measure::measure::{Campaign, Readings};
+use trueaxis_measure::unknowns::confusion::{Confusion, confusions};
+use trueaxis_measure::unknowns::design::{Design, Unknown};
+use trueaxis_measure::unknowns::fit::{Observability, normal_matrix};
 
 /// How large an error is taken to be where its effect is shown: 10 µm or 10 µrad, in mm and rad.
 pub const USUAL_SIZE: f64 = 0.01;

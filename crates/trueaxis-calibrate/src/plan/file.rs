@@ -1,10 +1,10 @@
 //! The sections of a campaign file that plan: `[candidates]`, `[limit]`, `[want]`, `[program]`.
 
 use super::program::{ProgramSettings, read_program_settings};
-use crate::measure::path::Path;
-use crate::measure::{Campaign, Readings, path, read_campaign};
 use trueaxis_geometry::exchange::Criterion;
 use trueaxis_input::{Diagnostics, Dimension, Files, Item, Section};
+use trueaxis_measure::measure::path::Path;
+use trueaxis_measure::measure::{Campaign, Readings, path, read_campaign};
 
 /// A campaign with all that is planned of it.
 #[derive(Debug, Clone)]
@@ -191,8 +191,9 @@ fn read_wanted(item: &Item<'_>, campaign: &Campaign) -> Option<Vec<usize>> {
     let mut wanted = Vec::new();
     for item in item.list()? {
         let name = item.text()?;
-        let named =
-            |t: &crate::unknowns::term::Term| t.name() == name || t.error.to_string() == name;
+        let named = |t: &trueaxis_measure::unknowns::term::Term| {
+            t.name() == name || t.error.to_string() == name
+        };
         let before = wanted.len();
         wanted.extend(all().filter(|(_, t)| named(t)).map(|(k, _)| k));
         if wanted.len() == before {

@@ -1,13 +1,13 @@
 //! What becomes of a plan: every path with its program, what that does, and what the path sees.
 
 use super::{Chosen, Expectation, Plan, choose, expect, seen};
-use crate::measure::path::Path;
-use crate::measure::{Campaign, Readings};
 use crate::plan::program::{ProgramCheck, check, program};
-use crate::unknowns::design::Design;
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::errors::ErrorValues;
+use trueaxis_measure::measure::path::Path;
+use trueaxis_measure::measure::{Campaign, Readings};
+use trueaxis_measure::unknowns::design::Design;
 use trueaxis_nc::Control;
 
 /// What becomes of a plan.

@@ -10,14 +10,14 @@ mod check;
 pub use check::{ProgramCheck, check};
 pub(super) use check::{probe_shape, run};
 
-use crate::measure::path::{Path, Placing, STAND_OFF_MM};
-use crate::measure::{Campaign, Kind};
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{Dimension, Section};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
 use trueaxis_machine::file::{read_direction, read_tool_shape};
 use trueaxis_machine::models::ToolSegment;
+use trueaxis_measure::measure::path::{Path, Placing, STAND_OFF_MM};
+use trueaxis_measure::measure::{Campaign, Kind};
 use trueaxis_nc::Control;
 use trueaxis_nc::moves::{Axis, Feed, FeedMode, Position};
 use trueaxis_writer::{Block, Heading, Target, ToolCall, WriteError, Writer, axis_coordinates};
@@ -326,8 +326,9 @@ impl Written<'_> {
         let up = placing.tool_axis(station);
         let over =
             placing.reference_point_mm + up * (placing.reach_mm + self.settings.clearance_mm);
-        let inside =
-            |c: &Command| crate::measure::path::leaves_travel(&self.campaign.machine, c).is_none();
+        let inside = |c: &Command| {
+            trueaxis_measure::measure::path::leaves_travel(&self.campaign.machine, c).is_none()
+        };
         let above = placing.place(over, station).filter(inside);
         let near = placing.reference_point_mm + up * (placing.reach_mm + 2.0 * STAND_OFF_MM);
         above.or_else(|| placing.place(near, station).filter(inside)).unwrap_or(*station)

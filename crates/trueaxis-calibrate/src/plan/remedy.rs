@@ -1,10 +1,10 @@
 //! The cheapest further set-up that makes a combination observable.
 
 use super::trial::{Trial, trials};
-use crate::measure::Campaign;
-use crate::unknowns::confusion::Confusion;
-use crate::unknowns::design::Design;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use trueaxis_measure::measure::Campaign;
+use trueaxis_measure::unknowns::confusion::Confusion;
+use trueaxis_measure::unknowns::design::Design;
 
 /// Seen less than this share of what each member alone would show is rounding.
 const NOTHING: f64 = 1e-6;

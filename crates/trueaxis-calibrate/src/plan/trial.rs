@@ -1,13 +1,13 @@
 //! Further set-ups that may make a combination observable.
 
-use crate::instruments::instrument::{SetupError, SetupUnknown};
-use crate::measure::path::{FreeSide, Placing, hits, leaves_travel};
-use crate::measure::{Campaign, Instrument, Kind, Reading, Readings};
-use crate::unknowns::design::Design;
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, AxisKind, Command, Travel};
 use trueaxis_machine::twist::Reference;
+use trueaxis_measure::instruments::instrument::{SetupError, SetupUnknown};
+use trueaxis_measure::measure::path::{FreeSide, Placing, hits, leaves_travel};
+use trueaxis_measure::measure::{Campaign, Instrument, Kind, Reading, Readings};
+use trueaxis_measure::unknowns::design::Design;
 
 /// Steps of a rotary axis in a trial.
 const STEPS: [f64; 5] = [-1.0, -0.5, 0.0, 0.5, 1.0];
@@ -164,8 +164,12 @@ fn out_by(design: &Design, own: &Instrument) -> Vec3 {
     let axes = axes_of(&design.machine, AxisKind::Rotary);
     let moved = axes.first().map(|axis| {
         let at = Command::default();
-        let (moved, about) =
-            crate::measure::path::turns_about(&design.machine, *axis, &at, own.reference_point_mm);
+        let (moved, about) = trueaxis_measure::measure::path::turns_about(
+            &design.machine,
+            *axis,
+            &at,
+            own.reference_point_mm,
+        );
         moved.cross(&about)
     });
     moved.and_then(|v| v.try_normalize(1e-6)).unwrap_or_else(Vec3::x) * 60.0
@@ -262,7 +266,7 @@ fn further_instrument(
         direction,
         length_mm: if kind == Kind::BallBar { 150.0 } else { 0.0 },
         noise: [1e-3; 3],
-        unknowns: crate::measure::usual_setup(kind),
+        unknowns: trueaxis_measure::measure::usual_setup(kind),
     }
 }
 

@@ -6,10 +6,10 @@ use crate::identify::convention::ConventionCheck;
 use crate::identify::errors::{Found, Identification};
 use crate::identify::records::{Options, Records};
 use crate::identify::score::Rms;
-use crate::measure::Campaign;
 use crate::plan::Unobservable;
-use crate::unknowns::fit::Model;
 use std::rc::Rc;
+use trueaxis_measure::measure::Campaign;
+use trueaxis_measure::unknowns::fit::Model;
 use trueaxis_report::{Columns, Figure, Report, Section, Standing, Table};
 
 /// What a report of an identification shows.

@@ -6,9 +6,9 @@ use crate::identify::errors::Found;
 use crate::identify::score::Rms;
 use crate::identify::selection::Score;
 use crate::plan::Unobservable;
-use crate::unknowns::fit::Model;
 use schemars::JsonSchema;
 use serde::Serialize;
+use trueaxis_measure::unknowns::fit::Model;
 use trueaxis_report::Keyed;
 
 /// Errors identified from the readings of a campaign.

@@ -4,8 +4,8 @@ use super::identification::unobservable_section;
 use super::identification_pictures::{Bar, bars};
 use super::surface::issues;
 use crate::plan::{Chosen, Expected, PlanReport, PlannedPath, tools};
-use crate::unknowns::design::Design;
 use trueaxis_geometry::Vec3;
+use trueaxis_measure::unknowns::design::Design;
 use trueaxis_motion::report::clock;
 use trueaxis_report::{Columns, Figure, Report, Section, Table};
 
@@ -16,8 +16,8 @@ const STROKE_MM: f64 = 40.0;
 
 /// µm, µrad or 1, with the factor from mm, rad or 1.
 pub(super) fn shown_unit(design: &Design, expected: &Expected) -> (&'static str, f64) {
-    use crate::instruments::instrument::SetupError;
-    use crate::unknowns::design::Unknown;
+    use trueaxis_measure::instruments::instrument::SetupError;
+    use trueaxis_measure::unknowns::design::Unknown;
     match design.unknown(expected.unknown) {
         Some(Unknown::Setup(_, s)) if s.error == SetupError::Scale => ("µm/m", 1e6),
         _ if expected.is_angle => ("µrad", 1e6),

@@ -3,9 +3,9 @@
 use super::plan::shown_unit;
 use crate::plan::program::ProgramCheck;
 use crate::plan::{Chosen, Expectation, Expected, PlanReport, PlannedPath, Seen, Unobservable};
-use crate::unknowns::design::Design;
 use schemars::JsonSchema;
 use serde::Serialize;
+use trueaxis_measure::unknowns::design::Design;
 
 /// What a campaign will show before anybody measures.
 #[derive(Debug, Serialize, JsonSchema)]

@@ -11,10 +11,10 @@ use trueaxis_calibrate::identify::machine_file::{MachineFile, machine_file};
 use trueaxis_calibrate::identify::records::{
     Dropped, Options, Records, read_options, read_records_with,
 };
-use trueaxis_calibrate::measure::{Campaign, read_campaign};
 use trueaxis_calibrate::report::IdentificationReport;
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_machine::file::Folder;
+use trueaxis_measure::measure::{Campaign, read_campaign};
 use trueaxis_report::Report;
 
 /// The errors of a machine from a campaign of measurements.

@@ -6,13 +6,13 @@ use crate::report;
 use serde_json::Value;
 use std::fmt::Write;
 use std::path::PathBuf;
-use trueaxis_calibrate::measure::instrument::SetupError;
-use trueaxis_calibrate::measure::virtual_campaign::{
+use trueaxis_input::{Diagnostics, Files, Place};
+use trueaxis_measure::measure::instrument::SetupError;
+use trueaxis_measure::measure::virtual_campaign::{
     Measurement, VirtualCampaign, measure, read_virtual,
 };
-use trueaxis_calibrate::measure::{Campaign, read_campaign};
-use trueaxis_calibrate::report::MeasuredReport;
-use trueaxis_input::{Diagnostics, Files, Place};
+use trueaxis_measure::measure::{Campaign, read_campaign};
+use trueaxis_measure::report::MeasuredReport;
 use trueaxis_report::Report;
 
 /// The readings of a campaign on a machine whose errors are known.

@@ -10,9 +10,9 @@ use trueaxis_calibrate::identify::rtcp::{
     Calibration, Purpose, RtcpStudy, calibrate, machine_file, place_of, read_rtcp,
 };
 use trueaxis_calibrate::report::RtcpReport;
-use trueaxis_calibrate::unknowns::fit::FitError;
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_machine::file::Folder;
+use trueaxis_measure::unknowns::fit::FitError;
 use trueaxis_report::Report;
 
 /// The rotary centres for RTCP, from indicator or probe readings at turned poses.

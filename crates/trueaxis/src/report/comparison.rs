@@ -4,7 +4,7 @@ use super::certificate::{standing, word};
 use crate::verify::compare::{
     Comparison, ComparisonBasis, ComparisonResult, Coverage, Rule, Summary,
 };
-use trueaxis_calibrate::measure::virtual_campaign::shown_unit;
+use trueaxis_measure::measure::virtual_campaign::shown_unit;
 use trueaxis_report::{Band, Picture, Report, Scatter, Section, Table};
 
 /// Places that the terminal and the page show.

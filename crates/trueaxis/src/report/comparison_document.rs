@@ -7,8 +7,8 @@ use crate::verify::compare::{
 };
 use schemars::JsonSchema;
 use serde::Serialize;
-use trueaxis_calibrate::instruments::instrument::Instrument;
-use trueaxis_calibrate::measure::virtual_campaign::shown_unit;
+use trueaxis_measure::instruments::instrument::Instrument;
+use trueaxis_measure::measure::virtual_campaign::shown_unit;
 use trueaxis_report::Keyed;
 
 /// Readings compared with a prediction, or with other readings.

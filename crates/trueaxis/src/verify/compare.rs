@@ -21,16 +21,16 @@ pub use pairs::{Pairs, pair};
 
 use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeMap;
-use trueaxis_calibrate::measure::Campaign;
-use trueaxis_calibrate::measure::Instrument;
-use trueaxis_calibrate::measure::Readings;
-use trueaxis_calibrate::unknowns::design::Design;
-use trueaxis_calibrate::unknowns::fit::FitError;
-use trueaxis_calibrate::unknowns::fit::fit;
-use trueaxis_calibrate::unknowns::term::Basis;
-use trueaxis_calibrate::unknowns::term::Term;
 use trueaxis_machine::Machine;
 use trueaxis_machine::errors::ErrorIndex;
+use trueaxis_measure::measure::Campaign;
+use trueaxis_measure::measure::Instrument;
+use trueaxis_measure::measure::Readings;
+use trueaxis_measure::unknowns::design::Design;
+use trueaxis_measure::unknowns::fit::FitError;
+use trueaxis_measure::unknowns::fit::fit;
+use trueaxis_measure::unknowns::term::Basis;
+use trueaxis_measure::unknowns::term::Term;
 use trueaxis_part::tolerance::Outcome;
 
 /// Quantile of the normal distribution for 95 %, two-sided.

@@ -6,13 +6,13 @@
 //!
 //! A shift turns nothing, so that the tip is linear in all offsets together, without any remainder.
 
-use crate::unknowns::term::Term;
 use nalgebra::DVector;
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
 use trueaxis_machine::errors::{Component, ErrorIndex, ErrorKind, ErrorName, ErrorValues};
 use trueaxis_machine::twist::Reference;
+use trueaxis_measure::unknowns::term::Term;
 
 /// An offset that is seen less than this beside those before it does what they do.
 const NOTHING: f64 = 1e-9;

@@ -3,9 +3,6 @@
 use super::centres::Centres;
 use super::control::{MachineZero, Names, Slot, Slots};
 use super::{ReadingSet, Row, RtcpStudy, SAME_RAD, command_of, spread};
-use crate::instruments::instrument::{SetupError, SetupUnknown, Sight};
-use crate::measure::path::{Placing, leaves_travel};
-use crate::measure::{Instrument, Kind};
 use std::path::Path;
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{
@@ -16,6 +13,9 @@ use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::errors::{BodyName, ErrorValues};
 use trueaxis_machine::file::{machine_of, read_vector_mm};
 use trueaxis_machine::twist::Reference;
+use trueaxis_measure::instruments::instrument::{SetupError, SetupUnknown, Sight};
+use trueaxis_measure::measure::path::{Placing, leaves_travel};
+use trueaxis_measure::measure::{Instrument, Kind};
 
 /// More sets are a slip of the pen.
 const MOST_SETS: usize = 50;

@@ -6,9 +6,9 @@
 //! goes up to the end of Z first.
 
 use super::{ReadingSet, Row, RtcpStudy, command_of};
-use crate::measure::path::{Placing, leaves_travel};
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
+use trueaxis_measure::measure::path::{Placing, leaves_travel};
 use trueaxis_motion::{Batch, Observer, Options, SetUp, simulate};
 use trueaxis_nc::moves::{Axis, Feed, FeedMode, Position};
 use trueaxis_nc::{Control, Program};

@@ -1,8 +1,6 @@
 //! What the machine would do with a program: how long it takes, and what is in its way.
 
 use super::ProgramSettings;
-use crate::measure::path::Path;
-use crate::measure::{Campaign, Kind};
 use trueaxis_geometry::frame::Pose;
 use trueaxis_geometry::{Mat3, Vec3};
 use trueaxis_input::{Diagnostics, Severity};
@@ -10,6 +8,8 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Command;
 use trueaxis_machine::chain::Link;
 use trueaxis_machine::models::{Shape, ToolSegment};
+use trueaxis_measure::measure::path::Path;
+use trueaxis_measure::measure::{Campaign, Kind};
 use trueaxis_motion::collide::{BodyModel, Mesh, Role, load_models, triangles_of};
 use trueaxis_motion::report::issue_text;
 use trueaxis_motion::{

@@ -1,7 +1,6 @@
 //! Touch after touch along the normals: poses, program, and what the machine would do with it.
 
 use super::file::SurfaceStudy;
-use crate::measure::path::leaves_travel;
 use crate::plan::program::{
     ProgramCheck, ProgramError, axis_target, probe_shape, run, touch_words,
 };
@@ -13,6 +12,7 @@ use trueaxis_machine::Target;
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
 use trueaxis_machine::chain::Link;
 use trueaxis_machine::tcp::TipControl;
+use trueaxis_measure::measure::path::leaves_travel;
 use trueaxis_motion::collide::{BodyModel, Role};
 use trueaxis_motion::{SetUp, SetUpTool};
 use trueaxis_nc::moves::{Axis, Feed, FeedMode, Position};

@@ -8,11 +8,11 @@ use super::used::UsedPose;
 use std::path::Path;
 use trueaxis_calibrate::identify::errors::{Identification, identify};
 use trueaxis_calibrate::identify::records::{read_options, read_records};
-use trueaxis_calibrate::measure::read_campaign;
-use trueaxis_calibrate::unknowns::term::stated;
 use trueaxis_input::{Diagnostics, Item, Section};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Approach;
+use trueaxis_measure::measure::read_campaign;
+use trueaxis_measure::unknowns::term::stated;
 
 /// The machine file may be rounded: a difference below this part of an uncertainty is allowed.
 const ROUNDING: f64 = 0.02;

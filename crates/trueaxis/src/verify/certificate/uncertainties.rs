@@ -11,10 +11,10 @@
 
 use nalgebra::{DMatrix, SymmetricEigen};
 use trueaxis_calibrate::identify::errors::Identification;
-use trueaxis_calibrate::unknowns::term::Term;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Command};
 use trueaxis_machine::errors::{ErrorIndex, ErrorValues, Uncertainties};
+use trueaxis_measure::unknowns::term::Term;
 
 /// The factors of a machine.
 #[derive(Debug, Clone)]

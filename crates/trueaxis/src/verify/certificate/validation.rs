@@ -3,13 +3,13 @@
 use super::file::{Circumstances, above_zero, read_circumstances};
 use super::inputs::Inputs;
 use super::used::{UsedPose, read_at, twin};
-use trueaxis_calibrate::instruments::instrument::Instrument;
-use trueaxis_calibrate::measure::{Kind, Readings};
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{CsvTable, Diagnostics, Dimension, Place, Section};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Axis, Command};
 use trueaxis_machine::twist::Reference;
+use trueaxis_measure::instruments::instrument::Instrument;
+use trueaxis_measure::measure::{Kind, Readings};
 
 /// Commands that differ by less are the same row of both tables, mm and rad.
 const SAME: f64 = 1e-9;

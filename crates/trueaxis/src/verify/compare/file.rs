@@ -2,10 +2,10 @@
 
 use super::{Comparison, ComparisonBasis, Decision, Rule, pair};
 use std::path::{Path, PathBuf};
-use trueaxis_calibrate::measure::{Campaign, Readings, read_campaign};
 use trueaxis_input::{Diagnostics, Dimension, Files, Item, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::heat::Conditions;
+use trueaxis_measure::measure::{Campaign, Readings, read_campaign};
 
 /// Reads a comparison with all that it names.
 pub fn read_comparison(files: &Files, path: &Path) -> (Option<Comparison>, Diagnostics) {

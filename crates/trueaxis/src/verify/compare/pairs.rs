@@ -1,8 +1,8 @@
 //! Two sets of readings of the same places, reading by reading.
 
 use std::collections::BTreeMap;
-use trueaxis_calibrate::measure::{Campaign, Readings};
 use trueaxis_machine::axis::{AxisKind, Command};
+use trueaxis_measure::measure::{Campaign, Readings};
 
 /// Commands that differ by less are one place: a hit moves by the errors, mm and rad.
 const SAME_MM: f64 = 0.5;

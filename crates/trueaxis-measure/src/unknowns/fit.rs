@@ -394,7 +394,7 @@ pub fn fit_by(
 }
 
 /// The residuals of linearised readings with these values.
-pub(crate) fn linear_residuals<'v>(
+pub fn linear_residuals<'v>(
     design: &Design,
     readings: &Readings,
     z: &[[f64; 3]],
@@ -406,7 +406,7 @@ pub(crate) fn linear_residuals<'v>(
 }
 
 /// A number per channel of each reading from its slopes: one per unknown, mm or rad per unit.
-pub(crate) fn by_rows(
+pub fn by_rows(
     design: &Design,
     readings: &Readings,
     number: impl Fn(usize, usize, &[f64]) -> f64 + Sync,

@@ -11,7 +11,7 @@ mod sphere;
 mod spread;
 mod touch;
 
-pub(crate) use placing::turns_about;
+pub use placing::turns_about;
 pub use placing::{Placing, Strayed, leaves_travel};
 pub use sphere::{directions_cone, directions_f, directions_s};
 pub use spread::{Poses, read_poses};
@@ -78,7 +78,7 @@ pub(crate) fn read_instrument(section: &Section<'_>, campaign: &Campaign) -> Opt
 }
 
 /// One `[[path]]`: one path, or those of a test that has several.
-pub(crate) fn read_path(section: &Section<'_>, campaign: &Campaign) -> Option<Vec<Path>> {
+pub fn read_path(section: &Section<'_>, campaign: &Campaign) -> Option<Vec<Path>> {
     let instrument = read_instrument(section, campaign)?;
     let kind = section.require("kind", KINDS)?;
     let name = section.text("name");

@@ -139,7 +139,7 @@ impl Shape {
     /// Reads a description.
     ///
     /// ```
-    /// use trueaxis_calibrate::unknowns::term::{Family, Shape};
+    /// use trueaxis_measure::unknowns::term::{Family, Shape};
     /// let shape = Shape::parse("fourier 2 + reversal").expect("a shape");
     /// assert_eq!(shape, Shape { family: Family::Fourier(1, 2), reversal: true });
     /// assert!(Shape::parse("fourier many").is_none());

@@ -91,7 +91,7 @@ impl Placing {
 
 /// About which line of the workpiece an axis turns at a command: how a point moves per rad, and the
 /// unit vector of the line.
-pub(crate) fn turns_about(
+pub fn turns_about(
     machine: &Machine,
     axis: usize,
     command: &Command,
