@@ -1198,6 +1198,10 @@ export interface Check {
    */
   axes?: AxisEntry[];
   /**
+   * Its coordinate systems with all axes at 0, without errors.
+   */
+  frames?: FrameEntry[];
+  /**
    * The names of its tools.
    */
   tools?: string[];
@@ -1242,6 +1246,52 @@ export interface AxisEntry {
    */
   sense: number;
   [k: string]: TravelEntry | null;
+}
+/**
+ * A coordinate system of the machine with all axes at 0, without errors, in the machine frame (SCS).
+ */
+export interface FrameEntry {
+  /**
+   * `SCS`: simulation space, the machine frame. `PCS`: part program, the workpiece frame without a work offset.
+   * `NCS`: node, a body of the chain. `UCS`: model.
+   */
+  frame: string;
+  /**
+   * The body that it belongs to; `b` is the bed.
+   */
+  body: string;
+  /**
+   * The name of the model; absent for other frames.
+   */
+  model?: string | null;
+  /**
+   * Its origin.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  origin_mm: [number, number, number];
+  /**
+   * Its x axis, a unit vector. Unit: 1.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  x: [number, number, number];
+  /**
+   * Its y axis, a unit vector. Unit: 1.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  y: [number, number, number];
+  /**
+   * Its z axis, a unit vector. Unit: 1.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  z: [number, number, number];
 }
 /**
  * A measurement with the errors that it determined.
@@ -6508,6 +6558,10 @@ export interface CheckDocument {
    */
   axes?: AxisEntry[];
   /**
+   * Its coordinate systems with all axes at 0, without errors.
+   */
+  frames?: FrameEntry[];
+  /**
    * The names of its tools.
    */
   tools?: string[];
@@ -9267,7 +9321,7 @@ export interface ProgrammedEntry {
   /**
    * The program frame.
    */
-  frame: FrameEntry;
+  frame: TraceFrameEntry;
   /**
    * Whether the tip of the tool is programmed (RTCP, TRAORI, TCPM).
    */
@@ -9318,7 +9372,7 @@ export interface MoveEntry {
 /**
  * A program frame.
  */
-export interface FrameEntry {
+export interface TraceFrameEntry {
   /**
    * Rotation, scale and mirror of X, Y and Z, row by row. Unit: 1.
    *

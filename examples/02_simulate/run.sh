@@ -5,6 +5,9 @@ out=${OUT:-.}
 $trueaxis simulate machines/wyxzcat-gantry/machine.toml examples/02_simulate/impeller-840d.mpf --report "$out/impeller.html"
 $trueaxis simulate machines/i5-engraver/machine.toml examples/02_simulate/ring-fanuc.nc --report "$out/ring.html" --path "$out/ring.csv"
 $trueaxis trace machines/wyxzcat-gantry/machine.toml examples/02_simulate/impeller-840d.mpf --block 120
+# The nodes of the same gantry with errors: nominal and actual pose of each at every point of the path.
+$trueaxis check machines/wyxzcat-gantry/with-errors.toml --frames
+$trueaxis simulate machines/wyxzcat-gantry/with-errors.toml examples/02_simulate/impeller-840d.mpf --report "$out/impeller.html" --bodies "$out/nodes.csv"
 # Increments count from where the tool is, after a swivel and under M128, too.
 $trueaxis simulate machines/head-table/machine.toml examples/02_simulate/incremental.h --report "$out/incremental.html"
 # The same time for every chord.

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use trueaxis::files;
 use trueaxis::input::{Diagnostics, Place};
 use trueaxis::machine::Machine;
-use trueaxis::report::{check_json, check_report};
+use trueaxis::report::{check_json, check_report, frames_section};
 use trueaxis::simulate::collide::export;
 
 /// The machine file to check.
@@ -15,6 +15,7 @@ use trueaxis::simulate::collide::export;
 Examples:
   trueaxis check machines/xkas2525/machine.toml
   trueaxis check machines/i5-engraver/machine.toml --models stl
+  trueaxis check machines/wyxzcat-gantry/machine.toml --frames
 
 Exit status: 0 the file can be used (also with warnings), 2 it cannot. With --format json the
 document is printed in both cases: \"usable\" is the result, \"diagnostics\" the reasons.")]
@@ -25,6 +26,9 @@ pub struct Arguments {
     /// Write the models that the machine file describes by dimensions as STL files into this folder
     #[arg(long, value_name = "FOLDER")]
     models: Option<PathBuf>,
+    /// List the coordinate systems of the machine, its bodies and its models, too
+    #[arg(long)]
+    frames: bool,
     /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
@@ -39,7 +43,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let unusable = report(problems) || machine.is_none();
     let shown = match (arguments.format, &machine) {
         (Format::Json, _) => show(&Answer::Json(check_json(machine.as_ref(), found.iter()))),
-        (Format::Text, Some(machine)) => show(&Answer::Text(check_report(machine).text())),
+        (Format::Text, Some(machine)) => {
+            let frames = arguments.frames.then(|| frames_section(machine));
+            show(&Answer::Text(check_report(machine).sections(frames).text()))
+        }
         (Format::Text, None) => Outcome::Unusable,
     };
     if unusable { Outcome::Unusable } else { shown }

@@ -14,7 +14,7 @@ use trueaxis::machine::Machine;
 use trueaxis::machine::axis::AxisKind;
 use trueaxis::machine::errors::{Curve, ErrorIndex, ErrorKind, ErrorValues};
 use trueaxis::machine::file::Folder;
-use trueaxis::report::description_json;
+use trueaxis::report::{check_json, description_json, frames};
 
 fn text_of(name: &str) -> String {
     std::fs::read_to_string(machine_path(name)).expect("a shipped machine file")
@@ -258,4 +258,68 @@ fn a_machine_file_below_the_project_folder_is_edited_in_place() {
     let page = description_json(&describe(&machine.unwrap(), None));
     assert_eq!(entry(&page["errors"], "EC0Y")["value"], 7.0);
     std::fs::remove_dir_all(root).unwrap();
+}
+
+/// Jiang et al. Table 6: the frames of all nodes of the WYXZCAT gantry are parallel to that of simulation space.
+/// The origins by hand: sums of the placements of the machine file.
+#[test]
+fn frames_of_the_nodes_are_those_of_the_machine_file() {
+    let gantry = machine("wyxzcat-gantry");
+    let found = frames(&gantry);
+    let parallel = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    for frame in found.iter().filter(|f| f.frame != "UCS") {
+        assert_eq!([frame.x, frame.y, frame.z], parallel, "{} {}", frame.frame, frame.body);
+    }
+    let origin = |frame: &str, body: &str| {
+        found.iter().find(|f| f.frame == frame && f.body == body).map(|f| f.origin_mm).unwrap()
+    };
+    assert_eq!(origin("SCS", "b"), [0.0; 3]);
+    assert_eq!(origin("PCS", "w"), [0.0; 3]);
+    assert_eq!(origin("NCS", "Z"), [0.0, 100.0, 700.0]); // 500 + 200
+    assert_eq!(origin("NCS", "t"), [30.0, 120.0, 430.0]); // 700 − 100 − 50 − 120
+    let arm = found.iter().find(|f| f.model.as_deref() == Some("left fork arm")).unwrap();
+    assert_eq!((arm.frame, arm.body.as_str()), ("UCS", "C"));
+    assert_eq!(arm.origin_mm, [30.0 - 105.0, 120.0, 600.0 - 40.0]);
+    assert_eq!(found.len(), 2 + gantry.bodies().len() + gantry.models().len());
+    let json = check_json(Some(&gantry), []);
+    assert_eq!(json["frames"].as_array().unwrap().len(), found.len());
+    assert_eq!(json["frames"][5]["origin_mm"], serde_json::json!([0.0, 100.0, 700.0]));
+}
+
+/// Placements that turn a body turn its frame and those of its models.
+#[test]
+fn frames_of_models_turn_with_their_bodies() {
+    let text = "[machine]\nname = \"m\"\nchain = \"w b X Z B t\"\n[axis.Z]\nplacement = \"0 0 10 mm\"\n\
+                [axis.B]\nplacement = [\"shift 5 0 0 mm\", \"turn Y 90 deg\"]\n\
+                [[model]]\nbody = \"B\"\nname = \"one\"\nbox = \"1 1 1 mm\"\nplacement = \"0 0 7 mm\"\n\
+                [[model]]\nbody = \"B\"\nname = \"two\"\nbox = \"1 1 1 mm\"\n\
+                placement = [\"turn Z 90 deg\"]\n";
+    let (machine, problems) = Machine::check("m.toml", text, &trueaxis::machine::file::NoTables);
+    let machine = machine.unwrap_or_else(|| panic!("{problems:?}"));
+    let found = frames(&machine);
+    let model = |name: &str| found.iter().find(|f| f.model.as_deref() == Some(name)).unwrap();
+    let near = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
+    // About Y by 90°: z goes to x, x to −z. The model 7 mm along the z axis of B lies 7 mm along X.
+    assert!(near(model("one").origin_mm, [12.0, 0.0, 10.0]), "{:?}", model("one"));
+    assert!(near(model("one").z, [1.0, 0.0, 0.0]));
+    assert!(near(model("two").x, [0.0, 1.0, 0.0]));
+    assert!(near(model("two").y, [0.0, 0.0, 1.0]));
+}
+
+/// Forms of models that are not read are named, whatever the case of the ending.
+#[test]
+fn models_of_other_forms_are_named() {
+    for (file, form) in
+        [("a.igs", "IGES"), ("b.IGES", "IGES"), ("c.Stp", "STEP"), ("d.e.obj", "OBJ")]
+    {
+        let text = format!(
+            "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n[[model]]\nbody = \"Z\"\nname = \"n\"\nstl = \"{file}\"\n"
+        );
+        let (machine, problems) =
+            Machine::check("m.toml", &text, &trueaxis::machine::file::NoTables);
+        assert!(machine.is_none());
+        let said = problems.iter().find(|d| d.code == "model-form").expect(file);
+        assert!(said.message.starts_with(form), "{}", said.message);
+        assert_eq!(said.place.line, 7);
+    }
 }

@@ -107,10 +107,31 @@ pub fn read_shape(section: &Section<'_>) -> Option<Shape> {
     prism.and_then(|item| about_z(item, "prism", read_prism))
 }
 
+const OTHER_FORMS: &str = "save the model as STL from the CAD system, in mm and in the coordinate system of the model, or \
+     describe it by box, cylinder, cone or prism";
+
+/// The name of a form of models that is not STL, by the ending of the file.
+fn other_form(path: &str) -> Option<&'static str> {
+    let ending = path.rsplit_once('.')?.1.to_ascii_lowercase();
+    match ending.as_str() {
+        "igs" | "iges" => Some("IGES"),
+        "stp" | "step" => Some("STEP"),
+        "obj" => Some("OBJ"),
+        "3mf" => Some("3MF"),
+        "wrl" => Some("VRML"),
+        _ => None,
+    }
+}
+
 fn read_stl(item: &Item<'_>, unit: Option<&Item<'_>>) -> Option<Shape> {
     let path = item.text()?;
     if path.trim().is_empty() {
         item.error("empty-path", "the path of the STL file is empty".into(), SHAPES);
+        return None;
+    }
+    if let Some(form) = other_form(path) {
+        let message = format!("{form} files are not read: a model is an STL file or a simple body");
+        item.error("model-form", message, OTHER_FORMS);
         return None;
     }
     let unit_mm = match unit {

@@ -2,6 +2,7 @@
 
 use super::check::{lacks, measurements, shown_unit};
 use super::diagnostic::DiagnosticEntry;
+use super::frames::{FrameEntry, frames};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
@@ -37,6 +38,8 @@ pub struct CheckedMachine<'a> {
     pub source: &'a str,
     /// Its axes in chain order.
     pub axes: Vec<AxisEntry>,
+    /// Its coordinate systems with all axes at 0, without errors.
+    pub frames: Vec<FrameEntry>,
     /// The names of its tools.
     pub tools: Vec<&'a str>,
     /// The ISO 230-1 names of the errors that are stated.
@@ -105,6 +108,7 @@ impl<'a> From<&'a Machine> for CheckedMachine<'a> {
             chain: machine.chain_text(),
             source: machine.source(),
             axes: machine.axes().iter().map(AxisEntry::from).collect(),
+            frames: frames(machine),
             tools: machine.tools().iter().map(|t| t.name.as_str()).collect(),
             errors: machine.stated_errors().iter().map(|(_, n)| n.to_string()).collect(),
             measured: measured.map(|(by, errors)| MeasurementEntry { by, errors }).collect(),
