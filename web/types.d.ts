@@ -1202,6 +1202,10 @@ export interface Check {
    */
   frames?: FrameEntry[];
   /**
+   * Limits of spindle and magazine; absent where the file states none.
+   */
+  equipment?: EquipmentEntry | null;
+  /**
    * The names of its tools.
    */
   tools?: string[];
@@ -1292,6 +1296,27 @@ export interface FrameEntry {
    * @maxItems 3
    */
   z: [number, number, number];
+}
+/**
+ * Spindle and magazine; null where the file does not state it.
+ */
+export interface EquipmentEntry {
+  /**
+   * Highest speed of the spindle, 1/min.
+   */
+  max_speed_per_min: number | null;
+  /**
+   * Lowest speed at which the spindle turns, 1/min.
+   */
+  min_speed_per_min: number | null;
+  /**
+   * Power of the spindle motor, kW.
+   */
+  spindle_power_kw: number | null;
+  /**
+   * Places of the magazine.
+   */
+  magazine_places: number | null;
 }
 /**
  * A measurement with the errors that it determined.
@@ -6562,6 +6587,10 @@ export interface CheckDocument {
    */
   frames?: FrameEntry[];
   /**
+   * Limits of spindle and magazine; absent where the file states none.
+   */
+  equipment?: EquipmentEntry | null;
+  /**
    * The names of its tools.
    */
   tools?: string[];
@@ -8174,6 +8203,11 @@ export interface SimulationDocument {
    */
   motion_left_out: number;
   /**
+   * How many times the program asks for a speed of the spindle or a tool that the machine does not have: they are
+   * among the diagnostics.
+   */
+  beyond_equipment: number;
+  /**
    * Messages of the program to the operator.
    */
   messages: string[];
@@ -8930,6 +8964,11 @@ export interface Simulate {
    * diagnostics.
    */
   motion_left_out: number;
+  /**
+   * How many times the program asks for a speed of the spindle or a tool that the machine does not have: they are
+   * among the diagnostics.
+   */
+  beyond_equipment: number;
   /**
    * Messages of the program to the operator.
    */

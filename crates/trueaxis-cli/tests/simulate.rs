@@ -353,3 +353,49 @@ fn radius_compensation_goes_round_the_square() {
         assert!((tip[0] - x).hypot(tip[1] - y) < 1e-9, "line {line}: {tip:?}");
     }
 }
+
+/// Codes of spindle and magazine, with their lines, that a program for the engraver comes to; its exit status.
+fn asked_of_the_engraver(control: &str, program: &str) -> (i32, Vec<(String, u64)>) {
+    let folder = Folder::new(&format!("equipment-{control}"));
+    let path = folder.path("program.nc");
+    std::fs::write(&path, program).expect("a file");
+    let machine = "machines/i5-engraver/machine.toml";
+    let words =
+        ["simulate", machine, &path, "--control", control, "--no-report", "--format", "json"];
+    let ran = trueaxis(&words);
+    let document = ran.json();
+    let of_equipment =
+        |code: &str| ["spindle-speed", "no-magazine-place", "magazine-full"].contains(&code);
+    let list = document["diagnostics"].as_array().expect("a list").iter();
+    let found: Vec<(String, u64)> = list
+        .filter(|d| of_equipment(d["code"].as_str().expect("a code")))
+        .map(|d| (d["code"].as_str().unwrap().to_owned(), d["line"].as_u64().expect("a line")))
+        .collect();
+    assert_eq!(document["beyond_equipment"].as_u64(), Some(found.len() as u64));
+    (ran.status, found)
+}
+
+/// The spindle of the paper's machine turns with 40,000 1/min at most, its magazine has 12 places.
+#[test]
+fn speeds_and_tools_that_the_machine_does_not_have_are_reported() {
+    let told = |codes: &[(&str, u64)]| -> Vec<(String, u64)> {
+        codes.iter().map(|(code, line)| ((*code).to_owned(), *line)).collect()
+    };
+    let sound = "G21 G90 G94\nT12 M6\nS40000 M3\nG1 X1 F100\nM5 S0\nM30\n";
+    assert_eq!(asked_of_the_engraver("fanuc", sound), (0, vec![]));
+    let spoiled = "G21 G90 G94\nT99 M6\nS60000 M3\nG1 X1 F100\nS60000\nX2\nT99 M6\nM30\n";
+    let expected = [("no-magazine-place", 2), ("spindle-speed", 3), ("no-magazine-place", 7)];
+    let (status, mut found) = asked_of_the_engraver("fanuc", spoiled);
+    found.sort_by_key(|(_, line)| *line);
+    assert_eq!((status, found), (1, told(&expected)));
+    // LinuxCNC finds the place of tool 99 in its tool table; the speed is as wrong there.
+    let (status, found) = asked_of_the_engraver("linuxcnc", spoiled);
+    assert_eq!((status, found), (1, told(&[("spindle-speed", 3)])));
+    // Thirteen tools do not fit, in whatever order they come, and each counts once.
+    let tools: String = (1..=13).rev().map(|t| format!("T{t} M6\nT13 M6\n")).collect();
+    let (status, found) = asked_of_the_engraver("linuxcnc", &format!("{tools}G1 X1 F100\nM2\n"));
+    assert_eq!((status, found), (1, told(&[("magazine-full", 25)])));
+    // Under G96 the number is a surface speed, m/min; after G97 it counts again.
+    let surface = "G21 G90\nG96 S50000 M3\nG1 X1 F100\nG97 S50001\nM2\n";
+    assert_eq!(asked_of_the_engraver("linuxcnc", surface).1, told(&[("spindle-speed", 4)]));
+}

@@ -39,6 +39,8 @@ pub enum Dimension {
     FilmCoefficient,
     /// Volumetric heat capacity \[J/(m³·K)\]
     HeatCapacity,
+    /// \[W\]
+    Power,
     /// A plain number \[1\]
     Ratio,
 }
@@ -104,6 +106,8 @@ const UNITS: &[(Dimension, &[&str], (f64, f64))] = &[
     (Dimension::FilmCoefficient, &["W/(m^2 K)", "W/(m²·K)", "W/m^2/K"], (1.0, 1.0)),
     (Dimension::HeatCapacity, &["J/(m^3 K)", "J/(m³·K)"], (1.0, 1.0)),
     (Dimension::HeatCapacity, &["MJ/(m^3 K)", "MJ/(m³·K)"], (1e6, 1.0)),
+    (Dimension::Power, &["W"], (1.0, 1.0)),
+    (Dimension::Power, &["kW"], (1e3, 1.0)),
     (Dimension::Ratio, &[""], (1.0, 1.0)),
     (Dimension::Ratio, &["%"], (1.0, 100.0)),
 ];
@@ -206,6 +210,7 @@ impl fmt::Display for Dimension {
             Self::Diffusivity => "a thermal diffusivity",
             Self::FilmCoefficient => "a film coefficient",
             Self::HeatCapacity => "a volumetric heat capacity",
+            Self::Power => "a power",
             Self::Ratio => "a plain number",
         })
     }

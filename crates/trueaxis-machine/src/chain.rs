@@ -122,6 +122,7 @@ pub struct Machine {
     pub(crate) growth: Option<WorkpieceGrowth>,
     /// Errors that the control compensates.
     pub(crate) active: Vec<ErrorName>,
+    pub(crate) equipment: crate::equipment::Equipment,
 }
 
 /// α_w among the uncertain quantities.
@@ -207,6 +208,11 @@ impl Machine {
     /// The tool assemblies that the machine file lists.
     pub fn tools(&self) -> &[crate::tool::ToolAssembly] {
         &self.tools
+    }
+
+    /// Spindle and magazine.
+    pub fn equipment(&self) -> &crate::equipment::Equipment {
+        &self.equipment
     }
 
     /// The solid models of its bodies, in the order of the machine file.

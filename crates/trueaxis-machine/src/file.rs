@@ -1,6 +1,7 @@
 //! The machine file: from text to a checked [`Machine`], with all problems reported at once.
 
 mod chain_text;
+mod equipment_text;
 mod error_text;
 mod geometry_check;
 mod heat_text;
@@ -162,6 +163,7 @@ fn read_machine(root: &Section<'_>, tables: &dyn Tables) -> Option<Machine> {
         heat,
         growth: None,
         active,
+        equipment: equipment_text::read_equipment(root),
     };
     if let Some(item) = head.chain_item {
         geometry_check::warn_about_directions(&machine, &item);

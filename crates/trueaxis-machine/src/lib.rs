@@ -38,6 +38,7 @@ pub mod chain;
 pub mod compensate;
 pub mod describe;
 mod deviation;
+pub mod equipment;
 pub mod errors;
 pub mod file;
 pub mod heat;

@@ -31,6 +31,7 @@ mod collisions;
 mod curve;
 mod densify;
 mod drift;
+mod equipment;
 mod issues;
 mod job;
 mod orientation;
@@ -75,6 +76,7 @@ pub use trueaxis_nc::Stop;
 
 use axis_path::AxisPath;
 use clock::Clock;
+use equipment::EquipmentWatch;
 use program::Folder;
 use std::path::Path;
 use temperatures::Present;
@@ -150,6 +152,11 @@ pub struct Run {
 }
 
 impl Run {
+    /// What the program asks of spindle and magazine that the machine does not have.
+    pub fn beyond_equipment(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.problems.iter().filter(|problem| equipment::is_beyond_equipment(problem.code))
+    }
+
     /// Functions that move the tool, or its place, and are not executed.
     pub fn motion_left_out(&self) -> impl Iterator<Item = &Diagnostic> {
         self.problems.iter().filter(|problem| leaves_motion_out(problem.code))
@@ -181,9 +188,14 @@ pub fn simulate(
         return Run { problems: log_problems, programs: Vec::new(), stopped: false };
     };
     let mut walk = Walk::new(&machine, present, setup, options, observers);
+    walk.watch = Some(EquipmentWatch::new(machine.equipment(), program.dialect().control));
     let outcome = execute_on(&machine, program, setup, &settings, &mut walk);
+    let watch = walk.watch.take();
     let faults = walk.finish();
     let mut problems = outcome.problems;
+    if let Some(watch) = watch {
+        watch.tell_in(program, &outcome.programs, &mut problems);
+    }
     problems.append(log_problems);
     setup.check_for(program, &mut problems);
     note_assumed_limits(&machine, program, &mut problems);
@@ -307,6 +319,7 @@ impl Follower for Walk<'_, '_> {
 struct Walk<'w, 'o> {
     path: AxisPath<'w>,
     stretch: Stretch<'w, 'o>,
+    watch: Option<EquipmentWatch>,
     keep_going: bool,
     points: u64,
 }
@@ -338,7 +351,7 @@ impl<'w, 'o> Walk<'w, 'o> {
             observers,
             faults: Vec::new(),
         };
-        Self { path, stretch, keep_going: options.keep_going, points: 0 }
+        Self { path, stretch, watch: None, keep_going: options.keep_going, points: 0 }
     }
 
     fn follow(&mut self, step: &Step) {
@@ -349,6 +362,7 @@ impl<'w, 'o> Walk<'w, 'o> {
         }
         let (stretch, points) = (&mut self.stretch, &mut self.points);
         stretch.observers.iter_mut().for_each(|o| o.step(step));
+        self.watch.iter_mut().for_each(|watch| watch.see(step));
         self.path.take(step, &mut |step| {
             *points += 1;
             stretch.take(step);

@@ -188,6 +188,7 @@ fn verdict(s: &Simulation<'_>) -> (Standing, &'static str, String) {
     let all = s.issues.list.len() as u64 + s.issues.left_out;
     let errors = s.run.problems.iter().filter(|d| d.severity == Severity::Error).count() as u64;
     let left_out = s.run.motion_left_out().count() as u64;
+    let beyond = s.run.beyond_equipment().count() as u64;
     match (critical, all - critical) {
         _ if errors == 0 && left_out > 0 => {
             let functions = count(left_out, "function");
@@ -197,6 +198,11 @@ fn verdict(s: &Simulation<'_>) -> (Standing, &'static str, String) {
         _ if errors > 0 => {
             let sentence = format!("{} in the program", count(errors, "error"));
             (Standing::Bad, "NOT COMPLETE", sentence)
+        }
+        (0, _) if beyond > 0 => {
+            let requests = count(beyond, "request");
+            let sentence = format!("{requests} beyond spindle or magazine: see the diagnostics");
+            (Standing::Bad, "NOT POSSIBLE", sentence)
         }
         (0, 0) => {
             let sentence = "no issue found that endangers part or machine".to_owned();

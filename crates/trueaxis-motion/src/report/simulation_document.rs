@@ -56,6 +56,9 @@ pub struct SimulationDocument<'a> {
     /// How many functions of the program that move the tool or its place are not executed: they are among the
     /// diagnostics.
     pub motion_left_out: u64,
+    /// How many times the program asks for a speed of the spindle or a tool that the machine does not have: they are
+    /// among the diagnostics.
+    pub beyond_equipment: u64,
     /// Messages of the program to the operator.
     pub messages: &'a [String],
     /// Stops in the program, optional ones not counted.
@@ -277,6 +280,7 @@ impl<'a> SimulationDocument<'a> {
             issues: s.issues.list.iter().map(|t| IssueEntry::of(s, t)).collect(),
             issues_left_out: s.issues.left_out,
             motion_left_out: s.run.motion_left_out().count() as u64,
+            beyond_equipment: s.run.beyond_equipment().count() as u64,
             messages: &summary.messages,
             stops: summary.stops,
             tools: summary

@@ -158,7 +158,9 @@ impl Answer for Simulated {
     }
 
     fn is_yes(&self) -> bool {
-        !self.found.issues.is_critical() && self.found.run.motion_left_out().next().is_none()
+        let run = &self.found.run;
+        let is_executed = run.motion_left_out().chain(run.beyond_equipment()).next().is_none();
+        is_executed && !self.found.issues.is_critical()
     }
 
     fn in_spite_of_errors(&self) -> Option<&'static str> {

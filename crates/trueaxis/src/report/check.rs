@@ -18,6 +18,9 @@ pub fn check_report(machine: &Machine) -> Report<'static> {
     if !tools.is_empty() {
         about = about.paragraph(format!("tools: {}", tools.join(", ")));
     }
+    if let Some(line) = equipment_line(machine) {
+        about = about.paragraph(line);
+    }
     let axes = Table::new(["axis", "carries", "direction", "travel", "fastest"])
         .rows(machine.axes().iter().map(axis_row));
     let lacks = match lacks(machine) {
@@ -32,6 +35,24 @@ pub fn check_report(machine: &Machine) -> Report<'static> {
         .section(Section::new("Axes").table(axes))
         .section(errors(machine))
         .section(lacks)
+}
+
+/// `spindle: at most 40000 1/min, 2.5 kW; magazine: 12 places`.
+fn equipment_line(machine: &Machine) -> Option<String> {
+    let equipment = machine.equipment();
+    let per_minute = |rad_per_s: f64| rounded(rad_per_s * 30.0 / std::f64::consts::PI);
+    let spindle: Vec<String> = [
+        equipment.max_spindle_rad_per_s.map(|v| format!("at most {} 1/min", per_minute(v))),
+        equipment.min_spindle_rad_per_s.map(|v| format!("at least {} 1/min", per_minute(v))),
+        equipment.spindle_power_w.map(|v| format!("{} kW", rounded(v / 1e3))),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    let spindle = (!spindle.is_empty()).then(|| format!("spindle: {}", spindle.join(", ")));
+    let magazine = equipment.magazine_places.map(|n| format!("magazine: {n} places"));
+    let parts: Vec<String> = [spindle, magazine].into_iter().flatten().collect();
+    (!parts.is_empty()).then(|| parts.join("; "))
 }
 
 fn errors(machine: &Machine) -> Section<'static> {

@@ -40,6 +40,9 @@ pub struct CheckedMachine<'a> {
     pub axes: Vec<AxisEntry>,
     /// Its coordinate systems with all axes at 0, without errors.
     pub frames: Vec<FrameEntry>,
+    /// Limits of spindle and magazine; absent where the file states none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub equipment: Option<EquipmentEntry>,
     /// The names of its tools.
     pub tools: Vec<&'a str>,
     /// The ISO 230-1 names of the errors that are stated.
@@ -48,6 +51,32 @@ pub struct CheckedMachine<'a> {
     pub measured: Vec<MeasurementEntry>,
     /// What a prediction or a simulation would need in addition, in words.
     pub lacks: Vec<String>,
+}
+
+/// Spindle and magazine; null where the file does not state it.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct EquipmentEntry {
+    /// Highest speed of the spindle, 1/min.
+    pub max_speed_per_min: Option<f64>,
+    /// Lowest speed at which the spindle turns, 1/min.
+    pub min_speed_per_min: Option<f64>,
+    /// Power of the spindle motor, kW.
+    pub spindle_power_kw: Option<f64>,
+    /// Places of the magazine.
+    pub magazine_places: Option<u32>,
+}
+
+impl EquipmentEntry {
+    fn of(machine: &Machine) -> Option<Self> {
+        let stated = machine.equipment();
+        let per_minute = |rad_per_s: f64| rounded(rad_per_s * 30.0 / std::f64::consts::PI);
+        stated.is_stated().then(|| Self {
+            max_speed_per_min: stated.max_spindle_rad_per_s.map(per_minute),
+            min_speed_per_min: stated.min_spindle_rad_per_s.map(per_minute),
+            spindle_power_kw: stated.spindle_power_w.map(|w| rounded(w / 1e3)),
+            magazine_places: stated.magazine_places,
+        })
+    }
 }
 
 /// An axis; its travel is `travel_mm` or `travel_deg`.
@@ -109,6 +138,7 @@ impl<'a> From<&'a Machine> for CheckedMachine<'a> {
             source: machine.source(),
             axes: machine.axes().iter().map(AxisEntry::from).collect(),
             frames: frames(machine),
+            equipment: EquipmentEntry::of(machine),
             tools: machine.tools().iter().map(|t| t.name.as_str()).collect(),
             errors: machine.stated_errors().iter().map(|(_, n)| n.to_string()).collect(),
             measured: measured.map(|(by, errors)| MeasurementEntry { by, errors }).collect(),

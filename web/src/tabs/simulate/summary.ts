@@ -24,6 +24,9 @@ function verdict(header: SimulationHeader): HTMLElement {
   for (const mark of critical) kinds.set(mark.kind, (kinds.get(mark.kind) ?? 0) + 1);
   const errors = header.diagnostics.filter((d) => d.severity === "error").length;
   const words = [...kinds].map(([kind, n]) => `${n} × ${kind.replaceAll("-", " ")}`);
+  const { motion_left_out, beyond_equipment } = header.document;
+  if (motion_left_out > 0) words.push(`${motion_left_out} × motion not executed`);
+  if (beyond_equipment > 0) words.push(`${beyond_equipment} × beyond spindle or magazine`);
   if (errors > 0) words.unshift(errors === 1 ? "one error in the program" : `${errors} errors in the program`);
   if (words.length === 0)
     return h("strong", { class: "runs good", dataTest: "verdict" }, "Runs: no collision, no over-travel");
