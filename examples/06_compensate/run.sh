@@ -15,6 +15,7 @@ $trueaxis compensate values machines/xkas2525/machine.toml --axis C --step 30 --
 # Cutter locations become programs for this machine, read back and simulated.
 $trueaxis post machines/i5-engraver/machine.toml examples/06_compensate/bangle.cls --control fanuc -o "$out/bangle.nc" --verify
 $trueaxis post machines/xkas2525/machine.toml examples/06_compensate/blade.cls --control sinumerik --tcp off -o "$out/blade.mpf" --verify
+$trueaxis post machines/xkas2525/machine.toml testpieces/nas979-gbt33150.toml --control sinumerik -o "$out/cone.mpf" --verify
 $trueaxis post machines/three-axis-mill/machine.toml examples/06_compensate/plate.cls --control heidenhain --tcp length -o "$out/plate.h" --verify
 # A blank as it was probed: the path is moved onto it, and the remaining wall (example made by oracles/bangle.py).
 $trueaxis compensate adapt examples/06_compensate/bangle-adapt.toml --report "$out/bangle-adapt.html" --control fanuc -o "$out/bangle-adapt.nc" --cl "$out/bangle-adapted.cls"

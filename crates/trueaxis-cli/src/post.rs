@@ -21,7 +21,10 @@ Examples:
   trueaxis post machines/three-axis-mill/machine.toml examples/06_compensate/plate.cls \\
       --control heidenhain --tcp length -o plate.h --verify
 
-The points are taken in the workpiece frame of the machine file. With --tcp on and --tcp length the program has
+  trueaxis post machines/xkas2525/machine.toml testpieces/nas979-gbt33150.toml \\
+      --control sinumerik -o cone.mpf --verify
+
+A test piece is cut in one turn for each [[condition]] of its file. The points are taken in the workpiece frame of the machine file. With --tcp on and --tcp length the program has
 places of the tip from the workpiece zero (G54), with --tcp off positions of the axes from the machine zero, tool
 length and workpiece included. Arcs and drilling cycles of the file are written as such where the control has them
 in that place (docs/post.md).
@@ -30,7 +33,7 @@ input, or the path leaves the travel.")]
 pub struct Arguments {
     #[command(flatten)]
     machine: MachineArguments,
-    /// The cutter-location file: APT of Creo, NCL, CATIA, SolidWorks CAM, or a table x y z i j k
+    /// The cutter-location file: APT of Creo, NCL, CATIA, SolidWorks CAM, a table x y z i j k, or a test piece (.toml)
     #[arg(value_name = "FILE.cls")]
     file: PathBuf,
     /// The control of the program: sinumerik, fanuc, haas, linuxcnc or heidenhain

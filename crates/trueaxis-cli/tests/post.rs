@@ -125,3 +125,107 @@ fn the_old_name_of_the_option_still_works_and_says_so() {
     assert!(old.err.contains("`--dialect` is now called `--control`"), "{}", old.err);
     assert_eq!(new.err, "");
 }
+
+/// The frustum of Wu et al. 2022 as a program: whatever the control and the tolerance, the flank of the tool touches
+/// the cone. Distance of a point P from a cone of half angle α and base radius R, h below its top: (ρ − R + (z + h)
+/// tan α) cos α; for each point of the tool axis along the flank it must be the radius of the tool and the allowance.
+#[test]
+fn a_test_piece_becomes_a_program_that_cuts_it() {
+    let gantry = "machines/xkas2525/machine.toml";
+    let piece = "testpieces/nas979-gbt33150.toml";
+    let (sin, cos) = 15f64.to_radians().sin_cos();
+    let folder = Folder::new("post-test-piece");
+    for (control, tolerance_mm) in [("sinumerik", 0.01), ("heidenhain", 0.01), ("sinumerik", 0.001)]
+    {
+        let program = folder.path(&format!("cone-{control}-{tolerance_mm}.nc"));
+        let tolerance = tolerance_mm.to_string();
+        let words = ["post", gantry, piece, "--control", control, "-o", &program, "--verify"];
+        let ran = trueaxis(&[&words[..], &["--tolerance", &tolerance]].concat());
+        assert_eq!(ran.status, 0, "{}", ran.err);
+        let path = folder.path(&format!("path-{control}-{tolerance_mm}.csv"));
+        let words = ["simulate", gantry, &program, "--control", control, "--no-report"];
+        let ran = trueaxis(&[&words[..], &["--no-collisions", "--path", &path]].concat());
+        assert_eq!(ran.status, 0, "{}", ran.err);
+        let text = std::fs::read_to_string(&path).expect("the table");
+        let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
+        let names = lines.next().expect("a head");
+        let column = |name: &str| names.iter().position(|n| *n == name).expect("a column");
+        let columns =
+            ["rapid", "line", "tip_x_mm", "tip_y_mm", "tip_z_mm", "axis_i", "axis_j", "axis_k"]
+                .map(column);
+        let rows: Vec<[f64; 8]> =
+            lines.map(|row| columns.map(|c| row[c].parse().expect("a number"))).collect();
+        let feeds = feeds(&std::fs::read_to_string(&program).expect("the program"));
+        // Feed, height of the end above the base, allowance: Table 3, and the steps of the file.
+        for (feed, height, allowance) in
+            [(1500.0, 45.0, 0.0), (3000.0, 30.0, 0.5), (10_000.0, 15.0, 1.0), (30_000.0, 0.0, 1.5)]
+        {
+            let wanted = 10.0 + allowance;
+            let mut azimuths = Vec::new();
+            for [_, _, x, y, z, i, j, k] in
+                rows.iter().filter(|r| r[0] == 0.0 && feeds[r[1] as usize] == feed)
+            {
+                let off = |s: f64| {
+                    let (x, y, z) = (x + s * i, y + s * j, z + s * k);
+                    (x.hypot(y) - 125.0 + (z + 60.0) * sin / cos) * cos
+                };
+                // The ways to the flank and back.
+                if off(0.0) - wanted > 0.1 {
+                    continue;
+                }
+                azimuths.push(y.atan2(*x).to_degrees());
+                for s in [0.0, 0.5, 1.0].map(|share| share * (60.0 - height) / cos) {
+                    let error = off(s) - wanted;
+                    assert!(error.abs() < 2.0 * tolerance_mm, "{control} {feed} {s}: {error} mm");
+                }
+                // The end of the flank, where the tool touches, is at the height of the step.
+                let touch_z = z - wanted * sin;
+                assert!((touch_z - (height - 60.0)).abs() < 2.0 * tolerance_mm, "{touch_z}");
+            }
+            azimuths.sort_by(f64::total_cmp);
+            let gap = azimuths.windows(2).map(|w| w[1] - w[0]).fold(0.0, f64::max);
+            assert!(
+                azimuths.len() > 72 && gap < 5.0,
+                "{control} {feed}: {} points",
+                azimuths.len()
+            );
+        }
+    }
+}
+
+/// The feed that holds in each line of a program, from line 1.
+fn feeds(program: &str) -> Vec<f64> {
+    let mut feed = 0.0;
+    let mut all = vec![0.0];
+    for line in program.lines() {
+        let word = line.split_whitespace().find_map(|word| word.strip_prefix('F')?.parse().ok());
+        feed = word.unwrap_or(feed);
+        all.push(feed);
+    }
+    all
+}
+
+#[test]
+fn mistakes_in_a_test_piece_are_named() {
+    let folder = Folder::new("post-test-piece-bad");
+    let sound = std::fs::read_to_string(command::root().join("testpieces/nas979-gbt33150.toml"))
+        .expect("the file");
+    for (from, to, code) in [
+        ("feed = \"3 m/min\"", "feed = \"0 m/min\"", "not-positive"),
+        ("feed = \"3 m/min\"", "feed = \"3 rpm\"", "wrong-unit"),
+        ("height = \"45 mm\"", "height = \"61 mm\"", "bad-value"),
+        ("allowance = \"1 mm\"", "allowance = \"-1 mm\"", "bad-value"),
+        ("allowance = \"1 mm\"", "alowance = \"1 mm\"", "unknown-key"),
+        ("[cone]", "[cylinder]", "missing-key"),
+    ] {
+        let file = folder.path("piece.toml");
+        std::fs::write(&file, sound.replace(from, to)).expect("a file");
+        let out = folder.path("cone.mpf");
+        let words =
+            ["post", "machines/xkas2525/machine.toml", &file, "--control", "sinumerik", "-o", &out];
+        let ran = trueaxis(&words);
+        assert_eq!(ran.status, 2, "{to}");
+        assert!(ran.err.contains(&format!("[{code}]")), "{to}: {}", ran.err);
+        assert!(!std::path::Path::new(&out).exists());
+    }
+}

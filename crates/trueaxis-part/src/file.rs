@@ -3,6 +3,7 @@
 use crate::testpiece::cone::{Cone, ConeSize, INDICES};
 use crate::testpiece::{IndexName, NasMounting, TestPiece};
 use crate::tolerance::{Tolerance, Tolerances};
+use std::f64::consts::PI;
 use trueaxis_input::{Dimension, Item, Section};
 
 /// The shapes that a file can describe; a new test piece is a new variant.
@@ -48,6 +49,23 @@ pub struct TestPieceFile {
     pub mounting: Option<NasMounting>,
     /// Its tolerances.
     pub tolerances: Tolerances,
+    /// How it is cut, in this order; empty if the file says nothing of it.
+    pub conditions: Vec<CuttingCondition>,
+}
+
+/// One turn of the tool about the piece.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct CuttingCondition {
+    /// Its name.
+    pub name: String,
+    /// Feed of the tip, mm/min.
+    pub feed_mm_per_min: Option<f64>,
+    /// Speed of the spindle, 1/min.
+    pub spindle_per_min: Option<f64>,
+    /// Height of the end of the cutter above the base, along the axis of the piece, mm.
+    pub height_mm: f64,
+    /// What stays on the surface, mm: with more of it below, each condition leaves a step.
+    pub allowance_mm: f64,
 }
 
 /// Default number of tool positions around a cone.
@@ -90,6 +108,7 @@ impl TestPieceFile {
             shape: Shape::Cone(checked?),
             mounting: mounting?,
             tolerances: tolerances?,
+            conditions: conditions(root, height)?,
         })
     }
 
@@ -99,6 +118,58 @@ impl TestPieceFile {
             Shape::Cone(cone) => cone,
         }
     }
+}
+
+/// `[[condition]] feed = "1.5 m/min"`, `spindle = "10000 rpm"`, `height`, `allowance`.
+fn conditions(root: &Section<'_>, cone_height_mm: f64) -> Option<Vec<CuttingCondition>> {
+    let Some(item) = root.get("condition") else { return Some(Vec::new()) };
+    let read =
+        |one: &Item<'_>| one.section("condition", |s| condition(s, cone_height_mm)).flatten();
+    // All are read before the first failure counts, so that every problem is reported.
+    let all: Vec<_> = item.list()?.iter().map(read).collect();
+    all.into_iter().collect()
+}
+
+fn condition(section: &Section<'_>, cone_height_mm: f64) -> Option<CuttingCondition> {
+    let positive = |key: &str, dimension: Dimension| -> Option<Option<f64>> {
+        let Some(item) = section.get(key) else { return Some(None) };
+        let value = item.quantity(dimension)?;
+        if value > 0.0 {
+            return Some(Some(value));
+        }
+        item.error(
+            "not-positive",
+            format!("`{key}` must be positive"),
+            "leave it out if it is not known",
+        );
+        None
+    };
+    let within = |key: &str, low: f64, high: f64| -> Option<f64> {
+        let Some(item) = section.get(key) else { return Some(0.0) };
+        let value = item.quantity(Dimension::Length)?;
+        if (low..=high).contains(&value) {
+            return Some(value);
+        }
+        let message = format!("`{key}` must be from {low} to {high} mm, found {value} mm");
+        item.error(
+            "bad-value",
+            message,
+            "measured from the base of the piece, and from its surface",
+        );
+        None
+    };
+    let feed = positive("feed", Dimension::Velocity);
+    let spindle = positive("spindle", Dimension::AngularVelocity);
+    let height_mm = within("height", 0.0, cone_height_mm);
+    let allowance_mm = within("allowance", 0.0, 100.0);
+    Some(CuttingCondition {
+        name: section.text("name").unwrap_or_default().to_owned(),
+        feed_mm_per_min: feed?.map(|mm_per_s| mm_per_s * 60.0),
+        // The digits of the file, not those of rad/s and back.
+        spindle_per_min: spindle?.map(|rad_per_s| (rad_per_s * 30.0 / PI * 1e6).round() / 1e6),
+        height_mm: height_mm?,
+        allowance_mm: allowance_mm?,
+    })
 }
 
 fn length(section: &Section<'_>, key: &str) -> Option<f64> {

@@ -1,5 +1,7 @@
 //! How does a path become a program of one control?
 
+mod test_piece;
+
 use super::words::{self, argument};
 use super::{Answer, MachineChoice, NewFile, Question, Tell, named_control};
 use crate::report::{self, PostReport};
@@ -69,7 +71,12 @@ pub fn template(control: &str, problems: &mut Diagnostics) -> Option<&'static st
 
 impl Post {
     fn read_file(&self, files: &Files, problems: &mut Diagnostics) -> Option<ClFile> {
-        let text = files.bytes(&self.file, "a cutter-location file", problems)?;
+        let text = match self.file.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) {
+            true => {
+                test_piece::read(&self.file, files, self.tolerance.parse().ok()?, problems)?.into()
+            }
+            false => files.bytes(&self.file, "a cutter-location file", problems)?,
+        };
         let reading = Reading { inches: self.inches };
         let file = problems.keep(ClFile::read(&self.file.display().to_string(), text, &reading));
         Some(file)
