@@ -1,10 +1,10 @@
 //! Public numbers name their unit: at the end of their name, or in a sentence of their doc comment.
 
 /// How the name of a field ends that states its unit.
-pub const SUFFIXES: [&str; 26] = [
+pub const SUFFIXES: [&str; 28] = [
     "mm", "um", "mm2", "um2", "mm3", "rad", "urad", "deg", "s", "min", "h", "k", "celsius",
-    "percent", "per_s", "per_min", "per_m", "per_k", "per_m_k", "per_mm", "per_mm_k", "per_h",
-    "per_rad", "per_deg", "per_s2", "per_s3",
+    "percent", "w", "kw", "per_s", "per_min", "per_m", "per_k", "per_m_k", "per_mm", "per_mm_k",
+    "per_h", "per_rad", "per_deg", "per_s2", "per_s3",
 ];
 
 /// How the unit begins in the sentence `Unit: mm or rad.` of a doc comment.
