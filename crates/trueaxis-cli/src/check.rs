@@ -23,7 +23,7 @@ pub struct Arguments {
     /// The machine file
     #[arg(value_name = "MACHINE.toml")]
     machine: PathBuf,
-    /// Write the models that the machine file describes by dimensions as STL files into this folder
+    /// Write the models that the machine file describes by dimensions as STL files into this new or empty folder
     #[arg(long, value_name = "FOLDER")]
     models: Option<PathBuf>,
     /// List the coordinate systems of the machine, its bodies and its models, too
@@ -53,9 +53,16 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 fn write_models(machine: &Machine, folder: &Path, problems: &mut Diagnostics) {
+    let mut found = Diagnostics::new();
+    files::output::may_fill(folder, &mut found);
+    let refused = found.has_errors();
+    problems.append(found);
+    if refused {
+        return;
+    }
     for (name, bytes) in export(machine) {
         let path = folder.join(name);
-        if let Err(error) = files::write(&path, &bytes) {
+        if let Err(error) = files::write_in_folder(&path, &bytes) {
             let place = Place::whole(&path.display().to_string());
             let message = format!("cannot be written: {error}");
             problems.error("unwritable-file", place, message, "name a folder that exists");
