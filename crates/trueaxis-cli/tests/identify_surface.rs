@@ -137,6 +137,43 @@ fn the_wall_of_the_bangle_holds_10_um_through_all_files() {
     assert!(off.fold(0.0, f64::max) < 0.010);
 }
 
+/// Location errors known to ± 4 µm or µrad, drawn for every machine: the deviations err as much as U says.
+#[test]
+fn u_holds_on_machines_whose_errors_are_drawn() {
+    let folder = Folder::new("hits-drawn");
+    let machine = root().join("machines/i5-engraver/machine.toml");
+    let text = std::fs::read_to_string(&machine).expect("a machine");
+    let (before, rest) = text.split_once("[location]").expect("location errors");
+    let (location, motion) = rest.split_once("[motion.C]").expect("error motions");
+    let location = location.replace(" um\"", " ± 4 um\"").replace(" urad\"", " ± 4 urad\"");
+    folder.file("machine.toml", format!("{before}[location]{location}[motion.C]{motion}"));
+    let truth = true_blank();
+    let (mut z, mut within) = (Vec::new(), 0);
+    for seed in 1..=40 {
+        let drawn = format!("[virtual]\ndraw = true\nseed = {seed}\n");
+        let text =
+            std::fs::read_to_string(study(&folder, &[("\"4 mm\"", "\"12 mm\"")])).expect("a study");
+        let line =
+            text.lines().find(|l| l.starts_with("machine = ")).expect("a machine").to_owned();
+        let text = text.replace(&line, "machine = \"machine.toml\"").replace("[virtual]\n", &drawn);
+        let out = folder.path("out");
+        let ran = plan(&folder.file("drawn.toml", text), "fanuc", &out);
+        assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
+        let document = identify(&format!("{out}/hits.toml")).json();
+        for p in document["points"].as_array().expect("points") {
+            let key =
+                [0, 1, 2].map(|i| (p["point_mm"][i].as_f64().expect("mm") * 1e4).round() as i64);
+            let [d, u] = ["deviation_um", "U_um"].map(|k| p[k].as_f64().expect("µm"));
+            z.push(2.0 * (d - truth[&key]) / u);
+            within += usize::from((d - truth[&key]).abs() <= u);
+        }
+    }
+    // All points of a machine err together: 40 machines, not 360 independent points.
+    let spread = (z.iter().map(|z| z * z).sum::<f64>() / z.len() as f64).sqrt();
+    assert!(z.len() > 300 && (0.75..1.3).contains(&spread), "{spread}");
+    assert!(within * 100 >= 86 * z.len(), "{within} of {}", z.len());
+}
+
 /// The log and the study of a plan, and what a changed one gives.
 struct Chain {
     folder: Folder,

@@ -245,7 +245,7 @@ fn one(study: &HitsStudy, index: usize, problems: &mut Diagnostics) -> Option<Fo
     let quantities = machine.uncertain_quantities();
     let known = machine.uncertainties_at(&hit.command, &quantities);
     let by = |q: usize| along(&known.displaced_by(&errors, q, 1.0), tip) - actual - radius;
-    let machine_mm = (0..quantities.len()).map(|q| (by(q) + 0.0).powi(2)).sum::<f64>().sqrt();
+    let machine_mm = (0..quantities.len()).map(|q| by(q).powi(2)).sum::<f64>().sqrt();
     Some(Found {
         point: hit.point,
         deviation_mm,

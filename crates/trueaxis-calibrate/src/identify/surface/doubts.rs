@@ -21,7 +21,7 @@ const MOST_REPORTED: usize = 20;
 pub(super) fn check_rows(study: &HitsStudy, problems: &mut Diagnostics) {
     let (points, planned) = (study.points.len(), study.planned);
     let last = Place::whole(&study.log_file);
-    if planned < points {
+    if planned < points || planned > 2 * points {
         let message = format!("{planned} hits are planned, but the table has {points} points");
         let hint = "use the table that was written together with the program";
         problems.error("other-points", Place::whole(&study.points_file), message, hint);
@@ -42,8 +42,8 @@ pub(super) fn check_rows(study: &HitsStudy, problems: &mut Diagnostics) {
         due = hit.hit + 1;
         if hit.hit > planned {
             let message = format!("hit {} of {planned} that are planned", hit.hit);
-            let hint = "is this the log of the program beside the study?".replace("beside", "of");
-            problems.error("too-many-hits", place, message, &hint);
+            let hint = "is this the log of the program of this study?";
+            problems.error("too-many-hits", place, message, hint);
             return;
         }
         let point = if hit.hit <= points { hit.hit } else { hit.hit - points };

@@ -203,7 +203,7 @@ fn hit(
             AxisKind::Linear => unit.checked(value).map_err(|e| (e.code(), e.to_string()))?,
             AxisKind::Rotary => value.to_radians(),
         };
-        if !(q.abs() < 1e6) {
+        if q.is_nan() || q.abs() >= 1e6 {
             return Err(("too-large", format!("{letter}{value} is on no machine")));
         }
     }

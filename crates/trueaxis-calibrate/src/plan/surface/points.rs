@@ -47,8 +47,8 @@ pub fn points_of_table(
     }
     let mut points = Vec::with_capacity(sheet.rows());
     for row in 0..sheet.rows() {
-        let at = |k: usize| Vec3::new(columns[k][row], columns[k + 1][row], columns[k + 2][row]);
-        let (point_mm, raw) = (at(0), at(3));
+        let cell = |k: usize| columns.get(k).and_then(|c| c.get(row)).copied().unwrap_or(f64::NAN);
+        let [point_mm, raw] = [0, 3].map(|k| Vec3::new(cell(k), cell(k + 1), cell(k + 2)));
         let place = sheet.row_place(row);
         if point_mm.iter().any(|v| !v.is_finite()) {
             let message = "a coordinate of the point is empty".to_owned();

@@ -211,11 +211,8 @@ impl Touch<'_> {
     ) -> Option<Command> {
         let way_mm = self.study.stand_off_mm + self.study.beyond_mm;
         let mut approach = Approach::default();
-        for i in 0..approach.len() {
-            approach[i] = (pose.beyond[i] - pose.before[i]).signum();
-            if pose.beyond[i] == pose.before[i] {
-                approach[i] = 0.0;
-            }
+        for (side, (to, from)) in approach.iter_mut().zip(pose.beyond.iter().zip(pose.before)) {
+            *side = if (to - from).abs() < 1e-9 { 0.0 } else { (to - from).signum() };
         }
         let at = |s: f64| {
             let mut command = pose.before;
