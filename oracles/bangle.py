@@ -1,4 +1,5 @@
 """A thin bangle, its blank and its cutter locations -> examples/06_compensate/bangle-adapt.cls, bangle-measured.csv, bangle-blank.csv
+and examples/04_plan/bangle-nominal.csv, bangle-true.csv
 
 usage: python3 oracles/bangle.py
 tool: Python 3.11 alone. The nominal surface is that of cutter_locations.py. The blank is that surface with an
@@ -13,6 +14,7 @@ from cutter_locations import bangle, cross, unit
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 OUT = os.path.join(ROOT, "examples", "06_compensate")
+PLAN = os.path.join(ROOT, "examples", "04_plan")
 LAYER, RADIUS, LEAN = 0.15, 4.0, 25.0
 HIGH, LOW, TURNS, PER_TURN = 8.3, 3.9, 11, 240
 SHIFT, TURN = [0.020, 0.025, 0.008], [2e-4, -1e-4, 1.5e-4]
@@ -117,6 +119,23 @@ def write_blank():
     table("bangle-blank.csv", lines, cells, 0.0)
 
 
+def write_to_probe():
+    """Points to be probed with the normals of the formula, and the true blank along them."""
+    head = "# oracles/bangle.py: "
+    nominals = [head + "points of the nominal bangle with their outward normals", "point,x_mm,y_mm,z_mm,i,j,k"]
+    trues = [head + "the true blank along these normals, which is not known in practice: for virtual probing", HEAD]
+    for row in range(15):
+        for column in range(96):
+            u, v = 2 * math.pi * (column + 0.5 * (row % 2)) / 96, 2.5 + 0.5 * row
+            p, n = nominal(u, v)
+            cells = "%d,%.6f,%.6f,%.6f,%.9f,%.9f,%.9f" % (row * 96 + column + 1, *p, *n)
+            nominals.append(cells)
+            trues.append(cells + ",%.3f" % (meets(u, v) * 1e3))
+    for name, lines in (("bangle-nominal.csv", nominals), ("bangle-true.csv", trues)):
+        with open(os.path.join(PLAN, name), "w") as file:
+            file.write("\n".join(lines) + "\n")
+
+
 def write_path():
     lines = [
         "PARTNO THIN BANGLE, MADE FOR THIS PROJECT",
@@ -147,4 +166,5 @@ def write_path():
 
 write_measured()
 write_blank()
+write_to_probe()
 write_path()

@@ -617,6 +617,7 @@ export interface Documents {
   "identify-probe": IdentifyProbe;
   "identify-rtcp-programs": IdentifyRtcpPrograms;
   "identify-rtcp": IdentifyRtcp;
+  "identify-surface": IdentifySurface;
   "identify-thermal": IdentifyThermal;
   measure: Measure;
   "plan-probe-surface": PlanProbeSurface;
@@ -4904,6 +4905,155 @@ export interface StraysEntry {
   };
 }
 /**
+ * Deviations of a surface from the hits of a probing program.
+ */
+export interface IdentifySurface {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/identify-surface/1";
+  /**
+   * Name of the study.
+   */
+  name: string;
+  /**
+   * Whether a virtual machine made the hits.
+   */
+  virtual: boolean;
+  /**
+   * The number of the probe in the control.
+   */
+  tool: number;
+  /**
+   * The stylus of the calibration.
+   */
+  stylus: string;
+  /**
+   * Number of hits in the log.
+   */
+  hits: number;
+  /**
+   * Number of hits that were planned.
+   */
+  planned: number;
+  /**
+   * The touch at the end less the first one at the same point, µm; null if there is none.
+   */
+  drift_um: number | null;
+  /**
+   * Points without a hit.
+   */
+  lost: number[];
+  /**
+   * The points with their deviations.
+   */
+  points: DeviationEntry[];
+  /**
+   * The problems found in the input; the command line prints them on standard error, too.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * A point of the surface.
+ */
+export interface DeviationEntry {
+  /**
+   * Its number in the table of points.
+   */
+  point: number;
+  /**
+   * The nominal point, workpiece frame, mm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  point_mm: [number, number, number];
+  /**
+   * The normal there, out of the material. Unit: 1.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  normal: [number, number, number];
+  /**
+   * Along the normal, positive where there is more material, µm.
+   */
+  deviation_um: number;
+  /**
+   * Its expanded uncertainty (k = 2), µm.
+   */
+  U_um: number;
+  /**
+   * With the nominal machine and the ball radius alone, µm.
+   */
+  as_read_um: number;
+  /**
+   * What the errors of the machine did, µm.
+   */
+  by_machine_um: number;
+  /**
+   * What offset and pre-travel of the probe did, µm.
+   */
+  by_probe_um: number;
+  /**
+   * What the drift did, µm.
+   */
+  by_drift_um: number;
+  /**
+   * Standard uncertainty: one trigger, µm.
+   */
+  u_repeatability_um: number;
+  /**
+   * Standard uncertainty: calibration of the probe, µm.
+   */
+  u_calibration_um: number;
+  /**
+   * Standard uncertainty: length of the probe, µm.
+   */
+  u_length_um: number;
+  /**
+   * Standard uncertainty: errors of the machine, µm.
+   */
+  u_machine_um: number;
+  /**
+   * Standard uncertainty: drift, µm.
+   */
+  u_drift_um: number;
+  /**
+   * Its line in the log.
+   */
+  line: number;
+}
+/**
  * A thermal model of one error, from logs of temperatures and displacements.
  */
 export interface IdentifyThermal {
@@ -5637,7 +5787,7 @@ export interface Pose {
   /**
    * Actual − nominal.
    */
-  deviation: DeviationEntry;
+  deviation: PoseDeviationEntry;
   /**
    * The deviation under each error alone.
    */
@@ -5720,7 +5870,7 @@ export interface ToolPoseEntry {
 /**
  * A deviation of the tool.
  */
-export interface DeviationEntry {
+export interface PoseDeviationEntry {
   /**
    * Of the tip, µm.
    *
@@ -7322,7 +7472,7 @@ export interface PoseDocument {
   /**
    * Actual − nominal.
    */
-  deviation: DeviationEntry;
+  deviation: ServePoseDeviationEntry;
   /**
    * The deviation under each error alone.
    */
@@ -7349,6 +7499,25 @@ export interface PoseDocument {
    * How fast the workpiece takes the temperature of the air; absent where that is not stated.
    */
   settling?: SettlingEntry | null;
+}
+/**
+ * A deviation of the tool.
+ */
+export interface ServePoseDeviationEntry {
+  /**
+   * Of the tip, µm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  tip_um: [number, number, number];
+  /**
+   * Of the axis, µrad.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  axis_urad: [number, number, number];
 }
 /**
  * The whole prediction of a study, as `trueaxis predict --no-report` computes it.

@@ -6,5 +6,6 @@ $trueaxis plan examples/04_plan/probe-ball.toml -o "$out/probe-ball" --report "$
 $trueaxis plan examples/04_plan/ball-bar-10791-6.toml -o "$out/ball-bar"
 $trueaxis plan examples/04_plan/touch-probe-5-minutes.toml -o "$out/five-minutes" --control fanuc
 $trueaxis plan examples/04_plan/touch-probe-5-minutes.toml --format json
-# Touches on a whole free-form bangle, along its normals; `compensate adapt` reads the table.
+# Touches on a whole free-form bangle, along its normals; the hits become deviations, which `compensate adapt` reads.
 $trueaxis plan probe-surface examples/04_plan/probe-surface.toml -o "$out/probe-surface" --control fanuc
+$trueaxis identify surface "$out/probe-surface/hits.toml" -o "$out/measured.csv"

@@ -21,3 +21,5 @@ $trueaxis identify probe examples/05_identify/ring-60.toml --report "${TMPDIR:-/
 $trueaxis identify probe examples/05_identify/ring-60.toml --format json --correct examples/05_identify/ring-60-fresh.csv -o "${TMPDIR:-/tmp}/ring-60-corrected.csv"
 $trueaxis identify probe examples/05_identify/ring-turned.toml
 $trueaxis identify probe examples/05_identify/sphere.toml
+# Hits of a probing program become deviations of the surface.
+$trueaxis identify surface examples/05_identify/bangle-hits.toml -o "${TMPDIR:-/tmp}/bangle-deviations.csv"

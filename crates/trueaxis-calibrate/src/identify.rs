@@ -4,6 +4,7 @@
 //! - [`thermal`]: linear models of errors that drift with temperatures;
 //! - [`rtcp`]: the rotary centres for the tool-centre-point control;
 //! - [`probe`]: the offset of a stylus ball and its pre-travel by direction;
+//! - [`surface`](mod@surface): deviations of a surface from the hits of a probing program;
 //! - [`errors`](mod@errors): the errors of the machine from any mix of instruments, the whole way from
 //!   readings to a verdict; what is unknown and how readings follow it stands in [`trueaxis_measure::unknowns`].
 
@@ -20,4 +21,5 @@ pub mod records;
 pub mod rtcp;
 pub mod score;
 pub mod selection;
+pub mod surface;
 pub mod thermal;

@@ -13,8 +13,8 @@ pub mod plan;
 pub mod report;
 
 use report::{
-    IdentificationDocument, PlanDocument, ProbeDocument, RtcpDocument, SurfaceDocument,
-    ThermalDocument,
+    HitsDocument, IdentificationDocument, PlanDocument, ProbeDocument, RtcpDocument,
+    SurfaceDocument, ThermalDocument,
 };
 use trueaxis_report::{NamedSchema, named_schema};
 
@@ -24,6 +24,7 @@ pub fn schemas() -> Vec<NamedSchema> {
         named_schema::<IdentificationDocument<'_>>("identify-errors"),
         named_schema::<ProbeDocument<'_>>("identify-probe"),
         named_schema::<RtcpDocument<'_>>("identify-rtcp"),
+        named_schema::<HitsDocument<'_>>("identify-surface"),
         named_schema::<ThermalDocument<'_>>("identify-thermal"),
         named_schema::<PlanDocument<'_>>("plan"),
         named_schema::<SurfaceDocument<'_>>("plan-probe-surface"),

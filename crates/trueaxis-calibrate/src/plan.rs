@@ -15,6 +15,7 @@ mod planned;
 pub mod program;
 mod remedy;
 pub mod surface;
+mod touch;
 mod trial;
 
 pub use choose::{Chosen, choose};

@@ -1,5 +1,7 @@
 //! Plans, measurements and identifications as text, JSON and pages.
 
+mod hits;
+mod hits_document;
 mod identification;
 mod identification_arrows;
 mod identification_document;
@@ -17,6 +19,8 @@ mod thermal;
 mod thermal_document;
 mod thermal_pictures;
 
+pub use hits::{deviations_csv, deviations_report};
+pub use hits_document::HitsDocument;
 pub use identification::{IdentificationReport, identification_report};
 pub use identification_arrows::Arrow;
 pub use identification_document::IdentificationDocument;

@@ -3,6 +3,7 @@
 mod errors;
 mod probe;
 mod rtcp;
+mod surface;
 mod thermal;
 
 use crate::door::Door;
@@ -41,6 +42,8 @@ enum IdentifyCommand {
     Thermal(thermal::Arguments),
     /// The offset of a stylus ball and its pre-travel by direction, from hits on a ring or sphere
     Probe(probe::Arguments),
+    /// The deviations of a surface, from the hits of a probing program
+    Surface(surface::Arguments),
 }
 
 /// The runs.
@@ -66,6 +69,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         Some(IdentifyCommand::Rtcp(arguments)) => rtcp::run(arguments),
         Some(IdentifyCommand::Thermal(arguments)) => thermal::run(arguments),
         Some(IdentifyCommand::Probe(arguments)) => probe::run(arguments),
+        Some(IdentifyCommand::Surface(arguments)) => surface::run(arguments),
     }
 }
 

@@ -68,6 +68,7 @@ const ANSWERS: &[(&str, &str)] = &[
         "identify-rtcp-programs",
         "identify rtcp examples/05_identify/rtcp-engraver.toml --programs OUT/rtcp",
     ),
+    ("identify-surface", "identify surface examples/05_identify/bangle-hits.toml"),
     ("identify-thermal", "identify thermal examples/05_identify/lathe-thermal.toml"),
     ("measure", "measure examples/07_verify/probe-ball-campaign.toml -o OUT/readings"),
     ("plan", "plan examples/04_plan/probe-ball.toml"),

@@ -219,3 +219,16 @@ fn haas_calls_parts_of_its_program() {
     // FANUC has no such call: that motion is missing is a warning.
     assert_eq!(x_mm(Control::Fanuc), (vec![1.0, 9.0], true));
 }
+
+#[test]
+fn what_goes_out_of_the_control_is_said() {
+    let text = "%\nO0001\nPOPEN\nDPRNT[TRUEAXIS*HITS*MM]\nG0 X0 Y0 Z50.\nT7 M6\nG31 X8. Y6. F100.\n\
+                IF[ABS[#5061-8.]GT0.005]GOTO1\n#3000=1(NO TOUCH)\n\
+                N1 DPRNT[H1*T#4120[40]*X#5061[44]*Y#5062[41]*A-30.]\nPCLOS\nM30\n%\n";
+    let steps = steps(text, &NoLibrary);
+    let logged =
+        |s: &Step| if let Step::Event(Event::Log(text), _) = s { Some(text.clone()) } else { None };
+    let logged: Vec<String> = steps.iter().filter_map(logged).collect();
+    // 0.01 mm before the end of a way of 10 mm along (0.8, 0.6): 7.992 and 5.994.
+    assert_eq!(logged, ["TRUEAXIS HITS MM", "H1 T7 X7.9920 Y6.0 A-30."]);
+}

@@ -14,6 +14,7 @@
 mod adapt;
 mod evaluate;
 mod expansion;
+mod hits;
 mod identify;
 mod job;
 mod machine;
@@ -39,6 +40,7 @@ mod words;
 pub use adapt::{Adapt, AdaptAnswer};
 pub use evaluate::{Evaluate, EvaluateAnswer, EvaluateInput, ReadingsFile};
 pub use expansion::{ExpansionAnswer, IdentifyExpansion};
+pub use hits::{HitsAnswer, IdentifySurface};
 pub use identify::{DroppedTable, Identified, Identify};
 pub use job::ProgramChoice;
 pub use machine::MachineChoice;

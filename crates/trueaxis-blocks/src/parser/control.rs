@@ -23,15 +23,31 @@ const O_WORDS: [(&[u8], Keyword); 15] = [
     (b"CONTINUE", Keyword::Continue),
 ];
 
+/// What opens, writes and closes a file or an interface of FANUC.
+const OUTPUTS: [&[u8]; 4] = [b"POPEN", b"DPRNT", b"BPRNT", b"PCLOS"];
+
 impl Parser<'_, '_> {
     /// A control statement, if one begins here; `Some(false)` if it is faulty.
     pub(super) fn control(&mut self) -> Option<bool> {
         match self.letter()? {
             b'O' if self.dialect.o_words => Some(self.o_word()),
             b'O' if self.dialect.macro_words => Some(self.program_number()),
-            b'I' | b'W' | b'E' | b'G' | b'D' if self.dialect.macro_words => self.macro_word(),
+            b'P' | b'B' | b'D' if self.dialect.macro_words => {
+                self.output().or_else(|| self.macro_word())
+            }
+            b'I' | b'W' | b'E' | b'G' if self.dialect.macro_words => self.macro_word(),
             _ => None,
         }
+    }
+
+    /// `POPEN`, `DPRNT[X#5061[44]]`, `BPRNT[…]`, `PCLOS`: no word of it moves an axis; its text is kept like a
+    /// comment.
+    fn output(&mut self) -> Option<bool> {
+        let offset = self.here();
+        OUTPUTS.iter().find(|word| self.accept_word(word))?;
+        self.give_up();
+        self.block.items.push(Item::Comment(offset..self.stop.max(offset)));
+        Some(true)
     }
 
     pub(super) fn program_number(&mut self) -> bool {

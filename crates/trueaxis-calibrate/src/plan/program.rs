@@ -10,6 +10,7 @@ mod check;
 pub use check::{ProgramCheck, check};
 pub(super) use check::{probe_shape, run};
 
+use super::touch::{TouchLog, touch_start};
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{Dimension, Section};
 use trueaxis_machine::Machine;
@@ -129,8 +130,11 @@ pub fn program(
     let name = path.name.clone();
     let about =
         format!("{} on {}, {} stations", own.name, campaign.machine.name(), path.stations.len());
+    let log = TouchLog { machine: &campaign.machine, control };
     let mut write = Written {
         writer: Writer::new(control),
+        log,
+        touches: 0,
         campaign,
         control,
         settings,
@@ -146,15 +150,24 @@ pub fn program(
         machine_coordinates: true,
         tolerance_mm: 0.001,
     };
+    if let Some(text) = hits.then(|| log.declare()).flatten() {
+        write.writer.write(&Block::Text(text))?;
+    }
     write.writer.write(&Block::Start(&heading))?;
     let call = ToolCall { number: 1, text: own.kind.name(), speed_per_minute: None };
     write.writer.write(&Block::Tool(&call))?;
+    if hits {
+        write.writer.write(&Block::Text(&touch_start(&log)?))?;
+    }
     if settings.stops {
         let text = format!("{} IN THE SPINDLE, ALL CLEAR", own.kind.name().to_uppercase());
         write.writer.write(&Block::Stop { optional: false, message: Some(&text) })?;
     }
     match hits {
-        true => write.hits(path)?,
+        true => {
+            write.hits(path)?;
+            write.writer.write(&Block::Text(&log.close(write.touches)))?;
+        }
         false => write.stations(path)?,
     }
     write.writer.write(&Block::End)?;
@@ -199,6 +212,9 @@ fn start(campaign: &Campaign, path: &Path, settings: &ProgramSettings) -> Option
 /// A program in the making.
 struct Written<'a> {
     writer: Writer,
+    log: TouchLog<'a>,
+    /// Touches so far.
+    touches: usize,
     campaign: &'a Campaign,
     control: Control,
     settings: &'a ProgramSettings,
@@ -262,7 +278,7 @@ impl Written<'_> {
             self.to(&placing, beside, command, feed)?;
             let beyond = ball + side * (placing.reach_mm - OVERTRAVEL_MM);
             if let Some(target) = placing.place(beyond, command) {
-                self.hit(&target)?;
+                self.hit(&target, stations.groups[i] as usize + 1)?;
             }
             self.to(&placing, beside, command, feed)?;
             self.to(&placing, above, command, feed)?;
@@ -354,8 +370,9 @@ impl Written<'_> {
     }
 
     /// Towards a place until the probe triggers.
-    fn hit(&mut self, target: &Command) -> Result<(), ProgramError> {
-        let text = touch_words(&self.campaign.machine, self.control, target, HIT_MM_PER_MIN)?;
+    fn hit(&mut self, target: &Command, pose: usize) -> Result<(), ProgramError> {
+        self.touches += 1;
+        let text = self.log.touch(target, HIT_MM_PER_MIN, self.touches, pose)?;
         Ok(self.writer.write(&Block::Text(&text))?)
     }
 }
@@ -377,28 +394,4 @@ pub(super) fn axis_target(
     }
     target.coordinates = axis_coordinates(control);
     target
-}
-
-/// Towards a place until the probe triggers: linear axes only.
-pub(super) fn touch_words(
-    machine: &Machine,
-    control: Control,
-    target: &Command,
-    mm_per_min: f64,
-) -> Result<String, ProgramError> {
-    let mut words = String::new();
-    for (axis, q) in machine.axes().iter().zip(target) {
-        if axis.kind == AxisKind::Linear {
-            let equals = matches!(control, Control::Sinumerik840d) && axis.name.letter() > 'Z';
-            let sign = if equals { "=" } else { "" };
-            words += &format!(" {}{sign}{:.4}", axis.name, q + 0.0);
-        }
-    }
-    let feed = format!("{mm_per_min:.1}");
-    match control {
-        Control::Fanuc | Control::Haas => Ok(format!("G31{words} F{feed}")),
-        Control::LinuxCnc => Ok(format!("G53 G38.2{words} F{feed}")),
-        Control::Sinumerik840d => Ok(format!("MEAS=1 G1{words} F{feed}")),
-        Control::Heidenhain => Err(ProgramError::NoProbing("HEIDENHAIN")),
-    }
 }

@@ -189,6 +189,7 @@ pub(super) enum Chance {
     Repeatability,
     Outliers,
     Lost,
+    Touches,
 }
 
 pub(super) fn chance(seed: u64, of: Chance) -> ChaCha8Rng {
@@ -199,6 +200,12 @@ pub(super) fn chance(seed: u64, of: Chance) -> ChaCha8Rng {
 
 pub(super) fn normal(random: &mut ChaCha8Rng) -> f64 {
     StandardNormal.sample(random)
+}
+
+/// Standard normal numbers for touches outside of a campaign, the same for the same seed.
+pub fn touch_noise(seed: u64) -> impl FnMut() -> f64 {
+    let mut random = chance(seed, Chance::Touches);
+    move || normal(&mut random)
 }
 
 /// Between 0 and 1, with 1 left out.

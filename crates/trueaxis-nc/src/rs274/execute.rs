@@ -185,6 +185,23 @@ impl Run<'_> {
         }
     }
 
+    /// G31 that reaches its end has touched nothing; no workpiece is simulated, so that the signal is taken to come
+    /// a little before the end.
+    fn skip_short_of(&mut self, from: Position, end: Position) {
+        const SHORT_MM: f64 = 0.01;
+        let axes = Axis::ALL.into_iter().filter(|a| !a.is_rotary());
+        let way: Vec<(Axis, f64)> = axes.map(|a| (a, end[a] - from[a])).collect();
+        let length = way.iter().map(|(_, d)| d * d).sum::<f64>().sqrt();
+        if length > SHORT_MM {
+            for (axis, d) in way {
+                self.modes.skip[axis] -= d * SHORT_MM / length;
+            }
+        }
+        self.core.emit(Event::Note(
+            "a touch: no workpiece is simulated, it comes 0.01 mm before the end",
+        ));
+    }
+
     /// What a FANUC block does by words without a code: H is another length, P with G54 is G54.1.
     fn reselect_modes(
         &mut self,
@@ -460,6 +477,9 @@ impl Run<'_> {
             Motion::Probe => {
                 self.step(MoveKind::Probe, target);
                 self.modes.skip = target;
+                if self.is_fanuc() {
+                    self.skip_short_of(position, target);
+                }
             }
             Motion::Thread | Motion::RigidTap => {
                 let pitch_mm = match self.length(b'K') {

@@ -97,6 +97,8 @@ impl Run<'_> {
                     _ => stored[Axis::Z],
                 }
             }
+            // No workpiece is simulated: every touch is taken as made.
+            "AC_MEA" => 1.0,
             "P_F" => self.core.modes.feed.value,
             "P_S" => self.core.modes.speed,
             "P_UIFRNUM" => f64::from(self.chain.active),

@@ -3,12 +3,12 @@
 use super::{Answer, NewFile, Question, Tell, in_folder, named_control, with_diagnostics};
 use crate::report;
 use serde_json::Value;
-use std::path::PathBuf;
+use std::path::{Component, Path, PathBuf};
 use trueaxis_calibrate::plan::extension;
 use trueaxis_calibrate::plan::program::ProgramCheck;
 use trueaxis_calibrate::plan::surface::{
-    Pose, SurfacePoint, SurfaceStudy, check_surface, nominal_table, poses, read_surface, spread,
-    surface_program,
+    HitsFiles, Pose, SurfacePoint, SurfaceStudy, check_surface, hits_study, nominal_table, poses,
+    read_surface, spread, surface_program, virtual_log,
 };
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_nc::Control;
@@ -35,6 +35,8 @@ pub struct SurfaceAnswer {
     control: Control,
     program: Vec<u8>,
     check: ProgramCheck,
+    /// What the virtual machine read, if the study has one.
+    log: Option<String>,
     output: Option<PathBuf>,
 }
 
@@ -61,6 +63,34 @@ fn points(study: &SurfaceStudy, problems: &mut Diagnostics) -> Option<Vec<Surfac
         return None;
     }
     Some(points)
+}
+
+/// The log of a virtual machine.
+const VIRTUAL_LOG: &str = "virtual-hits.log";
+
+/// A path as it is written in a file of a folder: relative, where both begin at the same place.
+fn seen_from(folder: &Path, path: &Path) -> String {
+    let absolute = |p: &Path| std::path::absolute(p).unwrap_or(p.to_owned());
+    let (from, to) = match folder.is_relative() && path.is_relative() {
+        true => (absolute(folder), absolute(path)),
+        false => (folder.to_owned(), absolute(path)),
+    };
+    let plain = |p: &Path| {
+        let mut parts: Vec<std::ffi::OsString> = Vec::new();
+        for part in p.components() {
+            match part {
+                Component::ParentDir => drop(parts.pop()),
+                Component::CurDir => {}
+                part => parts.push(part.as_os_str().to_owned()),
+            }
+        }
+        parts
+    };
+    let (from, to) = (plain(&from), plain(&to));
+    let same = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
+    let up = from[same..].iter().map(|_| "..".into());
+    let parts: Vec<std::ffi::OsString> = up.chain(to[same..].iter().cloned()).collect();
+    parts.iter().map(|p| p.to_string_lossy().into_owned()).collect::<Vec<_>>().join("/")
 }
 
 impl Question for PlanSurface {
@@ -93,8 +123,12 @@ impl Question for PlanSurface {
             }
         };
         let check = check_surface(&study, &poses, &program, control);
+        let log = match &study.real {
+            Some(real) => Some(virtual_log(&study, real, &poses, problems)?),
+            None => None,
+        };
         let (spread, output) = (points.len(), self.output.clone());
-        Some(SurfaceAnswer { study, poses, spread, control, program, check, output })
+        Some(SurfaceAnswer { study, poses, spread, control, program, check, log, output })
     }
 }
 
@@ -116,6 +150,28 @@ impl Answer for SurfaceAnswer {
         let points: Vec<SurfacePoint> = self.poses.iter().map(|p| p.point).collect();
         let program = format!("surface.{}", extension(self.control));
         let table = ("surface.csv".to_owned(), nominal_table(&points).into_bytes());
-        in_folder(self.output.as_deref(), [(program, self.program.clone()), table])
+        let Some(folder) = self.output.as_deref() else { return Vec::new() };
+        let machine = seen_from(folder, &self.study.machine_path);
+        let calibration = self.study.calibration.as_ref().map(|c| seen_from(folder, &c.0));
+        let files = HitsFiles {
+            machine: &machine,
+            calibration: calibration.as_deref(),
+            log: self.log.as_ref().map(|_| VIRTUAL_LOG),
+        };
+        let hits = hits_study(&self.study, self.poses.len(), &files);
+        let hits = ("hits.toml".to_owned(), hits.into_bytes());
+        let log = self.log.take().map(|log| (VIRTUAL_LOG.to_owned(), log.into_bytes()));
+        let files = [(program, self.program.clone()), table, hits].into_iter().chain(log);
+        in_folder(Some(folder), files)
+    }
+
+    fn notes(&self) -> Vec<String> {
+        let Some(folder) = self.output.as_deref() else { return Vec::new() };
+        let hits = folder.join("hits.toml").display().to_string();
+        let what = match self.study.real {
+            Some(_) => "its log is virtual",
+            None => "state the log of the control in it",
+        };
+        vec![format!("next: trueaxis identify surface {hits} ({what})")]
     }
 }

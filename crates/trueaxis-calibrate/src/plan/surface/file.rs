@@ -1,11 +1,12 @@
 //! A study of a surface to be probed, read and checked.
 
-use super::points::points_of;
+use super::points::{points_of, points_of_table};
+use super::virtual_probe::{VirtualProbing, read_virtual};
 use std::path::{Path, PathBuf};
 use trueaxis_cl::{ClFile, Reading};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::surface::Candidates;
-use trueaxis_input::{Diagnostics, Dimension, Files, Section, SourceText, Unit};
+use trueaxis_input::{Diagnostics, Dimension, Files, MeasuredValue, Section, SourceText, Unit};
 use trueaxis_machine::Machine;
 use trueaxis_machine::file::{machine_of, read_direction, read_tool_shape};
 use trueaxis_machine::models::ToolSegment;
@@ -41,6 +42,16 @@ pub struct SurfaceStudy {
     pub facing: Option<(Vec3, f64)>,
     /// From the spindle to the centre of the ball, mm.
     pub probe_length_mm: f64,
+    /// Standard uncertainty of that length, mm, if it is stated.
+    pub u_probe_length_mm: Option<f64>,
+    /// The number of the probe in the tool table of the control.
+    pub tool: u32,
+    /// The study of `identify probe` that calibrates the probe, and its stylus.
+    pub calibration: Option<(PathBuf, String)>,
+    /// Whether the first point is touched again at the end: it shows the drift.
+    pub touches_again: bool,
+    /// A true machine, probe and surface to be probed at once.
+    pub real: Option<VirtualProbing>,
     /// Radius of the ball, mm.
     pub ball_radius_mm: f64,
     /// The probe from the centre of the ball upwards; empty: a slim one.
@@ -88,12 +99,21 @@ fn read(root: &Section<'_>, path: &Path) -> Option<SurfaceStudy> {
     let within = root.quantity("within", Dimension::Angle);
     let probe = root.require("probe", "[probe] length = \"120 mm\", ball_diameter = \"2 mm\"");
     let probe = probe.and_then(|item| item.section("probe", read_probe)).flatten();
+    let touches_again = root.get("again").map_or(Some(true), |i| i.flag());
     let (machine_path, machine) = machine?;
+    let real = match root.get("virtual") {
+        None => None,
+        Some(item) => {
+            let read = item.section("virtual", |s| read_virtual(s, folder, &machine)).flatten();
+            Some(read?)
+        }
+    };
     let facing = match facing {
         Some(direction) => Some((direction?, within.unwrap_or(80_f64.to_radians()))),
         None => None,
     };
-    let surface_file = root.get("cl").or(root.get("stl")).and_then(|i| i.as_text());
+    let surface_file =
+        root.get("cl").or(root.get("stl")).or(root.get("table")).and_then(|i| i.as_text());
     let surface_file = folder.join(surface_file.unwrap_or_default()).display().to_string();
     let (candidates, of_surface) = surface?;
     let part = match part {
@@ -114,6 +134,11 @@ fn read(root: &Section<'_>, path: &Path) -> Option<SurfaceStudy> {
         most_points: most_points?,
         facing,
         probe_length_mm: probe.length_mm,
+        u_probe_length_mm: probe.u_length_mm,
+        tool: probe.tool,
+        calibration: probe.calibration.map(|(file, stylus)| (folder.join(file), stylus)),
+        touches_again: touches_again?,
+        real,
         ball_radius_mm: probe.ball_radius_mm,
         shape: probe.shape,
         stand_off_mm: probe.stand_off_mm,
@@ -126,6 +151,9 @@ fn read(root: &Section<'_>, path: &Path) -> Option<SurfaceStudy> {
 
 struct Probe {
     length_mm: f64,
+    u_length_mm: Option<f64>,
+    tool: u32,
+    calibration: Option<(String, String)>,
     ball_radius_mm: f64,
     shape: Vec<ToolSegment>,
     stand_off_mm: f64,
@@ -136,7 +164,22 @@ struct Probe {
 }
 
 fn read_probe(section: &Section<'_>) -> Option<Probe> {
-    let length_mm = length(section, "length", None);
+    let length_mm = section.require("length", "length = \"90 ± 0.001 mm\"");
+    let length_mm = length_mm.and_then(|item| {
+        let found = item.measured(Dimension::Length)?;
+        if found.value <= 0.0 {
+            item.error(
+                "not-positive",
+                "`length` must be more than 0".to_owned(),
+                "such as \"90 mm\"",
+            );
+            return None;
+        }
+        Some(found)
+    });
+    let tool = section.get("tool").map_or(Some(1), |i| i.count());
+    let calibration = section.text("calibration").map(str::to_owned);
+    let stylus = section.text("stylus").map(str::to_owned);
     let ball = length(section, "ball_diameter", None);
     let stand_off = length(section, "stand_off", Some(2.0));
     let beyond = length(section, "beyond", Some(1.0));
@@ -148,8 +191,12 @@ fn read_probe(section: &Section<'_>) -> Option<Probe> {
         None => Vec::new(),
     };
     let ball_radius_mm = 0.5 * ball?;
+    let MeasuredValue { value: length_mm, u: u_length_mm, .. } = length_mm?;
     let probe = Probe {
-        length_mm: length_mm?,
+        length_mm,
+        u_length_mm,
+        tool: u32::try_from(tool?).unwrap_or(u32::MAX),
+        calibration: calibration.map(|c| (c, stylus.unwrap_or_default())),
         ball_radius_mm,
         shape,
         stand_off_mm: stand_off?,
@@ -221,7 +268,9 @@ fn read_candidates(
     folder: &Path,
     unit_mm: f64,
 ) -> Option<(Candidates, Option<Mesh>)> {
-    let (cl, stl) = (root.get("cl"), root.get("stl"));
+    let (cl, stl, table) = (root.get("cl"), root.get("stl"), root.get("table"));
+    let lean = root.quantity("lean", Dimension::Angle);
+    let towards = root.get("towards").map(|item| read_direction(&item));
     let normals = root.get("normals");
     let are_normals = match normals.map(|item| (item, item.text())) {
         None => false,
@@ -234,8 +283,31 @@ fn read_candidates(
             return None;
         }
     };
-    match (cl, stl) {
-        (Some(item), None) => {
+    match (cl, stl, table) {
+        (None, None, Some(item)) => {
+            let path = folder.join(item.text()?);
+            let mut found = Diagnostics::new();
+            let text = root.files().text(&path, "a table of points and normals (CSV)", &mut found);
+            let points = text.and_then(|text| {
+                let file = path.display().to_string();
+                points_of_table(&file, &text, &mut found)
+            });
+            root.take_over(found);
+            let up = match towards {
+                Some(stated) => stated?,
+                None => Vec3::z(),
+            };
+            let mut points = points?;
+            let (s, c) = lean.unwrap_or(0.0).sin_cos();
+            for point in &mut points {
+                let across = up - point.normal * up.dot(&point.normal);
+                if let Some(across) = across.try_normalize(1e-9) {
+                    point.axis = point.normal * c + across * s;
+                }
+            }
+            Some((Candidates::Points { points, are_normals: true }, None))
+        }
+        (Some(item), None, None) => {
             let path = folder.join(item.text()?);
             let mut found = Diagnostics::new();
             let bytes = root.files().bytes(&path, "a cutter-location file", &mut found);
@@ -255,13 +327,14 @@ fn read_candidates(
             }
             Some((candidates, None))
         }
-        (None, Some(item)) => {
+        (None, Some(item), None) => {
             let mesh = mesh(root, &folder.join(item.text()?), unit_mm)?;
             Some((Candidates::Facets(mesh.triangles().to_vec()), Some(mesh)))
         }
         _ => {
-            let message = "the surface comes from one file: `cl` or `stl`".to_owned();
-            root.error("missing-key", message, "cl = \"part.cls\" or stl = \"part.stl\"");
+            let message = "the surface comes from one file: `cl`, `stl` or `table`".to_owned();
+            let hint = "cl = \"part.cls\", stl = \"part.stl\" or table = \"points.csv\"";
+            root.error("missing-key", message, hint);
             None
         }
     }

@@ -1,9 +1,8 @@
 //! Touch after touch along the normals: poses, program, and what the machine would do with it.
 
 use super::file::SurfaceStudy;
-use crate::plan::program::{
-    ProgramCheck, ProgramError, axis_target, probe_shape, run, touch_words,
-};
+use crate::plan::program::{ProgramCheck, ProgramError, axis_target, probe_shape, run};
+use crate::plan::touch::{TouchLog, touch_start};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Direction, Point};
 use trueaxis_geometry::surface::SurfacePoint;
@@ -135,19 +134,32 @@ pub fn surface_program(
         machine_coordinates: true,
         tolerance_mm: 0.001,
     };
-    let mut touches = Touches { study, control, writer: Writer::new(control), last: None };
+    let log = TouchLog { machine: &study.machine, control };
+    let mut touches = Touches { study, control, log, writer: Writer::new(control), last: None };
+    if let Some(text) = log.declare() {
+        touches.writer.write(&Block::Text(text))?;
+    }
     touches.writer.write(&Block::Start(&heading))?;
-    let call = ToolCall { number: 1, text: "touch probe", speed_per_minute: None };
+    let call = ToolCall { number: study.tool, text: "touch probe", speed_per_minute: None };
     touches.writer.write(&Block::Tool(&call))?;
+    touches.writer.write(&Block::Text(&touch_start(&log)?))?;
     let text = "TOUCH PROBE IN THE SPINDLE, ALL CLEAR";
     touches.writer.write(&Block::Stop { optional: false, message: Some(text) })?;
     let high = high(study, poses);
-    for pose in poses {
-        touches.touch(pose, high)?;
+    let order = order(study, poses.len());
+    for (i, point) in order.iter().enumerate() {
+        touches.touch(&poses[*point], high, [i + 1, point + 1])?;
     }
     touches.lift(high)?;
+    touches.writer.write(&Block::Text(&log.close(order.len())))?;
     touches.writer.write(&Block::End)?;
     Ok(touches.writer.finish())
+}
+
+/// The points in the order of the hits, counted from 0: at the end the first one again, if that is wanted.
+pub(super) fn order(study: &SurfaceStudy, points: usize) -> Vec<usize> {
+    let again = study.touches_again && points > 1;
+    (0..points).chain(again.then_some(0)).collect()
 }
 
 /// The axis that lifts the tool, and where it is clear of everything.
@@ -165,20 +177,26 @@ fn high(study: &SurfaceStudy, poses: &[Pose]) -> Option<(usize, f64)> {
 struct Touches<'a> {
     study: &'a SurfaceStudy,
     control: Control,
+    log: TouchLog<'a>,
     writer: Writer,
     /// Where the tool stands, above the last point.
     last: Option<Pose>,
 }
 
 impl Touches<'_> {
-    fn touch(&mut self, pose: &Pose, high: Option<(usize, f64)>) -> Result<(), ProgramError> {
+    fn touch(
+        &mut self,
+        pose: &Pose,
+        high: Option<(usize, f64)>,
+        [hit, point]: [usize; 2],
+    ) -> Result<(), ProgramError> {
         match self.last.filter(|last| self.is_near(last, pose)) {
             Some(_) => self.line(&pose.above)?,
             None => self.arrive(&pose.above, high)?,
         }
         self.line(&pose.before)?;
         let feed = self.study.touch_feed_mm_per_min;
-        let words = touch_words(&self.study.machine, self.control, &pose.beyond, feed)?;
+        let words = self.log.touch(&pose.beyond, feed, hit, point)?;
         self.writer.write(&Block::Text(&words))?;
         self.line(&pose.before)?;
         self.line(&pose.above)?;
@@ -261,7 +279,7 @@ pub fn check_surface(
     let setup = SetUp {
         given: true,
         files: study.files.clone(),
-        tools: [(1, tool)].into_iter().collect(),
+        tools: [(study.tool, tool)].into_iter().collect(),
         bodies: part.into_iter().collect(),
         start: start(study, poses),
         ..SetUp::default()

@@ -10,6 +10,7 @@ impl Run<'_> {
     /// Comments that do something: MSG, DEBUG, PRINT, LOG, ABORT.
     pub(in crate::rs274) fn comments(&mut self, passage: Passage<'_>) -> Result<(), Fault> {
         if !passage.program.dialect().o_words {
+            self.outputs(passage);
             return Ok(());
         }
         for item in &passage.block.items {
@@ -45,6 +46,45 @@ impl Run<'_> {
             }
         }
         Ok(())
+    }
+
+    /// `DPRNT[H1*X#5061[44]]` of FANUC: what it would write.
+    ///
+    /// # Source
+    /// The form that the manuals of Haas (96-8000, formatted output) and NCT (2000M, custom macro) print: text, `*`
+    /// for a blank, `#number[places before, places after the point]`.
+    fn outputs(&mut self, passage: Passage<'_>) {
+        for item in &passage.block.items {
+            let Item::Comment(span) = item else { continue };
+            let text = String::from_utf8_lossy(&passage.program.source()[span.clone()]);
+            let plain: String = text.chars().filter(|c| !c.is_whitespace()).collect();
+            if let Some(inner) = plain.strip_prefix("DPRNT[").and_then(|t| t.strip_suffix(']')) {
+                let text = self.printed(inner);
+                self.core.emit(Event::Log(text));
+            }
+        }
+    }
+
+    fn printed(&self, text: &str) -> String {
+        let mut out = String::new();
+        let mut rest = text;
+        while let Some(index) = rest.find(['#', '*']) {
+            out.push_str(&rest[..index]);
+            let after = &rest[index + 1..];
+            let value = rest[index..].starts_with('#').then(|| places(after)).flatten();
+            match value {
+                Some((number, decimals, end)) => {
+                    let value = self.read(&Parameter::Number(number)).unwrap_or(0.0);
+                    out.push_str(&format!("{value:.decimals$}"));
+                    rest = &after[end..];
+                }
+                None => {
+                    out.push(if rest[index..].starts_with('*') { ' ' } else { '#' });
+                    rest = after;
+                }
+            }
+        }
+        out + rest
     }
 
     /// The text with the values of parameters in their places; `%d`, `%f`, `%.3f` set the digits.
@@ -89,6 +129,14 @@ impl Run<'_> {
         let value = self.read(&Parameter::Number(number));
         Some((value.or(self.is_in_range(number).then_some(0.0)), &after[end..]))
     }
+}
+
+/// `5061[44]`: the number of the variable, the decimals, and where it ends.
+fn places(text: &str) -> Option<(u32, usize, usize)> {
+    let (number, rest) = text.split_once('[')?;
+    let (digits, _) = rest.split_once(']')?;
+    let decimals = digits.chars().nth(1).and_then(|c| c.to_digit(10))? as usize;
+    Some((number.parse().ok()?, decimals, number.len() + digits.len() + 2))
 }
 
 /// `%d`, `%f` or `%.nf` at the beginning of a text: the digits after the point, and the rest.
