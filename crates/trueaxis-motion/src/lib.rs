@@ -283,6 +283,10 @@ impl Follower for Followed<'_, '_> {
     fn axis_positions(&self) -> Option<KnownPosition> {
         Some(self.path.axis_positions_now())
     }
+
+    fn retracted(&self) -> Option<KnownPosition> {
+        self.path.retracted_now()
+    }
 }
 
 impl Follower for Walk<'_, '_> {
@@ -300,6 +304,10 @@ impl Follower for Walk<'_, '_> {
 
     fn axis_positions(&self) -> Option<KnownPosition> {
         Some(self.path.axis_positions_now())
+    }
+
+    fn retracted(&self) -> Option<KnownPosition> {
+        self.path.retracted_now()
     }
 }
 

@@ -29,9 +29,33 @@ impl Parser<'_, '_> {
         match self.letter()? {
             b'O' if self.dialect.o_words => Some(self.o_word()),
             b'O' if self.dialect.macro_words => Some(self.program_number()),
+            b'P' | b'D' | b'B' if self.dialect.macro_words && self.output() => Some(true),
             b'I' | b'W' | b'E' | b'G' | b'D' if self.dialect.macro_words => self.macro_word(),
             _ => None,
         }
+    }
+
+    /// POPEN, PCLOS, DPRNT[…], BPRNT[…]: output to a printer or a file, without effect on the path.
+    fn output(&mut self) -> bool {
+        if self.accept_word(b"POPEN") || self.accept_word(b"PCLOS") {
+            return true;
+        }
+        if !self.accept_word(b"DPRNT") && !self.accept_word(b"BPRNT") {
+            return false;
+        }
+        let mut open = 0_usize;
+        while self.token.is_some() {
+            match self.symbol() {
+                Some(b'[') => open += 1,
+                Some(b']') => open = open.saturating_sub(1),
+                _ => {}
+            }
+            self.advance();
+            if open == 0 {
+                break;
+            }
+        }
+        true
     }
 
     pub(super) fn program_number(&mut self) -> bool {
@@ -138,7 +162,7 @@ impl Parser<'_, '_> {
             (b"DO", Keyword::Do),
         ]
         .into_iter()
-        .find(|(word, _)| self.accept_word(word))?
+        .find(|(word, _)| self.accept_short(word))?
         .1;
         Some(self.macro_statement(keyword, offset).is_some())
     }
@@ -147,10 +171,10 @@ impl Parser<'_, '_> {
         match keyword {
             Keyword::If => {
                 let condition = self.bracket()?;
-                if self.accept_word(b"GOTO") {
+                if self.accept_short(b"GOTO") {
                     let label = self.number_label()?;
                     self.push(Keyword::IfGoto, Some(label), vec![condition], offset);
-                } else if self.accept_word(b"THEN") {
+                } else if self.accept_short(b"THEN") {
                     self.push(Keyword::IfThen, None, vec![condition], offset);
                 } else {
                     let message = "expected GOTO or THEN after the condition".to_owned();
