@@ -44,7 +44,7 @@ impl Run<'_> {
             "CYCLE84" => self.tap(&parameters, [7, 8, 9, 23], parameters.number(10)?)?,
             "CYCLE840" => self.tap(&parameters, [9, 10, usize::MAX, 19], None)?,
             "GROUP_BEGIN" | "GROUP_END" | "GROUP_ADDEND" => {
-                self.core.emit(Event::Note("group of blocks"))
+                self.core.emit(Event::Note("group of blocks"));
             }
             "CYCLE85" => self.bore(&parameters)?,
             "CYCLE86" => self.bore_oriented(&parameters)?,
