@@ -136,6 +136,12 @@ impl<'s, 'b> Parser<'s, 'b> {
         true
     }
 
+    /// A word of custom macros, which two of its letters or more may stand for: WH, GO, SI.
+    fn accept_short(&mut self, word: &[u8]) -> bool {
+        let shortest = if self.dialect.macro_words { 2 } else { word.len() };
+        (shortest.min(word.len())..=word.len()).rev().any(|n| self.accept_word(&word[..n]))
+    }
+
     fn fault(&mut self, code: &'static str, offset: usize, message: String, hint: &'static str) {
         self.block.faults.push(Fault { code, offset, message, hint });
     }

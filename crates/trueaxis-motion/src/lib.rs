@@ -295,6 +295,10 @@ impl Follower for Followed<'_, '_> {
     fn axis_positions(&self) -> Option<KnownPosition> {
         Some(self.path.axis_positions_now())
     }
+
+    fn retracted(&self) -> Option<KnownPosition> {
+        self.path.retracted_now()
+    }
 }
 
 impl Follower for Walk<'_, '_> {
@@ -312,6 +316,10 @@ impl Follower for Walk<'_, '_> {
 
     fn axis_positions(&self) -> Option<KnownPosition> {
         Some(self.path.axis_positions_now())
+    }
+
+    fn retracted(&self) -> Option<KnownPosition> {
+        self.path.retracted_now()
     }
 }
 

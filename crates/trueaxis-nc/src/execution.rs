@@ -96,7 +96,7 @@ impl Default for Settings {
 
 /// Whether a warning of this code means that motion is missing, or ends at another place than on the control.
 pub fn leaves_motion_out(code: &str) -> bool {
-    matches!(code, "not-applied" | "unknown-tool-radius")
+    matches!(code, "not-applied" | "not-executed" | "cycle-not-executed" | "unknown-tool-radius")
 }
 
 /// The result of an execution.

@@ -8,7 +8,7 @@
 //! so no tree is built.
 //!
 //! Not applied, each with a warning: 3D compensation, the cycles that
-//! `docs/cycles.md` does not list, probing, datum tables, M140 MB MAX, M103, M109, M138 … Errors, because the path
+//! `docs/cycles.md` does not list, probing, datum tables, M140 MB MAX without a machine, M103, M109, M138 … Errors, because the path
 //! would be unknown: free contours (FK), PLANE AXIAL without a machine, structured IF, FOR and WHILE, and values that
 //! only the machine knows (FN 18, Q100 to Q199) as soon as they are used.
 //!

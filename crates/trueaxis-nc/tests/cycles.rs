@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 
 use proptest::prelude::*;
 use trueaxis_nc::moves::{Axis, Move, MoveKind, Position};
-use trueaxis_nc::{Control, NoLibrary, Outcome, Program, Settings, Step, interpret};
+use trueaxis_nc::{
+    Control, Event, NoLibrary, Outcome, Program, Settings, Step, interpret, leaves_motion_out,
+};
 
 fn run(control: Control, text: &str) -> (Vec<Move>, Outcome) {
     let program = Program::new("p", text.as_bytes().to_vec(), control);
@@ -274,4 +276,74 @@ fn oracle_threads_of_linuxcnc() {
     assert_eq!(count, 60);
     let (_, outcome) = run(Control::LinuxCnc, "G17 G0 X10 Z5\nG76 P1 Z-9 I-1 J0.1 K0.5\nM2\n");
     assert_eq!(outcome.problems.iter().next().unwrap().code, "bad-thread");
+}
+
+/// The pitch, the bottom and the spindle speed of the taps of a SINUMERIK program.
+fn taps(block: &str) -> Vec<(f64, f64, f64)> {
+    let program = Program::new("p", format!("{block}\nM30\n").into_bytes(), Control::Sinumerik840d);
+    let (mut speed, mut taps) = (0.0, Vec::new());
+    let outcome = interpret(&program, &NoLibrary, &Settings::default(), &mut |s| match s {
+        Step::Event(Event::SpindleSpeed(s), _) => speed = s,
+        Step::Move(Move { kind: MoveKind::RigidTap { pitch_mm }, target, .. }) => {
+            taps.push((pitch_mm, target[Axis::Z], speed));
+        }
+        _ => {}
+    });
+    assert!(outcome.finished, "{block} {:?}", outcome.problems);
+    taps
+}
+
+#[test]
+fn tapping_has_the_speed_the_depth_and_the_pitch_of_its_cycle() {
+    // 16 parameters: the last is _VARI, chip breaking, and not the mode of DP.
+    assert_eq!(taps("CYCLE84(20,10,2,-15,,0,3,,1.5,0,500,600,3,0,0,1,2,1)"), [(1.5, -15.0, 500.0)]);
+    assert_eq!(taps("S300 M3\nCYCLE84(20,10,2,-15,,0,3,6,,0)"), [(1.0, -15.0, 300.0)]);
+    // _AMODE, the 24th: DP counts from RFP.
+    assert_eq!(
+        taps("CYCLE84(20,10,2,15,,0,3,,1,0,500,500,0,1,0,0,5,1.4,,,,1001,1,1)"),
+        [(1.0, -5.0, 500.0)]
+    );
+    // With a compensating chuck: PIT, MPIT, or F / S.
+    assert_eq!(taps("S400 M3\nCYCLE840(20,10,2,-15,,0,4,3,0,,1.25)"), [(1.25, -15.0, 400.0)]);
+    assert_eq!(taps("S400 M3\nCYCLE840(20,10,2,-15,,0,4,3,0,8)"), [(1.25, -15.0, 400.0)]);
+    assert_eq!(taps("S400 M3 F500\nCYCLE840(20,10,2,-15,,0,4,3,1)"), [(1.25, -15.0, 400.0)]);
+}
+
+#[test]
+fn what_moves_nothing_is_no_missing_motion() {
+    let programs = [
+        (
+            Control::Sinumerik840d,
+            "GROUP_BEGIN(0,\"A\",0,0)\nG0 X1\nGROUP_END(0,0)\nWRITE(_E,\"F\",\"x\")\nM30\n",
+        ),
+        (
+            Control::Heidenhain,
+            "BEGIN PGM A MM\nBLK FORM CYLINDER Z R50 L100\nCYCL DEF 239 ASCERTAIN THE LOAD Q570=+0\nL X+1 FMAX\n\
+             END PGM A MM\n",
+        ),
+        (
+            Control::Fanuc,
+            "POPEN\nDPRNT[X#1[53]*A[B]**Y#2[53]]\nPCLOS\nIF[1EQ1]GOTO5\nX9\nN5BPRNT[#1[2]]\nG0X1\nM30\n",
+        ),
+    ];
+    for (control, text) in programs {
+        assert_eq!(sound(control, text).len(), 1, "{control:?}");
+    }
+    for (control, text) in [
+        (
+            Control::Sinumerik840d,
+            "G0 Z5\nSLOT1(10,0,1,-5,,2,30,8,0,0,20,0,45,100,100,2,3,0)\nM30\n",
+        ),
+        (
+            Control::Heidenhain,
+            "BEGIN PGM A MM\nCYCL DEF 256 STUD Q218=+10\nL X+1 FMAX M99\nEND PGM A MM\n",
+        ),
+    ] {
+        let (_, outcome) = run(control, text);
+        assert!(
+            outcome.problems.iter().any(|p| leaves_motion_out(p.code)),
+            "{:?}",
+            outcome.problems
+        );
+    }
 }

@@ -43,6 +43,13 @@ fn macros_count_and_jump() {
 }
 
 #[test]
+fn two_letters_of_a_macro_word_are_enough() {
+    let text = "%\nO0001\n#1=0\nWH[[#1LT3]AN[1EQ1]]DO1\n#1=#1+1\nG0X#1\nEN1\nIF[#1EQ3]GO20\nX99\n\
+                N20X[SQ[AB[-16]]+RO[0.6]]\nIF[#1GT2]TH#1=FI[2.7]\nWHI[#1GT1]DO2\n#1=1\nX[CO[0]*2]\nEND2\nM30\n%\n";
+    assert_eq!(path(Axis::X, text, &NoLibrary), [1.0, 2.0, 3.0, 5.0, 2.0]);
+}
+
+#[test]
 fn an_empty_parameter_leaves_its_word_out() {
     let text = "G0 X1 Y1\nX2 Y#9\nIF [#9 EQ #0] GOTO 1\nX9\nN1 M30\n";
     assert_eq!(path(Axis::Y, text, &NoLibrary), [1.0, 1.0]);

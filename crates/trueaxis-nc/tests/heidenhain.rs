@@ -335,3 +335,25 @@ fn with_keep_going_every_error_is_told() {
     let (_, found) = run("p", "WHAT\n".repeat(1000).as_bytes(), &NoLibrary, &settings);
     assert_eq!(found.len(), 100);
 }
+
+#[test]
+fn excesses_of_a_tool_need_no_sign() {
+    let lengths = |words: &str| {
+        let text =
+            format!("BEGIN PGM T MM\nTOOL CALL 5 Z S3500 {words}\nL X+1 FMAX\nEND PGM T MM\n");
+        let (steps, problems) = run("t.h", text.as_bytes(), &NoLibrary, &Settings::default());
+        assert!(problems.iter().all(|p| p.starts_with("unknown-tool")), "{words}: {problems:?}");
+        let moves = steps.iter().filter(|s| matches!(s, Step::Move(_))).count();
+        let length = steps.iter().find_map(|step| match step {
+            Step::Event(trueaxis_nc::Event::ToolLength(length), _) => Some(length[Axis::Z]),
+            _ => None,
+        });
+        (moves, length)
+    };
+    for words in
+        ["DL0. DR0.", "DL+0. DR+0.", "DL0 DR0.5", "DL0 DR-1 DR2+0.1", "DL0 DR2 -0.1", "DL0 DR2"]
+    {
+        assert_eq!(lengths(words), (1, Some(0.0)), "{words}");
+    }
+    assert_eq!(lengths("DR0.2 DL0.3"), (1, Some(0.3)));
+}

@@ -311,6 +311,12 @@ fn kont_goes_round_the_ends_of_the_contour() {
     assert_eq!(found[2].arc, Some(([0.0, 0.0], false)));
     assert_eq!(found[4].arc, Some(([20.0, 0.0], false)));
     assert_eq!(sound(Sinumerik840d, &text.replace("KONT", "NORM"), 2.0).len(), 4);
+    // The polynomials of KONTC and KONTT are not known: the way of KONT, and a word about it.
+    for smooth in ["KONTC", "KONTT"] {
+        let (found, problems) = path(Sinumerik840d, &text.replace("KONT", smooth), 2.0);
+        assert_ends(&found, &ends);
+        assert_eq!(problems, [("not-applied", 5)]);
+    }
 }
 
 #[test]

@@ -244,7 +244,8 @@ fn long_texts_and_lines_are_bounded() {
 }
 
 /// Diagnostics in programs of others that are due, and why.
-const DUE: [(&str, &str); 5] = [
+const DUE: [(&str, &str); 6] = [
+    ("pocket-size", "_DMODE of POCKET4 is not checked"),
     ("unknown-m-code", "M27, M29, M50, M51 and M65 are of the machine builder"),
     ("unknown-tool", "the test has no tool table"),
     ("unknown-tool-length", "the test has no tool table"),

@@ -429,3 +429,56 @@ fn the_start_counts_before_the_first_absolute_word() {
         }
     }
 }
+
+#[test]
+fn machine_coordinates_in_a_turned_frame_move_the_named_axis_alone() {
+    let programs = [
+        (Control::Fanuc, "G54\nG68 X0 Y0 R40.\nG53 G0 X70.\nM30\n"),
+        (Control::Fanuc, "G54\nG68 X0 Y0 R40.\nG91 G28 X0\nM30\n"),
+        (Control::LinuxCnc, "G54\nG10 L2 P1 R40\nG53 G0 X70\nM2\n"),
+        (Control::Sinumerik840d, "G54\nAROT RPL=40\nG0 SUPA X70\nM30\n"),
+        (
+            Control::Heidenhain,
+            "BEGIN PGM T MM\nTOOL CALL 1 Z S1\nCYCL DEF 10.0 ROTATION\nCYCL DEF 10.1 ROT+40\n\
+          L X+70 FMAX M91\nEND PGM T MM\n",
+        ),
+    ];
+    for (control, text) in programs {
+        let lines = run(&machine(HEAD), &setup(), control, text);
+        let at = lines.ends.last().unwrap().1;
+        let x = if text.contains("G28") { 0.0 } else { 70.0 };
+        assert!(
+            (at[0] - x).abs() < 1e-9 && (at[1] - 2.0).abs() < 1e-9,
+            "{control:?} {text}: {at:?}"
+        );
+    }
+}
+
+#[test]
+fn a_retraction_without_a_length_ends_where_the_first_axis_has_its_end() {
+    let travel = "[axis.X]\ntravel = [\"-900 mm\", \"900 mm\"]\n[axis.Y]\ntravel = [\"-120 mm\", \"900 mm\"]\n\
+                  [axis.Z]\ntravel = [\"-900 mm\", \"400 mm\"]\n";
+    let text = "BEGIN PGM T MM\nTOOL CALL 1 Z S1\nL X+10 Y+20 Z+30 A+0 C+0 FMAX\nL M140 MB MAX\nL IZ-10 FMAX\n\
+                L A+50 C+20 FMAX\nL Z+30 FMAX\nL M140 MB MAX\nEND PGM T MM\n";
+    let head = machine(&format!("{HEAD}{travel}"));
+    let lines = run(&head, &setup(), Control::Heidenhain, text);
+    assert!((lines.end(4).1[2] - 400.0).abs() < 1e-9, "{:?}", lines.end(4));
+    assert!((lines.end(5).1[2] - 390.0).abs() < 1e-9, "{:?}", lines.end(5));
+    // Tilted: along the tool, until Y or Z is at its end, and no axis beyond.
+    let (.., at, tip, axis) = lines.end(8);
+    let moved = tip - lines.end(7).2;
+    assert!(
+        moved.norm() > 50.0 && moved.cross(axis).norm() < 1e-9 && moved.dot(axis) > 0.0,
+        "{moved:?} {axis:?}"
+    );
+    assert!(at[1] >= -120.0 - 1e-9 && at[2] <= 400.0 + 1e-9, "{at:?}");
+    assert!((at[1] + 120.0).abs() < 1e-9 || (at[2] - 400.0).abs() < 1e-9, "{at:?}");
+    // MB of PLANE goes back along the tool before the axes turn.
+    let plane = "BEGIN PGM T MM\nTOOL CALL 1 Z S1\nL X+10 Y+20 Z+30 A+0 C+0 FMAX\n\
+                 PLANE SPATIAL SPA+20 SPB+0 SPC+0 TURN MB MAX FMAX\nEND PGM T MM\n";
+    let lines = run(&head, &setup(), Control::Heidenhain, plane);
+    assert!((lines.end(4).1[2] - 400.0).abs() < 1e-9, "{:?}", lines.end(4));
+    let near = plane.replace("MB MAX", "MB7");
+    let lines = run(&head, &setup(), Control::Heidenhain, &near);
+    assert!((lines.end(4).1[2] - lines.end(3).1[2] - 7.0).abs() < 1e-9, "{:?}", lines.end(4));
+}

@@ -154,7 +154,7 @@ impl Parser<'_, '_> {
             (b"DO", Keyword::Do),
         ]
         .into_iter()
-        .find(|(word, _)| self.accept_word(word))?
+        .find(|(word, _)| self.accept_short(word))?
         .1;
         Some(self.macro_statement(keyword, offset).is_some())
     }
@@ -163,10 +163,10 @@ impl Parser<'_, '_> {
         match keyword {
             Keyword::If => {
                 let condition = self.bracket()?;
-                if self.accept_word(b"GOTO") {
+                if self.accept_short(b"GOTO") {
                     let label = self.number_label()?;
                     self.push(Keyword::IfGoto, Some(label), vec![condition], offset);
-                } else if self.accept_word(b"THEN") {
+                } else if self.accept_short(b"THEN") {
                     self.push(Keyword::IfThen, None, vec![condition], offset);
                 } else {
                     let message = "expected GOTO or THEN after the condition".to_owned();

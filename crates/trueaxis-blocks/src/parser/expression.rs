@@ -178,13 +178,13 @@ impl Parser<'_, '_> {
         }
         WORD_OPERATORS
             .iter()
-            .find(|(word, ..)| self.accept_word(word))
+            .find(|(word, ..)| self.accept_short(word))
             .map(|(_, operator, strength)| (*operator, *strength))
     }
 
     fn function(&mut self) -> Option<NodeId> {
         let offset = self.here();
-        if self.accept_word(b"ATAN") {
+        if self.accept_short(b"ATAN") {
             return self.arc_tangent();
         }
         if self.accept_word(b"EXISTS") {
@@ -193,7 +193,8 @@ impl Parser<'_, '_> {
         let known =
             |f: Function| self.dialect.macro_words || !matches!(f, Function::Bcd | Function::Bin);
         let known: Vec<_> = FUNCTIONS.iter().filter(|(_, f)| known(*f)).collect();
-        let Some((_, function)) = known.into_iter().find(|(name, _)| self.accept_word(name)) else {
+        let Some((_, function)) = known.into_iter().find(|(name, _)| self.accept_short(name))
+        else {
             let hint = "write a number, a parameter, [ ], or SIN COS TAN ASIN ACOS ATAN SQRT ABS \
                 ROUND \
                         FIX FUP LN EXP EXISTS";

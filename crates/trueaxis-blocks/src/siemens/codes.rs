@@ -132,6 +132,8 @@ pub enum ContourRule {
     Norm,
     /// KONT: round the first place of the contour.
     Kont,
+    /// KONTC and KONTT: the same with a polynomial whose curvature or tangent is continuous.
+    KontSmooth,
     /// CFTCP.
     FeedAtCentre,
     /// CFC.
@@ -292,7 +294,7 @@ pub fn code(word: &str) -> Option<Code> {
         "PTP" => Code::NotApplied("PTP motion"),
         "NORM" => Code::Contour(ContourRule::Norm),
         "KONT" => Code::Contour(ContourRule::Kont),
-        "KONTC" | "KONTT" => Code::NotApplied("KONTC and KONTT: NORM is used, the approach"),
+        "KONTC" | "KONTT" => Code::Contour(ContourRule::KontSmooth),
         "CFTCP" => Code::Contour(ContourRule::FeedAtCentre),
         "CFC" => Code::Contour(ContourRule::FeedOnContour),
         "CFIN" => Code::Contour(ContourRule::FeedOnInside),

@@ -3,7 +3,7 @@
 use super::AxisPath;
 use trueaxis_geometry::frame::inverse3;
 use trueaxis_geometry::{Mat3, Vec3};
-use trueaxis_machine::axis::Command;
+use trueaxis_machine::axis::{Command, Travel};
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_nc::KnownPosition;
 use trueaxis_nc::moves::{Axis, AxisSet, Coordinates, OrientationPath, Position};
@@ -63,6 +63,42 @@ impl AxisPath<'_> {
             position: self.words_of(&self.command, Coordinates::Machine),
             axes: self.axes(),
         }
+    }
+
+    /// Where the axes are if the tool goes back along its own axis until the first of them reaches
+    /// the end of its travel, as machine coordinates name it, and the axes that move; `None` if one
+    /// of them has no stated travel.
+    ///
+    /// ```text
+    ///     q(s) = q + s·v,    tip(q + v) = tip(q) + axis,    s = min (end_i - q_i) / v_i
+    /// ```
+    pub fn retracted_now(&self) -> Option<KnownPosition> {
+        let control = self.control.as_ref()?;
+        let (tip, along) = control.tip_and_axis(&self.command);
+        let mut next = self.command;
+        if !control.place(tip + along, &mut next) {
+            return None;
+        }
+        let (mut way_mm, mut axes) = (f64::INFINITY, AxisSet::default());
+        for axis in [Axis::X, Axis::Y, Axis::Z] {
+            let Some(index) = self.axis_of(axis) else { continue };
+            let (q, rate) = (self.command[index], next[index] - self.command[index]);
+            if rate.abs() < 1e-9 {
+                continue;
+            }
+            let Travel::Between(from, to) = self.machine.axes()[index].travel else { return None };
+            let end = if rate > 0.0 { to } else { from };
+            way_mm = way_mm.min(((end - q) / rate).max(0.0));
+            axes = axes.with(axis);
+        }
+        if axes == AxisSet::default() {
+            return None;
+        }
+        for axis in [Axis::X, Axis::Y, Axis::Z].into_iter().filter(|a| axes.contains(*a)) {
+            let index = self.axis_of(axis)?;
+            next[index] = self.command[index] + way_mm * (next[index] - self.command[index]);
+        }
+        Some(KnownPosition { position: self.words_of(&next, Coordinates::Machine), axes })
     }
 
     /// The axes of programs that the machine has.

@@ -18,6 +18,12 @@ pub trait Follower {
     /// The present axis positions; `None` without a machine.
     fn axis_positions(&self) -> Option<KnownPosition>;
 
+    /// The axis positions at the end of the travel along the tool axis, away from the tip, and the axes that go there;
+    /// `None` without a machine, or if it states no travel.
+    fn retracted(&self) -> Option<KnownPosition> {
+        None
+    }
+
     /// How many points of the path it has made so far: loops that make many end earlier.
     fn points(&self) -> u64;
 }

@@ -8,7 +8,7 @@ use trueaxis_input::{Diagnostics, Place};
 
 use super::corners::Corners;
 use super::radius::Active;
-use super::{Follower, Library, Modes, Outcome, Settings, mistakes};
+use super::{Follower, KnownPosition, Library, Modes, Outcome, Settings, mistakes};
 use crate::moves::{
     Coordinates, Event, Frame, Move, MoveKind, Origin, Position, RotaryDirection, Step,
 };
@@ -269,6 +269,12 @@ impl<'r> Core<'r> {
             return by_frames;
         }
         self.follower.axis_positions().map_or(by_frames, |place| place.over(&by_frames))
+    }
+
+    /// Where the axes are once the tool has gone back along its axis to the end of the travel.
+    pub fn retracted(&mut self) -> Option<KnownPosition> {
+        self.stop_on_contour();
+        self.follower.retracted()
     }
 
     /// Tells the frame if it has changed, and whether it has.

@@ -259,11 +259,15 @@ impl Run<'_> {
             self.cycle = Some(Cycle::Drilling(number, values));
             return Ok(());
         }
+        if matches!(number, 239 | 332 | 392) {
+            self.core.emit(Event::Note("tuning of the drives to the load"));
+            return Ok(());
+        }
         let message =
             format!("cycle {number} is not executed: its moves are missing from the path");
         let hint = "let the CAM system write the moves of the cycle";
         self.core.warn("cycle-not-executed", number, at, &message, hint);
-        if !matches!(number, 14 | 20 | 392 | 400..=499) {
+        if !matches!(number, 14 | 20 | 400..=499) {
             self.cycle = Some(Cycle::Missing);
         }
         Ok(())

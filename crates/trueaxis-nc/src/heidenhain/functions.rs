@@ -4,7 +4,8 @@ use super::words::{FunctionCall, Words};
 use super::{Run, fault};
 use crate::execution::frames::unit;
 use crate::moves::{
-    Axis, Coolant, Event, Feed, FeedMode, MoveKind, OrientationPath, SpindleDirection,
+    Axis, AxisSet, Coolant, Coordinates, Event, Feed, FeedMode, Move, MoveKind, OrientationPath,
+    Position, SpindleDirection,
 };
 use crate::text::program::Fault;
 
@@ -146,7 +147,7 @@ impl Run<'_> {
             Effect::ShortestWay(on) => self.modes.shortest = on,
             Effect::ToolCentre(on) => self.tool_centre(on, None),
             Effect::PerRevolution(on) => self.per_revolution(on, words),
-            Effect::Retract => self.retract(called)?,
+            Effect::Retract => self.retract(called.value, called.feed, called.at)?,
             Effect::CycleEverywhere => self.modes.cycle_everywhere = true,
             Effect::Note(name) => self.core.emit(Event::Note(name)),
             Effect::NotApplied(name) => self.core.left_out(name, called.at),
@@ -206,12 +207,14 @@ impl Run<'_> {
     }
 
     /// M140 MB: away from the workpiece along the tool axis.
-    fn retract(&mut self, called: &FunctionCall) -> Result<(), Fault> {
-        let Some(length_mm) = called.value.filter(|v| v.is_finite()) else {
-            let message = "M140 MB MAX moves to the end of the travel, which is not known here";
-            let hint = "the retraction is missing from the path; write MB with a length";
-            self.core.warn("not-applied", "M140", called.at, message, hint);
-            return Ok(());
+    pub(super) fn retract(
+        &mut self,
+        length_mm: Option<f64>,
+        feed: Option<f64>,
+        at: usize,
+    ) -> Result<(), Fault> {
+        let Some(length_mm) = length_mm.filter(|v| v.is_finite()) else {
+            return self.retract_to_the_end(feed, at);
         };
         let rotary = self.frames.position.0[3..6].iter().any(|v| *v != 0.0);
         let along = match self.direction {
@@ -219,7 +222,7 @@ impl Run<'_> {
             _ if rotary && !self.frames.is_tilted() => {
                 let message = "M140 with turned axes: the tool axis is not known here";
                 let hint = "the retraction is missing from the path";
-                self.core.warn("not-applied", "M140 turned", called.at, message, hint);
+                self.core.warn("not-applied", "M140 turned", at, message, hint);
                 return Ok(());
             }
             _ => {
@@ -232,16 +235,45 @@ impl Run<'_> {
         for (i, part) in along.iter().enumerate() {
             target.0[i] += part * length_mm;
         }
-        let kind = if called.feed.is_some() { MoveKind::Linear } else { MoveKind::Rapid };
-        let named = crate::moves::AxisSet::XYZ;
-        let mut step = self.core.plain_move(kind, target, named);
-        if let Some(value) = called.feed {
+        self.emit_retraction(feed, at, target, AxisSet::XYZ, Coordinates::Program)
+    }
+
+    /// M140 MB MAX: to the end of the travel.
+    fn retract_to_the_end(&mut self, feed: Option<f64>, at: usize) -> Result<(), Fault> {
+        let Some(end) = self.core.retracted() else {
+            let message = "M140 MB MAX moves to the end of the travel, which is not known here";
+            let hint = "the retraction is missing from the path; state the travel in the machine file, or write MB with \
+                        a length";
+            self.core.warn("not-applied", "M140", at, message, hint);
+            return Ok(());
+        };
+        self.emit_retraction(feed, at, end.position, end.axes, Coordinates::Machine)?;
+        let mut place = end.position;
+        place[self.core.modes.plane.axes()[2]] -= self.modes.tool_length_mm;
+        if let Some(position) = self.frames.frame().inverse_place(&place) {
+            self.frames.position = position;
+        }
+        self.tangent = None;
+        Ok(())
+    }
+
+    fn emit_retraction(
+        &mut self,
+        feed: Option<f64>,
+        at: usize,
+        target: Position,
+        named: AxisSet,
+        coordinates: Coordinates,
+    ) -> Result<(), Fault> {
+        let kind = if feed.is_some() { MoveKind::Linear } else { MoveKind::Rapid };
+        let mut step = Move { coordinates, ..self.core.plain_move(kind, target, named) };
+        if let Some(value) = feed {
             if value <= 0.0 {
-                return Err(fault("zero-feed", called.at, "the feed is zero", "write F100"));
+                return Err(fault("zero-feed", at, "the feed is zero", "write F100"));
             }
             let scale = if self.core.modes.inches { 2.54 } else { 1.0 };
             step.feed = Feed { mode: FeedMode::PerMinute, value: value * scale };
         }
-        self.emit_move(step, called.at)
+        self.emit_move(step, at)
     }
 }

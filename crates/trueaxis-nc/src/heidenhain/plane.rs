@@ -43,6 +43,8 @@ fn from_vectors(base: [f64; 3], normal: [f64; 3]) -> Option<Frame> {
 struct Behaviour {
     /// MOVE (the tip stays) or TURN; `None` is STAY.
     keep_tip: Option<bool>,
+    /// MB: how far the tool goes back along its axis before the axes turn.
+    retract_mm: Option<f64>,
     branch: Branch,
 }
 
@@ -204,10 +206,8 @@ impl Run<'_> {
                     self.core.left_out("DIST of PLANE", at);
                 }
             } else if c.accept("MB") {
-                if !c.accept("MAX") {
-                    self.value(c)?;
-                }
-                self.core.left_out("MB (retraction before the turn) of PLANE", at);
+                let length = if c.accept("MAX") { f64::INFINITY } else { self.value(c)? };
+                behaviour.retract_mm = Some(length * self.core.modes.unit_mm());
             } else if c.accept_any(&["FMAX", "FAUTO"]).is_none() {
                 match split_address(c) {
                     Some("F") => {
@@ -222,6 +222,9 @@ impl Run<'_> {
 
     /// Tilts the plane (`None` ends it), tells it, and lets the rotary axes follow.
     fn tilt(&mut self, turn: Option<Frame>, behaviour: Behaviour, at: usize) -> Result<(), Fault> {
+        if let Some(length_mm) = behaviour.retract_mm.filter(|_| behaviour.keep_tip.is_some()) {
+            self.retract(Some(length_mm), None, at)?;
+        }
         let set = match turn {
             Some(turn) => self.frames.set(Transformation::Tilt(turn), false),
             None => self.frames.untilt(),

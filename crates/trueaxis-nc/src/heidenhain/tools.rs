@@ -63,10 +63,12 @@ impl Run<'_> {
                 Some("F") => feed = Some(self.feed_word(c, Some("F"))?),
                 Some("DL") => excess[0] = self.value(c)? * self.core.modes.unit_mm(),
                 Some("DR") => {
-                    let corner = c.is_number() && c.whole()?.is_some();
-                    let value = self.value(c)? * self.core.modes.unit_mm();
-                    if !corner {
-                        excess[1] = value;
+                    let value = self.value(c)?;
+                    // DR2: the excess of the corner radius.
+                    if value == 2.0 && (c.is_number() || matches!(c.symbol(), Some(b'+' | b'-'))) {
+                        self.value(c)?;
+                    } else {
+                        excess[1] = value * self.core.modes.unit_mm();
                     }
                 }
                 _ => return Err(c.unknown()),
@@ -169,9 +171,8 @@ impl Run<'_> {
             Some(0.1) => 1,
             Some(0.2) => 2,
             _ => {
-                let name = c.shown().to_ascii_uppercase();
                 c.leave();
-                self.core.left_out(&format!("BLK FORM {name}"), at);
+                self.core.emit(Event::Note("BLK FORM: a blank that is no box"));
                 return Ok(());
             }
         };

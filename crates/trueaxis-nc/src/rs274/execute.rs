@@ -3,7 +3,7 @@
 use super::{Language, Next, Passage, Run, fault};
 use crate::execution::corners::{Corner, is_size};
 use crate::execution::mistakes;
-use crate::moves::{Axis, Event, Move, MoveKind, PathControl, Position};
+use crate::moves::{Axis, AxisSet, Event, Move, MoveKind, PathControl, Position};
 use crate::rs274::code::{Action, Motion};
 use crate::text::program::{Block, Fault, Item, Keyword, Label, Program};
 use trueaxis_contour::corner::Shape;
@@ -414,7 +414,13 @@ impl Run<'_> {
 
     pub(super) fn step(&mut self, kind: MoveKind, target: Position) {
         let (feed, origin) = (self.core.modes.feed, self.core.origin);
-        self.emit_move(Move::plain(kind, target, self.words.axes(), feed, origin));
+        self.emit_move(Move::plain(kind, target, self.named_to(&target), feed, origin));
+    }
+
+    /// The axes of the words, and those that move with them where the frame is turned.
+    fn named_to(&self, target: &Position) -> AxisSet {
+        let moves = |a: &Axis| target[*a] != self.frames.position[*a];
+        [Axis::X, Axis::Y, Axis::Z].into_iter().filter(moves).fold(self.words.axes(), AxisSet::with)
     }
 
     fn motion(&mut self, motion: Motion, machine: bool, at: usize) -> Result<(), Fault> {
@@ -468,7 +474,7 @@ impl Run<'_> {
             Motion::Rapid | Motion::Linear => {
                 let direction = self.take_direction(at)?;
                 let (feed, origin) = (self.core.modes.feed, self.core.origin);
-                let named = self.words.axes();
+                let named = self.named_to(&target);
                 let rapid = motion == Motion::Rapid;
                 let kind = if rapid { MoveKind::Rapid } else { MoveKind::Linear };
                 let straight = Move::plain(kind, target, named, feed, origin);

@@ -141,6 +141,10 @@ impl Run<'_> {
                 self.core.not_applied("DEFINE", at, hint);
                 return Ok(Some(Next::Following));
             }
+            "WRITE" | "DELETE" | "MMC" | "NEWCONF" => {
+                self.core.emit(Event::Note("file, display or machine data"));
+                return Ok(Some(Next::Following));
+            }
             _ if tables::takes_block(word) => {
                 let hint = "the following moves are computed without it";
                 self.core.not_applied(word, at, hint);

@@ -6,7 +6,7 @@ use super::{Run, fault};
 use crate::execution::check_feed;
 use crate::execution::drilling::{Drill, Stroke, dwell, pecks, stop_above};
 use crate::execution::mistakes;
-use crate::moves::{Axis, AxisSet, Event, Feed, MoveKind, Position};
+use crate::moves::{Axis, AxisSet, Event, Feed, FeedMode, MoveKind, Position};
 use crate::text::program::Fault;
 use trueaxis_cycles::pattern::{peck_depths, pecks_less_by};
 use trueaxis_cycles::thread::coarse_pitch_mm;
@@ -41,7 +41,11 @@ impl Run<'_> {
             "CYCLE81" => self.plain_hole(&parameters)?,
             "CYCLE82" => self.plain_hole(&parameters)?,
             "CYCLE83" => self.drill_deep(&parameters)?,
-            "CYCLE84" => return self.tap(&parameters),
+            "CYCLE84" => self.tap(&parameters, [7, 8, 9, 23], parameters.number(10)?)?,
+            "CYCLE840" => self.tap(&parameters, [9, 10, usize::MAX, 19], None)?,
+            "GROUP_BEGIN" | "GROUP_END" | "GROUP_ADDEND" => {
+                self.core.emit(Event::Note("group of blocks"));
+            }
             "CYCLE85" => self.bore(&parameters)?,
             "CYCLE86" => self.bore_oriented(&parameters)?,
             "CYCLE61" => self.face(&parameters)?,
@@ -216,26 +220,50 @@ impl Run<'_> {
         self.done(strokes, parameters.at)
     }
 
-    /// CYCLE84: RTP, RFP, SDIS, DP, DPR, DTB, SDAC, MPIT, PIT, POSS: tapping in step with the spindle.
-    fn tap(&mut self, parameters: &Parameters<'_>) -> Result<bool, Fault> {
+    /// CYCLE84: RTP, RFP, SDIS, DP, DPR, DTB, SDAC, MPIT, PIT, POSS, SST: tapping in step with the spindle, at its
+    /// own speed SST. CYCLE840, with a compensating chuck: RTP, RFP, SDIS, DP, DPR, DTB, SDR, SDAC, ENC, MPIT, PIT;
+    /// without a pitch it is F / S.
+    fn tap(
+        &mut self,
+        parameters: &Parameters<'_>,
+        [size, pitch, angle, mode]: [usize; 4],
+        speed: Option<f64>,
+    ) -> Result<(), Fault> {
         let at = parameters.at;
-        let size = parameters.or_zero(7)?.abs();
-        let pitch = parameters.number(8)?.filter(|p| *p != 0.0);
+        let size = parameters.or_zero(size)?.abs();
+        let pitch = parameters.number(pitch)?.filter(|p| *p != 0.0);
         let pitch =
             pitch.map(|p| p.abs() * self.core.modes.unit_mm()).or_else(|| coarse_pitch_mm(size));
+        let modes = &self.core.modes;
+        let by_feed = match modes.feed.mode {
+            _ if angle != usize::MAX => None,
+            FeedMode::PerMinute => Some(modes.feed.value / modes.speed),
+            FeedMode::PerRevolution => Some(modes.feed.value),
+            FeedMode::InverseTime => None,
+        };
+        let pitch = pitch.or(by_feed.filter(|p| p.is_finite() && *p > 0.0));
         let Some(pitch_mm) = pitch else {
             let message = "the cycle has no pitch";
             return Err(fault("cycle-without-pitch", at, message, "write PIT or MPIT"));
         };
         // No F is needed: the spindle sets the feed.
         let any = Feed { value: 1.0, ..self.core.modes.feed };
-        let hole = self.hole_with_feed(parameters, 15, any)?;
-        let orient = Event::SpindleOrient { angle_deg: parameters.or_zero(9)? };
-        let mut strokes = vec![Stroke::Rapid(hole.safe), Stroke::Event(orient)];
+        let hole = self.hole_with_feed(parameters, mode, any)?;
+        if angle != usize::MAX && parameters.or_zero(15)? != 0.0 {
+            self.core.not_applied("_VARI of CYCLE84", at, "the thread is cut in one stroke");
+        }
+        let mut strokes = vec![Stroke::Rapid(hole.safe)];
+        if angle != usize::MAX {
+            let orient = Event::SpindleOrient { angle_deg: parameters.or_zero(angle)? };
+            strokes.push(Stroke::Event(orient));
+        }
+        let before = self.core.modes.speed;
+        let speed = speed.filter(|s| *s > 0.0);
+        strokes.extend(speed.map(|speed| Stroke::Event(Event::SpindleSpeed(speed))));
         strokes.push(Stroke::Tap { pitch_mm, bottom: hole.bottom });
+        strokes.extend(speed.map(|_| Stroke::Event(Event::SpindleSpeed(before))));
         strokes.push(Stroke::Rapid(hole.retract));
-        self.done(strokes, at)?;
-        Ok(true)
+        self.done(strokes, at)
     }
 
     /// CYCLE86: RTP, RFP, SDIS, DP, DPR, DTB, SDIR, RPA, RPO, RPAP, POSS.

@@ -260,7 +260,7 @@ impl Run<'_> {
             Code::Angles(angles) => self.modes.angles = angles,
             Code::Orientation(way) => self.turn_by(way),
             Code::Compensation(side) => self.compensation(side, at),
-            Code::Contour(rule) => self.contour_rule(rule),
+            Code::Contour(rule) => self.contour_rule(rule, at),
             Code::Path(control, with_distance) => {
                 let distance = if with_distance { words.take(Name::Tolerance) } else { None };
                 self.report_path(

@@ -210,6 +210,13 @@ impl Run<'_> {
         if !self.in_plane(name, mode, at) || self.pocket_variant(name, kind, reference, at) {
             return Ok(());
         }
+        if is_round && mode != 0.0 {
+            let size = if digit(mode, 2) == 1 { "diameter" } else { "radius" };
+            let message =
+                format!("the size of POCKET4 is read as its {size} by the hundreds of _DMODE");
+            let hint = "this digit was not checked against a control: compare with the drawing";
+            self.core.warn("pocket-size", 0, at, message, hint);
+        }
         let deep = parameters.number(3)?;
         let depth = if digit(amounts, 0) == 1 { [deep, None] } else { [None, deep] };
         let feeds = [Some(m + 3), Some(m + 4)];

@@ -43,13 +43,18 @@ impl Run<'_> {
     }
 
     /// G450, G451, NORM, KONT, CFTCP, CFC and CFIN.
-    pub(super) fn contour_rule(&mut self, rule: ContourRule) {
+    pub(super) fn contour_rule(&mut self, rule: ContourRule, at: usize) {
+        if rule == ContourRule::KontSmooth {
+            let hint =
+                "the places of the contour are right; the way to it and from it is that of KONT";
+            self.core.not_applied("the polynomial of KONTC and KONTT (KONT is used)", at, hint);
+        }
         let behaviour = &mut self.modes.behaviour;
         match rule {
             ContourRule::OutsideOnArc => behaviour.rules.outside = Outside::Arc,
             ContourRule::OutsideToMeeting => behaviour.rules.outside = Outside::Meeting,
             ContourRule::Norm => behaviour.entry = Entry::Perpendicular,
-            ContourRule::Kont => behaviour.entry = Entry::Round,
+            ContourRule::Kont | ContourRule::KontSmooth => behaviour.entry = Entry::Round,
             ContourRule::FeedAtCentre => behaviour.feed_at = FeedAt::Centre,
             ContourRule::FeedOnContour => behaviour.feed_at = FeedAt::Contour,
             ContourRule::FeedOnInside => behaviour.feed_at = FeedAt::Inside,

@@ -141,4 +141,8 @@ impl Follower for Gather<'_> {
     fn axis_positions(&self) -> Option<KnownPosition> {
         Some(self.nominal.axis_positions_now())
     }
+
+    fn retracted(&self) -> Option<KnownPosition> {
+        self.nominal.retracted_now()
+    }
 }
