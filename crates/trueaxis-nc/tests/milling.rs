@@ -296,7 +296,7 @@ fn threads_of_klartext() {
     assert_eq!(heights(&down), [1.0, -1.0, -3.0, -5.0, -7.0, -9.0]);
 }
 
-/// Whether the hundreds of _DMODE make the size a diameter was not checked: a program that states them is told so.
+/// Whether the hundreds of _DMODE make the size a diameter was not checked: a program that states them gets a warning.
 #[test]
 fn the_reading_of_the_size_of_a_round_pocket_is_named() {
     let codes = |modes: &str| {
