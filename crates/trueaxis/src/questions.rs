@@ -35,6 +35,7 @@ mod trace;
 mod values;
 mod verify;
 mod words;
+mod workpiece;
 
 pub use adapt::{Adapt, AdaptAnswer};
 pub use evaluate::{Evaluate, EvaluateAnswer, EvaluateInput, ReadingsFile};
