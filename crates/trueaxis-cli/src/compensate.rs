@@ -40,8 +40,8 @@ Examples:
   trueaxis compensate values machines/xkas2525/machine.toml --axis C --step 30 --format csv -o c.csv
 
 value = - error of the axis in its own direction, rounded to whole increments, halves away from zero;
-the control adds it to the command. Without temperatures there is no thermal part and the
-machine and the comprehensive error are equal. Exit status: 0 done, 2 unusable input.")]
+the control adds it to the command. Without temperatures there is no thermal part. Where the workpiece
+grows, its temperature must be given (20 if it is at 20 degC), or --machine-only. Exit status: 0 done, 2 unusable input.")]
 struct ValuesArguments {
     #[command(flatten)]
     machine: MachineArguments,
@@ -64,6 +64,9 @@ struct ValuesArguments {
     /// Which error is compensated
     #[arg(long, value_enum, default_value = "comprehensive")]
     of: CompensatedError,
+    /// For the machine alone, without a part, though the workpiece grows and its temperature is not given
+    #[arg(long)]
+    machine_only: bool,
     /// Output as text, as one JSON document, or as a CSV table of one axis
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
@@ -112,6 +115,7 @@ fn run_values(arguments: ValuesArguments) -> Outcome {
             CompensatedError::Machine => Compensation::Machine,
             CompensatedError::Comprehensive => Compensation::Comprehensive,
         },
+        machine_only: arguments.machine_only,
         form: match arguments.format {
             Format::Text => ValuesForm::Text,
             Format::Json => ValuesForm::Json,

@@ -41,7 +41,7 @@ Examples:
   trueaxis simulate machines/i5-engraver/machine.toml examples/02_simulate/ring-fanuc.nc
   trueaxis predict examples/03_predict/nas979-on-xkas2525.toml
   trueaxis evaluate iso230-2 examples/07_verify/x-axis-laser.csv --report x.html
-  trueaxis compensate values machines/gantry-001/machine.toml --axis X --step 500
+  trueaxis compensate values machines/three-axis-mill/machine.toml --axis X --step 50
   trueaxis measure examples/04_plan/probe-ball.toml
   trueaxis verify examples/07_verify/probe-ball.toml
   trueaxis plan examples/04_plan/probe-ball.toml

@@ -35,6 +35,59 @@ fn the_ends_of_the_gantry() {
     }
 }
 
+/// Zhang et al. 2019, section 3.2.1: −431 µm for the machine leave 485.1 µm in a part of 30.5 °C that has 54.1 µm without
+/// them. Without the temperature of the workpiece nothing is calculated, and nothing is written.
+#[test]
+fn a_workpiece_of_unknown_temperature_is_refused_with_the_price() {
+    let folder = Folder::new("compensate-unknown-workpiece");
+    let refused = |arguments: &[&str]| {
+        let ran = trueaxis(arguments);
+        assert_eq!((ran.status, ran.out.as_str()), (2, ""), "{arguments:?} {}", ran.err);
+        assert!(ran.err.contains("error[no-workpiece-temperature]"), "{}", ran.err);
+        assert!(ran.err.contains("46.2 µm over the 3500 mm of X"), "{}", ran.err);
+        ran.err
+    };
+    let at = ["compensate", "values", GANTRY, "--at", "X=3500"];
+    let scale = ["--temperature", "scale_x=30.5"];
+    let price = refused(&[&at[..], &scale].concat());
+    for figure in
+        ["485.1 µm if it has the 30.5 °C", "54.1 µm in X uncompensated", "485.1 µm compensated so"]
+    {
+        assert!(price.contains(figure), "{figure}: {price}");
+    }
+    // Without any temperature the scales have that of their tables, 28.4 and 29.3 °C.
+    let price = refused(&at);
+    assert!(price.contains("28.8 °C") || price.contains("28.9 °C"), "{price}");
+    // Tables and programs have the same hole.
+    let (tables, program) = (folder.path("tables"), folder.path("p.nc"));
+    let source = folder.path("in.nc");
+    folder.file("in.nc", "%\nO1\nG90 G54 G1 X10. Y10. Z100. F500.\nX3000.\nM30\n%\n");
+    let of_tables = ["compensate", "tables", GANTRY, "--target", "csv", "-o", &tables];
+    let of_program =
+        ["compensate", "program", GANTRY, &source, "-o", &program, "--control", "fanuc"];
+    refused(&[&of_tables[..], &scale].concat());
+    refused(&[&of_program[..], &scale].concat());
+    assert_eq!(folder.names(), ["in.nc"]);
+    // A workpiece at 20 °C is known; asked for by name, the machine alone is given, the price first.
+    let known = trueaxis(&[&at[..], &["--temperature", "scale_x=30.5 workpiece=20"]].concat());
+    assert!(known.status == 0 && !known.out.contains("MACHINE ONLY"), "{}", known.out);
+    for ask in [&["--machine-only"][..], &["--of", "machine"]] {
+        let ran = trueaxis(&[&at[..], &scale, ask].concat());
+        let first = ran.out.lines().next().expect("a line");
+        assert!(first.starts_with("MACHINE ONLY") && first.contains("485.1 µm"), "{first}");
+        assert!(ran.out.contains("-431") && ran.out.contains("not known"), "{}", ran.out);
+        let json = trueaxis(&[&at[..], &scale, ask, &["--format", "json"]].concat()).json();
+        assert!(json["warnings"][0].as_str().is_some_and(|w| w.starts_with("MACHINE ONLY")));
+        let node = &json["axes"][0]["positions"][0];
+        assert!(node["comprehensive_um"].is_null() && node["part_error_um"].is_null(), "{node}");
+        let csv = trueaxis(&[&at[..], &scale, ask, &["--format", "csv"]].concat());
+        let first = csv.out.lines().next().expect("a line");
+        assert!(first.contains("MACHINE ONLY") && csv.out.contains(",,"), "{}", csv.out);
+    }
+    let ran = trueaxis(&[&of_tables[..], &scale, &["--machine-only"]].concat());
+    assert!(ran.status == 0 && ran.out.starts_with("MACHINE ONLY"), "{} {}", ran.out, ran.err);
+}
+
 /// A table that is on in the control is not asked for again; what heat adds still is.
 #[test]
 fn what_the_control_compensates_already_is_no_value() {

@@ -14,11 +14,13 @@ pub mod conditions;
 pub mod expansion;
 pub mod field;
 mod scale;
+mod unknown;
 mod warming;
 mod workpiece;
 
 pub use conditions::{Conditions, TemperatureLog};
 pub use scale::{HeatedPlace, HeatedScale, Scale, StructureModel};
+pub use unknown::UnknownGrowth;
 pub use warming::{TemperatureRun, WarmingMachine};
 pub use workpiece::{Settling, Workpiece, WorkpieceGrowth};
 

@@ -36,6 +36,7 @@ mod trace;
 mod values;
 mod verify;
 mod words;
+mod workpiece;
 
 pub use adapt::{Adapt, AdaptAnswer};
 pub use evaluate::{Evaluate, EvaluateAnswer, EvaluateInput, ReadingsFile};

@@ -81,6 +81,9 @@ pub struct ProgramArguments {
         allow_negative_numbers = true
     )]
     limit_axis: String,
+    /// For the machine alone, without a part, though the workpiece grows and its temperature is not given
+    #[arg(long)]
+    machine_only: bool,
     /// Write an HTML report to this file
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
@@ -106,6 +109,7 @@ pub fn run(arguments: &ProgramArguments) -> Outcome {
         no_rounding: arguments.no_rounding,
         limit: arguments.limit.clone(),
         limit_axis: arguments.limit_axis.clone(),
+        machine_only: arguments.machine_only,
     };
     Door { format: arguments.format, report: arguments.report.as_deref() }.ask(&question)
 }

@@ -60,6 +60,9 @@ pub struct TablesArguments {
     /// A study of `predict`: its test piece is cut with the tables
     #[arg(long, value_name = "STUDY.toml")]
     piece: Option<PathBuf>,
+    /// For the machine alone, without a part, though the workpiece grows and its temperature is not given
+    #[arg(long)]
+    machine_only: bool,
     /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
@@ -117,6 +120,7 @@ pub fn run(arguments: TablesArguments) -> Outcome {
         limit: arguments.limit,
         limit_angle: arguments.limit_angle,
         no_kinematics: arguments.no_kinematics,
+        machine_only: arguments.machine_only,
         piece: arguments.piece,
     };
     Door { format: arguments.format, report: None }.ask(&question)

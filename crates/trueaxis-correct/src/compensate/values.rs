@@ -78,6 +78,9 @@ pub struct ValueTable {
     pub order: Order,
     /// In the order of the positions.
     pub nodes: Vec<Node>,
+    /// Whether the temperature of the workpiece is known, or nothing of it grows; else the errors of the part
+    /// are not known.
+    pub part_is_known: bool,
     /// The largest error of the part under no, machine-only and comprehensive compensation. Unit: mm or rad.
     pub worst: [f64; 3],
 }
@@ -85,7 +88,7 @@ pub struct ValueTable {
 impl ValueTable {
     /// Whether the part is better without any compensation than with that of the machine alone.
     pub fn machine_alone_is_worse(&self) -> bool {
-        self.worst[1] > self.worst[0]
+        self.part_is_known && self.worst[1] > self.worst[0]
     }
 }
 
@@ -137,7 +140,9 @@ pub fn compensation_values(machine: &Machine, order: &Order) -> Result<ValueTabl
     let nodes = order.positions.iter().map(|q| node(machine, order, *q));
     let nodes = nodes.collect::<Result<Vec<Node>, ValuesError>>()?;
     let worst = |i: usize| nodes.iter().map(|n: &Node| n.part[i].abs()).fold(0.0, f64::max);
-    Ok(ValueTable { order: order.clone(), worst: [0, 1, 2].map(worst), nodes })
+    let part_is_known = machine.heat().workpiece.is_none() || machine.growth().is_some();
+    let worst = [0, 1, 2].map(worst);
+    Ok(ValueTable { order: order.clone(), worst, part_is_known, nodes })
 }
 
 fn node(machine: &Machine, order: &Order, position: f64) -> Result<Node, ValuesError> {

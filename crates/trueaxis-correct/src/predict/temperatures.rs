@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 use trueaxis_input::{Diagnostics, Dimension, Section};
 use trueaxis_machine::Machine;
-use trueaxis_machine::heat::{Conditions, TemperatureRun, WarmingMachine};
+use trueaxis_machine::heat::{Conditions, TemperatureRun, UnknownGrowth, WarmingMachine};
 use trueaxis_motion::read_temperature_log;
 use trueaxis_part::testpiece::ToolPosition;
 
@@ -61,8 +61,17 @@ impl StudyTemperatures {
     }
 
     /// The machine at the start; what does not fit goes to the problems of the study.
+    ///
+    /// A part whose growth is not known is not predicted: without its temperature the machine file would give
+    /// the error of the machine for that of the part.
     pub fn warm(&self, root: &Section<'_>, machine: Machine) -> Option<Machine> {
-        let Some(conditions) = &self.conditions else { return Some(machine) };
+        let Some(conditions) = &self.conditions else {
+            let unknown = machine.unknown_growth(&Conditions::default());
+            if let Some(unknown) = &unknown {
+                no_workpiece(root, &machine, unknown);
+            }
+            return Some(machine).filter(|_| unknown.is_none());
+        };
         let mut problems = Diagnostics::new();
         let warm = machine.at(conditions, &mut problems);
         let can_run = |running: &RunningTemperatures| {
@@ -76,8 +85,26 @@ impl StudyTemperatures {
         };
         let sound = self.running.as_ref().is_none_or(can_run);
         root.take_over(problems);
-        warm.filter(|_| sound)
+        let unknown = warm.as_ref().and_then(|warm| warm.unknown_growth(conditions));
+        if let Some(unknown) = &unknown {
+            no_workpiece(root, &machine, unknown);
+        }
+        warm.filter(|_| sound && unknown.is_none())
     }
+}
+
+/// The workpiece grows, and nothing says how warm it is.
+fn no_workpiece(root: &Section<'_>, machine: &Machine, unknown: &UnknownGrowth) {
+    let UnknownGrowth { over_mm, per_k_mm, .. } = unknown;
+    let message = format!(
+        "the temperature of the workpiece is not given: each K above 20 °C displaces the part by {:.1} µm over \
+         {over_mm} mm, and a part is not predicted without it",
+        per_k_mm * 1e3
+    );
+    let sensors = machine.heat().workpiece.iter().flat_map(|w| &w.sensors);
+    let sensors: Vec<String> = sensors.map(|s| format!("{} = \"20 degC\"", s.name)).collect();
+    let hint = format!("[temperature] {}, if it is at 20 °C", sensors.join(", "));
+    root.error("no-workpiece-temperature", message, &hint);
 }
 
 fn read_log(section: &Section<'_>, folder: &Path, has_feed: bool) -> Option<StudyTemperatures> {

@@ -54,6 +54,11 @@ impl WhatIf {
         }
         if let Some(conditions) = &self.conditions {
             machine = machine.at(conditions, problems)?;
+            if machine.unknown_growth(conditions).is_some() {
+                let why = "the workpiece grows, and none of its temperatures is given".to_owned();
+                refuse(problems, "temperatures", why);
+                return None;
+            }
         }
         for (letter, angle_rad) in &self.setting_rad {
             let Some(axis) = rotary(&machine, letter).filter(|_| angle_rad.is_finite()) else {

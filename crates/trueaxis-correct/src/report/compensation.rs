@@ -115,11 +115,17 @@ fn section<'a>(axis: &Axis, table: &ValueTable) -> Section<'a> {
     );
     let rule = format!("value = {}; {}", meaning(table.order.of), sign_note(axis));
     let [none, alone, whole] = table.worst.map(shown);
+    let part = match table.part_is_known {
+        true => format!(
+            "{none} {unit} without compensation, {alone} {unit} with the machine alone, {whole} {unit} with \
+             the comprehensive one"
+        ),
+        false => "not known, as the temperature of the workpiece is not given".to_owned(),
+    };
     let note = format!(
-        "errors, u (standard uncertainty) and remainder in {unit}; largest error of the part: {none} {unit} \
-         without compensation, {alone} {unit} with the machine alone, {whole} {unit} with the \
-         comprehensive one"
+        "errors, u (standard uncertainty) and remainder in {unit}; largest error of the part: {part}"
     );
+    let known = |text: String| if table.part_is_known { text } else { "–".to_owned() };
     let both = table.nodes.iter().any(|n| n.by_direction.is_some());
     let by_direction: &[&str] = if both { &["value ↑", "value ↓"] } else { &[] };
     let place_heading = format!("{}, {}", axis.name, units.place);
@@ -127,7 +133,7 @@ fn section<'a>(axis: &Axis, table: &ValueTable) -> Section<'a> {
     let rows = table.nodes.iter().map(|node| {
         let [geometric, scale, structure, workpiece] = node.split.map(shown);
         let mut row = vec![place(&units, node.position).to_string(), geometric, scale, structure];
-        row.extend([shown(node.machine), workpiece, shown(node.comprehensive)]);
+        row.extend([shown(node.machine), known(workpiece), known(shown(node.comprehensive))]);
         row.push(node.u.map_or("–".to_owned(), shown));
         row.extend([node.value.increments.to_string(), shown(node.value.remainder)]);
         row.extend(node.by_direction.iter().flatten().map(|value| value.increments.to_string()));
@@ -150,15 +156,17 @@ const HEADINGS: [&str; 9] = [
     "remainder",
 ];
 
-/// The values of one axis as a table that begins with its conditions as comments.
-pub fn compensation_csv(machine: &Machine, table: &ValueTable) -> String {
+/// The values of one axis as a table that begins with its conditions as comments; where they are of the
+/// machine alone, with what that can cost.
+pub fn compensation_csv(machine: &Machine, table: &ValueTable, only: Option<&str>) -> String {
     let axis = axis(machine, table);
     let units = units(axis);
     let (unit, scale) = units.keys[0];
     let mut text = format!(
-        "# TrueAxis compensation values of {} of {}, added to the command\n# value = {}; increment {}\n",
+        "# TrueAxis compensation values of {} of {}, added to the command{}\n# value = {}; increment {}\n",
         axis.name,
         machine.name().replace(['\n', '\r'], " "),
+        only.map_or(String::new(), |only| format!(". {only}")),
         meaning(table.order.of),
         increment(axis, table)
     );
@@ -176,8 +184,15 @@ pub fn compensation_csv(machine: &Machine, table: &ValueTable) -> String {
         let Value { increments, added, remainder } = node.value;
         let _ = write!(text, "{},{increments}", place(&units, node.position));
         let numbers = [added, remainder].into_iter().chain(node.split);
-        for v in numbers.chain([node.machine, node.comprehensive]) {
-            let _ = write!(text, ",{}", v * scale + 0.0);
+        let numbers: Vec<f64> = numbers.chain([node.machine, node.comprehensive]).collect();
+        for (i, v) in numbers.iter().enumerate() {
+            // Of the part: the workpiece, and what remains with it.
+            match table.part_is_known || ![5, 7].contains(&i) {
+                true => {
+                    let _ = write!(text, ",{}", v * scale + 0.0);
+                }
+                false => text.push(','),
+            }
         }
         let _ = write!(text, ",{}", node.u.map_or(String::new(), |u| (u * scale).to_string()));
         if both {

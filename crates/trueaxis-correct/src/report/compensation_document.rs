@@ -25,7 +25,7 @@ pub struct CompensationDocument<'a> {
     pub added_to: &'static str,
     /// One entry for each axis.
     pub axes: Vec<AxisValues>,
-    /// Where compensating the machine alone makes the part worse.
+    /// Where compensating the machine alone makes the part worse, or can.
     pub warnings: Vec<String>,
 }
 
@@ -41,7 +41,7 @@ pub struct AxisValues {
     /// The least increment, with its unit.
     pub increment: String,
     /// `part_error_um`, or `part_error_urad` and `part_error_arcsec`: the largest error of the part under each
-    /// compensation.
+    /// compensation; absent where the temperature of the workpiece is not known.
     #[serde(flatten)]
     pub part_error: Keyed<Keyed<f64>>,
     /// The values by position.
@@ -66,7 +66,7 @@ pub struct PositionValue {
     pub value_down_increments: Option<i64>,
     /// `value_`, `remainder_` (lost by rounding), `split_` (by origin), `machine_`, `comprehensive_`, `u_`
     /// (standard uncertainty) and `part_error_` (under each compensation), each with `um`, or with `urad` and
-    /// `arcsec`.
+    /// `arcsec`; those of the part are absent or null where the temperature of the workpiece is not known.
     #[serde(flatten)]
     pub values: Keyed<Amount>,
 }
@@ -82,14 +82,16 @@ pub enum Amount {
 }
 
 /// The values as one JSON value.
-pub fn compensation_json(machine: &Machine, tables: &[ValueTable]) -> Value {
+///
+/// `only` says what values of the machine alone can cost; the first warning then.
+pub fn compensation_json(machine: &Machine, tables: &[ValueTable], only: Option<String>) -> Value {
     document(&CompensationDocument {
         schema: "trueaxis/compensate/1",
         what: "values",
         machine: machine.name(),
         added_to: "command",
         axes: tables.iter().map(|t| AxisValues::of(machine, t)).collect(),
-        warnings: compensation_warnings(machine, tables),
+        warnings: only.into_iter().chain(compensation_warnings(machine, tables)).collect(),
     })
 }
 
@@ -105,8 +107,12 @@ impl AxisValues {
             of: table.order.of.name(),
             carries: if axis.carries == AxisSide::Tool { "tool" } else { "workpiece" },
             increment: increment(axis, table),
-            part_error: units.keys.iter().map(part_error).collect(),
-            positions: table.nodes.iter().map(|node| PositionValue::of(&units, node)).collect(),
+            part_error: units.keys.iter().filter(|_| table.part_is_known).map(part_error).collect(),
+            positions: table
+                .nodes
+                .iter()
+                .map(|node| PositionValue::of(&units, node, table))
+                .collect(),
         }
     }
 }
@@ -118,7 +124,7 @@ fn by_compensation(values: [f64; 3], scale: f64) -> Keyed<f64> {
 }
 
 impl PositionValue {
-    fn of(units: &Units, node: &Node) -> Self {
+    fn of(units: &Units, node: &Node, table: &ValueTable) -> Self {
         let position = (format!("position_{}", units.place), place(units, node.position));
         Self {
             position: [position].into_iter().collect(),
@@ -128,24 +134,26 @@ impl PositionValue {
             values: units
                 .keys
                 .iter()
-                .flat_map(|(unit, scale)| amounts(node, unit, *scale))
+                .flat_map(|(unit, scale)| amounts(node, unit, *scale, table.part_is_known))
                 .collect(),
         }
     }
 }
 
-fn amounts(node: &Node, unit: &str, scale: f64) -> [(String, Amount); 7] {
+fn amounts(node: &Node, unit: &str, scale: f64, known: bool) -> Vec<(String, Amount)> {
     let one = |v: f64| Amount::One(Some(v * scale + 0.0));
     let split = ErrorPart::ALL.iter().zip(node.split);
+    let split = split.filter(|(part, _)| known || **part != ErrorPart::Workpiece);
     let split = split.map(|(part, v)| (part.name(), v * scale + 0.0)).collect();
-    [
+    let all = [
         ("value", one(node.value.added)),
         ("remainder", one(node.value.remainder)),
         ("split", Amount::Named(split)),
         ("machine", one(node.machine)),
-        ("comprehensive", one(node.comprehensive)),
+        ("comprehensive", Amount::One(known.then_some(node.comprehensive * scale + 0.0))),
         ("u", Amount::One(node.u.map(|u| u * scale))),
         ("part_error", Amount::Named(by_compensation(node.part, scale))),
-    ]
-    .map(|(key, amount)| (format!("{key}_{unit}"), amount))
+    ];
+    let all = all.into_iter().filter(|(key, _)| known || *key != "part_error");
+    all.map(|(key, amount)| (format!("{key}_{unit}"), amount)).collect()
 }

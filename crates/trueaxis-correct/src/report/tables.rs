@@ -24,6 +24,8 @@ pub struct TablesReport<'a> {
     pub files: &'a [String],
     /// Study and indices of the test piece.
     pub piece: Option<(&'a str, &'a [IndexLeft])>,
+    /// What tables of the machine alone can cost, where the temperature of the workpiece is not known.
+    pub machine_only: Option<&'a str>,
 }
 
 /// More errors than this tell a reader nothing new.

@@ -59,6 +59,10 @@ pub struct TablesDocument<'a> {
     pub wrong_sign_um: ResidualEntry,
     /// What to do at the control.
     pub notes: &'a [&'static str],
+    /// What tables of the machine alone can cost; present only where the temperature of the workpiece is not
+    /// known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub machine_only: Option<&'a str>,
 }
 
 /// One table: what is added to one axis by the position of another.
@@ -277,6 +281,7 @@ impl<'a> TablesDocument<'a> {
             left_zero_set_um: ResidualEntry::of(machine, &compiled.after_zero_set),
             wrong_sign_um: ResidualEntry::of(machine, &compiled.wrong_sign),
             notes: compiled.advice,
+            machine_only: report.machine_only,
         }
     }
 }

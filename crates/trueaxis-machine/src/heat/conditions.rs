@@ -102,6 +102,16 @@ impl Conditions {
         sound
     }
 
+    /// The same with one more reading, °C; one that is there stays.
+    #[must_use]
+    pub fn with_reading(mut self, sensor: &str, celsius: f64) -> Self {
+        if self.celsius(sensor).is_none() {
+            let place = self.place.clone();
+            self.readings.push(Reading { sensor: sensor.to_owned(), celsius, place });
+        }
+        self
+    }
+
     /// The reading of a sensor, °C.
     pub fn celsius(&self, sensor: &str) -> Option<f64> {
         self.readings.iter().find(|r| r.sensor == sensor).map(|r| r.celsius)

@@ -79,23 +79,31 @@ impl MachineChoice {
         machine: Machine,
         problems: &mut Diagnostics,
     ) -> Option<Machine> {
-        let conditions = match (&self.temperature, &self.temperature_log) {
-            (Some(text), _) => Conditions::typed("--temperature", text, problems)?,
+        match self.conditions(files, problems)? {
+            Some(conditions) => machine.at(&conditions, problems),
+            None => Some(machine),
+        }
+    }
+
+    /// The temperatures that are given, none if there are none; `None` if they cannot be read.
+    pub(super) fn conditions(
+        &self,
+        files: &Files,
+        problems: &mut Diagnostics,
+    ) -> Option<Option<Conditions>> {
+        Some(match (&self.temperature, &self.temperature_log) {
+            (Some(text), _) => Some(Conditions::typed("--temperature", text, problems)?),
             (None, Some(path)) => {
                 let time_s = self.log_time.as_deref();
                 let time_s = time_s.map(|t| log_time("--log-time", t, problems));
                 let log = read_temperature_log(files, path, problems)?;
                 let last_s = *log.times_s().last()?;
                 let start_s = time_s.unwrap_or(Some(last_s))?;
-                conditions_at(
-                    &TemperatureRun { log: Arc::new(log), start_s },
-                    "--log-time",
-                    problems,
-                )?
+                let run = TemperatureRun { log: Arc::new(log), start_s };
+                Some(conditions_at(&run, "--log-time", problems)?)
             }
-            (None, None) => return Some(machine),
-        };
-        machine.at(&conditions, problems)
+            (None, None) => None,
+        })
     }
 }
 

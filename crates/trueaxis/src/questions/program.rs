@@ -1,5 +1,6 @@
 //! How is a program written so that the actual tool goes where it says?
 
+use super::workpiece::{machine_or_part, on_top};
 use super::{Answer, MachineChoice, NewFile, Question, Tell, named_control, with_diagnostics};
 use crate::files::output::{Kind, same_file};
 use crate::report;
@@ -46,6 +47,8 @@ pub struct CompensateProgram {
     pub limit: String,
     /// A larger correction of the tool axis is refused.
     pub limit_axis: String,
+    /// Whether the machine alone is compensated, though the temperature of the workpiece is unknown.
+    pub machine_only: bool,
 }
 
 /// A program rewritten.
@@ -56,6 +59,8 @@ pub struct ProgramAnswer {
     shown_output: String,
     options: ProgramOptions,
     rewritten: Rewritten,
+    /// What it can cost that the temperature of the workpiece is not known.
+    price: Option<String>,
 }
 
 /// What may be replaced: nothing that is there and not empty, but a compensated program.
@@ -104,15 +109,17 @@ impl CompensateProgram {
         })
     }
 
-    fn job(&self, files: &Files, problems: &mut Diagnostics) -> Option<Job> {
+    fn job(&self, files: &Files, problems: &mut Diagnostics) -> Option<(Job, Option<String>)> {
         let machine = self.machine.read(files, problems)?;
+        let only = self.machine_only;
+        let (machine, price) = machine_or_part(machine, &self.machine, files, only, problems)?;
         let control = match &self.control {
             None => None,
             Some(name) => Some(named_control(name, problems)?),
         };
         let setup = self.setup.as_deref();
         let program = ProgramFiles { files, program: &self.program, text: None, setup, control };
-        Job::read(machine, &program, Options::default(), problems)
+        Some((Job::read(machine, &program, Options::default(), problems)?, price))
     }
 
     /// Machine, its file and this version, for the heading of the program.
@@ -143,7 +150,7 @@ fn fnv1a(bytes: &[u8]) -> u64 {
 }
 
 impl Question for CompensateProgram {
-    type Input = (Job, ProgramOptions);
+    type Input = (Job, ProgramOptions, Option<String>);
     type Answer = ProgramAnswer;
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
@@ -154,9 +161,12 @@ impl Question for CompensateProgram {
             let message = "is the program itself".to_owned();
             problems.error("one-file-twice", place, message, "name another --output");
         }
-        let (job, options) = (job?, options?);
-        let mark = self.mark(files, job.machine.name());
-        Some((job, ProgramOptions { mark, ..options }))
+        let ((job, price), options) = (job?, options?);
+        let mut mark = self.mark(files, job.machine.name());
+        if price.is_some() {
+            mark += " MACHINE ONLY NOT FOR A PART";
+        }
+        Some((job, ProgramOptions { mark, ..options }, price))
     }
 
     fn outputs(&self, _: Option<&Self::Input>) -> Vec<(PathBuf, &'static Kind)> {
@@ -166,7 +176,7 @@ impl Question for CompensateProgram {
 
     fn answer(
         &self,
-        (job, options): Self::Input,
+        (job, options, price): Self::Input,
         _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<ProgramAnswer> {
@@ -180,7 +190,7 @@ impl Question for CompensateProgram {
         let program = self.program.display().to_string();
         let shown_output =
             output.as_ref().map_or("no file".to_owned(), |path| path.display().to_string());
-        Some(ProgramAnswer { job, program, output, shown_output, options, rewritten })
+        Some(ProgramAnswer { job, program, output, shown_output, options, rewritten, price })
     }
 }
 
@@ -202,7 +212,7 @@ impl Answer for ProgramAnswer {
     }
 
     fn report(&self) -> Report<'_> {
-        report::program_report(&self.shown())
+        on_top(report::program_report(&self.shown()), self.price.as_deref())
     }
 
     fn is_yes(&self) -> bool {

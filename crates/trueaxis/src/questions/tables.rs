@@ -1,6 +1,7 @@
 //! Which tables does a control take?
 
 use super::words::{self, argument};
+use super::workpiece::{machine_or_part, on_top};
 use super::{Answer, Content, MachineChoice, NewFile, Question, Tell};
 use crate::files::output::may_fill;
 use crate::report::{self, TablesReport};
@@ -37,6 +38,8 @@ pub struct CompensateTables {
     pub no_kinematics: bool,
     /// A study of a test piece that is cut with the tables.
     pub piece: Option<PathBuf>,
+    /// Whether tables of the machine alone are wanted, though the temperature of the workpiece is unknown.
+    pub machine_only: bool,
 }
 
 /// The tables of a control with what they leave.
@@ -46,6 +49,8 @@ pub struct TablesAnswer {
     piece: Option<(String, Vec<IndexLeft>)>,
     output: PathBuf,
     written: Vec<String>,
+    /// What it can cost that the temperature of the workpiece is not known.
+    price: Option<String>,
 }
 
 impl CompensateTables {
@@ -75,20 +80,22 @@ impl CompensateTables {
 }
 
 impl Question for CompensateTables {
-    type Input = (Machine, Order, Files);
+    type Input = (Machine, Order, Files, Option<String>);
     type Answer = TablesAnswer;
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
         may_fill(&self.output, problems);
         let machine = self.machine.read(files, problems)?;
         let machine = not_twice(&machine, self.machine.place(), problems);
-        let order = self.order(&machine, problems)?;
-        Some((machine, order, files.clone()))
+        let order = self.order(&machine, problems);
+        let only = self.machine_only;
+        let (machine, price) = machine_or_part(machine, &self.machine, files, only, problems)?;
+        Some((machine, order?, files.clone(), price))
     }
 
     fn answer(
         &self,
-        (machine, order, files): Self::Input,
+        (machine, order, files, price): Self::Input,
         _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<TablesAnswer> {
@@ -103,7 +110,7 @@ impl Question for CompensateTables {
         let output = self.output.clone();
         let written = compiled.files.iter().map(|f| output.join(&f.name).display().to_string());
         let written = written.collect();
-        Some(TablesAnswer { machine, compiled, piece, output, written })
+        Some(TablesAnswer { machine, compiled, piece, output, written, price })
     }
 }
 
@@ -191,6 +198,7 @@ impl TablesAnswer {
             compiled: &self.compiled,
             target: self.compiled.order.target.control().key(),
             files: &self.written,
+            machine_only: self.price.as_deref(),
             piece: self.piece.as_ref().map(|(study, indices)| (&study[..], &indices[..])),
         }
     }
@@ -202,7 +210,7 @@ impl Answer for TablesAnswer {
     }
 
     fn report(&self) -> Report<'_> {
-        report::tables_report(&self.shown())
+        on_top(report::tables_report(&self.shown()), self.price.as_deref())
     }
 
     fn files(&mut self) -> Vec<NewFile> {

@@ -1,6 +1,7 @@
 //! What must the control add to its commands?
 
 use super::words::{self, argument};
+use super::workpiece::{self, Asked, accepted};
 use super::{Answer, MachineChoice, NewFile, Question, Tell};
 use crate::files::output::Kind;
 use crate::report;
@@ -15,6 +16,7 @@ use trueaxis_input::{Diagnostics, Dimension, Files};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::describe::{axis_index, to_inner, to_shown};
+use trueaxis_machine::heat::Conditions;
 use trueaxis_report::Report;
 
 /// Values per axis and position, in least increments. Texts are as typed.
@@ -34,6 +36,8 @@ pub struct CompensateValues {
     pub increment: Option<String>,
     /// Which error is compensated.
     pub of: Compensation,
+    /// Whether values of the machine alone are wanted, though the temperature of the workpiece is unknown.
+    pub machine_only: bool,
     /// How they are shown.
     pub form: ValuesForm,
     /// Where they go; without it they are shown.
@@ -56,6 +60,8 @@ pub enum ValuesForm {
 pub struct ValuesAnswer {
     machine: Machine,
     tables: Vec<ValueTable>,
+    /// What it can cost that the temperature of the workpiece is not known.
+    price: Option<String>,
     form: ValuesForm,
     output: Option<PathBuf>,
 }
@@ -68,6 +74,28 @@ const VALUES: Kind = Kind::file(
 );
 
 impl CompensateValues {
+    fn of(&self) -> Compensation {
+        if self.machine_only { Compensation::Machine } else { self.of }
+    }
+
+    /// What the part would have at the very positions that are asked for, were it as warm as the scales.
+    fn price_here(machine: &Machine, conditions: &Conditions, orders: &[Order]) -> Option<String> {
+        let celsius = machine.unknown_growth(conditions)?.scales_celsius?;
+        let warm = machine.with_workpiece_at(conditions, celsius);
+        let warm = machine.at(&warm, &mut Diagnostics::new())?;
+        let each = orders.iter().filter_map(|order| {
+            let order = Order { of: Compensation::Machine, ..order.clone() };
+            let table = compensation_values(&warm, &order).ok()?;
+            let axis = &machine.axes()[order.axis];
+            let shown = (axis.kind == AxisKind::Linear).then_some(table.worst)?;
+            let [none, alone, _] = shown.map(|mm| mm * 1e3);
+            let name = axis.name;
+            Some(format!("{none:.1} µm in {name} uncompensated, {alone:.1} µm compensated so"))
+        });
+        let each: Vec<String> = each.collect();
+        (!each.is_empty()).then(|| format!("the part would then have {}", each.join(", ")))
+    }
+
     /// The axes that are asked for.
     fn axes(&self, machine: &Machine, problems: &mut Diagnostics) -> Option<Vec<usize>> {
         let Some(letter) = &self.axis else {
@@ -111,7 +139,7 @@ impl CompensateValues {
         let hint = format!("above zero, with its unit, such as \"{usual}\"");
         let wanted = ("an increment", &hint[..]);
         let increment = words::above_zero("--increment", text, dimension, wanted, problems)?;
-        Some(Order { axis, command, positions, increment, of: self.of })
+        Some(Order { axis, command, positions, increment, of: self.of() })
     }
 
     fn positions(
@@ -181,7 +209,7 @@ impl CompensateValues {
 }
 
 impl Question for CompensateValues {
-    type Input = (Machine, Vec<Order>);
+    type Input = (Machine, Vec<Order>, Option<String>);
     type Answer = ValuesAnswer;
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
@@ -203,8 +231,15 @@ impl Question for CompensateValues {
             return None;
         }
         let order = |axis| self.order(&machine, axis, command, problems);
-        let orders = axes.into_iter().map(order).collect::<Option<_>>()?;
-        Some((machine, orders))
+        let orders: Vec<Order> = axes.into_iter().map(order).collect::<Option<_>>()?;
+        let conditions = self.machine.conditions(files, &mut Diagnostics::new()).flatten();
+        let conditions = conditions.unwrap_or_default();
+        let asked = Asked {
+            machine_only: self.of() == Compensation::Machine,
+            here: Self::price_here(&machine, &conditions, &orders),
+        };
+        let price = accepted(&machine, &conditions, &asked, problems)?;
+        Some((machine, orders, price))
     }
 
     fn outputs(&self, _: Option<&Self::Input>) -> Vec<(PathBuf, &'static Kind)> {
@@ -213,7 +248,7 @@ impl Question for CompensateValues {
 
     fn answer(
         &self,
-        (machine, orders): Self::Input,
+        (machine, orders, price): Self::Input,
         _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<ValuesAnswer> {
@@ -225,11 +260,14 @@ impl Question for CompensateValues {
                 Compensation::Comprehensive => "these values are of the comprehensive error",
                 _ => "use --of comprehensive",
             };
+            if let Some(price) = &price {
+                workpiece::warn(price, problems);
+            }
             for warning in report::compensation_warnings(&machine, &tables) {
                 problems.warn("machine-alone-is-worse", argument("--of"), warning, hint);
             }
         }
-        Some(ValuesAnswer { machine, tables, form: self.form, output: self.output.clone() })
+        Some(ValuesAnswer { machine, tables, price, form: self.form, output: self.output.clone() })
     }
 }
 
@@ -239,21 +277,29 @@ impl ValuesAnswer {
         let Self { machine, tables, .. } = self;
         match self.form {
             ValuesForm::Text => self.report().text(),
-            ValuesForm::Json => format!("{:#}\n", report::compensation_json(machine, tables)),
+            ValuesForm::Json => format!("{:#}\n", self.json()),
             ValuesForm::Csv => {
-                tables.iter().map(|t| report::compensation_csv(machine, t)).collect()
+                let price = self.price.as_deref().map(workpiece::heading);
+                let csv = |t| report::compensation_csv(machine, t, price.as_deref());
+                tables.iter().map(csv).collect()
             }
         }
+    }
+
+    fn json(&self) -> Value {
+        let price = self.price.as_deref().map(workpiece::heading);
+        report::compensation_json(&self.machine, &self.tables, price)
     }
 }
 
 impl Answer for ValuesAnswer {
     fn document(&self, _: &Diagnostics) -> Value {
-        report::compensation_json(&self.machine, &self.tables)
+        self.json()
     }
 
     fn report(&self) -> Report<'_> {
-        report::compensation_report(&self.machine, &self.tables)
+        let report = report::compensation_report(&self.machine, &self.tables);
+        workpiece::on_top(report, self.price.as_deref())
     }
 
     fn text(&self) -> String {

@@ -132,7 +132,10 @@ fn heat_section(report: &PoseReport<'_>) -> Section<'static> {
     for (part, um) in heat_shares(machine, command, errors) {
         row(if part == ErrorPart::Workpiece { '-' } else { '+' }, part.name(), um);
     }
-    row('=', "comprehensive", machine.deviation(command, errors).tip_mm * 1e3);
+    // Without the temperature of a workpiece that grows, the sum is not that of the part.
+    let known = machine.heat().workpiece.is_none() || machine.growth().is_some();
+    let sum = if known { "comprehensive" } else { "machine alone" };
+    row('=', sum, machine.deviation(command, errors).tip_mm * 1e3);
     let section = Section::new("Machine − workpiece, µm").table(table);
     match machine.heat().workpiece.as_ref().and_then(|w| w.settling) {
         Some(settling) => section.paragraph(format!(
