@@ -11,6 +11,7 @@ mod correction;
 mod cutting;
 pub mod holes;
 mod judge;
+pub mod location;
 mod monte_carlo;
 mod program;
 mod sensitivity;

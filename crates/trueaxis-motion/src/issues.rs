@@ -1,7 +1,7 @@
 //! Issues on the machine: travel, speed, flips, and bodies that meet.
 
 use super::timing::LimitKind;
-use super::{Batch, Node, Observer, Stamp};
+use super::{Batch, Node, Observer, Stamp, Timing};
 use std::collections::BTreeMap;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
@@ -37,10 +37,12 @@ pub enum IssueKind {
         /// Its index.
         axis: usize,
     },
-    /// At the programmed feed an axis would be too fast; the control slows down.
+    /// At the programmed feed an axis is too fast.
     OverSpeed {
         /// Its index.
         axis: usize,
+        /// Whether the control slows down for it; the timing of three phases keeps the feed.
+        slows: bool,
         /// Near a pole of the rotary axes.
         near_pole: bool,
     },
@@ -190,16 +192,24 @@ impl IssueList {
 pub struct AxisWatch {
     machine: Machine,
     control: Option<TipControl>,
+    slows: bool,
     /// The issues that were found.
     pub log: Log,
     before: Option<(Command, trueaxis_geometry::Vec3)>,
 }
 
 impl AxisWatch {
-    /// Empty, for a machine.
+    /// Empty, for a machine whose control keeps the limits of its axes.
     pub fn on(machine: &Machine) -> Self {
         let control = TipControl::of(machine);
-        Self { machine: machine.clone(), control, log: Log::default(), before: None }
+        Self { machine: machine.clone(), control, slows: true, log: Log::default(), before: None }
+    }
+
+    /// The same with the timing of the run: that of three phases knows no limit of an axis.
+    #[must_use]
+    pub fn timed(mut self, timing: Timing) -> Self {
+        self.slows = !matches!(timing, Timing::ThreePhase { .. });
+        self
     }
 
     fn see_travel(&mut self, node: &Node, stamp: &Stamp) {
@@ -227,7 +237,7 @@ impl AxisWatch {
                 let rotary = axis.kind == AxisKind::Rotary;
                 let near = |c: &TipControl| c.pole_sine(&node.command) < NEAR_POLE;
                 let near_pole = rotary && self.control.as_ref().is_some_and(near);
-                let kind = IssueKind::OverSpeed { axis: i, near_pole };
+                let kind = IssueKind::OverSpeed { axis: i, slows: self.slows, near_pole };
                 self.log.note(kind, node, stamp, demanded, limit);
                 slowed = true;
             }

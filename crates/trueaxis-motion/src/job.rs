@@ -114,7 +114,7 @@ impl Job {
         observers: &mut [&mut dyn Observer],
     ) -> Findings {
         let mut summary = Summary::of(&self.machine);
-        let mut watch = AxisWatch::on(&self.machine);
+        let mut watch = AxisWatch::on(&self.machine).timed(self.options.timing);
         let temperatures = self.options.temperatures.as_ref();
         let mut drift = temperatures.and_then(|run| Drift::of(&self.machine, &self.setup, run));
         let mut all: Vec<&mut dyn Observer> = vec![&mut summary, &mut watch];

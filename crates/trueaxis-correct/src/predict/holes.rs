@@ -4,6 +4,7 @@
 //! machine and that of the workpiece no longer cancel.
 
 use super::Error;
+use super::location::LocationCircle;
 use super::temperatures::{CuttingClock, RunningTemperatures, StudyTemperatures};
 use std::path::Path;
 use trueaxis_geometry::Vec3;
@@ -94,6 +95,8 @@ pub struct HoleSet {
     pub u_worst_mm: f64,
     /// Whether all are in tolerance, if one is stated.
     pub in_tolerance: Option<bool>,
+    /// The circle on which they are; none for fewer than three.
+    pub location: Option<LocationCircle>,
 }
 
 /// All that was found out about the holes.
@@ -271,7 +274,8 @@ fn drill_all(
         let worst_mm = worst.map_or(0.0, Hole::distance_mm);
         let u_worst_mm = worst.map_or(0.0, |h| h.u_distance_mm);
         let in_tolerance = study.tolerance_mm.map(|t| worst_mm <= t);
-        HoleSet { compensation, holes, worst_mm, u_worst_mm, in_tolerance }
+        let location = LocationCircle::of(&study.holes_mm, &holes);
+        HoleSet { compensation, holes, worst_mm, u_worst_mm, in_tolerance, location }
     });
     if problems.has_errors() { Err(problems) } else { Ok(sets) }
 }

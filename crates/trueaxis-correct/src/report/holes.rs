@@ -22,6 +22,7 @@ pub fn holes_report<'a>(study: &'a HoleStudy, prediction: &'a HolePrediction) ->
         .verdict(standing, word, sentence)
         .section(Section::new("").list(warnings))
         .section(worst(study, prediction))
+        .section(location(prediction))
         .section(
             Section::new("Plan view")
                 .on_page()
@@ -65,6 +66,33 @@ fn worst<'a>(study: &HoleStudy, prediction: &HolePrediction) -> Section<'a> {
     let held = prediction.held.iter().flatten();
     let held = held.map(|set| row(set, ", temperatures of the start held"));
     Section::new("Worst hole").table(table.rows(held))
+}
+
+/// The diameter of the circle of the holes, as a drawing tolerates it.
+fn location<'a>(prediction: &HolePrediction) -> Section<'a> {
+    let row = |set: &HoleSet| {
+        let circle = set.location?;
+        let [low, high] = match circle.opposite_mm {
+            Some(both) => both.map(um),
+            None => ["–", "–"].map(String::from),
+        };
+        let name = set.compensation.name().to_owned();
+        let [x, y] = circle.centre_mm.map(um);
+        Some([name, um(circle.diameter_error_mm), low, high, x, y])
+    };
+    let headings = [
+        "compensation",
+        "diameter, µm",
+        "opposite, least, µm",
+        "largest, µm",
+        "centre x, µm",
+        "y, µm",
+    ];
+    let note = "Diameter of the circle of the holes at 20 °C less the nominal one, by least squares and from \
+                opposite holes, and where its centre is. It is not sensitive to a shift of the whole pattern, \
+                the distance from place is.";
+    let rows = prediction.sets.iter().filter_map(row);
+    Section::new("Location diameter").table(Table::new(headings).rows(rows).note(note))
 }
 
 fn holes<'a>(study: &HoleStudy, prediction: &HolePrediction) -> Section<'a> {

@@ -44,8 +44,21 @@ pub struct SetEntry {
     pub u_worst_mm: f64,
     /// Whether all are in tolerance; null if none is stated.
     pub in_tolerance: Option<bool>,
+    /// The circle on which the holes are; null for fewer than three.
+    pub location_diameter: Option<LocationEntry>,
     /// The holes in the order of the study.
     pub holes: Vec<HoleEntry>,
+}
+
+/// The circle of the holes at 20 °C, less the nominal one.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct LocationEntry {
+    /// Its diameter by least squares, µm.
+    pub error_um: f64,
+    /// Smallest and largest distance of opposite holes; null where the number of holes is odd, µm.
+    pub opposite_um: Option<[f64; 2]>,
+    /// Where its centre is along X and Y, µm.
+    pub centre_um: [f64; 2],
 }
 
 /// One hole.
@@ -95,6 +108,11 @@ impl SetEntry {
             worst_mm: set.worst_mm,
             u_worst_mm: set.u_worst_mm,
             in_tolerance: set.in_tolerance,
+            location_diameter: set.location.map(|circle| LocationEntry {
+                error_um: circle.diameter_error_mm * 1e3,
+                opposite_um: circle.opposite_mm.map(|both| both.map(|mm| mm * 1e3)),
+                centre_um: circle.centre_mm.map(|mm| mm * 1e3),
+            }),
             holes: holes.map(|(hole, (at, time))| HoleEntry::of(hole, at, *time)).collect(),
         }
     }

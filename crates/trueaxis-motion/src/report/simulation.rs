@@ -112,12 +112,16 @@ pub fn issue_text(machine: &Machine, issue: &Issue) -> String {
             value(*axis, issue.value),
             value(*axis, issue.limit)
         ),
-        IssueKind::OverSpeed { axis, near_pole } => format!(
-            "over-speed: the feed needs {} of {}/s, its limit is {}/s{}; the control slows down",
+        IssueKind::OverSpeed { axis, near_pole, slows } => format!(
+            "over-speed: the feed needs {} of {}/s, its limit is {}/s{}; {}",
             value(*axis, issue.value),
             name(*axis),
             value(*axis, issue.limit),
-            if *near_pole { " (near a pole of the rotary axes)" } else { "" }
+            if *near_pole { " (near a pole of the rotary axes)" } else { "" },
+            match *slows {
+                true => "the control slows down",
+                false => "the timing of three phases keeps the feed, beyond what the axis can do",
+            }
         ),
         IssueKind::SlowedDown { axis, limit } => {
             let limit = limit_name(*limit);
