@@ -9,6 +9,9 @@ $trueaxis identify thermal examples/05_identify/lathe-thermal.toml --format json
 # Which location errors does the machine have, and which can a probe on one ball not separate?
 $trueaxis identify examples/05_identify/probe-ball.toml --report "${TMPDIR:-/tmp}/probe-ball.html" -o "${TMPDIR:-/tmp}/probe-ball-machine.toml"
 $trueaxis identify examples/05_identify/probe-ball.toml --format json
+# The same poses standing, at 30 and at 150 mm/min: what follows the feed is the servo.
+$trueaxis identify examples/05_identify/probe-ball-two-feeds.toml --report "${TMPDIR:-/tmp}/two-feeds.html"
+$trueaxis identify examples/05_identify/probe-ball-two-feeds.toml --format json
 # Ball-bar, R-test and laser at once.
 $trueaxis identify examples/05_identify/mixed-instruments.toml
 $trueaxis identify examples/05_identify/mixed-instruments.toml --check-conventions

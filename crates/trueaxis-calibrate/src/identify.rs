@@ -13,6 +13,7 @@ pub mod conflict;
 pub mod convention;
 pub mod errors;
 pub mod expansion;
+pub mod feeds;
 pub mod influence;
 pub mod leftover;
 pub mod machine_file;

@@ -2,8 +2,10 @@
 
 pub mod instrument;
 mod kind;
+mod motion;
 mod readings;
 
 pub use instrument::Instrument;
 pub use kind::Kind;
+pub use motion::Motion;
 pub use readings::{Reading, Readings};

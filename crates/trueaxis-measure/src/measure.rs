@@ -6,8 +6,11 @@
 //! ```
 
 mod campaign;
+mod motion;
 pub mod path;
+mod servo;
 pub mod virtual_campaign;
 
-pub use crate::instruments::{Instrument, Kind, Reading, Readings, instrument};
+pub use crate::instruments::{Instrument, Kind, Motion, Reading, Readings, instrument};
 pub use campaign::{Campaign, read_campaign, usual_setup};
+pub use motion::fill_motion;

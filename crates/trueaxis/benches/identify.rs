@@ -96,6 +96,7 @@ fn readings(design: &Design, poses: u32) -> Readings {
             value: [0.0; 3],
             group,
             time_s: 0.0,
+            motion: trueaxis::measure::Motion::default(),
             line: 0,
         });
     }

@@ -152,6 +152,7 @@ impl Bench {
                 value,
                 group: group as u32,
                 time_s: 0.0,
+                motion: trueaxis::measure::Motion::default(),
                 line: 0,
             });
         }

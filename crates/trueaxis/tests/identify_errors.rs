@@ -52,6 +52,7 @@ fn stations(random: &mut Random, machine: &Machine, count: u32) -> Readings {
             value: [0.0; 3],
             group,
             time_s: 0.0,
+            motion: trueaxis::measure::Motion::default(),
             line: group + 2,
         });
     }
@@ -609,6 +610,7 @@ fn oracle_unobservable_combinations_span_the_null_space_of_numpy() {
                 value: [0.0; 3],
                 group: i as u32,
                 time_s: 0.0,
+                motion: trueaxis::measure::Motion::default(),
                 line: 0,
             });
         }

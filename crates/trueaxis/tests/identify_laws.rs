@@ -87,6 +87,7 @@ fn stations(random: &mut Random, machine: &Machine, count: u32) -> Readings {
             value: [0.0; 3],
             group,
             time_s: 0.0,
+            motion: trueaxis::measure::Motion::default(),
             line: 0,
         });
     }

@@ -8,6 +8,7 @@
 use super::checks::check_records;
 use super::conflict::check_conflicts;
 use super::convention::{ConventionCheck, check_conventions};
+use super::feeds::{Feeds, check_feeds, feeds};
 use super::influence::{Influences, influences};
 use super::leftover::{Field, leftover_fields};
 use super::records::{Loss, Options, Records};
@@ -47,6 +48,8 @@ pub struct Found {
     pub number: usize,
     /// Whether it is an angle (rad); otherwise mm, or 1 for scales.
     pub is_angle: bool,
+    /// Whether it is a time (s): a lag.
+    pub is_time: bool,
     /// Whether it belongs to a set-up and not to the machine.
     pub is_setup: bool,
     /// Value and standard uncertainty, mm, rad or 1; none if it is not observable.
@@ -151,6 +154,8 @@ pub struct Identification {
     pub reach: [[f64; 2]; MAX_AXES],
     /// The conventions, if they were checked.
     pub conventions: Option<ConventionCheck>,
+    /// At which feeds it was read, and what cannot be separated at them.
+    pub feeds: Feeds,
 }
 
 /// Identifies; `None` with errors in `problems`.
@@ -174,6 +179,7 @@ pub fn identify(
     }
     let (parts, places) = parts_by_place(readings, options.folds);
     check_records(&whole, records, places, &place, problems);
+    check_feeds(&whole, records, problems);
     if problems.has_errors() {
         return None;
     }
@@ -273,6 +279,7 @@ impl<'a> Work<'a> {
             verdict: verdict(design, &score, &fields),
             influences: influences(design, readings, &self.weights, &self.fit),
             conventions: suspicious.then(|| check_conventions(&self.whole, readings)),
+            feeds: feeds(campaign, readings),
             reach: reach(readings),
             selection: self.selection,
             score,
@@ -379,9 +386,9 @@ fn sums_of_parts(
         .collect()
 }
 
-/// Error motions may be in; everything else is.
+/// Error motions may be in; everything else is, the servo too.
 fn candidates(design: &Design) -> Candidates {
-    let is_motion = |k: &usize| matches!(design.unknown(*k), Some(Unknown::Term(t)) if t.error.kind == ErrorKind::Motion);
+    let is_motion = |k: &usize| matches!(design.unknown(*k), Some(Unknown::Term(t)) if t.error.kind == ErrorKind::Motion && !t.basis.is_servo());
     let (maybe, always) = (0..design.unknowns()).partition(is_motion);
     Candidates { always, maybe }
 }
@@ -417,6 +424,7 @@ fn found(
                 name: unknown.name(),
                 number: k,
                 is_angle: unknown.is_angle(),
+                is_time: unknown.is_time(),
                 is_setup: matches!(unknown, Unknown::Setup(..)),
                 value: seen.then_some((fit.values[k], u)),
             }

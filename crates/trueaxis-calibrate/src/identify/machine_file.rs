@@ -67,10 +67,11 @@ fn unknowns(
     found: &Identification,
 ) -> BTreeMap<ErrorName, Vec<(usize, Term)>> {
     let mut all: BTreeMap<ErrorName, Vec<(usize, Term)>> = BTreeMap::new();
-    for term in &campaign.terms {
+    let is_made = |term: &Term| !term.basis.is_servo();
+    for term in campaign.terms.iter().filter(|t| is_made(t)) {
         all.entry(term.error).or_default();
     }
-    for (k, term) in found.design.terms.iter().enumerate() {
+    for (k, term) in found.design.terms.iter().enumerate().filter(|(_, t)| is_made(t)) {
         all.entry(term.error).or_default().push((k, *term));
     }
     all

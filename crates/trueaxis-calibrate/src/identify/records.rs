@@ -1,7 +1,7 @@
 //! The readings of a campaign with the file that each came from.
 
 use trueaxis_input::{CsvTable, Diagnostics, Item, Place, Section};
-use trueaxis_measure::measure::{Campaign, Readings};
+use trueaxis_measure::measure::{Campaign, Readings, fill_motion};
 use trueaxis_measure::unknowns::fit::{Model, Rule};
 
 /// Readings, and where each stands.
@@ -105,7 +105,8 @@ impl Records {
         problems: &mut Diagnostics,
     ) -> Option<()> {
         let (instrument, number) = (&campaign.instruments[index], u32::try_from(index).ok()?);
-        let read = Readings::parse(table, &campaign.machine, instrument, number, problems)?;
+        let mut read = Readings::parse(table, &campaign.machine, instrument, number, problems)?;
+        fill_motion(&mut read, &campaign.machine, &campaign.instruments);
         self.tables.push((self.readings.len(), table.file.clone()));
         self.readings.append(&read);
         Some(())

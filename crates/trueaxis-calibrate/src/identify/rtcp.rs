@@ -281,6 +281,7 @@ fn rows(study: &RtcpStudy, flip: Option<Flip>) -> Rows {
                     value: [value, 0.0, 0.0],
                     group: u32::try_from(r).unwrap_or(u32::MAX),
                     time_s: 0.0,
+                    motion: trueaxis_measure::measure::Motion::default(),
                     line: row.line,
                 });
                 made.origins.push((s, r, c));

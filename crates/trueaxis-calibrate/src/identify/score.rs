@@ -115,7 +115,8 @@ pub fn repeatability(design: &Design, readings: &Readings) -> Option<Rms> {
         let n = readings.directions[i];
         let direction = [n.x, n.y, n.z].map(|v| (v * 1e6).round() as i64);
         let side = readings.approaches[i].map(|a| a.signum() as i8);
-        places.entry((of, command, direction, side)).or_default().push(i);
+        let feed = readings.motions[i].feed_mm_per_s.map(|f| (f * 1e6).round() as i64);
+        places.entry((of, command, direction, side, feed)).or_default().push(i);
     }
     let (mut noise, mut length, mut angle) = (Mean::default(), Mean::default(), Mean::default());
     for rows in places.values().filter(|rows| rows.len() > 1) {

@@ -308,6 +308,7 @@ fn stations(design: &Design, instrument: usize, axes: &[usize]) -> Readings {
                 value: [0.0; 3],
                 group: u32::try_from(k).unwrap_or(u32::MAX),
                 time_s: 0.0,
+                motion: trueaxis_measure::measure::Motion::default(),
                 line: 0,
             });
         }

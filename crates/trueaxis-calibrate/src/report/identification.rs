@@ -34,13 +34,17 @@ const MOST_MAPPED: usize = 60;
 /// Correlations from here on are reported.
 const STRONG: f64 = 0.9;
 
-/// µm or µrad of mm or rad.
+/// µm, µrad or ms of mm, rad or s.
 pub(super) fn shown(found: &Found, value: f64) -> f64 {
     if found.is_angle { value * 1e6 } else { value * 1e3 }
 }
 
 fn unit(found: &Found) -> &'static str {
-    if found.is_angle { "µrad" } else { "µm" }
+    match (found.is_time, found.is_angle) {
+        (true, _) => "ms",
+        (_, true) => "µrad",
+        _ => "µm",
+    }
 }
 
 /// `1.02 µm, 3.1 µrad`.
@@ -154,6 +158,7 @@ pub fn identification_report(answer: IdentificationReport<'_>) -> Report<'_> {
         .sections(answer.conventions.map(conventions_section))
         .section(arrow_section(&answer))
         .section(error_section(&answer))
+        .sections(feed_section(&answer))
         .section(unobservable_section("Not observable with these readings", &found.unobservable))
         .section(correlation_section(answer))
         .section(outlier_section(&answer))
@@ -228,7 +233,8 @@ fn arrow_section<'a>(answer: &IdentificationReport<'_>) -> Section<'a> {
 fn error_section<'a>(answer: &IdentificationReport<'a>) -> Section<'a> {
     let found = &answer.found.found;
     let figure = |angle: bool| {
-        let machine = found.iter().filter(move |f| !f.is_setup && f.is_angle == angle);
+        let machine =
+            found.iter().filter(move |f| !f.is_setup && !f.is_time && f.is_angle == angle);
         let all: Vec<Bar<'_>> = machine.filter_map(bar).collect();
         let caption = format!("{}, bars with 95 % intervals", if angle { "µrad" } else { "µm" });
         (!all.is_empty()).then(|| Figure::new(caption, move || Ok(bars(&all))))
@@ -251,6 +257,46 @@ fn error_section<'a>(answer: &IdentificationReport<'a>) -> Section<'a> {
     Section::new("The errors")
         .grid(Columns::AsFit, [false, true].into_iter().filter_map(figure))
         .table(table.rows(found.iter().map(row)).most_on_terminal(usize::MAX))
+}
+
+/// At which feeds it was read, the gain mismatch of the axes, and what cannot be separated.
+fn feed_section<'a>(answer: &IdentificationReport<'_>) -> Option<Section<'a>> {
+    let found = answer.found;
+    if found.feeds.counts.is_empty() {
+        return None;
+    }
+    let counts = found.feeds.counts.iter().map(|c| match c.feed_mm_per_min {
+        0.0 => format!("{} standing", c.readings),
+        feed => format!("{} at {feed} mm/min", c.readings),
+    });
+    let counts = counts.collect::<Vec<_>>().join(", ");
+    let lags: Vec<&Found> = found.found.iter().filter(|f| f.is_time && f.value.is_some()).collect();
+    let rows = lags.iter().filter_map(|f| {
+        let (first, (value, u)) = (lags.first()?, f.value?);
+        let gain = match value > 2.0 * u {
+            true => format!("{:.2}", 1.0 / value),
+            false => "not known".to_owned(),
+        };
+        let (a, b) = (first.number, f.number);
+        let c = &found.fit.covariance;
+        let apart = value - first.value?.0;
+        let variance = c[(a, a)] + c[(b, b)] - 2.0 * c[(a, b)];
+        let mismatch = match a == b {
+            true => ["reference".to_owned(), String::new()],
+            false => [apart * 1e3, variance.max(0.0).sqrt() * found.birge * 1e3]
+                .map(|v| format!("{v:.3}")),
+        };
+        let [mismatch, u_mismatch] = mismatch;
+        Some([f.name.clone(), gain, mismatch, u_mismatch])
+    });
+    let head = ["axis", "velocity gain, 1/s", "gain mismatch, ms", "standard uncertainty, ms"];
+    let table = Table::new(head).rows(rows).note(
+        "Mismatch: the lag of the axis less that of the first. An instrument that follows the path \
+         sees it far better than a lag that all axes share.",
+    );
+    let section = Section::new("Feeds").paragraph(format!("Readings: {counts}."));
+    let section = if lags.is_empty() { section } else { section.table(table) };
+    Some(section.list(found.feeds.not_separable.iter().map(|s| s.words())))
 }
 
 fn bar(found: &Found) -> Option<Bar<'_>> {

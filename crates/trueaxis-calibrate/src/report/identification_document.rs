@@ -3,6 +3,7 @@
 use super::identification::{IdentificationReport, shown};
 use crate::identify::convention::ConventionCheck;
 use crate::identify::errors::Found;
+use crate::identify::feeds::Feeds;
 use crate::identify::score::Rms;
 use crate::identify::selection::Score;
 use crate::plan::Unobservable;
@@ -61,6 +62,8 @@ pub struct IdentificationDocument<'a> {
     pub chi_square: f64,
     /// Its degrees of freedom.
     pub degrees_of_freedom: usize,
+    /// The feeds of the readings, and the lags that they cannot separate.
+    pub feeds: &'a Feeds,
     /// Factor by which the uncertainties are enlarged, 1 or more. Unit: 1.
     pub birge_ratio: f64,
     /// Which axes the residual of the held-out places follows.
@@ -93,7 +96,8 @@ pub struct VerdictEntry {
 pub struct FoundEntry<'a> {
     /// Its name.
     pub name: &'a str,
-    /// `value_um` and its standard uncertainty `u_um`, or `value_urad` and `u_urad`; null if not observable.
+    /// `value_um` and its standard uncertainty `u_um`, `value_urad` and `u_urad`, or `value_ms`
+    /// and `u_ms` (lag); null if not observable.
     #[serde(flatten)]
     pub value: Keyed<Option<f64>>,
     /// The standard uncertainty again. Unit: that of the value.
@@ -218,6 +222,7 @@ impl<'a> IdentificationDocument<'a> {
             },
             chi_square: found.fit.chi_square,
             degrees_of_freedom: found.fit.degrees_of_freedom,
+            feeds: &found.feeds,
             birge_ratio: found.birge,
             residual_follows: fields(report),
             selection: SelectionEntry {
@@ -264,7 +269,11 @@ fn influence(report: &IdentificationReport<'_>, row: usize) -> InfluenceEntry {
 
 impl<'a> From<&'a Found> for FoundEntry<'a> {
     fn from(found: &'a Found) -> Self {
-        let names = if found.is_angle { ["value_urad", "u_urad"] } else { ["value_um", "u_um"] };
+        let names = match (found.is_time, found.is_angle) {
+            (true, _) => ["value_ms", "u_ms"],
+            (_, true) => ["value_urad", "u_urad"],
+            _ => ["value_um", "u_um"],
+        };
         let u = found.value.map(|(_, u)| shown(found, u));
         let value = found.value.map(|(v, _)| shown(found, v));
         let value = names.into_iter().zip([value, u]).collect();

@@ -1,5 +1,6 @@
 //! Readings: at which commands of the machine which instrument read what.
 
+use super::Motion;
 use super::instrument::{Instrument, Sight};
 use std::fmt::Write as _;
 use trueaxis_geometry::Vec3;
@@ -27,6 +28,8 @@ pub struct Readings {
     pub groups: Vec<u32>,
     /// When, s.
     pub times_s: Vec<f64>,
+    /// How the axes moved.
+    pub motions: Vec<Motion>,
     /// The line of the file; 0 if it did not come from one.
     pub lines: Vec<u32>,
 }
@@ -48,6 +51,8 @@ pub struct Reading {
     pub group: u32,
     /// When, s.
     pub time_s: f64,
+    /// How the axes moved.
+    pub motion: Motion,
     /// The line of the file.
     pub line: u32,
 }
@@ -72,6 +77,7 @@ impl Readings {
         self.values.push(row.value);
         self.groups.push(row.group);
         self.times_s.push(row.time_s);
+        self.motions.push(row.motion);
         self.lines.push(row.line);
     }
 
@@ -85,6 +91,7 @@ impl Readings {
             value: self.values[i],
             group: self.groups[i],
             time_s: self.times_s[i],
+            motion: self.motions[i],
             line: self.lines[i],
         }
     }
@@ -111,7 +118,7 @@ impl Readings {
     ///
     /// Columns: the axes by letter (mm, deg; an axis that is not named stands at 0), the channels
     /// of the instrument with their unit (`x_um`, `y_um`, `z_um`; `length_mm`; `deviation_um`;
-    /// `angle_urad`), and if wanted `group`, `time_s`, the direction `n_x`, `n_y`, `n_z` and the
+    /// `angle_urad`), and if wanted `group`, `time_s`, `feed_mm_per_min` (0: standing), the direction `n_x`, `n_y`, `n_z` and the
     /// side from which an axis came, `X_approach` (1, −1). All but `length` are deviations from the
     /// nominal reading. A touch probe that triggers has no channel: the axes are its reading.
     pub fn parse(
@@ -150,6 +157,7 @@ impl Readings {
                 value,
                 group,
                 time_s: columns.time.map_or(0.0, |c| c.values[row]),
+                motion: columns.motion(row),
                 line: u32::try_from(table.row_place(row).line).unwrap_or(u32::MAX),
             });
         }
@@ -179,7 +187,8 @@ impl Readings {
         let mine: Vec<usize> = (0..self.len()).filter(|i| self.instruments[*i] == index).collect();
         let directed = mine.iter().any(|i| self.directions[*i] != instrument.direction);
         let approached = mine.iter().any(|i| self.approaches[*i] != Approach::default());
-        let mut text = headings(machine, instrument, directed, approached);
+        let fed = mine.iter().any(|i| self.motions[*i].is_moving());
+        let mut text = headings(machine, instrument, [directed, approached, fed]);
         for i in mine {
             let row = self.row(i);
             // Writing to a String cannot fail.
@@ -204,11 +213,20 @@ impl Readings {
                 let n = row.direction;
                 let _ = write!(text, "{},{},{},", n.x, n.y, n.z);
             }
-            let _ = writeln!(text, "{},{}", row.group, row.time_s);
+            let _ = write!(text, "{},{}", row.group, row.time_s);
+            if fed {
+                let feed = row.motion.feed_mm_per_s.unwrap_or(0.0) * 60.0;
+                // Nine digits: 2.5 mm/s are 150 mm/min.
+                let _ = write!(text, ",{}", (feed * 1e6).round() / 1e6);
+            }
+            text.push('\n');
         }
         text
     }
 }
+
+/// The column of the feed of the tool against the workpiece.
+const FEED: &str = "feed_mm_per_min";
 
 fn channels(instrument: &Instrument) -> std::ops::Range<usize> {
     0..if instrument.kind.triggers() { 0 } else { instrument.sight.channels() }
@@ -227,8 +245,7 @@ fn shown_scale(instrument: &Instrument) -> f64 {
 fn headings(
     machine: &Machine,
     instrument: &Instrument,
-    directed: bool,
-    approached: bool,
+    [directed, approached, fed]: [bool; 3],
 ) -> String {
     let mut names: Vec<String> = machine.axes().iter().map(|a| a.name.to_string()).collect();
     if approached {
@@ -245,6 +262,7 @@ fn headings(
         names.extend(["n_x", "n_y", "n_z"].map(str::to_owned));
     }
     names.extend(["group".to_owned(), "time_s".to_owned()]);
+    names.extend(fed.then(|| FEED.to_owned()));
     names.join(",") + "\n"
 }
 
@@ -257,6 +275,7 @@ struct Columns<'t> {
     normal: Option<[&'t CsvColumn; 3]>,
     group: Option<&'t CsvColumn>,
     time: Option<&'t CsvColumn>,
+    feed: Option<&'t CsvColumn>,
 }
 
 impl<'t> Columns<'t> {
@@ -274,6 +293,7 @@ impl<'t> Columns<'t> {
             normal: None,
             group: None,
             time: None,
+            feed: None,
         };
         for column in &table.columns {
             found.take(column, machine, instrument, problems);
@@ -316,6 +336,7 @@ impl<'t> Columns<'t> {
             "n_x" | "n_y" | "n_z" => return,
             "group" => return self.group = Some(column),
             "time_s" => return self.time = Some(column),
+            FEED => return self.take_feed(column, problems),
             _ => {}
         }
         let (name, unit) = column.name.rsplit_once('_').unwrap_or((&column.name, ""));
@@ -327,8 +348,8 @@ impl<'t> Columns<'t> {
         // A distance may also be given as its deviation.
         let channel = channel.or((absolute(instrument) && name == "deviation").then_some(0));
         let Some(channel) = channel.filter(|c| channels(instrument).contains(c)) else {
-            let hint = "known here: the axes, the channels of the instrument, group, time_s, n_x n_y \
-                        n_z, X_approach";
+            let hint = "known here: the axes, the channels of the instrument, group, time_s, \
+                        feed_mm_per_min, n_x n_y n_z, X_approach";
             let message = format!("`{}` says nothing to a {}", column.name, instrument.kind.name());
             return problems.warn("unknown-column", column.place.clone(), message, hint);
         };
@@ -338,6 +359,22 @@ impl<'t> Columns<'t> {
             Ok(unit) => self.channels.push((channel, name == "length", unit, column)),
             Err(e) => problems.error(e.code(), column.place.clone(), e.to_string(), &e.hint()),
         }
+    }
+
+    /// A feed is 0 (standing) or more.
+    fn take_feed(&mut self, column: &'t CsvColumn, problems: &mut Diagnostics) {
+        if let Some(row) = column.values.iter().position(|f| *f < 0.0) {
+            let mut place = column.place.clone();
+            place.line += row + 1;
+            let message = format!("a feed of {} mm/min", column.values[row]);
+            problems.error("bad-feed", place, message, "0 for standing still, else positive");
+        }
+        self.feed = Some(column);
+    }
+
+    fn motion(&self, row: usize) -> Motion {
+        let at = |column: &CsvColumn| Motion::at_feed(column.values[row].max(0.0) / 60.0);
+        self.feed.map_or_else(Motion::default, at)
     }
 
     fn direction(&self, row: usize, usual: Vec3) -> Vec3 {

@@ -1,6 +1,7 @@
 //! The campaign file: on which machine, with which instruments, which unknowns.
 
-use super::{Kind, Readings};
+use super::servo::read_servo;
+use super::{Kind, Readings, fill_motion};
 use crate::instruments::instrument::{Instrument, SetupError, SetupUnknown};
 use crate::unknowns::design::Design;
 use crate::unknowns::minimal::minimal_location_errors;
@@ -61,7 +62,10 @@ impl Campaign {
                     .map(|text| CsvTable::parse(&path.display().to_string(), &text, problems));
                 let index = u32::try_from(index).unwrap_or(u32::MAX);
                 let read = table.and_then(|table| {
-                    Readings::parse(&table, &self.machine, instrument, index, problems)
+                    let mut read =
+                        Readings::parse(&table, &self.machine, instrument, index, problems)?;
+                    fill_motion(&mut read, &self.machine, &self.instruments);
+                    Some(read)
                 });
                 match read {
                     Some(read) => all.append(&read),
@@ -155,6 +159,7 @@ fn read_unknown(section: &Section<'_>, machine: &Machine) -> Vec<Term> {
             terms.extend(read_motion(&item, key, machine));
         }
     });
+    section.section("servo", |s| terms.extend(read_servo(s, machine)));
     section.section("prior", |s| {
         for (key, _, item) in s.entries() {
             read_prior(&item, key, &mut terms);

@@ -234,6 +234,7 @@ pub fn station(command: [f64; 6], campaign: &Campaign, instrument: usize, group:
         value: [0.0; 3],
         group: u32::try_from(group).unwrap_or(u32::MAX),
         time_s: 0.0,
+        motion: super::Motion::default(),
         line: 0,
     }
 }

@@ -22,6 +22,7 @@ pub use file::read_virtual;
 pub use follow::{Stand, move_time_s};
 pub use summary::{ChannelSummary, Summary, shown_unit, summarise};
 
+use super::motion::{fill_motion, reference_from_tool};
 use super::path::Path;
 use super::{Campaign, Instrument, Readings};
 use crate::instruments::instrument::View;
@@ -37,7 +38,6 @@ use trueaxis_machine::axis::{AxisKind, Command, MAX_AXES};
 use trueaxis_machine::chain::{CommandFault, Link};
 use trueaxis_machine::errors::{ErrorName, ErrorValues};
 use trueaxis_machine::heat::TemperatureLog;
-use trueaxis_machine::twist::Reference;
 
 /// The machine changes its temperature so often, s …
 const TEMPERATURE_STEP_S: f64 = 10.0;
@@ -252,6 +252,7 @@ pub fn measure(campaign: &Campaign, real: &VirtualCampaign) -> Result<Measuremen
         measurement.offsets.push(stand.offset);
         measurement.readings.push(row);
     }
+    fill_motion(&mut measurement.readings, &campaign.machine, &campaign.instruments);
     Ok(measurement)
 }
 
@@ -391,18 +392,6 @@ impl TrueTool<'_> {
             *q += off;
         }
         Ok(reference_from_tool(self.machine, self.instrument.reference, &actual, &errors))
-    }
-}
-
-fn reference_from_tool(
-    machine: &Machine,
-    reference: Reference,
-    command: &Command,
-    errors: &ErrorValues,
-) -> Link {
-    match reference {
-        Reference::Workpiece => machine.pose(command, errors).relabel(),
-        Reference::Bed => machine.tool_on_bed(command, errors).relabel(),
     }
 }
 

@@ -33,6 +33,8 @@ impl Confusion {
             };
             let first_is_angle = self.members.first().and_then(|(k, _)| design.unknown(*k));
             let unit = match (first_is_angle.is_some_and(|u| u.is_angle()), unknown.is_angle()) {
+                // Factors of a time are in its own unit of mm, rad and s.
+                _ if unknown.is_time() || first_is_angle.is_some_and(|u| u.is_time()) => "",
                 (true, false) => " mm/rad",
                 (false, true) => " rad/mm",
                 _ => "",
@@ -80,6 +82,7 @@ fn amounts(unknowns: &[(Unknown<'_>, f64)]) -> String {
             Unknown::Setup(_, s) if s.error == crate::instruments::instrument::SetupError::Scale
         );
         match (plain, unknown.is_angle()) {
+            _ if unknown.is_time() => (share * 1e6, "µs"),
             (true, _) => (share * 1e6, "µm/m"),
             (_, true) => (share * 1e6, "µrad"),
             _ => (share * 1e3, "µm"),

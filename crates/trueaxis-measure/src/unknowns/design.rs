@@ -6,7 +6,7 @@
 
 use super::term::{Basis, Term};
 use crate::instruments::instrument::{SetupUnknown, Sight, View};
-use crate::instruments::{Instrument, Readings};
+use crate::instruments::{Instrument, Motion, Readings};
 use nalgebra::DMatrix;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Command};
@@ -60,10 +60,16 @@ impl Unknown<'_> {
         }
     }
 
-    /// Whether it is an angle (rad); the others are lengths (mm) or plain numbers.
+    /// Whether it is a time (s): how far an axis is behind.
+    pub fn is_time(&self) -> bool {
+        matches!(self, Self::Term(term) if term.basis.is_lag())
+    }
+
+    /// Whether it is an angle (rad); the others are lengths (mm), times (s) or plain numbers.
     pub fn is_angle(&self) -> bool {
         use crate::instruments::instrument::SetupError;
         match self {
+            Self::Term(term) if term.basis.is_lag() => false,
             Self::Term(term) => term.error.component.is_rotation(),
             Self::Setup(instrument, unknown) => match unknown.error {
                 SetupError::ReferenceTurn(_) => true,
@@ -80,7 +86,10 @@ impl Design {
         let mut machine = machine.clone();
         let mut runs: Vec<(ErrorIndex, std::ops::Range<usize>)> = Vec::new();
         for (k, term) in terms.iter().enumerate() {
-            machine = machine.with_error(term.index, None);
+            // A lag is sought besides what the machine file states, not in its place.
+            if !term.basis.is_servo() {
+                machine = machine.with_error(term.index, None);
+            }
             match runs.last_mut().filter(|(index, _)| *index == term.index) {
                 Some((_, range)) => range.end = k + 1,
                 None => runs.push((term.index, k..k + 1)),
@@ -141,8 +150,19 @@ impl Design {
         approach: &Approach,
         values: &[f64],
     ) -> Result<ErrorValues, CommandFault> {
+        self.errors_in_motion(command, approach, &Motion::default(), values)
+    }
+
+    /// The same while the axes move.
+    fn errors_in_motion(
+        &self,
+        command: &Command,
+        approach: &Approach,
+        motion: &Motion,
+        values: &[f64],
+    ) -> Result<ErrorValues, CommandFault> {
         let mut errors = self.machine.errors_at(command, approach)?;
-        let phi = self.functions_at(command, approach);
+        let phi = self.functions_at(command, approach, motion);
         for ((term, f), c) in self.terms.iter().zip(&self.function_of).zip(values) {
             errors.add(term.index, c * phi[*f]);
         }
@@ -150,10 +170,10 @@ impl Design {
     }
 
     /// φ of every function at a command.
-    fn functions_at(&self, command: &Command, approach: &Approach) -> Vec<f64> {
+    fn functions_at(&self, command: &Command, approach: &Approach, motion: &Motion) -> Vec<f64> {
         let at = |(axis, basis): &(Option<usize>, Basis)| {
-            let (q, side) = axis.map_or((0.0, 0.0), |i| (command[i], approach[i]));
-            basis.value(q, side)
+            let moving = |i| basis.in_motion(command, approach, i, motion);
+            axis.map_or_else(|| basis.value(0.0, 0.0), moving)
         };
         self.functions.iter().map(at).collect()
     }
@@ -171,7 +191,8 @@ impl Design {
         let of = readings.instruments[i] as usize;
         let instrument = &self.instruments[of];
         let command = &readings.commands[i];
-        let errors = self.errors_at(command, &readings.approaches[i], values)?;
+        let (approach, motion) = (&readings.approaches[i], &readings.motions[i]);
+        let errors = self.errors_in_motion(command, approach, motion, values)?;
         let actual = instrument.tool_seen(&self.machine, command, &errors);
         let nominal = match instrument.sight {
             Sight::Turn => instrument.tool_seen(&self.machine, command, &ErrorValues::default()),
@@ -194,7 +215,7 @@ impl Design {
         let wrenches = instrument.wrenches(&view);
         let channels = instrument.sight.channels();
         out[..channels * n].fill(0.0);
-        let phi = self.functions_at(command, approach);
+        let phi = self.functions_at(command, approach, &readings.motions[i]);
         for (index, run) in &self.runs {
             let twist = frames.twist(*index);
             for (c, wrench) in wrenches.iter().take(channels).enumerate() {

@@ -4,9 +4,12 @@
 //!     E(q) = Σ c_k φ_k(q)                                                 docs/model.md eq. 106
 //! ```
 
+use crate::instruments::Motion;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Travel};
-use trueaxis_machine::errors::{Curve, ErrorIndex, ErrorKind, ErrorName, Harmonic, StatedError};
+use trueaxis_machine::errors::{
+    Curve, ErrorIndex, ErrorKind, ErrorName, ErrorValues, Harmonic, StatedError,
+};
 
 /// One known function φ of the programmed position.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,6 +38,23 @@ pub enum Basis {
     },
     /// Half of the difference of the two directions of approach.
     Reversal,
+    /// Velocity: the axis stands that much time behind its command (1/Kv).
+    Lag {
+        /// 1 or −1: an error of a table leads the tool the other way than its axis does.
+        sense: f64,
+    },
+    /// Half of the play: the axis stands behind on the side that it comes from.
+    LostMotion {
+        /// 1 or −1.
+        sense: f64,
+    },
+    /// The axis sticks where it turns and comes free with this time constant.
+    Friction {
+        /// The time constant, s.
+        free_s: f64,
+        /// 1 or −1.
+        sense: f64,
+    },
 }
 
 impl Basis {
@@ -47,7 +67,37 @@ impl Basis {
             Self::Sine(order) => (f64::from(order) * q).sin(),
             Self::Hat { at, step } => (1.0 - ((q - at) / step).abs()).max(0.0),
             Self::Reversal => 0.5 * approach,
+            Self::LostMotion { sense } => -0.5 * sense * approach,
+            // They say nothing of an axis that stands.
+            Self::Lag { .. } | Self::Friction { .. } => 0.0,
         }
+    }
+
+    /// φ where an axis moves: `−v`, `−½ side`, `−d e^{−age/t}` of the servo, `value` of the others.
+    pub fn in_motion(
+        self,
+        command: &[f64; 6],
+        approach: &[f64; 6],
+        axis: usize,
+        m: &Motion,
+    ) -> f64 {
+        match self {
+            Self::Lag { sense } => -sense * m.speed[axis],
+            Self::Friction { free_s, sense } => {
+                -sense * m.turned[axis] * (-m.turned_ago_s[axis].max(0.0) / free_s).exp()
+            }
+            _ => self.value(command[axis], approach[axis]),
+        }
+    }
+
+    /// Whether it is of the servo: how an axis follows, not how it is made.
+    pub fn is_servo(self) -> bool {
+        matches!(self, Self::Lag { .. } | Self::LostMotion { .. } | Self::Friction { .. })
+    }
+
+    /// Whether it is a lag.
+    pub fn is_lag(self) -> bool {
+        matches!(self, Self::Lag { .. })
     }
 }
 
@@ -93,6 +143,9 @@ impl Term {
             }
             Basis::Hat { at, .. } => format!("{error} at {at:.3} mm"),
             Basis::Reversal => format!("{error} reversal"),
+            Basis::Lag { .. } => format!("lag {}", error.body),
+            Basis::LostMotion { .. } => format!("lost motion {}", error.body),
+            Basis::Friction { .. } => format!("friction {}", error.body),
         }
     }
 
@@ -102,11 +155,51 @@ impl Term {
         self.basis.value(q, side)
     }
 
+    /// How one axis follows, as an unknown of its error of position (EXX, ECC); none if the axis does
+    /// not lie along X, Y or Z of the machine. `basis` makes φ from the sense of that error.
+    pub fn servo(machine: &Machine, axis: usize, basis: impl Fn(f64) -> Basis) -> Option<Self> {
+        use trueaxis_machine::errors::Component::{A, B, C, X, Y, Z};
+        let of = machine.axes().get(axis)?;
+        let components = match of.kind {
+            AxisKind::Linear => [X, Y, Z],
+            AxisKind::Rotary => [A, B, C],
+        };
+        let senses = [(0, 1.0), (1, 1.0), (2, 1.0), (0, -1.0), (1, -1.0), (2, -1.0)];
+        senses.iter().find_map(|(k, sense)| {
+            let name =
+                ErrorName { body: of.name, kind: ErrorKind::Motion, component: components[*k] };
+            let index = machine.error_index(name)?;
+            let (axis, basis) = (Some(axis), basis(*sense));
+            let term = Self { error: name, index, axis, basis, prior: None };
+            moves_alike(machine, &term, *sense).then_some(term)
+        })
+    }
+
     /// A location error as an unknown.
     pub fn location(machine: &Machine, error: ErrorName) -> Option<Self> {
         let index = machine.error_index(error).filter(|_| error.kind == ErrorKind::Location)?;
         Some(Self { error, index, axis: None, basis: Basis::Constant, prior: None })
     }
+}
+
+/// Whether a small displacement of the axis and its error lead the tool the same way.
+fn moves_alike(machine: &Machine, term: &Term, sense: f64) -> bool {
+    const STEP: f64 = 1e-5;
+    let none = ErrorValues::default();
+    let mut here = [0.0; 6];
+    for (i, q) in here.iter_mut().enumerate().take(machine.axes().len()) {
+        *q = 0.1 + 0.07 * i as f64;
+    }
+    let (mut there, mut errors) = (here, none.clone());
+    there[term.axis.unwrap_or(0)] += STEP;
+    errors.add(term.index, sense * STEP);
+    let [start, by_axis, by_error] =
+        [(&here, &none), (&there, &none), (&here, &errors)].map(|(q, e)| machine.pose(q, e));
+    let off = (by_axis.shift_mm() - by_error.shift_mm()).norm()
+        + (by_axis.linear() - by_error.linear()).norm();
+    let size =
+        (by_axis.shift_mm() - start.shift_mm()).norm() + (by_axis.linear() - start.linear()).norm();
+    off < 1e-3 * size
 }
 
 /// How an error motion is described: `"polynomial 3"`, `"polynomial 2-4"`, `"fourier 2"`,
@@ -223,6 +316,8 @@ pub fn stated(terms: &[(Term, f64)], u: Option<f64>) -> StatedError {
         match term.basis {
             Basis::Constant => constant += c,
             Basis::Reversal => reversal = Some(*c),
+            // Of the servo: no error of the machine file says it.
+            Basis::Lag { .. } | Basis::LostMotion { .. } | Basis::Friction { .. } => {}
             Basis::Hat { at, .. } => knots.push((at, *c)),
             Basis::Cosine(k) | Basis::Sine(k) => {
                 let order = f64::from(k);

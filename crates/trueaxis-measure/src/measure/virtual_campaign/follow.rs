@@ -8,19 +8,15 @@
 //! q the command, m the motor, s the slide; d the direction since the last reversal at t_r.
 
 use super::{AxisDisturb, Chance, VirtualCampaign, chance, normal};
-use crate::instruments::instrument::Instrument;
-use crate::measure::{Campaign, Kind, Reading};
-use trueaxis_geometry::Vec3;
+use crate::measure::motion::{REST, length_mm};
+use crate::measure::{Campaign, Motion, Reading};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Command, MAX_AXES};
-use trueaxis_machine::errors::ErrorValues;
 use trueaxis_motion::limits;
 use trueaxis_motion::timing::AxisLimits;
 
 /// The lag is exact between stations; the play of the backlash follows it in so many steps.
 const STEPS: u32 = 16;
-/// The rounding of an inverse is no motion, mm or rad.
-const REST: f64 = 1e-9;
 
 /// A station as it is passed.
 #[derive(Debug, Clone, Copy)]
@@ -81,6 +77,7 @@ pub fn follow(campaign: &Campaign, real: &VirtualCampaign) -> (Vec<Stand>, f64) 
             if let Some(next) = next.filter(|_| passed) {
                 drives.turn_towards(next);
             }
+            reading.motion = Motion::at_feed(moving.unwrap_or(0.0));
             reading.time_s = drives.time_s;
             reading.approach = drives.approach;
             let station = u32::try_from(station).unwrap_or(u32::MAX);
@@ -88,25 +85,6 @@ pub fn follow(campaign: &Campaign, real: &VirtualCampaign) -> (Vec<Stand>, f64) 
         }
     }
     (stands, drives.time_s)
-}
-
-/// How far the tool goes against the reference: the probe of a probe-ball, which turns about its
-/// ball; of others the tool point. Where that stands still, the origin of the tool.
-fn length_mm(machine: &Machine, instrument: &Instrument, from: &Command, to: &Command) -> f64 {
-    let none = ErrorValues::default();
-    let moved = |point: Vec3| {
-        let at = |command: &Command| {
-            let pose = super::reference_from_tool(machine, instrument.reference, command, &none);
-            pose.linear() * point + pose.shift_mm()
-        };
-        (at(to) - at(from)).norm()
-    };
-    let up = match instrument.kind {
-        Kind::ProbeBall => Vec3::new(0.0, 0.0, instrument.length_mm),
-        _ => Vec3::zeros(),
-    };
-    let length = moved(instrument.tool_point_mm + up);
-    if length > 1e-9 { length } else { moved(Vec3::zeros()) }
 }
 
 /// The drives of all axes.

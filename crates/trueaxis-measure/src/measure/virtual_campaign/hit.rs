@@ -1,9 +1,10 @@
 //! Where a touch probe triggers on the true machine.
 
+use super::TrueTool;
 use super::follow::Stand;
-use super::{TrueTool, reference_from_tool};
 use crate::instruments::instrument::{Sight, View};
 use crate::measure::Campaign;
+use crate::measure::motion::reference_from_tool;
 use nalgebra::{DMatrix, DVector};
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
