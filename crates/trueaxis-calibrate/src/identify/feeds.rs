@@ -72,7 +72,7 @@ impl SharedLag {
             format!("{sign}{:.3} {} of {}", p.per_ms.abs(), unit(p), p.name)
         });
         format!(
-            "{} cannot be separated ({:.1} % of it looks like other errors): 1 ms passes for {}; \
+            "{} cannot be separated by feed ({:.1} % of it looks like other errors): 1 ms passes for {}; \
              measure standing or at two feeds",
             self.name,
             100.0 * self.share,
@@ -159,6 +159,12 @@ pub(super) fn feeds(campaign: &Campaign, readings: &Readings) -> Feeds {
 
 fn shared_lags(campaign: &Campaign, readings: &Readings) -> Vec<SharedLag> {
     let made: Vec<Term> = campaign.terms.iter().filter(|t| !t.basis.is_servo()).copied().collect();
+    // At one feed only the shape of the path separates a lag: all are named.
+    let moving = readings.motions.iter().filter(|m| m.is_moving());
+    let one_feed = moving
+        .clone()
+        .all(|m| m.feed_mm_per_s == moving.clone().next().and_then(|m| m.feed_mm_per_s))
+        && !readings.motions.iter().any(|m| m.feed_mm_per_s == Some(0.0));
     let mut shared = Vec::new();
     for lag in lags(campaign, readings) {
         let mut terms = made.clone();
@@ -178,7 +184,7 @@ fn shared_lags(campaign: &Campaign, readings: &Readings) -> Vec<SharedLag> {
         let column = DVector::from_vec(column);
         let pretended = Observability::with_threshold(&others, 1e-4).solve(&column);
         let share = (pretended.dot(&column) / square).clamp(0.0, 1.0);
-        if share < SHARED {
+        if share < SHARED && !one_feed {
             continue;
         }
         // By what the readings show of each.
