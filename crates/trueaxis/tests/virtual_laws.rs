@@ -487,14 +487,14 @@ fn law_two_sets_of_the_same_machine_agree_and_lost_rows_are_left_out() {
     let second = read(&campaign, &real);
     let pairs = pair(&campaign, &first, &second.readings);
     assert_eq!((pairs.alone_in_first, pairs.alone_in_second), (second.lost, 0));
-    let task = comparison(&campaign, first.clone(), ComparisonBasis::Readings(pairs));
+    let task = comparison(&campaign, first.clone(), ComparisonBasis::Readings(Box::new(pairs)));
     let found = compare(&task).expect("readings");
     assert!(found.coverage.is_enough() && found.coverage.share() < 0.99, "{:?}", found.coverage);
     // Shifted by 10 µm in one channel it is another machine.
     let mut shifted = second.readings;
     shifted.values.iter_mut().for_each(|v| v[1] += 0.01);
     let pairs = pair(&campaign, &first, &shifted);
-    let found =
-        compare(&comparison(&campaign, first, ComparisonBasis::Readings(pairs))).expect("readings");
+    let found = compare(&comparison(&campaign, first, ComparisonBasis::Readings(Box::new(pairs))))
+        .expect("readings");
     assert!(!found.coverage.is_enough());
 }

@@ -190,7 +190,7 @@ fn moves_alike(machine: &Machine, term: &Term, sense: f64) -> bool {
     for (i, q) in here.iter_mut().enumerate().take(machine.axes().len()) {
         *q = 0.1 + 0.07 * i as f64;
     }
-    let (mut there, mut errors) = (here, none.clone());
+    let (mut there, mut errors) = (here, none);
     there[term.axis.unwrap_or(0)] += STEP;
     errors.add(term.index, sense * STEP);
     let [start, by_axis, by_error] =

@@ -58,7 +58,7 @@ pub enum ComparisonBasis {
     Prediction(Box<Machine>),
     /// Other readings of the same places, as differences: the places of the second set, less the
     /// first.
-    Readings(Pairs),
+    Readings(Box<Pairs>),
 }
 
 /// The decision rule with its figures.

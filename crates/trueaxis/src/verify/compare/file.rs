@@ -118,7 +118,7 @@ fn against_readings(
         );
         item.warn("unpaired", message, "they are left out");
     }
-    Some(ComparisonBasis::Readings(pairs))
+    Some(ComparisonBasis::Readings(Box::new(pairs)))
 }
 
 fn read_machine(
