@@ -2126,6 +2126,11 @@ export interface CompensateTables {
    */
   notes: string[];
   /**
+   * What tables of the machine alone can cost; present only where the temperature of the workpiece is not
+   * known.
+   */
+  machine_only?: string | null;
+  /**
    * The problems found in the input; the command line prints them on standard error, too.
    */
   diagnostics?: {
@@ -2447,7 +2452,7 @@ export interface Compensate {
    */
   axes: AxisValues[];
   /**
-   * Where compensating the machine alone makes the part worse.
+   * Where compensating the machine alone makes the part worse, or can.
    */
   warnings: string[];
   /**
@@ -3657,6 +3662,10 @@ export interface IdentifyErrors {
    */
   degrees_of_freedom: number;
   /**
+   * The feeds of the readings, and the lags that they cannot separate.
+   */
+  feeds: Feeds;
+  /**
    * Factor by which the uncertainties are enlarged, 1 or more. Unit: 1.
    */
   birge_ratio: number;
@@ -3807,6 +3816,66 @@ export interface RmsEntry {
    * In units of the stated noise. Unit: 1.
    */
   times_noise: number;
+}
+/**
+ * The feeds of a campaign; empty if none is stated.
+ */
+export interface Feeds {
+  /**
+   * Every feed, the slowest first.
+   */
+  counts: FeedCount[];
+  /**
+   * Lags that these readings cannot separate from errors of the machine or the set-up.
+   */
+  not_separable: SharedLag[];
+}
+/**
+ * Readings at one feed.
+ */
+export interface FeedCount {
+  /**
+   * Feed of the tool against the workpiece, mm/min; 0 standing.
+   */
+  feed_mm_per_min: number;
+  /**
+   * How many readings.
+   */
+  readings: number;
+}
+/**
+ * What lag of one axis cannot be separated from.
+ */
+export interface SharedLag {
+  /**
+   * `lag Y`.
+   */
+  name: string;
+  /**
+   * The share of its effect on the readings that other errors have too, 0 to 1. Unit: 1.
+   */
+  share: number;
+  /**
+   * The errors for which it passes, the largest first.
+   */
+  passes_for: PassesFor[];
+}
+/**
+ * An error for which lag passes.
+ */
+export interface PassesFor {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * How much of it 1 ms of lag pretends, µm or µrad.
+   */
+  per_ms: number;
+  /**
+   * `um` or `urad`.
+   */
+  unit: string;
 }
 /**
  * A part of the residual.
@@ -6241,9 +6310,36 @@ export interface SetEntry {
    */
   in_tolerance: boolean | null;
   /**
+   * The circle on which the holes are; null for fewer than three.
+   */
+  location_diameter: LocationEntry | null;
+  /**
    * The holes in the order of the study.
    */
   holes: HoleEntry[];
+}
+/**
+ * The circle of the holes at 20 °C, less the nominal one.
+ */
+export interface LocationEntry {
+  /**
+   * Its diameter by least squares, µm.
+   */
+  error_um: number;
+  /**
+   * Smallest and largest distance of opposite holes; null where the number of holes is odd, µm.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  opposite_um: [number, number] | null;
+  /**
+   * Where its centre is along X and Y, µm.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  centre_um: [number, number];
 }
 /**
  * One hole.
@@ -7059,6 +7155,10 @@ export interface ServeIdentifyDiagnosed {
    * Its degrees of freedom.
    */
   degrees_of_freedom: number;
+  /**
+   * The feeds of the readings, and the lags that they cannot separate.
+   */
+  feeds: Feeds;
   /**
    * Factor by which the uncertainties are enlarged, 1 or more. Unit: 1.
    */
