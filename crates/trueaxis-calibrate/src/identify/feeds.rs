@@ -48,7 +48,7 @@ pub struct SharedLag {
 pub struct PassesFor {
     /// Its name.
     pub name: String,
-    /// How much of it 1 ms of lag pretends, µm or µrad.
+    /// How much of it 1 ms of lag pretends. Unit: that of `unit`.
     pub per_ms: f64,
     /// `um` or `urad`.
     pub unit: &'static str,
@@ -137,7 +137,7 @@ fn mixed(design: &Design, readings: &Readings) -> Option<(usize, f64, usize)> {
     (median.0 > FAR).then_some((row, off, before))
 }
 
-/// Which lags these readings cannot separate, sought or not.
+/// Which lags these readings cannot separate, among the unknowns or not.
 pub(super) fn feeds(campaign: &Campaign, readings: &Readings) -> Feeds {
     let mut counts: BTreeMap<i64, usize> = BTreeMap::new();
     for motion in &readings.motions {
@@ -202,7 +202,7 @@ fn shared_lags(campaign: &Campaign, readings: &Readings) -> Vec<SharedLag> {
     shared
 }
 
-/// The lags that are sought; of all axes that moved, if none is.
+/// The lags among the unknowns; of all axes that moved, if none is.
 fn lags(campaign: &Campaign, readings: &Readings) -> Vec<Term> {
     let sought: Vec<Term> = campaign.terms.iter().filter(|t| t.basis.is_lag()).copied().collect();
     if !sought.is_empty() {

@@ -75,7 +75,7 @@ fn term(
 ) -> Option<Term> {
     let term = Term::servo(machine, i, basis);
     if term.is_none() {
-        let message = format!("{} is inclined: its servo errors cannot be sought", axis.name);
+        let message = format!("{} is inclined: its servo errors cannot be determined", axis.name);
         item.error("inclined-axis", message, "name axes that lie along X, Y or Z of the machine");
     }
     term

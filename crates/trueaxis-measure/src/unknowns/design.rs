@@ -60,7 +60,7 @@ impl Unknown<'_> {
         }
     }
 
-    /// Whether it is a time (s): how far an axis is behind.
+    /// Whether it is a time (s): the delay of an axis.
     pub fn is_time(&self) -> bool {
         matches!(self, Self::Term(term) if term.basis.is_lag())
     }
@@ -86,7 +86,7 @@ impl Design {
         let mut machine = machine.clone();
         let mut runs: Vec<(ErrorIndex, std::ops::Range<usize>)> = Vec::new();
         for (k, term) in terms.iter().enumerate() {
-            // A lag is sought besides what the machine file states, not in its place.
+            // A lag is unknown in addition to what the machine file states, not in its place.
             if !term.basis.is_servo() {
                 machine = machine.with_error(term.index, None);
             }

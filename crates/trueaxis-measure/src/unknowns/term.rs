@@ -38,12 +38,12 @@ pub enum Basis {
     },
     /// Half of the difference of the two directions of approach.
     Reversal,
-    /// Velocity: the axis stands that much time behind its command (1/Kv).
+    /// Velocity: the axis follows its command by that much time (1/Kv).
     Lag {
         /// 1 or −1: an error of a table leads the tool the other way than its axis does.
         sense: f64,
     },
-    /// Half of the play: the axis stands behind on the side that it comes from.
+    /// Half of the play: the axis stays on the side that it comes from.
     LostMotion {
         /// 1 or −1.
         sense: f64,
