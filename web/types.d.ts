@@ -3869,7 +3869,7 @@ export interface PassesFor {
    */
   name: string;
   /**
-   * How much of it 1 ms of lag pretends, µm or µrad.
+   * How much of it 1 ms of lag pretends. Unit: that of `unit`.
    */
   per_ms: number;
   /**

@@ -102,13 +102,14 @@ impl TestPieceFile {
             .require("tolerance", "[tolerance] with roundness_mzc = \"0.1 mm\" …")
             .and_then(|item| item.section("tolerance", tolerances))
             .flatten();
+        let conditions = conditions(root, height);
         Some(Self {
             name: name?.to_owned(),
             source,
             shape: Shape::Cone(checked?),
             mounting: mounting?,
             tolerances: tolerances?,
-            conditions: conditions(root, height)?,
+            conditions: conditions?,
         })
     }
 

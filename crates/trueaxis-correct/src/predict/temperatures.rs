@@ -67,7 +67,8 @@ impl StudyTemperatures {
     pub fn warm(&self, root: &Section<'_>, machine: Machine) -> Option<Machine> {
         let Some(conditions) = &self.conditions else {
             let unknown = machine.unknown_growth(&Conditions::default());
-            if let Some(unknown) = &unknown {
+            // What is wrong with a stated section was reported there.
+            if let (Some(unknown), None) = (&unknown, root.get("temperature")) {
                 no_workpiece(root, &machine, unknown);
             }
             return Some(machine).filter(|_| unknown.is_none());
