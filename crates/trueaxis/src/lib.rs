@@ -41,7 +41,7 @@ pub use schemas::schemas;
 
 pub use trueaxis_calibrate::{identify, plan};
 pub use trueaxis_cl as cl;
-pub use trueaxis_correct::{compensate, predict};
+pub use trueaxis_correct::compensate;
 pub use trueaxis_geometry as geometry;
 pub use trueaxis_input as input;
 pub use trueaxis_machine as machine;
@@ -51,6 +51,7 @@ pub use trueaxis_motion as simulate;
 pub use trueaxis_nc as nc;
 pub use trueaxis_part as part;
 pub use trueaxis_post as post;
+pub use trueaxis_predict::predict;
 pub use trueaxis_writer as writer;
 
 pub use trueaxis_report::{NamedSchema, VERSION};

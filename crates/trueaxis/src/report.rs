@@ -50,6 +50,7 @@ pub use trueaxis_calibrate::report::*;
 pub use trueaxis_correct::report::*;
 pub use trueaxis_measure::report::*;
 pub use trueaxis_motion::report::*;
+pub use trueaxis_predict::report::*;
 pub use trueaxis_report::{
     Band, DrawingError, Keyed, Picture, Polar, PolarLine, Scatter, Table, document, named_schema,
     numbers,

@@ -40,6 +40,7 @@ pub fn schemas() -> Vec<NamedSchema> {
     ];
     all.extend(trueaxis_measure::schemas());
     all.extend(trueaxis_calibrate::schemas());
+    all.extend(trueaxis_predict::schemas());
     all.extend(trueaxis_correct::schemas());
     all.extend(trueaxis_motion::schemas());
     all.extend(trueaxis_standards::schemas());

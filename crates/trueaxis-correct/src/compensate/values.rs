@@ -9,13 +9,13 @@
 //! whatever the axis carries and whichever way it counts: a table that stands 5 µm too far in +X leaves
 //! the tool 5 µm short, and its compensation is +5 µm.
 
-use crate::predict::holes::{Compensation, compensation_increments};
 use trueaxis_geometry::{Mat3, Vec3};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, Axis, AxisKind, Command, Travel};
 use trueaxis_machine::chain::CommandFault;
 use trueaxis_machine::errors::{ErrorIndex, ErrorKind, ErrorValues};
 use trueaxis_machine::heat::ErrorPart;
+use trueaxis_predict::predict::holes::{Compensation, compensation_increments};
 
 /// More positions than this no control has a table for.
 pub const MOST_POSITIONS: usize = 10_000;

@@ -1,11 +1,11 @@
 //! Compensation values as text and CSV.
 
 use crate::compensate::values::{MOST_POSITIONS, Value, ValueTable};
-use crate::predict::holes::Compensation;
 use std::fmt::Write;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Axis, AxisKind, AxisSide};
 use trueaxis_machine::heat::ErrorPart;
+use trueaxis_predict::predict::holes::Compensation;
 use trueaxis_report::numbers::fixed;
 use trueaxis_report::{Report, Section, Table};
 

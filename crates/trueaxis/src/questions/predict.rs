@@ -4,12 +4,12 @@ use super::{Answer, Question, Tell};
 use crate::report;
 use serde_json::Value;
 use std::path::PathBuf;
-use trueaxis_correct::predict::holes::{
-    HolePrediction, HoleStudy, is_hole_study, predict_holes, read_hole_study,
-};
-use trueaxis_correct::predict::{Error, Prediction, Study, predict, read_study};
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_part::tolerance::Outcome;
+use trueaxis_predict::predict::holes::{
+    HolePrediction, HoleStudy, is_hole_study, predict_holes, read_hole_study,
+};
+use trueaxis_predict::predict::{Error, Prediction, Study, predict, read_study};
 use trueaxis_report::{Report, document};
 
 /// A test piece or holes before they are cut.

@@ -10,9 +10,9 @@ use std::path::{Path, PathBuf};
 use trueaxis_correct::compensate::not_twice;
 use trueaxis_correct::compensate::tables::proof::{IndexLeft, piece_left};
 use trueaxis_correct::compensate::tables::{Compiled, Order, TablesError, Target, compile};
-use trueaxis_correct::predict::{Error, Study, read_study};
 use trueaxis_input::{Diagnostics, Dimension, Files, Place};
 use trueaxis_machine::Machine;
+use trueaxis_predict::predict::{Error, Study, read_study};
 use trueaxis_report::{Report, document};
 
 /// The tables of one control, read back, with the residual errors. Texts are as typed.

@@ -11,12 +11,12 @@ use trueaxis_correct::compensate::not_twice;
 use trueaxis_correct::compensate::values::{
     MOST_POSITIONS, Order, ValueTable, ValuesError, compensation_values, travel_positions,
 };
-use trueaxis_correct::predict::holes::Compensation;
 use trueaxis_input::{Diagnostics, Dimension, Files};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
 use trueaxis_machine::describe::{axis_index, to_inner, to_shown};
 use trueaxis_machine::heat::Conditions;
+use trueaxis_predict::predict::holes::Compensation;
 use trueaxis_report::Report;
 
 /// Values per axis and position, in least increments. Texts are as typed.

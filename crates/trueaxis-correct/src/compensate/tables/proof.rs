@@ -10,13 +10,13 @@ use super::known::split;
 use super::lever::{Lever, correction, errors_near, placed, sum};
 use super::table::Table;
 use super::{Order, TablesError};
-use crate::predict::{Cutting, Error, Judge, Study};
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Approach, AxisKind, Command, MAX_AXES};
 use trueaxis_machine::chain::{ChainBody, CommandFault};
 use trueaxis_machine::errors::{ErrorKind, ErrorName, ErrorValues};
 use trueaxis_machine::volume::commands;
+use trueaxis_predict::predict::{Cutting, Error, Judge, Study};
 
 /// Poses over the travel of all axes beside the corners, each reached rising and falling.
 const POSES: u32 = 4096;
@@ -286,7 +286,7 @@ pub struct IndexLeft {
 /// The indices of a test piece cut with the tables; the zero is set with them on.
 ///
 /// # Errors
-/// As of [`crate::predict::predict`].
+/// As of [`trueaxis_predict::predict::predict`].
 pub fn piece_left(
     study: &Study,
     (control, content): (&dyn Control, &Content),

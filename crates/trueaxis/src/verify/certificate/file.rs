@@ -10,11 +10,11 @@ use super::validation::{AllowedPoses, Validation, read_validation};
 use super::{UncertaintySource, identified};
 use std::path::Path;
 use trueaxis_correct::compensate::not_twice;
-use trueaxis_correct::predict::Sampling;
 use trueaxis_input::{Diagnostics, Dimension, Files, Item, MeasuredValue, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Axis, AxisKind, Travel};
 use trueaxis_machine::describe::axis_index;
+use trueaxis_predict::predict::Sampling;
 use trueaxis_standards::conditions::SOUND_TEMPERATURES_C;
 
 /// The study of a certificate.

@@ -11,8 +11,8 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
-use trueaxis_correct::predict::Sampling;
 use trueaxis_geometry::Vec3;
+use trueaxis_predict::predict::Sampling;
 
 /// The bound that is reported is that of this share of all draws.
 pub const SHARE: f64 = 0.95;
@@ -31,7 +31,7 @@ pub struct Lengths {
 /// Draws the factors and evaluates the residual error of every pose.
 ///
 /// # Source
-/// JCGM 101:2008, clause 7; ChaCha8 with one stream per draw, as [`trueaxis_correct::predict::monte_carlo`].
+/// JCGM 101:2008, clause 7; ChaCha8 with one stream per draw, as [`trueaxis_predict::predict::monte_carlo`].
 pub fn lengths(poses: &[Residual], sampling: Sampling) -> Lengths {
     let factors = poses.first().map_or(0, |p| p.slopes.len());
     let draws: Vec<Vec<f64>> = (0..sampling.samples)

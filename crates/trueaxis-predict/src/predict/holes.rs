@@ -201,7 +201,7 @@ fn read_holes(section: &Section<'_>) -> Option<(Vec<Vec3>, Option<f64>)> {
 /// Minus an error in whole increments, halves away from zero.
 ///
 /// ```
-/// use trueaxis_correct::predict::holes::compensation_increments;
+/// use trueaxis_predict::predict::holes::compensation_increments;
 /// assert_eq!(compensation_increments(-0.0035, 0.001), 4);
 /// assert_eq!(compensation_increments(0.0025, 0.001), -3);
 /// ```
