@@ -187,6 +187,8 @@ pub enum Action {
     },
     /// No rotation, no tilted plane.
     RotationOff,
+    /// The work offset goes round with the table, or no longer.
+    DynamicOffset(bool),
     /// Turns the tool along Z of the tilted plane.
     Align {
         /// The tip stays at its place.
@@ -283,6 +285,7 @@ impl Action {
             | Self::RotationOff
             | Self::Rotation
             | Self::TiltedPlane { .. }
+            | Self::DynamicOffset(_)
             | Self::Align { .. } => 20,
             Self::MachineCoordinates => 21,
             Self::Motion(_)

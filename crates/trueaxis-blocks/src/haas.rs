@@ -34,8 +34,8 @@ const G_CODES: [(u16, A); 19] = [
     (1540, A::WorkOffsetFurther),
     (1870, A::NoteWhole("G187 smoothness of the path")),
     (2340, A::ToolCentre(false)),
-    (2540, A::NotAppliedAlone("G254 dynamic work offset")),
-    (2550, A::Note("G255 dynamic work offset off")),
+    (2540, A::DynamicOffset(true)),
+    (2550, A::DynamicOffset(false)),
     (2680, A::TiltedPlane { further: false }),
 ];
 

@@ -349,3 +349,34 @@ fn centre_is_written(name: &str, text: &str, set_up: &str) {
     assert!(radii.len() > 50, "{name}: {}", radii.len());
     assert!(radii.iter().all(|r| (r - 13.0).abs() < 0.02), "{name}: {radii:?}");
 }
+
+/// One side of a part that is clamped beside the centre of the table.
+const DYNAMIC: &str = "G21 G17 G90 G94 G40 G49\nT1 M6\nG54\nG53 G0 Z0\nG0 A-60. C30.\nG254\n\
+    G0 X-10. Y-5. S5000 M3\nG43 H1 Z20.\nG1 Z0 F300\nX10.\nG2 X10. Y5. I0. J5.\nG1 X-10.\nY-5.\nG0 Z20.\n\
+    G255\nG53 G0 Z0\nG0 A0 C0\nM30\n";
+
+/// While G254 is on the rotary axes stand, so that only the place can be corrected.
+#[test]
+fn a_program_with_a_dynamic_work_offset_is_corrected_in_place_alone() {
+    const I5: &str = "machines/i5-engraver/machine.toml";
+    let folder = Folder::new("dynamic");
+    let (program, set_up) = (folder.path("d.nc"), folder.path("d.toml"));
+    std::fs::write(&program, DYNAMIC).unwrap();
+    let text = "name = \"side\"\ncontrol = \"haas\"\nworkpiece_at = \"G54\"\n[work_offset.G54]\nX = \"12 mm\"\n\
+                Y = \"-7 mm\"\nZ = \"-55 mm\"\n[tool.1]\nname = \"mill\"\nlength = \"90 mm\"\n[start]\nZ = \"100 mm\"\n";
+    std::fs::write(&set_up, text).unwrap();
+    let out = folder.path("out.nc");
+    let ran = compensate(&[I5, &program, "--setup", &set_up, "-o", &out]);
+    assert!(ran.status == 2 && ran.err.contains("turning-dynamic-offset"), "{}", ran.err);
+    assert!(!std::path::Path::new(&out).exists());
+    let more = ["--position-only", "--format", "json"];
+    let ran = compensate(&[&[I5, &program, "--setup", &set_up, "-o", &out], &more[..]].concat());
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let found = ran.json();
+    assert_eq!(found["proved"], true);
+    let tip = |when: &str| found[when]["tip_at_ends_um"]["value"].as_f64().unwrap();
+    assert!(tip("before") > 10.0 && tip("after") < 2.0, "{} {}", tip("before"), tip("after"));
+    let written = std::fs::read_to_string(&out).unwrap();
+    let inside = written.split("G254").nth(1).and_then(|rest| rest.split("G255").next()).unwrap();
+    assert!(!inside.contains(['A', 'C']), "{inside}");
+}

@@ -1,7 +1,7 @@
 //! From programmed moves to the axis positions that the control commands.
 //!
 //! ```text
-//!     without tool-centre point:   axes = frame(target) + tool length
+//!     without tool-centre point:   axes = frame(target) + tool length (+ what the table has carried the origin)
 //!     with it:                     tip in the workpiece = workpiece_from_basic · frame(target)
 //!                                  rotary axes by ORIAXES, great circle or cone
 //!                                  linear axes by TipControl::place
@@ -9,6 +9,7 @@
 
 mod axes;
 mod back;
+mod dynamic_offset;
 mod elements;
 mod fault;
 mod tip;
@@ -102,6 +103,8 @@ pub struct AxisPath<'m> {
     tool: Vec3,
     tcp: bool,
     tilted: bool,
+    /// The origin that goes round with the table, in basic coordinates: G254 of HAAS.
+    dynamic_mm: Option<Vec3>,
     orientation: OrientationPath,
     exact: PathControl,
     rounding_mm: f64,
@@ -143,6 +146,7 @@ impl<'m> AxisPath<'m> {
             tool: Vec3::zeros(),
             tcp: false,
             tilted: false,
+            dynamic_mm: None,
             orientation: OrientationPath::Axes,
             exact: PathControl::Continuous,
             rounding_mm,
@@ -233,6 +237,7 @@ impl<'m> AxisPath<'m> {
                 self.tilted = *on && self.control.is_some();
                 self.reread();
             }
+            Event::DynamicOffset(zero) => self.carry_origin(zero.map(Vec3::from), origin),
             Event::Orientation(path) => self.orientation = *path,
             Event::SpindleSpeed(per_minute) => self.revolutions_per_s = per_minute.abs() / 60.0,
             Event::Path { control, tolerance_mm } => {
@@ -265,7 +270,7 @@ impl<'m> AxisPath<'m> {
                 let tip = control.tip_and_axis(&self.command).0;
                 inverse3(&self.turn) * (tip - self.shift)
             }
-            _ => self.linear_axes(&self.command) - self.tool,
+            _ => self.linear_axes(&self.command) - self.tool - self.carried(&self.command),
         };
     }
 
@@ -295,6 +300,9 @@ impl<'m> AxisPath<'m> {
         let feed = self.feed(m)?;
         if m.coordinates == Coordinates::Machine {
             return self.machine_move(m, feed, out);
+        }
+        if self.dynamic_mm.is_some() {
+            self.count_from_origin_at(&self.other_axes(m));
         }
         let (from, to) = (self.place(), self.target(m));
         let curve = match &m.kind {

@@ -489,6 +489,9 @@ pub enum Event {
     ToolCentre(bool),
     /// A tilted working plane is switched on or off: CYCLE800, G68.2, PLANE.
     TiltedPlane(bool),
+    /// The work offset goes round with the rotary axes of the table (G254 of HAAS): its origin in the basic frame,
+    /// mm; `None` where it stays as it is. The axes keep their directions.
+    DynamicOffset(Option<[f64; 3]>),
     /// The motion of the tool axis between directions, from here on.
     Orientation(OrientationPath),
     /// The next tool by its name, for controls with tool names; the following event of selection or

@@ -138,6 +138,7 @@ impl<'r> Language<'r> for Run<'r> {
 
     fn emit_frame(&mut self) {
         self.core.emit_frame(self.frames.frame());
+        self.emit_dynamic_offset();
     }
 
     fn position(&self) -> Position {
@@ -206,6 +207,7 @@ impl<'r> Run<'r> {
     }
 
     fn emit_move(&mut self, step: Move) {
+        self.watch_dynamic_offset(&step);
         self.frames.position = step.target;
         self.core.emit_move(step);
     }

@@ -50,6 +50,7 @@ struct State {
     frame: Frame,
     length: Position,
     follows_tip: [bool; 2],
+    dynamic: Option<[f64; 3]>,
 }
 
 /// What happens line by line.
@@ -57,6 +58,7 @@ struct Lines {
     frame: Frame,
     length: Position,
     follows_tip: [bool; 2],
+    dynamic: Option<[f64; 3]>,
     moves: BTreeMap<u32, State>,
     /// Axis positions, tip in the workpiece and direction of the tool at the end of each line.
     ends: Vec<(u32, [f64; 6], Vec3, Vec3)>,
@@ -68,6 +70,7 @@ impl Lines {
             frame: Frame::IDENTITY,
             length: Position::default(),
             follows_tip: [false; 2],
+            dynamic: None,
             moves: BTreeMap::new(),
             ends: Vec::new(),
         }
@@ -85,9 +88,15 @@ impl Observer for Lines {
             Step::Event(Event::ToolLength(length), _) => self.length = *length,
             Step::Event(Event::ToolCentre(on), _) => self.follows_tip[0] = *on,
             Step::Event(Event::TiltedPlane(on), _) => self.follows_tip[1] = *on,
+            Step::Event(Event::DynamicOffset(zero), _) => self.dynamic = *zero,
             Step::Move(m) => {
-                let (frame, length, follows_tip) = (self.frame, self.length, self.follows_tip);
-                self.moves.insert(m.origin.line, State { frame, length, follows_tip });
+                let state = State {
+                    frame: self.frame,
+                    length: self.length,
+                    follows_tip: self.follows_tip,
+                    dynamic: self.dynamic,
+                };
+                self.moves.insert(m.origin.line, state);
             }
             Step::Event(..) => {}
         }
@@ -131,6 +140,10 @@ enum Change {
     Mirror,
     /// The rotary axis C by its shorter way.
     Shortest(f64),
+    /// The work offset goes round with the table.
+    Dynamic(bool),
+    /// To the reference point of Z, or of all axes.
+    Home(bool),
 }
 
 #[derive(Debug, Clone)]
@@ -144,9 +157,24 @@ const LETTERS: [char; 5] = ['X', 'Y', 'Z', 'A', 'C'];
 
 /// The blocks of a change in the language of a control; none if it has no word for it.
 fn blocks(control: Control, change: Change) -> Vec<String> {
-    use Change::{Machine, Mirror, NoPlane, Offset, Plane, Shift, Shortest, Tip, Tool, Turn};
+    use Change::{
+        Dynamic, Home, Machine, Mirror, NoPlane, Offset, Plane, Shift, Shortest, Tip, Tool, Turn,
+    };
     let one = |text: String| vec![text];
     match (control, change) {
+        // Neither goes together with G254.
+        (Control::Haas, Tip(_) | Plane(_)) => {
+            let mut all = one("G255".into());
+            all.extend(blocks(Control::Fanuc, change));
+            all
+        }
+        (Control::Haas, Dynamic(true)) => ["G49", "G69", "G43 H1", "G254"].map(Into::into).into(),
+        (Control::Haas, Dynamic(false)) => one("G255".into()),
+        (Control::Haas | Control::Fanuc, Home(true)) => one("G28".into()),
+        (Control::Haas | Control::Fanuc, Home(false)) => {
+            ["G91 G28 Z0", "G90"].map(Into::into).into()
+        }
+        (Control::Haas, other) => blocks(Control::Fanuc, other),
         (Control::Heidenhain, Tip(on)) => one(if on { "M128" } else { "M129" }.into()),
         (Control::Heidenhain, Plane([a, b, c])) => {
             one(format!("PLANE SPATIAL SPA{a:+.4} SPB{b:+.4} SPC{c:+.4} TURN FMAX"))
@@ -220,15 +248,24 @@ fn written(
     if control == Control::Sinumerik840d {
         text = "G71 G90 G17 G94 F1000 G54\n".into();
     }
+    let mut dynamic = false;
     for op in ops {
         match op {
             Op::Change(change) => {
+                dynamic = match change {
+                    Change::Dynamic(on) => *on && control == Control::Haas,
+                    Change::Tip(_) | Change::Plane(_) => false,
+                    _ => dynamic,
+                };
                 for block in blocks(control, *change) {
                     let _ = writeln!(text, "{block}");
                     line += 1;
                 }
             }
             Op::Move(to, named) => {
+                // While the work offset goes round, the rotary axes are not to turn: X, Y and Z alone, at least X.
+                let named =
+                    if dynamic { named & 0b111 | u8::from(named & 0b111 == 0) } else { *named };
                 let start = from.get(moves.len()).copied().unwrap_or_default();
                 let mut words = String::new();
                 let incremental = notation == Notation::Incremental;
@@ -272,10 +309,22 @@ fn place_before(machine: &Machine, lines: &Lines, line: u32) -> [f64; 5] {
     let mut basic = Position::default();
     let linear = Vec3::new(command[axis('X')], command[axis('Y')], command[axis('Z')]);
     let length = Vec3::new(state.length.0[0], state.length.0[1], state.length.0[2]);
-    let place = if state.follows_tip.contains(&true) { tip } else { linear - length };
+    let [a, c] = [axis('A'), axis('C')].map(|i| command[i]);
+    let carried = state.dynamic.map_or(Vec3::zeros(), |zero| {
+        let zero = Vec3::from(zero);
+        // The table turns the other way than its axes count (ISO 841), about the machine zero.
+        let about_z = [zero.x * c.cos() + zero.y * c.sin(), zero.y * c.cos() - zero.x * c.sin()];
+        let there = Vec3::new(
+            about_z[0],
+            about_z[1] * a.cos() + zero.z * a.sin(),
+            zero.z * a.cos() - about_z[1] * a.sin(),
+        );
+        if machine.workpiece_side() > 1 { there - zero } else { Vec3::zeros() }
+    });
+    let place = if state.follows_tip.contains(&true) { tip } else { linear - length - carried };
     basic.0[..3].copy_from_slice(place.as_slice());
     let place = state.frame.inverse_place(&basic).unwrap();
-    let [a, c] = [axis('A'), axis('C')].map(|i| command[i].to_degrees());
+    let [a, c] = [a, c].map(f64::to_degrees);
     [place.0[0], place.0[1], place.0[2], a - state.frame.shift.0[3], c - state.frame.shift.0[5]]
 }
 
@@ -317,6 +366,8 @@ fn change() -> impl Strategy<Value = Change> {
         (-100.0..100.0_f64).prop_map(Change::Machine),
         Just(Change::Mirror),
         (0.0..360.0_f64).prop_map(Change::Shortest),
+        any::<bool>().prop_map(Change::Dynamic),
+        any::<bool>().prop_map(Change::Home),
     ]
 }
 
@@ -334,6 +385,11 @@ proptest! {
     #[test]
     fn law_incremental_is_absolute_fanuc(ops in ops(), table in any::<bool>()) {
         agree(&machine(if table { TABLE } else { HEAD }), Control::Fanuc, &ops)?;
+    }
+
+    #[test]
+    fn law_incremental_is_absolute_haas(ops in ops(), table in any::<bool>()) {
+        agree(&machine(if table { TABLE } else { HEAD }), Control::Haas, &ops)?;
     }
 
     #[test]
@@ -481,4 +537,47 @@ fn a_retraction_without_a_length_ends_where_the_first_axis_has_its_end() {
     let near = plane.replace("MB MAX", "MB7");
     let lines = run(&head, &setup(), Control::Heidenhain, &near);
     assert!((lines.end(4).1[2] - lines.end(3).1[2] - 7.0).abs() < 1e-9, "{:?}", lines.end(4));
+}
+
+/// With G254 the same words lead to the same place of the workpiece, seen along the axes of the machine, wherever the
+/// workpiece is clamped: the program of a part on the centre of the table needs no change.
+#[test]
+fn a_dynamic_work_offset_goes_round_with_the_table() {
+    let table = machine(TABLE);
+    let text =
+        "G54 T1 M6\nG43 H1\nG0 A90. C0.\nG254\nG0 X1. Y2.\nG0 Z3.\nG91 G1 X1. F1000\nG255\nM30\n";
+    let lines = run(&table, &setup(), Control::Haas, text);
+    // G54 at (10, -20, -300). A table at A+90 is turned by -90 deg about X: (x, y, z) comes to (x, z, -y), so that
+    // the origin comes to (10, -300, 20). X = 10 + 1, Y = -300 + 2, Z = 20 + 3 + 80 of the tool.
+    let at = lines.end(6).1;
+    let linear = |letter| at[table.axes().iter().position(|a| a.name.letter() == letter).unwrap()];
+    for (letter, expected) in [('X', 11.0), ('Y', -298.0), ('Z', 103.0)] {
+        assert!((linear(letter) - expected).abs() < 1e-9, "{letter}: {}", linear(letter));
+    }
+    // The tip is one along X, two along Z and three along -Y of the workpiece from its origin.
+    let from_zero = lines.end(6).2 - Vec3::new(10.0, -20.0, -300.0);
+    assert!((from_zero - Vec3::new(1.0, -3.0, 2.0)).norm() < 1e-9, "{from_zero:?}");
+    assert!((lines.end(7).2 - lines.end(6).2 - Vec3::x()).norm() < 1e-9);
+}
+
+#[test]
+fn what_goes_not_together_with_a_dynamic_work_offset_is_refused() {
+    let codes = |text: &str| -> Vec<&'static str> {
+        let program = Program::new("program", text.as_bytes().to_vec(), Control::Haas);
+        let run = simulate(&machine(TABLE), &program, &setup(), &Options::default(), &mut []);
+        run.problems.iter().map(|p| p.code).filter(|c| c.starts_with("dynamic")).collect()
+    };
+    for (text, code) in [
+        ("G54 T1 M6\nG43.4 H1\nG254\n", "dynamic-offset-twice"),
+        ("G54 T1 M6\nG254\nG43.4 H1\n", "dynamic-offset-twice"),
+        ("G54 T1 M6\nG254\nG68.2 X0 Y0 Z0 I10. J20. K0\n", "dynamic-offset-twice"),
+        ("G10 L2 P1 C15.\nG54 T1 M6\nG254\n", "dynamic-offset-turned"),
+        ("G54 T1 M6\nG43 H1\nG254\nG1 X1. Y2. F100\n", "dynamic-offset-place"),
+        ("G54 T1 M6\nG43 H1\nG254\nG0 A20.\n", "dynamic-offset-turns"),
+    ] {
+        assert!(codes(&format!("{text}M30\n")).contains(&code), "{text} {:?}", codes(text));
+    }
+    let good =
+        "G54 T1 M6\nG43 H1\nG0 A20.\nG254\nG0 X1. Y2.\nZ3.\nG1 Z1. F100\nG255\nG0 A0.\nM30\n";
+    assert_eq!(codes(good), Vec::<&str>::new());
 }

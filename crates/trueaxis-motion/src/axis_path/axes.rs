@@ -26,6 +26,7 @@ impl AxisPath<'_> {
             return Err(fault(m, None, "direction-without-tcp", message, hint));
         }
         let (begin, end) = (self.command, self.other_axes(m));
+        let offset = self.tool + self.carried(&end);
         let turned = self.rotary_way(&begin, &end);
         let straight = matches!(curve, Curve::Line { .. });
         let scale = self.scale(curve);
@@ -35,7 +36,7 @@ impl AxisPath<'_> {
         let speed = feed.along(length);
         let element = || {
             let mut goal = end;
-            self.set_linear(&mut goal, self.in_basic(curve.at(1.0)) + self.tool);
+            self.set_linear(&mut goal, self.in_basic(curve.at(1.0)) + offset);
             let to_axes = |v: Vec3| {
                 let mut axes = Command::default();
                 self.set_linear(&mut axes, Vec3::from(self.frame.vector(v.into())));
@@ -52,9 +53,9 @@ impl AxisPath<'_> {
             }
             if !straight || u == 1.0 {
                 self.basic = self.in_basic(curve.at(u));
-                self.set_linear(&mut command, self.basic + self.tool);
+                self.set_linear(&mut command, self.basic + offset);
             } else {
-                let goal = self.in_basic(curve.at(1.0)) + self.tool;
+                let goal = self.in_basic(curve.at(1.0)) + offset;
                 let start = self.linear_axes(&begin);
                 self.set_linear(&mut command, start + (goal - start) * u);
             }

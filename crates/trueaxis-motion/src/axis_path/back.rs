@@ -123,7 +123,7 @@ impl AxisPath<'_> {
                 let tip = control.tip_and_axis(command).0;
                 inverse3(&self.turn) * (tip - self.shift)
             }
-            _ => self.linear_axes(command) - self.tool,
+            _ => self.linear_axes(command) - self.tool - self.carried(command),
         };
         let mut place = words;
         place.0[..3].copy_from_slice(basic.as_slice());

@@ -182,6 +182,7 @@ fn changes_frame(event: &Event) -> bool {
             | Event::ToolChange(_)
             | Event::ToolCentre(_)
             | Event::TiltedPlane(_)
+            | Event::DynamicOffset(_)
             | Event::Stop { .. }
             | Event::End
     )

@@ -10,7 +10,7 @@ use super::corners::Corners;
 use super::radius::Active;
 use super::{Follower, KnownPosition, Library, Modes, Outcome, Settings, mistakes};
 use crate::moves::{
-    Coordinates, Event, Frame, Move, MoveKind, Origin, Position, RotaryDirection, Step,
+    AxisSet, Coordinates, Event, Frame, Move, MoveKind, Origin, Position, RotaryDirection, Step,
 };
 use crate::text::program::{Fault, Places, Program};
 
@@ -271,6 +271,16 @@ impl<'r> Core<'r> {
         self.follower.axis_positions().map_or(by_frames, |place| place.over(&by_frames))
     }
 
+    /// The axes of the machine; X, Y and Z without one.
+    pub fn axes_of_machine(&self) -> AxisSet {
+        self.follower.axis_positions().map_or(AxisSet::XYZ, |place| place.axes)
+    }
+
+    /// The place in the program frame is read again before the next move.
+    pub fn read_again(&mut self) {
+        self.is_unread = true;
+    }
+
     /// Where the axes are once the tool has gone back along its axis to the end of the travel.
     pub fn retracted(&mut self) -> Option<KnownPosition> {
         self.stop_on_contour();
@@ -424,6 +434,7 @@ pub(super) fn changes_place(event: &Event) -> bool {
             | Event::ToolChange(_)
             | Event::ToolCentre(_)
             | Event::TiltedPlane(_)
+            | Event::DynamicOffset(_)
     )
 }
 

@@ -312,6 +312,7 @@ impl Run<'_> {
             Action::Coolant(coolant) => self.core.emit(Event::Coolant(coolant)),
             Action::Stop(optional) => self.core.emit(Event::Stop { optional }),
             Action::End => {
+                self.dynamic_offset(false, at)?;
                 self.core.emit(Event::End);
                 return Ok(true);
             }
@@ -413,14 +414,24 @@ impl Run<'_> {
     }
 
     pub(super) fn step(&mut self, kind: MoveKind, target: Position) {
+        self.step_of(kind, target, self.words.axes());
+    }
+
+    /// A move of axes, and of those that move with them where the frame is turned.
+    pub(super) fn step_of(&mut self, kind: MoveKind, target: Position, axes: AxisSet) {
         let (feed, origin) = (self.core.modes.feed, self.core.origin);
-        self.emit_move(Move::plain(kind, target, self.named_to(&target), feed, origin));
+        let named = self.with_turned(axes, &target);
+        self.emit_move(Move::plain(kind, target, named, feed, origin));
     }
 
     /// The axes of the words, and those that move with them where the frame is turned.
     fn named_to(&self, target: &Position) -> AxisSet {
+        self.with_turned(self.words.axes(), target)
+    }
+
+    fn with_turned(&self, axes: AxisSet, target: &Position) -> AxisSet {
         let moves = |a: &Axis| target[*a] != self.frames.position[*a];
-        [Axis::X, Axis::Y, Axis::Z].into_iter().filter(moves).fold(self.words.axes(), AxisSet::with)
+        [Axis::X, Axis::Y, Axis::Z].into_iter().filter(moves).fold(axes, AxisSet::with)
     }
 
     fn motion(&mut self, motion: Motion, machine: bool, at: usize) -> Result<(), Fault> {
@@ -460,9 +471,9 @@ impl Run<'_> {
         }
         let position = self.frames.position;
         self.modes.moved = true;
-        if machine && self.follows_workpiece() {
+        if machine && (self.follows_workpiece() || self.modes.dynamic.is_on()) {
             let place = Axis::ALL.map(|a| self.axis_word(a).unwrap_or(0.0));
-            self.machine_move(Position(place));
+            self.machine_move(Position(place), self.words.axes());
             return Ok(());
         }
         let target = if machine { self.machine_target() } else { self.target() };

@@ -154,6 +154,7 @@ impl Run<'_> {
             || modes.data_input
             || !modes.macros.is_empty()
             || modes.transforms.polar.is_some()
+            || modes.dynamic.is_on()
             || self.core.has_radius()
             || self.core.modes.feed.mode == FeedMode::InverseTime;
         if !lasting || special {

@@ -46,14 +46,14 @@ impl Run<'_> {
                 self.change_shift(shift, true);
             }
             Action::Reference(index) => self.off_contour("G28 or G30", at, |run| {
-                run.reference(usize::from(index) - 1);
+                run.as_at_zero(|run| run.reference(usize::from(index) - 1));
                 Ok(())
             })?,
             Action::ReferenceCheck => self.off_contour("G27", at, |run| {
-                run.check_reference(at);
+                run.as_at_zero(|run| run.check_reference(at));
                 Ok(())
             })?,
-            Action::ReferenceReturn => self.leave_reference(),
+            Action::ReferenceReturn => self.as_at_zero(Self::leave_reference),
             Action::SetReference(index) => {
                 self.frames.references[usize::from(index) - 1] = self.axis_positions();
             }
@@ -168,6 +168,9 @@ impl Run<'_> {
             _ => None,
         };
         if let Some((on, vectors)) = centre {
+            if on {
+                self.refuse_with_dynamic_offset("tool-centre-point control", at)?;
+            }
             self.modes.vectors = vectors;
             self.core.tool_centre(on);
         }
@@ -210,30 +213,30 @@ impl Run<'_> {
 
     /// G28, G30: by way of the axis words to a reference point; only the named axes go there.
     fn reference(&mut self, index: usize) {
-        let named = self.words.axes();
-        let all = named == AxisSet::default();
         let between = self.target();
         self.step(MoveKind::Rapid, between);
         self.modes.via = Some(between);
+        let named = match self.words.axes() {
+            none if none == AxisSet::default() => self.core.axes_of_machine(),
+            named => named,
+        };
         if self.follows_workpiece() {
-            return self.machine_move(self.frames.references[index]);
+            return self.machine_move(self.frames.references[index], named);
         }
         let mut machine = self.frames.machine();
-        for axis in Axis::ALL {
-            if all || named.contains(axis) {
-                machine[axis] = self.frames.references[index][axis];
-            }
+        for axis in Axis::ALL.into_iter().filter(|axis| named.contains(*axis)) {
+            machine[axis] = self.frames.references[index][axis];
         }
         let target = self.frames.program_at(&machine);
-        self.step(MoveKind::Rapid, target);
+        self.step_of(MoveKind::Rapid, target, named);
     }
 
     /// A rapid of the named axes in machine coordinates, whatever the frames are. Where that is in
     /// the program frame only the machine knows; here it is as if all rotary axes stood at zero.
-    pub(super) fn machine_move(&mut self, machine: Position) {
+    pub(super) fn machine_move(&mut self, machine: Position, named: AxisSet) {
         let (feed, origin) = (self.core.modes.feed, self.core.origin);
         let coordinates = Coordinates::Machine;
-        let rapid = Move::plain(MoveKind::Rapid, machine, self.words.axes(), feed, origin);
+        let rapid = Move::plain(MoveKind::Rapid, machine, named, feed, origin);
         self.emit_move(Move { coordinates, ..rapid });
         self.frames.position = self.frames.program_at(&machine);
     }

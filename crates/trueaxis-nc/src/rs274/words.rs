@@ -1,6 +1,7 @@
 //! The words of a block with their values, and what lasts from block to block.
 
 use super::cycles::CycleMemory;
+use super::fanuc::dynamic_offset::DynamicOffset;
 use super::fanuc::macros::ModalMacro;
 use super::fanuc::transforms::Transforms;
 use super::linuxcnc::polar::{self, PolarWord};
@@ -47,6 +48,7 @@ pub(super) struct Modes {
     /// P of G64, mm.
     pub path_tolerance_mm: f64,
     pub transforms: Transforms,
+    pub dynamic: DynamicOffset,
     pub spline: SplineMemory,
     /// Where G28 or G30 came through last.
     pub via: Option<Position>,
@@ -78,6 +80,7 @@ impl Modes {
             path: PathControl::Continuous,
             path_tolerance_mm: 0.0,
             transforms: Transforms::default(),
+            dynamic: DynamicOffset::default(),
             spline: SplineMemory::default(),
             via: None,
             data_input: false,

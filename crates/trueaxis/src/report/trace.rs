@@ -91,6 +91,9 @@ fn event_text(event: &Event) -> String {
         Event::Message(text) => format!("message: {text}"),
         Event::ToolCentre(on) => format!("tool-centre point {}", on_off(*on)),
         Event::TiltedPlane(on) => format!("tilted plane {}", on_off(*on)),
+        Event::DynamicOffset(origin) => {
+            format!("work offset that goes round with the table {}", on_off(origin.is_some()))
+        }
         Event::ToolChange(tool) => format!("tool {tool} into the spindle"),
         Event::ToolSelect(tool) => format!("tool {tool} is prepared"),
         Event::SpindleSpeed(speed) => format!("S {speed} 1/min"),

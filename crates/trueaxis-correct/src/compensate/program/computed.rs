@@ -99,6 +99,7 @@ impl Computed {
             Event::Frame(_)
             | Event::WorkOffset { .. }
             | Event::Shift(_)
+            | Event::DynamicOffset(_)
             | Event::ToolLength(_)
             | Event::ToolChange(_) => {
                 self.frame = true;

@@ -161,6 +161,16 @@ impl<'w> Walk<'w> {
                 self.vectors = false;
                 self.tip_followed = self.tip_followed.or(on.then_some(origin.line));
             }
+            Event::DynamicOffset(Some(_)) if !self.options.position_only => {
+                return Err(Fault {
+                    origin,
+                    word: None,
+                    code: "turning-dynamic-offset",
+                    message: "the correction turns rotary axes, which must stand while G254 is on"
+                        .to_owned(),
+                    hint: "correct the place alone: --position-only",
+                });
+            }
             Event::ToolLength(length) => self.length_stated |= length.0.iter().any(|l| *l != 0.0),
             _ => {}
         }

@@ -140,6 +140,7 @@ impl Run<'_> {
                 self.apply_transforms();
             }
             Action::Align { keep_tip } => self.align(keep_tip, at)?,
+            Action::DynamicOffset(on) => self.dynamic_offset(on, at)?,
             _ => return Ok(false),
         }
         Ok(true)
@@ -291,6 +292,7 @@ impl Run<'_> {
             }
         };
         let Some(frame) = frame else { return Ok(()) };
+        self.refuse_with_dynamic_offset("a tilted plane", at)?;
         let transforms = &mut self.modes.transforms;
         (transforms.rotation, transforms.nested) = (None, 0);
         let outer = transforms.tilt.filter(|_| further && transforms.tilted);
