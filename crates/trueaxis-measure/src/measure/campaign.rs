@@ -27,8 +27,10 @@ pub struct Campaign {
     pub files: Files,
     /// The campaign file.
     pub path: PathBuf,
-    /// The machine as its file states it, with the unknown errors.
+    /// The machine as its file states it, with the unknown errors, at the temperatures.
     pub machine: Machine,
+    /// `[temperature]`: it holds for every machine of the campaign.
+    pub conditions: Option<Conditions>,
     /// The machine file.
     pub machine_path: PathBuf,
     /// The unknown errors of the machine.
@@ -113,11 +115,11 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Campaign> {
         root.entries();
         return None;
     };
-    let machine = match conditions {
+    let machine = match &conditions {
         None => machine,
         Some(conditions) => {
             let mut problems = Diagnostics::new();
-            let warm = machine.at(&conditions, &mut problems);
+            let warm = machine.at(conditions, &mut problems);
             root.take_over(problems);
             warm?
         }
@@ -140,6 +142,7 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Campaign> {
         files: root.files().clone(),
         path: path.to_owned(),
         machine,
+        conditions,
         machine_path,
         terms,
         instruments,

@@ -6,7 +6,7 @@ use crate::measure::path::{Path, read_paths};
 use crate::measure::{Campaign, Kind};
 use std::f64::consts::PI;
 use std::sync::Arc;
-use trueaxis_input::{Diagnostics, Dimension, Item, Section};
+use trueaxis_input::{Diagnostics, Dimension, Item, Section, Severity};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command, MAX_AXES};
 use trueaxis_machine::errors::{ErrorName, ErrorValues, StatedError};
@@ -140,8 +140,29 @@ fn read_machine(item: &Item<'_>, campaign: &Campaign, truth: &mut Truth) {
         );
         item.warn("other-place", message, "is the tool or the workpiece another one?");
     }
+    let Some(machine) = at_temperatures(item, campaign, machine) else { return };
     truth.machine = machine;
     truth.machine_path = Some(path);
+}
+
+/// The true machine at the temperatures of the campaign; `None` if it cannot have them.
+fn at_temperatures(item: &Item<'_>, campaign: &Campaign, machine: Machine) -> Option<Machine> {
+    let Some(conditions) = &campaign.conditions else { return Some(machine) };
+    // What the machine of the campaign says of them was said already.
+    let mut said = Diagnostics::new();
+    campaign.machine.at(conditions, &mut said);
+    let mut problems = Diagnostics::new();
+    let warm = machine.at(conditions, &mut problems);
+    for problem in problems.iter().filter(|p| said.iter().all(|s| s.message != p.message)) {
+        let message = format!("at the temperatures of the campaign: {}", problem.message);
+        match problem.severity {
+            Severity::Error => item.error("truth-machine", message, &problem.hint),
+            Severity::Warning | Severity::Note => {
+                item.warn("truth-machine", message, &problem.hint);
+            }
+        }
+    }
+    warm
 }
 
 /// `EX0C = "12 um"`, or drawn: `"0 ± 20 um"`.
@@ -506,5 +527,85 @@ fn distance_mm(machine: &Machine, instrument: &Instrument, axis: usize) -> f64 {
     match (place(0.0), place(PI)) {
         (Some(here), Some(there)) => 0.5 * (there - here).norm(),
         _ => f64::INFINITY,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::{read_campaign, virtual_campaign::measure};
+    use std::collections::BTreeMap;
+    use std::io;
+    use std::path::{Path as FilePath, PathBuf};
+    use trueaxis_input::{Files, Source};
+
+    struct Memory(BTreeMap<PathBuf, String>);
+
+    impl Source for Memory {
+        fn read(&self, path: &FilePath) -> io::Result<Vec<u8>> {
+            let text = self.0.get(path).ok_or(io::ErrorKind::NotFound)?;
+            Ok(text.clone().into_bytes())
+        }
+
+        fn is_file(&self, path: &FilePath) -> bool {
+            self.0.contains_key(path)
+        }
+    }
+
+    const BARE: &str = "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\nsource = \"test\"\n\
+        [axis.X]\ntravel = [\"0 mm\", \"4000 mm\"]\n";
+    const SCALE: &str = "[scale.X]\nexpansion = \"10 um/(m K)\"\nfixed_point = \"0 mm\"\n\
+        table_temperature = \"20 degC\"\nsensors = { scale_x = \"0 mm\" }\n";
+
+    /// The error of the travel from X = 0 to 2000 mm that a laser reads, mm, and the codes.
+    fn change(truth: &str, temperature: &str) -> (Option<f64>, Vec<&'static str>) {
+        let campaign = format!(
+            "name = \"c\"\nmachine = \"m.toml\"\n{temperature}\n[instrument.laser]\n\
+             kind = \"laser-line\"\ndirection = \"1 0 0\"\nnoise = \"1 um\"\n[[path]]\n\
+             kind = \"table\"\ntable = \"p.csv\"\n[truth]\n{truth}\n[disturb]\nnoise = 0\n"
+        );
+        let files = [
+            ("c.toml", campaign),
+            ("m.toml", format!("{BARE}{SCALE}")),
+            ("same.toml", format!("{SCALE}{BARE}")),
+            ("long.toml", format!("{BARE}{}", SCALE.replace("10 um", "20 um"))),
+            ("bare.toml", BARE.to_owned()),
+            ("p.csv", "X,Y,Z\n0,0,0\n2000,0,0\n".to_owned()),
+        ];
+        let files = files.map(|(name, text)| (PathBuf::from(name), text));
+        let files = Files::new(Memory(BTreeMap::from(files)));
+        let (read, problems) = read_campaign(&files, FilePath::new("c.toml"), |root, campaign| {
+            read_virtual(root, campaign, None)
+        });
+        let codes = problems.iter().map(|d| d.code).collect();
+        let change = read.map(|(campaign, real)| {
+            let found = measure(&campaign, &real).expect("measured").readings;
+            found.values[1][0] - found.values[0][0] - 2000.0
+        });
+        (change, codes)
+    }
+
+    /// 10 µm/(m·K) · 2 m · 5 K = 100 µm, whichever file the true machine stands in.
+    #[test]
+    fn the_temperatures_of_a_campaign_hold_for_the_machine_of_truth() {
+        let warm = "temperature = { scale_x = \"25 degC\" }";
+        let of_campaign = change("", warm).0.expect("sound");
+        assert!((of_campaign.abs() - 0.1).abs() < 1e-9, "{of_campaign}");
+        let cases = [("same.toml", 1.0), ("long.toml", 2.0)];
+        for (file, times) in cases {
+            let truth = format!("machine = \"{file}\"");
+            let (there, codes) = change(&truth, warm);
+            let there = there.unwrap_or_else(|| panic!("{file}: {codes:?}"));
+            assert!((there - times * of_campaign).abs() < 1e-9, "{file}: {there}");
+            let cold = change(&truth, "").0.expect("sound");
+            assert!(cold.abs() < 1e-9, "{file}: {cold}");
+        }
+    }
+
+    #[test]
+    fn a_true_machine_without_the_sensor_is_refused() {
+        let warm = "temperature = { scale_x = \"25 degC\" }";
+        let (change, codes) = change("machine = \"bare.toml\"", warm);
+        assert!(change.is_none() && codes.contains(&"truth-machine"), "{codes:?}");
     }
 }
