@@ -384,3 +384,135 @@ fn the_example_says_what_its_truth_is() {
     assert_eq!(one.feeds.not_separable.len(), 5, "at one feed every lag is named");
     assert_eq!((whole.feeds.counts.len(), one.feeds.counts.len()), (3, 1));
 }
+
+/// What that lag changes in the readings at every station, mm.
+fn deviations(commands: &[Command], lag_s: f64, feed_mm_per_s: f64) -> Vec<[f64; 2]> {
+    let of = |lag_s| read_with(commands, lag_s, feed_mm_per_s);
+    of(lag_s).iter().zip(of(0.0)).map(|(a, b)| [a[0] - b[0], a[1] - b[1]]).collect()
+}
+
+/// The readings of a machine with that lag in all axes on a path, mm.
+fn read_with(commands: &[Command], lag_s: f64, feed_mm_per_s: f64) -> Vec<[f64; 2]> {
+    let mut campaign = campaign(&machine("three-axis-mill"), false);
+    campaign.instruments[0].noise = [1e-15; 3];
+    let mut stations = Readings::default();
+    for (group, command) in commands.iter().enumerate() {
+        stations.push(station(*command, &campaign, 0, group));
+    }
+    let path =
+        Path { name: "path".into(), stations, feed_mm_per_s: Some(feed_mm_per_s), dwell_s: 1.0 };
+    let mut axes = [AxisDisturb::default(); MAX_AXES];
+    axes.iter_mut().for_each(|a| a.lag_s = lag_s);
+    let truth = Truth {
+        machine: campaign.design().machine,
+        machine_path: None,
+        errors: Vec::new(),
+        factors: None,
+        instruments: campaign.instruments.clone(),
+        setups: vec![Vec::new()],
+        log: None,
+        seed: 1,
+    };
+    let disturb = Disturb { axes, ..Disturb::of_instruments(1) };
+    let real = VirtualCampaign { paths: vec![path], truth, disturb };
+    let read = measure(&campaign, &real).expect("no tables").readings;
+    read.values.iter().map(|v| [v[0], v[1]]).collect()
+}
+
+/// Commands of X and Y of the three-axis mill at these places.
+fn places(places: impl Iterator<Item = [f64; 2]>) -> Vec<Command> {
+    let machine = machine("three-axis-mill");
+    let number = |letter: &str| machine.axes().iter().position(|a| a.name.to_string() == letter);
+    let (x, y) = (number("X").expect("X"), number("Y").expect("Y"));
+    let command = |place: [f64; 2]| {
+        let mut q = Command::default();
+        (q[x], q[y]) = (place[0], place[1]);
+        q
+    };
+    places.map(command).collect()
+}
+
+#[test]
+fn oracle_following_error_and_circle_against_a_simulated_loop() {
+    let rows = include_str!("data/servo.csv").lines().filter(|l| l.starts_with(char::is_numeric));
+    let mut count = 0;
+    for row in rows {
+        let n: Vec<f64> = row.split(',').map(|v| v.parse().expect("a number")).collect();
+        let [kv, k, feed, radius, following_um, change_um, phase_urad] = n[..] else {
+            panic!("{row}")
+        };
+        // Feedforward k leaves (1 − k) of the following error: the lag that is identified.
+        let (lag_s, v) = ((1.0 - k) / kv, feed / 60.0);
+        let unknown = lag_s * v * 1e3;
+        assert!((unknown - following_um).abs() < 1e-6 * following_um, "{row}: {unknown}");
+        let ramp = places((0..=40).map(|i| [v * 0.1 * f64::from(i), 0.0]));
+        let last = deviations(&ramp, lag_s, v)[40][0];
+        assert!((last.abs() * 1e3 - following_um).abs() < 1e-6 * following_um, "{row}: {last}");
+        // An arc of 60 time constants in steps of 1/20 of one, so that it is no polygon.
+        let stations = 1200;
+        let angle = |i: i32| v / radius * 0.05 * lag_s * f64::from(i);
+        let circle = places((0..=stations).map(|i| {
+            let (s, c) = angle(i).sin_cos();
+            [radius * c, radius * s]
+        }));
+        let (mut change, mut phase) = (0.0, 0.0);
+        let read = deviations(&circle, lag_s, v);
+        // The sense in which the probe reads, by the ramp: it is behind.
+        let sense = -last.signum();
+        for i in stations / 2..stations {
+            let (s, c) = angle(i).sin_cos();
+            let d = read[i as usize].map(|d| d * sense);
+            let at = [radius * c + d[0], radius * s + d[1]];
+            change += at[0].hypot(at[1]) - radius;
+            phase += (at[1] * c - at[0] * s).atan2(at[0] * c + at[1] * s);
+        }
+        let half = f64::from(stations / 2);
+        let (change_is, phase_is) = (change / half * 1e3, phase / half * 1e6);
+        assert!((phase_is - phase_urad).abs() < 1e-3 * phase_urad.abs(), "{row}: {phase_is} µrad");
+        // DIFFERENCE: with feedforward the radius shrinks by (1 − k²) of R(ω/Kv)²/2, a lag of
+        // (1 − k)/Kv alone by (1 − k)²; both are of second order.
+        let of_lag = match k == 0.0 {
+            true => change_um,
+            false => change_um * (1.0 - k) / (1.0 + k),
+        };
+        assert!(
+            (change_is - of_lag).abs() < 5e-3 * of_lag.abs() + 1e-4,
+            "{row}: {change_is} µm, {of_lag}"
+        );
+        count += 1;
+    }
+    assert_eq!(count, 6);
+}
+
+#[test]
+fn law_a_lag_that_is_left_out_shows_in_the_verdict() {
+    // The same readings, standing and moving, without the servo among the unknowns.
+    for name in ["xkas2525", "lei-hsu-mill", "three-axis-mill"] {
+        let with = campaign(&machine(name), true);
+        let injected = inject(&with, &mut Random(4));
+        let read = readings(&with, &injected, &[STILL, Some(150.0)], 3);
+        let right = found(&with, read.clone());
+        let wrong = found(&campaign(&machine(name), false), read);
+        assert!(!wrong.verdict.is_good(), "{name}: {:?}", wrong.verdict);
+        assert!(right.verdict.is_good(), "{name}: {:?}", right.verdict);
+    }
+}
+
+#[test]
+fn law_a_lag_that_all_axes_share_is_told_apart_or_named() {
+    for name in ["xkas2525", "lei-hsu-mill", "three-axis-mill"] {
+        let campaign = campaign(&machine(name), true);
+        let mut injected = inject(&campaign, &mut Random(6));
+        injected.axes.iter_mut().for_each(|a| a.lag_s = 0.03);
+        let read = readings(&campaign, &injected, &[STILL, Some(30.0), Some(150.0)], 8);
+        let found = found(&campaign, read);
+        score(&campaign, &injected, &found);
+        for (_, f) in found.design.terms.iter().zip(&found.found).filter(|(t, _)| t.basis.is_lag())
+        {
+            let seen = f.value.is_some_and(|(value, u)| 4.0 * u < value);
+            let named = found.feeds.not_separable.iter().any(|s| s.name == f.name);
+            let unseen = found.unobservable.iter().any(|u| format!("{u:?}").contains(&f.name));
+            assert!(seen || named || unseen, "{name}: {} {:?}", f.name, f.value);
+        }
+    }
+}

@@ -34,7 +34,40 @@ pub const CLAIMS: &[(&str, Ours)] = &[
     ("004-path-f-planned", planned_f),
     ("004-path-s-planned", planned_s),
     ("004-no-errors", no_errors),
+    ("004-feeds", || {
+        let mut feeds: Vec<f64> = two_feeds().iter().map(|row| row[1]).collect();
+        feeds.sort_by(f64::total_cmp);
+        feeds.dedup();
+        feeds
+    }),
+    ("004-fig-10-12", grows_with_feed),
 ];
+
+/// y in µm and feed in mm/min of every row of the readings at two feeds.
+fn two_feeds() -> Vec<[f64; 2]> {
+    let file = root().join("examples/05_identify/probe-ball-two-feeds.csv");
+    let text = std::fs::read_to_string(file).expect("shipped readings");
+    let mut lines = text.lines();
+    let head: Vec<&str> = lines.next().expect("a heading").split(',').collect();
+    let column = |name: &str| head.iter().position(|h| *h == name).expect("a column");
+    let (y, feed) = (column("y_um"), column("feed_mm_per_min"));
+    let row = |line: &str| {
+        let cells: Vec<f64> = line.split(',').map(|c| c.parse().expect("a number")).collect();
+        [cells[y], cells[feed]]
+    };
+    lines.map(row).collect()
+}
+
+/// Path F is the first 37 rows standing, then after those of path S at 30 and at 150 mm/min.
+fn grows_with_feed() -> Vec<f64> {
+    const STATIONS: usize = 37;
+    const NOISE_UM: f64 = 1.0;
+    let rows = two_feeds();
+    let y = |pass: usize| rows[2 * pass * STATIONS..][..STATIONS].iter().map(|r| r[0]);
+    let off = |pass| y(pass).zip(y(0)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let (slow, fast): (f64, f64) = (off(1), off(2));
+    vec![f64::from(u8::from(fast > slow)), f64::from(u8::from(slow > NOISE_UM))]
+}
 
 /// The paths of examples/04_plan/probe-ball.toml.
 fn planned() -> Plan {
