@@ -7,6 +7,7 @@
 
 pub mod cone;
 mod datum;
+pub mod measured;
 mod mounting;
 
 pub use datum::Datum;
