@@ -5,8 +5,10 @@
 //! an S-shaped piece or a surface of the user can implement the same trait: their contacts have
 //! other normals and their features other indices.
 
+pub mod agreement;
 pub mod cone;
 mod datum;
+pub mod measured;
 mod mounting;
 
 pub use datum::Datum;
