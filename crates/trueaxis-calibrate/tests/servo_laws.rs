@@ -457,7 +457,7 @@ fn oracle_following_error_and_circle_against_a_simulated_loop() {
         }));
         let (mut change, mut phase) = (0.0, 0.0);
         let read = deviations(&circle, lag_s, v);
-        // The sense in which the probe reads, by the ramp: it is behind.
+        // The sense in which the probe reads, by the ramp: it reads less.
         let sense = -last.signum();
         for i in stations / 2..stations {
             let (s, c) = angle(i).sin_cos();

@@ -115,6 +115,7 @@ impl Bench {
             files: disk(),
             name: "test".to_owned(),
             path: PathBuf::from("campaign.toml"),
+            conditions: None,
             machine: machine.clone(),
             machine_path: PathBuf::from("machine.toml"),
             terms: terms(machine),
