@@ -111,6 +111,7 @@ fn campaign(machine: &Machine, with_servo: bool) -> Campaign {
     }
     terms.sort_by_key(|t| t.index);
     Campaign {
+        conditions: None,
         files: disk(),
         name: "servo".into(),
         path: PathBuf::from("servo.toml"),

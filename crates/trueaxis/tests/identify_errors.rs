@@ -82,6 +82,7 @@ fn campaign(name: &str, terms: Vec<Term>, kind: Kind) -> Campaign {
     let machine = machine(name);
     let instruments = vec![probe(&machine, kind)];
     Campaign {
+        conditions: None,
         files: disk(),
         name: "a test".to_owned(),
         path: PathBuf::from("campaign.toml"),

@@ -49,6 +49,7 @@ fn instrument(kind: Kind, machine: &Machine) -> Instrument {
 
 fn campaign(machine: &Machine, instrument: Instrument) -> Campaign {
     Campaign {
+        conditions: None,
         files: disk(),
         name: "test".into(),
         path: PathBuf::from("test.toml"),
