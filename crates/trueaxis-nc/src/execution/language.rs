@@ -10,7 +10,8 @@ use super::corners::Corners;
 use super::radius::Active;
 use super::{Follower, KnownPosition, Library, Modes, Outcome, Settings, mistakes};
 use crate::moves::{
-    AxisSet, Coordinates, Event, Frame, Move, MoveKind, Origin, Position, RotaryDirection, Step,
+    Axis, AxisSet, Coordinates, Event, Frame, Move, MoveKind, Origin, Position, RotaryDirection,
+    Step,
 };
 use crate::text::program::{Fault, Places, Program};
 
@@ -271,9 +272,10 @@ impl<'r> Core<'r> {
         self.follower.axis_positions().map_or(by_frames, |place| place.over(&by_frames))
     }
 
-    /// The axes of the machine; X, Y and Z without one.
+    /// The axes of the machine; all of programs without one.
     pub fn axes_of_machine(&self) -> AxisSet {
-        self.follower.axis_positions().map_or(AxisSet::XYZ, |place| place.axes)
+        let all = || Axis::ALL.into_iter().fold(AxisSet::default(), AxisSet::with);
+        self.follower.axis_positions().map_or_else(all, |place| place.axes)
     }
 
     /// The place in the program frame is read again before the next move.
