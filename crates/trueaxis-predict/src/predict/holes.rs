@@ -56,6 +56,8 @@ pub struct HoleStudy {
     pub holes_mm: Vec<Vec3>,
     /// Largest distance of a hole from its place in X and Y, mm, if one is stated.
     pub tolerance_mm: Option<f64>,
+    /// Largest deviation of the location diameter either way, mm, if one is stated.
+    pub location_tolerance_mm: Option<f64>,
     /// The least increment of a compensation value, mm.
     pub increment_mm: f64,
     /// Which compensation is on: the verdict is about it.
@@ -93,10 +95,20 @@ pub struct HoleSet {
     pub worst_mm: f64,
     /// Its standard uncertainty, mm.
     pub u_worst_mm: f64,
-    /// Whether all are in tolerance, if one is stated.
+    /// Whether all places are in tolerance, if one is stated.
     pub in_tolerance: Option<bool>,
+    /// Whether the location diameter is in its tolerance, if one is stated.
+    pub location_in_tolerance: Option<bool>,
     /// The circle on which they are; none for fewer than three.
     pub location: Option<LocationCircle>,
+}
+
+impl HoleSet {
+    /// Whether all stated tolerances are kept; none if none is stated.
+    pub fn keeps_tolerances(&self) -> Option<bool> {
+        let stated = [self.in_tolerance, self.location_in_tolerance];
+        stated.into_iter().flatten().reduce(|one, other| one && other)
+    }
 }
 
 /// All that was found out about the holes.
@@ -166,36 +178,52 @@ fn read(root: &Section<'_>, path: &Path) -> Option<HoleStudy> {
         (increment_mm, applied)
     });
     let (increment_mm, applied) = compensation.unwrap_or_default();
-    let (holes_mm, tolerance_mm) = holes?;
+    let (holes_mm, [tolerance_mm, location_tolerance_mm]) = holes?;
     Some(HoleStudy {
         name: name?.to_owned(),
         machine: machine?,
         temperatures: temperatures.running,
         holes_mm,
         tolerance_mm,
+        location_tolerance_mm,
         increment_mm: increment_mm.unwrap_or(1e-3),
         applied: applied.unwrap_or(Compensation::None),
     })
 }
 
-fn read_holes(section: &Section<'_>) -> Option<(Vec<Vec3>, Option<f64>)> {
+fn read_holes(section: &Section<'_>) -> Option<(Vec<Vec3>, [Option<f64>; 2])> {
     let count = section.require("count", "how many holes, such as 32").and_then(|i| i.count());
     let hint = "the diameter of their circle, such as \"1800 mm\"";
     let circle = section.require("circle", hint).and_then(|i| i.quantity(Dimension::Length));
     let hint = "of the circle in the workpiece frame, such as \"1750 1150 0 mm\"";
     let centre = section.require("centre", hint).and_then(|i| read_vector_mm(&i));
-    let tolerance_mm = section.quantity("tolerance", Dimension::Length);
+    let tolerances = ["tolerance", "location_diameter_tolerance"].map(|key| {
+        let value = section.quantity(key, Dimension::Length);
+        if value.is_some_and(|v| v <= 0.0) {
+            section.error("not-positive", format!("`{key}` is above zero"), "such as \"0.046 mm\"");
+        }
+        value
+    });
     let (count, circle, centre) = (count?, circle?, centre?);
     if !(1..=MOST_HOLES).contains(&count) {
         let message = format!("{count} holes");
         section.error("bad-count", message, &format!("1 to {MOST_HOLES}"));
         return None;
     }
+    if tolerances[1].is_some() && count < 3 {
+        let message = format!("{count} holes lie on no circle: no location diameter can be judged");
+        section.error(
+            "bad-count",
+            message,
+            "3 holes or more, or leave out location_diameter_tolerance",
+        );
+        return None;
+    }
     let hole = |i: usize| {
         let (sin, cos) = (std::f64::consts::TAU * i as f64 / count as f64).sin_cos();
         centre + 0.5 * circle * Vec3::new(cos, sin, 0.0)
     };
-    Some(((0..count).map(hole).collect(), tolerance_mm))
+    Some(((0..count).map(hole).collect(), tolerances))
 }
 
 /// Minus an error in whole increments, halves away from zero.
@@ -251,7 +279,9 @@ fn drill_all(
     };
     let sets = Compensation::ALL.map(|compensation| {
         let mut clock = study.clock(running);
+        let centre = study.holes_mm.iter().sum::<Vec3>() / study.holes_mm.len() as f64;
         let mut holes = Vec::with_capacity(study.holes_mm.len());
+        let mut outwards_mm = Vec::with_capacity(study.holes_mm.len());
         for (i, place) in study.holes_mm.iter().enumerate() {
             let machine = match clock.machine_at(i) {
                 Ok(machine) => machine.unwrap_or(&study.machine),
@@ -262,7 +292,11 @@ fn drill_all(
                 Err(_) => break,
             };
             match drill(machine, study.increment_mm, *place, compensation) {
-                Ok(hole) => holes.push(hole),
+                Ok((hole, effects)) => {
+                    let out = (place - centre).xy().try_normalize(1e-12).unwrap_or_default();
+                    outwards_mm.push(effects.iter().map(|effect| out.dot(&effect.xy())).collect());
+                    holes.push(hole);
+                }
                 Err(message) if compensation == Compensation::None => {
                     told(i, format!(": {message}"), "move the circle, or extend the table");
                 }
@@ -274,8 +308,18 @@ fn drill_all(
         let worst_mm = worst.map_or(0.0, Hole::distance_mm);
         let u_worst_mm = worst.map_or(0.0, |h| h.u_distance_mm);
         let in_tolerance = study.tolerance_mm.map(|t| worst_mm <= t);
-        let location = LocationCircle::of(&study.holes_mm, &holes);
-        HoleSet { compensation, holes, worst_mm, u_worst_mm, in_tolerance, location }
+        let location = LocationCircle::of(&study.holes_mm, &holes, &outwards_mm);
+        let allowed = study.location_tolerance_mm.zip(location);
+        let location_in_tolerance = allowed.map(|(t, circle)| circle.largest_mm().0.abs() <= t);
+        HoleSet {
+            compensation,
+            holes,
+            worst_mm,
+            u_worst_mm,
+            in_tolerance,
+            location_in_tolerance,
+            location,
+        }
     });
     if problems.has_errors() { Err(problems) } else { Ok(sets) }
 }
@@ -307,7 +351,7 @@ fn drill(
     increment_mm: f64,
     place: Vec3,
     compensation: Compensation,
-) -> Result<Hole, String> {
+) -> Result<(Hole, Vec<Vec3>), String> {
     let (tip, errors) = felt(machine, place)?;
     let error = match compensation {
         Compensation::None => Vec3::zeros(),
@@ -320,8 +364,25 @@ fn drill(
     let added = Vec3::from(increments.map(|n| n as f64 * increment_mm));
     let (command, errors) = felt(machine, place + added)?;
     let error_mm = added + machine.deviation(&command, &errors).tip_mm;
-    let (u_mm, u_distance_mm) = uncertainty(machine, &command, &errors, error_mm);
-    Ok(Hole { increments, error_mm, u_mm, u_distance_mm })
+    let effects = effects(machine, &command, &errors);
+    let (u_mm, u_distance_mm) = uncertainty(&effects, error_mm);
+    Ok((Hole { increments, error_mm, u_mm, u_distance_mm }, effects))
+}
+
+/// What each uncertain quantity of the machine does to the place of the tip, mm.
+///
+/// ```text
+///     (x(z = +1) − x(z = −1))/2
+/// ```
+fn effects(machine: &Machine, command: &Command, errors: &ErrorValues) -> Vec<Vec3> {
+    let quantities = machine.uncertain_quantities();
+    let known = machine.uncertainties_at(command, &quantities);
+    let effect = |quantity: usize| {
+        let tip =
+            |z: f64| machine.deviation(command, &known.displaced_by(errors, quantity, z)).tip_mm;
+        0.5 * (tip(1.0) - tip(-1.0))
+    };
+    (0..quantities.len()).map(effect).collect()
 }
 
 /// How well the place of a hole is known, along x, y, z and as a distance from where it should be.
@@ -331,21 +392,11 @@ fn drill(
 /// ```
 ///
 /// over all uncertain quantities of the machine; the compensation stays what it is.
-fn uncertainty(
-    machine: &Machine,
-    command: &Command,
-    errors: &ErrorValues,
-    error_mm: Vec3,
-) -> (Vec3, f64) {
-    let quantities = machine.uncertain_quantities();
-    let known = machine.uncertainties_at(command, &quantities);
+fn uncertainty(effects: &[Vec3], error_mm: Vec3) -> (Vec3, f64) {
     let along = error_mm.xy().try_normalize(1e-12);
     let (mut variance, mut of_distance) = (Vec3::zeros(), 0.0);
-    for quantity in 0..quantities.len() {
-        let tip =
-            |z: f64| machine.deviation(command, &known.displaced_by(errors, quantity, z)).tip_mm;
-        let half = 0.5 * (tip(1.0) - tip(-1.0));
-        variance += half.component_mul(&half);
+    for half in effects {
+        variance += half.component_mul(half);
         // A hole in its very place moves away in every direction.
         of_distance += along.map_or(half.xy().norm(), |a| a.dot(&half.xy())).powi(2);
     }

@@ -10,19 +10,20 @@ const NAMES: [&str; 3] = ["without compensation", "machine only", "comprehensive
 /// The prediction.
 pub fn holes_report<'a>(study: &'a HoleStudy, prediction: &'a HolePrediction) -> Report<'a> {
     let applied = prediction.sets.iter().find(|s| s.compensation == study.applied);
-    let (standing, word, sentence) = match applied.and_then(|s| s.in_tolerance) {
-        Some(true) => (Standing::Good, "PASS", "every hole will be in tolerance"),
-        Some(false) => (Standing::Bad, "FAIL", "a hole will be out of tolerance"),
-        None => (Standing::Open, "NO VERDICT", "the study states no tolerance"),
+    let (standing, word, sentence) = match applied.and_then(HoleSet::keeps_tolerances) {
+        Some(true) => (Standing::Good, "PASS", stated(study, "will be in tolerance")),
+        Some(false) => (Standing::Bad, "FAIL", failed(applied)),
+        None => (Standing::Open, "NO VERDICT", "the study states no tolerance".to_owned()),
     };
-    let sentence = format!("{sentence}, with compensation: {}", study.applied.name());
+    let near = applied.and_then(|set| near_limit(study, set)).unwrap_or_default();
+    let sentence = format!("{sentence}, with compensation: {}{near}", study.applied.name());
     let warnings = prediction.warnings.iter().map(|w| format!("WARNING: {w}"));
     Report::new(&study.name)
         .line(format!("{}, {}", study.machine.name(), study.machine.chain_text()))
         .verdict(standing, word, sentence)
         .section(Section::new("").list(warnings))
         .section(worst(study, prediction))
-        .section(location(prediction))
+        .section(location(study, prediction))
         .section(
             Section::new("Plan view")
                 .on_page()
@@ -35,6 +36,44 @@ pub fn holes_report<'a>(study: &'a HoleStudy, prediction: &'a HolePrediction) ->
         )
         .section(holes(study, prediction))
         .section(inputs(study, prediction))
+}
+
+fn stated(study: &HoleStudy, what: &str) -> String {
+    let subject = match (study.tolerance_mm, study.location_tolerance_mm) {
+        (Some(_), Some(_)) => "every hole and the location diameter",
+        (None, Some(_)) => "the location diameter",
+        _ => "every hole",
+    };
+    format!("{subject} {what}")
+}
+
+fn failed(applied: Option<&HoleSet>) -> String {
+    let of = |f: fn(&HoleSet) -> Option<bool>| applied.and_then(f) == Some(false);
+    let places = of(|set| set.in_tolerance);
+    let subject = match (places, of(|set| set.location_in_tolerance)) {
+        (true, true) => "a hole and the location diameter",
+        (false, true) => "the location diameter",
+        _ => "a hole",
+    };
+    format!("{subject} will be out of tolerance")
+}
+
+/// A value that is nearer to its limit than its expanded uncertainty.
+fn near_limit(study: &HoleStudy, set: &HoleSet) -> Option<String> {
+    let place = study.tolerance_mm.map(|t| (t, set.worst_mm, set.u_worst_mm));
+    let circle = study.location_tolerance_mm.zip(set.location).map(|(t, circle)| {
+        let (error, u) = circle.largest_mm();
+        (t, error.abs(), u)
+    });
+    let within = |(t, value, u): &(f64, f64, f64)| (t - value).abs() < 2.0 * u;
+    let near = place.into_iter().chain(circle).find(within)?;
+    let (t, value, u) = near;
+    Some(format!(
+        "; {} of {} µm allowed are within U = {} µm (k = 2) of the limit: measure before relying on it",
+        um(value),
+        um(t),
+        um(2.0 * u)
+    ))
 }
 
 pub(super) fn um(mm: f64) -> String {
@@ -69,28 +108,43 @@ fn worst<'a>(study: &HoleStudy, prediction: &HolePrediction) -> Section<'a> {
 }
 
 /// The diameter of the circle of the holes, as a drawing tolerates it.
-fn location<'a>(prediction: &HolePrediction) -> Section<'a> {
+fn location<'a>(study: &HoleStudy, prediction: &HolePrediction) -> Section<'a> {
     let row = |set: &HoleSet| {
         let circle = set.location?;
-        let [low, high] = match circle.opposite_mm {
-            Some(both) => both.map(um),
-            None => ["–", "–"].map(String::from),
+        let pair = |which: usize| match (circle.opposite_mm, circle.u_opposite_mm) {
+            (Some(values), Some(u)) => [um(values[which]), um(u[which])],
+            _ => ["–", "–"].map(String::from),
         };
-        let name = set.compensation.name().to_owned();
+        let ([low, u_low], [high, u_high]) = (pair(0), pair(1));
+        let verdict = match set.location_in_tolerance {
+            Some(true) => "pass",
+            Some(false) => "fail",
+            None => "–",
+        };
+        let allowed =
+            study.location_tolerance_mm.map_or("–".to_owned(), |t| format!("±{}", um(t)));
         let [x, y] = circle.centre_mm.map(um);
-        Some([name, um(circle.diameter_error_mm), low, high, x, y])
+        let (name, diameter) = (set.compensation.name().to_owned(), um(circle.diameter_error_mm));
+        let u = um(circle.u_diameter_mm);
+        Some([name, diameter, u, low, u_low, high, u_high, allowed, verdict.to_owned(), x, y])
     };
     let headings = [
         "compensation",
         "diameter, µm",
+        "u, µm",
         "opposite, least, µm",
+        "u, µm",
         "largest, µm",
+        "u, µm",
+        "allowed, µm",
+        "in tolerance",
         "centre x, µm",
         "y, µm",
     ];
     let note = "Diameter of the circle of the holes at 20 °C less the nominal one, by least squares and from \
-                opposite holes, and where its centre is. It is not sensitive to a shift of the whole pattern, \
-                the distance from place is.";
+                opposite holes, with standard uncertainties u, and where its centre is. It is not sensitive to a \
+                shift of the whole pattern, the distance from place is. Judged: the opposite holes that deviate \
+                most; the least-squares diameter where the number of holes is odd.";
     let rows = prediction.sets.iter().filter_map(row);
     Section::new("Location diameter").table(Table::new(headings).rows(rows).note(note))
 }

@@ -17,9 +17,11 @@ pub struct HolesDocument<'a> {
     pub increment_mm: f64,
     /// The tolerance of the place of a hole; null if none is stated, mm.
     pub tolerance_mm: Option<f64>,
+    /// The tolerance of the location diameter, either way; null if none is stated, mm.
+    pub location_tolerance_mm: Option<f64>,
     /// The compensation that is applied: `none`, `machine` or `comprehensive`.
     pub applied: &'static str,
-    /// Whether all holes are in tolerance with it; null if none is stated.
+    /// Whether all stated tolerances are kept with it; null if none is stated.
     pub in_tolerance: Option<bool>,
     /// The log that the temperatures follow; null if there is none.
     pub temperature_log: Option<&'a str>,
@@ -42,8 +44,10 @@ pub struct SetEntry {
     pub worst_mm: f64,
     /// Its standard uncertainty, mm.
     pub u_worst_mm: f64,
-    /// Whether all are in tolerance; null if none is stated.
+    /// Whether all places are in tolerance; null if none is stated.
     pub in_tolerance: Option<bool>,
+    /// Whether the location diameter is in its tolerance; null if none is stated.
+    pub location_in_tolerance: Option<bool>,
     /// The circle on which the holes are; null for fewer than three.
     pub location_diameter: Option<LocationEntry>,
     /// The holes in the order of the study.
@@ -55,8 +59,12 @@ pub struct SetEntry {
 pub struct LocationEntry {
     /// Its diameter by least squares, µm.
     pub error_um: f64,
+    /// Standard uncertainty of that, µm.
+    pub u_um: f64,
     /// Smallest and largest distance of opposite holes; null where the number of holes is odd, µm.
     pub opposite_um: Option<[f64; 2]>,
+    /// Standard uncertainties of these two, µm.
+    pub u_opposite_um: Option<[f64; 2]>,
     /// Where its centre is along X and Y, µm.
     pub centre_um: [f64; 2],
 }
@@ -88,8 +96,9 @@ impl<'a> HolesDocument<'a> {
             name: &study.name,
             increment_mm: study.increment_mm,
             tolerance_mm: study.tolerance_mm,
+            location_tolerance_mm: study.location_tolerance_mm,
             applied: study.applied.name(),
-            in_tolerance: prediction.sets[applied].in_tolerance,
+            in_tolerance: prediction.sets[applied].keeps_tolerances(),
             temperature_log: study.temperatures.as_ref().map(|t| t.run.log.file()),
             sets: prediction.sets.iter().map(set).collect(),
             sets_at_start: prediction.held.as_ref().map(|held| held.iter().map(set).collect()),
@@ -108,9 +117,12 @@ impl SetEntry {
             worst_mm: set.worst_mm,
             u_worst_mm: set.u_worst_mm,
             in_tolerance: set.in_tolerance,
+            location_in_tolerance: set.location_in_tolerance,
             location_diameter: set.location.map(|circle| LocationEntry {
                 error_um: circle.diameter_error_mm * 1e3,
+                u_um: circle.u_diameter_mm * 1e3,
                 opposite_um: circle.opposite_mm.map(|both| both.map(|mm| mm * 1e3)),
+                u_opposite_um: circle.u_opposite_mm.map(|both| both.map(|mm| mm * 1e3)),
                 centre_um: circle.centre_mm.map(|mm| mm * 1e3),
             }),
             holes: holes.map(|(hole, (at, time))| HoleEntry::of(hole, at, *time)).collect(),

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_part::tolerance::Outcome;
 use trueaxis_predict::predict::holes::{
-    HolePrediction, HoleStudy, is_hole_study, predict_holes, read_hole_study,
+    HolePrediction, HoleSet, HoleStudy, is_hole_study, predict_holes, read_hole_study,
 };
 use trueaxis_predict::predict::{Error, Prediction, Study, predict, read_study};
 use trueaxis_report::{Report, document};
@@ -155,7 +155,7 @@ impl Answer for Predicted {
             Self::Part(_, prediction) => prediction.verdict.outcome == Outcome::Pass,
             Self::Holes(study, prediction) => {
                 let applied = prediction.sets.iter().find(|s| s.compensation == study.applied);
-                applied.and_then(|s| s.in_tolerance) != Some(false)
+                applied.and_then(HoleSet::keeps_tolerances) != Some(false)
             }
         }
     }

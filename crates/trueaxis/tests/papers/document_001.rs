@@ -10,7 +10,7 @@ use trueaxis::machine::Machine;
 use trueaxis::machine::errors::{ErrorValues, Interpolation, Spline};
 use trueaxis::machine::heat::field::{ScaleField, Source};
 use trueaxis::machine::heat::{Conditions, ErrorPart};
-use trueaxis::predict::holes::Compensation;
+use trueaxis::predict::holes::{Compensation, predict_holes, read_hole_study};
 
 pub const CLAIMS: &[(&str, Ours)] = &[
     ("001-machine", || both(TESTS, machine_um)),
@@ -31,6 +31,15 @@ pub const CLAIMS: &[(&str, Ours)] = &[
         let (runs, problems) = read_runs(&disk(), &file);
         let runs = runs.unwrap_or_else(|| panic!("{:?}", problems.sorted()));
         vec![identify_expansion(&runs).per_k * 1e6]
+    }),
+    ("001-at-least", || vec![100.0 * (1.0 - 21.9 / 46.0)]),
+    ("001-location-diameter", || {
+        let file = shop::root().join("examples/03_predict/torque-arm.toml");
+        let (study, problems) = read_hole_study(&disk(), &file);
+        let study = study.unwrap_or_else(|| panic!("{:?}", problems.sorted()));
+        let found = predict_holes(&study).expect("reachable");
+        let within = |set: usize| found.sets[set].location_in_tolerance == Some(true);
+        vec![f64::from(u8::from(!within(0))), f64::from(u8::from(within(2)))]
     }),
     ("001-field", field),
     ("001-spline", || {

@@ -68,7 +68,7 @@ export class Holes {
       h(
         "span",
         {},
-        `${good === null ? "the study states no tolerance" : good ? "every hole will be in tolerance" : "a hole will be out of tolerance"}, compensation: ${word(document.applied)}`,
+        `${good === null ? "the study states no tolerance" : good ? "all stated tolerances will be kept" : "a tolerance will not be kept"}, compensation: ${word(document.applied)}`,
       ),
       applied
         ? h(
