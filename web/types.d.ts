@@ -6228,11 +6228,15 @@ export interface PredictHoles {
    */
   tolerance_mm: number | null;
   /**
+   * The tolerance of the location diameter, either way; null if none is stated, mm.
+   */
+  location_tolerance_mm: number | null;
+  /**
    * The compensation that is applied: `none`, `machine` or `comprehensive`.
    */
   applied: string;
   /**
-   * Whether all holes are in tolerance with it; null if none is stated.
+   * Whether all stated tolerances are kept with it; null if none is stated.
    */
   in_tolerance: boolean | null;
   /**
@@ -6306,9 +6310,13 @@ export interface SetEntry {
    */
   u_worst_mm: number;
   /**
-   * Whether all are in tolerance; null if none is stated.
+   * Whether all places are in tolerance; null if none is stated.
    */
   in_tolerance: boolean | null;
+  /**
+   * Whether the location diameter is in its tolerance; null if none is stated.
+   */
+  location_in_tolerance: boolean | null;
   /**
    * The circle on which the holes are; null for fewer than three.
    */
@@ -6327,12 +6335,23 @@ export interface LocationEntry {
    */
   error_um: number;
   /**
+   * Standard uncertainty of that, µm.
+   */
+  u_um: number;
+  /**
    * Smallest and largest distance of opposite holes; null where the number of holes is odd, µm.
    *
    * @minItems 2
    * @maxItems 2
    */
   opposite_um: [number, number] | null;
+  /**
+   * Standard uncertainties of these two, µm.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  u_opposite_um: [number, number] | null;
   /**
    * Where its centre is along X and Y, µm.
    *
@@ -7929,11 +7948,15 @@ export interface HolesDocument {
    */
   tolerance_mm: number | null;
   /**
+   * The tolerance of the location diameter, either way; null if none is stated, mm.
+   */
+  location_tolerance_mm: number | null;
+  /**
    * The compensation that is applied: `none`, `machine` or `comprehensive`.
    */
   applied: string;
   /**
-   * Whether all holes are in tolerance with it; null if none is stated.
+   * Whether all stated tolerances are kept with it; null if none is stated.
    */
   in_tolerance: boolean | null;
   /**
