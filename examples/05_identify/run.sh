@@ -3,6 +3,15 @@ set -e
 trueaxis=${TRUEAXIS:-target/release/trueaxis}
 $trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml
 $trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml --format json
+# Both scales of the gantry into its machine file, with the coefficients of the splines for a PLC.
+out=$(mktemp -d)
+trap 'rm -rf "$out"' EXIT
+$trueaxis identify expansion examples/05_identify/x-axis-two-temperatures.toml examples/05_identify/y-axis-two-temperatures.toml -o "$out/gantry"
+$trueaxis check "$out/gantry/machine.toml"
+# Error tables of two axes from laser, level and R-test, squareness from circles.
+$trueaxis identify tables examples/05_identify/error-tables.toml -o "$out/tables" --report "$out/tables.html"
+$trueaxis identify tables examples/05_identify/error-tables.toml --format json
+$trueaxis check "$out/tables/machine.toml"
 # How does the spindle drift with temperatures, and which sensors explain it? Judged on held-out logs.
 $trueaxis identify thermal examples/05_identify/lathe-thermal.toml
 $trueaxis identify thermal examples/05_identify/lathe-thermal.toml --format json

@@ -4,6 +4,7 @@ mod errors;
 mod probe;
 mod rtcp;
 mod surface;
+mod tables;
 mod thermal;
 
 use crate::door::Door;
@@ -42,6 +43,8 @@ enum IdentifyCommand {
     Thermal(thermal::Arguments),
     /// The offset of a stylus ball and its pre-travel by direction, from hits on a ring or sphere
     Probe(probe::Arguments),
+    /// Error tables and squareness, from laser readings of single errors and ball-bar circles
+    Tables(tables::Arguments),
     /// The deviations of a surface, from the hits of a probing program
     Surface(surface::Arguments),
 }
@@ -49,14 +52,27 @@ enum IdentifyCommand {
 /// The runs.
 #[derive(Args)]
 #[command(after_help = "\
-Example:
+Examples:
   trueaxis identify expansion examples/05_identify/y-axis-two-temperatures.toml
+  trueaxis identify expansion examples/05_identify/x-axis-two-temperatures.toml \\
+      examples/05_identify/y-axis-two-temperatures.toml -o gantry
+
+Laser runs of the same positions at two or more temperatures: the expansion coefficient with its
+uncertainty, the scale materials that it allows, the error table at one temperature and its cubic
+spline with the coefficients that a PLC needs. -o writes the machine file that the runs name with
+these tables and coefficients, and one file of spline coefficients for each axis.
 
 Exit status: 0 done, 2 unusable input.")]
 struct ExpansionArguments {
-    /// The file of the runs: table, temperatures
-    #[arg(value_name = "FILE.toml")]
-    file: PathBuf,
+    /// The files of the runs, one for each scale: table, temperatures
+    #[arg(value_name = "FILE.toml", required = true)]
+    files: Vec<PathBuf>,
+    /// Write the machine file with these scales, its tables and the spline coefficients into this new folder
+    #[arg(short, long, value_name = "FOLDER")]
+    output: Option<PathBuf>,
+    /// Write the report as an HTML page
+    #[arg(long, value_name = "FILE.html")]
+    report: Option<PathBuf>,
     /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
@@ -69,11 +85,13 @@ pub fn run(arguments: &Arguments) -> Outcome {
         Some(IdentifyCommand::Rtcp(arguments)) => rtcp::run(arguments),
         Some(IdentifyCommand::Thermal(arguments)) => thermal::run(arguments),
         Some(IdentifyCommand::Probe(arguments)) => probe::run(arguments),
+        Some(IdentifyCommand::Tables(arguments)) => tables::run(arguments),
         Some(IdentifyCommand::Surface(arguments)) => surface::run(arguments),
     }
 }
 
 fn run_expansion(arguments: &ExpansionArguments) -> Outcome {
-    let question = IdentifyExpansion { runs: arguments.file.clone() };
-    Door { format: arguments.format, report: None }.ask(&question)
+    let (runs, output) = (arguments.files.clone(), arguments.output.clone());
+    let door = Door { format: arguments.format, report: arguments.report.as_deref() };
+    door.ask(&IdentifyExpansion { runs, output })
 }

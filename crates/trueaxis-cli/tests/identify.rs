@@ -246,3 +246,131 @@ fn a_campaign_and_a_subcommand_do_not_mix() {
     assert_eq!(trueaxis(&["identify"]).status, 2);
     assert_eq!(trueaxis(&["identify", CAMPAIGN, "expansion", "x.toml"]).status, 2);
 }
+
+/// Both scales of the paper into one machine file, which shows the runs; nothing is overwritten.
+#[test]
+fn paper_two_scales_make_one_machine_file() {
+    let folder = Folder::new("identify-scales");
+    let out = folder.path("gantry");
+    let [x, y] = ["x", "y"].map(|l| format!("examples/05_identify/{l}-axis-two-temperatures.toml"));
+    let ran = trueaxis(&["identify", "expansion", &x, &y, "-o", &out, "--format", "json"]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let found = ran.json();
+    // Zhang et al. 2019, section 1.4.2: 10.8 and 8.6 µm/(m·K), steel tape and glass.
+    for (scale, (printed, material)) in [(0, (10.8, "steel tape")), (1, (8.6, "glass"))] {
+        let scale = &found["scales"][scale];
+        let (alpha, u) = (number(&scale["expansion_um_per_m_k"]), number(&scale["u_um_per_m_k"]));
+        assert!((alpha - printed).abs() < u, "{alpha} ± {u}");
+        assert_eq!(scale["materials"], serde_json::json!([material]));
+        assert_eq!(scale["spline"].as_array().expect("pieces").len(), 10);
+    }
+    let machine = format!("{out}/machine.toml");
+    assert_eq!(trueaxis(&["check", &machine]).status, 0);
+    // The error of X at 3500 mm and 30.5 °C: 431 µm in the paper.
+    let at =
+        ["pose", &machine, "--at", "X=3500", "--temperature", "scale_x=30.5", "--format", "json"];
+    let um = number(&trueaxis(&at).json()["deviation"]["tip_um"][0]);
+    assert!((um - 431.0).abs() < 3.0, "{um}");
+    let mut names: Vec<_> =
+        std::fs::read_dir(&out).expect("made").flatten().map(|f| f.file_name()).collect();
+    names.sort();
+    assert_eq!(
+        names,
+        ["X-scale.csv", "X-spline.csv", "Y-scale.csv", "Y-spline.csv", "machine.toml"]
+    );
+    // A second time it is no new folder.
+    let again = trueaxis(&["identify", "expansion", &x, "-o", &out]);
+    assert!(again.status == 2 && again.err.contains("unwritable-folder"), "{}", again.err);
+}
+
+/// What is wrong with the files of runs, before anything is written.
+#[test]
+fn scales_that_do_not_fit_are_refused() {
+    let folder = Folder::new("identify-bad-scales");
+    let table = root().join("examples/05_identify/y-axis-two-temperatures.csv");
+    let table = std::fs::read_to_string(table).expect("the example");
+    folder.file("t.csv", table);
+    let machine = root().join("machines/gantry-001/machine.toml").display().to_string();
+    let runs = "[run.cold]\ntemperature = \"29.3 ± 0.1 degC\"\n[run.warm]\ntemperature = \"33.8 ± 0.1 degC\"\n";
+    let swapped = "[run.warm]\ntemperature = \"29.3 ± 0.1 degC\"\n[run.cold]\ntemperature = \"33.8 ± 0.1 degC\"\n";
+    let none = "[run.cold]\n[run.warm]\ntemperature = \"33.8 degC\"\n";
+    let on = |axis: &str| format!("machine = {machine:?}\naxis = \"{axis}\"\n");
+    let out = folder.path("out");
+    for (head, runs, code) in [
+        (String::new(), runs, "missing-key"),
+        (format!("machine = {machine:?}\n"), runs, "missing-key"),
+        (on("Q"), runs, "unwritable-file"),
+        (on("Z"), runs, "unwritable-file"),
+        (on("Y"), swapped, "impossible-expansion"),
+        (on("Y"), none, "missing-key"),
+    ] {
+        let text = format!("name = \"y\"\ntable = \"t.csv\"\n{head}{runs}");
+        let file = folder.file("y.toml", text);
+        let ran = trueaxis(&["identify", "expansion", &file, "-o", &out]);
+        assert!(ran.status == 2 && ran.err.contains(code), "{code}: {}", ran.err);
+        assert!(!std::path::Path::new(&out).exists(), "{code}");
+    }
+    let file = folder.file("y.toml", format!("name = \"y\"\ntable = \"t.csv\"\n{}{runs}", on("Y")));
+    let twice = trueaxis(&["identify", "expansion", &file, &file, "-o", &out]);
+    assert!(twice.status == 2 && twice.err.contains("axis-twice"), "{}", twice.err);
+}
+
+/// Readings for error tables as users spoil them.
+#[test]
+fn error_tables_name_what_is_wrong() {
+    let folder = Folder::new("identify-bad-tables");
+    let machine = root().join("machines/xkas2525/machine.toml").display().to_string();
+    let sheet = |unit: &str, scale: f64| {
+        let row = |i: i32| {
+            let v = scale * f64::from(i * i) / 10.0;
+            format!("{},1,up,{v}\n{},1,down,{v}\n", 300 * i, 300 * i)
+        };
+        format!("target_mm,run,direction,deviation_{unit}\n")
+            + &(0..12).map(row).collect::<String>()
+    };
+    folder.file("um.csv", sheet("um", 1.0));
+    folder.file("mm.csv", sheet("mm", 1.0));
+    folder.file("urad.csv", sheet("urad", 1.0));
+    folder.file("twice.csv", sheet("um", 1.0) + "300,1,up,3\n");
+    folder.file("one-side.csv", sheet("um", 1.0).replace("0,1,down,0\n", ""));
+    folder.file("far.csv", sheet("um", 1.0) + "9000,1,up,1\n9000,1,down,1\n");
+    folder.file(
+        "c.csv",
+        "target_deg,direction,deviation_um\n0,up,1\n90,up,2\n180,up,0\n270,up,1\n360,up,1\n",
+    );
+    for (error, table, more, status, code) in [
+        ("EXX", "um.csv", "", 0, "missing-uncertainty"),
+        ("EXX", "mm.csv", "", 2, "impossible-error"),
+        ("EXX", "urad.csv", "", 2, "wrong-unit"),
+        ("EAX", "um.csv", "", 2, "wrong-unit"),
+        ("EXX", "twice.csv", "", 2, "reading-twice"),
+        ("EXX", "one-side.csv", "", 2, "missing-side"),
+        ("EXX", "far.csv", "", 2, "outside-travel"),
+        ("EXU", "um.csv", "", 2, "unknown-axis"),
+        ("EX0X", "um.csv", "", 2, "unknown-error-name"),
+        ("EXX", "um.csv", "line = \"ends\"", 0, "idle-key"),
+        ("EXX", "um.csv", "zero = \"-5 mm\"", 2, "zero-outside"),
+        ("EXX", "um.csv", "reads = \"laser\"", 2, "unknown-word"),
+        ("EXX", "no.csv", "", 2, "unreadable-file"),
+        ("EXC", "c.csv", "", 2, "needs-partner"),
+        ("EXC", "um.csv", "", 2, "wrong-axis"),
+    ] {
+        let text = format!(
+            "name = \"t\"\nmachine = {machine:?}\n[readings.{error}]\ntable = \"{table}\"\n{more}\n"
+        );
+        let file = folder.file("t.toml", text);
+        let ran = trueaxis(&["identify", "tables", &file]);
+        assert!(
+            ran.status == status && ran.err.contains(code),
+            "{error} {table}: {code}: {}",
+            ran.err
+        );
+        assert!(!ran.err.contains("unknown entry"), "{}", ran.err);
+    }
+    let file = folder.file("t.toml", format!("name = \"t\"\nmachine = {machine:?}\n"));
+    assert!(trueaxis(&["identify", "tables", &file]).err.contains("nothing-read"));
+}
+
+fn number(value: &serde_json::Value) -> f64 {
+    value.as_f64().expect("a number")
+}

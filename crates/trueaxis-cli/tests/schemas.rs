@@ -62,6 +62,11 @@ const ANSWERS: &[(&str, &str)] = &[
     ("explain-list", "explain"),
     ("identify-errors", "identify examples/05_identify/probe-ball.toml"),
     ("identify-expansion", "identify expansion examples/05_identify/y-axis-two-temperatures.toml"),
+    (
+        "identify-expansions",
+        "identify expansion examples/05_identify/x-axis-two-temperatures.toml examples/05_identify/y-axis-two-temperatures.toml",
+    ),
+    ("identify-tables", "identify tables examples/05_identify/error-tables.toml"),
     ("identify-probe", "identify probe examples/05_identify/ring-60.toml"),
     ("identify-rtcp", "identify rtcp examples/05_identify/rtcp-engraver.toml"),
     (

@@ -23,7 +23,7 @@ mod others;
 mod uncertainty;
 
 pub use checks::check;
-pub use data::{Direction, Measurement, Reading, Target, read, role_cells};
+pub use data::{Direction, Measurement, Reading, Target, read, read_deviations, role_cells};
 pub(super) use data::{from_sheet, warn_of_unused};
 pub use others::{B554, Others, Vdi3441};
 pub use uncertainty::{Budget, Share};

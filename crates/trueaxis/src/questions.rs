@@ -12,12 +12,14 @@
 //! ```
 
 mod adapt;
+mod error_tables;
 mod evaluate;
 mod expansion;
 mod hits;
 mod identify;
 mod job;
 mod machine;
+mod machine_folder;
 mod measure;
 mod plan;
 mod pose;
@@ -39,8 +41,9 @@ mod words;
 mod workpiece;
 
 pub use adapt::{Adapt, AdaptAnswer};
+pub use error_tables::{IdentifyTables, TablesFoundAnswer};
 pub use evaluate::{Evaluate, EvaluateAnswer, EvaluateInput, ReadingsFile};
-pub use expansion::{ExpansionAnswer, IdentifyExpansion};
+pub use expansion::{ExpansionAnswer, ExpansionInput, IdentifyExpansion};
 pub use hits::{HitsAnswer, IdentifySurface};
 pub use identify::{DroppedTable, Identified, Identify};
 pub use job::ProgramChoice;

@@ -4,8 +4,9 @@ use crate::explain::{ExplainDocument, ExplainListDocument};
 use crate::questions::RtcpProgramsDocument;
 use crate::report::{
     CertificateDocument, CheckDocument, DescriptionDocument, DiagnosticEntry, DiffDocument,
-    ExpansionDocument, PoseDocument, PoseRowsDocument, PostDocument, RefusedDocument,
-    SolveDocument, SolvePathDocument, TraceDocument, VerifyDocument,
+    ExpansionDocument, ExpansionsDocument, PoseDocument, PoseRowsDocument, PostDocument,
+    RefusedDocument, SolveDocument, SolvePathDocument, TablesFoundDocument, TraceDocument,
+    VerifyDocument,
 };
 use schemars::{JsonSchema, Schema, generate::SchemaSettings, json_schema};
 use serde_json::Value;
@@ -28,6 +29,8 @@ pub fn schemas() -> Vec<NamedSchema> {
         named_schema::<ExplainDocument>("explain"),
         named_schema::<ExplainListDocument>("explain-list"),
         named_schema::<ExpansionDocument<'_>>("identify-expansion"),
+        named_schema::<ExpansionsDocument<'_>>("identify-expansions"),
+        named_schema::<TablesFoundDocument<'_>>("identify-tables"),
         named_schema::<RtcpProgramsDocument<'_>>("identify-rtcp-programs"),
         named_schema::<PoseDocument>("pose"),
         named_schema::<PoseRowsDocument>("pose-rows"),

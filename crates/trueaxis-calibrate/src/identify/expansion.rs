@@ -6,15 +6,17 @@
 //!
 //! g_i is the geometric error, free at every position and common to all runs; o_j the zero of run j.
 
-use std::path::Path;
-use trueaxis_input::{
-    CsvTable, Diagnostics, Dimension, Files, MeasuredValue, Section, SourceText, Unit,
-};
+mod file;
+mod machine_file;
+mod table;
 
-/// Temperatures nearer than this say little about an expansion, K.
-const LITTLE_K: f64 = 1.0;
-/// A scale warmer than this was perhaps written in °F, °C.
-const WARM_CELSIUS: f64 = 45.0;
+pub use file::{parse_runs, read_runs};
+pub use machine_file::{ScaleFiles, scale_files};
+pub use table::{GeometricTable, SplinePiece, geometric_table};
+
+use std::path::PathBuf;
+use trueaxis_input::MeasuredValue;
+
 /// No scale grows more, or shrinks, 1/K.
 const POSSIBLE_PER_K: std::ops::RangeInclusive<f64> = -1e-6..=50e-6;
 /// The uncertainty of a temperature where none is stated, K: a usual contact sensor.
@@ -45,6 +47,38 @@ pub struct Runs {
     pub positions_mm: Vec<f64>,
     /// At least two.
     pub runs: Vec<Run>,
+    /// What is known of the scale besides.
+    pub scale: ScaleKeys,
+    /// What is known of the laser.
+    pub laser: LaserKeys,
+}
+
+/// What the file says of the scale, for a machine file.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ScaleKeys {
+    /// The letter of its axis.
+    pub axis: Option<String>,
+    /// The machine file.
+    pub machine: Option<PathBuf>,
+    /// Where on the axis it is fixed, mm.
+    pub fixed_mm: Option<f64>,
+    /// The name of its temperature sensor.
+    pub sensor: Option<String>,
+    /// The temperature of the table to be made; without it the mean of the runs, °C.
+    pub reference_celsius: Option<f64>,
+    /// When it was measured.
+    pub date: Option<String>,
+}
+
+/// What the file says of the laser.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LaserKeys {
+    /// Its name.
+    pub instrument: Option<String>,
+    /// The standard uncertainty of a reading beside its scatter, mm.
+    pub u_mm: Option<f64>,
+    /// What it had taken for the expansion of the material, 1/K, and has subtracted already.
+    pub material_per_k: Option<f64>,
 }
 
 /// What materials scales are made of, with 10⁻⁶/K from and to.
@@ -68,140 +102,6 @@ pub struct Expansion {
     pub materials: Vec<&'static str>,
     /// What the reader should know.
     pub warnings: Vec<String>,
-}
-
-/// Reads the file of an identification, and the table that it names.
-pub fn read_runs(files: &Files, path: &Path) -> (Option<Runs>, Diagnostics) {
-    let mut problems = Diagnostics::new();
-    let Some(text) = files.text(path, "a file of laser runs (TOML)", &mut problems) else {
-        return (None, problems);
-    };
-    parse_runs(files, path, &text)
-}
-
-/// The same of a text; its table is looked for beside `path`.
-pub fn parse_runs(files: &Files, path: &Path, text: &str) -> (Option<Runs>, Diagnostics) {
-    let file = path.display().to_string();
-    let source = SourceText::from(files, &file, text);
-    let runs = source.read(|root| read(root, path));
-    let problems = source.finish();
-    (runs.filter(|_| !problems.has_errors()), problems)
-}
-
-fn read(root: &Section<'_>, path: &Path) -> Option<Runs> {
-    let name = root.require("name", "say which scale this is").and_then(|i| i.text());
-    let hint = "a CSV table with position_mm and one column per run, such as cold_um";
-    let table_path = root.require("table", hint).and_then(|i| i.text());
-    let table = table_path.and_then(|p| {
-        let path = path.parent().unwrap_or(Path::new("")).join(p);
-        let mut problems = Diagnostics::new();
-        let text = root.files().text(&path, "a CSV table of laser runs", &mut problems);
-        let shown = path.display().to_string();
-        let table = text.map(|text| CsvTable::parse(&shown, &text, &mut problems));
-        let sound = !problems.has_errors();
-        root.take_over(problems);
-        table.filter(|_| sound)
-    });
-    root.text("source");
-    root.require("run", "[run.cold] temperature = \"29.3 degC\"");
-    let mut temperatures = Vec::new();
-    let mut stated = 0;
-    root.section("run", |section| {
-        for (key, _, item) in section.entries() {
-            stated += 1;
-            let read = |s: &Section<'_>| {
-                let hint = "of the scale during the run, such as \"29.3 ± 0.1 degC\"";
-                s.require("temperature", hint)?.measured(Dimension::Temperature)
-            };
-            let celsius = item.section(&section.path(key), read).flatten();
-            temperatures.extend(celsius.map(|t| (key.to_owned(), t)));
-        }
-    });
-    let (name, table) = (name?.to_owned(), table?);
-    let mut problems = Diagnostics::new();
-    let positions_mm = column(&table, "position", &mut problems);
-    let mut runs = Vec::new();
-    for (name, celsius) in temperatures {
-        let errors_mm = column(&table, &name, &mut problems);
-        runs.extend(errors_mm.map(|errors_mm| Run { name, celsius, errors_mm }));
-    }
-    let positions_mm = positions_mm.unwrap_or_default();
-    for column in &table.columns {
-        let name = column.name.rsplit_once('_').map_or(&*column.name, |(name, _)| name);
-        if name != "position" && !runs.iter().any(|r| r.name == name) && !problems.has_errors() {
-            let message = format!("column `{}` is not used", column.name);
-            let hint = format!("[run.{name}] temperature = \"25 ± 0.1 degC\" would make it a run");
-            problems.warn("unused-column", column.place.clone(), message, &hint);
-        }
-    }
-    // Where some could not be read, that was reported; they are not too few besides.
-    if runs.len() == stated {
-        check(root, &positions_mm, &runs);
-    }
-    root.take_over(problems);
-    Some(Runs { name, positions_mm, runs })
-}
-
-/// The column `NAME_unit`, in mm.
-fn column(table: &CsvTable, name: &str, problems: &mut Diagnostics) -> Option<Vec<f64>> {
-    for column in &table.columns {
-        let Some((_, unit)) = column.name.rsplit_once('_').filter(|(n, _)| *n == name) else {
-            continue;
-        };
-        return match Unit::find(unit, Dimension::Length) {
-            Ok(unit) => Some(column.values.iter().map(|v| unit.to_inner(*v)).collect()),
-            Err(error) => {
-                let place = column.place.clone();
-                problems.error(error.code(), place, error.to_string(), &error.hint());
-                None
-            }
-        };
-    }
-    let place = trueaxis_input::Place::whole(&table.file);
-    let message = format!("the table has no column for `{name}`");
-    problems.error("missing-column", place, message, &format!("its heading is `{name}_um`"));
-    None
-}
-
-fn check(root: &Section<'_>, positions_mm: &[f64], runs: &[Run]) {
-    let spread = |values: &[f64]| {
-        let (low, high) = values
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
-        high - low
-    };
-    if positions_mm.len() < 3 || spread(positions_mm) <= 0.0 {
-        let message =
-            format!("{} positions cannot separate a slope from noise", positions_mm.len());
-        root.error("too-few-positions", message, "measure at three positions or more");
-    }
-    if runs.len() < 2 {
-        let message = "expansion cannot be determined at one temperature".to_owned();
-        root.error("too-few-runs", message, "measure at two temperatures or more");
-        return;
-    }
-    let celsius: Vec<f64> = runs.iter().map(|r| r.celsius.value).collect();
-    match spread(&celsius) {
-        d if d <= 0.0 => {
-            let message = "all runs have the same temperature".to_owned();
-            root.error("same-temperature", message, "measure at two temperatures or more");
-        }
-        d if d < LITTLE_K => {
-            let message = format!("the temperatures differ by {d:.2} K only");
-            root.warn("little-difference", message, "some K apart the coefficient is far surer");
-        }
-        _ => {}
-    }
-    for run in runs.iter().filter(|r| (WARM_CELSIUS..=150.0).contains(&r.celsius.value)) {
-        let celsius = run.celsius.value;
-        let message = format!("`{}`: {celsius} °C is warm for a scale", run.name);
-        let hint = format!("is it Fahrenheit? that would be {:.1} °C", (celsius - 32.0) / 1.8);
-        root.warn("warm-scale", message, &hint);
-    }
-    for run in runs.iter().filter(|r| !(-40.0..=150.0).contains(&r.celsius.value)) {
-        let message = format!("`{}`: {} °C has no machine", run.name, run.celsius.value);
-        root.error("impossible-temperature", message, "°C = (°F − 32)/1.8");
-    }
 }
 
 /// The coefficient from all runs.
@@ -283,13 +183,22 @@ fn residuals(data: &Runs, p: &[f64], t: &[f64], per_k: f64) -> Vec<Vec<f64>> {
     left.iter().zip(&of_run).map(centred).collect()
 }
 
+impl Expansion {
+    /// Whether a scale can have this coefficient.
+    pub fn is_possible(&self) -> bool {
+        let (low, high) = (self.per_k - 2.0 * self.u_per_k, self.per_k + 2.0 * self.u_per_k);
+        high >= *POSSIBLE_PER_K.start() && low <= *POSSIBLE_PER_K.end()
+    }
+}
+
 fn warnings(data: &Runs, residuals: &[Vec<f64>], (per_k, u_per_k): (f64, f64)) -> Vec<String> {
     let mut warnings = Vec::new();
     if per_k - 2.0 * u_per_k > *POSSIBLE_PER_K.end()
         || per_k + 2.0 * u_per_k < *POSSIBLE_PER_K.start()
     {
         warnings.push(format!(
-            "no scale has {:.3} µm/(m·K): are two temperatures or two columns swapped, or a unit wrong?",
+            "no scale has {:.3} µm/(m·K): are two temperatures or two columns swapped, a unit wrong, or \
+             did the laser compensate a material ([laser] material_expansion)?",
             per_k * 1e6
         ));
     }

@@ -66,9 +66,11 @@ pub fn take_out_of_table(
 fn without(text: &str, name: ErrorName) -> Option<String> {
     let is_row = |line: &&str| !line.trim().is_empty() && !line.trim_start().starts_with('#');
     let heading = text.lines().find(is_row)?;
-    let prefix = format!("{name}_");
-    let leaves: Vec<bool> =
-        heading.split(',').map(|cell| cell.trim().starts_with(&prefix)).collect();
+    let prefixes = [format!("{name}_"), format!("u_{name}_")];
+    let leaves: Vec<bool> = heading
+        .split(',')
+        .map(|cell| prefixes.iter().any(|p| cell.trim().starts_with(p)))
+        .collect();
     if !leaves.contains(&true) {
         return None;
     }
@@ -172,7 +174,8 @@ mod tests {
 
     #[test]
     fn the_columns_of_one_error_leave() {
-        let text = "# laser\nposition_mm,EXX_up_um,EXX_down_um,EYX_um\n0,1,2,3\n10,4,5,6\n";
+        let text =
+            "# laser\nposition_mm,EXX_up_um,EXX_down_um,EYX_um,u_EXX_um\n0,1,2,3,9\n10,4,5,6,9\n";
         let name = ErrorName::parse("EXX").unwrap(); // why: a name of ISO 230-1
         let left = without(text, name).unwrap();
         assert_eq!(left, "# laser\nposition_mm,EYX_um\n0,3\n10,6\n");

@@ -114,8 +114,32 @@ pub fn read(file: &str, text: &str, problems: &mut Diagnostics) -> Option<Measur
     from_sheet(&sheet, problems)
 }
 
+/// As [`read`], but the deviations are lengths or angles whatever the axis is: straightness of a linear axis,
+/// its tilt, the run-out of a rotary one.
+pub fn read_deviations(
+    file: &str,
+    text: &str,
+    deviation: Dimension,
+    problems: &mut Diagnostics,
+) -> Option<Measurement> {
+    let sheet = Sheet::parse(file, text, role_cells, problems)?;
+    warn_of_unused(&sheet, &["direction"], problems);
+    crate::check_temperatures(&sheet, problems);
+    crate::check_times(&sheet, false, problems);
+    of_dimension(&sheet, Some(deviation), problems)
+}
+
 /// As [`read`], of a table that is there already.
 pub(crate) fn from_sheet(sheet: &Sheet, problems: &mut Diagnostics) -> Option<Measurement> {
+    of_dimension(sheet, None, problems)
+}
+
+/// The deviations are of that dimension, or of that of the positions.
+fn of_dimension(
+    sheet: &Sheet,
+    deviation: Option<Dimension>,
+    problems: &mut Diagnostics,
+) -> Option<Measurement> {
     let Some(target) = sheet.about("target") else {
         let message = "the table has no column of target positions".to_owned();
         let hint = "name it target_mm or target_deg";
@@ -127,11 +151,12 @@ pub(crate) fn from_sheet(sheet: &Sheet, problems: &mut Diagnostics) -> Option<Me
         Err(_) => AxisKind::Linear,
     };
     let targets = sheet.inner(target, Measurement::dimension(kind), problems)?;
+    let read = Deviations { positions: &targets, dimension: deviation, kind };
     let wide: Vec<&Column> =
         sheet.columns.iter().filter(|c| wide_role(c.role()).is_some()).collect();
     let targets = match wide.is_empty() {
-        true => long(sheet, kind, &targets, problems)?,
-        false => self::wide(sheet, kind, &targets, &wide, problems)?,
+        true => long(sheet, &read, problems)?,
+        false => self::wide(sheet, &read, &wide, problems)?,
     };
     Some(Measurement { kind, targets })
 }
@@ -218,19 +243,45 @@ fn directions(sheet: &Sheet, problems: &mut Diagnostics) -> Option<Vec<Direction
     Some(found)
 }
 
+/// How the deviations of a sheet are read.
+struct Deviations<'a> {
+    /// The targets, row by row.
+    positions: &'a [f64],
+    /// Of the deviations, where it is not that of the positions.
+    dimension: Option<Dimension>,
+    kind: AxisKind,
+}
+
+impl Deviations<'_> {
+    fn dimension(&self) -> Dimension {
+        self.dimension.unwrap_or(Measurement::dimension(self.kind))
+    }
+
+    /// Actual positions are those of the axis itself.
+    fn has_actual(&self, sheet: &Sheet, problems: &mut Diagnostics) -> bool {
+        let is_own = self.dimension() == Measurement::dimension(self.kind);
+        if !is_own {
+            let message = "actual positions say nothing of this error".to_owned();
+            let hint = "a column of deviations: deviation_um or deviation_urad";
+            problems.error("wrong-column", sheet.headings_place(), message, hint);
+        }
+        is_own
+    }
+}
+
 /// Actual − target, or the deviation as it is.
 fn deviations(
     sheet: &Sheet,
-    kind: AxisKind,
-    targets: &[f64],
+    read: &Deviations<'_>,
     problems: &mut Diagnostics,
 ) -> Option<Vec<f64>> {
-    let dimension = Measurement::dimension(kind);
+    let dimension = read.dimension();
     match (sheet.about("deviation"), sheet.about("actual")) {
         (Some(column), None) => sheet.inner(column, dimension, problems),
+        (None, Some(_)) if !read.has_actual(sheet, problems) => None,
         (None, Some(column)) => {
             let actual = sheet.inner(column, dimension, problems)?;
-            Some(actual.iter().zip(targets).map(|(a, t)| a - t).collect())
+            Some(actual.iter().zip(read.positions).map(|(a, t)| a - t).collect())
         }
         (found, _) => {
             let (code, message) = match found {
@@ -244,20 +295,15 @@ fn deviations(
     }
 }
 
-fn long(
-    sheet: &Sheet,
-    kind: AxisKind,
-    positions: &[f64],
-    problems: &mut Diagnostics,
-) -> Option<Vec<Target>> {
-    let deviations = deviations(sheet, kind, positions, problems)?;
+fn long(sheet: &Sheet, read: &Deviations<'_>, problems: &mut Diagnostics) -> Option<Vec<Target>> {
+    let deviations = deviations(sheet, read, problems)?;
     let directions = directions(sheet, problems)?;
     let runs = match sheet.columns.iter().find(|c| c.name == "run") {
         Some(column) => Some(run_numbers(sheet, column, problems)?),
         None => None,
     };
     let mut targets = Targets::default();
-    for (row, position) in positions.iter().enumerate() {
+    for (row, position) in read.positions.iter().enumerate() {
         let readings = targets.at(*position).of_mut(directions[row]);
         let run = runs.as_ref().map_or(readings.len() as u32 + 1, |r| r[row]);
         readings.push(Reading { run, deviation: deviations[row] });
@@ -280,16 +326,18 @@ fn run_numbers(sheet: &Sheet, column: &Column, problems: &mut Diagnostics) -> Op
 
 fn wide(
     sheet: &Sheet,
-    kind: AxisKind,
-    positions: &[f64],
+    read: &Deviations<'_>,
     columns: &[&Column],
     problems: &mut Diagnostics,
 ) -> Option<Vec<Target>> {
     let mut targets = Targets::default();
     for column in columns {
         let (actual, direction, run) = wide_role(column.role())?;
-        let values = sheet.inner(column, Measurement::dimension(kind), problems)?;
-        for (position, value) in positions.iter().zip(values) {
+        if actual && !read.has_actual(sheet, problems) {
+            return None;
+        }
+        let values = sheet.inner(column, read.dimension(), problems)?;
+        for (position, value) in read.positions.iter().zip(values) {
             let readings = targets.at(*position).of_mut(direction);
             // An empty cell is a reading that was not taken; the check reports unequal counts.
             if value.is_nan() {

@@ -31,6 +31,7 @@ mod validation;
 pub use decide::{Agreement, Decision, Rule, e_n};
 pub use file::{Application, Circumstances, Study, read_certificate};
 pub use used::UsedPose;
+pub(in crate::verify) use used::read_at;
 pub use validation::{MeasuredValue, Validation};
 
 use residual::Residual;

@@ -1,0 +1,271 @@
+//! The machine file with the tables and squarenesses that were found.
+//!
+//! All other lines stay as they are. The new file is read back: its virtual instruments must read what the
+//! instruments read.
+
+use super::reduce::{Role, directions, role, side};
+use super::{ErrorReadings, ErrorTable, ReferenceLine, Squareness, TableStudy};
+use crate::verify::iso230_2::Direction;
+use nalgebra::{DMatrix, DVector};
+use std::cell::RefCell;
+use std::fmt::Write as _;
+use trueaxis_geometry::{AxisKind, Vec3};
+use trueaxis_input::Severity;
+use trueaxis_machine::Machine;
+use trueaxis_machine::chain::Link;
+use trueaxis_machine::describe::lines::{Lines, header};
+use trueaxis_machine::describe::replacement::{Entry, plain, put, take_out_of_table};
+use trueaxis_machine::errors::{ErrorName, ErrorValues};
+use trueaxis_machine::file::Tables;
+use trueaxis_machine::models::Shape;
+use trueaxis_machine::twist::Reference;
+
+/// What rounding and products of errors may change of a reading: mm, rad; and in proportion to it.
+const ROUNDING: f64 = 2e-7;
+const PRODUCTS: f64 = 1e-3;
+
+/// A machine file with the tables that it names.
+#[derive(Debug, Clone)]
+pub struct MachineFiles {
+    /// The machine file.
+    pub text: String,
+    /// Name and text of every table that it names, new and old.
+    pub tables: Vec<(String, String)>,
+    /// The files of solid models that it names; they are not among the tables.
+    pub models: Vec<String>,
+    /// The greatest difference between the mean of a reading and what the new machine shows, by error; what the
+    /// set-up hides does not count. Unit: mm or rad.
+    pub read_back: Vec<(ErrorName, f64)>,
+}
+
+/// Puts tables and squarenesses into the text of a machine file.
+///
+/// # Errors
+/// In words, why it cannot be.
+pub fn machine_files(
+    study: &TableStudy,
+    tables: &[ErrorTable],
+    squarenesses: &[Squareness],
+    old: &str,
+    beside: &dyn Tables,
+) -> Result<MachineFiles, String> {
+    let mut file = Lines::of(old);
+    let mut written: Vec<(String, String)> = Vec::new();
+    let origin = format!("from {}", one_line(&study.name));
+    for table in tables {
+        let header = header(table.name);
+        let outside = file.key(&header, "outside").and_then(|at| file.value(at).map(str::to_owned));
+        take_out_of_table(&mut file, table.name, &origin, &mut written, beside);
+        let csv = format!("{}-table.csv", table.name);
+        written.push((csv.clone(), csv_text(study, table)));
+        let mut entry = format!("{{ table = \"{csv}\", interpolation = \"not-a-knot\"");
+        if let Some(outside) = outside.filter(|_| file.key(&header, "outside").is_none()) {
+            let _ = write!(entry, ", outside = {outside}");
+        }
+        entry += &measured(table);
+        put(&mut file, table.name, &Entry::Value(entry + " }"), &origin);
+    }
+    for found in squarenesses {
+        let value =
+            format!("\"{} ± {} urad\"", plain(found.value_rad * 1e6), plain(found.u_rad * 1e6));
+        put(&mut file, found.name, &Entry::Value(value), &origin);
+    }
+    let text = file.text();
+    let seen = Seen { new: &written, beside, read: RefCell::default() };
+    let machine = machine_of(&text, &seen)?;
+    let tables_read = seen.read.into_inner();
+    let mut read_back = Vec::new();
+    for readings in &study.readings {
+        read_back.push((readings.name, difference(&machine, readings)?));
+    }
+    let model = |shape: &Shape| match shape {
+        Shape::Stl { path, .. } => Some(path.clone()),
+        _ => None,
+    };
+    let models = machine.models().iter().filter_map(|m| model(&m.shape)).collect();
+    Ok(MachineFiles { text, tables: tables_read, models, read_back })
+}
+
+impl MachineFiles {
+    /// The machine of these files.
+    ///
+    /// # Errors
+    /// In words, why it cannot be read.
+    pub fn machine(&self, beside: &dyn Tables) -> Result<Machine, String> {
+        machine_of(&self.text, &Seen { new: &self.tables, beside, read: RefCell::default() })
+    }
+}
+
+fn one_line(text: &str) -> String {
+    text.replace(['\n', '\r'], " ")
+}
+
+/// The machine of a text; `Err` is its first error.
+pub(super) fn machine_of(text: &str, beside: &dyn Tables) -> Result<Machine, String> {
+    let (machine, problems) = Machine::check("the new machine file", text, beside);
+    machine.filter(|_| !problems.has_errors()).ok_or_else(|| {
+        let first = problems.iter().find(|d| d.severity == Severity::Error);
+        first.map_or("it would not be read".to_owned(), |d| format!("{}: {}", d.place, d.message))
+    })
+}
+
+/// The tables of the new file: those that were made, else those beside the old one; which of them are read.
+struct Seen<'a> {
+    new: &'a [(String, String)],
+    beside: &'a dyn Tables,
+    read: RefCell<Vec<(String, String)>>,
+}
+
+impl Tables for Seen<'_> {
+    fn text(&self, name: &str) -> Result<String, String> {
+        let text = match self.new.iter().find(|(n, _)| n == name) {
+            Some((_, text)) => text.clone(),
+            None => self.beside.text(name)?,
+        };
+        let mut read = self.read.borrow_mut();
+        if !read.iter().any(|(n, _)| n == name) {
+            read.push((name.to_owned(), text.clone()));
+        }
+        Ok(text)
+    }
+
+    fn display(&self, name: &str) -> String {
+        self.beside.display(name)
+    }
+}
+
+fn measured(table: &ErrorTable) -> String {
+    let mut parts = Vec::new();
+    for (key, text) in [("instrument", &table.instrument), ("date", &table.date)] {
+        parts.extend(text.as_ref().map(|text| format!("{key} = {text:?}")));
+    }
+    parts.extend(table.celsius.map(|c| format!("temperature = \"{} degC\"", plain(c))));
+    match parts.is_empty() {
+        true => String::new(),
+        false => format!(", measured = {{ {} }}", parts.join(", ")),
+    }
+}
+
+fn csv_text(study: &TableStudy, table: &ErrorTable) -> String {
+    let (scale, unit) = match table.name.component.is_rotation() {
+        true => (1e6, "urad"),
+        false => (1e3, "um"),
+    };
+    let is_rotary = study.machine.axes()[table.axis].kind == AxisKind::Rotary;
+    let position = if is_rotary { "position_deg" } else { "position_mm" };
+    let name = table.name;
+    let mut text = format!(
+        "# {name} from {}: the error of the body, mean of {} runs\n",
+        one_line(&study.name),
+        table.runs
+    );
+    // Writing into a text cannot fail.
+    let _ = match table.both {
+        true => writeln!(text, "{position},{name}_up_{unit},{name}_down_{unit},u_{name}_{unit}"),
+        false => writeln!(text, "{position},{name}_{unit},u_{name}_{unit}"),
+    };
+    for (i, q) in table.positions.iter().enumerate() {
+        let q = if is_rotary { (q.to_degrees() * 1e9).round() / 1e9 } else { *q };
+        let _ = write!(text, "{q},{}", plain(table.up[i] * scale));
+        if table.both {
+            let _ = write!(text, ",{}", plain(table.down[i] * scale));
+        }
+        let _ = writeln!(text, ",{}", plain(table.u[i] * scale));
+    }
+    text
+}
+
+/// How far the instrument would read otherwise on the new machine.
+///
+/// It goes through the whole chain, with all errors of the machine: the point of the tool for a length, the turn of the
+/// tool for an angle.
+fn difference(machine: &Machine, readings: &ErrorReadings) -> Result<f64, String> {
+    let axis = &machine.axes()[readings.axis];
+    let mut differences = Vec::new();
+    let mut places = Vec::new();
+    let mut largest: f64 = 0.0;
+    for target in &readings.measurement.targets {
+        for (direction, approach) in [(Direction::Up, 1.0), (Direction::Down, -1.0)] {
+            let rows = target.of(direction);
+            if rows.is_empty() {
+                continue;
+            }
+            let mean = rows.iter().map(|r| r.deviation).sum::<f64>() / rows.len() as f64;
+            differences.push(shown(machine, readings, target.position, approach)? - mean);
+            places.push(target.position);
+            largest = largest.max(mean.abs());
+        }
+    }
+    let worst = left(&places, &differences, role(axis, readings.name.component), readings);
+    match worst <= ROUNDING + PRODUCTS * largest {
+        true => Ok(worst),
+        false => {
+            let (scale, unit) = match readings.name.component.is_rotation() {
+                true => (1e6, "µrad"),
+                false => (1e3, "µm"),
+            };
+            Err(format!(
+                "{} would be read back {:.3} {unit} otherwise: do several readings contradict each other?",
+                readings.name,
+                worst * scale
+            ))
+        }
+    }
+}
+
+/// What is left of the differences when the set-up of the instrument is fitted again.
+fn left(places: &[f64], differences: &[f64], role: Role, readings: &ErrorReadings) -> f64 {
+    let row = |q: f64| match role {
+        Role::Straightness if readings.line != ReferenceLine::None => vec![1.0, q],
+        Role::RunOut if readings.centred => vec![1.0, q.cos(), q.sin()],
+        _ => vec![1.0],
+    };
+    let rows: Vec<Vec<f64>> = places.iter().map(|q| row(*q)).collect();
+    let a = DMatrix::from_fn(rows.len(), rows[0].len(), |i, j| rows[i][j]);
+    let b = DVector::from_column_slice(differences);
+    let Ok(x) = a.clone().svd(true, true).solve(&b, 1e-12) else { return f64::INFINITY };
+    (b - a * x).amax()
+}
+
+/// What the instrument reads on a machine, with all its errors.
+fn shown(
+    machine: &Machine,
+    readings: &ErrorReadings,
+    q: f64,
+    approach: f64,
+) -> Result<f64, String> {
+    let axis = &machine.axes()[readings.axis];
+    let mut command = readings.at;
+    command[readings.axis] = q;
+    let mut from = [0.0; 6];
+    from[readings.axis] = approach;
+    let errors = machine.errors_at(&command, &from).map_err(|fault| fault.to_string())?;
+    let (actual, nominal) = match readings.stands_on {
+        Reference::Workpiece => {
+            let pose = |e: &ErrorValues| -> Link { machine.pose(&command, e).relabel() };
+            (pose(&errors), pose(&Default::default()))
+        }
+        Reference::Bed => {
+            let pose = |e: &ErrorValues| -> Link { machine.tool_on_bed(&command, e).relabel() };
+            (pose(&errors), pose(&Default::default()))
+        }
+    };
+    let component = readings.name.component;
+    let direction: Vec3 = directions(machine, readings, q).column(component as usize % 3).into();
+    let along = if component.is_rotation() {
+        let turn = actual.linear() * nominal.linear().transpose();
+        let half =
+            [turn[(2, 1)] - turn[(1, 2)], turn[(0, 2)] - turn[(2, 0)], turn[(1, 0)] - turn[(0, 1)]];
+        0.5 * Vec3::from(half).dot(&direction)
+    } else {
+        let moved = actual.linear() * readings.optics_mm + actual.shift_mm()
+            - nominal.linear() * readings.optics_mm
+            - nominal.shift_mm();
+        moved.dot(&direction)
+    };
+    let own = match role(axis, component) {
+        Role::Positioning => axis.sense * side(machine, readings.index),
+        _ => 1.0,
+    };
+    Ok(if readings.of_workpiece { -own * along } else { own * along })
+}

@@ -1,0 +1,246 @@
+//! The squareness of two axes from a circle: what the machine with its new tables lacks of it.
+
+use super::{CircleReadings, TableStudy};
+use crate::verify::conditions::Circle;
+use crate::verify::iso230_4::{self, Causes, Circular};
+use std::fmt::Write as _;
+use trueaxis_geometry::Mat3;
+use trueaxis_input::{Diagnostics, Place};
+use trueaxis_machine::Machine;
+use trueaxis_machine::axis::Command;
+use trueaxis_machine::errors::{Component, ErrorName};
+use trueaxis_machine::twist::Reference;
+use trueaxis_measure::unknowns::minimal::minimal_location_errors;
+
+/// Points of a virtual circle in each direction.
+const POINTS: u32 = 360;
+/// A squareness for the derivative, rad.
+const STEP_RAD: f64 = 1e-5;
+/// Further apart than this many standard uncertainties two instruments do not agree.
+const APART: f64 = 3.0;
+
+/// A squareness as a location error.
+#[derive(Debug, Clone)]
+pub struct Squareness {
+    /// The location error that states it.
+    pub name: ErrorName,
+    /// Its value, rad.
+    pub value_rad: f64,
+    /// Its standard uncertainty, rad.
+    pub u_rad: f64,
+    /// The angle by which the axes are closer than 90°, as ISO 230-4 reads it, rad.
+    pub read_rad: f64,
+    /// The same that the machine with its new tables would show before, rad.
+    pub before_rad: f64,
+    /// The names of the two axes.
+    pub axes: [String; 2],
+    /// The first axis longer than the second, over the diameter: read − what the tables say, mm.
+    pub scale_difference_mm: f64,
+}
+
+/// The squarenesses of all circles; `machine` has the new tables.
+///
+/// ```text
+///     E = E_old + (s_read − s(E_old)) / (∂s/∂E)        u = 2 √(2 u_r²/n + u_c²)/R     docs/model.md eq. 184
+/// ```
+///
+/// s(E) is what ISO 230-4 reads on the virtual circle of the machine: slopes that the tables contain, and
+/// every other location error, count in it. u_r the residual of the n points, u_c what does not average out.
+pub fn squarenesses(
+    study: &TableStudy,
+    machine: &Machine,
+    problems: &mut Diagnostics,
+) -> (Machine, Vec<Squareness>) {
+    let mut machine = machine.clone();
+    let mut found: Vec<Squareness> = Vec::new();
+    for circle in &study.circles {
+        let Some(one) = squareness(&machine, circle, problems) else { continue };
+        if found.iter().any(|other| other.name == one.name) {
+            let message = format!("{} was determined from another circle already", one.name);
+            let hint = "one circle for each plane";
+            problems.error("circle-twice", Place::whole(&circle.file), message, hint);
+            continue;
+        }
+        if let Some(changed) = machine.clone().with_location(one.name, one.value_rad) {
+            machine = changed;
+        }
+        found.push(one);
+    }
+    (machine, found)
+}
+
+fn squareness(
+    machine: &Machine,
+    circle: &CircleReadings,
+    problems: &mut Diagnostics,
+) -> Option<Squareness> {
+    let place = || Place::whole(&circle.file);
+    let nominal = Circle { centre_mm: Some(circle.centre_mm), radius_mm: Some(circle.radius_mm) };
+    let read = iso230_4::evaluate(&circle.file, &circle.text, nominal, problems)?;
+    let Some(causes) = read.causes.clone() else {
+        let message = "the causes of the deviations cannot be separated".to_owned();
+        problems.error("no-squareness", place(), message, "points all around, in both directions");
+        return None;
+    };
+    let Some(read_rad) = causes.squareness_rad else {
+        let message =
+            "squareness and servo mismatch cannot be separated in one direction".to_owned();
+        problems.error("no-squareness", place(), message, "run the circle cw and ccw");
+        return None;
+    };
+    let axes = axes_of(machine, &read, &place(), problems)?;
+    let Some(name) = location_error(machine, axes) else {
+        let message = "no location error of the machine states this squareness".to_owned();
+        let hint = "two linear axes along X, Y, Z of the machine";
+        problems.error("no-squareness", place(), message, hint);
+        return None;
+    };
+    let virtual_circle = Virtual { machine, circle, read: &read, axes };
+    let before = virtual_circle.causes(machine, problems)?;
+    let index = machine.error_index(name)?;
+    let old = machine.errors_at(&virtual_circle.centre(), &Default::default()).ok()?.get(index);
+    let moved = machine.clone().with_location(name, old + STEP_RAD)?;
+    let after = virtual_circle.causes(&moved, problems)?;
+    let (before_rad, after_rad) = (before.squareness_rad?, after.squareness_rad?);
+    let slope = (after_rad - before_rad) / STEP_RAD;
+    if slope.abs() < 0.5 {
+        let message = format!("{name} does not change the squareness of this circle");
+        problems.error("no-squareness", place(), message, "is the plane right?");
+        return None;
+    }
+    let points: usize = read.paths.iter().map(|p| p.path.points_mm.len()).sum();
+    let u_fit = causes.residual_rms_mm * (2.0 / points.max(1) as f64).sqrt();
+    let u_rad = 2.0 * u_fit.hypot(circle.u_mm) / circle.radius_mm;
+    let found = Squareness {
+        name,
+        value_rad: old + (read_rad - before_rad) / slope,
+        u_rad,
+        read_rad,
+        before_rad,
+        axes: read.axes.clone(),
+        scale_difference_mm: causes.scale_mismatch_mm - before.scale_mismatch_mm,
+    };
+    compare_scales(&found, u_fit.hypot(circle.u_mm), &place(), problems);
+    Some(found)
+}
+
+/// A ball-bar and a laser see the same axes: where they differ, one of them was told a wrong temperature or material.
+fn compare_scales(found: &Squareness, u_mm: f64, place: &Place, problems: &mut Diagnostics) {
+    let limit_mm = APART * 4.0 * u_mm + 1e-3;
+    if found.scale_difference_mm.abs() > limit_mm {
+        let [first, second] = &found.axes;
+        let message = format!(
+            "{first} against {second} over the diameter: the circle shows {:+.1} µm more than the tables",
+            found.scale_difference_mm * 1e3
+        );
+        let hint =
+            "were temperature and material of the laser right, and was all read on the same day?";
+        problems.warn("scales-differ", place.clone(), message, hint);
+    }
+}
+
+fn axes_of(
+    machine: &Machine,
+    read: &Circular,
+    place: &Place,
+    problems: &mut Diagnostics,
+) -> Option<[usize; 2]> {
+    let find =
+        |name: &String| trueaxis_machine::describe::axis_index(machine, &name.to_uppercase());
+    let [first, second] = &read.axes;
+    let found = find(first).zip(find(second));
+    if found.is_none() {
+        let message = format!("the machine has no axes `{first}` and `{second}`");
+        problems.error(
+            "unknown-axis",
+            place.clone(),
+            message,
+            "head the columns by the axes: x_mm, y_mm",
+        );
+    }
+    found.map(|(a, b)| [a, b])
+}
+
+/// The location error that states the squareness of two linear axes: of those that are independent.
+fn location_error(machine: &Machine, axes: [usize; 2]) -> Option<ErrorName> {
+    let [first, second] = axes.map(|i| &machine.axes()[i]);
+    let normal = first.direction.cross(&second.direction);
+    let component = [Component::A, Component::B, Component::C]
+        .into_iter()
+        .find(|c| normal[*c as usize % 3].abs() > 0.5)?;
+    let names = [first.name, second.name];
+    let terms = minimal_location_errors(machine);
+    let is_theirs = |name: &ErrorName| name.component == component && names.contains(&name.body);
+    terms.iter().map(|t| t.error).find(is_theirs)
+}
+
+/// The circle on a virtual machine.
+struct Virtual<'a> {
+    machine: &'a Machine,
+    circle: &'a CircleReadings,
+    read: &'a Circular,
+    axes: [usize; 2],
+}
+
+impl Virtual<'_> {
+    fn centre(&self) -> Command {
+        let mut command = self.circle.at;
+        for (axis, c) in self.axes.iter().zip(self.circle.centre_mm) {
+            command[*axis] = c;
+        }
+        command
+    }
+
+    /// What ISO 230-4 finds on a machine.
+    fn causes(&self, machine: &Machine, problems: &mut Diagnostics) -> Option<Causes> {
+        let text = match self.points(machine) {
+            Ok(text) => text,
+            Err(reason) => {
+                let hint = "centre, radius, at: the circle lies within the error tables";
+                problems.error("outside-table", Place::whole(&self.circle.file), reason, hint);
+                return None;
+            }
+        };
+        let nominal = Circle {
+            centre_mm: Some(self.circle.centre_mm),
+            radius_mm: Some(self.circle.radius_mm),
+        };
+        let read = iso230_4::evaluate("virtual circle", &text, nominal, &mut Diagnostics::new());
+        let causes = read.and_then(|circle| circle.causes);
+        if causes.is_none() {
+            let message = "the virtual circle of this machine cannot be evaluated".to_owned();
+            let hint = "centre and radius: a whole circle within the travel";
+            problems.error("no-squareness", Place::whole(&self.circle.file), message, hint);
+        }
+        causes
+    }
+
+    fn points(&self, machine: &Machine) -> Result<String, String> {
+        let [first, second] = self.read.axes.each_ref().map(|a| a.to_lowercase());
+        let mut text = format!("{first}_mm,{second}_mm,direction\n");
+        let machine = machine.clone().with_tip(self.circle.ball_mm);
+        // The axes of the machine in the frame of the workpiece, which may stand inclined.
+        let of_tool = |r| *machine.error_frames(&self.centre(), r).reference_from_tool().linear();
+        let from_bed: Mat3 = of_tool(Reference::Workpiece) * of_tool(Reference::Bed).transpose();
+        let directions = self.axes.map(|i| from_bed * self.machine.axes()[i].direction);
+        for (word, sign) in [("ccw", 1.0), ("cw", -1.0)] {
+            for i in 0..POINTS {
+                // Half a step from the reversals, which are left out.
+                let angle = sign * (f64::from(i) + 0.5) * std::f64::consts::TAU / f64::from(POINTS);
+                let mut command = self.centre();
+                let offset = [angle.cos(), angle.sin()].map(|v| v * self.circle.radius_mm);
+                for (axis, d) in self.axes.iter().zip(offset) {
+                    command[*axis] += d;
+                }
+                let errors = machine
+                    .errors_at(&command, &Default::default())
+                    .map_err(|fault| fault.to_string())?;
+                let tip = machine.deviation(&command, &errors).tip_mm;
+                let at = |k: usize| command[self.axes[k]] + tip.dot(&directions[k]);
+                // Writing into a text cannot fail.
+                let _ = writeln!(text, "{:.9},{:.9},{word}", at(0), at(1));
+            }
+        }
+        Ok(text)
+    }
+}
