@@ -323,16 +323,17 @@ fn error_tables_name_what_is_wrong() {
     let sheet = |unit: &str, scale: f64| {
         let row = |i: i32| {
             let v = scale * f64::from(i * i) / 10.0;
-            format!("{},1,up,{v}\n{},1,down,{v}\n", 300 * i, 300 * i)
+            format!("{},1,up,{v}\n{},1,down,{v}\n", 620 * i, 620 * i)
         };
         format!("target_mm,run,direction,deviation_{unit}\n")
-            + &(0..12).map(row).collect::<String>()
+            + &(0..=10).map(row).collect::<String>()
     };
     folder.file("um.csv", sheet("um", 1.0));
     folder.file("mm.csv", sheet("mm", 1.0));
     folder.file("urad.csv", sheet("urad", 1.0));
-    folder.file("twice.csv", sheet("um", 1.0) + "300,1,up,3\n");
+    folder.file("twice.csv", sheet("um", 1.0) + "620,1,up,3\n");
     folder.file("one-side.csv", sheet("um", 1.0).replace("0,1,down,0\n", ""));
+    folder.file("short.csv", sheet("um", 1.0).lines().take(9).collect::<Vec<_>>().join("\n"));
     folder.file("far.csv", sheet("um", 1.0) + "9000,1,up,1\n9000,1,down,1\n");
     folder.file(
         "c.csv",
@@ -345,6 +346,7 @@ fn error_tables_name_what_is_wrong() {
         ("EAX", "um.csv", "", 2, "wrong-unit"),
         ("EXX", "twice.csv", "", 2, "reading-twice"),
         ("EXX", "one-side.csv", "", 2, "missing-side"),
+        ("EXX", "short.csv", "", 2, "outside"),
         ("EXX", "far.csv", "", 2, "outside-travel"),
         ("EXU", "um.csv", "", 2, "unknown-axis"),
         ("EX0X", "um.csv", "", 2, "unknown-error-name"),

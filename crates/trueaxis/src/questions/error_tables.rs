@@ -56,7 +56,7 @@ impl Question for IdentifyTables {
         let beside = Folder::of(&files, &study.machine_path);
         let refuse = |reason: String, problems: &mut Diagnostics| {
             let place = Place::whole(&self.study.display().to_string());
-            let hint = "see the readings: their errors, positions, at and optics";
+            let hint = "the readings cover the travel, or the machine file states `outside` for the axis";
             problems.error("unwritable-file", place, reason, hint);
         };
         // The circles are those of the machine with the new tables.
