@@ -173,6 +173,7 @@ impl TouchLog<'_> {
         let probe = heidenhain::Probing {
             from_mm: from,
             to_mm: to,
+            way_mm: None,
             mm_per_min: touch.mm_per_min,
             back_mm: 0.0,
             is_stand_in: self.is_stand_in,

@@ -41,6 +41,8 @@ const LEVEL: f64 = 1e-9;
 pub(crate) struct Probing {
     pub from_mm: [f64; 3],
     pub to_mm: [f64; 3],
+    /// Another greatest way than that between the two; the place is judged by them all the same.
+    pub way_mm: Option<f64>,
     pub mm_per_min: f64,
     /// How far the control goes back after it.
     pub back_mm: f64,
@@ -71,6 +73,17 @@ pub(crate) fn open(log: LogName) -> String {
          FN 14: ERROR=1014\nLBL {BEGIN}\nFN 18: SYSREAD Q{TOOL} = ID20 NR1\n{}",
         print(log, "_START")
     )
+}
+
+/// A line with what the control has computed.
+pub(crate) fn result(log: LogName) -> String {
+    print(log, "_RESULT")
+}
+
+/// The mask of that line; none where nothing is computed.
+pub(crate) fn result_mask(log: LogName, columns: &[Column]) -> Option<(String, String)> {
+    let text = format!("\"RESULT {}\n", mask_line(columns.iter()));
+    (!columns.is_empty()).then(|| (format!("{}.A", file(log, "_RESULT")), text))
 }
 
 /// The end of the log.
@@ -107,8 +120,10 @@ pub(crate) fn probe(touch: &Probing) -> String {
         let cycle = &name[..1];
         text += &format!(
             "TCH PROBE {name}\nTCH PROBE {cycle}.1 Q{RESULT}\nTCH PROBE {direction}\n\
-             TCH PROBE {cycle}.3 DIST{length:+.4} F{:.1} MB{:.4} REFERENCE SYSTEM:1\n",
-            touch.mm_per_min, touch.back_mm
+             TCH PROBE {cycle}.3 DIST{:+.4} F{:.1} MB{:.4} REFERENCE SYSTEM:1\n",
+            touch.way_mm.unwrap_or(length),
+            touch.mm_per_min,
+            touch.back_mm
         );
     }
     let off: Vec<String> = [x, y, z]
@@ -138,13 +153,18 @@ pub(crate) fn keep(log: LogName, values: &[(u32, f64)]) -> String {
 /// The masks: heading, line with its parameters, end. The files of the masks with their text.
 pub(crate) fn masks(log: LogName, columns: &[Column]) -> Vec<(String, String)> {
     let tool = Column { word: "T".to_owned(), q: TOOL, decimals: 0 };
-    let all: Vec<&Column> = columns.iter().chain([&tool]).collect();
-    let words: Vec<String> =
-        all.iter().map(|c| format!("{}%{}.{}F", c.word, 7 + c.decimals, c.decimals)).collect();
-    let parameters: Vec<String> = all.iter().map(|c| format!("Q{}", c.q)).collect();
-    let line = format!("\"{}\",{};\n", words.join(" "), parameters.join(","));
+    let line = format!("\"{}\n", mask_line(columns.iter().chain([&tool])));
     // The hits were counted in the first of the kept parameters.
     let end = format!("\"END %7.0F\",Q{};\nM_CLOSE;\n", KEPT[0]);
     let of = |part: &str, text: String| (format!("{}.A", file(log, part)), text);
     vec![of("_START", format!("\"{}\";\n", log.heading)), of("", line), of("_END", end)]
+}
+
+/// From behind the first quotation mark to the end of the line.
+fn mask_line<'c>(columns: impl Iterator<Item = &'c Column> + Clone) -> String {
+    let words = columns.clone().map(|c| format!("{}%{}.{}F", c.word, 7 + c.decimals, c.decimals));
+    let parameters = columns.map(|c| format!("Q{}", c.q));
+    let [words, parameters] =
+        [words.collect::<Vec<_>>().join(" "), parameters.collect::<Vec<_>>().join(",")];
+    format!("{words}\",{parameters};")
 }
