@@ -334,7 +334,14 @@ fn the_foot_on_a_torus() {
     for i in 0..60 {
         for j in 0..9 {
             let (at_mm, normal) = point(f64::from(i) * 0.1047, -0.5 + 0.125 * f64::from(j));
-            points.push(SurfacePoint { line: 1, number: 0.0, at_mm, normal, deviation_mm: 0.0, u_mm: None });
+            points.push(SurfacePoint {
+                line: 1,
+                number: 0.0,
+                at_mm,
+                normal,
+                deviation_mm: 0.0,
+                u_mm: None,
+            });
         }
     }
     let surface = NominalSurface::of(&points);
@@ -421,7 +428,10 @@ fn law_a_reading_pulls_less_where_its_uncertainty_is_larger() {
         let sound = fitted(&strip(24, 3, 0.0), 0.002);
         let (at, normal) = (points[30].at_mm, points[30].normal);
         let found = fitted(&points, 0.002);
-        (found.deviation_mm(&at, &normal) - sound.deviation_mm(&at, &normal), found.at(&at, &normal).u_mm)
+        (
+            found.deviation_mm(&at, &normal) - sound.deviation_mm(&at, &normal),
+            found.at(&at, &normal).u_mm,
+        )
     };
     let pulls = [0.002, 0.004, 0.008, 0.016].map(wrong);
     assert!(pulls[0].0 > 2e-4, "{pulls:?}");
@@ -489,8 +499,8 @@ fn uncertainties_are_read_by_their_heading() {
     };
     assert_eq!(table("U_um", "4").0, Some(0.002));
     assert_eq!(table("u_um", "4").0, Some(0.004));
-    assert_eq!(table("U_mm", "4").1, Some(("bad-uncertainty", 2)));
+    assert_eq!(table("U_mm", "4").1, Some(("absurd-uncertainty", 2)));
     for value in ["0", "-4", "4000"] {
-        assert_eq!(table("U_um", value).1, Some(("bad-uncertainty", 7)), "{value}");
+        assert_eq!(table("U_um", value).1, Some(("absurd-uncertainty", 7)), "{value}");
     }
 }

@@ -24,7 +24,8 @@ fn expected() -> Value {
 }
 
 fn study(name: &str) -> Study {
-    let (study, problems) = read_study(&disk(), &root().join("examples/05_identify").join(name), Purpose::Result);
+    let (study, problems) =
+        read_study(&disk(), &root().join("examples/05_identify").join(name), Purpose::Result);
     assert!(!problems.has_errors(), "{problems:?}");
     study.expect("a study")
 }

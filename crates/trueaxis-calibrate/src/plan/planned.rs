@@ -94,7 +94,11 @@ fn planned_path(
     let program = text.ok().map(|text| (format!("{stem}.{}", extension(control)), text));
     let beside = hits.then(|| program_files(campaign, control)).into_iter().flatten();
     let table = (format!("{stem}.csv"), table.into_bytes());
-    let files = program.into_iter().chain([table]).chain(beside.map(|(name, text)| (name, text.into_bytes()))).collect();
+    let files = program
+        .into_iter()
+        .chain([table])
+        .chain(beside.map(|(name, text)| (name, text.into_bytes())))
+        .collect();
     let channels = instrument.kind.channels();
     PlannedPath { seen: seen(design, &path.stations), channels, path, check, files }
 }

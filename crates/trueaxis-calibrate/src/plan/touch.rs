@@ -200,7 +200,11 @@ impl TouchLog<'_> {
         let mut columns: Vec<heidenhain::Column> = words
             .zip(heidenhain::KEPT)
             .enumerate()
-            .map(|(i, (word, q))| heidenhain::Column { word, q, decimals: if i < 2 { 0 } else { 5 } })
+            .map(|(i, (word, q))| heidenhain::Column {
+                word,
+                q,
+                decimals: if i < 2 { 0 } else { 5 },
+            })
             .collect();
         let result = heidenhain::RESULT;
         let place = [("X", result), ("Y", result + 1), ("Z", result + 2)];

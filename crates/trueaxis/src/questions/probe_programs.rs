@@ -173,7 +173,12 @@ impl Question for ProbePrograms {
             let off_mm = file.hits.map(|_| probe_stations(&of, &made, &file.name));
             if off_mm.is_some_and(|off| !off.is_finite()) {
                 let message = "the program does not reach its stations".to_owned();
-                problems.error("unsound-program", Place::whole(&file.name), message, "another --control");
+                problems.error(
+                    "unsound-program",
+                    Place::whole(&file.name),
+                    message,
+                    "another --control",
+                );
             }
             entries.push(ProbeProgramEntry {
                 file: file.name.clone(),

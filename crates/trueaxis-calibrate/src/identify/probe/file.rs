@@ -82,11 +82,7 @@ pub struct Tables<'a> {
 }
 
 /// Reads a study and the hits that it names.
-pub fn read_study(
-    files: &Files,
-    path: &Path,
-    purpose: Purpose,
-) -> (Option<Study>, Diagnostics) {
+pub fn read_study(files: &Files, path: &Path, purpose: Purpose) -> (Option<Study>, Diagnostics) {
     let mut problems = Diagnostics::new();
     let Some(text) = files.text(path, "a study of a touch probe (TOML)", &mut problems) else {
         return (None, problems);
@@ -183,7 +179,12 @@ impl Logs<'_> {
     }
 
     /// The log that a datum names; hits that are corrected already say nothing of the probe.
-    fn of_datum(&self, section: &Section<'_>, read: ReadLog, hits: Option<usize>) -> Option<ProbeLog> {
+    fn of_datum(
+        &self,
+        section: &Section<'_>,
+        read: ReadLog,
+        hits: Option<usize>,
+    ) -> Option<ProbeLog> {
         let item = section.get("log")?;
         let name = item.text()?;
         let mut found = Diagnostics::new();
@@ -194,7 +195,11 @@ impl Logs<'_> {
         let log = log?;
         if log.is_corrected {
             let message = "the control has corrected these hits: they say nothing of the probe";
-            item.error("corrected-log", message.to_owned(), "the log of the program without correction");
+            item.error(
+                "corrected-log",
+                message.to_owned(),
+                "the log of the program without correction",
+            );
             return None;
         }
         Some(log)
@@ -290,11 +295,7 @@ fn read_centre(item: &Item<'_>, wanted: usize) -> Option<Vec3> {
     }
 }
 
-fn read_styli(
-    root: &Section<'_>,
-    gauge: Option<&Gauge>,
-    logs: &Logs<'_>,
-) -> Option<Vec<Stylus>> {
+fn read_styli(root: &Section<'_>, gauge: Option<&Gauge>, logs: &Logs<'_>) -> Option<Vec<Stylus>> {
     let hint = "[stylus.NAME] ball_diameter = \"4 mm\", hits = [\"ring.csv\"]";
     let item = root.require("stylus", hint)?;
     let mut styli = Vec::new();
@@ -429,11 +430,13 @@ fn ring_hits(
     let log = parse_ring_log(shown, text, planned, found)?;
     if log.is_corrected && checks {
         let message = "the control has corrected these hits: a check with them corrects them twice";
-        let hint = "name them as `hits` of a study of their own: what it finds is what the table leaves";
+        let hint =
+            "name them as `hits` of a study of their own: what it finds is what the table leaves";
         return refuse("corrected-log", message, hint);
     }
     if log.is_corrected {
-        let message = "the control has corrected these hits: what is found here is what its table leaves";
+        let message =
+            "the control has corrected these hits: what is found here is what its table leaves";
         let hint = "for a calibration take the log of the program without correction";
         item.warn("corrected-log", message.to_owned(), hint);
     }
@@ -539,11 +542,7 @@ fn four_places(section: &Section<'_>, logs: &Logs<'_>) -> Option<[f64; 4]> {
     Some([a, b, c, d])
 }
 
-fn read_four(
-    section: &Section<'_>,
-    gauge: Option<&Gauge>,
-    logs: &Logs<'_>,
-) -> Option<FourHits> {
+fn read_four(section: &Section<'_>, gauge: Option<&Gauge>, logs: &Logs<'_>) -> Option<FourHits> {
     if logs.purpose == Purpose::Programs {
         section.entries();
         return None;

@@ -44,8 +44,15 @@ pub(super) struct ProbeLog {
 /// Whether a table is a log of a ring.
 pub(super) fn is_ring_log(text: &str) -> bool {
     let text = text.trim_start_matches('\u{feff}');
-    let mut lines = text.lines().map(str::trim).filter(|l| !l.is_empty() && !l.starts_with(['#', '%']));
-    lines.next().is_some_and(|l| l.to_ascii_uppercase().starts_with("TRUEAXIS"))
+    let mut lines =
+        text.lines().map(str::trim).filter(|l| !l.is_empty() && !l.starts_with(['#', '%']));
+    lines.next().is_some_and(|l| {
+        let upper = l.to_ascii_uppercase();
+        // A hit whose heading is missing is one all the same: it is said then.
+        let hit =
+            upper.strip_prefix('H').is_some_and(|r| r.starts_with(|c: char| c.is_ascii_digit()));
+        upper.starts_with("TRUEAXIS") || hit
+    })
 }
 
 /// Reads a log of hits in a ring; `None` with errors among the problems.
@@ -118,14 +125,16 @@ fn parse(
                     faults += 1;
                     problems.error(code, place, message, form);
                     // A hit that is missing displaces all that follow.
-                    if faults == MOST_REPORTED || matches!(code, "lost-hits" | "hits-out-of-order") {
+                    if faults == MOST_REPORTED || matches!(code, "lost-hits" | "hits-out-of-order")
+                    {
                         return None;
                     }
                 }
             }
         } else {
             let message = "the log does not begin with its heading: unit and frame are not known";
-            let hint = format!("the first line is TRUEAXIS {kind} MM MACHINE, as the programs write it");
+            let hint =
+                format!("the first line is TRUEAXIS {kind} MM MACHINE, as the programs write it");
             problems.error("no-heading", place, message.to_owned(), &hint);
             return None;
         }
@@ -204,7 +213,8 @@ fn hit(
             ("missing-tool", format!("hit {number} does not say with which tool (T)"))
         })?;
         if found != f64::from(tool) {
-            let message = format!("hit {number} was made with tool {found}, the probe is tool {tool}");
+            let message =
+                format!("hit {number} was made with tool {found}, the probe is tool {tool}");
             return Err(("other-tool", message));
         }
     }
@@ -276,7 +286,8 @@ fn uneven(hits: &[Hit], count: usize, problems: &mut Diagnostics) {
             "the direction {:.3} deg is none of {count} even ones, {step:.3} deg apart",
             degrees(hit)
         );
-        let hint = "is this the log of another program? state directions of [program] as they were made";
+        let hint =
+            "is this the log of another program? state directions of [program] as they were made";
         problems.error("other-directions", hit.place.clone(), message, hint);
     }
 }

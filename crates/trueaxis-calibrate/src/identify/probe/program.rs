@@ -128,16 +128,26 @@ fn settings_of<'a>(of: &ProgramOf<'a>) -> Result<&'a ProgramSettings, ProbeProgr
         return wrong("programs are written for the inside of a ring");
     }
     if study.gauge.centre_mm.is_none() {
-        return wrong("the programs need the centre of the ring: centre = \"120 80 mm\", found with a dial");
+        return wrong(
+            "the programs need the centre of the ring: centre = \"120 80 mm\", found with a dial",
+        );
     }
     fits(settings, &study.gauge, of.stylus.ball_radius_mm).map_err(ProbeProgramError::Study)?;
     if settings.orientation_rad != 0.0 && of.control == Control::Fanuc {
-        return wrong("FANUC has no standard word for a spindle orientation other than that of M19 (0 deg)");
+        return wrong(
+            "FANUC has no standard word for a spindle orientation other than that of M19 (0 deg)",
+        );
     }
     Ok(settings)
 }
 
-fn named(of: &ProgramOf<'_>, log: LogName, purpose: String, text: Vec<u8>, hits: usize) -> ProbeFile {
+fn named(
+    of: &ProgramOf<'_>,
+    log: LogName,
+    purpose: String,
+    text: Vec<u8>,
+    hits: usize,
+) -> ProbeFile {
     let name = format!("{}.{}", log.stem, crate::plan::extension(of.control));
     ProbeFile { name, purpose, text, hits: Some(hits) }
 }
@@ -271,7 +281,8 @@ impl<'a> Written<'a> {
             self.writer.write(&Block::Text(&kept))?;
             if sums {
                 let [x, y] = self.place_names();
-                let text = assign(self.of.control, Value::Kept(i as u32), if i < 2 { &x } else { &y });
+                let text =
+                    assign(self.of.control, Value::Kept(i as u32), if i < 2 { &x } else { &y });
                 self.writer.write(&Block::Text(&text))?;
             }
             self.line([centre.x, centre.y, s.z_mm])?;
@@ -426,9 +437,7 @@ impl<'a> Written<'a> {
             Control::Sinumerik840d => {
                 self.log.write(&format!("\"H{hit} T\"<<$P_TOOLNO<<\" Z\"<<{z}"))
             }
-            Control::Heidenhain => {
-                heidenhain::keep(self.log, &[(heidenhain::KEPT[0], hit as f64)])
-            }
+            Control::Heidenhain => heidenhain::keep(self.log, &[(heidenhain::KEPT[0], hit as f64)]),
         }
     }
 

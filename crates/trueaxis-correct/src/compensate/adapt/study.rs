@@ -154,8 +154,10 @@ fn read(root: &Section<'_>, folder: &Path, from_hits: FromHits<'_>) -> Option<Ad
     };
     let machine = beside("machine", "machine = \"machine.toml\"");
     let cl = beside("path", "path = \"part.cls\": the cutter locations for the nominal blank");
-    let table =
-        beside("measured", "measured = \"blank.csv\": point,x_mm,y_mm,z_mm,i,j,k,deviation_um; or a study of hits, \"hits.toml\"");
+    let table = beside(
+        "measured",
+        "measured = \"blank.csv\": point,x_mm,y_mm,z_mm,i,j,k,deviation_um; or a study of hits, \"hits.toml\"",
+    );
     let cutter = root.require("cutter", "[cutter] diameter = \"8 mm\", corner_radius = \"4 mm\"");
     let cutter = cutter.and_then(|i| i.section("cutter", read_cutter)).flatten();
     let wall = read_wall(root);

@@ -189,8 +189,9 @@ fn uncertainties(table: &CsvTable, problems: &mut Diagnostics) -> Option<Option<
         // NaN is no uncertainty either.
         if !(u_mm > 0.0 && u_mm <= LARGEST_U_MM) {
             let message = format!("`{}` of {value} mm is no uncertainty of a hit", column.name);
-            let hint = "more than 0; is the unit of the heading right (U_um with k = 2, u_um with k = 1)?";
-            problems.error("bad-uncertainty", table.row_place(row), message, hint);
+            let hint =
+                "more than 0; is the unit of the heading right (U_um with k = 2, u_um with k = 1)?";
+            problems.error("absurd-uncertainty", table.row_place(row), message, hint);
             sound = false;
         }
     }

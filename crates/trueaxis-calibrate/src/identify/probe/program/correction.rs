@@ -57,7 +57,8 @@ impl Correction {
     /// The files of the control: names and contents. Too many directions have no place: why.
     pub(super) fn files(&self, control: Control) -> Result<Vec<(String, String)>, String> {
         let n = self.dr_mm.len();
-        let most = if matches!(control, Control::Fanuc | Control::Haas) { FANUC_MOST } else { MOST };
+        let most =
+            if matches!(control, Control::Fanuc | Control::Haas) { FANUC_MOST } else { MOST };
         if n > most {
             return Err(format!(
                 "a table of {n} directions has no place in the variables of this control: {most} at most (table_steps)"
@@ -103,7 +104,10 @@ impl Correction {
     fn fanuc_table(&self) -> String {
         let rows = self.closed().zip(FANUC_FIRST..).map(|(v, i)| format!("#{i}={v:.DECIMALS$}\n"));
         let rows: String = rows.collect();
-        format!("%\nO7061 (TRUEAXIS TABLE OF CORRECTIONS, MM)\n({})\n{rows}M99\n%\n", plain(&self.about))
+        format!(
+            "%\nO7061 (TRUEAXIS TABLE OF CORRECTIONS, MM)\n({})\n{rows}M99\n%\n",
+            plain(&self.about)
+        )
     }
 
     fn linuxcnc(&self) -> String {

@@ -62,11 +62,13 @@ pub struct Face {
 
 pub(in crate::identify::probe) fn read_program(section: &Section<'_>) -> Option<ProgramSettings> {
     let tool = section.get("tool").map_or(Some(1), |i| i.count());
-    let hint = "z = \"-210 mm\": the spindle when the ball is in the ring at the height where it touches";
+    let hint =
+        "z = \"-210 mm\": the spindle when the ball is in the ring at the height where it touches";
     let z_mm = section.require("z", hint).and_then(|i| i.quantity(Dimension::Length));
     let hint = "clear_z = \"-100 mm\": the spindle when the probe is clear of everything";
     let clear = section.require("clear_z", hint).and_then(|i| i.quantity(Dimension::Length));
-    let orientation = section.get("orientation").map_or(Some(0.0), |i| i.quantity(Dimension::Angle));
+    let orientation =
+        section.get("orientation").map_or(Some(0.0), |i| i.quantity(Dimension::Angle));
     let directions = section.get("directions").map_or(Some(DIRECTIONS), |i| i.count());
     let length = |key: &str, usual| positive(section, key, Dimension::Length, usual, 1.0);
     let [stand_off, back_off] = [length("stand_off", 2.0), length("back_off", 0.5)];
@@ -170,7 +172,8 @@ fn read_face(section: &Section<'_>, item: &Item<'_>) -> Option<Face> {
     if place_mm.is_none() {
         item.error("bad-vector", format!("`{text}` is not two lengths"), hint);
     }
-    let length = section.require("length", "length = \"90 mm\": about, spindle to the end of the ball");
+    let length =
+        section.require("length", "length = \"90 mm\": about, spindle to the end of the ball");
     let length_mm = length.and_then(|i| i.quantity(Dimension::Length));
     let hits = section.get("face_hits").map_or(Some(FACE_HITS), |i| i.count());
     let (place_mm, length_mm, hits) = (place_mm?, length_mm?, hits?);
@@ -181,4 +184,3 @@ fn read_face(section: &Section<'_>, item: &Item<'_>) -> Option<Face> {
     }
     Some(Face { place_mm, length_mm, hits })
 }
-
