@@ -201,12 +201,14 @@ fn the_wall_of_the_bangle_holds_10_um_through_all_files() {
                 let text = table.lines().map(line).collect::<Vec<_>>().join("\n");
                 folder.file("changed.csv", text);
             };
-            let study = text.replace("measured.csv", "changed.csv");
+            let study = text.replace("measured.csv", "changed.csv").replace("1.5 um", "0.2 um");
             let u = |found: &serde_json::Value| {
                 let cells = found["map"].as_array().expect("a map");
                 let u = cells.iter().map(|c| c["u_wall_mm"].as_f64().expect("mm"));
                 u.sum::<f64>() / cells.len() as f64
             };
+            rows(&|row, u| format!("{row},{u}"));
+            let stated = adapted("stated.toml", &study);
             rows(&|row, _| row.to_owned());
             let without = adapted("without.toml", &study);
             rows(&|row, u| match u.parse::<f64>() {
@@ -214,9 +216,12 @@ fn the_wall_of_the_bangle_holds_10_um_through_all_files() {
                 Err(_) => format!("{row},{u}"),
             });
             let larger = adapted("larger.toml", &study);
-            let all = [u(&without), u(&found), u(&larger)];
-            assert!(all[0] < all[1] && all[1] < 0.9 * all[2], "{all:?}");
-            assert!(found["field"]["common_um"].as_f64().expect("µm") > 0.0);
+            let all = [u(&without), u(&stated), u(&larger)];
+            assert!(all[0] < all[1] && all[1] < 0.99 * all[2], "{all:?}");
+            let common =
+                |found: &serde_json::Value| found["field"]["common_um"].as_f64().expect("µm");
+            assert!(common(&without) == 0.0 && common(&stated) > 0.1);
+            assert!((common(&larger).hypot(0.2) / common(&stated).hypot(0.2) - 3.0).abs() < 1e-6);
         }
         tables.push(table);
     }

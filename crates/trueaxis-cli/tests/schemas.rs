@@ -63,6 +63,10 @@ const ANSWERS: &[(&str, &str)] = &[
     ("identify-errors", "identify examples/05_identify/probe-ball.toml"),
     ("identify-expansion", "identify expansion examples/05_identify/y-axis-two-temperatures.toml"),
     ("identify-probe", "identify probe examples/05_identify/ring-60.toml"),
+    (
+        "identify-probe-programs",
+        "identify probe examples/05_identify/ring-programs.toml --corrections OUT/ring",
+    ),
     ("identify-rtcp", "identify rtcp examples/05_identify/rtcp-engraver.toml"),
     (
         "identify-rtcp-programs",

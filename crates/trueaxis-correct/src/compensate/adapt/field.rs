@@ -216,15 +216,15 @@ struct Readings {
 
 /// What of the stated uncertainties is of each reading alone, and what all of them share.
 ///
-/// A reading errs at least by the noise of a hit, s. What even the best of the readings states beyond it is in all of
-/// them: ball radius, length, machine. The rest is of each reading alone, so that it pulls the less the larger it is.
+/// What even the best of the readings states beyond the noise of a hit, s, is in all of them: ball radius, length,
+/// machine. The rest is of each reading alone, so that it pulls the less the larger it is. A reading that states
+/// nothing errs by the noise.
 ///
-/// c² = max(0, min u_i² − s²), n_i = max(u_i², s²) − c²           docs/model.md eq. 192
+/// c² = max(0, min u_i² − s²), n_i = u_i² − c²                    docs/model.md eq. 192
 fn nuggets(points: &[SurfacePoint], noise_mm: f64) -> (Vec<f64>, f64) {
-    let s = noise_mm.powi(2);
-    let squares = points.iter().map(|p| p.u_mm.unwrap_or(noise_mm).powi(2).max(s));
+    let squares = points.iter().map(|p| p.u_mm.unwrap_or(noise_mm).powi(2));
     let least = squares.clone().fold(f64::INFINITY, f64::min);
-    let common = if least.is_finite() { (least - s).max(0.0) } else { 0.0 };
+    let common = if least.is_finite() { (least - noise_mm.powi(2)).max(0.0) } else { 0.0 };
     (squares.map(|u| u - common).collect(), common.sqrt())
 }
 
