@@ -440,7 +440,7 @@ fn law_a_reading_pulls_less_where_its_uncertainty_is_larger() {
     }
 }
 
-/// What all readings share is not averaged out: U of the field, and of the wall, has it in full.
+/// What all readings share is not averaged out: it is part of U of the field, and of the wall, in full.
 #[test]
 fn law_a_common_uncertainty_stays_in_full() {
     let mut points = strip(48, 5, 0.0);

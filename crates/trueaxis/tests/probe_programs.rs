@@ -390,6 +390,11 @@ fn mistakes_in_a_log_are_named_with_their_row() {
     let (_, problems) =
         read(&STUDY.replace("'z-datum.log'", "'four-hits.log'"), &made, Purpose::Result);
     assert!(problems.iter().any(|d| d.code == "other-log"), "{problems:?}");
+    // A calibration cannot be made of hits that the control has corrected.
+    let corrected = ring.replace("MACHINE", "MACHINE CORRECTED");
+    let logs = vec![("ring-hits.log".to_owned(), corrected), made[1].clone(), made[2].clone()];
+    let (found, problems) = read(STUDY, &logs, Purpose::Calibration);
+    assert!(found.is_none() && problems.iter().any(|d| d.code == "corrected-log"), "{problems:?}");
     // Both a log and numbers; a probe that does not fit.
     for (from, to, code) in [
         ("log = 'four-hits.log'", "log = 'four-hits.log'\nx_plus = '1 mm'", "two-readings"),

@@ -76,7 +76,7 @@ pub struct TableEntry {
     pub interpolation_um: f64,
     /// The largest standard uncertainty of a correction, µm.
     pub u_um: f64,
-    /// The length of the probe that is taken off on the plane face, mm; null: it is not known.
+    /// The length of the probe that is subtracted on the plane face, mm; null: it is not known.
     pub length_mm: Option<f64>,
 }
 
@@ -137,7 +137,7 @@ impl Question for ProbePrograms {
     type Answer = ProbeProgramsAnswer;
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
-        let purpose = if self.corrected { Purpose::Result } else { Purpose::Programs };
+        let purpose = if self.corrected { Purpose::Calibration } else { Purpose::Programs };
         let study = problems.keep(read_study(files, &self.study, purpose));
         let control = named_control(&self.control, problems);
         let (mut study, control) = study.zip(control)?;

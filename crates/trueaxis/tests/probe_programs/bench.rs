@@ -2,7 +2,7 @@
 //! touch triggers.
 //!
 //! No interpreter simulates a workpiece. So the end of every touch is rewritten to the place where the virtual probe
-//! triggers (FANUC: 0.01 mm behind it, as far before the end its interpreter takes the signal to come; HEIDENHAIN: the
+//! triggers (FANUC: 0.01 mm beyond it, as far before the end its interpreter takes the signal to come; HEIDENHAIN: the
 //! results of the cycle). All else, above all the correction, is executed as it was written. Where an interpreter does
 //! not say what goes into a log (WRITE, FN 16), the values are carried out as the ends of moves.
 
@@ -123,12 +123,12 @@ fn ended(
     // The interpreter of FANUC takes the signal 0.01 mm before the end, along the way.
     let way = [0, 1, 2].map(|i| if to_mm[i].is_nan() { 0.0 } else { to_mm[i] - place[i] });
     let length = way.iter().map(|d| d * d).sum::<f64>().sqrt();
-    let behind =
+    let beyond =
         if matches!(control, Control::Fanuc | Control::Haas) { 0.01 / length } else { 0.0 };
     let mut text = start.to_owned();
     for (i, letter) in ['X', 'Y', 'Z'].into_iter().enumerate() {
         if !to_mm[i].is_nan() {
-            text += &format!(" {letter}{:.9}", place[i] + way[i] * behind);
+            text += &format!(" {letter}{:.9}", place[i] + way[i] * beyond);
         }
     }
     text + &format!(" F{}", word('F'))

@@ -27,6 +27,8 @@ const MOST_TABLES: usize = 200;
 pub enum Purpose {
     /// Its hits.
     Result,
+    /// Its hits, to correct others by them: they must be as they were measured.
+    Calibration,
     /// The programs that make the hits: there may be none yet.
     Programs,
 }
@@ -428,6 +430,11 @@ fn ring_hits(
     // Hits of a check are in other directions than those of the calibration.
     let planned = if checks { None } else { logs.planned(None) };
     let log = parse_ring_log(shown, text, planned, found)?;
+    if log.is_corrected && logs.purpose == Purpose::Calibration {
+        let message =
+            "the control has corrected these hits: other hits cannot be corrected by them";
+        return refuse("corrected-log", message, "the log of the program without correction");
+    }
     if log.is_corrected && checks {
         let message = "the control has corrected these hits: a check with them corrects them twice";
         let hint =

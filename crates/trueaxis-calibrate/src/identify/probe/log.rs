@@ -123,7 +123,18 @@ fn parse(
                 Ok(hit) => log.hits.push(hit),
                 Err((code, message)) => {
                     faults += 1;
-                    problems.error(code, place, message, form);
+                    let hint = match code {
+                        "lost-hits" => "run the program again; was a line taken out?",
+                        "hits-out-of-order" => {
+                            "a row that was moved or copied, or two runs in one log?"
+                        }
+                        "other-tool" => "was another tool in the spindle? `tool` of [program]",
+                        "missing-tool" => {
+                            "T with the number of the tool, if the probe was in the spindle"
+                        }
+                        _ => form,
+                    };
+                    problems.error(code, place, message, hint);
                     // A hit that is missing displaces all that follow.
                     if faults == MOST_REPORTED || matches!(code, "lost-hits" | "hits-out-of-order")
                     {

@@ -27,7 +27,7 @@ use trueaxis_nc::moves::{Axis, Feed, FeedMode};
 use trueaxis_writer::{Block, Heading, Target, ToolCall, Writer, axis_coordinates};
 use words::{TwoStage, Value, assign, number, trigger, two_stage};
 
-/// A program or a file beside it.
+/// A program or a file that it needs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProbeFile {
     /// Its name.
@@ -66,7 +66,7 @@ pub struct ProgramOf<'a> {
     pub stylus: &'a Stylus,
     /// The control.
     pub control: Control,
-    /// What the control takes off each hit; `None`: hits as they are.
+    /// What the control subtracts from each hit; `None`: hits as they are.
     pub correction: Option<&'a Correction>,
     /// Written to be read back where no interpreter has the words of a touch.
     pub is_stand_in: bool,
@@ -99,7 +99,7 @@ pub fn probe_programs(of: &ProgramOf<'_>) -> Result<Vec<ProbeFile>, ProbeProgram
         let top_mm = super::datums::z_datum(steps).top_mm;
         let text = Written::new(of, settings, name)?.down(face, top_mm)?;
         let purpose = match of.correction.is_some_and(|c| c.length_mm.is_some()) {
-            true => "height of the plane face, the length of the probe taken off".to_owned(),
+            true => "height of the plane face, the length of the probe subtracted".to_owned(),
             false => "length of the probe on the plane face".to_owned(),
         };
         files.push(named(of, name, purpose, text, face.hits));

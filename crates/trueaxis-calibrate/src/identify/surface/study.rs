@@ -139,7 +139,8 @@ fn read_probe(section: &Section<'_>, folder: &Path, found: &mut Diagnostics) -> 
             None
         }
     };
-    let study = found.keep(read_study(section.files(), calibration.as_ref()?, Purpose::Result));
+    let study =
+        found.keep(read_study(section.files(), calibration.as_ref()?, Purpose::Calibration));
     let all = study.and_then(|study| identify_probe(&study, found))?;
     let calibration_file = calibration?.display().to_string();
     let chosen = match &stylus {

@@ -28,7 +28,7 @@ pub(crate) const TOOL: u32 = 3;
 pub(crate) const KEPT: [u32; 6] = [1, 2, 21, 22, 23, 24];
 /// How far the place is from the end of the touch.
 const OFF: u32 = 14;
-/// The label of the alarm, and that behind it.
+/// The label of the alarm, and that after it.
 const ALARM: u32 = 99;
 const BEGIN: u32 = 98;
 /// Where masks and logs are.
@@ -113,7 +113,8 @@ pub(crate) fn probe(touch: &Probing) -> String {
                 ("3.0 MEASURING", format!("3.2 X ANGLE:{angle:+.5}"))
             }
             false => {
-                let [i, j, k] = [0, 1, 2].map(|a| way[a] / length + 0.0);
+                // Rounded first: no minus before a zero.
+                let [i, j, k] = [0, 1, 2].map(|a| (1e7 * way[a] / length).round() / 1e7 + 0.0);
                 ("4.0 MEASURING IN 3-D", format!("4.2 IX{i:+.7} IY{j:+.7} IZ{k:+.7}"))
             }
         };
@@ -160,7 +161,7 @@ pub(crate) fn masks(log: LogName, columns: &[Column]) -> Vec<(String, String)> {
     vec![of("_START", format!("\"{}\";\n", log.heading)), of("", line), of("_END", end)]
 }
 
-/// From behind the first quotation mark to the end of the line.
+/// From after the first quotation mark to the end of the line.
 fn mask_line<'c>(columns: impl Iterator<Item = &'c Column> + Clone) -> String {
     let words = columns.clone().map(|c| format!("{}%{}.{}F", c.word, 7 + c.decimals, c.decimals));
     let parameters = columns.map(|c| format!("Q{}", c.q));

@@ -11,7 +11,7 @@
 //! itself, one label for each step.
 //!
 //! # Source
-//! Zhang et al. 2023, 2.3.2 (4) and 3.1: the deviation by direction, taken off in x and y. Between the directions: linear.
+//! Zhang et al. 2023, 2.3.2 (4) and 3.1: the deviation by direction, subtracted in x and y. Between the directions: linear.
 
 use super::words::{Value, assign};
 use trueaxis_nc::Control;
@@ -91,7 +91,7 @@ impl Correction {
         let [x, y, dr] = [Value::X, Value::Y, Value::Dr].map(|v| v.name(Control::Fanuc));
         format!(
             "%\nO7060 (TRUEAXIS CORRECTION BY DIRECTION)\n({about})\n\
-             (A B: THE HIT. I J: THE WAY TO IT. RESULT: {x} {y} CORRECTED, {dr} TAKEN AWAY)\n\
+             (A B: THE HIT. I J: THE WAY TO IT. RESULT: {x} {y} CORRECTED, {dr} SUBTRACTED)\n\
              #14=SQRT[#4*#4+#5*#5]\nIF[#14GE{LEAST_WAY_MM}]GOTO1\n#3000=2(THE HIT HAS NO DIRECTION)\nN1\n\
              #10=ATAN[#5]/[#4]\nIF[#10GE0]GOTO2\n#10=#10+360.\nN2\n\
              #11=#10*{n}./360.\n#12=FIX[#11]\nIF[#12LT{n}]GOTO3\n#12=0\n#11=#11-{n}.\nN3\n#13=#11-#12\n\
@@ -139,7 +139,7 @@ impl Correction {
         let [hx, hy, wx, wy] = [Value::HitX, Value::HitY, Value::WayX, Value::WayY].map(of);
         let [x, y, dr] = [Value::X, Value::Y, Value::Dr].map(of);
         format!(
-            "; {about}\n; {hx} {hy}: the hit, {wx} {wy}: the way to it; result: {x} {y} corrected, {dr} taken away\n\
+            "; {about}\n; {hx} {hy}: the hit, {wx} {wy}: the way to it; result: {x} {y} corrected, {dr} subtracted\n\
              R96=SQRT({wx}*{wx}+{wy}*{wy})\nIF R96<{LEAST_WAY_MM}\nSETAL(65002,\"THE HIT HAS NO DIRECTION\")\nM0\nENDIF\n\
              R97=ATAN2({wy},{wx})\nIF R97<0\nR97=R97+360\nENDIF\nR98=R97*{n}/360\nR99=TRUNC(R98)\nIF R99>={n}\nR99=0\n\
              R98=R98-{n}\nENDIF\n{dr}=R[{first}+R99]+(R98-R99)*(R[{second}+R99]-R[{first}+R99])\n\

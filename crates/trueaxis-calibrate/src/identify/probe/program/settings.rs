@@ -30,7 +30,7 @@ pub struct ProgramSettings {
     pub stand_off_mm: f64,
     /// Back from the fast touch before the slow one, mm.
     pub back_off_mm: f64,
-    /// How far a touch goes on behind the nominal surface, mm; `None`: as far as the ball allows, 1 mm at most.
+    /// How far a touch goes on beyond the nominal surface, mm; `None`: as far as the ball allows, 1 mm at most.
     pub beyond_mm: Option<f64>,
     /// Of the fast touch, mm/min.
     pub fast_mm_per_min: f64,
@@ -43,7 +43,7 @@ pub struct ProgramSettings {
 }
 
 impl ProgramSettings {
-    /// How far a touch goes on behind the nominal surface, mm.
+    /// How far a touch goes on beyond the nominal surface, mm.
     pub fn beyond_of(&self, ball_radius_mm: f64) -> f64 {
         self.beyond_mm.unwrap_or_else(|| (MOST_BEYOND * ball_radius_mm).min(1.0))
     }

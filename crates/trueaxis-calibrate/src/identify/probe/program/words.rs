@@ -25,7 +25,7 @@ pub(super) const FOUR_CORRECTED_LOG: LogName =
 /// The log of hits on a plane face.
 pub(super) const PLANE_LOG: LogName =
     LogName { heading: "TRUEAXIS PLANE MM MACHINE", stem: "z-datum" };
-/// The same, with the length of the probe taken off.
+/// The same, with the length of the probe subtracted.
 pub(super) const PLANE_CORRECTED_LOG: LogName =
     LogName { heading: "TRUEAXIS PLANE MM MACHINE CORRECTED", stem: "z-datum-corrected" };
 
@@ -41,7 +41,7 @@ pub(super) enum Value {
     /// Corrected place.
     X,
     Y,
-    /// What was taken away.
+    /// What was subtracted.
     Dr,
     /// Kept hits: X+, X−, Y+, Y−.
     Kept(u32),
@@ -197,7 +197,7 @@ pub(super) fn two_stage(control: Control, t: &TwoStage) -> String {
                     is_stand_in: t.is_stand_in,
                 })
             };
-            // The second touch begins where the first has triggered, less the way back, and goes as far behind it.
+            // The second touch begins where the first has triggered, less the way back, and goes as far beyond it.
             format!(
                 "{}\n{}\n",
                 stage(t.fast_mm_per_min, t.back_mm, None),
