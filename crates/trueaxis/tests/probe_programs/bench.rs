@@ -70,7 +70,7 @@ pub fn log(files: &[ProbeFile], name: &str, control: Control, trigger: Trigger<'
     }
 }
 
-/// A line of a log: pieces of text, and decimals of the value behind each but the last (`None`: all).
+/// A line of a log: pieces of text, and decimals of the value after each but the last (`None`: all).
 struct Line(Vec<(String, Option<Option<usize>>)>);
 
 /// What is added to a value so that it is found again among the ends of moves.
