@@ -24,7 +24,7 @@ fn common() -> Vec<f64> {
         at_mm: Vec3::new(f64::from(k % 5), f64::from(k / 5), 0.0),
         normal: Vec3::z(),
         deviation_mm: 0.0,
-        u_mm: Some(if k % 3 == 0 { 0.0065 } else { 0.0025 }),
+        u_mm: Some(if k.is_multiple_of(3) { 0.0065 } else { 0.0025 }),
     };
     let points: Vec<SurfacePoint> = (0..25).map(point).collect();
     let options = FieldOptions { noise_mm: 0.0015, length_mm: Some(5.0), form_mm: Some(0.01) };
