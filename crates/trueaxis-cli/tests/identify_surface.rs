@@ -178,7 +178,7 @@ fn the_wall_of_the_bangle_holds_10_um_through_all_files() {
             .replace("\"bangle-measured.csv\"", "\"measured.csv\"")
             .replace("\"bangle-", &format!("\"{}", whole("examples/06_compensate/bangle-")));
         let adapted = |name: &str, text: &str| {
-            let adapt = folder.file(name, text.to_owned());
+            let adapt = folder.file(name, text);
             let ran = trueaxis(&["compensate", "adapt", &adapt, "--no-report", "--format", "json"]);
             assert_eq!(ran.status, 0, "{control}, {name}: {}{}", ran.out, ran.err);
             ran.json()
