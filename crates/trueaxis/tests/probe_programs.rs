@@ -12,7 +12,7 @@ use trueaxis::identify::probe::program::{
     Correction, ProbeFile, ProgramOf, probe_programs, probe_stations,
 };
 use trueaxis::identify::probe::{
-    Calibration, Purpose, Study, Tables, datums, identify_probe, parse_study,
+    Calibration, Purpose, Study, Tables, datums, identify_probe, parse_study, read_study,
 };
 use trueaxis::input::Diagnostics;
 use trueaxis::nc::Control;
@@ -273,6 +273,34 @@ fn oracle_the_control_corrects_by_the_table_in_any_direction() {
             assert!((word('D') - planned.to_degrees()).abs() < 1e-4);
         }
     }
+}
+
+/// The programs of the example as LinuxCNC itself executes them: its interpreter `rs274` says what its LOG lines are, with
+/// every touch at the end of its way. Ours has the same to the last printed digit.
+#[test]
+fn oracle_linuxcnc_corrects_as_our_interpreter_does() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let path = root.join("../../examples/05_identify/ring-programs.toml");
+    let (study, _) = read_study(&trueaxis::files::disk(), &path, Purpose::Calibration);
+    let study = study.expect("the example");
+    let table = correction(&study, &calibrated(&study));
+    let files = programs(&study, Control::LinuxCnc, Some(&table));
+    let theirs = std::fs::read_to_string(root.join("tests/data/linuxcnc-ring.txt")).expect("data");
+    let mut compared = 0;
+    for part in theirs.split("program ").skip(1) {
+        let (stem, lines) = part.split_once('\n').expect("a name");
+        let ours = bench::log_as_written(&files, &name(stem, Control::LinuxCnc), Control::LinuxCnc);
+        assert_eq!(ours.lines().count(), lines.lines().count(), "{stem}");
+        for (our, their) in ours.lines().zip(lines.lines()) {
+            let (a, b) = (words(our), words(their));
+            assert_eq!(a.len(), b.len(), "{our}\n{their}");
+            for (x, y) in a.iter().zip(&b) {
+                assert!(x.0 == y.0 && (x.1 - y.1).abs() < 1.5e-6, "{our}\n{their}");
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 400, "{compared}");
 }
 
 /// Between 60 directions three lobes of 10 µm bend by (2π/60)²/8 · 9 · 10 µm = 0.123 µm from a straight line.

@@ -38,6 +38,19 @@ fn text_of<'a>(files: &'a [ProbeFile], name: &str) -> &'a str {
     std::str::from_utf8(&file.text).expect("text")
 }
 
+/// The log that a program writes if every touch triggers where the interpreter takes it to: at its end.
+pub fn log_as_written(files: &[ProbeFile], name: &str, control: Control) -> String {
+    let program = Program::new(name, text_of(files, name).as_bytes().to_vec(), control);
+    let mut logged = Vec::new();
+    let outcome = interpret(&program, &Files(files), &Settings::default(), &mut |step| {
+        if let Step::Event(Event::Log(text), _) = step {
+            logged.push(text);
+        }
+    });
+    assert!(outcome.finished, "{name}");
+    logged.join("\n") + "\n"
+}
+
 /// The log that a program writes.
 pub fn log(files: &[ProbeFile], name: &str, control: Control, trigger: Trigger<'_>) -> String {
     let text = text_of(files, name);
