@@ -1,5 +1,7 @@
 //! The programs of a probe: executed as they were written, their logs read again, and the correction inside the control.
 
+#![allow(clippy::print_stdout, reason = "says what the table leaves")]
+
 #[path = "probe_programs/bench.rs"]
 mod bench;
 
@@ -214,6 +216,7 @@ fn the_loop_is_closed_by_the_logs_of_every_control() {
         assert!(problems.iter().any(|d| d.code == "corrected-log"), "{control:?}: {problems:?}");
         let left = calibrated(&left.expect("a study")).before;
         // 1 µm of noise: the range of 60 is 4.6 µm on average, and the table has its own.
+        println!("{control:?}: before {:?}, with the table {left:?}", found.before);
         assert!(left.rms_mm < 0.0015 && left.range_mm < 0.0075, "{control:?}: {left:?}");
         let four = result(&again[1].1);
         assert_eq!(four.iter().map(|w| w.0).collect::<String>(), "XYUV", "{control:?}");
