@@ -33,5 +33,9 @@ $trueaxis identify probe examples/05_identify/ring-60.toml --report "${TMPDIR:-/
 $trueaxis identify probe examples/05_identify/ring-60.toml --format json --correct examples/05_identify/ring-60-fresh.csv -o "${TMPDIR:-/tmp}/ring-60-corrected.csv"
 $trueaxis identify probe examples/05_identify/ring-turned.toml
 $trueaxis identify probe examples/05_identify/sphere.toml
+# The same with the programs that make the hits, their logs, and programs that correct each hit inside the control.
+$trueaxis identify probe examples/05_identify/ring-programs.toml --programs "${TMPDIR:-/tmp}/ring-programs" --control fanuc
+$trueaxis identify probe examples/05_identify/ring-programs.toml
+$trueaxis identify probe examples/05_identify/ring-programs.toml --corrections "${TMPDIR:-/tmp}/ring-corrected" --control heidenhain
 # Hits of a probing program become deviations of the surface.
 $trueaxis identify surface examples/05_identify/bangle-hits.toml -o "${TMPDIR:-/tmp}/bangle-deviations.csv"

@@ -16,6 +16,7 @@ pub mod expansion;
 pub mod feeds;
 pub mod influence;
 pub mod leftover;
+mod log_words;
 pub mod machine_file;
 pub mod probe;
 pub mod records;

@@ -15,7 +15,7 @@ mod planned;
 pub mod program;
 mod remedy;
 pub mod surface;
-mod touch;
+pub(crate) mod touch;
 mod trial;
 
 pub use choose::{Chosen, choose};

@@ -329,7 +329,7 @@ fn error_tables_name_what_is_wrong() {
             + &(0..=10).map(row).collect::<String>()
     };
     folder.file("um.csv", sheet("um", 1.0));
-    folder.file("mm.csv", sheet("mm", 1.0));
+    folder.file("mm.csv", sheet("mm", 2.0));
     folder.file("urad.csv", sheet("urad", 1.0));
     folder.file("twice.csv", sheet("um", 1.0) + "620,1,up,3\n");
     folder.file("one-side.csv", sheet("um", 1.0).replace("0,1,down,0\n", ""));

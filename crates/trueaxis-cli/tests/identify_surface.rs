@@ -65,7 +65,7 @@ fn the_deviations_of_the_example_are_the_true_ones_within_their_u() {
     let folder = Folder::new("hits-example");
     let out = folder.path("out");
     let truth = true_blank();
-    for control in ["fanuc", "linuxcnc", "sinumerik"] {
+    for control in ["fanuc", "linuxcnc", "sinumerik", "heidenhain"] {
         let ran = plan("examples/04_plan/probe-surface.toml", control, &out);
         assert_eq!(ran.status, 0, "{control}: {}{}", ran.out, ran.err);
         let all = found(&identify(&format!("{out}/hits.toml")));
@@ -109,32 +109,126 @@ fn hits_of_another_chain_give_its_surface() {
     assert!(by("by_machine_um") > 20.0 && by("by_probe_um") > 30.0);
 }
 
+/// The log that FN 16 writes: the Klartext program is gone through line by line, its touches trigger where the hits of
+/// the virtual machine say, and the masks print the parameters.
+fn klartext_log(out: &str) -> String {
+    let read = |name: &str| std::fs::read_to_string(format!("{out}/{name}")).expect("a file");
+    let virtual_log = read("virtual-hits.log");
+    let mut hits = virtual_log.lines().filter(|l| l.starts_with('H'));
+    let (mut q, mut log) = (BTreeMap::from([(3, 5.0)]), String::new());
+    for line in read("surface.h").lines() {
+        let block = line.split_once(' ').map_or("", |l| l.1);
+        let assigned = block.strip_prefix('Q').and_then(|b| b.split_once(" = "));
+        if let Some((number, Ok(value))) = assigned.map(|(n, v)| (n, v.parse::<f64>())) {
+            q.insert(number.parse().expect("a number"), value);
+        } else if block.starts_with("TCH PROBE 3.3") || block.starts_with("TCH PROBE 4.3") {
+            let hit = hits.next().expect("a hit for every touch");
+            for (axis, n) in ['X', 'Y', 'Z'].into_iter().zip(10..) {
+                let word = hit.split(' ').find(|w| w.starts_with(axis)).expect("an axis");
+                q.insert(n, word[1..].parse().expect("mm"));
+            }
+            q.insert(13, 0.0);
+        } else if let Some(print) = block.strip_prefix("FN 16: F-PRINT TNC:\\TRUEAXIS\\") {
+            assert!(q.get(&13).is_none_or(|v| *v == 0.0), "printed without a touch");
+            let mask = read(print.split_once(" / ").expect("a log").0);
+            let first = mask.lines().next().expect("a line").trim_end_matches(';');
+            let (format, parameters) = first[1..].split_once('"').expect("a mask");
+            let mut values = parameters.split(',').filter_map(|p| p.strip_prefix('Q'));
+            let mut pieces = format.split('%');
+            log += pieces.next().expect("text");
+            for piece in pieces {
+                let (size, rest) = piece.split_once('F').expect("a size");
+                let (width, decimals) = size.split_once('.').expect("decimals");
+                let [width, decimals] = [width, decimals].map(|n| n.parse().expect("a number"));
+                let number: u32 = values.next().expect("a parameter").parse().expect("a number");
+                log += &format!("{:>width$.decimals$}{rest}", q[&number]);
+            }
+            log += "\r\n";
+        }
+    }
+    assert!(hits.next().is_none(), "a touch for every hit");
+    log
+}
+
 #[test]
 fn the_wall_of_the_bangle_holds_10_um_through_all_files() {
-    let folder = Folder::new("hits-chain");
-    let out = folder.path("out");
-    let study = study(&folder, &[("\"4 mm\"", "\"2 mm\""), ("\"100 deg\"", "\"105 deg\"")]);
-    let ran = plan(&study, "fanuc", &out);
-    assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
-    let measured = folder.path("measured.csv");
-    let ran = trueaxis(&["identify", "surface", &format!("{out}/hits.toml"), "-o", &measured]);
-    assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
-    let whole = |name: &str| root().join(name).display().to_string();
-    let text = std::fs::read_to_string(whole("examples/06_compensate/bangle-adapt.toml"))
-        .expect("a study");
-    let text = text
-        .replace("\"../../machines", &format!("\"{}", whole("machines")))
-        .replace("\"bangle-measured.csv\"", "\"measured.csv\"")
-        .replace("\"bangle-", &format!("\"{}", whole("examples/06_compensate/bangle-")));
-    let adapt = folder.file("adapt.toml", text);
-    let report = folder.path("adapt.html");
-    let ran = trueaxis(&["compensate", "adapt", &adapt, "--report", &report, "--format", "json"]);
-    assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
-    let map = &ran.json()["map"];
-    let walls = map.as_array().expect("a map").iter();
-    let off = walls.map(|c| (c["wall_after_mm"].as_f64().expect("mm") - 0.09).abs());
-    assert!(off.clone().count() > 500);
-    assert!(off.fold(0.0, f64::max) < 0.010);
+    let mut tables = Vec::new();
+    for control in ["fanuc", "heidenhain"] {
+        let folder = Folder::new(&format!("hits-chain-{control}"));
+        let out = folder.path("out");
+        let study = study(&folder, &[("\"4 mm\"", "\"2 mm\""), ("\"100 deg\"", "\"105 deg\"")]);
+        let ran = plan(&study, control, &out);
+        assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
+        let hits = format!("{out}/hits.toml");
+        if control == "heidenhain" {
+            let text = std::fs::read_to_string(&hits).expect("a study");
+            std::fs::write(format!("{out}/klartext.log"), klartext_log(&out)).expect("a log");
+            std::fs::write(&hits, text.replace("virtual-hits.log", "klartext.log"))
+                .expect("a study");
+        }
+        let measured = folder.path("measured.csv");
+        let ran = trueaxis(&["identify", "surface", &hits, "-o", &measured]);
+        assert_eq!(ran.status, 0, "{control}: {}{}", ran.out, ran.err);
+        let table = std::fs::read_to_string(&measured).expect("a table");
+        let whole = |name: &str| root().join(name).display().to_string();
+        let text = std::fs::read_to_string(whole("examples/06_compensate/bangle-adapt.toml"))
+            .expect("a study");
+        let text = text
+            .replace("\"../../machines", &format!("\"{}", whole("machines")))
+            .replace("\"bangle-measured.csv\"", "\"measured.csv\"")
+            .replace("\"bangle-", &format!("\"{}", whole("examples/06_compensate/bangle-")));
+        let adapted = |name: &str, text: &str| {
+            let adapt = folder.file(name, text);
+            let ran = trueaxis(&["compensate", "adapt", &adapt, "--no-report", "--format", "json"]);
+            assert_eq!(ran.status, 0, "{control}, {name}: {}{}", ran.out, ran.err);
+            ran.json()
+        };
+        let found = adapted("adapt.toml", &text);
+        let walls = found["map"].as_array().expect("a map").iter();
+        let off = walls.map(|c| (c["wall_after_mm"].as_f64().expect("mm") - 0.09).abs());
+        assert!(off.clone().count() > 500);
+        assert!(off.fold(0.0, f64::max) < 0.010, "{control}");
+        if control == "fanuc" {
+            // The study of the hits itself, in the place of its table: the same to the last digit.
+            let direct = adapted("direct.toml", &text.replace("measured.csv", "out/hits.toml"));
+            assert_eq!(direct["map"], found["map"]);
+            // U of the rows is in U of the wall: without the column it is smaller, with a larger one it is larger.
+            let rows = |change: &dyn Fn(&str, &str) -> String| {
+                let line = |l: &str| match l.rsplit_once(',') {
+                    Some((row, u)) if !l.starts_with('#') => change(row, u),
+                    _ => l.to_owned(),
+                };
+                let text = table.lines().map(line).collect::<Vec<_>>().join("\n");
+                folder.file("changed.csv", text);
+            };
+            let study = text.replace("measured.csv", "changed.csv").replace("1.5 um", "0.2 um");
+            let u = |found: &serde_json::Value| {
+                let cells = found["map"].as_array().expect("a map");
+                let u = cells.iter().map(|c| c["u_wall_mm"].as_f64().expect("mm"));
+                u.sum::<f64>() / cells.len() as f64
+            };
+            rows(&|row, u| format!("{row},{u}"));
+            let stated = adapted("stated.toml", &study);
+            rows(&|row, _| row.to_owned());
+            let without = adapted("without.toml", &study);
+            rows(&|row, u| match u.parse::<f64>() {
+                Ok(u) => format!("{row},{}", 3.0 * u),
+                Err(_) => format!("{row},{u}"),
+            });
+            let larger = adapted("larger.toml", &study);
+            let all = [u(&without), u(&stated), u(&larger)];
+            assert!(all[0] < all[1] && all[1] < 0.99 * all[2], "{all:?}");
+            let common =
+                |found: &serde_json::Value| found["field"]["common_um"].as_f64().expect("µm");
+            assert!(common(&without) == 0.0 && common(&stated) > 0.1);
+            assert!((common(&larger).hypot(0.2) / common(&stated).hypot(0.2) - 3.0).abs() < 1e-6);
+        }
+        tables.push(table);
+    }
+    // Three decimals of the table: the log of FN 16 has the same hits to 0.1 µm.
+    let [a, b] = [&tables[0], &tables[1]].map(|t| self::table(t));
+    assert!(a.len() > 100 && a.len() == b.len());
+    assert!(a.iter().all(|(key, d)| (d - b[key]).abs() < 0.11));
 }
 
 /// Location errors known to ± 4 µm or µrad, drawn for every machine: the deviations err as much as U says.

@@ -74,6 +74,38 @@ fn the_bangle_is_touched_along_its_normals() {
     }
 }
 
+/// The whole of a Klartext program is read back: touches are motions there, with their alarm and their line.
+#[test]
+fn every_touch_of_klartext_is_kept_by_a_mask() {
+    let folder = Folder::new("surface-klartext");
+    let out = folder.path("out");
+    let ran = trueaxis(&[
+        "plan",
+        "probe-surface",
+        STUDY,
+        "--control",
+        "heidenhain",
+        "-o",
+        &out,
+        "--format",
+        "json",
+    ]);
+    assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
+    let read = |name: &str| std::fs::read_to_string(format!("{out}/{name}")).expect("a file");
+    let touches = rows(&read("surface.csv")).len() + 1;
+    let program = read("surface.h");
+    for word in ["TCH PROBE 4.3 DIST", "EQU -1 GOTO LBL 99", "SURFACE_HITS.A / "] {
+        assert_eq!(program.matches(word).count(), touches, "{word}");
+    }
+    // No motion stands in for a touch in what the control gets.
+    assert_eq!(program.matches("Q13 = +0").count(), 0);
+    assert!(read("SURFACE_HITS_START.A").contains("TRUEAXIS HITS MM MACHINE"));
+    assert!(
+        read("SURFACE_HITS.A").contains("A%12.5F")
+            && read("SURFACE_HITS_END.A").contains("M_CLOSE")
+    );
+}
+
 #[test]
 fn a_box_is_touched_from_above_on_a_machine_without_rotary_axes() {
     let folder = Folder::new("surface-stl");
@@ -107,7 +139,6 @@ fn a_box_is_touched_from_above_on_a_machine_without_rotary_axes() {
         (study(up).replace("5 mm", "0.00001 mm"), &[], "too-many-points"),
         (study(up).replace("0 0 1", "0 0 -1"), &[], "no-points"),
         (study(up).replace("100 mm", "1e9 mm"), &[], "unreachable-point"),
-        (study(up), &["--control", "heidenhain"], "no-program"),
         (study(up), &["--control", "fidia"], "unknown-control"),
         (study("stl = 'part.stl'\nnormals = 'up'"), &[], "unknown-word"),
     ] {

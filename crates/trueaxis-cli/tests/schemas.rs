@@ -68,6 +68,10 @@ const ANSWERS: &[(&str, &str)] = &[
     ),
     ("identify-tables", "identify tables examples/05_identify/error-tables.toml"),
     ("identify-probe", "identify probe examples/05_identify/ring-60.toml"),
+    (
+        "identify-probe-programs",
+        "identify probe examples/05_identify/ring-programs.toml --corrections OUT/ring",
+    ),
     ("identify-rtcp", "identify rtcp examples/05_identify/rtcp-engraver.toml"),
     (
         "identify-rtcp-programs",

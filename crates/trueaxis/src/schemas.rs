@@ -1,7 +1,7 @@
 //! The JSON documents of the program with their JSON Schemas.
 
 use crate::explain::{ExplainDocument, ExplainListDocument};
-use crate::questions::RtcpProgramsDocument;
+use crate::questions::{ProbeProgramsDocument, RtcpProgramsDocument};
 use crate::report::{
     CertificateDocument, CheckDocument, DescriptionDocument, DiagnosticEntry, DiffDocument,
     ExpansionDocument, ExpansionsDocument, PoseDocument, PoseRowsDocument, PostDocument,
@@ -31,6 +31,7 @@ pub fn schemas() -> Vec<NamedSchema> {
         named_schema::<ExpansionDocument<'_>>("identify-expansion"),
         named_schema::<ExpansionsDocument<'_>>("identify-expansions"),
         named_schema::<TablesFoundDocument<'_>>("identify-tables"),
+        named_schema::<ProbeProgramsDocument<'_>>("identify-probe-programs"),
         named_schema::<RtcpProgramsDocument<'_>>("identify-rtcp-programs"),
         named_schema::<PoseDocument>("pose"),
         named_schema::<PoseRowsDocument>("pose-rows"),

@@ -19,7 +19,7 @@ use trueaxis::input::Diagnostics;
 fn example() -> AdaptStudy {
     let file = "../../examples/06_compensate/bangle-adapt.toml";
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
-    let (study, problems) = read_adapt_study(&disk(), &path);
+    let (study, problems) = read_adapt_study(&disk(), &path, &|_, _| None);
     let reported: Vec<String> = problems.iter().map(ToString::to_string).collect();
     study.unwrap_or_else(|| panic!("{reported:?}"))
 }
@@ -200,6 +200,7 @@ fn strip(columns: usize, rows: usize, shift: f64) -> Vec<SurfacePoint> {
                 at_mm: normal * 30.0 + Vec3::z() * z,
                 normal,
                 deviation_mm: form,
+                u_mm: None,
             });
         }
     }
@@ -301,6 +302,7 @@ fn a_hollow_too_narrow_is_named_with_its_line() {
             at_mm: Vec3::new(x, y, 0.0),
             normal: Vec3::z(),
             deviation_mm: hollow(x, y, depth),
+            u_mm: None,
         };
         places.map(point).collect()
     };
@@ -332,7 +334,14 @@ fn the_foot_on_a_torus() {
     for i in 0..60 {
         for j in 0..9 {
             let (at_mm, normal) = point(f64::from(i) * 0.1047, -0.5 + 0.125 * f64::from(j));
-            points.push(SurfacePoint { line: 1, number: 0.0, at_mm, normal, deviation_mm: 0.0 });
+            points.push(SurfacePoint {
+                line: 1,
+                number: 0.0,
+                at_mm,
+                normal,
+                deviation_mm: 0.0,
+                u_mm: None,
+            });
         }
     }
     let surface = NominalSurface::of(&points);
@@ -386,5 +395,112 @@ fn oracle_universal_kriging() {
     let plain = list("plain_fit");
     for k in 0..3 {
         assert!((plain[k] - shift[k]).abs() < 2.0 * r.u_shift_mm()[k]);
+    }
+}
+
+/// A field of a strip whose readings have uncertainties of their own.
+fn fitted(points: &[SurfacePoint], noise_mm: f64) -> Field {
+    Field::fit(points, &options(Some(30.0), Some(0.05), noise_mm)).expect("a field")
+}
+
+/// One uncertainty for all, as large as the noise that is stated: nothing changes, to the last digit.
+#[test]
+fn law_uncertainties_that_say_what_the_noise_says_change_nothing() {
+    let plain = strip(24, 3, 0.0);
+    let stated: Vec<SurfacePoint> =
+        plain.iter().map(|p| SurfacePoint { u_mm: Some(0.002), ..*p }).collect();
+    let [a, b] = [&plain, &stated].map(|points| fitted(points, 0.002));
+    for p in strip(37, 2, 0.4) {
+        assert_eq!(a.at(&p.at_mm, &p.normal), b.at(&p.at_mm, &p.normal));
+    }
+    assert_eq!(b.common_mm, 0.0);
+}
+
+/// A reading that is wrong pulls the field the less, the less certain it says it is.
+#[test]
+fn law_a_reading_pulls_less_where_its_uncertainty_is_larger() {
+    let wrong = |u_mm: f64| {
+        let mut points = strip(24, 3, 0.0);
+        points.iter_mut().for_each(|p| p.u_mm = Some(0.002));
+        points[30].u_mm = Some(u_mm);
+        // Within its own uncertainty in the end, and small enough to be no outlier at first.
+        points[30].deviation_mm += 0.004;
+        let sound = fitted(&strip(24, 3, 0.0), 0.002);
+        let (at, normal) = (points[30].at_mm, points[30].normal);
+        let found = fitted(&points, 0.002);
+        (
+            found.deviation_mm(&at, &normal) - sound.deviation_mm(&at, &normal),
+            found.at(&at, &normal).u_mm,
+        )
+    };
+    let pulls = [0.002, 0.004, 0.008, 0.016].map(wrong);
+    assert!(pulls[0].0 > 2e-4, "{pulls:?}");
+    for pair in pulls.windows(2) {
+        assert!(pair[1].0 < 0.8 * pair[0].0 && pair[1].1 > pair[0].1, "{pulls:?}");
+    }
+}
+
+/// What all readings share is not averaged out: it is part of U of the field, and of the wall, in full.
+#[test]
+fn law_a_common_uncertainty_stays_in_full() {
+    let mut points = strip(48, 5, 0.0);
+    points.iter_mut().for_each(|p| p.u_mm = Some(0.005_f64.hypot(0.002)));
+    let [with, without] = [&points, &strip(48, 5, 0.0)].map(|p| fitted(p, 0.002));
+    assert!((with.common_mm - 0.005).abs() < 1e-12);
+    for p in strip(37, 2, 0.4) {
+        let [a, b] = [&with, &without].map(|f| f.at(&p.at_mm, &p.normal));
+        assert!((a.deviation_mm - b.deviation_mm).abs() < 1e-12);
+        assert!((a.u_mm - b.u_mm.hypot(0.005)).abs() < 1e-12);
+    }
+}
+
+/// Readings of three qualities and an error that all share: the field errs as much as its u says.
+#[test]
+fn law_the_field_errs_as_its_readings_say() {
+    let (noise_mm, common_mm) = (0.0015, 0.004);
+    let mut random = ChaCha8Rng::seed_from_u64(3);
+    let unit = Normal::new(0.0, 1.0).expect("finite");
+    let mut draw = || unit.sample(&mut random);
+    let (mut squares, mut count) = (0.0, 0.0);
+    let asked = strip(11, 2, 0.31);
+    for _ in 0..200 {
+        let shared = draw() * common_mm;
+        let mut points = strip(48, 5, 0.0);
+        for (i, p) in points.iter_mut().enumerate() {
+            let own: f64 = [noise_mm, 2.0 * noise_mm, 6.0 * noise_mm][i % 3];
+            p.u_mm = Some(own.hypot(common_mm));
+            p.deviation_mm += draw() * own + shared;
+        }
+        let field = fitted(&points, noise_mm);
+        for p in &asked {
+            let found = field.at(&p.at_mm, &p.normal);
+            squares += ((found.deviation_mm - p.deviation_mm) / found.u_mm).powi(2);
+            count += 1.0;
+        }
+    }
+    let spread = (squares / count).sqrt();
+    println!("error of the field in its own u, rms: {spread:.3}");
+    assert!((0.75..1.2).contains(&spread), "{spread}");
+}
+
+/// Both units of the column, and what must not be believed.
+#[test]
+fn uncertainties_are_read_by_their_heading() {
+    let table = |heading: &str, value: &str| {
+        let mut rows = format!("point,x_mm,y_mm,z_mm,i,j,k,deviation_um,{heading}\n");
+        for k in 0..12 {
+            let value = if k == 5 { value } else { "4" };
+            rows += &format!("{k},{k},0,0,0,0,1,12.5,{value}\n");
+        }
+        let mut problems = Diagnostics::new();
+        let points = read_points("table.csv", &rows, &mut problems);
+        let first = problems.iter().next().map(|d| (d.code, d.place.line));
+        (points.and_then(|p| p[0].u_mm), first)
+    };
+    assert_eq!(table("U_um", "4").0, Some(0.002));
+    assert_eq!(table("u_um", "4").0, Some(0.004));
+    assert_eq!(table("U_mm", "4").1, Some(("absurd-uncertainty", 2)));
+    for value in ["0", "-4", "4000"] {
+        assert_eq!(table("U_um", value).1, Some(("absurd-uncertainty", 7)), "{value}");
     }
 }

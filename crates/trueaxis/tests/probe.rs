@@ -11,7 +11,7 @@ use serde_json::Value;
 use trueaxis::files::disk;
 use trueaxis::geometry::Vec3;
 use trueaxis::identify::probe::{
-    Calibration, Fit, Free, GaugeKind, Lobing, LobingModel, Sample, Side, Study, fit,
+    Calibration, Fit, Free, GaugeKind, Lobing, LobingModel, Purpose, Sample, Side, Study, fit,
     identify_probe, read_study,
 };
 use trueaxis::input::Diagnostics;
@@ -24,7 +24,8 @@ fn expected() -> Value {
 }
 
 fn study(name: &str) -> Study {
-    let (study, problems) = read_study(&disk(), &root().join("examples/05_identify").join(name));
+    let (study, problems) =
+        read_study(&disk(), &root().join("examples/05_identify").join(name), Purpose::Result);
     assert!(!problems.has_errors(), "{problems:?}");
     study.expect("a study")
 }

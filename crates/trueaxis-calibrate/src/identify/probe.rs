@@ -14,9 +14,11 @@ mod fit;
 mod hit;
 mod hits_file;
 mod lobing;
+mod log;
+pub mod program;
 
 pub use check::{MOST_HITS, check_hits};
-pub use file::{Study, Stylus, Tables, parse_study, read_study};
+pub use file::{Purpose, Study, Stylus, Tables, parse_study, read_study};
 pub use fit::{Fit, Free, Sample, Score, choose, fit};
 pub use hit::{Gauge, GaugeKind, Hit, Side, Travelled, travelled, turned};
 pub use hits_file::{Reading, Setup, parse_hits};

@@ -1,12 +1,12 @@
 //! What becomes of a plan: every path with its program, what that does, and what the path sees.
 
 use super::{Chosen, Expectation, Plan, choose, expect, seen};
-use crate::plan::program::{ProgramCheck, check, program};
+use crate::plan::program::{ProgramCheck, check, program, program_files};
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::errors::ErrorValues;
 use trueaxis_measure::measure::path::Path;
-use trueaxis_measure::measure::{Campaign, Readings};
+use trueaxis_measure::measure::{Campaign, Kind, Readings};
 use trueaxis_measure::unknowns::design::Design;
 use trueaxis_nc::Control;
 
@@ -90,9 +90,15 @@ fn planned_path(
         Ok(text) => Ok(check(campaign, &path, settings, text, control)),
         Err(error) => Err(error.to_string()),
     };
+    let hits = text.is_ok() && instrument.kind == Kind::TouchProbeBall;
     let program = text.ok().map(|text| (format!("{stem}.{}", extension(control)), text));
+    let beside = hits.then(|| program_files(campaign, control)).into_iter().flatten();
     let table = (format!("{stem}.csv"), table.into_bytes());
-    let files = program.into_iter().chain([table]).collect();
+    let files = program
+        .into_iter()
+        .chain([table])
+        .chain(beside.map(|(name, text)| (name, text.into_bytes())))
+        .collect();
     let channels = instrument.kind.channels();
     PlannedPath { seen: seen(design, &path.stations), channels, path, check, files }
 }

@@ -10,7 +10,7 @@ mod check;
 pub use check::{ProgramCheck, check};
 pub(super) use check::{probe_shape, run};
 
-use super::touch::{TouchLog, touch_start};
+use super::touch::{SURFACE_LOG, Touch, TouchLog, declare};
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{Dimension, Section};
 use trueaxis_machine::Machine;
@@ -101,10 +101,10 @@ pub enum ProgramError {
     /// The control has no word for it, or a number is too large.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// Probing is by cycles of the control's own.
+    /// Its probing cycles move X, Y and Z alone.
     #[error(
-        "hits cannot be written for {0}: it probes by cycles with a protocol of their own; choose \
-         another dialect, or take the table of poses"
+        "hits cannot be written for {0}: its probing cycles move X, Y and Z, and this machine touches by other axes; \
+         choose another control, or take the table of poses"
     )]
     NoProbing(&'static str),
 }
@@ -119,18 +119,30 @@ pub fn program(
     settings: &ProgramSettings,
     control: Control,
 ) -> Result<Vec<u8>, ProgramError> {
+    written(campaign, path, settings, (control, false))
+}
+
+/// The files that a program needs beside itself on the control.
+pub fn program_files(campaign: &Campaign, control: Control) -> Vec<(String, String)> {
+    TouchLog { machine: &campaign.machine, control, is_stand_in: false }.files()
+}
+
+/// The program, or what stands in for it where it is read back.
+fn written(
+    campaign: &Campaign,
+    path: &Path,
+    settings: &ProgramSettings,
+    (control, is_stand_in): (Control, bool),
+) -> Result<Vec<u8>, ProgramError> {
     let Some(instrument) = path.stations.instruments.first().map(|i| *i as usize) else {
         return Ok(Vec::new());
     };
     let own = &campaign.instruments[instrument];
     let hits = own.kind == Kind::TouchProbeBall;
-    if hits && control == Control::Heidenhain {
-        return Err(ProgramError::NoProbing("HEIDENHAIN"));
-    }
     let name = path.name.clone();
     let about =
         format!("{} on {}, {} stations", own.name, campaign.machine.name(), path.stations.len());
-    let log = TouchLog { machine: &campaign.machine, control };
+    let log = TouchLog { machine: &campaign.machine, control, is_stand_in };
     let mut write = Written {
         writer: Writer::new(control),
         log,
@@ -150,14 +162,14 @@ pub fn program(
         machine_coordinates: true,
         tolerance_mm: 0.001,
     };
-    if let Some(text) = hits.then(|| log.declare()).flatten() {
+    if let Some(text) = hits.then(|| declare(control)).flatten() {
         write.writer.write(&Block::Text(text))?;
     }
     write.writer.write(&Block::Start(&heading))?;
     let call = ToolCall { number: 1, text: own.kind.name(), speed_per_minute: None };
     write.writer.write(&Block::Tool(&call))?;
     if hits {
-        write.writer.write(&Block::Text(&touch_start(&log)?))?;
+        write.writer.write(&Block::Text(&SURFACE_LOG.open(control)))?;
     }
     if settings.stops {
         let text = format!("{} IN THE SPINDLE, ALL CLEAR", own.kind.name().to_uppercase());
@@ -166,7 +178,7 @@ pub fn program(
     match hits {
         true => {
             write.hits(path)?;
-            write.writer.write(&Block::Text(&log.close(write.touches)))?;
+            write.writer.write(&Block::Text(&SURFACE_LOG.close(control, write.touches)))?;
         }
         false => write.stations(path)?,
     }
@@ -277,8 +289,9 @@ impl Written<'_> {
             self.to(&placing, above, command, feed)?;
             self.to(&placing, beside, command, feed)?;
             let beyond = ball + side * (placing.reach_mm - OVERTRAVEL_MM);
-            if let Some(target) = placing.place(beyond, command) {
-                self.hit(&target, stations.groups[i] as usize + 1)?;
+            let ends = placing.place(beside, command).zip(placing.place(beyond, command));
+            if let Some((from, target)) = ends {
+                self.hit([&from, &target], stations.groups[i] as usize + 1)?;
             }
             self.to(&placing, beside, command, feed)?;
             self.to(&placing, above, command, feed)?;
@@ -370,9 +383,11 @@ impl Written<'_> {
     }
 
     /// Towards a place until the probe triggers.
-    fn hit(&mut self, target: &Command, pose: usize) -> Result<(), ProgramError> {
+    fn hit(&mut self, [from, target]: [&Command; 2], pose: usize) -> Result<(), ProgramError> {
         self.touches += 1;
-        let text = self.log.touch(target, HIT_MM_PER_MIN, self.touches, pose)?;
+        let hit = self.touches;
+        let touch = Touch { from, target, mm_per_min: HIT_MM_PER_MIN, hit, pose };
+        let text = self.log.touch(&touch)?;
         Ok(self.writer.write(&Block::Text(&text))?)
     }
 }

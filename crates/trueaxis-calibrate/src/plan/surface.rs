@@ -18,7 +18,7 @@ mod virtual_probe;
 
 pub use file::{SurfaceStudy, read_surface};
 pub use points::{nominal_table, points_of_table};
-pub use program::{Pose, check_surface, poses, surface_program};
+pub use program::{Pose, check_surface, poses, surface_files, surface_program};
 pub use study_of_hits::{HitsFiles, hits_study};
 pub use trueaxis_geometry::surface::{Candidates, SurfacePoint, spread};
 pub use virtual_probe::{TrueProbe, VirtualProbing, virtual_log};

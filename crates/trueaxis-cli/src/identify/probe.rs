@@ -4,7 +4,7 @@ use crate::door::Door;
 use crate::output::{Format, Outcome};
 use clap::Args;
 use std::path::PathBuf;
-use trueaxis::questions::IdentifyProbe;
+use trueaxis::questions::{IdentifyProbe, ProbePrograms};
 
 /// The study and its outputs.
 #[derive(Args)]
@@ -13,6 +13,8 @@ Examples:
   trueaxis identify probe examples/05_identify/ring-60.toml --report probe.html --table table.csv
   trueaxis identify probe examples/05_identify/ring-60.toml \\
       --correct examples/05_identify/ring-60-fresh.csv -o corrected.csv
+  trueaxis identify probe examples/05_identify/ring-programs.toml --programs nc --control fanuc
+  trueaxis identify probe examples/05_identify/ring-programs.toml --corrections nc --control fanuc
 
 Directions are those of motion; the offset is ball - spindle; corrected point = measured point - dR
 along the direction of motion. Exit status: 0 done, 2 unusable input.")]
@@ -32,7 +34,16 @@ pub struct Arguments {
     /// The stylus of the table (default: the first)
     #[arg(long, value_name = "NAME")]
     stylus: Option<String>,
-    /// Spindle orientation of the table, and of hits that state none
+    /// Write the programs that make the hits into this folder: ring, four hits, plane face; no hits are needed yet
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["correct", "table", "corrections"])]
+    programs: Option<PathBuf>,
+    /// Write programs into this folder in which the control corrects each hit by the table that is found
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["correct", "table"])]
+    corrections: Option<PathBuf>,
+    /// The control of the programs: sinumerik, fanuc, haas, linuxcnc or heidenhain
+    #[arg(long, alias = "dialect", value_name = "NAME", default_value = "sinumerik")]
+    control: String,
+    /// Spindle orientation of the table, of the programs, and of hits that state none
     #[arg(long, value_name = "ANGLE", allow_negative_numbers = true)]
     orientation: Option<String>,
     /// Write an HTML report to this file
@@ -44,6 +55,17 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
+    let door = Door { format: arguments.format, report: arguments.report.as_deref() };
+    if let Some(folder) = arguments.programs.as_ref().or(arguments.corrections.as_ref()) {
+        return door.ask(&ProbePrograms {
+            study: arguments.file.clone(),
+            control: arguments.control.clone(),
+            output: folder.clone(),
+            corrected: arguments.corrections.is_some(),
+            stylus: arguments.stylus.clone(),
+            orientation: arguments.orientation.clone(),
+        });
+    }
     let question = IdentifyProbe {
         study: arguments.file.clone(),
         correct: arguments.correct.clone().zip(arguments.output.clone()),
@@ -51,5 +73,5 @@ pub fn run(arguments: &Arguments) -> Outcome {
         stylus: arguments.stylus.clone(),
         orientation: arguments.orientation.clone(),
     };
-    Door { format: arguments.format, report: arguments.report.as_deref() }.ask(&question)
+    door.ask(&question)
 }

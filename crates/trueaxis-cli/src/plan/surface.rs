@@ -19,7 +19,7 @@ pub struct Arguments {
     /// The study: machine, surface, spacing, probe
     #[arg(value_name = "FILE.toml")]
     file: PathBuf,
-    /// The control of the NC program: sinumerik, fanuc or linuxcnc
+    /// The control of the NC program: sinumerik, fanuc, haas, linuxcnc or heidenhain
     #[arg(long, alias = "dialect", value_name = "NAME", default_value = "sinumerik")]
     control: String,
     /// Write the program and the table of the points into this folder

@@ -28,7 +28,7 @@ pub use cutter::Cutter;
 pub use field::{Covariance, Estimate, Field, FieldError, FieldOptions, MOST_POINTS, Outlier};
 pub use offset::{Contact, MovedPlace};
 pub use registration::{Freedoms, Registration};
-pub use study::{AdaptStudy, Bounds, Follow, Inner, PathAt, Wall, read_adapt_study};
+pub use study::{AdaptStudy, Bounds, Follow, FromHits, Inner, PathAt, Wall, read_adapt_study};
 pub use surface::{Foot, NominalSurface};
 pub use table::{SurfacePoint, read_points};
 

@@ -194,12 +194,28 @@ fn centre(c: &Vec3) -> String {
     format!("{:.2} {:.2} {:.2}", round(c.x), round(c.y), round(c.z))
 }
 
+/// What the readings state of themselves.
+fn stated_u(study: &AdaptStudy, common_mm: f64) -> String {
+    let stated = || study.points.iter().filter_map(|p| p.u_mm);
+    let noise = format!("{:.2} µm", study.noise_mm * 1e3);
+    match (stated().reduce(f64::min), stated().reduce(f64::max)) {
+        (Some(least), Some(most)) => format!(
+            "{:.2} to {:.2} µm by the table, of it {:.2} µm in all of them alike; one hit {noise}",
+            least * 1e3,
+            most * 1e3,
+            common_mm * 1e3
+        ),
+        _ => format!("{noise}: the noise of a hit; the table states none"),
+    }
+}
+
 fn field<'a>(r: &AdaptReport<'_>) -> Section<'a> {
     let (study, field) = (r.study, &r.adaptation.field);
     let moved = r.moved();
     let length = if study.length_mm.is_some() { "stated" } else { "by cross-validation" };
     let pairs = [
         ("points", format!("{}, {} outliers", study.points.len(), field.outliers.len())),
+        ("their standard uncertainty", stated_u(study, field.common_mm)),
         (
             "form",
             format!(

@@ -79,6 +79,8 @@ pub struct FieldEntry {
     pub form_um: f64,
     /// The standard deviation of a reading, µm.
     pub noise_um: f64,
+    /// The standard uncertainty that all readings share, in full part of that of the field, µm.
+    pub common_um: f64,
     /// Each point predicted by all others: root mean square of the difference, µm.
     pub left_out_rms_um: f64,
     /// The share of these differences within U (k = 2). Unit: 1.
@@ -256,6 +258,7 @@ impl FieldEntry {
             length_mm: field.covariance.length_mm,
             form_um: field.covariance.form_mm * 1e3,
             noise_um: study.noise_mm * 1e3,
+            common_um: field.common_mm * 1e3,
             left_out_rms_um: field.left_out_rms_mm * 1e3,
             left_out_within_u2: field.share_within(2.0),
             raised: field.raised,

@@ -4,7 +4,8 @@ use super::{Answer, NewFile, Question, Tell, named_control, with_diagnostics};
 use crate::files::output::Kind;
 use crate::report;
 use serde_json::Value;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use trueaxis_calibrate::identify::surface::{deviations, read_hits};
 use trueaxis_correct::compensate::adapt::{AdaptStudy, Adaptation, adapt, read_adapt_study};
 use trueaxis_correct::report::{AdaptReport, AdaptedProgram};
 use trueaxis_input::{Diagnostics, Dimension, Files, Place, parse_quantity};
@@ -99,7 +100,13 @@ impl Question for Adapt {
     type Answer = AdaptAnswer;
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
-        let study = problems.keep(read_adapt_study(files, &self.study));
+        // The path knows nothing of probes: what hits say of the blank is another question.
+        let from_hits = |path: &Path, found: &mut Diagnostics| {
+            let hits = found.keep(read_hits(files, path))?;
+            let surface = deviations(&hits, found)?;
+            Some(report::deviations_csv(&hits, &surface))
+        };
+        let study = problems.keep(read_adapt_study(files, &self.study, &from_hits));
         let options = self.options(problems);
         Some((study?, options))
     }

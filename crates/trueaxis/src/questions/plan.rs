@@ -67,7 +67,13 @@ impl Answer for PlanAnswer {
     }
 
     fn files(&mut self) -> Vec<NewFile> {
-        let files = self.found.paths.iter().flat_map(|path| &path.files);
-        in_folder(self.output.as_deref(), files.cloned())
+        let mut files: Vec<(String, Vec<u8>)> = Vec::new();
+        for file in self.found.paths.iter().flat_map(|path| &path.files) {
+            // Masks of the log are the same for all paths.
+            if files.iter().all(|f| f.0 != file.0) {
+                files.push(file.clone());
+            }
+        }
+        in_folder(self.output.as_deref(), files)
     }
 }

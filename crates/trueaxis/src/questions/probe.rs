@@ -6,7 +6,7 @@ use crate::report;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use trueaxis_calibrate::identify::probe::{
-    Calibration, Setup, Study, correct, identify_probe, parse_hits, read_study,
+    Calibration, Purpose, Setup, Study, correct, identify_probe, parse_hits, read_study,
 };
 use trueaxis_input::{Diagnostics, Dimension, Files, Place, parse_quantity};
 use trueaxis_report::Report;
@@ -101,7 +101,7 @@ impl Question for IdentifyProbe {
     type Answer = ProbeAnswer;
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
-        let study = problems.keep(read_study(files, &self.study));
+        let study = problems.keep(read_study(files, &self.study, Purpose::Result));
         let orientation_rad = self.orientation_rad(problems);
         Some((study?, files.clone(), orientation_rad))
     }

@@ -8,7 +8,7 @@ use trueaxis_calibrate::plan::extension;
 use trueaxis_calibrate::plan::program::ProgramCheck;
 use trueaxis_calibrate::plan::surface::{
     HitsFiles, Pose, SurfacePoint, SurfaceStudy, check_surface, hits_study, nominal_table, poses,
-    read_surface, spread, surface_program, virtual_log,
+    read_surface, spread, surface_files, surface_program, virtual_log,
 };
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_nc::Control;
@@ -161,7 +161,10 @@ impl Answer for SurfaceAnswer {
         let hits = hits_study(&self.study, self.poses.len(), &files);
         let hits = ("hits.toml".to_owned(), hits.into_bytes());
         let log = self.log.take().map(|log| (VIRTUAL_LOG.to_owned(), log.into_bytes()));
+        let beside = surface_files(&self.study, self.control);
+        let beside = beside.into_iter().map(|(name, text)| (name, text.into_bytes()));
         let files = [(program, self.program.clone()), table, hits].into_iter().chain(log);
+        let files = files.chain(beside);
         in_folder(Some(folder), files)
     }
 

@@ -5,7 +5,7 @@ use crate::shop::{command, machine, shown, target};
 use std::f64::consts::PI;
 use trueaxis::files::disk;
 use trueaxis::identify::probe::datums::{FourHits, xy_datum};
-use trueaxis::identify::probe::{Tables, identify_probe, parse_study};
+use trueaxis::identify::probe::{self, Tables, identify_probe, parse_study};
 use trueaxis::identify::rtcp::{Purpose, RtcpStudy, calibrate, read_rtcp};
 use trueaxis::input::Diagnostics;
 
@@ -122,7 +122,7 @@ fn probe_radii([low, high]: [f64; 2]) -> Vec<f64> {
                 ball_diameter = '4 mm'\nhits = ['h.csv']\n";
     let load = |_: &str, _: &mut Diagnostics| Some(hits.clone());
     let tables = Tables { load: &load, show: &str::to_owned };
-    let study = parse_study("p.toml", text, &tables).0.expect("a study");
+    let study = parse_study("p.toml", text, &tables, probe::Purpose::Result).0.expect("a study");
     let found = identify_probe(&study, &mut Diagnostics::new()).expect("a calibration");
     let radius = |d: &f64| found[0].gauge.radius_mm + d;
     let radii = || found[0].before_mm.iter().map(radius);

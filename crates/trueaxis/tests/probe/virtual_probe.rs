@@ -112,6 +112,7 @@ impl VirtualProbe<'_> {
             eccentricity: None,
             z_datum: None,
             xy_datum: None,
+            program: None,
         }
     }
 }

@@ -92,6 +92,10 @@ impl Sight<'_> {
         };
         let ratios = [median / due, touched / radius];
         let like = |v: f64| ratios.iter().any(|ratio| (ratio / v - 1.0).abs() < 0.02);
+        // Far from the zero of the machine the unit changes the place more than the size.
+        let place = median_of(hits, |h| h.spindle_mm.norm()) / self.centre.norm().max(1e-9);
+        let stated = self.gauge.centre_mm.is_some_and(|c| c.norm() > 2.0 * due);
+        let placed = |v: f64| stated && (place / v - 1.0).abs() < 0.1;
         let (code, hint) = if near(other) {
             (
                 "wrong-side",
@@ -104,9 +108,9 @@ impl Sight<'_> {
             )
         } else if near(due - self.gauge.side.sign() * ball) {
             ("wrong-reading", "the ball radius was subtracted twice: state reading = \"spindle\"")
-        } else if like(1.0 / 25.4) {
+        } else if like(1.0 / 25.4) || placed(1.0 / 25.4) {
             ("wrong-unit", "are they inches? then the heading says x_in")
-        } else if like(25.4) || like(1e3) || like(1e-3) {
+        } else if like(25.4) || like(1e3) || like(1e-3) || placed(25.4) {
             ("wrong-unit", "is the unit in the heading right?")
         } else if like(2.0) || like(0.5) {
             ("wrong-size", "are radius and diameter mixed up?")

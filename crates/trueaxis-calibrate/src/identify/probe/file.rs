@@ -4,6 +4,8 @@ use super::datums::{DialTurn, FourHits, ZSteps};
 use super::hit::{Gauge, GaugeKind, Hit, Side};
 use super::hits_file::{Reading, Setup, parse_hits};
 use super::lobing::LobingModel;
+use super::log::{Planned, ProbeLog, is_ring_log, parse_plane_log, parse_ring_log};
+use super::program::{ProgramSettings, read_program};
 use std::path::Path;
 use trueaxis_geometry::Vec3;
 use trueaxis_input::sheet::{Cells, Sheet};
@@ -19,6 +21,17 @@ const STEPS: usize = 60;
 const LARGEST_COUNT: usize = 3600;
 /// Tables of one study.
 const MOST_TABLES: usize = 200;
+
+/// What a study is read for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Purpose {
+    /// Its hits.
+    Result,
+    /// Its hits, to correct others by them: they must be as they were measured.
+    Calibration,
+    /// The programs that make the hits: there may be none yet.
+    Programs,
+}
 
 /// What is known, what was touched, and where the hits are.
 #[derive(Debug, Clone)]
@@ -43,6 +56,8 @@ pub struct Study {
     pub z_datum: Option<ZSteps>,
     /// Four hits.
     pub xy_datum: Option<FourHits>,
+    /// How the hits are made.
+    pub program: Option<ProgramSettings>,
 }
 
 /// One stylus with its hits.
@@ -69,7 +84,7 @@ pub struct Tables<'a> {
 }
 
 /// Reads a study and the hits that it names.
-pub fn read_study(files: &Files, path: &Path) -> (Option<Study>, Diagnostics) {
+pub fn read_study(files: &Files, path: &Path, purpose: Purpose) -> (Option<Study>, Diagnostics) {
     let mut problems = Diagnostics::new();
     let Some(text) = files.text(path, "a study of a touch probe (TOML)", &mut problems) else {
         return (None, problems);
@@ -80,19 +95,29 @@ pub fn read_study(files: &Files, path: &Path) -> (Option<Study>, Diagnostics) {
     };
     let show = |name: &str| beside(name).display().to_string();
     let tables = Tables { load: &load, show: &show };
-    let study = problems.keep(parse_study(&path.display().to_string(), &text, &tables));
+    let file = path.display().to_string();
+    let study = problems.keep(parse_study(&file, &text, &tables, purpose));
     (study, problems)
 }
 
 /// The same for a text and tables that need not lie on a disk.
-pub fn parse_study(file: &str, text: &str, tables: &Tables<'_>) -> (Option<Study>, Diagnostics) {
+pub fn parse_study(
+    file: &str,
+    text: &str,
+    tables: &Tables<'_>,
+    purpose: Purpose,
+) -> (Option<Study>, Diagnostics) {
     let source = SourceText::new(file, text);
-    let study = source.read(|root| read(root, file, tables));
+    let study = source.read(|root| read(root, file, (tables, purpose)));
     let problems = source.finish();
     (study.filter(|_| !problems.has_errors()), problems)
 }
 
-fn read(root: &Section<'_>, file: &str, tables: &Tables<'_>) -> Option<Study> {
+fn read(
+    root: &Section<'_>,
+    file: &str,
+    (tables, purpose): (&Tables<'_>, Purpose),
+) -> Option<Study> {
     // Every key is asked for before anything is given up, or it would count as unknown.
     let name = root.require("name", "say which probe").and_then(|i| i.text()).map(str::to_owned);
     root.text("source");
@@ -118,10 +143,12 @@ fn read(root: &Section<'_>, file: &str, tables: &Tables<'_>) -> Option<Study> {
         let message = "a spline goes around a ring only".to_owned();
         root.error("unsuitable-model", message, "on a sphere: model = \"fourier\"");
     }
-    let styli = read_styli(root, gauge.as_ref(), tables);
+    let program = root.section("program", read_program);
+    let logs = Logs { tables, purpose, program: program.as_ref().and_then(Option::as_ref) };
+    let styli = read_styli(root, gauge.as_ref(), &logs);
     let eccentricity = root.section("eccentricity", |s| read_dial(s, tables)).flatten();
-    let z_datum = root.section("z_datum", read_z).flatten();
-    let four = root.section("xy_datum", |s| read_four(s, gauge.as_ref())).flatten();
+    let z_datum = root.section("z_datum", |s| read_z(s, &logs)).flatten();
+    let four = root.section("xy_datum", |s| read_four(s, gauge.as_ref(), &logs)).flatten();
     Some(Study {
         file: file.to_owned(),
         name: name?,
@@ -133,8 +160,55 @@ fn read(root: &Section<'_>, file: &str, tables: &Tables<'_>) -> Option<Study> {
         eccentricity,
         z_datum,
         xy_datum: four,
+        program: match program {
+            Some(stated) => Some(stated?),
+            None => None,
+        },
     })
 }
+
+/// Where hits come from, and what was planned of them.
+struct Logs<'a> {
+    tables: &'a Tables<'a>,
+    purpose: Purpose,
+    program: Option<&'a ProgramSettings>,
+}
+
+impl Logs<'_> {
+    fn planned(&self, hits: Option<usize>) -> Option<Planned> {
+        let program = self.program?;
+        Some(Planned { hits: hits.unwrap_or(program.directions), tool: Some(program.tool) })
+    }
+
+    /// The log that a datum names; hits that are corrected already say nothing of the probe.
+    fn of_datum(
+        &self,
+        section: &Section<'_>,
+        read: ReadLog,
+        hits: Option<usize>,
+    ) -> Option<ProbeLog> {
+        let item = section.get("log")?;
+        let name = item.text()?;
+        let mut found = Diagnostics::new();
+        let planned = hits.and_then(|hits| self.planned(Some(hits)));
+        let log = (self.tables.load)(name, &mut found)
+            .and_then(|text| read(&(self.tables.show)(name), &text, planned, &mut found));
+        section.take_over(found);
+        let log = log?;
+        if log.is_corrected {
+            let message = "the control has corrected these hits: they say nothing of the probe";
+            item.error(
+                "corrected-log",
+                message.to_owned(),
+                "the log of the program without correction",
+            );
+            return None;
+        }
+        Some(log)
+    }
+}
+
+type ReadLog = fn(&str, &str, Option<Planned>, &mut Diagnostics) -> Option<ProbeLog>;
 
 fn choice<T: Copy>(section: &Section<'_>, key: &str, names: &[(&str, T)]) -> Option<T> {
     let item = section.get(key)?;
@@ -223,11 +297,7 @@ fn read_centre(item: &Item<'_>, wanted: usize) -> Option<Vec3> {
     }
 }
 
-fn read_styli(
-    root: &Section<'_>,
-    gauge: Option<&Gauge>,
-    tables: &Tables<'_>,
-) -> Option<Vec<Stylus>> {
+fn read_styli(root: &Section<'_>, gauge: Option<&Gauge>, logs: &Logs<'_>) -> Option<Vec<Stylus>> {
     let hint = "[stylus.NAME] ball_diameter = \"4 mm\", hits = [\"ring.csv\"]";
     let item = root.require("stylus", hint)?;
     let mut styli = Vec::new();
@@ -235,7 +305,7 @@ fn read_styli(
     item.section("stylus", |all| {
         for (name, _, item) in all.entries() {
             let path = format!("stylus.{name}");
-            let found = item.section(&path, |s| read_stylus(s, name, gauge, tables)).flatten();
+            let found = item.section(&path, |s| read_stylus(s, name, gauge, logs)).flatten();
             sound &= found.is_some();
             styli.extend(found);
         }
@@ -251,11 +321,17 @@ fn read_stylus(
     section: &Section<'_>,
     name: &str,
     gauge: Option<&Gauge>,
-    tables: &Tables<'_>,
+    logs: &Logs<'_>,
 ) -> Option<Stylus> {
     let ball = positive(section, "ball_diameter", "ball_diameter = \"4 mm\"");
     let reading = choice(section, "reading", &Reading::ALL.map(|(r, name)| (name, r)));
-    let hits = section.require("hits", "hits = [\"ring.csv\"]").and_then(|i| i.list());
+    let before = logs.purpose == Purpose::Programs;
+    let hits = match section.get("hits") {
+        // Programs are written before there are hits.
+        None if before => Some(Vec::new()),
+        Some(item) => item.list(),
+        None => section.require("hits", "hits = [\"ring.csv\"]").and_then(|i| i.list()),
+    };
     let check = section.get("check").map(|i| i.list());
     let (gauge, ball) = (gauge?, ball?);
     let ball_radius_mm = 0.5 * ball.value;
@@ -271,10 +347,13 @@ fn read_stylus(
         orientation_rad: 0.0,
         on_gauge: true,
     };
-    let hits = read_tables(section, &hits?, &setup, tables)?;
-    let check = match check {
-        Some(list) => read_tables(section, &list?, &setup, tables)?,
-        None => Vec::new(),
+    let (hits, check) = match (before, check) {
+        (true, _) => (Vec::new(), Vec::new()),
+        (false, None) => (read_tables(section, &hits?, (&setup, false), logs)?, Vec::new()),
+        (false, Some(list)) => (
+            read_tables(section, &hits?, (&setup, false), logs)?,
+            read_tables(section, &list?, (&setup, true), logs)?,
+        ),
     };
     Some(Stylus { name: name.to_owned(), ball_radius_mm, reading: setup.reading, hits, check })
 }
@@ -283,9 +362,10 @@ fn read_stylus(
 fn read_tables(
     section: &Section<'_>,
     list: &[Item<'_>],
-    setup: &Setup<'_>,
-    tables: &Tables<'_>,
+    (setup, checks): (&Setup<'_>, bool),
+    logs: &Logs<'_>,
 ) -> Option<Vec<Hit>> {
+    let tables = logs.tables;
     let (mut hits, mut named, mut sound) = (Vec::new(), Vec::new(), true);
     for item in list.iter().take(MOST_TABLES) {
         let (name, orientation_rad) = match item.is_table() {
@@ -310,14 +390,64 @@ fn read_tables(
         }
         named.push(name);
         let mut found = Diagnostics::new();
-        let setup = Setup { orientation_rad: orientation_rad.unwrap_or(0.0), ..*setup };
+        let own = Setup { orientation_rad: orientation_rad.unwrap_or(0.0), ..*setup };
         let text = (tables.load)(name, &mut found);
-        let rows = text.and_then(|t| parse_hits(&(tables.show)(name), &t, &setup, &mut found));
+        let shown = (tables.show)(name);
+        let rows = text.and_then(|text| match is_ring_log(&text) {
+            true => ring_hits(item, (&shown, &text), (setup, checks), logs, &mut found),
+            false => parse_hits(&shown, &text, &own, &mut found),
+        });
         section.take_over(found);
         sound &= rows.is_some();
         hits.extend(rows.into_iter().flatten());
     }
     sound.then_some(hits)
+}
+
+/// Hits of the log of a program: it says directions and orientation itself, and has the spindle.
+fn ring_hits(
+    item: &Item<'_>,
+    (shown, text): (&str, &str),
+    (setup, checks): (&Setup<'_>, bool),
+    logs: &Logs<'_>,
+    found: &mut Diagnostics,
+) -> Option<Vec<Hit>> {
+    let refuse = |code, message: &str, hint: &str| {
+        item.error(code, message.to_owned(), hint);
+        None
+    };
+    if setup.gauge.kind != GaugeKind::Ring {
+        return refuse("other-log", "the log of a ring, but the study is about a sphere", "[ring]");
+    }
+    if item.is_table() {
+        let hint = "hits = [\"ring-hits.log\"]";
+        return refuse("other-log", "the log says the orientation of the spindle itself", hint);
+    }
+    if setup.reading == Reading::Point {
+        let hint = "leave out reading = \"point\"";
+        return refuse("wrong-reading", "the log has positions of the spindle, not points", hint);
+    }
+    // Hits of a check are in other directions than those of the calibration.
+    let planned = if checks { None } else { logs.planned(None) };
+    let log = parse_ring_log(shown, text, planned, found)?;
+    if log.is_corrected && logs.purpose == Purpose::Calibration {
+        let message =
+            "the control has corrected these hits: other hits cannot be corrected by them";
+        return refuse("corrected-log", message, "the log of the program without correction");
+    }
+    if log.is_corrected && checks {
+        let message = "the control has corrected these hits: a check with them corrects them twice";
+        let hint =
+            "name them as `hits` of a study of their own: what it finds is what the table leaves";
+        return refuse("corrected-log", message, hint);
+    }
+    if log.is_corrected {
+        let message =
+            "the control has corrected these hits: what is found here is what its table leaves";
+        let hint = "for a calibration take the log of the program without correction";
+        item.warn("corrected-log", message.to_owned(), hint);
+    }
+    Some(log.hits)
 }
 
 fn read_dial(section: &Section<'_>, tables: &Tables<'_>) -> Option<DialTurn> {
@@ -346,16 +476,36 @@ fn read_dial(section: &Section<'_>, tables: &Tables<'_>) -> Option<DialTurn> {
     Some(turn)
 }
 
-fn read_z(section: &Section<'_>) -> Option<ZSteps> {
+fn read_z(section: &Section<'_>, logs: &Logs<'_>) -> Option<ZSteps> {
     let length = positive(section, "reference_length", "reference_length = \"100 ± 0.001 mm\"");
     let block = positive(section, "block", "block = \"50 ± 0.0002 mm\"");
     let hint = "the spindle when the reference tool touches the block on the ring";
     let reference = section.require("reference_z", hint);
     let reference = reference.and_then(|i| i.measured(Dimension::Length));
-    let list = section.require("probe_z", "probe_z = [\"-210.012 mm\"]").and_then(|i| i.list());
-    let triggers = list?.into_iter().map(|i| i.quantity(Dimension::Length));
-    let probe_z_mm: Option<Vec<f64>> = triggers.collect();
-    let probe_z_mm = probe_z_mm?;
+    let names = section.get("log").is_some();
+    let stated = section.get("probe_z");
+    let probe_z_mm = match stated {
+        _ if logs.purpose == Purpose::Programs => Some(vec![0.0]),
+        None if names => {
+            let hits = logs.program.and_then(|p| p.face).map(|f| f.hits);
+            let log = logs.of_datum(section, parse_plane_log, hits);
+            log.map(|log| log.hits.iter().map(|h| h.spindle_mm.z).collect())
+        }
+        Some(item) if names => {
+            let message = "both `probe_z` and `log` are stated".to_owned();
+            item.error("two-readings", message, "keep one of them");
+            None
+        }
+        Some(item) => item
+            .list()
+            .and_then(|list| list.into_iter().map(|i| i.quantity(Dimension::Length)).collect()),
+        None => {
+            let hint = "probe_z = [\"-210.012 mm\"], or log = \"z-datum.log\"";
+            section.require("probe_z", hint);
+            None
+        }
+    };
+    let probe_z_mm: Vec<f64> = probe_z_mm?;
     if probe_z_mm.is_empty() {
         let message = "no trigger is stated".to_owned();
         section.error("too-few-hits", message, "probe_z = [\"-210.012 mm\"]");
@@ -369,11 +519,42 @@ fn read_z(section: &Section<'_>) -> Option<ZSteps> {
     })
 }
 
-fn read_four(section: &Section<'_>, gauge: Option<&Gauge>) -> Option<FourHits> {
-    let hit = |key| section.require(key, "the spindle at the trigger, such as \"28.97 mm\"");
-    let hits = ["x_plus", "x_minus", "y_plus", "y_minus"].map(hit);
-    let hits = hits.map(|h| h.and_then(|i| i.quantity(Dimension::Length)));
-    let [Some(a), Some(b), Some(c), Some(d)] = hits else { return None };
+/// The spindle at X+, X−, Y+, Y−, stated or from a log.
+fn four_places(section: &Section<'_>, logs: &Logs<'_>) -> Option<[f64; 4]> {
+    let names = ["x_plus", "x_minus", "y_plus", "y_minus"];
+    if section.get("log").is_none() {
+        let hint = "the spindle at the trigger, such as \"28.97 mm\"; or log = \"four-hits.log\"";
+        let hits = names.map(|key| section.require(key, hint));
+        let hits = hits.map(|h| h.and_then(|i| i.quantity(Dimension::Length)));
+        let [Some(a), Some(b), Some(c), Some(d)] = hits else { return None };
+        return Some([a, b, c, d]);
+    }
+    let stated: Vec<Item<'_>> = names.iter().filter_map(|key| section.get(key)).collect();
+    if let Some(item) = stated.first() {
+        let message = "both places and `log` are stated".to_owned();
+        item.error("two-readings", message, "keep one of them");
+        return None;
+    }
+    let log = logs.of_datum(section, parse_ring_log, Some(4))?;
+    let along = |x: f64, y: f64| {
+        let near = |h: &&Hit| h.direction.dot(&Vec3::new(x, y, 0.0)) > 0.999_999;
+        log.hits.iter().find(near).map(|h| if x == 0.0 { h.spindle_mm.y } else { h.spindle_mm.x })
+    };
+    let found = [along(1.0, 0.0), along(-1.0, 0.0), along(0.0, 1.0), along(0.0, -1.0)];
+    let [Some(a), Some(b), Some(c), Some(d)] = found else {
+        let message = "the log has not the four directions D0, D180, D90, D270".to_owned();
+        section.error("other-directions", message, "the log of four-hits, not that of the ring");
+        return None;
+    };
+    Some([a, b, c, d])
+}
+
+fn read_four(section: &Section<'_>, gauge: Option<&Gauge>, logs: &Logs<'_>) -> Option<FourHits> {
+    if logs.purpose == Purpose::Programs {
+        section.entries();
+        return None;
+    }
+    let [a, b, c, d] = four_places(section, logs)?;
     let gauge = gauge?;
     let Some(centre) = gauge.centre_mm.filter(|_| gauge.kind == GaugeKind::Ring) else {
         let message =

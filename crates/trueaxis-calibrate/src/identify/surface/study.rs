@@ -1,7 +1,7 @@
 //! `hits.toml`: what was touched with which probe on which machine, and the log of it.
 
 use super::log::{HitsLog, parse_log};
-use crate::identify::probe::{Calibration, identify_probe, read_study};
+use crate::identify::probe::{Calibration, Purpose, identify_probe, read_study};
 use crate::plan::surface::points_of_table;
 use std::path::Path;
 use trueaxis_geometry::Vec3;
@@ -139,7 +139,8 @@ fn read_probe(section: &Section<'_>, folder: &Path, found: &mut Diagnostics) -> 
             None
         }
     };
-    let study = found.keep(read_study(section.files(), calibration.as_ref()?));
+    let study =
+        found.keep(read_study(section.files(), calibration.as_ref()?, Purpose::Calibration));
     let all = study.and_then(|study| identify_probe(&study, found))?;
     let calibration_file = calibration?.display().to_string();
     let chosen = match &stylus {

@@ -85,7 +85,11 @@ pub fn check(
         start: super::start(campaign, path, settings),
         ..SetUp::default()
     };
-    let program = Program::new(&path.name, text.to_vec(), control);
+    // Words that no interpreter has are read back as the motions that stand for them.
+    let stand_in = (control == Control::Heidenhain && own.kind == Kind::TouchProbeBall)
+        .then(|| super::written(campaign, path, settings, (control, true)).ok());
+    let text = stand_in.flatten().unwrap_or_else(|| text.to_vec());
+    let program = Program::new(&path.name, text, control);
     // A probe never comes to the nominal place of a hit by a block of its own.
     let stations = match own.kind {
         Kind::TouchProbeBall => &[][..],

@@ -2,7 +2,7 @@
 
 use super::file::SurfaceStudy;
 use crate::plan::program::{ProgramCheck, ProgramError, axis_target, probe_shape, run};
-use crate::plan::touch::{TouchLog, touch_start};
+use crate::plan::touch::{SURFACE_LOG, Touch, TouchLog, declare};
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::{Direction, Point};
 use trueaxis_geometry::surface::SurfacePoint;
@@ -126,6 +126,21 @@ pub fn surface_program(
     poses: &[Pose],
     control: Control,
 ) -> Result<Vec<u8>, ProgramError> {
+    written(study, poses, control, false)
+}
+
+/// The files that the program needs beside itself on the control.
+pub fn surface_files(study: &SurfaceStudy, control: Control) -> Vec<(String, String)> {
+    TouchLog { machine: &study.machine, control, is_stand_in: false }.files()
+}
+
+/// The program, or what stands in for it where it is read back.
+fn written(
+    study: &SurfaceStudy,
+    poses: &[Pose],
+    control: Control,
+    is_stand_in: bool,
+) -> Result<Vec<u8>, ProgramError> {
     let about = format!("{} points on {}", poses.len(), study.machine.name());
     let heading = Heading {
         name: &study.name,
@@ -134,15 +149,15 @@ pub fn surface_program(
         machine_coordinates: true,
         tolerance_mm: 0.001,
     };
-    let log = TouchLog { machine: &study.machine, control };
+    let log = TouchLog { machine: &study.machine, control, is_stand_in };
     let mut touches = Touches { study, control, log, writer: Writer::new(control), last: None };
-    if let Some(text) = log.declare() {
+    if let Some(text) = declare(control) {
         touches.writer.write(&Block::Text(text))?;
     }
     touches.writer.write(&Block::Start(&heading))?;
     let call = ToolCall { number: study.tool, text: "touch probe", speed_per_minute: None };
     touches.writer.write(&Block::Tool(&call))?;
-    touches.writer.write(&Block::Text(&touch_start(&log)?))?;
+    touches.writer.write(&Block::Text(&SURFACE_LOG.open(control)))?;
     let text = "TOUCH PROBE IN THE SPINDLE, ALL CLEAR";
     touches.writer.write(&Block::Stop { optional: false, message: Some(text) })?;
     let high = high(study, poses);
@@ -151,7 +166,7 @@ pub fn surface_program(
         touches.touch(&poses[*point], high, [i + 1, point + 1])?;
     }
     touches.lift(high)?;
-    touches.writer.write(&Block::Text(&log.close(order.len())))?;
+    touches.writer.write(&Block::Text(&SURFACE_LOG.close(control, order.len())))?;
     touches.writer.write(&Block::End)?;
     Ok(touches.writer.finish())
 }
@@ -195,8 +210,13 @@ impl Touches<'_> {
             None => self.arrive(&pose.above, high)?,
         }
         self.line(&pose.before)?;
-        let feed = self.study.touch_feed_mm_per_min;
-        let words = self.log.touch(&pose.beyond, feed, hit, point)?;
+        let words = self.log.touch(&Touch {
+            from: &pose.before,
+            target: &pose.beyond,
+            mm_per_min: self.study.touch_feed_mm_per_min,
+            hit,
+            pose: point,
+        })?;
         self.writer.write(&Block::Text(&words))?;
         self.line(&pose.before)?;
         self.line(&pose.above)?;
@@ -284,7 +304,10 @@ pub fn check_surface(
         start: start(study, poses),
         ..SetUp::default()
     };
-    let program = Program::new(&study.name, text.to_vec(), control);
+    // Words that no interpreter has are read back as the motions that stand for them.
+    let stand_in = (control == Control::Heidenhain).then(|| written(study, poses, control, true));
+    let text = stand_in.and_then(Result::ok).unwrap_or_else(|| text.to_vec());
+    let program = Program::new(&study.name, text, control);
     run(&study.machine, &study.machine_path, &setup, &program, &[])
 }
 

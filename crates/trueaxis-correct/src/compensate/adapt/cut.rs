@@ -142,6 +142,7 @@ mod tests {
             at_mm: Vec3::new(0.3, y, 0.0),
             normal: Vec3::z(),
             deviation_mm,
+            u_mm: None,
         };
         let wall = Wall {
             layer_mm: 0.1,

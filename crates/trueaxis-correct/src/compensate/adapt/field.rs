@@ -112,6 +112,8 @@ pub struct Field {
     pub left_out_rms_mm: f64,
     /// By how much uncertainties were raised because the readings scatter more than they should. Unit: 1.
     pub raised: f64,
+    /// What the stated uncertainties of all readings have in common: no number of readings averages it out, mm.
+    pub common_mm: f64,
     solved: Solved,
 }
 
@@ -156,6 +158,7 @@ impl Field {
             left_out_z,
             left_out_rms_mm,
             raised,
+            common_mm: readings.common_mm,
             solved,
         })
     }
@@ -167,7 +170,7 @@ impl Field {
 
     /// The deviation at a place of the nominal surface with its normal.
     ///
-    /// d = hᵀβ + kᵀα, u² = k₀ − kᵀK⁻¹k + gᵀCg, g = h − HᵀK⁻¹k        docs/model.md eq. 149
+    /// d = hᵀβ + kᵀα, u² = k₀ − kᵀK⁻¹k + gᵀCg + c², g = h − HᵀK⁻¹k    docs/model.md eq. 149, 192
     pub fn at(&self, at: &Vec3, normal: &Vec3) -> Estimate {
         let k = self.covariances(at, normal);
         let h = DVector::from_vec(self.registration.freedoms.basis(at, normal));
@@ -176,7 +179,7 @@ impl Field {
         let g = &h - s.inverse_basis.tr_mul(&k);
         let simple = self.covariance.form_mm.powi(2) - k.dot(&(&s.inverse * &k));
         let variance = simple.max(0.0) + (&s.beta_covariance * &g).dot(&g);
-        let u_mm = self.raised * variance.max(0.0).sqrt();
+        let u_mm = (self.raised * variance.max(0.0).sqrt()).hypot(self.common_mm);
         Estimate { deviation_mm: h.dot(&s.beta) + form_mm, form_mm, u_mm }
     }
 
@@ -206,17 +209,37 @@ struct Readings {
     basis: DMatrix<f64>,
     values: DVector<f64>,
     noise_mm: f64,
+    /// Of each reading alone, mm².
+    nuggets: Vec<f64>,
+    common_mm: f64,
+}
+
+/// What of the stated uncertainties is of each reading alone, and what all of them share.
+///
+/// What even the best of the readings states beyond the noise of a hit, s, is in all of them: ball radius, length,
+/// machine. The rest is of each reading alone, so that it pulls the less the larger it is. A reading that states
+/// nothing errs by the noise.
+///
+/// c² = max(0, min u_i² − s²), n_i = u_i² − c²                    docs/model.md eq. 192
+fn nuggets(points: &[SurfacePoint], noise_mm: f64) -> (Vec<f64>, f64) {
+    let squares = points.iter().map(|p| p.u_mm.unwrap_or(noise_mm).powi(2));
+    let least = squares.clone().fold(f64::INFINITY, f64::min);
+    let common = if least.is_finite() { (least - noise_mm.powi(2)).max(0.0) } else { 0.0 };
+    (squares.map(|u| u - common).collect(), common.sqrt())
 }
 
 impl Readings {
     fn of(points: &[SurfacePoint], freedoms: &Freedoms, noise_mm: f64) -> Self {
         let rows: Vec<Vec<f64>> =
             points.iter().map(|p| freedoms.basis(&p.at_mm, &p.normal)).collect();
+        let (nuggets, common_mm) = nuggets(points, noise_mm);
         Self {
             places: points.iter().map(|p| (p.at_mm, p.normal)).collect(),
             basis: DMatrix::from_fn(points.len(), freedoms.seen.len(), |i, j| rows[i][j]),
             values: DVector::from_iterator(points.len(), points.iter().map(|p| p.deviation_mm)),
             noise_mm,
+            nuggets,
+            common_mm,
         }
     }
 
@@ -230,7 +253,7 @@ impl Readings {
                 k[(i, j)] = value;
                 k[(j, i)] = value;
             }
-            k[(j, j)] += self.noise_mm.powi(2) + extra[j];
+            k[(j, j)] += self.nuggets[j] + extra[j];
         }
         let inverse = k.cholesky()?.inverse();
         Solved::of(inverse, &self.basis, &self.values)
@@ -246,6 +269,8 @@ impl Readings {
             basis: self.basis.select_rows(&kept),
             values: self.values.select_rows(&kept),
             noise_mm: self.noise_mm,
+            nuggets: kept.iter().map(|i| self.nuggets[*i]).collect(),
+            common_mm: self.common_mm,
         };
         (thin, kept)
     }

@@ -155,7 +155,7 @@ mod tests {
                 let (a, z) = (f64::from(k) * 0.7, f64::from(k % 20));
                 let normal = Vec3::new(a.cos(), a.sin(), 0.0);
                 let at_mm = normal * 10.0 + Vec3::z() * z;
-                SurfacePoint { line: 1, number: 1.0, at_mm, normal, deviation_mm: 0.0 }
+                SurfacePoint { line: 1, number: 1.0, at_mm, normal, deviation_mm: 0.0, u_mm: None }
             })
             .collect();
         let freedoms = Freedoms::of(&points);

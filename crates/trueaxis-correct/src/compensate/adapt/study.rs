@@ -125,20 +125,28 @@ pub struct AdaptStudy {
     pub blank: Option<(String, Vec<SurfacePoint>)>,
 }
 
-/// Reads a study with the machine, the path and the tables that it names.
-pub fn read_adapt_study(files: &Files, path: &Path) -> (Option<AdaptStudy>, Diagnostics) {
+/// The table of deviations that a study of hits gives (`identify surface`), as text.
+pub type FromHits<'a> = &'a dyn Fn(&Path, &mut Diagnostics) -> Option<String>;
+
+/// Reads a study with the machine, the path and the tables that it names; `measured` may be a study of hits (`.toml`),
+/// which the caller turns into a table.
+pub fn read_adapt_study(
+    files: &Files,
+    path: &Path,
+    from_hits: FromHits<'_>,
+) -> (Option<AdaptStudy>, Diagnostics) {
     let mut problems = Diagnostics::new();
     let what = "a study of an adaptation (TOML)";
     let Some(text) = files.text(path, what, &mut problems) else { return (None, problems) };
     let file = path.display().to_string();
     let source = SourceText::from(files, &file, &text);
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-    let study = source.read(|root| read(root, &folder));
+    let study = source.read(|root| read(root, &folder, from_hits));
     problems.append(source.finish());
     (study.filter(|_| !problems.has_errors()), problems)
 }
 
-fn read(root: &Section<'_>, folder: &Path) -> Option<AdaptStudy> {
+fn read(root: &Section<'_>, folder: &Path, from_hits: FromHits<'_>) -> Option<AdaptStudy> {
     // Every key is asked for before anything is given up, or it would count as unknown.
     let name = root.require("name", "say what is cut").and_then(|i| i.text()).map(str::to_owned);
     let beside = |key: &str, hint: &str| -> Option<PathBuf> {
@@ -146,8 +154,10 @@ fn read(root: &Section<'_>, folder: &Path) -> Option<AdaptStudy> {
     };
     let machine = beside("machine", "machine = \"machine.toml\"");
     let cl = beside("path", "path = \"part.cls\": the cutter locations for the nominal blank");
-    let table =
-        beside("measured", "measured = \"blank.csv\": point,x_mm,y_mm,z_mm,i,j,k,deviation_um");
+    let table = beside(
+        "measured",
+        "measured = \"blank.csv\": point,x_mm,y_mm,z_mm,i,j,k,deviation_um; or a study of hits, \"hits.toml\"",
+    );
     let cutter = root.require("cutter", "[cutter] diameter = \"8 mm\", corner_radius = \"4 mm\"");
     let cutter = cutter.and_then(|i| i.section("cutter", read_cutter)).flatten();
     let wall = read_wall(root);
@@ -163,7 +173,13 @@ fn read(root: &Section<'_>, folder: &Path) -> Option<AdaptStudy> {
         machine
     });
     let cl = cl.and_then(|path| read_path(root.files(), &path, &mut found));
-    let points = table.as_ref().and_then(|path| read_table(root.files(), path, &mut found));
+    let points = table.as_ref().and_then(|path| {
+        if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) {
+            let text = from_hits(path, &mut found)?;
+            return points_of(&path.display().to_string(), &text, &mut found);
+        }
+        read_table(root.files(), path, &mut found)
+    });
     let blank = blank.map(|path| {
         Some((path.display().to_string(), read_table(root.files(), &path, &mut found)?))
     });
@@ -186,11 +202,14 @@ fn read(root: &Section<'_>, folder: &Path) -> Option<AdaptStudy> {
 
 fn read_table(files: &Files, path: &Path, problems: &mut Diagnostics) -> Option<Vec<SurfacePoint>> {
     let text = files.text(path, "a table of measured points (CSV)", problems)?;
-    let file = path.display().to_string();
-    let points = read_points(&file, &text, problems)?;
+    points_of(&path.display().to_string(), &text, problems)
+}
+
+fn points_of(file: &str, text: &str, problems: &mut Diagnostics) -> Option<Vec<SurfacePoint>> {
+    let points = read_points(file, text, problems)?;
     if points.len() > MOST_CELLS {
         let message = format!("{} points are more than {MOST_CELLS}", points.len());
-        problems.error("too-many-points", Place::whole(&file), message, "thin the table");
+        problems.error("too-many-points", Place::whole(file), message, "thin the table");
         return None;
     }
     Some(points)

@@ -151,7 +151,14 @@ mod tests {
                 let (r, a) = ((1.0 - z * z).sqrt(), f64::from(k) * 2.399_963_23);
                 let normal = Vec3::new(r * a.cos(), r * a.sin(), z);
                 let number = f64::from(k);
-                SurfacePoint { line: 1, number, at_mm: normal * 20.0, normal, deviation_mm: 0.0 }
+                SurfacePoint {
+                    line: 1,
+                    number,
+                    at_mm: normal * 20.0,
+                    normal,
+                    deviation_mm: 0.0,
+                    u_mm: None,
+                }
             })
             .collect();
         let surface = NominalSurface::of(&points);

@@ -7,6 +7,10 @@ use trueaxis_input::{CsvTable, Diagnostics, Dimension, Place, Unit};
 const LEAST_POINTS: usize = 12;
 /// No wall is so uneven: such a deviation is a slip of the unit, mm.
 const LARGEST_DEVIATION_MM: f64 = 5.0;
+/// No probe is so uncertain: such an uncertainty is a slip of the unit, mm.
+const LARGEST_U_MM: f64 = 0.5;
+/// The factor of U_um.
+const COVERAGE: f64 = 2.0;
 /// No part of such a machine is larger, mm.
 const LARGEST_COORDINATE_MM: f64 = 1e5;
 /// A normal whose length is off by more is reported.
@@ -27,9 +31,11 @@ pub struct SurfacePoint {
     pub normal: Vec3,
     /// The real surface along the normal; positive where there is more material.
     pub deviation_mm: f64,
+    /// Standard uncertainty of the deviation, mm, if the table states it.
+    pub u_mm: Option<f64>,
 }
 
-/// Reads a table `point,x_mm,y_mm,z_mm,i,j,k,deviation_um`.
+/// Reads a table `point,x_mm,y_mm,z_mm,i,j,k,deviation_um`, with `U_um` (k = 2) or `u_um` (k = 1) if it is there.
 ///
 /// ```
 /// use trueaxis_correct::compensate::adapt::read_points;
@@ -60,6 +66,7 @@ fn points_of(table: &CsvTable, problems: &mut Diagnostics) -> Option<Vec<Surface
     let at = ["x", "y", "z"].map(|name| length(table, name, problems));
     let normal = ["i", "j", "k"].map(|name| plain(table, name, problems));
     let deviation = length(table, "deviation", problems);
+    let u_mm = uncertainties(table, problems)?;
     let (number, deviation) = (number?, deviation?);
     let [Some(x), Some(y), Some(z)] = at else { return None };
     let [Some(i), Some(j), Some(k)] = normal else { return None };
@@ -74,6 +81,7 @@ fn points_of(table: &CsvTable, problems: &mut Diagnostics) -> Option<Vec<Surface
             at_mm: Vec3::new(x[row], y[row], z[row]),
             normal,
             deviation_mm: deviation[row],
+            u_mm: u_mm.as_ref().and_then(|u| u.get(row)).copied(),
         };
         check_size(&point, place, problems);
         points.push(point);
@@ -156,6 +164,38 @@ fn missing(table: &CsvTable, name: &str, problems: &mut Diagnostics) {
     let hint =
         format!("due: point,x_mm,y_mm,z_mm,i,j,k,deviation_um; there are: {}", names.join(","));
     problems.error("missing-column", Place::whole(&table.file), message, &hint);
+}
+
+/// Standard uncertainties, mm, if the table has a column of them; `None` with errors among the problems.
+fn uncertainties(table: &CsvTable, problems: &mut Diagnostics) -> Option<Option<Vec<f64>>> {
+    let stem = |full: &str| full.rsplit_once('_').map_or(full, |(stem, _)| stem).to_owned();
+    let [expanded, standard] =
+        ["U", "u"].map(|name| table.columns.iter().find(|c| stem(&c.name) == name));
+    let (name, factor, column) = match (expanded, standard) {
+        (None, None) => return Some(None),
+        (Some(column), None) => ("U", COVERAGE, column),
+        (None, Some(column)) => ("u", 1.0, column),
+        (Some(_), Some(column)) => {
+            let message = "both U (k = 2) and u (k = 1) are stated".to_owned();
+            let hint = "keep one of the two columns";
+            problems.error("two-uncertainties", column.place.clone(), message, hint);
+            return None;
+        }
+    };
+    let values = length(table, name, problems)?;
+    let mut sound = true;
+    for (row, value) in values.iter().enumerate() {
+        let u_mm = value / factor;
+        // NaN is no uncertainty either.
+        if !(u_mm > 0.0 && u_mm <= LARGEST_U_MM) {
+            let message = format!("`{}` of {value} mm is no uncertainty of a hit", column.name);
+            let hint =
+                "more than 0; is the unit of the heading right (U_um with k = 2, u_um with k = 1)?";
+            problems.error("absurd-uncertainty", table.row_place(row), message, hint);
+            sound = false;
+        }
+    }
+    sound.then(|| Some(values.iter().map(|v| v / factor).collect()))
 }
 
 /// A column of lengths by what stands before the unit, in mm.
