@@ -177,6 +177,9 @@ pub trait TestPiece: std::fmt::Debug + Send + Sync {
     /// As [`TestPiece::evaluate`].
     fn sections(&self, cut: &CutSurface<'_>) -> Result<Vec<PartSection>, Error>;
 
+    /// The frame in which the cut agrees best with the nominal piece.
+    fn best_fit(&self, deviation_mm: &[Vec3]) -> Datum;
+
     /// The deviations of a machine without errors: all zero, so that every index must be 0.
     fn ideal_deviation_mm(&self) -> Vec<Vec3> {
         vec![Vec3::zeros(); self.position_count() * self.contacts_per_position()]

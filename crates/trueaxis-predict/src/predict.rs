@@ -17,6 +17,7 @@ mod program;
 mod sensitivity;
 mod study;
 mod temperatures;
+mod virtual_part;
 mod what_if;
 
 pub use budget::{ErrorBudget, Share, budget};
@@ -28,6 +29,7 @@ pub use program::CutProgram;
 pub use sensitivity::{Sensitivity, propagate, sensitivities};
 pub use study::{Decision, Published, PublishedRow, Study, Variant, parse_study, read_study};
 pub use temperatures::{Pace, RunningTemperatures};
+pub use virtual_part::{VirtualPart, cut_virtually};
 pub use what_if::{ErrorChange, WhatIf};
 
 use trueaxis_geometry::Vec3;
@@ -356,6 +358,12 @@ fn warnings(study: &Study, indices: &[Index], sections: &[SectionResult]) -> Vec
     let missing = |i: &Index| i.u_mm == 0.0;
     if !is_exact && indices.iter().all(missing) {
         warnings.push("the machine file states no uncertainties: u is 0 throughout".to_owned());
+    }
+    if study.reference.datum == DatumAxis::BestFit {
+        warnings.push(
+            "in the best fit the part has no datum: coaxiality and angularity say nothing about its axis"
+                .to_owned(),
+        );
     }
     for index in indices {
         let Some(spread) = index.spread else { continue };

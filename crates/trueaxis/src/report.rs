@@ -15,6 +15,8 @@ mod diagnostic;
 mod expansion;
 mod expansion_document;
 mod frames;
+mod part;
+mod part_document;
 mod pose;
 mod pose_document;
 mod post;
@@ -37,6 +39,8 @@ pub use diagnostic::{DiagnosticEntry, RefusedDocument, diagnostic_json, refused_
 pub use expansion::expansion_report;
 pub use expansion_document::{ExpansionDocument, expansion_json};
 pub use frames::{FrameEntry, frames, frames_section};
+pub use part::part_report;
+pub use part_document::VerifyPartDocument;
 pub use pose::{Bodies, Budget, PoseReport, array, bodies, budget, pose_report};
 pub use pose_document::{PoseDocument, PoseRowsDocument, pose_rows_json};
 pub use post::{PostReport, post_report};

@@ -1,11 +1,11 @@
 //! The JSON documents of the program with their JSON Schemas.
 
 use crate::explain::{ExplainDocument, ExplainListDocument};
-use crate::questions::RtcpProgramsDocument;
+use crate::questions::{RtcpProgramsDocument, VirtualPartDocument};
 use crate::report::{
     CertificateDocument, CheckDocument, DescriptionDocument, DiagnosticEntry, DiffDocument,
     ExpansionDocument, PoseDocument, PoseRowsDocument, PostDocument, RefusedDocument,
-    SolveDocument, SolvePathDocument, TraceDocument, VerifyDocument,
+    SolveDocument, SolvePathDocument, TraceDocument, VerifyDocument, VerifyPartDocument,
 };
 use schemars::{JsonSchema, Schema, generate::SchemaSettings, json_schema};
 use serde_json::Value;
@@ -37,6 +37,8 @@ pub fn schemas() -> Vec<NamedSchema> {
         named_schema::<SolvePathDocument>("solve-path"),
         named_schema::<TraceDocument<'_>>("trace"),
         named_schema::<VerifyDocument<'_>>("verify"),
+        named_schema::<VerifyPartDocument<'_>>("verify-part"),
+        named_schema::<VirtualPartDocument<'_>>("measure-part"),
     ];
     all.extend(trueaxis_measure::schemas());
     all.extend(trueaxis_calibrate::schemas());

@@ -3,11 +3,13 @@
 //! Readings of instruments are evaluated by ISO 230 and its relatives, each figure with its clause
 //! (`trueaxis-standards`). [`compare`](mod@compare) holds readings against a prediction, or against other
 //! readings; [`calibrations`](mod@calibrations) one machine file against a later one;
-//! [`certificate`](mod@certificate) what a compensation leaves, proved on poses that were not used.
+//! [`certificate`](mod@certificate) what a compensation leaves, proved on poses that were not used;
+//! [`part`](mod@part) a test piece that was measured against its tolerances and its prediction.
 
 pub mod calibrations;
 pub mod certificate;
 pub mod compare;
+pub mod part;
 pub mod write_back;
 
 pub use trueaxis_standards::*;

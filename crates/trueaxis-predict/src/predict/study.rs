@@ -391,8 +391,18 @@ fn read_setting(section: &Section<'_>, machine: &Machine, others: &[&str]) -> Op
     Some(if perfect { Setting::Perfect } else { Setting::Touched { rotary } })
 }
 
-/// `reference_hole_depth = "40 mm"`.
+/// The key of the other datum.
+const BEST_FIT: &str = "best_fit";
+
+/// `reference_hole_depth = "40 mm"`, or `best_fit = true`.
 fn read_datum(section: &Section<'_>) -> Option<DatumAxis> {
+    if let Some(item) = section.get(BEST_FIT) {
+        if section.get(HOLE).is_some() {
+            let message = "the datum is the hole or the best fit".to_owned();
+            item.error("contradiction", message, "take one of them out");
+        }
+        return item.flag()?.then_some(DatumAxis::BestFit);
+    }
     let item = section.get(HOLE)?;
     let depth_mm = item.quantity(Dimension::Length)?;
     if depth_mm <= 0.0 {
@@ -409,8 +419,8 @@ fn read_variants(section: &Section<'_>, machine: &Machine, studied: &Reference) 
     for (name, _, item) in section.entries() {
         let reference = item.section(&section.path(name), |s| {
             let datum = read_datum(s);
-            let moved = s.entries().iter().any(|(key, ..)| *key != HOLE);
-            let setting = if moved { read_setting(s, machine, &[HOLE]) } else { None };
+            let moved = s.entries().iter().any(|(key, ..)| ![HOLE, BEST_FIT].contains(key));
+            let setting = if moved { read_setting(s, machine, &[HOLE, BEST_FIT]) } else { None };
             Reference {
                 setting: setting.unwrap_or(studied.setting),
                 datum: datum.unwrap_or(studied.datum),

@@ -2,7 +2,7 @@
 
 use super::prediction_pictures::{along_azimuth, cone, contributions, motions, sections};
 use super::{decisive, feature, ranked, relief};
-use crate::predict::{DatumAxis, Decision, Index, Prediction, Sensitivity, Share, Study};
+use crate::predict::{Decision, Index, Prediction, Sensitivity, Share, Study};
 use trueaxis_machine::describe::command_words;
 use trueaxis_machine::errors::ErrorKind;
 use trueaxis_part::tolerance::Outcome;
@@ -284,10 +284,7 @@ fn published<'a>(study: &Study, prediction: &Prediction) -> Section<'a> {
 
 fn inputs<'a>(study: &Study, prediction: &Prediction) -> Section<'a> {
     let (machine, tip) = (&study.machine, study.machine.tip_mm());
-    let datum = match study.reference.datum {
-        DatumAxis::Ideal => "ideal axis through the set zero".to_owned(),
-        DatumAxis::ReferenceHole { depth_mm } => format!("reference hole, {depth_mm} mm deep"),
-    };
+    let datum = study.reference.datum.to_string();
     let mut pairs = vec![
         ("study".to_owned(), study.path.display().to_string()),
         ("machine".to_owned(), study.machine_path.display().to_string()),
