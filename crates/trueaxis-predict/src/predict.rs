@@ -367,7 +367,9 @@ fn warnings(study: &Study, indices: &[Index], sections: &[SectionResult]) -> Vec
     }
     for index in indices {
         let Some(spread) = index.spread else { continue };
-        if (spread.u_mm - index.u_mm).abs() > 0.15 * index.u_mm.max(spread.u_mm) {
+        let off_mm = (spread.u_mm - index.u_mm).abs();
+        // Below 0.01 µm both are nothing.
+        if off_mm > 0.15 * index.u_mm.max(spread.u_mm) && off_mm > 1e-5 {
             warnings.push(format!(
                 "{}: u is {:.2} µm by linear propagation, {:.2} µm by Monte Carlo: the index has a \
                  kink here; with a guard band the larger one counts",

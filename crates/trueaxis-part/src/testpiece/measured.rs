@@ -228,6 +228,35 @@ impl Cone {
         contacts.zip(cut.deviation_mm).map(point).collect()
     }
 
+    /// Points of another surface of this piece at the azimuths of measured points, with the E of `sections`
+    /// interpolated there; points of sections that are missing keep their own.
+    pub fn points_at(&self, sections: &[PartSection], like: &[MeasuredPoint]) -> Vec<MeasuredPoint> {
+        let heights = &self.size().heights_mm;
+        let rings: Vec<Option<Ring>> = heights
+            .iter()
+            .map(|h| {
+                let section = sections.iter().find(|s| s.height_mm == *h)?;
+                let azimuths = section.azimuth_rad.iter().map(|a| a.sin().atan2(a.cos()));
+                let mut ring: Ring = azimuths.zip(section.deviation_mm.iter().copied()).collect();
+                ring.sort_by(|a, b| a.0.total_cmp(&b.0));
+                Some(ring).filter(|r| !r.is_empty())
+            })
+            .collect();
+        let moved = |p: &MeasuredPoint| {
+            let (_, normal, own) = self.row_of(p.place_mm);
+            let ring = rings.get(p.section).and_then(Option::as_ref);
+            let e = ring.map_or(own, |r| interpolated(r, p.place_mm.y.atan2(p.place_mm.x)));
+            MeasuredPoint { place_mm: p.place_mm + normal * (e - own), ..*p }
+        };
+        like.iter().map(moved).collect()
+    }
+
+    /// A point moved along the normal of the surface.
+    pub fn moved_outwards(&self, point: &MeasuredPoint, by_mm: f64) -> MeasuredPoint {
+        let (_, normal, _) = self.row_of(point.place_mm);
+        MeasuredPoint { place_mm: point.place_mm + normal * by_mm, ..*point }
+    }
+
     /// The section whose height is nearest to a point.
     pub fn nearest_section(&self, place_mm: &Vec3) -> usize {
         let size = self.size();

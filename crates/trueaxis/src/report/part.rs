@@ -102,7 +102,7 @@ fn outcome_word(index: &IndexComparison) -> String {
 }
 
 fn agreement(found: &PartResult) -> Table {
-    let headings = ["all in µm", "predicted", "u", "measured mean", "u", "predicted/measured", "E_n", "", ""];
+    let headings = ["all in µm", "predicted", "u", "noise adds", "measured mean", "u", "predicted/measured", "E_n", "", ""];
     let rows = found.indices.iter().filter_map(|index| {
         let (value, u) = index.predicted?;
         let a = index.agreement?;
@@ -117,6 +117,7 @@ fn agreement(found: &PartResult) -> Table {
             index.name.title().to_owned(),
             um(value),
             u.map_or(String::new(), um),
+            if index.noise_mm == 0.0 { String::new() } else { um(index.noise_mm) },
             um(a.mean_mm),
             um(a.u_mean_mm),
             ratio,
@@ -132,7 +133,7 @@ fn agreement(found: &PartResult) -> Table {
     });
     Table::new(headings).rows(rows).note(
         "predicted/measured: the ratio of Fig 20 of Wu et al. 2022. E_n = |measured − predicted| over U of this \
-         difference: up to 1 both agree within their uncertainties; above, one of them is wrong or its u too small. \
+         difference, after what the noise of the points adds to the prediction: up to 1 both agree within their uncertainties; above, one of them is wrong or its u too small. \
          With several parts u of the mean contains their spread.",
     )
 }

@@ -50,6 +50,8 @@ pub struct PartIndexEntry<'a> {
     pub predicted_mm: Option<f64>,
     /// Its standard uncertainty, mm; null if not stated.
     pub u_predicted_mm: Option<f64>,
+    /// What the noise of the points adds to the predicted index on average, mm; 0 if not known.
+    pub noise_mm: f64,
     /// Part after part, mm.
     pub measured_mm: Vec<f64>,
     /// Their standard uncertainties, mm; null if not stated.
@@ -139,6 +141,7 @@ impl<'a> PartIndexEntry<'a> {
             decisive: index.name.decisive,
             predicted_mm: index.predicted.map(|p| p.0),
             u_predicted_mm: index.predicted.and_then(|p| p.1),
+            noise_mm: index.noise_mm,
             measured_mm: index.measured.iter().map(|m| m.value_mm).collect(),
             u_measured_mm: index.u_is_known.then_some(u),
             mean_mm: agreement.map(|a| a.mean_mm),

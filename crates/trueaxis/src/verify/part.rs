@@ -9,7 +9,9 @@
 //! agrees is a second answer: the ratio of Fig 20 of Wu et al. 2022, and E_n.
 
 mod file;
+mod noise;
 mod points;
+mod turned;
 
 pub use file::read_part;
 pub use points::PartPoints;
@@ -123,7 +125,9 @@ pub struct IndexComparison {
     pub measured: Vec<MeasuredIndex>,
     /// Whether u of the measured values is known.
     pub u_is_known: bool,
-    /// Both together.
+    /// What the noise of the points adds to the predicted index on average, mm; 0 if it is not known.
+    pub noise_mm: f64,
+    /// Both together; the ratio without the noise, E_n with it.
     pub agreement: Option<Agreement>,
     /// The ratio with the mean that the sheet prints, if it prints one, %.
     pub printed_ratio_percent: Option<f64>,
@@ -193,10 +197,16 @@ impl PartStudy {
 pub fn verify_part(task: &PartStudy) -> Result<PartResult, PartError> {
     let names = task.piece.piece().index_names();
     let (predicted, predicted_sections, mut warnings) = predicted(task)?;
-    let (measured, parts) = match &task.measured {
+    let (mut measured, parts) = match &task.measured {
         Measurements::Points(points) => of_points(task, points)?,
         Measurements::Typed { rows, .. } => (of_rows(rows, names.len()), Vec::new()),
     };
+    if let Measurements::Points(points) = &task.measured {
+        let noise = noise::added_mm(task.cone(), &predicted_sections, points)?;
+        for (values, noise_mm) in measured.iter_mut().zip(noise) {
+            values.noise_mm = noise_mm;
+        }
+    }
     let count = measured.iter().map(|m| m.values.len()).max().unwrap_or(0);
     let mut indices = Vec::new();
     for (i, name) in names.iter().enumerate() {
@@ -207,6 +217,7 @@ pub fn verify_part(task: &PartStudy) -> Result<PartResult, PartError> {
     }
     let (outcome, reason) = verdict(task, &indices, count);
     warnings.extend(remarks(task, &indices));
+    warnings.extend(parts.iter().filter_map(|p| turned::remark(p, &predicted_sections)));
     let predicted = predicted_sections;
     Ok(PartResult { indices, parts, predicted, count, outcome, reason, warnings })
 }
@@ -238,6 +249,7 @@ struct Values {
     values: Vec<MeasuredIndex>,
     u_is_known: bool,
     printed_mean_mm: Option<f64>,
+    noise_mm: f64,
     note: String,
 }
 
@@ -253,6 +265,7 @@ fn of_rows(rows: &[TypedRow], count: usize) -> Vec<Values> {
                 .collect(),
             u_is_known: row.u_mm.is_some(),
             printed_mean_mm: row.printed_mean_mm,
+            noise_mm: 0.0,
             note: row.note.clone(),
         };
     }
@@ -341,8 +354,11 @@ fn compared(
     let k = task.rule.coverage_factor;
     let values: Vec<f64> = measured.values.iter().map(|m| m.value_mm).collect();
     let u_mm = measured.values.iter().map(|m| m.u_mm).fold(0.0, f64::max);
-    let agreement = predicted
-        .and_then(|(value, u)| Agreement::of((value, u.unwrap_or(0.0)), (&values, u_mm), k));
+    let agreement = predicted.and_then(|(value, u)| {
+        let expected_mm = value + measured.noise_mm;
+        let found = Agreement::of((expected_mm, u.unwrap_or(0.0)), (&values, u_mm), k)?;
+        Some(Agreement { ratio_percent: 100.0 * value / found.mean_mm, ..found })
+    });
     let printed = predicted.zip(measured.printed_mean_mm);
     let judged = |m: &MeasuredIndex| {
         let expanded = [k * m.u_mm];
@@ -357,6 +373,7 @@ fn compared(
         name: *name,
         predicted,
         agreement,
+        noise_mm: measured.noise_mm,
         u_is_known: measured.u_is_known,
         printed_ratio_percent: printed.map(|((value, _), mean)| 100.0 * value / mean),
         limit_mm: task.tolerances.limit_mm(name.key),

@@ -3,7 +3,7 @@
 use super::{MeasuredPoint, Ring};
 use crate::testpiece::cone::Cone;
 use crate::testpiece::{Datum, TestPiece};
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{Rotation3, SMatrix, SVector};
 use trueaxis_geometry::Vec3;
 
 /// Steps of the fit of points; from a tilt of a few degrees five are enough.
@@ -33,19 +33,23 @@ impl Cone {
     /// The rigid motion that takes measured points as near to the nominal surface as possible, and the points after
     /// it. Their sections stay.
     pub fn best_fit_of(&self, points: &[MeasuredPoint]) -> (Datum, Vec<MeasuredPoint>) {
-        let (mut whole, mut moved) = (Datum::IDEAL, points.to_vec());
+        let mut moved = points.to_vec();
+        let (mut turn, mut shift_mm) = (Rotation3::identity(), Vec3::zeros());
         for _ in 0..STEPS {
             let step = fitted(moved.iter().map(|p| self.row_of(p.place_mm)));
+            // An exact rotation: another frame may be turned by degrees.
+            let back = Rotation3::from_scaled_axis(-step.tilt_rad);
             for point in &mut moved {
-                point.place_mm -= step.displacement_mm(point.place_mm);
+                point.place_mm = back * (point.place_mm - step.shift_mm);
             }
-            whole.shift_mm += step.shift_mm;
-            whole.tilt_rad += step.tilt_rad;
+            (turn, shift_mm) = (back * turn, back * (shift_mm - step.shift_mm));
             if step.shift_mm.norm() + 100.0 * step.tilt_rad.norm() < 1e-9 {
                 break;
             }
         }
-        (whole, moved)
+        // p′ = R p + d: the new origin is at −Rᵀ d of the old frame.
+        let found = Datum { shift_mm: turn.inverse() * -shift_mm, tilt_rad: -turn.scaled_axis() };
+        (found, moved)
     }
 
     /// E and the normal at the azimuth of a point, at its own height.
