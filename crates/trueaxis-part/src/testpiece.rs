@@ -146,6 +146,9 @@ pub trait TestPiece: std::fmt::Debug + Send + Sync {
     /// The ideal path; the tool-setting point is the origin of the workpiece frame.
     fn tool_positions(&self) -> Vec<ToolPosition>;
 
+    /// The same path with so many positions for each one; the first of them is that one.
+    fn finer_positions(&self, times: usize) -> Vec<ToolPosition>;
+
     /// Number of tool positions of the path.
     fn position_count(&self) -> usize;
 

@@ -9,12 +9,14 @@
 mod budget;
 mod correction;
 mod cutting;
+mod feed;
 pub mod holes;
 mod judge;
 pub mod location;
 mod monte_carlo;
 mod program;
 mod sensitivity;
+mod servo;
 mod study;
 mod temperatures;
 mod virtual_part;
@@ -23,10 +25,12 @@ mod what_if;
 pub use budget::{ErrorBudget, Share, budget};
 pub use correction::{Correction, corrections};
 pub use cutting::{Cutting, DatumAxis, Reference};
+pub use feed::ConditionResult;
 pub use judge::{Bench, Judge};
 pub use monte_carlo::{Sampling, Spread, monte_carlo};
 pub use program::CutProgram;
 pub use sensitivity::{Sensitivity, propagate, sensitivities};
+pub use servo::{AxisServo, Known, Servo};
 pub use study::{Decision, Published, PublishedRow, Study, Variant, parse_study, read_study};
 pub use temperatures::{Pace, RunningTemperatures};
 pub use virtual_part::{VirtualPart, cut_virtually};
@@ -191,8 +195,22 @@ pub struct Prediction {
     pub corrections: Vec<Correction>,
     /// Other setting points and datums.
     pub variants: Vec<VariantResult>,
+    /// The part at the feed of every cutting condition, if the study states how the axes follow.
+    pub conditions: Vec<ConditionResult>,
     /// What the reader of the numbers should know.
     pub warnings: Vec<String>,
+}
+
+impl Prediction {
+    /// The verdict, that of every cutting condition with it.
+    pub fn outcome(&self) -> Outcome {
+        let all = self.conditions.iter().map(|c| c.verdict.outcome);
+        all.fold(self.verdict.outcome, |all, one| match (all, one) {
+            (Outcome::Fail, _) | (_, Outcome::Fail) => Outcome::Fail,
+            (Outcome::Undecided, _) | (_, Outcome::Undecided) => Outcome::Undecided,
+            (Outcome::Pass, Outcome::Pass) => Outcome::Pass,
+        })
+    }
 }
 
 /// Predicts the part of a study: the whole walk from machine to verdict.
@@ -210,6 +228,8 @@ pub fn predict(study: &Study, progress: &(dyn Fn(usize) + Sync)) -> Result<Predi
     let cutting = Cutting::along(machine, piece, &study.reference, temperatures, program)?;
     let judge = Judge { cutting: &cutting, piece };
     let mut prediction = predicted(study, &judge, progress)?;
+    prediction.conditions = feed::conditions(study)?;
+    prediction.warnings.extend(feed::remarks(study, &prediction.conditions));
     if prediction.verdict.outcome != Outcome::Pass {
         prediction.corrections = remedies(study, &judge, &prediction.indices)?;
     }
@@ -242,6 +262,7 @@ fn predicted(
         budget: budget(machine, judge)?,
         sensitivities: sensitivities(machine, judge)?,
         variants: variants(study)?,
+        conditions: Vec::new(),
         indices,
         verdict,
         deviations_mm,

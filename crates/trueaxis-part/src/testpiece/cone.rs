@@ -291,6 +291,12 @@ impl TestPiece for Cone {
         self.azimuths.iter().map(|a| self.tool_position(a)).collect()
     }
 
+    fn finer_positions(&self, times: usize) -> Vec<ToolPosition> {
+        let count = self.size.positions * times.max(1);
+        let size = ConeSize { positions: count, ..self.size.clone() };
+        (0..count).map(|number| self.tool_position(&Azimuth::new(&size, number))).collect()
+    }
+
     fn position_count(&self) -> usize {
         self.azimuths.len()
     }

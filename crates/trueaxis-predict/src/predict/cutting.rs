@@ -174,6 +174,28 @@ impl<'a> Cutting<'a> {
         self
     }
 
+    /// The same cut with the axes elsewhere when each tool position is passed.
+    ///
+    /// # Errors
+    /// Positions for which a table says nothing.
+    pub(super) fn passed(mut self, passings: &[Passing]) -> Result<Self, Error> {
+        let machine = self.machine;
+        let quantities = machine.uncertain_quantities();
+        let stops = self.stops.iter_mut().zip(&self.positions).zip(passings).enumerate();
+        for (i, ((old, ideal), passing)) in stops {
+            let place = (&quantities[..], Some(i));
+            // Where the axis stands still it keeps the side from which it came.
+            let approach = std::array::from_fn(|k| match passing.approach[k] {
+                0.0 => old.approach[k],
+                side => side,
+            });
+            let mut stop = stop(machine, passing.command, &approach, place)?;
+            stop.off = off(machine, &stop, ideal);
+            *old = stop;
+        }
+        Ok(self)
+    }
+
     /// The ideal tool positions.
     pub fn positions(&self) -> &[ToolPosition] {
         &self.positions

@@ -3,6 +3,7 @@
 use super::cutting::{DatumAxis, Reference};
 use super::monte_carlo::Sampling;
 use super::program::CutProgram;
+use super::servo::{Servo, read_servo};
 use super::temperatures::{RunningTemperatures, StudyTemperatures};
 use super::{Index, Setting};
 use std::path::{Path, PathBuf};
@@ -86,6 +87,8 @@ pub struct Study {
     pub decision: Decision,
     /// The part is cut along this program instead of the ideal path.
     pub program: Option<CutProgram>,
+    /// How the axes follow at the feeds of the cutting conditions, if it is stated.
+    pub servo: Option<Servo>,
     /// The Monte Carlo run, if one is wanted.
     pub sampling: Option<Sampling>,
     /// Figures to compare with.
@@ -106,6 +109,12 @@ impl Study {
         let Decision::Guarded { coverage } = self.decision else { return None };
         let u = |i: &Index| i.spread.map_or(i.u_mm, |s| s.u_mm.max(i.u_mm));
         Some(indices.iter().map(|i| coverage * u(i)).collect())
+    }
+
+    /// The same of standard uncertainties, mm.
+    pub fn expanded_of(&self, u_mm: &[f64]) -> Option<Vec<f64>> {
+        let Decision::Guarded { coverage } = self.decision else { return None };
+        Some(u_mm.iter().map(|u| coverage * u).collect())
     }
 
     /// The verdict on index values by the study's rule; `expanded_mm` as from
@@ -172,8 +181,14 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Study> {
     check_uncertainties(root, decision, &machine);
     let machine = read_mounting(root, machine, &test_piece)?;
     let program = read_program(root, folder, &machine);
+    let servo = root.section("servo", |s| read_servo(s, &machine));
+    check_servo(root, servo.is_some(), &test_piece, [
+        (program.is_some(), "`program`"),
+        (temperatures.running.is_some(), "a log of temperatures"),
+    ]);
     Some(Study {
         program,
+        servo,
         tolerances: tolerances?,
         what_if,
         name: name?.to_owned(),
@@ -197,6 +212,26 @@ fn read_program(root: &Section<'_>, folder: &Path, machine: &Machine) -> Option<
     let program = CutProgram::read(root.files(), &folder.join(name), machine, &mut problems);
     root.take_over(problems);
     program
+}
+
+/// Following errors need a feed, and a path that is gone again and again.
+fn check_servo(
+    root: &Section<'_>,
+    is_stated: bool,
+    piece: &TestPieceFile,
+    others: [(bool, &str); 2],
+) {
+    if !is_stated {
+        return;
+    }
+    for (_, other) in others.iter().filter(|(there, _)| *there) {
+        let message = format!("[servo] is for the path of the test piece; the study has {other} too");
+        root.error("contradiction", message, "leave one of them out");
+    }
+    if piece.conditions.iter().all(|c| c.feed_mm_per_min.is_none()) {
+        let message = "following errors depend on the feed, and the test piece states none".to_owned();
+        root.error("no-feed", message, "[[condition]] name = \"finish\", feed = \"3 m/min\"");
+    }
 }
 
 /// A guard band of nothing would pass what is not known.
