@@ -27,7 +27,13 @@ pub struct Arguments {
     #[arg(long, value_name = "STUDY.toml", conflicts_with_all = ["campaign", "truth"])]
     part: Option<PathBuf>,
     /// Standard uncertainty of a point along the normal, with --part
-    #[arg(long, value_name = "LENGTH", default_value = "0 um", requires = "part")]
+    #[arg(
+        long,
+        value_name = "LENGTH",
+        default_value = "0 um",
+        requires = "part",
+        allow_hyphen_values = true
+    )]
     point_u: String,
     /// Draw the errors of the machine within their uncertainties, with --part
     #[arg(long, requires = "part")]

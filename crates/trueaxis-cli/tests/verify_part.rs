@@ -43,7 +43,11 @@ impl Part {
     }
 
     /// Status and messages after a change of the points.
-    fn with(&self, keys: &str, change: &dyn Fn(usize, [f64; 3]) -> [f64; 3]) -> (i32, String, String) {
+    fn with(
+        &self,
+        keys: &str,
+        change: &dyn Fn(usize, [f64; 3]) -> [f64; 3],
+    ) -> (i32, String, String) {
         self.table(keys, "section,x_mm,y_mm,z_mm", &|i, (section, p)| {
             let [x, y, z] = change(i, p);
             vec![format!("{section},{x},{y},{z}")]
@@ -64,10 +68,17 @@ impl Part {
             }
         }
         std::fs::write(self.folder.path("points.csv"), text).expect("written");
+        // The shipped study without its Monte Carlo run.
         let study = root.join("examples/03_predict/nas979-on-xkas2525.toml");
+        let study_text = std::fs::read_to_string(study).expect("the study");
+        let parts = study_text.split("[published]").next().expect("a text");
+        let here = format!("{}/", root.display());
+        let parts = parts.replace("../../", &here).replace("samples = 10000", "samples = 0");
+        let study = self.folder.path("study.toml");
+        std::fs::write(&study, parts).expect("written");
         let file = format!(
             "name = \"part\"\nstudy = {:?}\n[cmm]\npoints = \"points.csv\"\npoint_u = \"0.7 um\"\n{keys}\n",
-            study.display().to_string()
+            study
         );
         let path = self.folder.path("part.toml");
         std::fs::write(&path, file).expect("written");
@@ -106,10 +117,7 @@ fn points_with_a_mistake_are_named_with_the_likely_reason() {
         &|i, p| if i == 101 { outwards(p, 4.0) } else { p },
         &["point-off-piece", "points.csv:103"],
     );
-    wrong(
-        &|i, p| if i == 200 { part.rows[9].1 } else { p },
-        &["points.csv:202"],
-    );
+    wrong(&|i, p| if i == 200 { part.rows[9].1 } else { p }, &["points.csv:202"]);
     refused("", &|_, p| p, &["missing-key", "probe"]);
     refused("probe = \"centres\"", &|_, p| p, &["stylus_diameter"]);
     refused(
@@ -131,8 +139,8 @@ fn points_that_are_stated_otherwise_give_the_same_part() {
     assert!(as_is.contains("13.04"), "{as_is}");
     let frame = "probe = \"corrected\"\nframe = \"40 -30 5 mm\"";
     assert_eq!(as_is, verdict(part.with(frame, &|_, [x, y, z]| [x + 40.0, y - 30.0, z + 5.0])));
-    let row = |unit: f64| move |_, (_, p): (usize, [f64; 3])| {
-        vec![p.map(|v| (v / unit).to_string()).join(",")]
+    let row = |unit: f64| {
+        move |_, (_, p): (usize, [f64; 3])| vec![p.map(|v| (v / unit).to_string()).join(",")]
     };
     assert_eq!(as_is, verdict(part.table(CORRECTED, "x_in,y_in,z_in", &row(25.4))));
     assert_eq!(as_is, verdict(part.table(CORRECTED, "x_um,y_um,z_um", &row(1e-3))));
@@ -196,7 +204,9 @@ fn typed_values_with_a_mistake_are_refused() {
     let angle = "[measured]\nu = \"1 um\"\nangularity_zone_mm = { angles = [\"0.0633 deg\"] }";
     refused(angle, &["over = "]);
     // 25 tan(0.0633 deg) = 27.62 µm; nothing else was measured: undecided.
-    let ran = ask("[measured]\nu = \"1 um\"\nangularity_zone_mm = { angles = [\"0.0633 deg\"], over = \"25 mm\" }");
+    let ran = ask(
+        "[measured]\nu = \"1 um\"\nangularity_zone_mm = { angles = [\"0.0633 deg\"], over = \"25 mm\" }",
+    );
     assert!(ran.status == 1 && ran.out.contains("27.62"), "{}", ran.out);
     assert!(ran.out.contains("not measured: roundness"), "{}", ran.out);
     let simple = "[decision]\nrule = \"simple\"\n[measured]\nroundness_mzc_mm = \"0.03 mm\"\ncoaxiality_lsc_mm = \"0.03 mm\"\nangularity_zone_mm = \"0.03 mm\"";

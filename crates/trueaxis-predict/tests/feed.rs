@@ -85,9 +85,12 @@ fn at_feed(radius_mm: f64, positions: usize, feed: &str, servo: &str, index: usi
 /// The same lag of both axes: the circle shrinks to R/√(1 + (ωτ)²) and is round, wherever it is looked at.
 #[test]
 fn law_equal_lags_shrink_the_circle() {
-    for (radius, feed_mm_per_min, tau) in
-        [(50.0, 1500.0, 0.02), (50.0, 6000.0, 0.02), (134.659, 30_000.0, 0.01), (20.0, 3000.0, 0.05)]
-    {
+    for (radius, feed_mm_per_min, tau) in [
+        (50.0, 1500.0, 0.02),
+        (50.0, 6000.0, 0.02),
+        (134.659, 30_000.0, 0.01),
+        (20.0, 3000.0, 0.05),
+    ] {
         let turn = feed_mm_per_min / 60.0 / radius * tau;
         let shrinks = radius - radius / (1.0 + f64::powi(turn, 2)).sqrt();
         let servo = format!("[servo]\nX.lag = \"{tau} s\"\nY.lag = \"{tau} s\"\n");
@@ -127,7 +130,8 @@ fn law_unequal_lags_make_an_ellipse() {
 /// A loop with feedforward in the time domain (scipy): `oracles/servo.py`.
 #[test]
 fn oracle_the_radius_of_a_loop_with_feedforward() {
-    let text = std::fs::read_to_string(root().join("crates/trueaxis-calibrate/tests/data/servo.csv"));
+    let text =
+        std::fs::read_to_string(root().join("crates/trueaxis-calibrate/tests/data/servo.csv"));
     let mut problems = Diagnostics::new();
     let table = CsvTable::parse("servo.csv", &text.expect("the table"), &mut problems);
     let column = |name: &str| table.column(name).expect("a column").values.clone();
@@ -139,7 +143,11 @@ fn oracle_the_radius_of_a_loop_with_feedforward() {
         let servo = format!("[servo]\nX = {axis}\nY = {axis}\n");
         let feed = format!("{} mm/min", feed[row]);
         let largest = at_feed(radius[row], 72, &feed, &servo, LARGEST);
-        assert!((largest * 1e3 + change_um[row]).abs() < 0.02, "{row}: {largest} {}", change_um[row]);
+        assert!(
+            (largest * 1e3 + change_um[row]).abs() < 0.02,
+            "{row}: {largest} {}",
+            change_um[row]
+        );
     }
 }
 
@@ -160,7 +168,7 @@ fn law_no_lag_changes_nothing() {
     for (i, index) in still.indices.iter().enumerate() {
         assert_eq!(index.value_mm.to_bits(), there.indices_mm[i].to_bits());
         assert_eq!(index.u_mm.to_bits(), there.u_mm[i].to_bits());
-        assert_eq!(there.servo_alone_mm[i], 0.0);
+        assert!(there.servo_alone_mm[i].abs() < 1e-12, "{}", there.servo_alone_mm[i]);
     }
     // A lag of a nanosecond is next to none.
     let small = study("[servo]\nX.lag = \"0.000001 ms\"\n");
@@ -183,19 +191,40 @@ fn a_play_makes_a_step_at_the_quadrants() {
     assert!((largest - 0.002).abs() < 1e-5, "{largest}");
 }
 
+/// The frustum of document 000 on its gantry.
+fn gantry(more: &str) -> Prediction {
+    let text = format!(
+        "name = \"s\"\nmachine = \"machines/xkas2525/machine.toml\"\n\
+         test_piece = \"testpieces/nas979-gbt33150.toml\"\n[monte_carlo]\nsamples = 0\n{more}"
+    );
+    let files = Files::new(Memory(HashMap::new()));
+    let (study, problems) = parse_study(&files, Path::new("s.toml"), &text);
+    let study = study.unwrap_or_else(|| panic!("{:?}", problems.iter().collect::<Vec<_>>()));
+    predict(&study, &|_| ()).expect("a prediction")
+}
+
+/// The length of the tool as it was measured, with u: u of an index grows by its slope times u.
+#[test]
+fn law_the_measured_length_of_the_tool_enters_with_its_uncertainty() {
+    let coaxiality = 8;
+    let [without, with] = [gantry(""), gantry("[what_if]\nEZ0t = \"0 ± 30 um\"\n")];
+    let slope = with.sensitivities.iter().find(|s| s.error.to_string() == "EZ0t").expect("EZ0t");
+    let added = slope.slope[coaxiality] * 0.030;
+    let [before, after] = [&without, &with].map(|p| p.indices[coaxiality].u_mm);
+    assert!((after - before.hypot(added)).abs() < 1e-6, "{before} {after} {added}");
+    assert!(added.abs() > 0.001, "{added}");
+    // The zero was touched with this tool upright, and the piece leans by 10°: what is cut moves across its axis by
+    // sin 10° of the length.
+    let longer = gantry("[what_if]\nEZ0t = \"30 um\"\n");
+    let centre = |p: &Prediction| p.sections[1].section.circles.lsc.center_mm;
+    let moved = centre(&longer)[0] - centre(&without)[0];
+    assert!((moved.abs() - 0.030 * 10f64.to_radians().sin()).abs() < 1e-5, "{moved}");
+}
+
 /// Five axes that are all late alike cut nearly the same part; one that is late alone does not.
 #[test]
 fn five_axes_that_are_late_alike_leave_the_part() {
-    let study = |servo: &str| {
-        let text = format!(
-            "name = \"s\"\nmachine = \"machines/xkas2525/machine.toml\"\n\
-             test_piece = \"testpieces/nas979-gbt33150.toml\"\n[monte_carlo]\nsamples = 0\n{servo}"
-        );
-        let files = Files::new(Memory(HashMap::new()));
-        let (study, problems) = parse_study(&files, Path::new("s.toml"), &text);
-        let study = study.unwrap_or_else(|| panic!("{:?}", problems.iter().collect::<Vec<_>>()));
-        predict(&study, &|_| ()).expect("a prediction")
-    };
+    let study = gantry;
     let all = "[servo]\nX.lag = \"10 ms\"\nY.lag = \"10 ms\"\nZ.lag = \"10 ms\"\nC.lag = \"10 ms\"\nA.lag = \"10 ms\"\n";
     let alike = study(all);
     assert_eq!(alike.conditions.len(), 4);
@@ -204,7 +233,7 @@ fn five_axes_that_are_late_alike_leave_the_part() {
     assert!(slow.servo_alone_mm[MZC] < 0.0005, "{}", slow.servo_alone_mm[MZC]);
     let alone = study("[servo]\nX.lag = \"1 ms\"\n");
     let zones: Vec<f64> = alone.conditions.iter().map(|c| c.servo_alone_mm[MZC]).collect();
-    assert!(zones[0] > 0.015 && (zones[1] / zones[0] - 2.0).abs() < 0.05, "{zones:?}");
+    assert!(zones[0] > 0.005 && (zones[1] / zones[0] - 2.0).abs() < 0.05, "{zones:?}");
     // 10 and 30 m/min: the axes of this gantry do not allow it all around.
     let fastest = alone.conditions[3].speed_mm_per_s;
     assert!(fastest[0] < 500.0 && fastest[1] <= 500.0, "{fastest:?}");
@@ -215,11 +244,10 @@ fn five_axes_that_are_late_alike_leave_the_part() {
 #[test]
 fn a_servo_that_cannot_be_is_refused() {
     let problems = |servo: &str| {
-        let piece = cylinder(50.0, 72, "3 m/min");
-        let files =
-            HashMap::from([("m.toml".into(), MACHINE.into()), ("p.toml".into(), piece)]);
-        let text =
-            format!("name = \"s\"\nmachine = \"m.toml\"\ntest_piece = \"p.toml\"\n{servo}");
+        let more = "coaxiality_lsc = \"0.1 mm\"\nangularity_zone = \"0.1 mm\"\n";
+        let piece = cylinder(50.0, 72, "3 m/min") + more;
+        let files = HashMap::from([("m.toml".into(), MACHINE.into()), ("p.toml".into(), piece)]);
+        let text = format!("name = \"s\"\nmachine = \"m.toml\"\ntest_piece = \"p.toml\"\n{servo}");
         let (study, found) = parse_study(&Files::new(Memory(files)), Path::new("s.toml"), &text);
         assert!(study.is_none(), "{servo}");
         found.iter().map(|d| d.code).collect::<Vec<_>>()

@@ -65,7 +65,8 @@ fn law_parts_of_this_machine_agree_and_others_do_not() {
     let name = trueaxis::machine::errors::ErrorName::parse("EA0A").expect("a name");
     predicted.machine = predicted.machine.clone().with_location(name, -450e-6).expect("EA0A");
     let found = verify_part(&other).expect("evaluated");
-    let differs = |i: &&trueaxis::verify::part::IndexComparison| !i.agreement.expect("both").agrees();
+    let differs =
+        |i: &&trueaxis::verify::part::IndexComparison| !i.agreement.expect("both").agrees();
     assert!(found.indices.iter().filter(|i| i.name.decisive).any(|i| differs(&i)));
     // The part is good all the same: the verdict is about the part.
     assert_eq!(found.outcome, Outcome::Pass);

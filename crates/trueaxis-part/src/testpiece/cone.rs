@@ -1,7 +1,8 @@
 //! The truncated cone, cut by the flank of an end mill whose axis is parallel to the generatrix.
 
 use super::{
-    Contact, CutSurface, Datum, Family, Feature, IndexName, PartSection, Scratch, TestPiece, ToolPosition,
+    Contact, CutSurface, Datum, Family, Feature, IndexName, PartSection, Scratch, TestPiece,
+    ToolPosition,
 };
 use crate::Error;
 use trueaxis_geometry::Vec3;

@@ -8,8 +8,8 @@ mod suspicion;
 
 pub use suspicion::Suspicion;
 
-use super::{Contact, CutSurface, PartSection, TestPiece, ToolPosition};
 use super::cone::{Cone, INDICES};
+use super::{Contact, CutSurface, PartSection, TestPiece, ToolPosition};
 use crate::Error;
 use crate::fit::circle::{Circles, Fitter};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -230,7 +230,11 @@ impl Cone {
 
     /// Points of another surface of this piece at the azimuths of measured points, with the E of `sections`
     /// interpolated there; points of sections that are missing keep their own.
-    pub fn points_at(&self, sections: &[PartSection], like: &[MeasuredPoint]) -> Vec<MeasuredPoint> {
+    pub fn points_at(
+        &self,
+        sections: &[PartSection],
+        like: &[MeasuredPoint],
+    ) -> Vec<MeasuredPoint> {
         let heights = &self.size().heights_mm;
         let rings: Vec<Option<Ring>> = heights
             .iter()

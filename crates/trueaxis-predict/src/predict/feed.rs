@@ -64,11 +64,14 @@ impl ClosedPath {
     pub fn of(machine: &Machine, piece: &dyn TestPiece, from: &Command) -> Result<Self, Error> {
         let count = piece.position_count();
         let positions = piece.tool_positions();
-        let radius =
-            positions.iter().map(|p| p.tip.vector().xy().norm()).fold(0.0_f64, f64::max);
+        let radius = positions.iter().map(|p| p.tip.vector().xy().norm()).fold(0.0_f64, f64::max);
         // r (1 − cos(π/n)) = sagitta
         let wanted = std::f64::consts::PI * (0.5 * radius / SAGITTA_MM).sqrt();
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "40 000 at most")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "40 000 at most"
+        )]
         let wanted = (wanted.ceil() as usize).clamp(NODES.0, NODES.1);
         Self::with_nodes(machine, piece, from, wanted.div_ceil(count))
     }
@@ -166,7 +169,8 @@ impl ClosedPath {
             let tip = ideal.tip.vector();
             let distance = |piece: usize| {
                 let way = tips[piece + 1] - tips[piece];
-                let u = ((tip - tips[piece]).dot(&way) / way.norm_squared().max(1e-18)).clamp(0.0, 1.0);
+                let u =
+                    ((tip - tips[piece]).dot(&way) / way.norm_squared().max(1e-18)).clamp(0.0, 1.0);
                 ((tips[piece] + way * u - tip).norm(), u)
             };
             let of = |piece: usize| (distance(piece), piece);
@@ -197,7 +201,9 @@ impl ClosedPath {
 
 /// What an axis that goes round has more after a turn of the path.
 fn closing(machine: &Machine, nodes: &[Command]) -> Command {
-    let (Some(first), [.., before, last]) = (nodes.first(), nodes) else { return Command::default() };
+    let (Some(first), [.., before, last]) = (nodes.first(), nodes) else {
+        return Command::default();
+    };
     let mut closing = Command::default();
     for (i, axis) in machine.axes().iter().enumerate() {
         if axis.kind == AxisKind::Rotary {
@@ -272,8 +278,7 @@ pub(super) fn conditions(study: &Study) -> Result<Vec<ConditionResult>, Error> {
         let u_mm: Vec<f64> =
             squares.iter().enumerate().map(|(i, s)| s.sqrt().hypot(machine_u(i))).collect();
         let expanded = study.expanded_of(&u_mm);
-        let verdict =
-            study.judge(&indices_mm, expanded.as_deref()).map_err(Error::Evaluation)?;
+        let verdict = study.judge(&indices_mm, expanded.as_deref()).map_err(Error::Evaluation)?;
         results.push(ConditionResult {
             condition: condition.clone(),
             speed_mm_per_s,

@@ -47,9 +47,9 @@ pub(super) type ServoQuantity = (usize, usize);
 impl Servo {
     /// Whether every axis follows exactly.
     pub fn is_exact(&self) -> bool {
-        self.0.iter().all(|a| {
-            a.lag.value == 0.0 && a.lost_motion.value == 0.0 && a.friction.value == 0.0
-        })
+        self.0
+            .iter()
+            .all(|a| a.lag.value == 0.0 && a.lost_motion.value == 0.0 && a.friction.value == 0.0)
     }
 
     /// The numbers that have an uncertainty.
@@ -76,7 +76,12 @@ impl Servo {
     ///
     /// Commands are straight in time between the nodes; `closing` is what the last node has more than the first
     /// (a turn of an axis that goes round). The first node is the last of the turn before.
-    pub(super) fn follow(&self, nodes: &[Command], times_s: &[f64], closing: &Command) -> Vec<Command> {
+    pub(super) fn follow(
+        &self,
+        nodes: &[Command],
+        times_s: &[f64],
+        closing: &Command,
+    ) -> Vec<Command> {
         let mut actual = nodes.to_vec();
         for (i, axis) in self.0.iter().enumerate() {
             let turn = AxisTurn { nodes, times_s, i, closing: closing[i] };
@@ -125,9 +130,8 @@ impl AxisTurn<'_> {
         let whole_s = self.times_s[last] - self.times_s[0];
         let turns = (SETTLED * tau / whole_s).ceil().clamp(1.0, MOST_TURNS);
         // Steady at first, which is exact for an axis at constant velocity.
-        let speed = |k: usize| {
-            (self.q(k) - self.q(k - 1)) / (self.times_s[k] - self.times_s[k - 1])
-        };
+        let speed =
+            |k: usize| (self.q(k) - self.q(k - 1)) / (self.times_s[k] - self.times_s[k - 1]);
         let mut motor = self.q(0) - axis.lag.value * speed(1);
         let mut slide = motor;
         let half = 0.5 * axis.lost_motion.value;

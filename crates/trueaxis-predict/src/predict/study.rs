@@ -11,7 +11,7 @@ use trueaxis_geometry::Vec3;
 use trueaxis_input::{Diagnostics, Dimension, Files, Item, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
-use trueaxis_machine::errors::{BodyName, ErrorKind, ErrorName};
+use trueaxis_machine::errors::{BodyName, ErrorKind, ErrorName, StatedError};
 use trueaxis_machine::file::{machine_of, read_pose};
 use trueaxis_part::testpiece::TestPiece;
 use trueaxis_part::tolerance::{Acceptance, Tolerances, Verdict};
@@ -182,10 +182,15 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Study> {
     let machine = read_mounting(root, machine, &test_piece)?;
     let program = read_program(root, folder, &machine);
     let servo = root.section("servo", |s| read_servo(s, &machine));
-    check_servo(root, servo.is_some(), &test_piece, [
-        (program.is_some(), "`program`"),
-        (temperatures.running.is_some(), "a log of temperatures"),
-    ]);
+    check_servo(
+        root,
+        servo.is_some(),
+        &test_piece,
+        [
+            (program.is_some(), "`program`"),
+            (temperatures.running.is_some(), "a log of temperatures"),
+        ],
+    );
     Some(Study {
         program,
         servo,
@@ -225,11 +230,13 @@ fn check_servo(
         return;
     }
     for (_, other) in others.iter().filter(|(there, _)| *there) {
-        let message = format!("[servo] is for the path of the test piece; the study has {other} too");
+        let message =
+            format!("[servo] is for the path of the test piece; the study has {other} too");
         root.error("contradiction", message, "leave one of them out");
     }
     if piece.conditions.iter().all(|c| c.feed_mm_per_min.is_none()) {
-        let message = "following errors depend on the feed, and the test piece states none".to_owned();
+        let message =
+            "following errors depend on the feed, and the test piece states none".to_owned();
         root.error("no-feed", message, "[[condition]] name = \"finish\", feed = \"3 m/min\"");
     }
 }
@@ -321,7 +328,8 @@ fn named_length(item: &Item<'_>, machine: &Machine, piece: &TestPieceFile) -> Op
     tool.map(|t| t.length_mm)
 }
 
-/// `[what_if] EA0A = "-450 urad"`: location errors that are replaced in this study.
+/// `[what_if] EA0A = "-450 urad"`, `EZ0t = "0 ± 3 um"`: location errors that are replaced in this study; without
+/// an uncertainty that of the machine file stays.
 fn read_what_if(root: &Section<'_>, machine: Machine) -> (Machine, Vec<String>) {
     let mut changed = machine;
     let mut named = Vec::new();
@@ -342,10 +350,14 @@ fn read_what_if(root: &Section<'_>, machine: Machine) -> (Machine, Vec<String>) 
             named.push(name);
             let rotation = name.component.is_rotation();
             let dimension = if rotation { Dimension::Angle } else { Dimension::Length };
-            let Some(value) = item.quantity(dimension) else { continue };
-            match changed.clone().with_location(name, value) {
+            let Some(value) = item.measured(dimension) else { continue };
+            match changed.clone().with_location(name, value.value) {
                 Some(machine) => {
                     changed = machine;
+                    if let (Some(index), Some(_)) = (changed.error_index(name), value.u) {
+                        let stated = StatedError::constant(value.value, value.u);
+                        changed = changed.with_error(index, Some(stated));
+                    }
                     words.push(format!("{name} = {}", item.as_text().unwrap_or_default()));
                 }
                 None => {

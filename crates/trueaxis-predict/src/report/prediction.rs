@@ -125,7 +125,12 @@ fn conditions<'a>(prediction: &Prediction) -> Option<Section<'a>> {
         return None;
     }
     let of_index = |(_, index): (usize, &Index)| {
-        [feature(&index.name).to_owned(), "u".to_owned(), "feed adds".to_owned(), "servo alone".to_owned()]
+        [
+            feature(&index.name).to_owned(),
+            "u".to_owned(),
+            "feed adds".to_owned(),
+            "servo alone".to_owned(),
+        ]
     };
     let headings = ["condition", "feed, m/min", "tip, m/min"].map(str::to_owned).into_iter();
     let headings = headings.chain(decisive(prediction).flat_map(of_index));

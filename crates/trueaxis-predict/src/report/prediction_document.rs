@@ -2,7 +2,8 @@
 
 use super::{family_key, ranked};
 use crate::predict::{
-    ConditionResult, Correction, Index, Prediction, SectionResult, Sensitivity, Share, Spread, Study,
+    ConditionResult, Correction, Index, Prediction, SectionResult, Sensitivity, Share, Spread,
+    Study,
 };
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -301,7 +302,11 @@ impl<'a> PredictionDocument<'a> {
             commands: prediction.commands.iter().map(|c| command(axes, c)).collect(),
             monte_carlo: study.sampling.map(|s| SamplingEntry { samples: s.samples, seed: s.seed }),
             temperature_log: study.temperatures.as_ref().map(|t| t.run.log.file()),
-            conditions: prediction.conditions.iter().map(|c| ConditionEntry::of(c, prediction)).collect(),
+            conditions: prediction
+                .conditions
+                .iter()
+                .map(|c| ConditionEntry::of(c, prediction))
+                .collect(),
             warnings: &prediction.warnings,
         }
     }

@@ -138,8 +138,7 @@ pub struct PointEntry {
 }
 
 const POINTS_BEGIN: &str = "# points of trueaxis measure --part";
-const POINTS: Kind =
-    Kind::file("-o", "a table of virtual points", &[POINTS_BEGIN.as_bytes()]);
+const POINTS: Kind = Kind::file("-o", "a table of virtual points", &[POINTS_BEGIN.as_bytes()]);
 
 impl Question for MeasurePart {
     type Input = (Study, f64);

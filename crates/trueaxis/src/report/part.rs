@@ -60,9 +60,7 @@ pub fn part_report<'a>(task: &'a PartStudy, found: &'a PartResult) -> Report<'a>
     head.section(Section::new("Warnings").list(found.warnings.iter().cloned()))
         .section(Section::new("The parts").table(values(found)))
         .section(Section::new("Measured and predicted").table(agreement(found)))
-        .section(
-            Section::new("Circles of the sections, µm").table(circles(found)),
-        )
+        .section(Section::new("Circles of the sections, µm").table(circles(found)))
         .sections(pictures(found).map(|p| Section::from(Picture::Polar(p)).on_page()))
 }
 
@@ -102,7 +100,18 @@ fn outcome_word(index: &IndexComparison) -> String {
 }
 
 fn agreement(found: &PartResult) -> Table {
-    let headings = ["all in µm", "predicted", "u", "noise adds", "measured mean", "u", "predicted/measured", "E_n", "", ""];
+    let headings = [
+        "all in µm",
+        "predicted",
+        "u",
+        "noise adds",
+        "measured mean",
+        "u",
+        "predicted/measured",
+        "E_n",
+        "",
+        "",
+    ];
     let rows = found.indices.iter().filter_map(|index| {
         let (value, u) = index.predicted?;
         let a = index.agreement?;
@@ -141,8 +150,15 @@ fn agreement(found: &PartResult) -> Table {
 /// Least squares and minimum zone of every section.
 fn circles(found: &PartResult) -> Table {
     let headings = [
-        "part", "z, mm", "points", "centre x", "centre y", "radius − nominal", "least squares",
-        "minimum zone", "predicted zone",
+        "part",
+        "z, mm",
+        "points",
+        "centre x",
+        "centre y",
+        "radius − nominal",
+        "least squares",
+        "minimum zone",
+        "predicted zone",
     ];
     let mut rows = Vec::new();
     for (k, part) in found.parts.iter().enumerate() {

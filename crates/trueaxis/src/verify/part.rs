@@ -258,11 +258,7 @@ fn of_rows(rows: &[TypedRow], count: usize) -> Vec<Values> {
     for row in rows {
         let u_mm = row.u_mm.unwrap_or(0.0);
         found[row.index] = Values {
-            values: row
-                .values_mm
-                .iter()
-                .map(|v| MeasuredIndex { value_mm: *v, u_mm })
-                .collect(),
+            values: row.values_mm.iter().map(|v| MeasuredIndex { value_mm: *v, u_mm }).collect(),
             u_is_known: row.u_mm.is_some(),
             printed_mean_mm: row.printed_mean_mm,
             noise_mm: 0.0,
@@ -442,7 +438,8 @@ fn remarks(task: &PartStudy, indices: &[IndexComparison]) -> Vec<String> {
     let mut remarks = Vec::new();
     if task.is_best_fit() {
         remarks.push(
-            "the frame is the best fit: coaxiality has no datum there and does not decide".to_owned(),
+            "the frame is the best fit: coaxiality has no datum there and does not decide"
+                .to_owned(),
         );
     }
     for index in indices.iter().filter(|i| i.agreement.is_some()) {

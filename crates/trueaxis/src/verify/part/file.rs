@@ -42,7 +42,8 @@ fn read(root: &Section<'_>, path: &Path) -> Option<PartStudy> {
             return None;
         }
         (None, None) => {
-            let hint = "[cmm] points = \"points.csv\", or [measured] roundness_mzc_mm = [\"0.0380 mm\"]";
+            let hint =
+                "[cmm] points = \"points.csv\", or [measured] roundness_mzc_mm = [\"0.0380 mm\"]";
             root.error("missing-key", "what was measured?".to_owned(), hint);
             return None;
         }
@@ -85,10 +86,7 @@ fn check_u(root: &Section<'_>, measured: &Measurements, rule: PartRule, piece: &
 }
 
 /// `study = "…"`, or `test_piece = "…"` with or without `[predicted]`.
-fn read_prediction(
-    root: &Section<'_>,
-    folder: &Path,
-) -> Option<(TestPieceFile, PredictionSource)> {
+fn read_prediction(root: &Section<'_>, folder: &Path) -> Option<(TestPieceFile, PredictionSource)> {
     let (study, piece) = (root.get("study"), root.get("test_piece"));
     match (study, piece) {
         (Some(study), None) => {
@@ -138,7 +136,12 @@ fn read_piece(root: &Section<'_>, path: &Path) -> Option<TestPieceFile> {
 }
 
 /// The position of an index among those of the test piece.
-fn index_of(section: &Section<'_>, piece: &TestPieceFile, key: &str, item: &Item<'_>) -> Option<usize> {
+fn index_of(
+    section: &Section<'_>,
+    piece: &TestPieceFile,
+    key: &str,
+    item: &Item<'_>,
+) -> Option<usize> {
     let names = piece.piece().index_names();
     let found = names.iter().position(|n| n.key == key);
     if found.is_none() {
@@ -218,7 +221,11 @@ fn read_row(section: &Section<'_>, piece: &TestPieceFile) -> Option<TypedRow> {
         }
         _ => {
             let message = "the values of the parts are needed, as lengths or as angles".to_owned();
-            section.error("missing-key", message, "values = [\"0.0380 mm\"], or angles with `over`");
+            section.error(
+                "missing-key",
+                message,
+                "values = [\"0.0380 mm\"], or angles with `over`",
+            );
             None
         }
     };
@@ -234,7 +241,9 @@ fn read_row(section: &Section<'_>, piece: &TestPieceFile) -> Option<TypedRow> {
         let heights = &cone.size().angularity_heights_mm;
         let ours = heights.last().unwrap_or(&0.0) - heights.first().unwrap_or(&0.0);
         if (ours - over_mm).abs() > 1e-6 {
-            let message = format!("measured over {over_mm} mm, predicted over {ours} mm: not the same quantity");
+            let message = format!(
+                "measured over {over_mm} mm, predicted over {ours} mm: not the same quantity"
+            );
             let hint = "their ratio is that of the source, not a measure of the prediction";
             item.warn("other-length", message, hint);
             note = [note, format!("over {over_mm} mm, predicted over {ours} mm")].join(" ");
@@ -249,7 +258,11 @@ fn check_mean(item: &Item<'_>, mean_mm: f64, values_mm: &[f64]) {
     let ours = values_mm.iter().sum::<f64>() / values_mm.len().max(1) as f64;
     if (ours - mean_mm).abs() > 0.5e-4 + 1e-9 {
         let message = format!("the mean of the values is {ours:.6} mm, not {mean_mm} mm");
-        item.error("other-mean", message, "a mean may differ by its rounding to 0.1 µm only: check the values");
+        item.error(
+            "other-mean",
+            message,
+            "a mean may differ by its rounding to 0.1 µm only: check the values",
+        );
     }
 }
 
@@ -302,9 +315,8 @@ fn read_points(section: &Section<'_>, folder: &Path, piece: &TestPieceFile) -> O
     let point_u_mm = point_u.and_then(|i| positive(&i, Dimension::Length));
     let frame = read_frame(section);
     let [datum_u_mm, datum_tilt_u_rad] =
-        [("datum_u", Dimension::Length), ("datum_tilt_u", Dimension::Angle)].map(|(key, of)| {
-            section.get(key).map_or(Some(0.0), |i| not_negative(&i, of))
-        });
+        [("datum_u", Dimension::Length), ("datum_tilt_u", Dimension::Angle)]
+            .map(|(key, of)| section.get(key).map_or(Some(0.0), |i| not_negative(&i, of)));
     let allowance_mm = read_condition(section, piece);
     let (workpiece_from_points, best_fit, frame) = frame?;
     let reading = Reading {

@@ -36,15 +36,22 @@ const MOST_FAULTS: usize = 10;
 /// A gap of the circumference that is large enough to be named, rad.
 const WIDE_GAP_RAD: f64 = 0.8;
 
-const FORM: &str = "columns x_mm, y_mm, z_mm, if wanted `section` (1 at the base), or `height_mm` above the base";
+const FORM: &str =
+    "columns x_mm, y_mm, z_mm, if wanted `section` (1 at the base), or `height_mm` above the base";
 
 impl Reading<'_> {
     /// The points of one file.
-    pub fn read(&self, files: &Files, path: &Path, problems: &mut Diagnostics) -> Option<PartPoints> {
+    pub fn read(
+        &self,
+        files: &Files,
+        path: &Path,
+        problems: &mut Diagnostics,
+    ) -> Option<PartPoints> {
         let text = files.text(path, "a table of points (CSV)", problems)?;
         let name = path.display().to_string();
         let read = ["x", "y", "z", "section", "height"];
-        let is_read = |h: &str| read.contains(&h) || read.contains(&trueaxis_input::sheet::heading(h).0);
+        let is_read =
+            |h: &str| read.contains(&h) || read.contains(&trueaxis_input::sheet::heading(h).0);
         let cells = |h: &str| if is_read(h) { Cells::Numbers } else { Cells::Unused };
         let sheet = Sheet::parse(&name, &text, cells, problems)?;
         for column in sheet.columns.iter().filter(|c| c.cells == Cells::Unused) {
@@ -57,7 +64,9 @@ impl Reading<'_> {
             problems.error("too-many-points", sheet.row_place(0), message, "thin them out evenly");
             return None;
         }
-        let here = |p: &Vec3| self.workpiece_from_points.linear() * p + self.workpiece_from_points.shift_mm();
+        let here = |p: &Vec3| {
+            self.workpiece_from_points.linear() * p + self.workpiece_from_points.shift_mm()
+        };
         let inwards_mm = self.ball_radius_mm + self.allowance_mm;
         let places: Vec<Vec3> =
             raw.iter().map(|p| self.cone.contact_mm(here(p), inwards_mm)).collect();
@@ -128,10 +137,15 @@ impl Reading<'_> {
             let Err(fault) = self.cone.measured(&kept, 0.0) else { break };
             let place = |point: usize| sheet.row_place(rows[point]);
             let (point, code, at, hint) = match &fault {
-                MeasuredFault::NotFinite { point } => (*point, "not-finite", place(*point), "write a number"),
-                MeasuredFault::NoSection { point, .. } => {
-                    (*point, "no-such-section", place(*point), "number the sections from the base, from 1")
+                MeasuredFault::NotFinite { point } => {
+                    (*point, "not-finite", place(*point), "write a number")
                 }
+                MeasuredFault::NoSection { point, .. } => (
+                    *point,
+                    "no-such-section",
+                    place(*point),
+                    "number the sections from the base, from 1",
+                ),
                 MeasuredFault::OtherHeight { point, .. } => (
                     *point,
                     "point-off-piece",
@@ -174,7 +188,8 @@ impl Reading<'_> {
         let place = Place::whole(&sheet.file);
         match fault {
             MeasuredFault::TooFew { section, found } => {
-                let message = format!("section {} has {found} points, at least 8 are needed", section + 1);
+                let message =
+                    format!("section {} has {found} points, at least 8 are needed", section + 1);
                 problems.error("too-few-points", place, message, "measure more points around it");
             }
             MeasuredFault::Arc { section, gap_rad } => {
@@ -183,7 +198,8 @@ impl Reading<'_> {
                     section + 1,
                     gap_rad.to_degrees()
                 );
-                let hint = "an arc shows neither form nor position: measure the whole circumference";
+                let hint =
+                    "an arc shows neither form nor position: measure the whole circumference";
                 problems.error("arc-of-points", place, message, hint);
             }
             other => problems.error("not-evaluable", place, other.to_string(), "check the points"),
@@ -197,7 +213,8 @@ impl Reading<'_> {
                 "the point lies {:+.1} µm off the line through its neighbours, far more than the others",
                 by_mm * 1e3
             );
-            let hint = "dirt, a burr, or a false contact? it counts: measure it again or remove the row";
+            let hint =
+                "dirt, a burr, or a false contact? it counts: measure it again or remove the row";
             problems.warn("jumping-point", sheet.row_place(point), message, hint);
         }
         for section in 0..self.cone.size().heights_mm.len() {
@@ -228,9 +245,15 @@ impl Reading<'_> {
                     "the points do not lie on the piece; multiplied by {factor:.6} they do: another unit"
                 );
                 let hint = match *factor {
-                    f if (f - 25.4).abs() < 1e-9 => "the numbers are inches: name the columns x_in, y_in, z_in",
-                    f if (f - 1e-3).abs() < 1e-12 => "the numbers are µm: name the columns x_um, y_um, z_um",
-                    _ => "name the columns with the unit of the numbers: x_mm, x_um, x_in, x_cm, x_m",
+                    f if (f - 25.4).abs() < 1e-9 => {
+                        "the numbers are inches: name the columns x_in, y_in, z_in"
+                    }
+                    f if (f - 1e-3).abs() < 1e-12 => {
+                        "the numbers are µm: name the columns x_um, y_um, z_um"
+                    }
+                    _ => {
+                        "name the columns with the unit of the numbers: x_mm, x_um, x_in, x_cm, x_m"
+                    }
                 };
                 problems.error("wrong-unit", place, message, hint);
             }
@@ -246,7 +269,8 @@ impl Reading<'_> {
             }
             Suspicion::Radius(mm) => self.report_radius(*mm, place, problems),
             Suspicion::UpsideDown => {
-                let message = "the points lie on the piece with z pointing the other way".to_owned();
+                let message =
+                    "the points lie on the piece with z pointing the other way".to_owned();
                 let hint = "z points out of the top face; turn the frame, or say frame = [\"turn X 180 deg\"]";
                 problems.error("other-frame", place, message, hint);
             }
