@@ -207,15 +207,17 @@ fn gantry(more: &str) -> Prediction {
 #[test]
 fn law_the_measured_length_of_the_tool_enters_with_its_uncertainty() {
     let coaxiality = 8;
-    let [without, with] = [gantry(""), gantry("[what_if]\nEZ0t = \"0 ± 30 um\"\n")];
+    let [without, with] = [gantry(""), gantry("[what_if]\nEZ0t = \"25 ± 30 um\"\n")];
     let slope = with.sensitivities.iter().find(|s| s.error.to_string() == "EZ0t").expect("EZ0t");
-    let added = slope.slope[coaxiality] * 0.030;
+    // The machine file states 25 ± 0.5 µm.
+    let added = slope.slope[coaxiality] * (0.030f64.powi(2) - 0.0005f64.powi(2)).sqrt();
     let [before, after] = [&without, &with].map(|p| p.indices[coaxiality].u_mm);
-    assert!((after - before.hypot(added)).abs() < 1e-6, "{before} {after} {added}");
+    // A length is not linear: 30 µm are a large step.
+    assert!((after - before.hypot(added)).abs() < 2e-5, "{before} {after} {added}");
     assert!(added.abs() > 0.001, "{added}");
     // The zero was touched with this tool upright, and the piece leans by 10°: what is cut moves across its axis by
     // sin 10° of the length.
-    let longer = gantry("[what_if]\nEZ0t = \"30 um\"\n");
+    let longer = gantry("[what_if]\nEZ0t = \"55 um\"\n");
     let centre = |p: &Prediction| p.sections[1].section.circles.lsc.center_mm;
     let moved = centre(&longer)[0] - centre(&without)[0];
     assert!((moved.abs() - 0.030 * 10f64.to_radians().sin()).abs() < 1e-5, "{moved}");

@@ -178,18 +178,14 @@ impl<'a> Cutting<'a> {
     ///
     /// # Errors
     /// Positions for which a table says nothing.
-    pub(super) fn passed(mut self, passings: &[Passing]) -> Result<Self, Error> {
+    pub(super) fn passed(mut self, commands: &[Command]) -> Result<Self, Error> {
         let machine = self.machine;
         let quantities = machine.uncertain_quantities();
-        let stops = self.stops.iter_mut().zip(&self.positions).zip(passings).enumerate();
-        for (i, ((old, ideal), passing)) in stops {
+        let stops = self.stops.iter_mut().zip(&self.positions).zip(commands).enumerate();
+        for (i, ((old, ideal), command)) in stops {
             let place = (&quantities[..], Some(i));
-            // Where the axis stands still it keeps the side from which it came.
-            let approach = std::array::from_fn(|k| match passing.approach[k] {
-                0.0 => old.approach[k],
-                side => side,
-            });
-            let mut stop = stop(machine, passing.command, &approach, place)?;
+            // The place on the path is the same, and so is the side from which each axis comes.
+            let mut stop = stop(machine, *command, &old.approach, place)?;
             stop.off = off(machine, &stop, ideal);
             *old = stop;
         }

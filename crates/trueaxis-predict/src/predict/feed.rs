@@ -10,11 +10,10 @@
 
 use super::cutting::{Change, Cutting, Reference};
 use super::judge::Judge;
-use super::program::Passing;
 use super::sensitivity::propagate;
 use super::servo::Servo;
 use super::{Error, Study};
-use trueaxis_machine::axis::{Approach, AxisKind, Command, MAX_AXES};
+use trueaxis_machine::axis::{AxisKind, Command, MAX_AXES};
 use trueaxis_machine::errors::ErrorValues;
 use trueaxis_machine::tcp::TipControl;
 use trueaxis_machine::{Machine, Target};
@@ -159,7 +158,7 @@ impl ClosedPath {
         servo: &Servo,
         times_s: &[f64],
         positions: &[ToolPosition],
-    ) -> Result<Vec<Passing>, Error> {
+    ) -> Result<Vec<Command>, Error> {
         let actual = servo.follow(&self.nodes, times_s, &self.closing);
         let Some(control) = TipControl::of(machine) else { return Ok(Vec::new()) };
         let tips: Vec<_> = actual.iter().map(|a| control.tip_and_axis(a).0).collect();
@@ -189,11 +188,7 @@ impl ClosedPath {
                     turn => q - turn * ((q - near[i]) / turn).round(),
                 }
             });
-            let approach: Approach = std::array::from_fn(|i| {
-                let way = self.nodes[piece + 1][i] - self.nodes[piece][i];
-                if way.abs() > 1e-12 { way.signum() } else { 0.0 }
-            });
-            found.push(Passing { command, approach });
+            found.push(command);
         }
         Ok(found)
     }

@@ -202,9 +202,13 @@ fn read_axis(section: &Section<'_>, linear: bool) -> Option<AxisServo> {
         }
         Some(Known { value: found.value, u: found.u.unwrap_or(0.0) })
     };
-    let feedforward = section.get("feedforward").map_or(Some(0.0), |i| share(&i))?;
-    let mut lag = known("lag", Dimension::Time)?;
-    if let Some(item) = section.get("gain") {
+    // All keys are read before the first fault counts.
+    let feedforward = section.get("feedforward").map_or(Some(0.0), |i| share(&i));
+    let lag = known("lag", Dimension::Time);
+    let [lost_motion, friction] = ["lost_motion", "friction"].map(|key| known(key, own));
+    let (gain, time) = (section.get("gain"), section.get("friction_time"));
+    let (feedforward, mut lag) = (feedforward?, lag?);
+    if let Some(item) = gain {
         let gain = item.number()?;
         if gain <= 0.0 || section.get("lag").is_some() {
             let message = "a gain is a positive number of 1/s, and stands for a lag".to_owned();
@@ -218,8 +222,7 @@ fn read_axis(section: &Section<'_>, linear: bool) -> Option<AxisServo> {
         section.error("bad-gain", message, "lag = \"20 ms\", or gain = 50 (Kv, 1/s)");
         return None;
     }
-    let (lost_motion, friction) = (known("lost_motion", own)?, known("friction", own)?);
-    let time = section.get("friction_time");
+    let (lost_motion, friction) = (lost_motion?, friction?);
     let friction_time_s = match &time {
         Some(item) => item.quantity(Dimension::Time).filter(|t| *t > 0.0),
         None => Some(0.0),

@@ -353,11 +353,13 @@ fn read_what_if(root: &Section<'_>, machine: Machine) -> (Machine, Vec<String>) 
             let Some(value) = item.measured(dimension) else { continue };
             match changed.clone().with_location(name, value.value) {
                 Some(machine) => {
-                    changed = machine;
-                    if let (Some(index), Some(_)) = (changed.error_index(name), value.u) {
-                        let stated = StatedError::constant(value.value, value.u);
-                        changed = changed.with_error(index, Some(stated));
-                    }
+                    changed = match (machine.error_index(name), value.u) {
+                        (Some(index), Some(u)) => {
+                            let stated = StatedError::constant(value.value, Some(u));
+                            machine.with_error(index, Some(stated))
+                        }
+                        _ => machine,
+                    };
                     words.push(format!("{name} = {}", item.as_text().unwrap_or_default()));
                 }
                 None => {
