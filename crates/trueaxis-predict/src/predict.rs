@@ -17,6 +17,7 @@ mod monte_carlo;
 mod program;
 mod sensitivity;
 mod servo;
+mod set_up;
 mod study;
 mod temperatures;
 mod virtual_part;
@@ -31,6 +32,7 @@ pub use monte_carlo::{Sampling, Spread, monte_carlo};
 pub use program::CutProgram;
 pub use sensitivity::{Sensitivity, propagate, sensitivities};
 pub use servo::{AxisServo, Known, Servo};
+pub use set_up::{MeasuredLength, SetUpReadings};
 pub use study::{Decision, Published, PublishedRow, Study, Variant, parse_study, read_study};
 pub use temperatures::{Pace, RunningTemperatures};
 pub use virtual_part::{VirtualPart, cut_virtually};
@@ -379,6 +381,13 @@ fn warnings(study: &Study, indices: &[Index], sections: &[SectionResult]) -> Vec
     let missing = |i: &Index| i.u_mm == 0.0;
     if !is_exact && indices.iter().all(missing) {
         warnings.push("the machine file states no uncertainties: u is 0 throughout".to_owned());
+    }
+    if let Some([(x, u), (y, _)]) = study.set_up.and_then(|s| s.centre_mm) {
+        let [x, y, u] = [x, y, u].map(|mm| mm * 1e3);
+        warnings.push(format!(
+            "the centre of the blank lies {x:+.2} {y:+.2} µm (u = {u:.2} µm) from the zero in x and y: the indices are \
+             those against the zero or its reference hole, where it does not count"
+        ));
     }
     if study.reference.datum == DatumAxis::BestFit {
         warnings.push(

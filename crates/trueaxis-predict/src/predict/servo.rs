@@ -139,7 +139,7 @@ impl AxisTurn<'_> {
         let mut turn = 0.0;
         while turn <= turns {
             let is_last = turn + 1.0 > turns;
-            for k in 1..=last {
+            for (k, place) in actual.iter_mut().enumerate().skip(1) {
                 let (v, step_s) = (speed(k), self.times_s[k] - self.times_s[k - 1]);
                 let now_s = turn * whole_s + self.times_s[k];
                 // It turns at the node before.
@@ -159,7 +159,7 @@ impl AxisTurn<'_> {
                         let age = (now_s - since_s) / axis.friction_time_s.max(1e-12);
                         towards * axis.friction.value * (-age).exp()
                     });
-                    actual[k][self.i] = slide - stuck;
+                    place[self.i] = slide - stuck;
                 }
             }
             motor -= self.closing;

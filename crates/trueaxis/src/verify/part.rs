@@ -55,9 +55,12 @@ pub enum PredictionSource {
         /// Where they come from.
         source: String,
         /// Value and u (if stated) of each index, mm, in the order of the test piece.
-        values_mm: Vec<Option<(f64, Option<f64>)>>,
+        values_mm: Vec<Option<PredictedValue>>,
     },
 }
+
+/// A predicted value and its u (if it is known), mm.
+pub type PredictedValue = (f64, Option<f64>);
 
 /// What was measured.
 #[derive(Debug)]
@@ -120,7 +123,7 @@ pub struct IndexComparison {
     /// Which one.
     pub name: IndexName,
     /// Predicted value and u (if known), mm.
-    pub predicted: Option<(f64, Option<f64>)>,
+    pub predicted: Option<PredictedValue>,
     /// Part after part.
     pub measured: Vec<MeasuredIndex>,
     /// Whether u of the measured values is known.
@@ -222,7 +225,7 @@ pub fn verify_part(task: &PartStudy) -> Result<PartResult, PartError> {
     Ok(PartResult { indices, parts, predicted, count, outcome, reason, warnings })
 }
 
-type Predicted = (Vec<Option<(f64, Option<f64>)>>, Vec<PartSection>, Vec<String>);
+type Predicted = (Vec<Option<PredictedValue>>, Vec<PartSection>, Vec<String>);
 
 fn predicted(task: &PartStudy) -> Result<Predicted, PartError> {
     match &task.prediction {
@@ -344,7 +347,7 @@ fn add_datum(
 fn compared(
     task: &PartStudy,
     name: &IndexName,
-    predicted: Option<(f64, Option<f64>)>,
+    predicted: Option<PredictedValue>,
     measured: &Values,
 ) -> IndexComparison {
     let k = task.rule.coverage_factor;

@@ -1,7 +1,9 @@
 //! The file of measured parts.
 
 use super::points::Reading;
-use super::{CmmPoints, Measurements, PartRule, PartStudy, PredictionSource, TypedRow};
+use super::{
+    CmmPoints, Measurements, PartRule, PartStudy, PredictedValue, PredictionSource, TypedRow,
+};
 use std::path::Path;
 use trueaxis_input::{Diagnostics, Dimension, Files, Item, Section, SourceText};
 use trueaxis_machine::chain::Link;
@@ -157,7 +159,7 @@ fn index_of(
 fn read_predicted(
     section: &Section<'_>,
     piece: &TestPieceFile,
-) -> (String, Vec<Option<(f64, Option<f64>)>>) {
+) -> (String, Vec<Option<PredictedValue>>) {
     let source = section.text("source").unwrap_or_default().to_owned();
     let mut values = vec![None; piece.piece().index_names().len()];
     for (key, _, item) in section.entries() {
