@@ -82,7 +82,7 @@ fn at_feed(radius_mm: f64, positions: usize, feed: &str, servo: &str, index: usi
     prediction.conditions[0].indices_mm[index]
 }
 
-/// The same lag of both axes: the circle shrinks to R/√(1 + (ωτ)²) and is round, wherever it is looked at.
+/// The same lag of both axes: the circle shrinks to R/√(1 + (ωτ)²) and is round, wherever it is checked.
 #[test]
 fn law_equal_lags_shrink_the_circle() {
     for (radius, feed_mm_per_min, tau) in [
@@ -191,7 +191,7 @@ fn a_play_makes_a_step_at_the_quadrants() {
     assert!((largest - 0.002).abs() < 1e-5, "{largest}");
 }
 
-/// The frustum of document 000 on its gantry.
+/// The frustum of Wu et al. 2022 on its gantry.
 fn gantry(more: &str) -> Prediction {
     let text = format!(
         "name = \"s\"\nmachine = \"machines/xkas2525/machine.toml\"\n\

@@ -9,6 +9,8 @@
 
 use std::path::Path;
 use trueaxis_input::{Diagnostics, Dimension, Files, Item, Section, SourceText};
+use trueaxis_machine::Machine;
+use trueaxis_machine::errors::{ErrorName, StatedError};
 
 /// What was read while the part was set up.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -52,6 +54,50 @@ impl SetUpReadings {
         });
         problems.append(source.finish());
         (!problems.has_errors()).then_some(found)
+    }
+}
+
+/// `set_up = "set-up.toml"`: the readings that a person has filled in.
+pub(super) fn read_set_up(
+    item: &Item<'_>,
+    root: &Section<'_>,
+    folder: &Path,
+) -> Option<Option<SetUpReadings>> {
+    let path = folder.join(item.text()?);
+    let mut problems = Diagnostics::new();
+    let found = SetUpReadings::read(root.files(), &path, &mut problems);
+    root.take_over(problems);
+    found.map(Some)
+}
+
+/// The measured length of the tool as an error of the tool that the control knows.
+pub(super) fn with_length(
+    root: &Section<'_>,
+    machine: Machine,
+    set_up: Option<SetUpReadings>,
+    words: &mut Vec<String>,
+) -> Machine {
+    let Some(length) = set_up.and_then(|s| s.length) else { return machine };
+    let Some(name) = ErrorName::parse("EZ0t") else { return machine };
+    if words.iter().any(|w| w.starts_with("EZ0t")) {
+        let message = "EZ0t is measured by the set-up and stated in [what_if]".to_owned();
+        root.error("contradiction", message, "take one of them out");
+    }
+    let nominal_mm = -machine.tip_mm().z;
+    if (nominal_mm - length.entered_mm).abs() > 1e-6 {
+        let message = format!(
+            "the set-up has a tool of {} mm in the control, the study one of {nominal_mm} mm",
+            length.entered_mm
+        );
+        root.error("other-tool-length", message, "[tool] length = \"…\" of the set-up");
+    }
+    let off_mm = length.entered_mm - length.actual_mm;
+    words.push(format!("EZ0t = {:.2} ± {:.2} um (set-up)", off_mm * 1e3, length.u_mm * 1e3));
+    match machine.error_index(name) {
+        Some(index) => {
+            machine.with_error(index, Some(StatedError::constant(off_mm, Some(length.u_mm))))
+        }
+        None => machine,
     }
 }
 
@@ -144,7 +190,7 @@ fn read_centre(section: &Section<'_>) -> Option<[(f64, f64); 2]> {
     // An ellipse of the blank is no fault of the centre.
     if centre.iter().any(|c| c.abs() > OFF_CENTRE_MM) {
         let message = format!("the zero is {:.3} {:.3} mm off the centre", centre[0], centre[1]);
-        section.error("other-zero", message, "set the zero anew, and read the dial again");
+        section.error("other-zero", message, "set the zero again, and read the dial again");
         return None;
     }
     Some(centre.map(|c| (c, u_mm)))

@@ -4,7 +4,7 @@ use super::cutting::{DatumAxis, Reference};
 use super::monte_carlo::Sampling;
 use super::program::CutProgram;
 use super::servo::{Servo, read_servo};
-use super::set_up::SetUpReadings;
+use super::set_up::{SetUpReadings, read_set_up, with_length};
 use super::temperatures::{RunningTemperatures, StudyTemperatures};
 use super::{Index, Setting};
 use std::path::{Path, PathBuf};
@@ -376,50 +376,6 @@ fn read_what_if(root: &Section<'_>, machine: Machine) -> (Machine, Vec<String>) 
         }
     });
     (changed, words)
-}
-
-/// `set_up = "set-up.toml"`: the readings that a person has filled in.
-fn read_set_up(
-    item: &Item<'_>,
-    root: &Section<'_>,
-    folder: &Path,
-) -> Option<Option<SetUpReadings>> {
-    let path = folder.join(item.text()?);
-    let mut problems = Diagnostics::new();
-    let found = SetUpReadings::read(root.files(), &path, &mut problems);
-    root.take_over(problems);
-    found.map(Some)
-}
-
-/// The measured length of the tool as an error of the tool that the control knows.
-fn with_length(
-    root: &Section<'_>,
-    machine: Machine,
-    set_up: Option<SetUpReadings>,
-    words: &mut Vec<String>,
-) -> Machine {
-    let Some(length) = set_up.and_then(|s| s.length) else { return machine };
-    let Some(name) = ErrorName::parse("EZ0t") else { return machine };
-    if words.iter().any(|w| w.starts_with("EZ0t")) {
-        let message = "EZ0t is measured by the set-up and stated in [what_if]".to_owned();
-        root.error("contradiction", message, "take one of them out");
-    }
-    let nominal_mm = -machine.tip_mm().z;
-    if (nominal_mm - length.entered_mm).abs() > 1e-6 {
-        let message = format!(
-            "the set-up has a tool of {} mm in the control, the study one of {nominal_mm} mm",
-            length.entered_mm
-        );
-        root.error("other-tool-length", message, "[tool] length = \"…\" of the set-up");
-    }
-    let off_mm = length.entered_mm - length.actual_mm;
-    words.push(format!("EZ0t = {:.2} ± {:.2} um (set-up)", off_mm * 1e3, length.u_mm * 1e3));
-    match machine.error_index(name) {
-        Some(index) => {
-            machine.with_error(index, Some(StatedError::constant(off_mm, Some(length.u_mm))))
-        }
-        None => machine,
-    }
 }
 
 /// `[mounting] fixture = "3100 1250 -1200 mm"`: the fixture of the test piece there; without it

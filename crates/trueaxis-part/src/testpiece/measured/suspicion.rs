@@ -116,7 +116,7 @@ impl Cone {
             let mut mine: Vec<usize> =
                 (0..points.len()).filter(|i| points[*i].section == section).collect();
             mine.sort_by(|a, b| places[*a].0.total_cmp(&places[*b].0));
-            // The worst goes first, and its neighbours are looked at again without it.
+            // The worst goes first, and its neighbours are examined again without it.
             while mine.len() > 8 {
                 let ring: Ring = mine.iter().map(|i| places[*i]).collect();
                 let off = jumps(&ring);

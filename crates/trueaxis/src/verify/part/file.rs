@@ -350,7 +350,7 @@ fn read_points(section: &Section<'_>, folder: &Path, piece: &TestPieceFile) -> O
     })
 }
 
-/// `probe = "corrected"`, or `"centres"` with `stylus_diameter`; the radius that is taken off, mm.
+/// `probe = "corrected"`, or `"centres"` with `stylus_diameter`; the radius that is subtracted, mm.
 fn read_probe(section: &Section<'_>) -> Option<f64> {
     let hint = "probe = \"corrected\" (points of the surface), or \"centres\" with stylus_diameter";
     let probe = section.require("probe", hint);

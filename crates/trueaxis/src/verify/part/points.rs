@@ -206,7 +206,7 @@ impl Reading<'_> {
         }
     }
 
-    /// What can be believed, but should be looked at.
+    /// What can be believed, but should be checked.
     fn warn(&self, points: &[MeasuredPoint], sheet: &Sheet, problems: &mut Diagnostics) {
         for (point, by_mm) in self.cone.gross_points(points, self.point_u_mm).unwrap_or_default() {
             let message = format!(
