@@ -42,7 +42,15 @@ fn every_control_gets_its_programs_and_readings_are_never_overwritten() {
         assert!(hole.contains("-40"), "{hole}");
         for name in ["1-length", "2-centre"] {
             let stop = read(&format!("{name}.{extension}"));
-            assert!(stop.contains("M0") || stop.contains("STOP"), "{stop}");
+            let lines: Vec<&str> = stop.lines().collect();
+            let is_stop =
+                |l: &&str| l.split_whitespace().any(|w| ["M0", "M00", "STOP"].contains(&w));
+            let at = lines.iter().position(|l| is_stop(&l)).expect("a stop");
+            // It stops 100 mm above the piece, before it goes on.
+            let reaches = |lines: &[&str], z: &str| {
+                lines.iter().any(|l| l.contains(&format!("Z{z}")) || l.contains(&format!("Z+{z}")))
+            };
+            assert!(reaches(&lines[at - 3..at], "100") && reaches(&lines[at..], "105"), "{stop}");
         }
         let path = folder.path("set-up/set-up.toml");
         fs::write(&path, "# filled in by hand").expect("written");

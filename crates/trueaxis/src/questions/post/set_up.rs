@@ -25,8 +25,11 @@ pub fn locations(piece: &TestPieceFile, set_up: &SetUp) -> [(&'static str, Strin
         )
     };
     let go = |z_mm: f64| format!("GOTO/0.,0.,{z_mm:.9},0.,0.,1.\n");
-    let stop =
-        |what: &str| format!("{}PPRINT/{what}\nRAPID\n{}STOP\nFINI\n", head(what), go(ABOVE_MM));
+    let stop = |what: &str| {
+        // A way on after the stop: the tool must stand there, and not at the end of the program.
+        let (there, on) = (go(ABOVE_MM), go(ABOVE_MM + CLEAR_MM));
+        format!("{}PPRINT/{what}\nRAPID\n{there}STOP\nRAPID\n{on}FINI\n", head(what))
+    };
     let mut hole = head("REFERENCE HOLE");
     let _ = writeln!(hole, "SPINDL/{},RPM,CLW", set_up.spindle_per_min);
     hole += &format!("RAPID\n{}RAPID\n{}", go(ABOVE_MM), go(CLEAR_MM));
