@@ -45,7 +45,7 @@ fn every_control_gets_its_programs_and_readings_are_never_overwritten() {
             let lines: Vec<&str> = stop.lines().collect();
             let is_stop =
                 |l: &&str| l.split_whitespace().any(|w| ["M0", "M00", "STOP"].contains(&w));
-            let at = lines.iter().position(|l| is_stop(l)).expect("a stop");
+            let at = lines.iter().position(is_stop).expect("a stop");
             // It stops 100 mm above the piece, before it goes on.
             let reaches = |lines: &[&str], z: &str| {
                 lines.iter().any(|l| l.contains(&format!("Z{z}")) || l.contains(&format!("Z+{z}")))
