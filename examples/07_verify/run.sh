@@ -21,6 +21,12 @@ $trueaxis verify --diff machines/xkas2525/machine.toml $verify/xkas2525-after-a-
 # Residual error after compensation at poses that the identification has not used: tables, and programs.
 $trueaxis verify --certificate $verify/certificate.toml --report "$out/certificate.html"
 $trueaxis verify --certificate $verify/certificate-program.toml --report "$out/certificate-program.html"
+# Four measured frusta against their prediction (Wu et al. 2022, Fig 20): one angularity is not proved, exit status 1.
+$trueaxis verify --part $verify/nas979-measured.toml || [ $? -eq 1 ]
+# One frustum point by point: made again, and verified.
+$trueaxis measure --part examples/03_predict/nas979-on-xkas2525.toml --draw --seed 979 --point-u "0.7 um" \
+    -o "$out/nas979-points.csv"
+$trueaxis verify --part $verify/nas979-points.toml --report "$out/nas979-part.html"
 # The measured error motion as a table for the machine file.
 mkdir -p "$out/mill"
 cp machines/three-axis-mill/machine.toml "$out/mill/machine.toml"

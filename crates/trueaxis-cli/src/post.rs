@@ -22,7 +22,7 @@ Examples:
       --control heidenhain --tcp length -o plate.h --verify
 
   trueaxis post machines/xkas2525/machine.toml testpieces/nas979-gbt33150.toml \\
-      --control sinumerik -o cone.mpf --verify
+      --control sinumerik -o cone.mpf --verify --set-up set-up
 
 A test piece is cut in one turn for each [[condition]] of its file. The points are taken in the workpiece frame of the machine file. With --tcp on and --tcp length the program has
 places of the tip from the workpiece zero (G54), with --tcp off positions of the axes from the machine zero, tool
@@ -87,6 +87,9 @@ pub struct Arguments {
     /// Read the program back, simulate it, and show the largest deviations from the file
     #[arg(long)]
     verify: bool,
+    /// Write the programs of the set-up of a test piece, and a file for its readings, into this folder
+    #[arg(long, value_name = "FOLDER")]
+    set_up: Option<PathBuf>,
     /// Output as text or as one JSON document
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
@@ -173,6 +176,7 @@ pub fn run(arguments: Arguments) -> Outcome {
         number: arguments.number,
         output,
         verify: arguments.verify,
+        set_up: arguments.set_up,
     };
     Door { format: arguments.format, report: None }.ask(&question)
 }

@@ -1,10 +1,10 @@
-//! `trueaxis verify`: comparisons, calibrations and certificates.
+//! `trueaxis verify`: comparisons, calibrations, certificates and measured parts.
 
 use crate::door::Door;
 use crate::output::{Format, Outcome};
 use clap::Args;
 use std::path::PathBuf;
-use trueaxis::questions::{Certify, CompareCalibrations, VerifyReadings};
+use trueaxis::questions::{Certify, CompareCalibrations, VerifyPart, VerifyReadings};
 
 /// The comparison to make.
 #[derive(Args)]
@@ -13,11 +13,12 @@ Examples:
   trueaxis verify examples/07_verify/probe-ball.toml --report v.html
   trueaxis verify --diff machines/xkas2525/machine.toml examples/07_verify/xkas2525-after-a-year.toml
   trueaxis verify --certificate examples/07_verify/certificate.toml --report certificate.html
+  trueaxis verify --part examples/07_verify/nas979-points.toml --report part.html
 
 Exit status: 0 pass, or no change; 1 fail or undecided, or a significant change; 2 unusable input.")]
 pub struct Arguments {
     /// The readings, what they are compared with, and the decision rule
-    #[arg(value_name = "FILE.toml", required_unless_present_any = ["diff", "certificate"])]
+    #[arg(value_name = "FILE.toml", required_unless_present_any = ["diff", "certificate", "part"])]
     file: Option<PathBuf>,
     /// Compare two calibrations of one machine: which errors changed significantly
     #[arg(long, num_args = 2, value_names = ["OLD.toml", "NEW.toml"], conflicts_with = "file")]
@@ -25,6 +26,9 @@ pub struct Arguments {
     /// Certify a compensation: the residual errors at poses that the identification has not used
     #[arg(long, value_name = "STUDY.toml", conflicts_with_all = ["file", "diff"])]
     certificate: Option<PathBuf>,
+    /// Measured test pieces: their indices against their tolerances and their prediction
+    #[arg(long, value_name = "FILE.toml", conflicts_with_all = ["file", "diff", "certificate"])]
+    part: Option<PathBuf>,
     /// Write an HTML report to this file
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
@@ -38,6 +42,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
     match (&arguments.diff.as_deref(), &arguments.certificate, &arguments.file) {
         (Some([old, new]), ..) => {
             door.ask(&CompareCalibrations { old: old.clone(), new: new.clone() })
+        }
+        _ if arguments.part.is_some() => {
+            door.ask(&VerifyPart { file: arguments.part.clone().unwrap_or_default() })
         }
         (_, Some(study), _) => door.ask(&Certify { study: study.clone() }),
         (.., Some(file)) => door.ask(&VerifyReadings { file: file.clone() }),

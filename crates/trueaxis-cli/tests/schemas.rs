@@ -80,6 +80,7 @@ const ANSWERS: &[(&str, &str)] = &[
     ("identify-surface", "identify surface examples/05_identify/bangle-hits.toml"),
     ("identify-thermal", "identify thermal examples/05_identify/lathe-thermal.toml"),
     ("measure", "measure examples/07_verify/probe-ball-campaign.toml -o OUT/readings"),
+    ("measure-part", "measure --part examples/03_predict/nas979-on-xkas2525.toml --draw"),
     ("plan", "plan examples/04_plan/probe-ball.toml"),
     ("plan", "plan examples/04_plan/ball-bar-10791-6.toml"),
     ("plan-probe-surface", "plan probe-surface examples/04_plan/probe-surface.toml"),
@@ -109,6 +110,8 @@ const ANSWERS: &[(&str, &str)] = &[
         "trace machines/wyxzcat-gantry/machine.toml examples/02_simulate/impeller-840d.mpf --block 120",
     ),
     ("verify", "verify examples/07_verify/probe-ball.toml"),
+    ("verify-part", "verify --part examples/07_verify/nas979-measured.toml"),
+    ("verify-part", "verify --part examples/07_verify/nas979-points.toml"),
 ];
 
 #[test]

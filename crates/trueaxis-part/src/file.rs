@@ -51,6 +51,19 @@ pub struct TestPieceFile {
     pub tolerances: Tolerances,
     /// How it is cut, in this order; empty if the file says nothing of it.
     pub conditions: Vec<CuttingCondition>,
+    /// How it is set up before, if stated.
+    pub set_up: Option<SetUp>,
+}
+
+/// The reference hole of a set-up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SetUp {
+    /// Feed of the reference hole, mm/min.
+    pub feed_mm_per_min: f64,
+    /// Speed of the spindle, 1/min.
+    pub spindle_per_min: f64,
+    /// Depth of the reference hole below the top face, mm.
+    pub hole_depth_mm: f64,
 }
 
 /// One turn of the tool about the piece.
@@ -105,6 +118,7 @@ impl TestPieceFile {
         // Of a piece with another mistake no height is known.
         let top = checked.as_ref().map_or(f64::MAX, |c| c.size().height_mm);
         let conditions = conditions(root, top);
+        let set_up = root.section("set_up", read_set_up);
         Some(Self {
             name: name?.to_owned(),
             source,
@@ -112,6 +126,10 @@ impl TestPieceFile {
             mounting: mounting?,
             tolerances: tolerances?,
             conditions: conditions?,
+            set_up: match set_up {
+                Some(stated) => Some(stated?),
+                None => None,
+            },
         })
     }
 
@@ -121,6 +139,27 @@ impl TestPieceFile {
             Shape::Cone(cone) => cone,
         }
     }
+}
+
+/// `[set_up] feed = "0.015 m/min"`, `spindle = "600 rpm"`, `hole_depth = "40 mm"`.
+fn read_set_up(section: &Section<'_>) -> Option<SetUp> {
+    let positive = |key: &str, dimension: Dimension, example: &str| {
+        let item = section.require(key, example)?;
+        let value = item.quantity(dimension)?;
+        if value <= 0.0 {
+            item.error("not-positive", format!("`{key}` must be positive"), example);
+        }
+        Some(value).filter(|v| *v > 0.0)
+    };
+    let feed = positive("feed", Dimension::Velocity, "feed = \"15 mm/min\"");
+    let spindle = positive("spindle", Dimension::AngularVelocity, "spindle = \"600 rpm\"");
+    let depth = positive("hole_depth", Dimension::Length, "hole_depth = \"40 mm\"");
+    Some(SetUp {
+        feed_mm_per_min: feed? * 60.0,
+        // The digits of the file, not those of rad/s and back.
+        spindle_per_min: (spindle? * 30.0 / PI * 1e6).round() / 1e6,
+        hole_depth_mm: depth?,
+    })
 }
 
 /// `[[condition]] feed = "1.5 m/min"`, `spindle = "10000 rpm"`, `height`, `allowance`.

@@ -56,4 +56,4 @@ pub mod testpiece;
 pub mod tolerance;
 
 pub use error::Error;
-pub use file::{CuttingCondition, Shape, TestPieceFile};
+pub use file::{CuttingCondition, SetUp, Shape, TestPieceFile};

@@ -146,6 +146,9 @@ pub trait TestPiece: std::fmt::Debug + Send + Sync {
     /// The ideal path; the tool-setting point is the origin of the workpiece frame.
     fn tool_positions(&self) -> Vec<ToolPosition>;
 
+    /// The same path with so many positions for each one; the first of them is that one.
+    fn finer_positions(&self, times: usize) -> Vec<ToolPosition>;
+
     /// Number of tool positions of the path.
     fn position_count(&self) -> usize;
 
@@ -176,6 +179,9 @@ pub trait TestPiece: std::fmt::Debug + Send + Sync {
     /// # Errors
     /// As [`TestPiece::evaluate`].
     fn sections(&self, cut: &CutSurface<'_>) -> Result<Vec<PartSection>, Error>;
+
+    /// The frame in which the cut agrees best with the nominal piece.
+    fn best_fit(&self, deviation_mm: &[Vec3]) -> Datum;
 
     /// The deviations of a machine without errors: all zero, so that every index must be 0.
     fn ideal_deviation_mm(&self) -> Vec<Vec3> {

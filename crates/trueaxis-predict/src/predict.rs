@@ -9,25 +9,33 @@
 mod budget;
 mod correction;
 mod cutting;
+mod feed;
 pub mod holes;
 mod judge;
 pub mod location;
 mod monte_carlo;
 mod program;
 mod sensitivity;
+mod servo;
+mod set_up;
 mod study;
 mod temperatures;
+mod virtual_part;
 mod what_if;
 
 pub use budget::{ErrorBudget, Share, budget};
 pub use correction::{Correction, corrections};
 pub use cutting::{Cutting, DatumAxis, Reference};
+pub use feed::ConditionResult;
 pub use judge::{Bench, Judge};
 pub use monte_carlo::{Sampling, Spread, monte_carlo};
 pub use program::CutProgram;
 pub use sensitivity::{Sensitivity, propagate, sensitivities};
+pub use servo::{AxisServo, Known, Servo};
+pub use set_up::{MeasuredLength, SetUpReadings};
 pub use study::{Decision, Published, PublishedRow, Study, Variant, parse_study, read_study};
 pub use temperatures::{Pace, RunningTemperatures};
+pub use virtual_part::{VirtualPart, cut_virtually};
 pub use what_if::{ErrorChange, WhatIf};
 
 use trueaxis_geometry::Vec3;
@@ -189,8 +197,22 @@ pub struct Prediction {
     pub corrections: Vec<Correction>,
     /// Other setting points and datums.
     pub variants: Vec<VariantResult>,
+    /// The part at the feed of every cutting condition, if the study states how the axes follow.
+    pub conditions: Vec<ConditionResult>,
     /// What the reader of the numbers should know.
     pub warnings: Vec<String>,
+}
+
+impl Prediction {
+    /// The verdict, that of every cutting condition with it.
+    pub fn outcome(&self) -> Outcome {
+        let all = self.conditions.iter().map(|c| c.verdict.outcome);
+        all.fold(self.verdict.outcome, |all, one| match (all, one) {
+            (Outcome::Fail, _) | (_, Outcome::Fail) => Outcome::Fail,
+            (Outcome::Undecided, _) | (_, Outcome::Undecided) => Outcome::Undecided,
+            (Outcome::Pass, Outcome::Pass) => Outcome::Pass,
+        })
+    }
 }
 
 /// Predicts the part of a study: the whole walk from machine to verdict.
@@ -208,6 +230,8 @@ pub fn predict(study: &Study, progress: &(dyn Fn(usize) + Sync)) -> Result<Predi
     let cutting = Cutting::along(machine, piece, &study.reference, temperatures, program)?;
     let judge = Judge { cutting: &cutting, piece };
     let mut prediction = predicted(study, &judge, progress)?;
+    prediction.conditions = feed::conditions(study)?;
+    prediction.warnings.extend(feed::remarks(study, &prediction.conditions));
     if prediction.verdict.outcome != Outcome::Pass {
         prediction.corrections = remedies(study, &judge, &prediction.indices)?;
     }
@@ -240,6 +264,7 @@ fn predicted(
         budget: budget(machine, judge)?,
         sensitivities: sensitivities(machine, judge)?,
         variants: variants(study)?,
+        conditions: Vec::new(),
         indices,
         verdict,
         deviations_mm,
@@ -357,9 +382,24 @@ fn warnings(study: &Study, indices: &[Index], sections: &[SectionResult]) -> Vec
     if !is_exact && indices.iter().all(missing) {
         warnings.push("the machine file states no uncertainties: u is 0 throughout".to_owned());
     }
+    if let Some([(x, u), (y, _)]) = study.set_up.and_then(|s| s.centre_mm) {
+        let [x, y, u] = [x, y, u].map(|mm| mm * 1e3);
+        warnings.push(format!(
+            "the centre of the blank lies {x:+.2} {y:+.2} µm (u = {u:.2} µm) from the zero in x and y: the indices are \
+             those against the zero or its reference hole, where it does not count"
+        ));
+    }
+    if study.reference.datum == DatumAxis::BestFit {
+        warnings.push(
+            "in the best fit the part has no datum: coaxiality and angularity say nothing about its axis"
+                .to_owned(),
+        );
+    }
     for index in indices {
         let Some(spread) = index.spread else { continue };
-        if (spread.u_mm - index.u_mm).abs() > 0.15 * index.u_mm.max(spread.u_mm) {
+        let off_mm = (spread.u_mm - index.u_mm).abs();
+        // Below 0.01 µm both are nothing.
+        if off_mm > 0.15 * index.u_mm.max(spread.u_mm) && off_mm > 1e-5 {
             warnings.push(format!(
                 "{}: u is {:.2} µm by linear propagation, {:.2} µm by Monte Carlo: the index has a \
                  kink here; with a guard band the larger one counts",

@@ -1,12 +1,12 @@
 //! The JSON documents of the program with their JSON Schemas.
 
 use crate::explain::{ExplainDocument, ExplainListDocument};
-use crate::questions::{ProbeProgramsDocument, RtcpProgramsDocument};
+use crate::questions::{ProbeProgramsDocument, RtcpProgramsDocument, VirtualPartDocument};
 use crate::report::{
     CertificateDocument, CheckDocument, DescriptionDocument, DiagnosticEntry, DiffDocument,
     ExpansionDocument, ExpansionsDocument, PoseDocument, PoseRowsDocument, PostDocument,
     RefusedDocument, SolveDocument, SolvePathDocument, TablesFoundDocument, TraceDocument,
-    VerifyDocument,
+    VerifyDocument, VerifyPartDocument,
 };
 use schemars::{JsonSchema, Schema, generate::SchemaSettings, json_schema};
 use serde_json::Value;
@@ -41,6 +41,8 @@ pub fn schemas() -> Vec<NamedSchema> {
         named_schema::<SolvePathDocument>("solve-path"),
         named_schema::<TraceDocument<'_>>("trace"),
         named_schema::<VerifyDocument<'_>>("verify"),
+        named_schema::<VerifyPartDocument<'_>>("verify-part"),
+        named_schema::<VirtualPartDocument<'_>>("measure-part"),
     ];
     all.extend(trueaxis_measure::schemas());
     all.extend(trueaxis_calibrate::schemas());

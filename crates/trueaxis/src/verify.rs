@@ -5,11 +5,13 @@
 //! readings; [`calibrations`](mod@calibrations) one machine file against a later one;
 //! [`certificate`](mod@certificate) what a compensation leaves, proved on poses that were not used;
 //! [`error_tables`](mod@error_tables) readings as the error tables of the machine file.
+//! [`part`](mod@part) a test piece that was measured against its tolerances and its prediction.
 
 pub mod calibrations;
 pub mod certificate;
 pub mod compare;
 pub mod error_tables;
+pub mod part;
 pub mod write_back;
 
 pub use trueaxis_standards::*;

@@ -1,7 +1,8 @@
 //! The truncated cone, cut by the flank of an end mill whose axis is parallel to the generatrix.
 
 use super::{
-    Contact, CutSurface, Family, Feature, IndexName, PartSection, Scratch, TestPiece, ToolPosition,
+    Contact, CutSurface, Datum, Family, Feature, IndexName, PartSection, Scratch, TestPiece,
+    ToolPosition,
 };
 use crate::Error;
 use trueaxis_geometry::Vec3;
@@ -291,6 +292,12 @@ impl TestPiece for Cone {
         self.azimuths.iter().map(|a| self.tool_position(a)).collect()
     }
 
+    fn finer_positions(&self, times: usize) -> Vec<ToolPosition> {
+        let count = self.size.positions * times.max(1);
+        let size = ConeSize { positions: count, ..self.size.clone() };
+        (0..count).map(|number| self.tool_position(&Azimuth::new(&size, number))).collect()
+    }
+
     fn position_count(&self) -> usize {
         self.azimuths.len()
     }
@@ -319,6 +326,10 @@ impl TestPiece for Cone {
         indices_mm[ANGULARITY_ZONE] = self.angularity_zone(cut);
         indices_mm[INDICES.len() - 1] = self.volumetric(cut);
         Ok(())
+    }
+
+    fn best_fit(&self, deviation_mm: &[Vec3]) -> Datum {
+        self.best_fit_of_cut(deviation_mm)
     }
 
     fn sections(&self, cut: &CutSurface<'_>) -> Result<Vec<PartSection>, Error> {

@@ -1,8 +1,17 @@
 //! Points of a cut cone from a coordinate measuring machine: the same indices as a prediction.
+//!
+//! [`Cone::measured`] gives the indices, [`Cone::measured_sections`] what is drawn, [`Cone::best_fit_of`] another
+//! frame; [`Cone::suspicion`] what is wrong with points that lie elsewhere.
+
+mod frame;
+mod suspicion;
+
+pub use suspicion::Suspicion;
 
 use super::cone::{Cone, INDICES};
+use super::{Contact, CutSurface, PartSection, TestPiece, ToolPosition};
 use crate::Error;
-use crate::fit::circle::Fitter;
+use crate::fit::circle::{Circles, Fitter};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use trueaxis_geometry::Vec3;
 
@@ -170,6 +179,106 @@ impl Cone {
         Ok(values.into_iter().zip(squares).map(index).collect())
     }
 
+    /// The measured sections with their fitted circles, from the base upwards; sections without points are left out.
+    /// Their indices are those of form and position.
+    ///
+    /// # Errors
+    /// As [`Cone::measured`].
+    pub fn measured_sections(
+        &self,
+        points: &[MeasuredPoint],
+    ) -> Result<Vec<PartSection>, MeasuredFault> {
+        let (places, size) = (self.accepted(points)?, self.size());
+        let mut sections = Vec::new();
+        for (section, height_mm) in size.heights_mm.iter().copied().enumerate() {
+            let Some(ring) = self.ring(points, &places, section)? else { continue };
+            let profile_mm = self.profile_of(&ring, height_mm);
+            let circles = Fitter::default().all(&profile_mm)?;
+            let mut indices_mm = vec![None; INDICES.len()];
+            for (i, value) in forms(&ring, &circles) {
+                indices_mm[i] = Some(value);
+            }
+            sections.push(PartSection {
+                height_mm,
+                z_mm: height_mm - size.height_mm,
+                radius_mm: self.radius_mm(height_mm),
+                azimuth_rad: ring.iter().map(|r| r.0).collect(),
+                deviation_mm: ring.iter().map(|r| r.1).collect(),
+                profile_mm,
+                circles,
+                indices_mm,
+            });
+        }
+        Ok(sections)
+    }
+
+    /// Points of the surface of a cut, as a coordinate measuring machine without errors would find them: nominal
+    /// point + E n_f, tool position after tool position, from the base upwards.
+    pub fn points_of(&self, cut: &CutSurface<'_>) -> Vec<MeasuredPoint> {
+        let positions = self.tool_positions();
+        let contacts = positions.iter().flat_map(|p| p.contacts.iter().map(move |c| (p, c)));
+        let radius_mm = 0.5 * self.size().tool_diameter_mm;
+        let point = |((position, contact), deviation): ((&ToolPosition, &Contact), &Vec3)| {
+            let normal = contact.normal.vector();
+            let axis = position.tip.along(position.axis, contact.along_axis_mm).vector();
+            let nominal = axis - normal * radius_mm;
+            let error = normal.dot(&(deviation - cut.datum.displacement_mm(axis)));
+            MeasuredPoint { place_mm: nominal + normal * error, section: contact.section }
+        };
+        contacts.zip(cut.deviation_mm).map(point).collect()
+    }
+
+    /// Points of another surface of this piece at the azimuths of measured points, with the E of `sections`
+    /// interpolated there; points of sections that are missing keep their own.
+    pub fn points_at(
+        &self,
+        sections: &[PartSection],
+        like: &[MeasuredPoint],
+    ) -> Vec<MeasuredPoint> {
+        let heights = &self.size().heights_mm;
+        let rings: Vec<Option<Ring>> = heights
+            .iter()
+            .map(|h| {
+                let section = sections.iter().find(|s| s.height_mm == *h)?;
+                let azimuths = section.azimuth_rad.iter().map(|a| a.sin().atan2(a.cos()));
+                let mut ring: Ring = azimuths.zip(section.deviation_mm.iter().copied()).collect();
+                ring.sort_by(|a, b| a.0.total_cmp(&b.0));
+                Some(ring).filter(|r| !r.is_empty())
+            })
+            .collect();
+        let moved = |p: &MeasuredPoint| {
+            let (_, normal, own) = self.row_of(p.place_mm);
+            let ring = rings.get(p.section).and_then(Option::as_ref);
+            let e = ring.map_or(own, |r| interpolated(r, p.place_mm.y.atan2(p.place_mm.x)));
+            MeasuredPoint { place_mm: p.place_mm + normal * (e - own), ..*p }
+        };
+        like.iter().map(moved).collect()
+    }
+
+    /// A point moved along the normal of the surface.
+    pub fn moved_outwards(&self, point: &MeasuredPoint, by_mm: f64) -> MeasuredPoint {
+        let (_, normal, _) = self.row_of(point.place_mm);
+        MeasuredPoint { place_mm: point.place_mm + normal * by_mm, ..*point }
+    }
+
+    /// The section whose height is nearest to a point.
+    pub fn nearest_section(&self, place_mm: &Vec3) -> usize {
+        let size = self.size();
+        let height = place_mm.z + size.height_mm;
+        let off = |s: &usize| (size.heights_mm[*s] - height).abs();
+        (0..size.heights_mm.len()).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0)
+    }
+
+    /// The profile of a section: radius + E / cos α.
+    fn profile_of(&self, ring: &Ring, height_mm: f64) -> Vec<[f64; 2]> {
+        let (radius, tilt_cos) = (self.radius_mm(height_mm), self.size().half_angle_rad.cos());
+        let point = |(azimuth, e): &(f64, f64)| {
+            let (sin, cos) = azimuth.sin_cos();
+            [(radius + e / tilt_cos) * cos, (radius + e / tilt_cos) * sin]
+        };
+        ring.iter().map(point).collect()
+    }
+
     /// Azimuth and E of every point.
     fn accepted(&self, points: &[MeasuredPoint]) -> Result<Vec<(f64, f64)>, MeasuredFault> {
         let (size, tan) = (self.size(), self.size().half_angle_rad.tan());
@@ -234,24 +343,10 @@ impl Cone {
         let at = |height: &f64| size.heights_mm.iter().position(|h| h == height);
         let round = at(&size.roundness_height_mm).unwrap_or(0);
         if let Some(ring) = &rings[round] {
-            let (radius, cos) =
-                (self.radius_mm(size.roundness_height_mm), size.half_angle_rad.cos());
-            let profile: Vec<_> = ring
-                .iter()
-                .map(|(azimuth, e)| {
-                    let (sin, c) = azimuth.sin_cos();
-                    [(radius + e / cos) * c, (radius + e / cos) * sin]
-                })
-                .collect();
-            let circles = Fitter::default().all(&profile)?;
-            let low = ring.iter().map(|r| r.1).fold(f64::INFINITY, f64::min);
-            let high = ring.iter().map(|r| r.1).fold(f64::NEG_INFINITY, f64::max);
-            out[0] = Some(0.5 * (high - low));
-            out[4] = Some(circles.lsc.width_mm());
-            out[5] = Some(circles.mzc.width_mm());
-            out[6] = Some(circles.mic.width_mm());
-            out[7] = Some(circles.mcc.width_mm());
-            out[8] = Some(circles.lsc.coaxiality_mm());
+            let profile = self.profile_of(ring, size.roundness_height_mm);
+            for (i, value) in forms(ring, &Fitter::default().all(&profile)?) {
+                out[i] = Some(value);
+            }
         }
         let angular = size.angularity_heights_mm.iter().filter_map(at);
         let angular: Option<Vec<&Ring>> = angular.map(|s| rings[s].as_ref()).collect();
@@ -262,6 +357,20 @@ impl Cone {
         debug_assert!(UNSEEN.iter().all(|i| out[*i].is_none()));
         Ok(out)
     }
+}
+
+/// The indices of form and position of one section, with their positions in [`INDICES`].
+fn forms(ring: &Ring, circles: &Circles) -> [(usize, f64); 6] {
+    let low = ring.iter().map(|r| r.1).fold(f64::INFINITY, f64::min);
+    let high = ring.iter().map(|r| r.1).fold(f64::NEG_INFINITY, f64::max);
+    [
+        (0, 0.5 * (high - low)),
+        (4, circles.lsc.width_mm()),
+        (5, circles.mzc.width_mm()),
+        (6, circles.mic.width_mm()),
+        (7, circles.mcc.width_mm()),
+        (8, circles.lsc.coaxiality_mm()),
+    ]
 }
 
 /// Largest rise of E from the lowest to the highest section, and largest range of E over the sections.

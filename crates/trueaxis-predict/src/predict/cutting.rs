@@ -21,6 +21,18 @@ pub enum DatumAxis {
         /// Length of the hole, mm.
         depth_mm: f64,
     },
+    /// The frame in which the part agrees best with its nominal shape.
+    BestFit,
+}
+
+impl std::fmt::Display for DatumAxis {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Ideal => write!(f, "ideal axis through the set zero"),
+            Self::ReferenceHole { depth_mm } => write!(f, "reference hole, {depth_mm} mm deep"),
+            Self::BestFit => write!(f, "best fit to the nominal shape"),
+        }
+    }
 }
 
 /// How the part zero was found and against what the part is judged.
@@ -56,6 +68,7 @@ pub struct Cutting<'a> {
     setting_command: Command,
     /// Top and bottom of the reference hole.
     hole: Option<([Stop; 2], f64)>,
+    best_fit: bool,
 }
 
 impl<'a> Cutting<'a> {
@@ -123,13 +136,14 @@ impl<'a> Cutting<'a> {
             }
         };
         let hole = match reference.datum {
-            DatumAxis::Ideal => None,
+            DatumAxis::Ideal | DatumAxis::BestFit => None,
             DatumAxis::ReferenceHole { depth_mm } => {
                 let ends = bore(machine, &setting_command, depth_mm, &quantities)?;
                 Some((ends, depth_mm))
             }
         };
-        Ok(Self { machine, positions, stops, setting, setting_command, hole })
+        let best_fit = reference.datum == DatumAxis::BestFit;
+        Ok(Self { machine, positions, stops, setting, setting_command, hole, best_fit })
     }
 
     /// The same cut with a compensation in the control: what it adds to each command, by the command
@@ -160,6 +174,24 @@ impl<'a> Cutting<'a> {
         self
     }
 
+    /// The same cut with the axes elsewhere when each tool position is passed.
+    ///
+    /// # Errors
+    /// Positions for which a table says nothing.
+    pub(super) fn passed(mut self, commands: &[Command]) -> Result<Self, Error> {
+        let machine = self.machine;
+        let quantities = machine.uncertain_quantities();
+        let stops = self.stops.iter_mut().zip(&self.positions).zip(commands).enumerate();
+        for (i, ((old, ideal), command)) in stops {
+            let place = (&quantities[..], Some(i));
+            // The place on the path is the same, and so is the side from which each axis comes.
+            let mut stop = stop(machine, *command, &old.approach, place)?;
+            stop.off = off(machine, &stop, ideal);
+            *old = stop;
+        }
+        Ok(self)
+    }
+
     /// The ideal tool positions.
     pub fn positions(&self) -> &[ToolPosition] {
         &self.positions
@@ -173,6 +205,11 @@ impl<'a> Cutting<'a> {
     /// The command at the tool-setting point.
     pub fn setting_command(&self) -> &Command {
         &self.setting_command
+    }
+
+    /// Whether the part is judged in the frame in which it agrees best with its nominal shape.
+    pub fn in_best_fit(&self) -> bool {
+        self.best_fit
     }
 
     /// How many contact points there are.

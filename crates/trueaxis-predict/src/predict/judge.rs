@@ -3,7 +3,7 @@
 use super::Error;
 use super::cutting::{Change, Cutting};
 use trueaxis_geometry::Vec3;
-use trueaxis_part::testpiece::{CutSurface, PartSection, Scratch, TestPiece};
+use trueaxis_part::testpiece::{CutSurface, Datum, PartSection, Scratch, TestPiece};
 
 /// A test piece on a machine, ready to be cut with any errors.
 pub struct Judge<'a> {
@@ -36,7 +36,7 @@ impl Judge<'_> {
         bench: &mut Bench,
         out: &mut [f64],
     ) -> Result<(), Error> {
-        let datum = self.cutting.cut(change, &mut bench.deviations);
+        let datum = self.cut(change, &mut bench.deviations);
         let surface = CutSurface { deviation_mm: &bench.deviations, datum };
         self.piece.evaluate(&surface, &mut bench.scratch, out).map_err(Error::Evaluation)
     }
@@ -47,10 +47,16 @@ impl Judge<'_> {
     /// As [`Judge::indices`].
     pub fn sections(&self, change: &Change<'_>) -> Result<(Vec<Vec3>, Vec<PartSection>), Error> {
         let mut deviation_mm = Vec::new();
-        let datum = self.cutting.cut(change, &mut deviation_mm);
+        let datum = self.cut(change, &mut deviation_mm);
         let surface = CutSurface { deviation_mm: &deviation_mm, datum };
         let sections = self.piece.sections(&surface).map_err(Error::Evaluation)?;
         Ok((deviation_mm, sections))
+    }
+
+    /// The deviations at every contact point, mm, and the datum against which they are judged.
+    pub fn cut(&self, change: &Change<'_>, deviation_mm: &mut Vec<Vec3>) -> Datum {
+        let datum = self.cutting.cut(change, deviation_mm);
+        if self.cutting.in_best_fit() { self.piece.best_fit(deviation_mm) } else { datum }
     }
 
     /// The same with memory of its own: for analyses that ask a few hundred times.

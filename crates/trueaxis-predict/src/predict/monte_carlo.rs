@@ -119,7 +119,7 @@ fn draw_chunk(
 }
 
 /// One standard-normal factor per uncertain quantity.
-fn draw(quantities: usize, seed: u64, sample: usize) -> Vec<f64> {
+pub(super) fn draw(quantities: usize, seed: u64, sample: usize) -> Vec<f64> {
     let mut generator = ChaCha8Rng::seed_from_u64(seed);
     generator.set_stream(sample as u64);
     (0..quantities).map(|_| StandardNormal.sample(&mut generator)).collect()

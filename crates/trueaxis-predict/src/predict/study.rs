@@ -3,6 +3,8 @@
 use super::cutting::{DatumAxis, Reference};
 use super::monte_carlo::Sampling;
 use super::program::CutProgram;
+use super::servo::{Servo, read_servo};
+use super::set_up::{SetUpReadings, read_set_up, with_length};
 use super::temperatures::{RunningTemperatures, StudyTemperatures};
 use super::{Index, Setting};
 use std::path::{Path, PathBuf};
@@ -10,7 +12,7 @@ use trueaxis_geometry::Vec3;
 use trueaxis_input::{Diagnostics, Dimension, Files, Item, Section, SourceText};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command};
-use trueaxis_machine::errors::{BodyName, ErrorKind, ErrorName};
+use trueaxis_machine::errors::{BodyName, ErrorKind, ErrorName, StatedError};
 use trueaxis_machine::file::{machine_of, read_pose};
 use trueaxis_part::testpiece::TestPiece;
 use trueaxis_part::tolerance::{Acceptance, Tolerances, Verdict};
@@ -86,6 +88,10 @@ pub struct Study {
     pub decision: Decision,
     /// The part is cut along this program instead of the ideal path.
     pub program: Option<CutProgram>,
+    /// How the axes follow at the feeds of the cutting conditions, if it is stated.
+    pub servo: Option<Servo>,
+    /// What was read while the part was set up, if a file says it.
+    pub set_up: Option<SetUpReadings>,
     /// The Monte Carlo run, if one is wanted.
     pub sampling: Option<Sampling>,
     /// Figures to compare with.
@@ -106,6 +112,12 @@ impl Study {
         let Decision::Guarded { coverage } = self.decision else { return None };
         let u = |i: &Index| i.spread.map_or(i.u_mm, |s| s.u_mm.max(i.u_mm));
         Some(indices.iter().map(|i| coverage * u(i)).collect())
+    }
+
+    /// The same of standard uncertainties, mm.
+    pub fn expanded_of(&self, u_mm: &[f64]) -> Option<Vec<f64>> {
+        let Decision::Guarded { coverage } = self.decision else { return None };
+        Some(u_mm.iter().map(|u| coverage * u).collect())
     }
 
     /// The verdict on index values by the study's rule; `expanded_mm` as from
@@ -161,7 +173,9 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Study> {
         root.entries();
         return None;
     };
-    let (machine, what_if) = read_what_if(root, read_tool(root, machine, &test_piece));
+    let (machine, mut what_if) = read_what_if(root, read_tool(root, machine, &test_piece));
+    let set_up = root.get("set_up").map_or(Some(None), |item| read_set_up(&item, root, folder));
+    let machine = with_length(root, machine, set_up.flatten(), &mut what_if);
     let tolerances = match root.get("tolerances").map(|item| item.text()) {
         Some(path) => path.and_then(|p| read_tolerance_file(root, &folder.join(p))),
         None => Some(test_piece.tolerances.clone()),
@@ -172,8 +186,20 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Study> {
     check_uncertainties(root, decision, &machine);
     let machine = read_mounting(root, machine, &test_piece)?;
     let program = read_program(root, folder, &machine);
+    let servo = root.section("servo", |s| read_servo(s, &machine));
+    check_servo(
+        root,
+        servo.is_some(),
+        &test_piece,
+        [
+            (program.is_some(), "`program`"),
+            (temperatures.running.is_some(), "a log of temperatures"),
+        ],
+    );
     Some(Study {
         program,
+        servo,
+        set_up: set_up?,
         tolerances: tolerances?,
         what_if,
         name: name?.to_owned(),
@@ -197,6 +223,28 @@ fn read_program(root: &Section<'_>, folder: &Path, machine: &Machine) -> Option<
     let program = CutProgram::read(root.files(), &folder.join(name), machine, &mut problems);
     root.take_over(problems);
     program
+}
+
+/// Following errors need a feed, and a path that is gone again and again.
+fn check_servo(
+    root: &Section<'_>,
+    is_stated: bool,
+    piece: &TestPieceFile,
+    others: [(bool, &str); 2],
+) {
+    if !is_stated {
+        return;
+    }
+    for (_, other) in others.iter().filter(|(there, _)| *there) {
+        let message =
+            format!("[servo] is for the path of the test piece; the study has {other} too");
+        root.error("contradiction", message, "leave one of them out");
+    }
+    if piece.conditions.iter().all(|c| c.feed_mm_per_min.is_none()) {
+        let message =
+            "following errors depend on the feed, and the test piece states none".to_owned();
+        root.error("no-feed", message, "[[condition]] name = \"finish\", feed = \"3 m/min\"");
+    }
 }
 
 /// A guard band of nothing would pass what is not known.
@@ -286,7 +334,8 @@ fn named_length(item: &Item<'_>, machine: &Machine, piece: &TestPieceFile) -> Op
     tool.map(|t| t.length_mm)
 }
 
-/// `[what_if] EA0A = "-450 urad"`: location errors that are replaced in this study.
+/// `[what_if] EA0A = "-450 urad"`, `EZ0t = "0 ± 3 um"`: location errors that are replaced in this study; without
+/// an uncertainty that of the machine file stays.
 fn read_what_if(root: &Section<'_>, machine: Machine) -> (Machine, Vec<String>) {
     let mut changed = machine;
     let mut named = Vec::new();
@@ -307,10 +356,16 @@ fn read_what_if(root: &Section<'_>, machine: Machine) -> (Machine, Vec<String>) 
             named.push(name);
             let rotation = name.component.is_rotation();
             let dimension = if rotation { Dimension::Angle } else { Dimension::Length };
-            let Some(value) = item.quantity(dimension) else { continue };
-            match changed.clone().with_location(name, value) {
+            let Some(value) = item.measured(dimension) else { continue };
+            match changed.clone().with_location(name, value.value) {
                 Some(machine) => {
-                    changed = machine;
+                    changed = match (machine.error_index(name), value.u) {
+                        (Some(index), Some(u)) => {
+                            let stated = StatedError::constant(value.value, Some(u));
+                            machine.with_error(index, Some(stated))
+                        }
+                        _ => machine,
+                    };
                     words.push(format!("{name} = {}", item.as_text().unwrap_or_default()));
                 }
                 None => {
@@ -391,8 +446,18 @@ fn read_setting(section: &Section<'_>, machine: &Machine, others: &[&str]) -> Op
     Some(if perfect { Setting::Perfect } else { Setting::Touched { rotary } })
 }
 
-/// `reference_hole_depth = "40 mm"`.
+/// The key of the other datum.
+const BEST_FIT: &str = "best_fit";
+
+/// `reference_hole_depth = "40 mm"`, or `best_fit = true`.
 fn read_datum(section: &Section<'_>) -> Option<DatumAxis> {
+    if let Some(item) = section.get(BEST_FIT) {
+        if section.get(HOLE).is_some() {
+            let message = "the datum is the hole or the best fit".to_owned();
+            item.error("contradiction", message, "take one of them out");
+        }
+        return item.flag()?.then_some(DatumAxis::BestFit);
+    }
     let item = section.get(HOLE)?;
     let depth_mm = item.quantity(Dimension::Length)?;
     if depth_mm <= 0.0 {
@@ -409,8 +474,8 @@ fn read_variants(section: &Section<'_>, machine: &Machine, studied: &Reference) 
     for (name, _, item) in section.entries() {
         let reference = item.section(&section.path(name), |s| {
             let datum = read_datum(s);
-            let moved = s.entries().iter().any(|(key, ..)| *key != HOLE);
-            let setting = if moved { read_setting(s, machine, &[HOLE]) } else { None };
+            let moved = s.entries().iter().any(|(key, ..)| ![HOLE, BEST_FIT].contains(key));
+            let setting = if moved { read_setting(s, machine, &[HOLE, BEST_FIT]) } else { None };
             Reference {
                 setting: setting.unwrap_or(studied.setting),
                 datum: datum.unwrap_or(studied.datum),

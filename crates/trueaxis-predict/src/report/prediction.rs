@@ -2,7 +2,7 @@
 
 use super::prediction_pictures::{along_azimuth, cone, contributions, motions, sections};
 use super::{decisive, feature, ranked, relief};
-use crate::predict::{DatumAxis, Decision, Index, Prediction, Sensitivity, Share, Study};
+use crate::predict::{Decision, Index, Prediction, Sensitivity, Share, Study};
 use trueaxis_machine::describe::command_words;
 use trueaxis_machine::errors::ErrorKind;
 use trueaxis_part::tolerance::Outcome;
@@ -16,7 +16,7 @@ const MOST_CORRECTIONS: usize = 8;
 /// The prediction.
 pub fn prediction_report<'a>(study: &'a Study, prediction: &'a Prediction) -> Report<'a> {
     let machine = &study.machine;
-    let (standing, word, sentence) = match prediction.verdict.outcome {
+    let (standing, word, sentence) = match prediction.outcome() {
         Outcome::Pass => (Standing::Good, "PASS", "the part will be in tolerance"),
         Outcome::Fail => (Standing::Bad, "FAIL", "the part will be out of tolerance"),
         Outcome::Undecided => {
@@ -34,6 +34,7 @@ pub fn prediction_report<'a>(study: &'a Study, prediction: &'a Prediction) -> Re
         .verdict(standing, word, sentence)
         .section(Section::new("Warnings").list(prediction.warnings.iter().cloned()))
         .section(indices(study, prediction))
+        .sections(conditions(prediction))
         .section(positions(prediction))
         .section(Section::new("Error along the azimuth").on_page().figure(along_azimuth(prediction)))
         .section(
@@ -116,6 +117,45 @@ fn index_row(prediction: &Prediction, index: &Index, [sampled, guarded]: [bool; 
         row.extend([um(j.limit_mm), used, verdict.to_owned()]);
     }
     row
+}
+
+/// The part at the feed of every cutting condition.
+fn conditions<'a>(prediction: &Prediction) -> Option<Section<'a>> {
+    if prediction.conditions.is_empty() {
+        return None;
+    }
+    let of_index = |(_, index): (usize, &Index)| {
+        [
+            feature(&index.name).to_owned(),
+            "u".to_owned(),
+            "feed adds".to_owned(),
+            "servo alone".to_owned(),
+        ]
+    };
+    let headings = ["condition", "feed, m/min", "tip, m/min"].map(str::to_owned).into_iter();
+    let headings = headings.chain(decisive(prediction).flat_map(of_index));
+    let headings = headings.chain(["verdict".to_owned()]);
+    let rows = prediction.conditions.iter().map(|c| {
+        let [low, high] = c.speed_mm_per_s.map(|v| format!("{:.1}", v * 0.06));
+        let speed = if low == high { low } else { format!("{low} … {high}") };
+        let feed = c.condition.feed_mm_per_min.unwrap_or(0.0) * 1e-3;
+        let verdict = match c.verdict.outcome {
+            Outcome::Pass => "pass",
+            Outcome::Fail => "fail",
+            Outcome::Undecided => "undecided",
+        };
+        let values = decisive(prediction).flat_map(|(i, index)| {
+            let adds = c.indices_mm[i] - index.value_mm;
+            [um(c.indices_mm[i]), um(c.u_mm[i]), um(adds), um(c.servo_alone_mm[i])]
+        });
+        let first = [c.condition.name.clone(), format!("{feed}"), speed];
+        first.into_iter().chain(values).chain([verdict.to_owned()]).collect::<Vec<_>>()
+    });
+    let table = Table::new(headings).rows(rows).note(
+        "All in µm. Feed adds: against the same part cut without following errors. Servo alone: on a machine without \
+         errors. The tool goes round with the feed at its tip, as fast as the axes allow.",
+    );
+    Some(Section::new("At the feeds of the cutting conditions").table(table))
 }
 
 /// The form at each measuring position.
@@ -284,10 +324,7 @@ fn published<'a>(study: &Study, prediction: &Prediction) -> Section<'a> {
 
 fn inputs<'a>(study: &Study, prediction: &Prediction) -> Section<'a> {
     let (machine, tip) = (&study.machine, study.machine.tip_mm());
-    let datum = match study.reference.datum {
-        DatumAxis::Ideal => "ideal axis through the set zero".to_owned(),
-        DatumAxis::ReferenceHole { depth_mm } => format!("reference hole, {depth_mm} mm deep"),
-    };
+    let datum = study.reference.datum.to_string();
     let mut pairs = vec![
         ("study".to_owned(), study.path.display().to_string()),
         ("machine".to_owned(), study.machine_path.display().to_string()),

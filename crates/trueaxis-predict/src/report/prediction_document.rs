@@ -2,7 +2,8 @@
 
 use super::{family_key, ranked};
 use crate::predict::{
-    Correction, Index, Prediction, SectionResult, Sensitivity, Share, Spread, Study,
+    ConditionResult, Correction, Index, Prediction, SectionResult, Sensitivity, Share, Spread,
+    Study,
 };
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -58,8 +59,63 @@ pub struct PredictionDocument<'a> {
     pub monte_carlo: Option<SamplingEntry>,
     /// The log that the temperatures follow; null if there is none.
     pub temperature_log: Option<&'a str>,
+    /// The part at the feed of every cutting condition; absent without `[servo]`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub conditions: Vec<ConditionEntry<'a>>,
     /// What to know of this prediction.
     pub warnings: &'a [String],
+}
+
+/// The part at the feed of one cutting condition.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct ConditionEntry<'a> {
+    /// Its name.
+    pub condition: &'a str,
+    /// The feed of the tip, mm/min.
+    pub feed_mm_per_min: f64,
+    /// The lowest and the highest speed of the tip that the axes allow, mm/min.
+    pub tip_mm_per_min: [f64; 2],
+    /// Index after index.
+    pub indices: Vec<ConditionIndexEntry>,
+    /// `pass`, `fail` or `undecided`.
+    pub verdict: &'static str,
+}
+
+/// An index at the feed of a cutting condition.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct ConditionIndexEntry {
+    /// Its key.
+    pub index: &'static str,
+    /// Its value, mm.
+    pub value_mm: f64,
+    /// Its standard uncertainty, mm.
+    pub u_mm: f64,
+    /// The part of it that comes from the servo alone, mm.
+    pub u_servo_mm: f64,
+    /// The value less that without following errors, mm.
+    pub added_mm: f64,
+    /// The value with the servo alone, on a machine without errors, mm.
+    pub servo_alone_mm: f64,
+}
+
+impl<'a> ConditionEntry<'a> {
+    fn of(result: &'a ConditionResult, prediction: &Prediction) -> Self {
+        let index = |(i, index): (usize, &Index)| ConditionIndexEntry {
+            index: index.name.key,
+            value_mm: result.indices_mm[i],
+            u_mm: result.u_mm[i],
+            u_servo_mm: result.u_servo_mm[i],
+            added_mm: result.indices_mm[i] - index.value_mm,
+            servo_alone_mm: result.servo_alone_mm[i],
+        };
+        Self {
+            condition: &result.condition.name,
+            feed_mm_per_min: result.condition.feed_mm_per_min.unwrap_or(0.0),
+            tip_mm_per_min: result.speed_mm_per_s.map(|v| v * 60.0),
+            indices: prediction.indices.iter().enumerate().map(index).collect(),
+            verdict: word(result.verdict.outcome),
+        }
+    }
 }
 
 /// The machine.
@@ -219,7 +275,7 @@ impl<'a> PredictionDocument<'a> {
             study: &study.name,
             machine: MachineEntry { name: study.machine.name(), chain: study.machine.chain_text() },
             test_piece: &study.test_piece.name,
-            verdict: word(prediction.verdict.outcome),
+            verdict: word(prediction.outcome()),
             indices: grouped(prediction.indices.iter().map(|i| (i.name, IndexEntry::from(i)))),
             judgements: prediction.verdict.judgements.iter().map(JudgementEntry::from).collect(),
             setting_command: command(axes, &prediction.setting_command),
@@ -246,6 +302,11 @@ impl<'a> PredictionDocument<'a> {
             commands: prediction.commands.iter().map(|c| command(axes, c)).collect(),
             monte_carlo: study.sampling.map(|s| SamplingEntry { samples: s.samples, seed: s.seed }),
             temperature_log: study.temperatures.as_ref().map(|t| t.run.log.file()),
+            conditions: prediction
+                .conditions
+                .iter()
+                .map(|c| ConditionEntry::of(c, prediction))
+                .collect(),
             warnings: &prediction.warnings,
         }
     }

@@ -1,12 +1,15 @@
 //! How does a path become a program of one control?
 
+mod set_up;
 mod test_piece;
 
 use super::words::{self, argument};
 use super::{Answer, MachineChoice, NewFile, Question, Tell, named_control};
+use crate::files::output::Kind;
 use crate::report::{self, PostReport};
 use serde_json::Value;
 use std::path::PathBuf;
+use trueaxis_calibrate::plan::extension;
 use trueaxis_cl::{ClFile, Reading};
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_machine::Machine;
@@ -51,6 +54,8 @@ pub struct Post {
     pub output: PathBuf,
     /// Whether it is read back and simulated.
     pub verify: bool,
+    /// The folder for the programs of the set-up of a test piece and its readings.
+    pub set_up: Option<PathBuf>,
 }
 
 /// A program with its proof.
@@ -61,7 +66,17 @@ pub struct PostAnswer {
     posted: Posted,
     verification: Option<Verification>,
     output: PathBuf,
+    set_up: Vec<NewFile>,
+    set_up_is_sound: bool,
 }
+
+const SET_UP: Kind = Kind {
+    argument: "--set-up",
+    name: "a file that may be overwritten",
+    begins: &[],
+    contains: "",
+    makes_folder: true,
+};
 
 /// The template of a control, to be edited.
 pub fn template(control: &str, problems: &mut Diagnostics) -> Option<&'static str> {
@@ -137,8 +152,66 @@ impl Post {
     }
 }
 
+/// Programs of the set-up, and its file of readings.
+#[derive(Debug, Default)]
+pub struct SetUpPaths {
+    paths: Vec<(&'static str, ClFile)>,
+    readings: String,
+}
+
+impl Post {
+    /// The paths of the set-up, if they are asked for.
+    fn set_up_paths(&self, files: &Files, problems: &mut Diagnostics) -> Option<SetUpPaths> {
+        if self.set_up.is_none() {
+            return Some(SetUpPaths::default());
+        }
+        let refuse = |message: &str, hint: &str, problems: &mut Diagnostics| {
+            problems.error("no-set-up", argument("--set-up"), message.to_owned(), hint);
+        };
+        if !self.file.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) {
+            refuse("a set-up is that of a test piece", "name a test piece (.toml)", problems);
+            return None;
+        }
+        // What is wrong with the file was reported when it was read for its own path.
+        let piece = test_piece::piece(&self.file, files, &mut Diagnostics::new())?;
+        let Some(set_up) = &piece.set_up else {
+            let hint =
+                "[set_up] feed = \"15 mm/min\", spindle = \"600 rpm\", hole_depth = \"40 mm\"";
+            refuse("the test piece states no set-up", hint, problems);
+            return None;
+        };
+        let reading = Reading { inches: None };
+        let paths = set_up::locations(&piece, set_up).map(|(name, text)| {
+            (name, problems.keep(ClFile::read(name, text.into_bytes(), &reading)))
+        });
+        Some(SetUpPaths { paths: paths.into(), readings: set_up::readings(&piece) })
+    }
+
+    /// The programs of the set-up, each read back.
+    fn set_up_files(
+        &self,
+        machine: &Machine,
+        options: &PostOptions,
+        set_up: &SetUpPaths,
+        problems: &mut Diagnostics,
+    ) -> Option<(Vec<NewFile>, bool)> {
+        let Some(folder) = &self.set_up else { return Some((Vec::new(), true)) };
+        let (mut files, mut is_sound) = (Vec::new(), true);
+        for (name, path) in &set_up.paths {
+            let options = PostOptions { name: (*name).to_owned(), ..options.clone() };
+            let posted = problems.keep(post(machine, path, &options))?;
+            is_sound &= verify(machine, &posted, &options).is_within(&options);
+            let file = format!("{name}.{}", extension(options.control));
+            files.push(NewFile::of("set-up", folder.join(file), posted.text));
+        }
+        let readings = folder.join(set_up::READINGS);
+        files.push(NewFile::of("readings to fill in", readings, set_up.readings.clone()));
+        Some((files, is_sound))
+    }
+}
+
 impl Question for Post {
-    type Input = (Machine, ClFile, PostOptions);
+    type Input = (Machine, ClFile, PostOptions, SetUpPaths);
     type Answer = PostAnswer;
 
     fn read(&self, files: &Files, problems: &mut Diagnostics) -> Option<Self::Input> {
@@ -149,12 +222,18 @@ impl Question for Post {
             let message = "a program is made for the nominal machine".to_owned();
             problems.error("no-temperature", argument("--temperature"), message, "leave it out");
         }
-        Some((machine?, file?, options?))
+        let set_up = self.set_up_paths(files, problems);
+        Some((machine?, file?, options?, set_up?))
+    }
+
+    fn outputs(&self, _: Option<&Self::Input>) -> Vec<(PathBuf, &'static Kind)> {
+        // What a person has filled in is never overwritten.
+        self.set_up.iter().map(|folder| (folder.join(set_up::READINGS), &SET_UP)).collect()
     }
 
     fn answer(
         &self,
-        (machine, file, options): Self::Input,
+        (machine, file, options, set_up): Self::Input,
         _: Tell<'_>,
         problems: &mut Diagnostics,
     ) -> Option<PostAnswer> {
@@ -162,7 +241,17 @@ impl Question for Post {
         let posted = posted.filter(|_| !problems.has_errors())?;
         let verification = self.verify.then(|| verify(&machine, &posted, &options));
         let output = self.output.clone();
-        Some(PostAnswer { machine, file, options, posted, verification, output })
+        let (set_up, set_up_is_sound) = self.set_up_files(&machine, &options, &set_up, problems)?;
+        Some(PostAnswer {
+            machine,
+            file,
+            options,
+            posted,
+            verification,
+            output,
+            set_up,
+            set_up_is_sound,
+        })
     }
 }
 
@@ -189,12 +278,15 @@ impl Answer for PostAnswer {
     }
 
     fn is_yes(&self) -> bool {
-        self.shown().is_sound()
+        self.shown().is_sound() && self.set_up_is_sound
     }
 
     fn files(&mut self) -> Vec<NewFile> {
         let program = || NewFile::of("", &self.output, self.posted.text.clone());
-        self.is_yes().then(program).into_iter().collect()
+        match self.is_yes() {
+            true => [program()].into_iter().chain(std::mem::take(&mut self.set_up)).collect(),
+            false => Vec::new(),
+        }
     }
 
     fn notes(&self) -> Vec<String> {

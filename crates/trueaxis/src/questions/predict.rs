@@ -152,7 +152,7 @@ impl Answer for Predicted {
 
     fn is_yes(&self) -> bool {
         match self {
-            Self::Part(_, prediction) => prediction.verdict.outcome == Outcome::Pass,
+            Self::Part(_, prediction) => prediction.outcome() == Outcome::Pass,
             Self::Holes(study, prediction) => {
                 let applied = prediction.sets.iter().find(|s| s.compensation == study.applied);
                 applied.and_then(HoleSet::keeps_tolerances) != Some(false)

@@ -25,12 +25,16 @@ pub fn read(
     tolerance_mm: f64,
     problems: &mut Diagnostics,
 ) -> Option<String> {
+    Some(cutter_locations(&piece(path, files, problems)?, tolerance_mm))
+}
+
+/// The test piece of a file.
+pub fn piece(path: &Path, files: &Files, problems: &mut Diagnostics) -> Option<TestPieceFile> {
     let text = files.text(path, "a test piece", problems)?;
     let name = path.display().to_string();
     let source = SourceText::new(&name, &text);
     let piece = source.read(TestPieceFile::read);
-    let piece = problems.keep((piece, source.finish()))?;
-    Some(cutter_locations(&piece, tolerance_mm))
+    problems.keep((piece, source.finish()))
 }
 
 /// One turn about the piece for each condition, as an APT file in the workpiece frame.
