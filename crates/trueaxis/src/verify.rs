@@ -4,7 +4,7 @@
 //! (`trueaxis-standards`). [`compare`](mod@compare) holds readings against a prediction, or against other
 //! readings; [`calibrations`](mod@calibrations) one machine file against a later one;
 //! [`certificate`](mod@certificate) what a compensation leaves, proved on poses that were not used;
-//! [`error_tables`](mod@error_tables) readings as the error tables of the machine file.
+//! [`error_tables`](mod@error_tables) readings as the error tables of the machine file;
 //! [`part`](mod@part) a test piece that was measured against its tolerances and its prediction.
 
 pub mod calibrations;

@@ -56,7 +56,8 @@ impl Question for IdentifyTables {
         let beside = Folder::of(&files, &study.machine_path);
         let refuse = |reason: String, problems: &mut Diagnostics| {
             let place = Place::whole(&self.study.display().to_string());
-            let hint = "the readings cover the travel, or the machine file states `outside` for the axis";
+            let hint =
+                "the readings cover the travel, or the machine file states `outside` for the axis";
             problems.error("unwritable-file", place, reason, hint);
         };
         // The circles are those of the machine with the new tables.
