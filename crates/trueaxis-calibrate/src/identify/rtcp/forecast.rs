@@ -5,7 +5,8 @@
 //! ```
 
 use super::centres::rotary_range;
-use super::{Calibration, RtcpStudy};
+use super::calibration::Calibration;
+use super::study::RtcpStudy;
 use nalgebra::{DMatrix, DVector};
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::axis::{AxisKind, Command};
