@@ -15,6 +15,7 @@ mod planned;
 pub mod program;
 mod remedy;
 pub mod surface;
+pub mod tool_setting;
 mod touch;
 mod trial;
 

@@ -5,6 +5,7 @@ mod probe;
 mod rtcp;
 mod surface;
 mod thermal;
+mod tools;
 
 use crate::door::Door;
 use crate::output::{Format, Outcome};
@@ -44,6 +45,8 @@ enum IdentifyCommand {
     Probe(probe::Arguments),
     /// The deviations of a surface, from the hits of a probing program
     Surface(surface::Arguments),
+    /// Length, diameter and wear of tools, from the log of a tool setting
+    Tools(tools::Arguments),
 }
 
 /// The runs.
@@ -70,6 +73,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         Some(IdentifyCommand::Thermal(arguments)) => thermal::run(arguments),
         Some(IdentifyCommand::Probe(arguments)) => probe::run(arguments),
         Some(IdentifyCommand::Surface(arguments)) => surface::run(arguments),
+        Some(IdentifyCommand::Tools(arguments)) => tools::run(arguments),
     }
 }
 
