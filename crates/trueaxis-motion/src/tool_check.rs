@@ -75,7 +75,8 @@ pub fn standing(number: u32, tool: &SetUpTool, used: ToolUse) -> ToolStanding {
         [(size.mm - nominal_mm) * share, size.u_mm * share]
     };
     let length_off_mm = state.length.map(|l| off(l, -tool.tip_mm.z, 1.0));
-    let radius_off_mm = state.diameter.zip(tool.diameter_mm).map(|(d, nominal)| off(d, nominal, 0.5));
+    let radius_off_mm =
+        state.diameter.zip(tool.diameter_mm).map(|(d, nominal)| off(d, nominal, 0.5));
     let mut found = ToolStanding {
         number,
         length_off_mm,
@@ -88,7 +89,10 @@ pub fn standing(number: u32, tool: &SetUpTool, used: ToolUse) -> ToolStanding {
         doubts: Vec::new(),
     };
     // The first limit that is passed says what the tool is; the next one adds nothing.
-    let length = [("tool-broken", "breakage", state.breakage_mm), ("tool-worn", "wear", state.wear_length_mm)];
+    let length = [
+        ("tool-broken", "breakage", state.breakage_mm),
+        ("tool-worn", "wear", state.wear_length_mm),
+    ];
     judge(&mut found, "length", length_off_mm, &length);
     judge(&mut found, "radius", radius_off_mm, &[("tool-worn", "wear", state.wear_radius_mm)]);
     if let (Some(life), Some(after)) = (state.life, found.life_after.filter(|after| *after < 0.0)) {
@@ -170,7 +174,8 @@ pub(crate) fn tell(setup: &SetUp, summary: &Summary, problems: &mut Diagnostics)
                     problems.warn("tool-replaced", place.clone(), message, &hint);
                 }
                 (None, Some((n, _))) => {
-                    let hint = format!("its sister tool {n} is not fit either: replace one of them");
+                    let hint =
+                        format!("its sister tool {n} is not fit either: replace one of them");
                     problems.warn(code, place.clone(), message, &hint);
                 }
                 (None, None) => {
@@ -215,7 +220,10 @@ mod tests {
         assert_eq!(word(89.96, 0.002), "fit");
         // 49 µm of 50 µm with U = 4 µm: not decided; 51 µm: worn; longer counts as shorter does.
         assert_eq!((word(89.951, 0.002), word(89.949, 0.002)), ("not decided", "worn"));
-        assert_eq!((word(90.051, 0.0), word(89.7, 0.0), word(90.3, 0.0)), ("worn", "broken", "broken"));
+        assert_eq!(
+            (word(90.051, 0.0), word(89.7, 0.0), word(90.3, 0.0)),
+            ("worn", "broken", "broken")
+        );
         // 60 s of life are left: 61 s are too much.
         let cut = |feed_s| standing(1, &tool(90.0, 0.0), ToolUse { feed_s, feed_mm: 0.0 });
         assert_eq!((cut(59.0).word(), cut(61.0).word()), ("fit", "life spent"));

@@ -9,9 +9,7 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use trueaxis::files::disk;
 use trueaxis::geometry::Vec3;
-use trueaxis::identify::rtcp::{
-    Calibration, Purpose, RtcpStudy, Segments, calibrate, parse_rtcp,
-};
+use trueaxis::identify::rtcp::{Calibration, Purpose, RtcpStudy, Segments, calibrate, parse_rtcp};
 use trueaxis::machine::Machine;
 use trueaxis::machine::axis::{AxisKind, Command, Travel};
 use trueaxis::machine::errors::ErrorValues;
@@ -89,7 +87,13 @@ fn study(name: &str, angles: &str, sets: &[Set], dice: &mut Random) -> RtcpStudy
             text,
             "[readings.s{i}]\nrtcp = {}\nindicator = 'spindle'\nnoise = '1 um'\n\
              ball = '{} {} {} mm'\ntip = '{} {} {} mm'\ntable = 's{i}.csv'\n",
-            set.rtcp, ball.x, ball.y, ball.z, tip.x, tip.y, tip.z - set.longer_mm
+            set.rtcp,
+            ball.x,
+            ball.y,
+            ball.z,
+            tip.x,
+            tip.y,
+            tip.z - set.longer_mm
         );
         let heads: Vec<String> = machine.axes().iter().map(|a| a.name.to_string()).collect();
         let mut table = format!("{},x_um,y_um,z_um\n", heads.join(","));
@@ -367,12 +371,15 @@ fn law_the_bound_of_two_axes_and_a_moving_tip_holds() {
 #[test]
 fn oracle_two_balls_of_python() {
     let path = root().join("examples/05_identify/rtcp-angles.toml");
-    let (study, problems) =
-        trueaxis::identify::rtcp::read_rtcp(&disk(), &path, Purpose::Result);
+    let (study, problems) = trueaxis::identify::rtcp::read_rtcp(&disk(), &path, Purpose::Result);
     let study = study.unwrap_or_else(|| panic!("{problems:?}"));
     assert!(problems.iter().next().is_none(), "{problems:?}");
     let found = calibrate(&study).unwrap();
-    assert!(found.verdict().starts_with("yes: all 4 offsets and 4 of 4 angles"), "{}", found.verdict());
+    assert!(
+        found.verdict().starts_with("yes: all 4 offsets and 4 of 4 angles"),
+        "{}",
+        found.verdict()
+    );
     let centres = [("EX0C", -0.0187), ("EY0C", -0.0094), ("EY0A", 0.0312), ("EZ0A", -0.0245)];
     for (name, truth) in centres {
         let (x, u) = found.offsets.iter().find(|o| o.name == name).unwrap().found_mm.unwrap();

@@ -294,9 +294,12 @@ pub fn machine_file(
         .zip(&found.offsets)
         .filter_map(|(term, offset)| offset.found_mm.map(|(v, u)| (term.error, v, u)))
         .chain(
-            study.angles.terms.iter().zip(&found.angles).filter_map(|(term, angle)| {
-                angle.found_rad.map(|(v, u)| (term.error, v, u))
-            }),
+            study
+                .angles
+                .terms
+                .iter()
+                .zip(&found.angles)
+                .filter_map(|(term, angle)| angle.found_rad.map(|(v, u)| (term.error, v, u))),
         )
         .collect();
     let date = study.date.as_ref().map(|d| format!(", {d}")).unwrap_or_default();

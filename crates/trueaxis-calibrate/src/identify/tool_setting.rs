@@ -77,7 +77,8 @@ pub fn measured_tools(
     let one = |(k, tool): (usize, &SetTool)| {
         let mm = at(k, TouchOf::Length, z)? - setter.at_mm.z - delta;
         let length = MeasuredSize { mm, u_mm: s.hypot(of_face) };
-        let sides = at(k, TouchOf::Plus, setting.axes[0]).zip(at(k, TouchOf::Minus, setting.axes[0]));
+        let sides =
+            at(k, TouchOf::Plus, setting.axes[0]).zip(at(k, TouchOf::Minus, setting.axes[0]));
         let diameter = sides.map(|(plus, minus)| {
             let [size, u] = setter.diameter_mm;
             MeasuredSize { mm: plus - minus - size, u_mm: (2.0 * s * s + u * u).sqrt() }
@@ -124,11 +125,13 @@ fn missing(setting: &ToolSetting, has_gauge: bool) -> Vec<String> {
         );
     }
     if !has_gauge && setter.height_u_mm == 0.0 {
-        missing.push("the uncertainty of the height of the face is not stated: height_u".to_owned());
+        missing
+            .push("the uncertainty of the height of the face is not stated: height_u".to_owned());
     }
     if setter.speed_per_minute.is_none() {
         missing.push(
-            "the spindle stood still: run-out and the longest edge are not in the result".to_owned(),
+            "the spindle stood still: run-out and the longest edge are not in the result"
+                .to_owned(),
         );
     }
     missing

@@ -170,11 +170,13 @@ fn tools(
         let is_reference = setter.reference == Some(number);
         let (tip, wants_diameter) = (tool.tip_mm, tool.state.measures_diameter && !is_reference);
         if tip.x != 0.0 || tip.y != 0.0 || tip.z >= 0.0 {
-            let message = format!("the tip of tool {number} is not on the spindle axis in front of it");
+            let message =
+                format!("the tip of tool {number} is not on the spindle axis in front of it");
             refuse(message, "length = \"90 mm\"");
         }
         if wants_diameter && tool.diameter_mm.is_none() {
-            let message = format!("the diameter of tool {number} shall be measured, but none is stated");
+            let message =
+                format!("the diameter of tool {number} shall be measured, but none is stated");
             refuse(message, "diameter = \"6 mm\"");
         }
         if is_reference && tool.state.length.is_none() {

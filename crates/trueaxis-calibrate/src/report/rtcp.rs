@@ -72,7 +72,11 @@ fn angles<'a>(found: &Calibration) -> Section<'a> {
     };
     let table = Table::new(["true value", "", "µrad", "U (k = 2), µrad", "°"]);
     let further = found.angles.iter().filter_map(|a| {
-        Some(format!("{} is not observable; what would determine it: {}", a.name, a.further.as_ref()?))
+        Some(format!(
+            "{} is not observable; what would determine it: {}",
+            a.name,
+            a.further.as_ref()?
+        ))
     });
     let section = Section::new("Angle errors of the rotary axes")
         .table(table.rows(found.angles.iter().map(row)))
@@ -92,7 +96,11 @@ fn segments<'a>(study: &RtcpStudy) -> Option<Section<'a>> {
     let step = s.largest_step_rad();
     let mut table = Table::new(["", "value", "unit"])
         .row(["largest chord error".to_owned(), format!("{}", s.chord_error_mm * 1e3), "µm".into()])
-        .row(["distance from the rotary axes".to_owned(), format!("{}", s.distance_mm), "mm".into()])
+        .row([
+            "distance from the rotary axes".to_owned(),
+            format!("{}", s.distance_mm),
+            "mm".into(),
+        ])
         .row([
             "largest step of one rotary axis, the tip standing still".to_owned(),
             format!("{:.4}", step.to_degrees()),
@@ -129,7 +137,13 @@ fn fields<'a>(answer: &RtcpReport<'_>) -> Option<Section<'a>> {
     }
     let rows = fields.into_iter().map(|f| {
         let enter = f.enter.unwrap_or_else(|| "—".to_owned());
-        [format!("{} ({})", f.name, f.printed), f.unit.to_owned(), f.shown.to_owned(), enter, f.words]
+        [
+            format!("{} ({})", f.name, f.printed),
+            f.unit.to_owned(),
+            f.shown.to_owned(),
+            enter,
+            f.words,
+        ]
     });
     let table = Table::new(["field", "unit", "in the picture", "enter", ""]).rows(rows);
     Some(Section::new("RTCP screen (Zhang et al. 2023, Fig 2)").table(table))

@@ -16,12 +16,16 @@ pub fn setting_report<'a>(setting: &ToolSetting, check: &ProgramCheck) -> Report
     };
     let row = |(k, tool): (usize, &SetTool)| {
         let touches = setting.touches.iter().filter(|t| t.tool == k).count();
-        let mm = |v: Option<f64>| v.map_or_else(|| "not stated".to_owned(), |v| format!("{:.1}", v * 1e3));
+        let mm = |v: Option<f64>| {
+            v.map_or_else(|| "not stated".to_owned(), |v| format!("{:.1}", v * 1e3))
+        };
         [
             format!("T{}", tool.number),
             if tool.is_reference { "gauge".to_owned() } else { tool.name.clone() },
             format!("{:.4}", setting.expected_length_mm(tool)),
-            tool.diameter_mm.filter(|_| touches > 1).map_or_else(String::new, |d| format!("{d:.4}")),
+            tool.diameter_mm
+                .filter(|_| touches > 1)
+                .map_or_else(String::new, |d| format!("{d:.4}")),
             touches.to_string(),
             mm(tool.state.breakage_mm),
             mm(tool.state.wear_length_mm),

@@ -208,7 +208,8 @@ fn verdict(s: &Simulation<'_>) -> (Standing, &'static str, String) {
         }
         (0, _) if beyond > 0 => {
             let requests = count(beyond, "request");
-            let sentence = format!("{requests} beyond spindle, magazine or tools: see the diagnostics");
+            let sentence =
+                format!("{requests} beyond spindle, magazine or tools: see the diagnostics");
             (Standing::Bad, "NOT POSSIBLE", sentence)
         }
         (0, 0) => {

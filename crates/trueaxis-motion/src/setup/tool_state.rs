@@ -72,7 +72,8 @@ pub(super) fn read_state(section: &Section<'_>) -> ToolState {
     });
     state.breakage_mm = section.get("breakage").and_then(|i| positive(&i, Dimension::Length));
     state.life = section.section("life", read_life).flatten();
-    state.sister = section.get("sister").and_then(|i| i.count()).and_then(|n| u32::try_from(n).ok());
+    state.sister =
+        section.get("sister").and_then(|i| i.count()).and_then(|n| u32::try_from(n).ok());
     state.measures_diameter =
         section.get("measure_diameter").and_then(|i| i.flag()).unwrap_or(false);
     if let (Some(wear), Some(breakage)) = (state.wear_length_mm, state.breakage_mm)

@@ -44,7 +44,9 @@ fn equipment_line(machine: &Machine) -> Option<String> {
     let spindle: Vec<String> = [
         equipment.max_spindle_rad_per_s.map(|v| format!("at most {} 1/min", per_minute(v))),
         equipment.min_spindle_rad_per_s.map(|v| format!("at least {} 1/min", per_minute(v))),
-        equipment.spindle_power_w.map(|v| format!("{} kW (not checked: programs state no forces)", rounded(v / 1e3))),
+        equipment
+            .spindle_power_w
+            .map(|v| format!("{} kW (not checked: programs state no forces)", rounded(v / 1e3))),
     ]
     .into_iter()
     .flatten()

@@ -4,8 +4,8 @@
 //!     d(q) = Σ (x_j − d_j)(v_j(q) − v_j(0))       d: what the control is set for    docs/model.md eq. 134
 //! ```
 
-use super::centres::rotary_range;
 use super::calibration::Calibration;
+use super::centres::rotary_range;
 use super::study::RtcpStudy;
 use nalgebra::{DMatrix, DVector};
 use trueaxis_geometry::Vec3;

@@ -69,7 +69,9 @@ fn centres(study: &RtcpStudy, found: &Calibration) -> Vec<ScreenField> {
         let words = match (known, &enter) {
             (None, _) => "not used by the steps of 2.1.2; the picture shows 0".to_owned(),
             (Some(n), Some(_)) => format!("{slot}: {}", n.slot.words),
-            (Some(n), None) => format!("{slot}: {}; the readings do not determine it", n.slot.words),
+            (Some(n), None) => {
+                format!("{slot}: {}; the readings do not determine it", n.slot.words)
+            }
         };
         ScreenField { name, printed, unit: "mm", shown: "0.0000", enter, words }
     };
@@ -80,7 +82,9 @@ fn segments(segments: Option<&Segments>) -> Vec<ScreenField> {
     const MISSING: &str = "state [segments] chord_error and distance";
     let rate = |length: Option<f64>| match (segments, length) {
         (None, _) => MISSING.to_owned(),
-        (Some(_), None) => "state `turned` and `along`, or its present value, in [segments]".to_owned(),
+        (Some(_), None) => {
+            "state `turned` and `along`, or its present value, in [segments]".to_owned()
+        }
         (Some(s), Some(l)) => format!(
             "keeps the chord error up to {:.3} deg of both rotary axes together for each mm of path; taken \
              as mm: the screen states no unit",

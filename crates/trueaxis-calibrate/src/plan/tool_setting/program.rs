@@ -34,7 +34,8 @@ pub fn setting_program(setting: &ToolSetting, control: Control) -> Result<Vec<u8
         return by_cycles(setting);
     }
     let log = TouchLog { machine: &setting.machine, control };
-    let mut p = Written { setting, control, log, writer: Writer::new(control), checks: FIRST_BLOCK };
+    let mut p =
+        Written { setting, control, log, writer: Writer::new(control), checks: FIRST_BLOCK };
     if let Some(text) = log.declare() {
         p.text(text)?;
         p.text("DEF REAL SET_OFF, SET_PLUS, SET_DRIFT")?;
@@ -79,11 +80,8 @@ impl Written<'_> {
     }
 
     fn begin(&mut self) -> Result<(), ProgramError> {
-        let about = format!(
-            "{} tools on {}",
-            self.setting.tools.len(),
-            self.setting.machine.name()
-        );
+        let about =
+            format!("{} tools on {}", self.setting.tools.len(), self.setting.machine.name());
         let wear = match self.control {
             Control::LinuxCnc => "writes length and radius into the tool table",
             _ => "writes wear: the geometry of each tool must be its nominal length and radius",
@@ -144,7 +142,12 @@ impl Written<'_> {
         Ok(self.writer.write(&Block::Line(target, feed))?)
     }
 
-    fn touch(&mut self, hit: usize, touch: &SettingTouch, tool: &SetTool) -> Result<(), ProgramError> {
+    fn touch(
+        &mut self,
+        hit: usize,
+        touch: &SettingTouch,
+        tool: &SetTool,
+    ) -> Result<(), ProgramError> {
         let [x, y, z] = self.setting.axes;
         self.lift()?;
         self.rapid(&touch.before, &[x, y])?;
@@ -331,7 +334,10 @@ fn by_cycles(setting: &ToolSetting) -> Result<Vec<u8>, ProgramError> {
 
 /// Runs the program on the machine with the tools of the set-up. Interpreters take a touch as made at the end of its
 /// way: the program that runs ends each touch where the nominal tool touches.
-pub fn check_setting(setting: &ToolSetting, control: Control) -> Result<SettingCheck, ProgramError> {
+pub fn check_setting(
+    setting: &ToolSetting,
+    control: Control,
+) -> Result<SettingCheck, ProgramError> {
     let mut exact = setting.clone();
     for touch in &mut exact.touches {
         touch.beyond = touch.expected;
@@ -339,7 +345,8 @@ pub fn check_setting(setting: &ToolSetting, control: Control) -> Result<SettingC
     let text = setting_program(&exact, control)?;
     let setup = SetUp { start: Some(start(setting)), ..setting.setup.clone() };
     // Tool lengths are off and work offsets 0 in this program; bodies on the table stay.
-    let setup = SetUp { work_offsets: std::collections::BTreeMap::new(), workpiece_at: None, ..setup };
+    let setup =
+        SetUp { work_offsets: std::collections::BTreeMap::new(), workpiece_at: None, ..setup };
     let program = Program::new("tool-setting", text, control);
     Ok(run(&setting.machine, &setting.machine_path, &setup, &program, &[]))
 }
