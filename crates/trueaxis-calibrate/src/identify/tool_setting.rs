@@ -113,7 +113,7 @@ fn measured(
     }
 }
 
-/// What nobody stated.
+/// What the set-up does not state.
 fn missing(setting: &ToolSetting, has_gauge: bool) -> Vec<String> {
     let mut missing = Vec::new();
     let setter = &setting.setter;

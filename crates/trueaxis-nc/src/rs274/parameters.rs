@@ -91,6 +91,7 @@ impl Run<'_> {
         let of = |position: &Position, first: u32| self.shown(position, (number - first) as usize);
         match number {
             5021..=5029 => of(&self.axis_positions(), 5021),
+            5061..=5069 => of(&self.modes.skip, 5061),
             5161..=5169 => of(&frames.references[0], 5161),
             5181..=5189 => of(&frames.references[1], 5181),
             5210 => Some(f64::from(u8::from(frames.shift_on))),

@@ -166,7 +166,7 @@ pub(super) struct Outlook {
     pub further: Vec<Option<String>>,
 }
 
-/// A reading that nobody took yet.
+/// A reading that was not taken yet.
 #[derive(Clone, Copy)]
 struct Further {
     words: &'static str,

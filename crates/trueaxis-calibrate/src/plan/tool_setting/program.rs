@@ -298,6 +298,8 @@ fn by_cycles(setting: &ToolSetting) -> Result<Vec<u8>, ProgramError> {
         "HEIGHT counts from the active datum: it must be the machine zero",
     ];
     writer.write(&Block::Start(&heading(&comments)))?;
+    // The cycles write Q5; before the first one it has no value.
+    writer.write(&Block::Text("FN 0: Q5 = +0"))?;
     let z = setting.axes[2];
     let top = match setting.machine.axes()[z].travel {
         Travel::Between(_, top) => top,
