@@ -277,23 +277,35 @@ fn oracle_the_log_of_python() {
     }
 }
 
-/// LinuxCNC's own interpreter reads the program of LinuxCNC, if it is installed.
+/// LinuxCNC's own interpreter reads the program of LinuxCNC, if it is installed: eight touches, and where they end at
+/// the nominal places the tool table gets the nominal lengths (90 mm are 3.5433 inches) and no tool is worn; where
+/// tool 3 alone ends 2 mm lower, the program is aborted.
 #[test]
 fn oracle_rs274_reads_the_program() {
-    if Command::new("rs274").arg("--help").output().is_err() {
+    if Command::new("rs274").arg("-h").output().is_err() {
         eprintln!("skipped: rs274 is not installed");
         return;
     }
+    let folder = std::env::temp_dir().join(format!("trueaxis-tools-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let table = "T12 P12 Z100\nT1 P1 Z90 D3\nT2 P2 Z90.5 D3\nT3 P3 Z85 D1\n";
+    std::fs::write(folder.join("t.tbl"), table).unwrap();
+    let run = |setting: &ToolSetting| {
+        std::fs::write(folder.join("t.ngc"), text(setting, Control::LinuxCnc)).unwrap();
+        let mut rs274 = Command::new("rs274");
+        let ran = rs274.args(["-g", "-t", "t.tbl", "t.ngc"]).current_dir(&folder).output().unwrap();
+        [ran.stdout, ran.stderr].map(|o| String::from_utf8_lossy(&o).into_owned()).concat()
+    };
     let mut exact = setting(&example());
     for touch in &mut exact.touches {
         touch.beyond = touch.expected;
     }
-    let folder = std::env::temp_dir().join(format!("trueaxis-tools-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    let file = folder.join("t.ngc");
-    std::fs::write(&file, text(&exact, Control::LinuxCnc)).unwrap();
-    let ran = Command::new("rs274").args(["-g"]).arg(&file).output().unwrap();
+    let said = run(&exact);
+    assert_eq!(said.matches("STRAIGHT_PROBE(").count(), 8, "{said}");
+    assert!(said.contains("3.5433") && said.contains("END 8") && !said.contains("WORN"), "{said}");
+    let last = exact.touches.len() - 1;
+    exact.touches[last].beyond[exact.axes[2]] -= 2.0;
+    let said = run(&exact);
+    assert!(said.contains("TOOL 3 IS BROKEN") && !said.contains("END 8"), "{said}");
     std::fs::remove_dir_all(&folder).unwrap();
-    let said = String::from_utf8_lossy(&ran.stdout).into_owned();
-    assert!(said.matches("STRAIGHT_PROBE").count() == 8, "{said}");
 }

@@ -349,7 +349,7 @@ pub fn check_setting(
     // Tool lengths are off and work offsets 0 in this program; bodies on the table stay.
     let setup =
         SetUp { work_offsets: std::collections::BTreeMap::new(), workpiece_at: None, ..setup };
-    let program = Program::new("tool-setting", text, control);
+    let program = Program::new("TOOL_SETTING", text, control);
     Ok(run(&setting.machine, &setting.machine_path, &setup, &program, &[]))
 }
 
