@@ -9,11 +9,11 @@ const SETUP: &str = "examples/04_plan/tool-setting.setup.toml";
 const LOG: &str = "examples/05_identify/tool-setting.log";
 
 /// A program of FANUC that cuts 600 mm at 100 mm/min: 6 min, 0.6 m, with tool 1.
-const PROGRAM: &str = "G21 G90 G54\nT1 M6\nG0 X0 Y0 Z20.\nG1 X60. F100.\nX0.\nX60.\nX0.\nX60.\nX0.\nX60.\nX0.\nX60.\nX0.\nM30\n";
+const PROGRAM: &str = "G21 G90 G54\nT1 M6\nG0 X0 Y0 Z60.\nG1 X60. F100.\nX0.\nX60.\nX0.\nX60.\nX0.\nX60.\nX0.\nX60.\nX0.\nM30\n";
 
 fn setup(tool: &str) -> String {
     format!(
-        "control = 'fanuc'\n[work_offset.G54]\nZ = '-90 mm'\n[start]\nZ = '100 mm'\n\
+        "control = 'fanuc'\n[work_offset.G54]\nZ = '0 mm'\n[start]\nZ = '100 mm'\n\
          [tool.1]\nname = 'a'\nlength = '90 mm'\ndiameter = '3 mm'\n{tool}\n\
          [tool.2]\nname = 'b'\nlength = '90 mm'\ndiameter = '3 mm'\n"
     )
@@ -107,14 +107,14 @@ fn spoilt_states() {
     for (tool, code, words) in [
         ("measured = { }", "missing-key", "nothing was measured"),
         ("measured = { length = '-20 um' }", "bad-size", "more than 0"),
-        ("measured = { length = '90' }", "missing-unit", "90"),
+        ("measured = { length = '90' }", "missing-unit", "a length"),
         ("wear_limit = { length = '0 um' }", "bad-size", "more than 0"),
         ("wear_limit = { length = '300 um' }\nbreakage = '200 um'", "bad-tool", "worn"),
         ("wear_limit = { width = '3 um' }", "unknown-key", "width"),
         ("life = { used = '1 min' }", "missing-key", "either by time or by distance"),
         ("life = { time = '1 min', distance = '1 m' }", "missing-key", "either"),
         ("life = { time = '1 min', used = '-1 min' }", "bad-size", "0 or more"),
-        ("life = { time = '1 m' }", "wrong-unit", "1 m"),
+        ("life = { time = '1 m' }", "wrong-unit", "time"),
         ("sister = 1", "unknown-tool", "its own sister"),
         ("sister = 7", "unknown-tool", "no tool 7"),
     ] {
@@ -226,7 +226,12 @@ fn spoilt_setters_and_logs() {
         "bad-size",
         "more than 0",
     );
-    planned(&changed("speed = \"600 rpm\"", "speed = \"600\""), &[], "missing-unit", "600");
+    planned(
+        &changed("speed = \"600 rpm\"", "speed = \"600\""),
+        &[],
+        "missing-unit",
+        "angular velocity",
+    );
     planned(&example, &["--tools", "1,x"], "bad-tool", "1,x");
     planned(&example, &["--tools", "5"], "bad-tool", "no tool 5");
     planned(&example, &["--control", "mazak"], "unknown-control", "mazak");
@@ -304,7 +309,7 @@ fn the_angles_and_the_screen() {
         ("chord_error = \"1 um\"", "chord_error = \"0 um\"", "bad-size", "more than 0"),
         ("distance = \"80 mm\"", "distance = \"0.5 um\"", "bad-size", "not smaller"),
         ("along = \"5 mm\"", "", "missing-key", "belong together"),
-        ("turned = \"10 deg\"", "turned = \"10 mm\"", "wrong-unit", "10 mm"),
+        ("turned = \"10 deg\"", "turned = \"10 mm\"", "wrong-unit", "an angle"),
         ("shortest = \"0.1 mm\"", "shortest = \"-1 mm\"", "bad-size", "shortest"),
     ] {
         assert!(example.contains(from), "{from}");

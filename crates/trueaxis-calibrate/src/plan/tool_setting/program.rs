@@ -5,8 +5,9 @@
 //! HAAS: the same levels; what stands under D counts as radius or diameter by its setting 40. SINUMERIK:
 //! `$TC_DP12` and `$TC_DP15`, wear of length 1 and of the radius. LinuxCNC: G10 L1, the whole length and radius, as its
 //! tool table has no wear. HEIDENHAIN: touch-probe cycles 31 and 32 (481, 482), which use its calibrated TT, LTOL,
-//! RTOL and LBREAK of its tool table, and report the state in a parameter: 1 worn, 2 broken. The numbers of
-//! SINUMERIK, HAAS and HEIDENHAIN are from knowledge of the manuals.
+//! RTOL and LBREAK of its tool table, and report the state in a parameter: 1 worn, 2 broken. The form of
+//! the cycles and `$TC_DP12` were seen in public programs; the values of the parameter and setting 40 are from knowledge of
+//! the manuals.
 
 use super::{SetTool, SettingTouch, ToolSetting, TouchOf};
 use crate::plan::program::{ProgramCheck, ProgramError, axis_target, run};
@@ -320,8 +321,8 @@ fn by_cycles(setting: &ToolSetting) -> Result<Vec<u8>, ProgramError> {
         }
         for (cycle, name) in cycles {
             let text = format!(
-                "TCH PROBE {cycle}.0 {name}\nTCH PROBE {cycle}.1 CHECK:1 Q5\n\
-                 TCH PROBE {cycle}.2 HEIGHT:{height:+.3}\nTCH PROBE {cycle}.3 PROBING THE TEETH:0\n\
+                "TCH PROBE {cycle}.0 {name}\nTCH PROBE {cycle}.1 CHECK: 1 Q5\n\
+                 TCH PROBE {cycle}.2 HEIGHT: {height:+.3}\nTCH PROBE {cycle}.3 PROBING THE TEETH: 0\n\
                  FN 9: IF +Q5 EQU +2 GOTO LBL 99"
             );
             writer.write(&Block::Text(&text))?;
