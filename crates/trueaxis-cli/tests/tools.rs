@@ -183,7 +183,7 @@ fn spoilt_setters_and_logs() {
     let example = std::fs::read_to_string(root().join(SETUP)).unwrap();
     let planned = |text: &str, more: &[&str], code: &str, words: &str| {
         let setup = folder.file("s.toml", text);
-        let arguments = ["plan", "tool-setting", MACHINE, &setup, "--control", "fanuc"];
+        let arguments = ["plan", "tool-setting", MACHINE, &setup];
         let ran = trueaxis(&[&arguments[..], more].concat());
         assert_eq!(ran.status, 2, "{code}\n{}{}", ran.err, ran.out);
         assert!(

@@ -70,7 +70,7 @@ pub fn place_of(study: &RtcpStudy, number: usize) -> Place {
 fn design(study: &RtcpStudy, with_angles: bool) -> Design {
     let instruments = study.sets.iter().map(|s| s.instrument.clone()).collect();
     let angles = study.angles.terms.iter().filter(|_| with_angles);
-    let terms: Vec<Term> = study.centres.terms.iter().chain(angles).cloned().collect();
+    let terms: Vec<Term> = study.centres.terms.iter().chain(angles).copied().collect();
     Design::new(&study.machine, terms, instruments)
 }
 

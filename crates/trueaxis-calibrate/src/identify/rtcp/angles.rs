@@ -196,7 +196,7 @@ const FURTHER: [Further; 4] = [
 
 /// Which angles these readings determine, and which further reading would determine the others.
 pub(super) fn outlook(study: &RtcpStudy) -> Outlook {
-    let terms: Vec<Term> = study.centres.terms.iter().chain(&study.angles.terms).cloned().collect();
+    let terms: Vec<Term> = study.centres.terms.iter().chain(&study.angles.terms).copied().collect();
     let (first, n) = (study.centres.terms.len(), terms.len());
     let instruments: Vec<Instrument> = study.sets.iter().map(|s| s.instrument.clone()).collect();
     let readings = rows(study, None).readings;
@@ -313,16 +313,16 @@ pub(super) fn found(
     is_seen: &[bool],
 ) -> Vec<AngleError> {
     let Outlook { u_rad, further } = outlook;
-    let parts = u_rad.into_iter().zip(further);
-    let each = |(k, (term, (u, further))): (usize, (&Term, (Option<f64>, Option<String>)))| {
+    let each = |k: usize| {
+        let term = &study.angles.terms[k];
         let found = study.angles.wanted && is_seen.get(k) == Some(&true);
         AngleError {
             name: term.error.to_string(),
             words: Angles::words(&study.machine, &study.centres, term),
             found_rad: found.then(|| (values[k], covariance[(k, k)].sqrt())),
-            expected_u_rad: u,
-            further,
+            expected_u_rad: u_rad.get(k).copied().flatten(),
+            further: further.get(k).cloned().flatten(),
         }
     };
-    study.angles.terms.iter().zip(parts).enumerate().map(each).collect()
+    (0..study.angles.terms.len()).map(each).collect()
 }
