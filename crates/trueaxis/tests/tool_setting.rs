@@ -284,6 +284,7 @@ fn oracle_the_log_of_python() {
 /// the nominal places the tool table gets the nominal lengths (90 mm are 3.5433 inches) and no tool is worn; where
 /// tool 3 alone ends 2 mm lower, the program is aborted.
 #[test]
+#[allow(clippy::print_stderr, reason = "a skipped comparison is reported")]
 fn oracle_rs274_reads_the_program() {
     if Command::new("rs274").arg("-h").output().is_err() {
         eprintln!("skipped: rs274 is not installed");
