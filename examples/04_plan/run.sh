@@ -9,3 +9,7 @@ $trueaxis plan examples/04_plan/touch-probe-5-minutes.toml --format json
 # Touches on a whole free-form bangle, along its normals; the hits become deviations, which `compensate adapt` reads.
 $trueaxis plan probe-surface examples/04_plan/probe-surface.toml -o "$out/probe-surface" --control fanuc
 $trueaxis identify surface "$out/probe-surface/hits.toml" -o "$out/measured.csv"
+# Length and diameter of the tools at a tool setter, with alarms for broken tools.
+for control in fanuc haas sinumerik linuxcnc heidenhain; do
+    $trueaxis plan tool-setting machines/i5-engraver/machine.toml examples/04_plan/tool-setting.setup.toml -o "$out/tool-setting" --control $control
+done

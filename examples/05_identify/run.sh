@@ -39,3 +39,7 @@ $trueaxis identify probe examples/05_identify/ring-programs.toml
 $trueaxis identify probe examples/05_identify/ring-programs.toml --corrections "${TMPDIR:-/tmp}/ring-corrected" --control heidenhain
 # Hits of a probing program become deviations of the surface.
 $trueaxis identify surface examples/05_identify/bangle-hits.toml -o "${TMPDIR:-/tmp}/bangle-deviations.csv"
+# Two balls at different heights: the directions of the rotary axes beside their centres.
+$trueaxis identify rtcp examples/05_identify/rtcp-angles.toml
+# The log of a tool setting. Tool 3 is broken: exit status 1.
+$trueaxis identify tools machines/i5-engraver/machine.toml examples/04_plan/tool-setting.setup.toml examples/05_identify/tool-setting.log || test $? -eq 1

@@ -25,3 +25,4 @@ pub mod score;
 pub mod selection;
 pub mod surface;
 pub mod thermal;
+pub mod tool_setting;

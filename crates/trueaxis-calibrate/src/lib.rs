@@ -13,8 +13,8 @@ pub mod plan;
 pub mod report;
 
 use report::{
-    HitsDocument, IdentificationDocument, PlanDocument, ProbeDocument, RtcpDocument,
-    SurfaceDocument, ThermalDocument,
+    HitsDocument, IdentificationDocument, MeasuredToolsDocument, PlanDocument, ProbeDocument,
+    RtcpDocument, SurfaceDocument, ThermalDocument, ToolSettingDocument,
 };
 use trueaxis_report::{NamedSchema, named_schema};
 
@@ -26,7 +26,9 @@ pub fn schemas() -> Vec<NamedSchema> {
         named_schema::<RtcpDocument<'_>>("identify-rtcp"),
         named_schema::<HitsDocument<'_>>("identify-surface"),
         named_schema::<ThermalDocument<'_>>("identify-thermal"),
+        named_schema::<MeasuredToolsDocument<'_>>("identify-tools"),
         named_schema::<PlanDocument<'_>>("plan"),
         named_schema::<SurfaceDocument<'_>>("plan-probe-surface"),
+        named_schema::<ToolSettingDocument<'_>>("plan-tool-setting"),
     ]
 }

@@ -16,6 +16,7 @@ pub mod program;
 mod remedy;
 pub mod surface;
 pub(crate) mod touch;
+pub mod tool_setting;
 mod trial;
 
 pub use choose::{Chosen, choose};

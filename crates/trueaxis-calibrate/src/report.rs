@@ -18,6 +18,8 @@ mod surface_document;
 mod thermal;
 mod thermal_document;
 mod thermal_pictures;
+mod tool_setting;
+mod tool_setting_document;
 
 pub use hits::{deviations_csv, deviations_report};
 pub use hits_document::HitsDocument;
@@ -34,3 +36,5 @@ pub use surface::surface_report;
 pub use surface_document::SurfaceDocument;
 pub use thermal::{thermal_lines, thermal_report};
 pub use thermal_document::ThermalDocument;
+pub use tool_setting::{setting_report, tools_report};
+pub use tool_setting_document::{MeasuredToolsDocument, ToolSettingDocument};

@@ -6,6 +6,7 @@ mod rtcp;
 mod surface;
 mod tables;
 mod thermal;
+mod tools;
 
 use crate::door::Door;
 use crate::output::{Format, Outcome};
@@ -47,6 +48,8 @@ enum IdentifyCommand {
     Tables(tables::Arguments),
     /// The deviations of a surface, from the hits of a probing program
     Surface(surface::Arguments),
+    /// Length, diameter and wear of tools, from the log of a tool setting
+    Tools(tools::Arguments),
 }
 
 /// The runs.
@@ -87,6 +90,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         Some(IdentifyCommand::Probe(arguments)) => probe::run(arguments),
         Some(IdentifyCommand::Tables(arguments)) => tables::run(arguments),
         Some(IdentifyCommand::Surface(arguments)) => surface::run(arguments),
+        Some(IdentifyCommand::Tools(arguments)) => tools::run(arguments),
     }
 }
 

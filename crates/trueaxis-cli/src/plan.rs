@@ -1,6 +1,7 @@
 //! `trueaxis plan`: the errors that a measurement determines, and its programs.
 
 mod surface;
+mod tool_setting;
 
 use crate::door::Door;
 use crate::output::{Format, Outcome};
@@ -34,6 +35,8 @@ pub struct Arguments {
 enum PlanCommand {
     /// A probing path over a surface, from cutter locations or an STL file
     ProbeSurface(surface::Arguments),
+    /// The program that measures the tools of a set-up at a tool setter
+    ToolSetting(tool_setting::Arguments),
 }
 
 /// The campaign.
@@ -59,6 +62,7 @@ struct CampaignArguments {
 pub fn run(arguments: &Arguments) -> Outcome {
     match &arguments.command {
         Some(PlanCommand::ProbeSurface(arguments)) => surface::run(arguments),
+        Some(PlanCommand::ToolSetting(arguments)) => tool_setting::run(arguments),
         None => run_campaign(&arguments.campaign),
     }
 }

@@ -79,11 +79,19 @@ const ANSWERS: &[(&str, &str)] = &[
     ),
     ("identify-surface", "identify surface examples/05_identify/bangle-hits.toml"),
     ("identify-thermal", "identify thermal examples/05_identify/lathe-thermal.toml"),
+    (
+        "identify-tools",
+        "identify tools machines/i5-engraver/machine.toml examples/04_plan/tool-setting.setup.toml examples/05_identify/tool-setting.log",
+    ),
     ("measure", "measure examples/07_verify/probe-ball-campaign.toml -o OUT/readings"),
     ("measure-part", "measure --part examples/03_predict/nas979-on-xkas2525.toml --draw"),
     ("plan", "plan examples/04_plan/probe-ball.toml"),
     ("plan", "plan examples/04_plan/ball-bar-10791-6.toml"),
     ("plan-probe-surface", "plan probe-surface examples/04_plan/probe-surface.toml"),
+    (
+        "plan-tool-setting",
+        "plan tool-setting machines/i5-engraver/machine.toml examples/04_plan/tool-setting.setup.toml",
+    ),
     ("pose", "pose machines/xkas2525/machine.toml --at X=3000"),
     (
         "pose-rows",

@@ -6,6 +6,7 @@ use super::{
     AxisWatch, Batch, Collisions, Drift, IssueList, Observer, Options, Run, SetUp, Summary,
     read_program, read_setup, simulate,
 };
+use crate::tool_check;
 use std::path::{Path, PathBuf};
 use trueaxis_input::{Diagnostics, Files};
 use trueaxis_machine::Machine;
@@ -127,7 +128,8 @@ impl Job {
         if let Some(drift) = &mut drift {
             all.push(drift);
         }
-        let run = simulate(&self.machine, &self.program, &self.setup, &self.options, &mut all);
+        let mut run = simulate(&self.machine, &self.program, &self.setup, &self.options, &mut all);
+        tool_check::tell(&self.setup, &summary, &mut run.problems);
         let logs = [Some(watch.log), collisions.map(|c| c.log)];
         let issues = IssueList::of(logs.into_iter().flatten());
         Findings { run, summary, issues, drift }

@@ -48,6 +48,7 @@ mod table;
 mod temperature_log;
 mod temperatures;
 pub mod timing;
+mod tool_check;
 mod tool_path;
 mod trace;
 
@@ -66,10 +67,14 @@ pub use recording::{
     AxisRange, Colour, Curves, Moment, PathPoints, QuantityRange, Recorder, Recording,
 };
 pub use series::{PathPoint, Quantity, Series};
-pub use setup::{CONTROLS, Nearness, SetUp, SetUpTool, control_named, parse_setup, read_setup};
-pub use summary::{AxisUse, Reversal, Summary, Worst, shown, unit};
+pub use setup::{
+    CONTROLS, LifeBy, MeasuredSize, Nearness, SetUp, SetUpTool, ToolLife, ToolSetter, ToolState,
+    control_named, parse_setup, read_setup,
+};
+pub use summary::{AxisUse, Reversal, Summary, ToolUse, Worst, shown, unit};
 pub use table::{CsvTable, POSE_COLUMNS, headings};
 pub use temperature_log::read_temperature_log;
+pub use tool_check::{ToolStanding, standing, tool_standings};
 pub use tool_path::Batch;
 pub use trace::{Trace, TracedNode, block_line, trace};
 pub use trueaxis_nc::Stop;
@@ -152,9 +157,11 @@ pub struct Run {
 }
 
 impl Run {
-    /// What the program asks of spindle and magazine that the machine does not have.
+    /// What the program asks of spindle, magazine and tools that the machine does not have.
     pub fn beyond_equipment(&self) -> impl Iterator<Item = &Diagnostic> {
-        self.problems.iter().filter(|problem| equipment::is_beyond_equipment(problem.code))
+        let is_beyond =
+            |code| equipment::is_beyond_equipment(code) || tool_check::CODES.contains(&code);
+        self.problems.iter().filter(move |problem| is_beyond(problem.code))
     }
 
     /// Functions that move the tool, or its place, and are not executed.

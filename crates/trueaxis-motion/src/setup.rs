@@ -4,6 +4,11 @@
 //! assumed but zeros where it is silent.
 
 mod codes;
+mod setter;
+mod tool_state;
+
+pub use setter::ToolSetter;
+pub use tool_state::{LifeBy, MeasuredSize, ToolLife, ToolState};
 
 use super::collide::{BodyModel, Mesh, Role, ToolShape, load_stl, triangles_of};
 use std::collections::BTreeMap;
@@ -32,6 +37,8 @@ pub struct SetUpTool {
     pub corner_radius_mm: f64,
     /// Its cylinders from the tip upwards, the cutter first; empty: a cylinder of its diameter.
     pub shape: Vec<ToolSegment>,
+    /// What is known of its wear and its life.
+    pub state: ToolState,
 }
 
 impl SetUpTool {
@@ -76,6 +83,10 @@ pub struct SetUp {
     pub work_offsets: BTreeMap<u32, Frame>,
     /// Tools by number.
     pub tools: BTreeMap<u32, SetUpTool>,
+    /// Where tools are measured.
+    pub setter: Option<ToolSetter>,
+    /// Where the file states the tools.
+    pub tool_places: BTreeMap<u32, Place>,
     /// Whether moves with radius compensation are those of the contour, not of the centre of the tool.
     pub on_contour: bool,
     /// What codes and programs of the machine builder do, by their names in capital letters.
@@ -152,9 +163,13 @@ fn read(root: &Section<'_>, machine: &Machine, folder: &Path) -> SetUp {
             };
             if let Some(Some(tool)) = item.section(key, |s| read_tool(s, machine)) {
                 setup.tools.insert(number, tool);
+                setup.tool_places.insert(number, place);
             }
         }
+        check_sisters(section, &setup);
     });
+    setup.setter = root.section("tool_setter", setter::read_setter).flatten();
+    check_reference(root, &setup);
     root.section("codes", |section| {
         (setup.codes, setup.code_places) = codes::read(section, setup.control);
     });
@@ -174,6 +189,31 @@ fn read(root: &Section<'_>, machine: &Machine, folder: &Path) -> SetUp {
         number
     });
     setup
+}
+
+/// A sister tool must be there, and be another one.
+fn check_sisters(section: &Section<'_>, setup: &SetUp) {
+    for (number, tool) in &setup.tools {
+        let Some(sister) = tool.state.sister else { continue };
+        if sister != *number && setup.tools.contains_key(&sister) {
+            continue;
+        }
+        let message = match sister == *number {
+            true => format!("tool {number} is named as its own sister"),
+            false => format!("the set-up has no tool {sister}, the sister of tool {number}"),
+        };
+        let place = setup.tool_places.get(number).cloned().unwrap_or_else(|| section.place());
+        section.error_at(place, "unknown-tool", message, "name a tool of this file");
+    }
+}
+
+/// The gauge of the tool setter must be there.
+fn check_reference(root: &Section<'_>, setup: &SetUp) {
+    let reference = setup.setter.as_ref().and_then(|s| s.reference);
+    if let Some(number) = reference.filter(|n| !setup.tools.contains_key(n)) {
+        let message = format!("the set-up has no tool {number}, the reference of the tool setter");
+        root.error("unknown-tool", message, "name a tool of this file whose length is calibrated");
+    }
 }
 
 /// `[stock]`, `[part]` and every `[[fixture]]`; places in the workpiece frame.
@@ -254,6 +294,7 @@ fn read_archive(root: &Section<'_>, item: &Item<'_>, folder: &Path, setup: &mut 
             radius_offset_mm: Some(tool.radius_mm),
             corner_radius_mm: tool.corner_radius_mm,
             shape: Vec::new(),
+            state: ToolState::default(),
         });
     }
 }
@@ -366,6 +407,7 @@ fn read_tool(section: &Section<'_>, machine: &Machine) -> Option<SetUpTool> {
     if let Some(shape) = read_tool_shape(section) {
         tool.shape = shape;
     }
+    tool.state = tool_state::read_state(section);
     Some(tool)
 }
 

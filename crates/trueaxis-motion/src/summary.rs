@@ -41,6 +41,15 @@ pub struct AxisUse {
     pub fastest: Worst,
 }
 
+/// How much a tool was used: with feed, neither in rapid nor waiting.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ToolUse {
+    /// Time, s.
+    pub feed_s: f64,
+    /// Path of the tip in the workpiece, mm.
+    pub feed_mm: f64,
+}
+
 /// Where an axis changes its direction: there backlash and friction show.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reversal {
@@ -93,6 +102,8 @@ pub struct Summary {
     pub cut_box_mm: Option<[Vec3; 2]>,
     /// How many moves each tool makes.
     pub tools: BTreeMap<u32, u64>,
+    /// How long and how far each tool moves with feed.
+    pub tool_use: BTreeMap<u32, ToolUse>,
     /// The first reversals of all axes, in order.
     pub reversals: Vec<Reversal>,
     /// Messages of the program to the operator.
@@ -190,6 +201,7 @@ impl Summary {
             feed_tip_rms_mm: 0.0,
             cut_box_mm: None,
             tools: BTreeMap::new(),
+            tool_use: BTreeMap::new(),
             reversals: Vec::new(),
             messages: Vec::new(),
             stops: 0,
@@ -229,7 +241,7 @@ impl Summary {
         }
     }
 
-    fn see_way(&mut self, node: &Node, tip: Vec3, time_s: f64) {
+    fn see_way(&mut self, node: &Node, tip: Vec3, time_s: f64, tool: u32) {
         let (moved, took_s) = match &self.before {
             Some(before) => ((tip - before.tip).norm(), time_s - before.time_s),
             None => (0.0, time_s),
@@ -240,6 +252,9 @@ impl Summary {
             self.rapid_s += took_s - node.dwell_s;
         } else {
             self.feed_mm += moved;
+            let used = self.tool_use.entry(tool).or_default();
+            used.feed_mm += moved;
+            used.feed_s += (took_s - node.dwell_s).max(0.0);
         }
         self.time_s = time_s;
     }
@@ -252,7 +267,7 @@ impl Observer for Summary {
             let tip = deviation.nominal_tip.vector();
             let (origin, time_s) = (node.origin, stamp.time_s);
             self.see_axes(node, time_s);
-            self.see_way(node, tip, time_s);
+            self.see_way(node, tip, time_s, batch.tool);
             let before = self.before.map_or(tip, |b| b.tip);
             self.before = Some(Before { command: node.command, tip, time_s });
             let (off_mm, off_rad) = (deviation.tip_mm.norm(), deviation.axis.norm());

@@ -36,6 +36,7 @@ mod solve;
 mod surface;
 mod tables;
 mod thermal;
+mod tool_setting;
 mod trace;
 mod values;
 mod verify;
@@ -66,6 +67,9 @@ pub use solve::{Solve, SolveAnswer, SolveInput, SolveTarget};
 pub use surface::{PlanSurface, SurfaceAnswer};
 pub use tables::{CompensateTables, TablesAnswer};
 pub use thermal::{IdentifyThermal, ThermalAnswer};
+pub use tool_setting::{
+    IdentifyTools, PlanToolSetting, ToolChoice, ToolSettingAnswer, ToolsAnswer,
+};
 pub use trace::{TraceAnswer, TraceBlock};
 pub use values::{CompensateValues, ValuesAnswer, ValuesForm};
 pub use verify::{

@@ -1,7 +1,8 @@
 //! An RTCP calibration in text and on a page.
 
 use crate::identify::rtcp::forecast::{Forecast, Strays};
-use crate::identify::rtcp::{Calibration, NewSlot, RtcpStudy};
+use crate::identify::rtcp::screen::screen;
+use crate::identify::rtcp::{AngleError, Calibration, NewSlot, RtcpStudy};
 use trueaxis_geometry::statistics::chi_square_above;
 use trueaxis_report::{Report, Section, Standing, Table};
 
@@ -42,12 +43,110 @@ pub fn rtcp_report<'a>(answer: &RtcpReport<'_>) -> Report<'a> {
                 .table(Table::new(["true − machine file", "", "µm", "u (k = 1), µm"]).rows(offsets))
                 .list(unseen),
         )
+        .section(angles(found))
         .sections(numbers(answer))
+        .sections(segments(study))
+        .sections(fields(answer))
         .section(fit(found))
         .section(answer.forecast.map_or_else(
             || Section::new("Forecast").paragraph("no forecast: not all offsets are known"),
             forecast,
         ))
+}
+
+/// The directions of the rotary axes.
+fn angles<'a>(found: &Calibration) -> Section<'a> {
+    let row = |a: &AngleError| {
+        let [value, expanded, angle] = match (a.found_rad, a.expected_u_rad) {
+            (Some((rad, u)), _) => [
+                format!("{:.1}", rad * 1e6),
+                format!("{:.1}", 2e6 * u),
+                format!("{:.4}", rad.to_degrees() + 0.0),
+            ],
+            (None, Some(u)) => {
+                ["not asked for".to_owned(), format!("would be {:.1}", 2e6 * u), String::new()]
+            }
+            (None, None) => ["not observable".to_owned(), String::new(), String::new()],
+        };
+        [a.name.clone(), a.words.clone(), value, expanded, angle]
+    };
+    let table = Table::new(["true value", "", "µrad", "U (k = 2), µrad", "°"]);
+    let further = found.angles.iter().filter_map(|a| {
+        Some(format!(
+            "{} is not observable; what would determine it: {}",
+            a.name,
+            a.further.as_ref()?
+        ))
+    });
+    let section = Section::new("Angle errors of the rotary axes")
+        .table(table.rows(found.angles.iter().map(row)))
+        .list(further);
+    match found.angles_wanted {
+        true => section,
+        false => section.paragraph(
+            "The offsets above hold if the directions are those of the machine file; angles = \"found\" \
+             determines them together with the offsets.",
+        ),
+    }
+}
+
+/// What segments keep the chord error.
+fn segments<'a>(study: &RtcpStudy) -> Option<Section<'a>> {
+    let s = study.segments.as_ref()?;
+    let step = s.largest_step_rad();
+    let mut table = Table::new(["", "value", "unit"])
+        .row(["largest chord error".to_owned(), format!("{}", s.chord_error_mm * 1e3), "µm".into()])
+        .row([
+            "distance from the rotary axes".to_owned(),
+            format!("{}", s.distance_mm),
+            "mm".into(),
+        ])
+        .row([
+            "largest step of one rotary axis, the tip standing still".to_owned(),
+            format!("{:.4}", step.to_degrees()),
+            "deg".into(),
+        ])
+        .row([
+            "steps of a full turn".to_owned(),
+            format!("{:.0}", (std::f64::consts::TAU / step).ceil()),
+            "1".into(),
+        ]);
+    if let Some(rho) = s.sharpest_rad_per_mm {
+        table = table.row([
+            format!("longest segment where the path turns by {:.3} deg/mm", rho.to_degrees()),
+            format!("{:.4}", s.longest_mm(rho)),
+            "mm".into(),
+        ]);
+    }
+    for (name, length) in [("shortest", s.shortest_mm), ("first", s.first_mm)] {
+        let Some(length) = length else { continue };
+        table = table.row([
+            format!("turning that the {name} segment of {length} mm allows"),
+            format!("{:.4}", s.largest_turn_rad_per_mm(length).to_degrees()),
+            "deg/mm".into(),
+        ]);
+    }
+    Some(Section::new("Segments of a path with tool-centre point").table(table))
+}
+
+/// The screen of the control, field by field.
+fn fields<'a>(answer: &RtcpReport<'_>) -> Option<Section<'a>> {
+    let fields = screen(answer.study, answer.found);
+    if fields.is_empty() {
+        return None;
+    }
+    let rows = fields.into_iter().map(|f| {
+        let enter = f.enter.unwrap_or_else(|| "—".to_owned());
+        [
+            format!("{} ({})", f.name, f.printed),
+            f.unit.to_owned(),
+            f.shown.to_owned(),
+            enter,
+            f.words,
+        ]
+    });
+    let table = Table::new(["field", "unit", "in the picture", "enter", ""]).rows(rows);
+    Some(Section::new("RTCP screen (Zhang et al. 2023, Fig 2)").table(table))
 }
 
 /// The numbers of the control.

@@ -2,7 +2,8 @@
 
 use super::rtcp::{RtcpReport, is_known};
 use crate::identify::rtcp::forecast::{Forecast, Strays};
-use crate::identify::rtcp::{NewSlot, Offset, Unseen, WorstReading};
+use crate::identify::rtcp::screen::{ScreenField, screen};
+use crate::identify::rtcp::{AngleError, NewSlot, Offset, Segments, Unseen, WorstReading};
 use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_report::Keyed;
@@ -21,6 +22,14 @@ pub struct RtcpDocument<'a> {
     pub topology: &'static str,
     /// The offsets of the rotary axes in chain order.
     pub offsets: Vec<OffsetEntry<'a>>,
+    /// Whether the directions of the rotary axes were unknowns beside the offsets.
+    pub angles_found: bool,
+    /// The angle errors of the rotary axes.
+    pub angles: Vec<AngleEntry<'a>>,
+    /// What the segments of a path with tool-centre point keep; null if the file has no [segments].
+    pub segments: Option<SegmentsEntry>,
+    /// The RTCP screen of the i5 control, field by field; empty for other controls.
+    pub screen: Vec<ScreenEntry>,
     /// The control whose numbers follow; null if none is stated.
     pub control: Option<&'static str>,
     /// The numbers of the control.
@@ -60,6 +69,67 @@ pub struct OffsetEntry<'a> {
     pub value_um: Option<f64>,
     /// Its standard uncertainty, µm.
     pub u_um: Option<f64>,
+}
+
+/// One angle error of a rotary axis.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct AngleEntry<'a> {
+    /// Its ISO 230-1 name.
+    pub name: &'a str,
+    /// The same in words.
+    pub words: &'a str,
+    /// Its value, µrad; null where it was not asked for or is not observable.
+    pub value_urad: Option<f64>,
+    /// Its expanded uncertainty (k = 2), µrad.
+    #[serde(rename = "U_urad")]
+    pub expanded_urad: Option<f64>,
+    /// Whether these readings determine it.
+    pub observable: bool,
+    /// The expanded uncertainty (k = 2) that these readings give by their stated noise, µrad; null: none.
+    #[serde(rename = "U_expected_urad")]
+    pub expected_expanded_urad: Option<f64>,
+    /// Which further reading would determine it; null where these do.
+    pub further_reading: Option<&'a str>,
+}
+
+/// What the segments of a path keep.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct SegmentsEntry {
+    /// The largest chord error, µm.
+    pub chord_error_um: f64,
+    /// The largest distance of the path from a rotary axis, mm.
+    pub distance_mm: f64,
+    /// The largest step of one rotary axis while the tip stands still, degrees.
+    pub largest_step_deg: f64,
+    /// By how much the rotary axes together turn for each mm where the path turns most, deg/mm. Unit: deg/mm.
+    pub sharpest_deg_per_mm: Option<f64>,
+    /// The longest segment there, mm.
+    pub longest_segment_mm: Option<f64>,
+    /// The shortest segment of the control, mm, if stated.
+    pub shortest_segment_mm: Option<f64>,
+    /// The turning that it allows, deg/mm. Unit: deg/mm.
+    pub shortest_allows_deg_per_mm: Option<f64>,
+    /// The first segment of the control, mm, if stated.
+    pub first_segment_mm: Option<f64>,
+    /// The turning that it allows, deg/mm. Unit: deg/mm.
+    pub first_allows_deg_per_mm: Option<f64>,
+}
+
+/// One field of the RTCP screen.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct ScreenEntry {
+    /// Its name in English.
+    pub name: &'static str,
+    /// Its name as it is printed.
+    pub printed: &'static str,
+    /// Its unit; `--` where the screen states none.
+    pub unit: &'static str,
+    /// What the picture of the paper shows.
+    pub picture: &'static str,
+    /// What to enter; null where neither paper nor readings determine it.
+    pub enter: Option<String>,
+    /// Why, or why not.
+    pub words: String,
 }
 
 /// One number of the control.
@@ -134,6 +204,10 @@ impl<'a> RtcpDocument<'a> {
             machine: study.machine.name(),
             topology: study.centres.topology.key(),
             offsets: found.offsets.iter().map(OffsetEntry::from).collect(),
+            angles_found: found.angles_wanted,
+            angles: found.angles.iter().map(AngleEntry::from).collect(),
+            segments: study.segments.as_ref().map(SegmentsEntry::from),
+            screen: screen(study, found).into_iter().map(ScreenEntry::from).collect(),
             control: study.slots.as_ref().map(|s| s.names.key()),
             numbers: found.new.iter().map(NumberEntry::from).collect(),
             without_number: without.map(|k| found.offsets[*k].name.as_str()).collect(),
@@ -160,6 +234,44 @@ impl<'a> From<&'a Offset> for OffsetEntry<'a> {
             value_um: o.found_mm.map(|(v, _)| um(v)),
             u_um: o.found_mm.map(|(_, u)| um(u)),
         }
+    }
+}
+
+impl<'a> From<&'a AngleError> for AngleEntry<'a> {
+    fn from(a: &'a AngleError) -> Self {
+        Self {
+            name: &a.name,
+            words: &a.words,
+            value_urad: a.found_rad.map(|(v, _)| v * 1e6),
+            expanded_urad: a.found_rad.map(|(_, u)| 2e6 * u),
+            observable: a.expected_u_rad.is_some(),
+            expected_expanded_urad: a.expected_u_rad.map(|u| 2e6 * u),
+            further_reading: a.further.as_deref(),
+        }
+    }
+}
+
+impl From<&Segments> for SegmentsEntry {
+    fn from(s: &Segments) -> Self {
+        let allows = |mm: f64| s.largest_turn_rad_per_mm(mm).to_degrees();
+        Self {
+            chord_error_um: s.chord_error_mm * 1e3,
+            distance_mm: s.distance_mm,
+            largest_step_deg: s.largest_step_rad().to_degrees(),
+            sharpest_deg_per_mm: s.sharpest_rad_per_mm.map(f64::to_degrees),
+            longest_segment_mm: s.sharpest_rad_per_mm.map(|rho| s.longest_mm(rho)),
+            shortest_segment_mm: s.shortest_mm,
+            shortest_allows_deg_per_mm: s.shortest_mm.map(allows),
+            first_segment_mm: s.first_mm,
+            first_allows_deg_per_mm: s.first_mm.map(allows),
+        }
+    }
+}
+
+impl From<ScreenField> for ScreenEntry {
+    fn from(f: ScreenField) -> Self {
+        let ScreenField { name, printed, unit, shown: picture, enter, words } = f;
+        Self { name, printed, unit, picture, enter, words }
     }
 }
 

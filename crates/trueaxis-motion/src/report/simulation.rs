@@ -2,6 +2,7 @@
 
 use super::simulation_pictures::{axis_pictures, curves, marks_note};
 use super::simulation_views::tool_path;
+use super::tool_states::{spindle_section, state_section};
 use crate::{
     AxisUse, Drift, Findings, Issue, IssueKind, IssueList, Job, Run, Series, SetUp, Summary, Worst,
     limit_name, shown, unit,
@@ -181,6 +182,8 @@ pub fn simulation_report<'a>(s: Simulation<'a>, series: Option<&'a Series>) -> R
         .sections(temperature_section(&s))
         .section(minor_section(&s))
         .section(tool_section(&s))
+        .sections(state_section(s.setup, s.summary))
+        .sections(spindle_section(s.machine))
         .section(Section::new("Messages of the program").list(s.summary.messages.iter().cloned()))
         .section(diagnostic_section(s.run))
         .section(input_section(&s))
@@ -205,7 +208,8 @@ fn verdict(s: &Simulation<'_>) -> (Standing, &'static str, String) {
         }
         (0, _) if beyond > 0 => {
             let requests = count(beyond, "request");
-            let sentence = format!("{requests} beyond spindle or magazine: see the diagnostics");
+            let sentence =
+                format!("{requests} beyond spindle, magazine or tools: see the diagnostics");
             (Standing::Bad, "NOT POSSIBLE", sentence)
         }
         (0, 0) => {

@@ -1,7 +1,8 @@
 //! A simulation for programs: the document `trueaxis/simulate/1`.
 
 use super::simulation::{Simulation, control_name, issue_code, issue_text};
-use crate::{AxisUse, Drift, Issue, IssueKind, Reversal, Worst, shown, unit};
+use super::tool_states::ToolStateEntry;
+use crate::{AxisUse, Drift, Issue, IssueKind, Reversal, Worst, shown, tool_standings, unit};
 use schemars::JsonSchema;
 use serde::Serialize;
 use trueaxis_report::Keyed;
@@ -221,6 +222,28 @@ pub struct ToolEntry {
     pub tool: u32,
     /// How many moves it makes.
     pub moves: u64,
+    /// How long it moves with feed, s.
+    pub with_feed_s: f64,
+    /// How far its tip moves with feed in the workpiece, mm.
+    pub with_feed_mm: f64,
+    /// What is known of its wear and its life; null if the set-up states nothing.
+    pub state: Option<ToolStateEntry>,
+}
+
+fn tool_entries(s: &Simulation<'_>) -> Vec<ToolEntry> {
+    let standings = tool_standings(s.setup, s.summary);
+    let entry = |(tool, moves): (&u32, &u64)| {
+        let used = s.summary.tool_use.get(tool).copied().unwrap_or_default();
+        let state = standings.iter().find(|t| t.number == *tool).map(ToolStateEntry::from);
+        ToolEntry {
+            tool: *tool,
+            moves: *moves,
+            with_feed_s: used.feed_s,
+            with_feed_mm: used.feed_mm,
+            state,
+        }
+    };
+    s.summary.tools.iter().map(entry).collect()
 }
 
 /// Temperatures during the program, and the drift that they cause.
@@ -283,11 +306,7 @@ impl<'a> SimulationDocument<'a> {
             beyond_equipment: s.run.beyond_equipment().count() as u64,
             messages: &summary.messages,
             stops: summary.stops,
-            tools: summary
-                .tools
-                .iter()
-                .map(|(tool, moves)| ToolEntry { tool: *tool, moves: *moves })
-                .collect(),
+            tools: tool_entries(s),
             path_file: s.path_file,
             temperatures: s.drift.map(TemperaturesEntry::from),
         }

@@ -37,14 +37,16 @@ pub fn check_report(machine: &Machine) -> Report<'static> {
         .section(lacks)
 }
 
-/// `spindle: at most 40000 1/min, 2.5 kW; magazine: 12 places`.
+/// `spindle: at most 40000 1/min, 2.5 kW (not checked: programs state no forces); magazine: 12 places`.
 fn equipment_line(machine: &Machine) -> Option<String> {
     let equipment = machine.equipment();
     let per_minute = |rad_per_s: f64| rounded(rad_per_s * 30.0 / std::f64::consts::PI);
     let spindle: Vec<String> = [
         equipment.max_spindle_rad_per_s.map(|v| format!("at most {} 1/min", per_minute(v))),
         equipment.min_spindle_rad_per_s.map(|v| format!("at least {} 1/min", per_minute(v))),
-        equipment.spindle_power_w.map(|v| format!("{} kW", rounded(v / 1e3))),
+        equipment
+            .spindle_power_w
+            .map(|v| format!("{} kW (not checked: programs state no forces)", rounded(v / 1e3))),
     ]
     .into_iter()
     .flatten()

@@ -15,6 +15,7 @@ mod document_000;
 mod document_001;
 mod document_002;
 mod document_003;
+mod document_003_rest;
 mod document_004;
 mod hand;
 mod oracles;
@@ -36,6 +37,7 @@ fn functions() -> Vec<(&'static str, Ours)> {
         document_001::CLAIMS,
         document_002::CLAIMS,
         document_003::CLAIMS,
+        document_003_rest::CLAIMS,
         document_004::CLAIMS,
         hand::CLAIMS,
         oracles::CLAIMS,

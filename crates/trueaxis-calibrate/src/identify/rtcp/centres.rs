@@ -177,9 +177,11 @@ impl Centres {
     }
 }
 
-const SHIFTS: [Component; 3] = [Component::X, Component::Y, Component::Z];
+/// The three shifts of a body.
+pub(super) const SHIFTS: [Component; 3] = [Component::X, Component::Y, Component::Z];
 
-fn shift(body: usize, component: Component) -> ErrorIndex {
+/// A location error of a body.
+pub(super) fn shift(body: usize, component: Component) -> ErrorIndex {
     ErrorIndex { body, kind: ErrorKind::Location, component }
 }
 
@@ -237,7 +239,7 @@ pub(super) fn rotary_range(travel: Travel) -> (f64, f64) {
 }
 
 /// Takes a column in if it is no combination of those before.
-fn add(basis: &mut Vec<DVector<f64>>, column: DVector<f64>) -> bool {
+pub(super) fn add(basis: &mut Vec<DVector<f64>>, column: DVector<f64>) -> bool {
     let mut left = column;
     // Twice, so that rounding does not count.
     for _ in 0..2 {

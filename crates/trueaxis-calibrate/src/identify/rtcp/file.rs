@@ -1,30 +1,25 @@
 //! Reads the file of an RTCP calibration and the tables that it names.
 
+use super::angles::Angles;
 use super::centres::Centres;
 use super::control::{MachineZero, Names, Slot, Slots};
-use super::{ReadingSet, Row, RtcpStudy, SAME_RAD, command_of, spread};
+use super::segments::read_segments;
+use super::study::{ReadingSet, RtcpStudy, SAME_RAD, spread};
+use super::table::{LARGE_MM, read_rows, read_table};
 use std::path::Path;
 use trueaxis_geometry::Vec3;
-use trueaxis_input::{
-    CsvColumn, CsvTable, Diagnostics, Dimension, Files, Item, Place, Section, SourceText, Unit,
-};
+use trueaxis_input::{Diagnostics, Dimension, Files, Item, Section, SourceText};
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::{AxisKind, Command};
-use trueaxis_machine::errors::{BodyName, ErrorValues};
+use trueaxis_machine::axis::AxisKind;
+use trueaxis_machine::errors::BodyName;
 use trueaxis_machine::file::{machine_of, read_vector_mm};
 use trueaxis_machine::twist::Reference;
 use trueaxis_measure::instruments::instrument::{SetupError, SetupUnknown, Sight};
-use trueaxis_measure::measure::path::{Placing, leaves_travel};
+use trueaxis_measure::measure::path::Placing;
 use trueaxis_measure::measure::{Instrument, Kind};
 
 /// More sets are a slip of the pen.
 const MOST_SETS: usize = 50;
-/// More rows in all are a slip of the pen.
-const MOST_ROWS: usize = 20_000;
-/// No indicator reads more, mm.
-const LARGE_MM: f64 = 5.0;
-/// A tool that stands farther from its ball than this reads something else, mm.
-const FAR_MM: f64 = 10.0;
 /// Poses that are turned by less give little information; perhaps they were meant in rad.
 const LITTLE_RAD: f64 = 0.2;
 
@@ -104,6 +99,9 @@ fn read(root: &Section<'_>, path: &Path, purpose: Purpose) -> Option<RtcpStudy> 
         Some(control) => control,
         None => None,
     };
+    let mut angles = Angles::of(&machine, &centres);
+    angles.wanted = root.get("angles").and_then(|i| read_angles(&i)).unwrap_or(false);
+    let segments = root.section("segments", read_segments).flatten();
     let mut study = RtcpStudy {
         name: name?.to_owned(),
         path: path.to_owned(),
@@ -114,6 +112,8 @@ fn read(root: &Section<'_>, path: &Path, purpose: Purpose) -> Option<RtcpStudy> 
         slots: None,
         machine,
         centres,
+        angles,
+        segments,
         tool_u_mm: tool_u_mm.unwrap_or([0.0; 2]),
         sets: Vec::new(),
         date,
@@ -145,6 +145,12 @@ fn without_errors(mut machine: Machine) -> Machine {
         machine = machine.with_error(index, None);
     }
     machine
+}
+
+/// Whether the directions of the axes are unknowns.
+fn read_angles(item: &Item<'_>) -> Option<bool> {
+    let hint = "\"stated\" (default: the directions of the rotary axes are those of the machine file) or \"found\"";
+    choice(item, ["stated", "found"], "the angles are not taken so", hint)
 }
 
 /// `[tool]`: the tip, and how well it is known.
@@ -294,6 +300,10 @@ fn read_set(
     });
     let found = section.get("found").map_or(Some(false), |i| i.flag());
     let at = section.section("at", |s| read_at(s, &study.machine)).unwrap_or_default();
+    let tip_mm = match section.get("tip") {
+        Some(item) => read_vector_mm(&item),
+        None => Some(study.machine.tip_mm()),
+    };
     let set_for_mm = match (section.get("now"), &study.slots) {
         (None, _) => Some(study.set_for_mm.clone()),
         (Some(item), Some(slots)) => {
@@ -313,7 +323,7 @@ fn read_set(
         tcp: tcp?,
         in_spindle: in_spindle?,
         reads_ball: reads_ball?,
-        instrument: instrument(name, &study.machine, ball_mm?, noise_mm?),
+        instrument: instrument(name, tip_mm?, ball_mm?, noise_mm?),
         set_for_mm: set_for_mm?,
         rows: Vec::new(),
         file: table.file.clone(),
@@ -340,7 +350,7 @@ fn set_for(study: &RtcpStudy, slots: &Slots, own: &[(usize, f64)]) -> Vec<f64> {
 }
 
 /// The tool against a ball whose place need not be known.
-fn instrument(name: &str, machine: &Machine, ball_mm: Vec3, noise_mm: f64) -> Instrument {
+fn instrument(name: &str, tip_mm: Vec3, ball_mm: Vec3, noise_mm: f64) -> Instrument {
     let free = |i: usize| SetupUnknown {
         name: format!("ball_{}", ['x', 'y', 'z'][i]),
         error: SetupError::ReferencePoint(i),
@@ -351,7 +361,7 @@ fn instrument(name: &str, machine: &Machine, ball_mm: Vec3, noise_mm: f64) -> In
         kind: Kind::ProbeBall,
         sight: Sight::Along,
         reference: Reference::Workpiece,
-        tool_point_mm: machine.tip_mm(),
+        tool_point_mm: tip_mm,
         reference_point_mm: ball_mm,
         direction: Vec3::x(),
         length_mm: 0.0,
@@ -374,175 +384,6 @@ fn dimension(kind: AxisKind) -> Dimension {
     match kind {
         AxisKind::Linear => Dimension::Length,
         AxisKind::Rotary => Dimension::Angle,
-    }
-}
-
-fn read_table(section: &Section<'_>, path: &Path) -> Option<CsvTable> {
-    let mut problems = Diagnostics::new();
-    let text = section.files().text(path, "a table of readings (CSV)", &mut problems);
-    let table = text.map(|t| CsvTable::parse(&path.display().to_string(), &t, &mut problems));
-    let sound = !problems.has_errors();
-    section.take_over(problems);
-    table.filter(|_| sound)
-}
-
-/// Which column is what: axes by index, readings by channel.
-#[derive(Default)]
-struct Columns<'t> {
-    axes: Vec<(usize, Unit, &'t CsvColumn)>,
-    channels: Vec<(usize, Unit, &'t CsvColumn)>,
-}
-
-fn columns<'t>(table: &'t CsvTable, machine: &Machine, problems: &mut Diagnostics) -> Columns<'t> {
-    let mut found = Columns::default();
-    for column in &table.columns {
-        let (name, unit) = column.name.split_once('_').unwrap_or((&column.name, ""));
-        let axis = machine.axes().iter().position(|a| a.name.to_string() == name);
-        let channel = ["x", "y", "z"].iter().position(|c| *c == name);
-        let (kind, usual) = match (axis, channel) {
-            (Some(i), _) if machine.axes()[i].kind == AxisKind::Rotary => (Dimension::Angle, "deg"),
-            (Some(_), _) => (Dimension::Length, "mm"),
-            (None, Some(_)) => (Dimension::Length, ""),
-            _ => {
-                let message = format!("`{}` is no axis and no reading", column.name);
-                let hint = "known here: the axes by letter (X, A; mm, deg), x_um, y_um, z_um";
-                problems.warn("unknown-column", column.place.clone(), message, hint);
-                continue;
-            }
-        };
-        let unit = if unit.is_empty() { usual } else { unit };
-        match (Unit::find(unit, kind), axis, channel) {
-            (Ok(unit), Some(i), _) => found.axes.push((i, unit, column)),
-            (Ok(unit), _, Some(c)) => found.channels.push((c, unit, column)),
-            (Err(e), ..) => {
-                problems.error(e.code(), column.place.clone(), e.to_string(), &e.hint());
-            }
-            _ => {}
-        }
-    }
-    found
-}
-
-fn read_rows(
-    section: &Section<'_>,
-    study: &RtcpStudy,
-    mut set: ReadingSet,
-    table: &CsvTable,
-    (at, found): (&[(BodyName, f64)], bool),
-) -> Option<ReadingSet> {
-    let mut problems = Diagnostics::new();
-    let columns = columns(table, &study.machine, &mut problems);
-    let mut base = Command::default();
-    for (i, axis) in study.machine.axes().iter().enumerate() {
-        let column = columns.axes.iter().find(|(a, ..)| *a == i);
-        let still = at.iter().find(|(name, _)| *name == axis.name);
-        let placed = set.tcp && axis.kind == AxisKind::Linear;
-        match (column, still) {
-            (Some((.., column)), _) if placed => {
-                let message = format!("with RTCP on the control places {}", axis.name);
-                let hint = "the column is not used; rtcp = false if it was off";
-                problems.warn("unused-column", column.place.clone(), message, hint);
-            }
-            (None, Some((_, q))) => base[i] = *q,
-            (None, None) if !placed => {
-                let unit = if axis.kind == AxisKind::Linear { "mm" } else { "deg" };
-                let message = format!("where did {} stand?", axis.name);
-                let hint =
-                    format!("a column `{}`, or at = {{ {} = \"0 {unit}\" }}", axis.name, axis.name);
-                problems.error("missing-column", Place::whole(&table.file), message, &hint);
-            }
-            _ => {}
-        }
-    }
-    if columns.channels.is_empty() && !found {
-        let message = "the table has no reading".to_owned();
-        let hint = "columns x_um, y_um, z_um (those that were read), or found = true if the axes \
-                    stand where the indicator reads zero";
-        problems.error("missing-column", Place::whole(&table.file), message, hint);
-    }
-    for row in 0..table.rows().min(MOST_ROWS) {
-        let mut value = |unit: &Unit, column: &CsvColumn| match unit.checked(column.values[row]) {
-            Ok(value) => value,
-            Err(e) => {
-                problems.error(e.code(), table.row_place(row), e.to_string(), &e.hint());
-                0.0
-            }
-        };
-        let mut command = base;
-        for (i, unit, column) in &columns.axes {
-            command[*i] = value(unit, column);
-        }
-        let mut read_mm = [found.then_some(0.0); 3];
-        for (c, unit, column) in &columns.channels {
-            read_mm[*c] = Some(value(unit, column));
-        }
-        let line = u32::try_from(table.row_place(row).line).unwrap_or(u32::MAX);
-        set.rows.push(Row { command, read_mm, line });
-    }
-    let sound = !problems.has_errors();
-    if sound {
-        check_rows(study, &set, table, &mut problems);
-    }
-    let sound = !problems.has_errors();
-    section.take_over(problems);
-    sound.then_some(set)
-}
-
-/// Readings that no indicator reads, poses that no control reaches.
-fn check_rows(study: &RtcpStudy, set: &ReadingSet, table: &CsvTable, problems: &mut Diagnostics) {
-    if set.rows.is_empty() || table.rows() > MOST_ROWS {
-        let message = format!("{} rows of readings", table.rows());
-        let hint = format!("1 to {MOST_ROWS}");
-        return problems.error("bad-count", Place::whole(&table.file), message, &hint);
-    }
-    let size = |row: &Row| row.read_mm.iter().flatten().fold(0.0, |m: f64, v| m.max(v.abs()));
-    let largest =
-        (0..set.rows.len()).max_by(|a, b| size(&set.rows[*a]).total_cmp(&size(&set.rows[*b])));
-    let noise = set.instrument.noise[0];
-    match largest.map(|i| (i, size(&set.rows[i]))) {
-        Some((i, mm)) if mm > LARGE_MM => {
-            let message = format!("a reading of {mm:.3} mm");
-            let hint = "no indicator reads so much: is the unit in the heading right?";
-            problems.warn("large-reading", table.row_place(i), message, hint);
-        }
-        Some((i, mm)) if mm > 0.0 && mm < 0.05 * noise => {
-            let message = format!("no reading exceeds {:.2e} µm, far below the noise", mm * 1e3);
-            let hint = "are these mm under a heading in µm?";
-            problems.warn("small-readings", table.row_place(i), message, hint);
-        }
-        _ => {}
-    }
-    let (mut unreached, mut outside, mut far) = (None, None, None);
-    for (i, row) in set.rows.iter().enumerate() {
-        let Some(command) = command_of(study, set, &row.command) else {
-            unreached = unreached.or(Some(i));
-            continue;
-        };
-        outside = outside.or_else(|| Some((i, leaves_travel(&study.machine, &command)?)));
-        if far.is_none() && !set.tcp {
-            let pose = study.machine.pose(&command, &ErrorValues::default());
-            let tip = pose.linear() * set.instrument.tool_point_mm + pose.shift_mm();
-            let away = (tip - set.instrument.reference_point_mm).norm();
-            far = (away > FAR_MM).then_some((i, away));
-        }
-    }
-    if let Some(i) = unreached {
-        let message = "the linear axes cannot bring the tip to the ball".to_owned();
-        problems.error(
-            "out-of-reach",
-            table.row_place(i),
-            message,
-            "check the rotary axes and `ball`",
-        );
-    }
-    if let Some((i, strayed)) = outside {
-        let hint = "check the unit of the column and `ball`";
-        problems.warn("outside-travel", table.row_place(i), strayed.to_string(), hint);
-    }
-    if let Some((i, mm)) = far {
-        let message = format!("by the machine file the tool is {mm:.1} mm from the ball");
-        let hint = "check `ball`, `tip` and the columns X, Y, Z";
-        problems.warn("far-from-ball", table.row_place(i), message, hint);
     }
 }
 

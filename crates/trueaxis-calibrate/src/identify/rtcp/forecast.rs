@@ -4,8 +4,9 @@
 //!     d(q) = Σ (x_j − d_j)(v_j(q) − v_j(0))       d: what the control is set for    docs/model.md eq. 134
 //! ```
 
+use super::calibration::Calibration;
 use super::centres::rotary_range;
-use super::{Calibration, RtcpStudy};
+use super::study::RtcpStudy;
 use nalgebra::{DMatrix, DVector};
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::axis::{AxisKind, Command};

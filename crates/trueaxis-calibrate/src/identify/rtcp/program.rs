@@ -5,7 +5,7 @@
 //! RTCP off the axes go where the table says; where the linear axes move between two poses, the tool
 //! goes up to the end of Z first.
 
-use super::{ReadingSet, Row, RtcpStudy, command_of};
+use super::study::{ReadingSet, Row, RtcpStudy, command_of};
 use trueaxis_geometry::Vec3;
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
 use trueaxis_measure::measure::path::{Placing, leaves_travel};
@@ -218,7 +218,8 @@ pub fn off_poses(study: &RtcpStudy, set: &ReadingSet, text: &[u8], control: Cont
     let mut stands = Stands(Vec::new());
     let run = {
         let mut observers: Vec<&mut dyn Observer> = vec![&mut stands];
-        simulate(&study.machine, &program, &setup, &Options::default(), &mut observers)
+        let machine = study.machine.clone().with_tip(set.instrument.tool_point_mm);
+        simulate(&machine, &program, &setup, &Options::default(), &mut observers)
     };
     if run.problems.has_errors() {
         return f64::INFINITY;
