@@ -15,8 +15,8 @@ mod planned;
 pub mod program;
 mod remedy;
 pub mod surface;
-pub(crate) mod touch;
 pub mod tool_setting;
+pub(crate) mod touch;
 mod trial;
 
 pub use choose::{Chosen, choose};

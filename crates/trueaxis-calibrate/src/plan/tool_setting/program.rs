@@ -11,7 +11,7 @@
 
 use super::{SetTool, SettingTouch, ToolSetting, TouchOf};
 use crate::plan::program::{ProgramCheck, ProgramError, axis_target, run};
-use crate::plan::touch::{TouchLog, touch_start};
+use crate::plan::touch::{SURFACE_LOG, Touch, TouchLog, declare};
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
 use trueaxis_motion::SetUp;
 use trueaxis_nc::moves::{Axis, Feed, FeedMode, Position, SpindleDirection};
@@ -34,15 +34,15 @@ pub fn setting_program(setting: &ToolSetting, control: Control) -> Result<Vec<u8
     if control == Control::Heidenhain {
         return by_cycles(setting);
     }
-    let log = TouchLog { machine: &setting.machine, control };
+    let log = TouchLog { machine: &setting.machine, control, is_stand_in: false };
     let mut p =
         Written { setting, control, log, writer: Writer::new(control), checks: FIRST_BLOCK };
-    if let Some(text) = log.declare() {
+    if let Some(text) = declare(control) {
         p.text(text)?;
         p.text("DEF REAL SET_OFF, SET_PLUS, SET_DRIFT")?;
     }
     p.begin()?;
-    p.text(&touch_start(&log)?)?;
+    p.text(&SURFACE_LOG.open(control))?;
     for (k, tool) in setting.tools.iter().enumerate() {
         p.tool(tool)?;
         for (i, touch) in setting.touches.iter().enumerate().filter(|(_, t)| t.tool == k) {
@@ -52,7 +52,7 @@ pub fn setting_program(setting: &ToolSetting, control: Control) -> Result<Vec<u8
             p.writer.write(&Block::Spindle(SpindleDirection::Stopped, 0.0))?;
         }
     }
-    p.text(&log.close(setting.touches.len()))?;
+    p.text(&SURFACE_LOG.close(control, setting.touches.len()))?;
     p.writer.write(&Block::End)?;
     Ok(p.writer.finish())
 }
@@ -157,8 +157,13 @@ impl Written<'_> {
             // Beside the setter the way down is with feed.
             TouchOf::Plus | TouchOf::Minus => self.line(&touch.before, BACK_MM_PER_MIN)?,
         }
-        let feed = self.setting.setter.feed_mm_per_min;
-        let text = self.log.touch(&touch.beyond, feed, hit, tool.number as usize)?;
+        let text = self.log.touch(&Touch {
+            from: &touch.before,
+            target: &touch.beyond,
+            mm_per_min: self.setting.setter.feed_mm_per_min,
+            hit,
+            pose: tool.number as usize,
+        })?;
         self.text(&text)?;
         let text = match touch.of {
             TouchOf::Length if tool.is_reference => self.reference(tool),
