@@ -3,8 +3,10 @@
 //! Readings of instruments are evaluated by ISO 230 and its relatives, each figure with its clause
 //! (`trueaxis-standards`). [`compare`](mod@compare) holds readings against a prediction, or against other
 //! readings; [`calibrations`](mod@calibrations) one machine file against a later one;
-//! [`certificate`](mod@certificate) what a compensation leaves, proved on poses that were not used.
+//! [`certificate`](mod@certificate) what a compensation leaves, proved on poses that were not used;
+//! [`before_after`](mod@before_after) what a laser reads on a virtual machine before and after.
 
+pub mod before_after;
 pub mod calibrations;
 pub mod certificate;
 pub mod compare;

@@ -195,7 +195,10 @@ impl Design {
         let errors = self.errors_in_motion(command, approach, motion, values)?;
         let actual = instrument.tool_seen(&self.machine, command, &errors);
         let nominal = match instrument.sight {
-            Sight::Turn => instrument.tool_seen(&self.machine, command, &ErrorValues::default()),
+            Sight::Along if instrument.material.is_none() => actual, // it does not ask for it
+            Sight::Along | Sight::Turn => {
+                instrument.tool_seen(&self.machine, command, &ErrorValues::default())
+            }
             _ => actual, // no other reading asks for it
         };
         let view = View { nominal, actual, direction: readings.directions[i] };

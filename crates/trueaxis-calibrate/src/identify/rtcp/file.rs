@@ -357,6 +357,7 @@ fn instrument(name: &str, machine: &Machine, ball_mm: Vec3, noise_mm: f64) -> In
         length_mm: 0.0,
         noise: [noise_mm; 3],
         unknowns: [0, 1, 2].map(free).to_vec(),
+        material: None,
     }
 }
 

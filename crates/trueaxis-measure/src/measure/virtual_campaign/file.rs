@@ -70,6 +70,7 @@ fn plain(campaign: &Campaign, seed: u64) -> Truth {
         instruments: campaign.instruments.iter().map(bare).collect(),
         setups: vec![Vec::new(); campaign.instruments.len()],
         log: None,
+        added: Vec::new(),
         seed,
     }
 }
@@ -197,6 +198,7 @@ fn possible(kind: Kind) -> Vec<(String, SetupError)> {
     let all = all.chain(three.map(SetupError::ReferencePoint));
     let all = all.chain(three.map(SetupError::ReferenceTurn));
     let all = all.chain(zeros).chain([SetupError::Scale]);
+    let all = all.chain((kind == Kind::LaserLine).then_some(SetupError::Material));
     all.map(|error| (kind.unknown_name(error), error)).collect()
 }
 
@@ -263,7 +265,7 @@ fn read_setup(
         }
     };
     let dimension = match error {
-        SetupError::ReferenceTurn(_) | SetupError::Scale => Dimension::Angle,
+        SetupError::ReferenceTurn(_) | SetupError::Scale | SetupError::Material => Dimension::Angle,
         SetupError::Zero(_) if campaign.instruments[of].sight.is_angle() => Dimension::Angle,
         _ => Dimension::Length,
     };
