@@ -402,8 +402,13 @@ fn read_with(commands: &[Command], lag_s: f64, feed_mm_per_s: f64) -> Vec<[f64; 
     for (group, command) in commands.iter().enumerate() {
         stations.push(station(*command, &campaign, 0, group));
     }
-    let path =
-        Path { name: "path".into(), stations, feed_mm_per_s: Some(feed_mm_per_s), dwell_s: 1.0, overrun: 0.0 };
+    let path = Path {
+        name: "path".into(),
+        stations,
+        feed_mm_per_s: Some(feed_mm_per_s),
+        dwell_s: 1.0,
+        overrun: 0.0,
+    };
     let mut axes = [AxisDisturb::default(); MAX_AXES];
     axes.iter_mut().for_each(|a| a.lag_s = lag_s);
     let truth = Truth {

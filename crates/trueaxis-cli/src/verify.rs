@@ -4,7 +4,7 @@ use crate::door::Door;
 use crate::output::{Format, Outcome};
 use clap::Args;
 use std::path::PathBuf;
-use trueaxis::questions::{Certify, CompareCalibrations, VerifyReadings};
+use trueaxis::questions::{Certify, CompareCalibrations, LaserBeforeAfter, VerifyReadings};
 
 /// The comparison to make.
 #[derive(Args)]
@@ -13,11 +13,12 @@ Examples:
   trueaxis verify examples/07_verify/probe-ball.toml --report v.html
   trueaxis verify --diff machines/xkas2525/machine.toml examples/07_verify/xkas2525-after-a-year.toml
   trueaxis verify --certificate examples/07_verify/certificate.toml --report certificate.html
+  trueaxis verify --before-after examples/07_verify/laser-before-after.toml --report laser.html
 
 Exit status: 0 pass, or no change; 1 fail or undecided, or a significant change; 2 unusable input.")]
 pub struct Arguments {
     /// The readings, what they are compared with, and the decision rule
-    #[arg(value_name = "FILE.toml", required_unless_present_any = ["diff", "certificate"])]
+    #[arg(value_name = "FILE.toml", required_unless_present_any = ["diff", "certificate", "before_after"])]
     file: Option<PathBuf>,
     /// Compare two calibrations of one machine: which errors changed significantly
     #[arg(long, num_args = 2, value_names = ["OLD.toml", "NEW.toml"], conflicts_with = "file")]
@@ -25,6 +26,12 @@ pub struct Arguments {
     /// Certify a compensation: the residual errors at poses that the identification has not used
     #[arg(long, value_name = "STUDY.toml", conflicts_with_all = ["file", "diff"])]
     certificate: Option<PathBuf>,
+    /// Read virtual lasers before and after compensation, evaluated by ISO 230-2
+    #[arg(long, value_name = "CAMPAIGN.toml", conflicts_with_all = ["file", "diff", "certificate"])]
+    before_after: Option<PathBuf>,
+    /// With --before-after: write one table of readings per path and compensation into this folder
+    #[arg(short, long, value_name = "FOLDER", requires = "before_after")]
+    output: Option<PathBuf>,
     /// Write an HTML report to this file
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
@@ -35,6 +42,10 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments) -> Outcome {
     let door = Door { format: arguments.format, report: arguments.report.as_deref() };
+    if let Some(campaign) = &arguments.before_after {
+        let (campaign, output) = (campaign.clone(), arguments.output.clone());
+        return door.ask(&LaserBeforeAfter { campaign, output });
+    }
     match (&arguments.diff.as_deref(), &arguments.certificate, &arguments.file) {
         (Some([old, new]), ..) => {
             door.ask(&CompareCalibrations { old: old.clone(), new: new.clone() })

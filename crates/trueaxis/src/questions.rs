@@ -12,6 +12,7 @@
 //! ```
 
 mod adapt;
+mod before_after;
 mod evaluate;
 mod expansion;
 mod hits;
@@ -39,6 +40,7 @@ mod words;
 mod workpiece;
 
 pub use adapt::{Adapt, AdaptAnswer};
+pub use before_after::{BeforeAfterAnswer, LaserBeforeAfter};
 pub use evaluate::{Evaluate, EvaluateAnswer, EvaluateInput, ReadingsFile};
 pub use expansion::{ExpansionAnswer, IdentifyExpansion};
 pub use hits::{HitsAnswer, IdentifySurface};

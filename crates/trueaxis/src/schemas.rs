@@ -3,8 +3,8 @@
 use crate::explain::{ExplainDocument, ExplainListDocument};
 use crate::questions::RtcpProgramsDocument;
 use crate::report::{
-    CertificateDocument, CheckDocument, DescriptionDocument, DiagnosticEntry, DiffDocument,
-    ExpansionDocument, PoseDocument, PoseRowsDocument, PostDocument, RefusedDocument,
+    BeforeAfterDocument, CertificateDocument, CheckDocument, DescriptionDocument, DiagnosticEntry,
+    DiffDocument, ExpansionDocument, PoseDocument, PoseRowsDocument, PostDocument, RefusedDocument,
     SolveDocument, SolvePathDocument, TraceDocument, VerifyDocument,
 };
 use schemars::{JsonSchema, Schema, generate::SchemaSettings, json_schema};
@@ -21,6 +21,7 @@ use trueaxis_report::{NamedSchema, named_schema};
 /// ```
 pub fn schemas() -> Vec<NamedSchema> {
     let mut all = vec![
+        named_schema::<BeforeAfterDocument<'_>>("before-after"),
         named_schema::<CertificateDocument<'_>>("certificate"),
         named_schema::<CheckDocument<'_>>("check"),
         named_schema::<DescriptionDocument<'_>>("description"),

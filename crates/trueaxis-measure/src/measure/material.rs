@@ -136,7 +136,8 @@ fn read_temperature(
     }
     let Some(value) = conditions.and_then(|c| c.celsius(name)) else {
         let message = format!("`{name}` has no temperature in this campaign");
-        let hint = format!("[temperature] {name} = \"30.5 degC\", or a temperature instead of the sensor");
+        let hint =
+            format!("[temperature] {name} = \"30.5 degC\", or a temperature instead of the sensor");
         item.error("missing-sensor", message, &hint);
         return None;
     };

@@ -265,11 +265,7 @@ struct Moment {
 }
 
 /// Every step of the time, or one for all times.
-fn moments(
-    real: &VirtualCampaign,
-    time_s: f64,
-    step_s: f64,
-) -> Result<Vec<Moment>, MeasureError> {
+fn moments(real: &VirtualCampaign, time_s: f64, step_s: f64) -> Result<Vec<Moment>, MeasureError> {
     let Some(log) = &real.truth.log else {
         let (machine, instruments) = (real.truth.machine.clone(), real.truth.instruments.clone());
         return Ok(vec![Moment { machine, instruments }]);

@@ -229,7 +229,17 @@ fn curve(
     let refused = |fault| BeforeAfterError::Values { path: stations.name.clone(), fault };
     let table = compensation_values(&study.model(whole), &order).map_err(refused)?;
     let file_u_mm = table.nodes.first().and_then(|node| node.u);
-    Ok(Curve { path, instrument: of, axis, compensation, measured, result, added_mm, largest, file_u_mm })
+    Ok(Curve {
+        path,
+        instrument: of,
+        axis,
+        compensation,
+        measured,
+        result,
+        added_mm,
+        largest,
+        file_u_mm,
+    })
 }
 
 /// The readings of a path as those of a positioning test.
@@ -249,7 +259,8 @@ fn readings(
         let deviation = sign * (rows.values[i][0] - nominal[0]);
         // The same target to a picometre.
         let key = (command[axis] * 1e9).round() as i64;
-        let target = targets.entry(key).or_insert(Target { position: command[axis], ..Target::default() });
+        let target =
+            targets.entry(key).or_insert(Target { position: command[axis], ..Target::default() });
         let list = if side < 0.0 { &mut target.down } else { &mut target.up };
         let run = u32::try_from(list.len() + 1).unwrap_or(u32::MAX);
         list.push(Reading { run, deviation });
@@ -261,8 +272,7 @@ fn readings(
 fn shares(laser: &Instrument, length_mm: f64) -> Vec<Share> {
     let Some(material) = &laser.material else { return Vec::new() };
     let whole = material.u_share();
-    let by_temperature =
-        (material.expansion_per_k.value * material.celsius.u.unwrap_or(0.0)).abs();
+    let by_temperature = (material.expansion_per_k.value * material.celsius.u.unwrap_or(0.0)).abs();
     let by_expansion = (whole * whole - by_temperature * by_temperature).max(0.0).sqrt();
     vec![
         Share { name: "expansion of the material", u: by_expansion * length_mm },
@@ -287,9 +297,10 @@ fn largest(
     laser: &Instrument,
     u_material: impl Fn(f64) -> f64,
 ) -> LargestDeviation {
-    let sides = result.positions.iter().flat_map(|p| {
-        [p.up, p.down].into_iter().flatten().map(move |side| (p.target, side))
-    });
+    let sides = result
+        .positions
+        .iter()
+        .flat_map(|p| [p.up, p.down].into_iter().flatten().map(move |side| (p.target, side)));
     let worst = sides.max_by(|a, b| a.1.mean.abs().total_cmp(&b.1.mean.abs()));
     let Some((target_mm, side)) = worst else {
         return LargestDeviation { deviation_mm: 0.0, target_mm: 0.0, u_mm: 0.0 };

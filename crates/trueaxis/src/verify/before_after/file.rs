@@ -87,9 +87,10 @@ pub fn read_before_after(
         Some((real, model, states, values, stated.increment_mm, stated.increment_rad))
     });
     problems.append(after);
-    let study = read.map(|(campaign, (real, model, states, values, increment_mm, increment_rad))| {
-        BeforeAfter { campaign, real, states, model, values, increment_mm, increment_rad }
-    });
+    let study =
+        read.map(|(campaign, (real, model, states, values, increment_mm, increment_rad))| {
+            BeforeAfter { campaign, real, states, model, values, increment_mm, increment_rad }
+        });
     (study.filter(|_| !problems.has_errors()), problems)
 }
 
@@ -111,7 +112,7 @@ impl Default for Stated {
 
 fn read_compensation(section: &Section<'_>, campaign: &Campaign) -> Option<Stated> {
     let mut stated = Stated::default();
-    let mut increment = |key: &str, dimension, value: &mut f64| {
+    let increment = |key: &str, dimension, value: &mut f64| {
         let Some(found) = section.quantity(key, dimension) else { return };
         if found <= 0.0 {
             section.error("not-positive", format!("`{key}` is above zero"), "such as \"1 um\"");
@@ -169,7 +170,8 @@ fn check_states(root: &Section<'_>, model: &Machine, states: &[Compensation]) ->
         None => (
             "no-workpiece",
             "the machine file does not say how its workpiece expands",
-            "add [workpiece] expansion = \"13.2 um/(m K)\" to it, or leave out \"comprehensive\"".to_owned(),
+            "add [workpiece] expansion = \"13.2 um/(m K)\" to it, or leave out \"comprehensive\""
+                .to_owned(),
         ),
         Some(workpiece) => (
             "no-workpiece-temperature",
@@ -187,7 +189,8 @@ fn check_states(root: &Section<'_>, model: &Machine, states: &[Compensation]) ->
 /// Every path is a positioning test with a laser along one linear axis.
 fn check_paths(root: &Section<'_>, campaign: &Campaign, real: &VirtualCampaign) {
     for path in &real.paths {
-        let kinds = path.stations.instruments.iter().map(|i| campaign.instruments[*i as usize].kind);
+        let kinds =
+            path.stations.instruments.iter().map(|i| campaign.instruments[*i as usize].kind);
         let mut kinds = kinds.collect::<Vec<_>>().into_iter();
         if kinds.any(|kind| kind != Kind::LaserLine) || axis_of(campaign, path).is_none() {
             let message = format!("path {} is no positioning test of a linear axis", path.name);
