@@ -93,7 +93,11 @@ pub fn read_path(section: &Section<'_>, campaign: &Campaign) -> Option<Vec<Path>
         return None;
     }
     let dwell_s = section.quantity("dwell", Dimension::Time).unwrap_or(1.0).max(0.0);
-    let overrun = overrun::read_overrun(section, kind.text()?, campaign)?;
+    let Some(overrun) = overrun::read_overrun(section, kind.text()?, campaign) else {
+        // The other keys are of no use now.
+        section.entries();
+        return None;
+    };
     let parts = match kind.text()? {
         word if kinematic::is_test(word) => {
             kinematic::read_test(section, &kind, campaign, instrument)
