@@ -65,6 +65,11 @@ impl Unknown<'_> {
         matches!(self, Self::Term(term) if term.basis.is_lag())
     }
 
+    /// Whether it is a share of a length, a plain number.
+    pub fn is_share(&self) -> bool {
+        matches!(self, Self::Setup(_, unknown) if unknown.error.is_share())
+    }
+
     /// Whether it is an angle (rad); the others are lengths (mm), times (s) or plain numbers.
     pub fn is_angle(&self) -> bool {
         use crate::instruments::instrument::SetupError;
