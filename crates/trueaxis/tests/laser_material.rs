@@ -313,7 +313,7 @@ fn law_identify_adds_what_the_laser_subtracts() {
     let expected = plain.1.hypot(1.5f64.hypot(1.2));
     assert!((found.0 - 46.0).abs() < 1e-6, "{found:?}");
     assert!((found.1 - expected).abs() < 1e-6 * expected, "{found:?} {expected}");
-    // A wrong sensor of the true set-up stays within that.
+    // A wrong sensor is as far off as it is wrong, which u covers.
     let wrong = "material_expansion = \"12 um/(m K)\"\nmaterial_temperature = \"25.1 degC\"";
     let found = identified(&folder, wrong, uncertain);
     assert!((found.0 - (46.0 - 1.2)).abs() < 1e-6, "{found:?}");
@@ -578,6 +578,20 @@ fn every_fault_of_a_material_is_reported() {
     let asked = Asked { machine, temperature: String::new(), ..plain };
     let (_, problems) = asked.read(&folder);
     assert!(problems.iter().any(|d| d.code == "no-workpiece"), "{problems:?}");
+}
+
+/// κ of the true laser is 10 µm/m too large: it reads 35 µm less at 3.5 m. A laser without a material has no such error.
+#[test]
+fn the_true_material_may_differ() {
+    let folder = Folder::new("true-material");
+    let plain = Asked::of_gantry("X", 3500.0);
+    let rest = format!("{}\n[truth]\nsetup = {{ material = \"10 um/m\" }}", plain.rest);
+    let wrong = Asked { rest, ..plain.clone() };
+    let (right, read) = (plain.deviations(&folder), wrong.deviations(&folder));
+    assert!((right[10].1 - read[10].1 - 0.035).abs() < 1e-12, "{:?} {:?}", right[10], read[10]);
+    let without = Asked { laser: wrong.laser.replace(MATERIAL, ""), ..wrong };
+    let (found, problems) = without.read(&folder);
+    assert!(found.is_none() && problems.iter().any(|d| d.code == "unknown-key"), "{problems:?}");
 }
 
 #[test]

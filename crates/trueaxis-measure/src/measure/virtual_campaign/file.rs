@@ -191,14 +191,15 @@ fn drawn(
 }
 
 /// All that may be out of place at an instrument.
-fn possible(kind: Kind) -> Vec<(String, SetupError)> {
+fn possible(instrument: &Instrument) -> Vec<(String, SetupError)> {
+    let kind = instrument.kind;
     let three = [0, 1, 2];
     let zeros = (0..kind.sight().channels()).map(SetupError::Zero);
     let all = three.map(SetupError::ToolPoint).into_iter();
     let all = all.chain(three.map(SetupError::ReferencePoint));
     let all = all.chain(three.map(SetupError::ReferenceTurn));
     let all = all.chain(zeros).chain([SetupError::Scale]);
-    let all = all.chain((kind == Kind::LaserLine).then_some(SetupError::Material));
+    let all = all.chain(instrument.material.is_some().then_some(SetupError::Material));
     all.map(|error| (kind.unknown_name(error), error)).collect()
 }
 
@@ -244,15 +245,15 @@ fn read_setup(
     random: &mut rand_chacha::ChaCha8Rng,
 ) {
     let of = |i: &usize| {
-        let kind = campaign.instruments[*i].kind;
-        let (_, error) = possible(kind).into_iter().find(|(name, _)| name == key)?;
+        let (_, error) =
+            possible(&campaign.instruments[*i]).into_iter().find(|(name, _)| name == key)?;
         Some((*i, error))
     };
     let found: Vec<(usize, SetupError)> = among.iter().filter_map(of).collect();
     let (of, error) = match found[..] {
         [one] => one,
         [] => {
-            let known = among.first().map(|i| possible(campaign.instruments[*i].kind));
+            let known = among.first().map(|i| possible(&campaign.instruments[*i]));
             let names: Vec<String> =
                 known.unwrap_or_default().into_iter().map(|(name, _)| name).collect();
             let message = format!("`{key}` is nothing of a set-up");
