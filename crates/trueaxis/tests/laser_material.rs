@@ -441,9 +441,9 @@ impl Observer for Waits {
     fn path(&mut self, batch: &Batch<'_>) {
         for node in batch.nodes {
             let before = self.last.unwrap_or(node.command);
-            for i in 0..3 {
-                if (node.command[i] - before[i]).abs() > 1e-7 {
-                    self.side[i] = (node.command[i] - before[i]).signum();
+            for ((side, to), from) in self.side.iter_mut().zip(&node.command).zip(&before) {
+                if (to - from).abs() > 1e-7 {
+                    *side = (to - from).signum();
                 }
             }
             self.last = Some(node.command);

@@ -71,7 +71,7 @@ pub fn read_before_after(
         let real = read_virtual(root, campaign, seed)?;
         check_paths(root, campaign, &real);
         let section = root.section("compensation", |s| read_compensation(s, campaign));
-        let stated = section.map_or_else(|| Some(Stated::default()), |s| s)?;
+        let stated = section.unwrap_or_else(|| Some(Stated::default()))?;
         let place = Place::whole(&campaign.machine_path.display().to_string());
         let model = match &stated.conditions {
             None => campaign.machine.clone(),
