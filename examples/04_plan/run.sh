@@ -4,6 +4,8 @@ trueaxis=${TRUEAXIS:-target/release/trueaxis}
 out=${OUT:-.}
 $trueaxis plan examples/04_plan/probe-ball.toml -o "$out/probe-ball" --report "$out/probe-ball.html"
 $trueaxis plan examples/04_plan/ball-bar-10791-6.toml -o "$out/ball-bar"
+$trueaxis plan examples/04_plan/laser-gantry.toml -o "$out/laser" --control fanuc
+$trueaxis measure examples/04_plan/laser-gantry.toml -o "$out/laser-readings"
 $trueaxis plan examples/04_plan/touch-probe-5-minutes.toml -o "$out/five-minutes" --control fanuc
 $trueaxis plan examples/04_plan/touch-probe-5-minutes.toml --format json
 # Touches on a whole free-form bangle, along its normals; the hits become deviations, which `compensate adapt` reads.

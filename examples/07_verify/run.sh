@@ -15,6 +15,10 @@ $trueaxis evaluate iso230-7 $verify/spindle-motion.csv --report "$out/spindle.ht
 # Does the machine file predict the readings of a probe-ball? The same readings again from their random seed.
 $trueaxis verify $verify/probe-ball.toml --report "$out/probe-ball.html"
 $trueaxis measure $verify/probe-ball-campaign.toml -o "$out/readings" --truth "$out/truth.toml"
+# A laser on the gantry of Zhang et al. 2019 before and after compensation: the machine alone, and with the workpiece.
+$trueaxis verify --before-after $verify/laser-before-after-x.toml -o "$out/laser-x" --report "$out/laser-x.html"
+$trueaxis verify --before-after $verify/laser-before-after-y.toml --report "$out/laser-y.html"
+$trueaxis evaluate iso230-2 "$out/laser-x/02-X-workpiece-comprehensive.csv"
 # What has changed since the calibration of the machine? Four errors: exit status 1.
 $trueaxis verify --diff machines/xkas2525/machine.toml $verify/xkas2525-after-a-year.toml \
     --report "$out/after-a-year.html" || [ $? -eq 1 ]

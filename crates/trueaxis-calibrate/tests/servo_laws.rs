@@ -90,6 +90,7 @@ fn probe(machine: &Machine) -> Instrument {
         length_mm: 0.0,
         noise: [1e-3; 3],
         unknowns: Vec::new(),
+        material: None,
     }
 }
 
@@ -147,7 +148,7 @@ fn paths(campaign: &Campaign, feeds: &[Option<f64>]) -> Vec<Path> {
             stations.push(station(*command, campaign, 0, group));
         }
         let feed_mm_per_s = feed.map(|f| f / 60.0);
-        Path { name: format!("{feed:?}"), stations, feed_mm_per_s, dwell_s: 1.0 }
+        Path { name: format!("{feed:?}"), stations, feed_mm_per_s, dwell_s: 1.0, overrun: 0.0 }
     };
     feeds.iter().map(path).collect()
 }
@@ -190,6 +191,7 @@ fn readings(
         instruments: campaign.instruments.clone(),
         setups: vec![Vec::new()],
         log: None,
+        added: Vec::new(),
         seed,
     };
     let disturb = Disturb { axes: injected.axes, ..Disturb::of_instruments(1) };
@@ -400,8 +402,13 @@ fn read_with(commands: &[Command], lag_s: f64, feed_mm_per_s: f64) -> Vec<[f64; 
     for (group, command) in commands.iter().enumerate() {
         stations.push(station(*command, &campaign, 0, group));
     }
-    let path =
-        Path { name: "path".into(), stations, feed_mm_per_s: Some(feed_mm_per_s), dwell_s: 1.0 };
+    let path = Path {
+        name: "path".into(),
+        stations,
+        feed_mm_per_s: Some(feed_mm_per_s),
+        dwell_s: 1.0,
+        overrun: 0.0,
+    };
     let mut axes = [AxisDisturb::default(); MAX_AXES];
     axes.iter_mut().for_each(|a| a.lag_s = lag_s);
     let truth = Truth {
@@ -412,6 +419,7 @@ fn read_with(commands: &[Command], lag_s: f64, feed_mm_per_s: f64) -> Vec<[f64; 
         instruments: campaign.instruments.clone(),
         setups: vec![Vec::new()],
         log: None,
+        added: Vec::new(),
         seed: 1,
     };
     let disturb = Disturb { axes, ..Disturb::of_instruments(1) };

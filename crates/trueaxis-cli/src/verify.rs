@@ -4,7 +4,9 @@ use crate::door::Door;
 use crate::output::{Format, Outcome};
 use clap::Args;
 use std::path::PathBuf;
-use trueaxis::questions::{Certify, CompareCalibrations, VerifyPart, VerifyReadings};
+use trueaxis::questions::{
+    Certify, CompareCalibrations, LaserBeforeAfter, VerifyPart, VerifyReadings,
+};
 
 /// The comparison to make.
 #[derive(Args)]
@@ -14,11 +16,12 @@ Examples:
   trueaxis verify --diff machines/xkas2525/machine.toml examples/07_verify/xkas2525-after-a-year.toml
   trueaxis verify --certificate examples/07_verify/certificate.toml --report certificate.html
   trueaxis verify --part examples/07_verify/nas979-points.toml --report part.html
+  trueaxis verify --before-after examples/07_verify/laser-before-after-x.toml --report laser.html
 
 Exit status: 0 pass, or no change; 1 fail or undecided, or a significant change; 2 unusable input.")]
 pub struct Arguments {
     /// The readings, what they are compared with, and the decision rule
-    #[arg(value_name = "FILE.toml", required_unless_present_any = ["diff", "certificate", "part"])]
+    #[arg(value_name = "FILE.toml", required_unless_present_any = ["diff", "certificate", "part", "before_after"])]
     file: Option<PathBuf>,
     /// Compare two calibrations of one machine: which errors changed significantly
     #[arg(long, num_args = 2, value_names = ["OLD.toml", "NEW.toml"], conflicts_with = "file")]
@@ -29,6 +32,12 @@ pub struct Arguments {
     /// Measured test pieces: their indices against their tolerances and their prediction
     #[arg(long, value_name = "FILE.toml", conflicts_with_all = ["file", "diff", "certificate"])]
     part: Option<PathBuf>,
+    /// Read virtual lasers before and after compensation, evaluated by ISO 230-2
+    #[arg(long, value_name = "CAMPAIGN.toml", conflicts_with_all = ["file", "diff", "certificate", "part"])]
+    before_after: Option<PathBuf>,
+    /// With --before-after: write one table of readings per path and compensation into this folder
+    #[arg(short, long, value_name = "FOLDER", requires = "before_after")]
+    output: Option<PathBuf>,
     /// Write an HTML report to this file
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
@@ -39,12 +48,16 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments) -> Outcome {
     let door = Door { format: arguments.format, report: arguments.report.as_deref() };
+    if let Some(campaign) = &arguments.before_after {
+        let (campaign, output) = (campaign.clone(), arguments.output.clone());
+        return door.ask(&LaserBeforeAfter { campaign, output });
+    }
+    if let Some(file) = &arguments.part {
+        return door.ask(&VerifyPart { file: file.clone() });
+    }
     match (&arguments.diff.as_deref(), &arguments.certificate, &arguments.file) {
         (Some([old, new]), ..) => {
             door.ask(&CompareCalibrations { old: old.clone(), new: new.clone() })
-        }
-        _ if arguments.part.is_some() => {
-            door.ask(&VerifyPart { file: arguments.part.clone().unwrap_or_default() })
         }
         (_, Some(study), _) => door.ask(&Certify { study: study.clone() }),
         (.., Some(file)) => door.ask(&VerifyReadings { file: file.clone() }),

@@ -18,7 +18,7 @@ mod unknown;
 mod warming;
 mod workpiece;
 
-pub use conditions::{Conditions, TemperatureLog};
+pub use conditions::{Conditions, TemperatureLog, check_range};
 pub use scale::{HeatedPlace, HeatedScale, Scale, StructureModel};
 pub use unknown::UnknownGrowth;
 pub use warming::{TemperatureRun, WarmingMachine};

@@ -2,10 +2,12 @@
 
 pub mod instrument;
 mod kind;
+pub mod material;
 mod motion;
 mod readings;
 
 pub use instrument::Instrument;
 pub use kind::Kind;
+pub use material::MaterialCompensation;
 pub use motion::Motion;
 pub use readings::{Reading, Readings};

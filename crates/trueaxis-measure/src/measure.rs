@@ -6,6 +6,7 @@
 //! ```
 
 mod campaign;
+mod material;
 mod motion;
 pub mod path;
 mod servo;

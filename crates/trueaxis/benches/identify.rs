@@ -62,6 +62,7 @@ fn design() -> Design {
         length_mm: 0.0,
         noise: [1e-3; 3],
         unknowns: unknowns.into_iter().map(free).collect(),
+        material: None,
     };
     let design = Design::new(&machine, terms, vec![instrument]);
     assert_eq!(design.unknowns(), 43);

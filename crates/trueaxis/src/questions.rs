@@ -12,6 +12,7 @@
 //! ```
 
 mod adapt;
+mod before_after;
 mod error_tables;
 mod evaluate;
 mod expansion;
@@ -44,6 +45,7 @@ mod words;
 mod workpiece;
 
 pub use adapt::{Adapt, AdaptAnswer};
+pub use before_after::{BeforeAfterAnswer, LaserBeforeAfter};
 pub use error_tables::{IdentifyTables, TablesFoundAnswer};
 pub use evaluate::{Evaluate, EvaluateAnswer, EvaluateInput, ReadingsFile};
 pub use expansion::{ExpansionAnswer, ExpansionInput, IdentifyExpansion};

@@ -1,6 +1,8 @@
 //! Machines, poses, comparisons and certificates as text, JSON and pages; the reports of the other verbs are
 //! handed on here.
 
+mod before_after;
+mod before_after_document;
 mod calibrations;
 mod calibrations_document;
 mod certificate;
@@ -28,6 +30,8 @@ mod solve_document;
 mod trace;
 mod trace_document;
 
+pub use before_after::{BeforeAfterReport, before_after_report};
+pub use before_after_document::BeforeAfterDocument;
 pub use calibrations::{CalibrationsReport, calibrations_report};
 pub use calibrations_document::DiffDocument;
 pub use certificate::certificate_report;

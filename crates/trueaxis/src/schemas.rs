@@ -3,10 +3,10 @@
 use crate::explain::{ExplainDocument, ExplainListDocument};
 use crate::questions::{ProbeProgramsDocument, RtcpProgramsDocument, VirtualPartDocument};
 use crate::report::{
-    CertificateDocument, CheckDocument, DescriptionDocument, DiagnosticEntry, DiffDocument,
-    ExpansionDocument, ExpansionsDocument, PoseDocument, PoseRowsDocument, PostDocument,
-    RefusedDocument, SolveDocument, SolvePathDocument, TablesFoundDocument, TraceDocument,
-    VerifyDocument, VerifyPartDocument,
+    BeforeAfterDocument, CertificateDocument, CheckDocument, DescriptionDocument, DiagnosticEntry,
+    DiffDocument, ExpansionDocument, ExpansionsDocument, PoseDocument, PoseRowsDocument,
+    PostDocument, RefusedDocument, SolveDocument, SolvePathDocument, TablesFoundDocument,
+    TraceDocument, VerifyDocument, VerifyPartDocument,
 };
 use schemars::{JsonSchema, Schema, generate::SchemaSettings, json_schema};
 use serde_json::Value;
@@ -22,6 +22,7 @@ use trueaxis_report::{NamedSchema, named_schema};
 /// ```
 pub fn schemas() -> Vec<NamedSchema> {
     let mut all = vec![
+        named_schema::<BeforeAfterDocument<'_>>("before-after"),
         named_schema::<CertificateDocument<'_>>("certificate"),
         named_schema::<CheckDocument<'_>>("check"),
         named_schema::<DescriptionDocument<'_>>("description"),

@@ -5,8 +5,10 @@
 //! readings; [`calibrations`](mod@calibrations) one machine file against a later one;
 //! [`certificate`](mod@certificate) what a compensation leaves, proved on poses that were not used;
 //! [`error_tables`](mod@error_tables) readings as the error tables of the machine file;
-//! [`part`](mod@part) a test piece that was measured against its tolerances and its prediction.
+//! [`part`](mod@part) a test piece that was measured against its tolerances and its prediction;
+//! [`before_after`](mod@before_after) what a laser reads on a virtual machine before and after.
 
+pub mod before_after;
 pub mod calibrations;
 pub mod certificate;
 pub mod compare;

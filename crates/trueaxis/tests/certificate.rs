@@ -78,6 +78,7 @@ fn tracker(machine: &Machine, below_mm: f64) -> Instrument {
         length_mm: 0.0,
         noise: [NOISE_MM; 3],
         unknowns: kind.usual_unknowns().into_iter().map(free).collect(),
+        material: None,
     }
 }
 

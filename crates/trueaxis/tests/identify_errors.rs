@@ -38,6 +38,7 @@ fn probe(machine: &Machine, kind: Kind) -> Instrument {
         length_mm: 0.0,
         noise: [1e-3; 3],
         unknowns: kind.usual_unknowns().into_iter().map(free).collect(),
+        material: None,
     }
 }
 

@@ -35,6 +35,7 @@ fn instrument(kind: Kind, machine: &Machine) -> Instrument {
         length_mm: 0.0,
         noise: [1e-3; 3],
         unknowns: kind.usual_unknowns().into_iter().map(free).collect(),
+        material: None,
     }
 }
 

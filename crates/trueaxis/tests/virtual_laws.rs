@@ -44,6 +44,7 @@ fn instrument(kind: Kind, machine: &Machine) -> Instrument {
         length_mm: if kind.triggers() { 15.0 } else { 0.0 },
         noise: [1e-3; 3],
         unknowns: Vec::new(),
+        material: None,
     }
 }
 
@@ -67,7 +68,7 @@ fn path(campaign: &Campaign, commands: &[Command], feed_mm_per_s: Option<f64>) -
     for (group, command) in commands.iter().enumerate() {
         stations.push(station(*command, campaign, 0, group));
     }
-    Path { name: "path".into(), stations, feed_mm_per_s, dwell_s: 1.0 }
+    Path { name: "path".into(), stations, feed_mm_per_s, dwell_s: 1.0, overrun: 0.0 }
 }
 
 /// Measured on another machine, with nothing that disturbs.
@@ -80,6 +81,7 @@ fn real(campaign: &Campaign, machine: &Machine, path: Path) -> VirtualCampaign {
         instruments: campaign.instruments.clone(),
         setups: vec![vec![0.0; campaign.instruments[0].unknowns.len()]],
         log: None,
+        added: Vec::new(),
         seed: 7,
     };
     VirtualCampaign { paths: vec![path], truth, disturb: Disturb::none(1) }

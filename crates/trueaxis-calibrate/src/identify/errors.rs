@@ -50,6 +50,8 @@ pub struct Found {
     pub is_angle: bool,
     /// Whether it is a time (s): a lag.
     pub is_time: bool,
+    /// Whether it is a share of a length: a scale, the expansion of a material.
+    pub is_share: bool,
     /// Whether it belongs to a set-up and not to the machine.
     pub is_setup: bool,
     /// Value and standard uncertainty, mm, rad or 1; none if it is not observable.
@@ -425,6 +427,7 @@ fn found(
                 number: k,
                 is_angle: unknown.is_angle(),
                 is_time: unknown.is_time(),
+                is_share: unknown.is_share(),
                 is_setup: matches!(unknown, Unknown::Setup(..)),
                 value: seen.then_some((fit.values[k], u)),
             }

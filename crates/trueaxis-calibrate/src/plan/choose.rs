@@ -97,6 +97,7 @@ fn is_free(plan: &Plan, stations: &Readings) -> bool {
         stations: stations.clone(),
         feed_mm_per_s: None,
         dwell_s: 1.0,
+        overrun: 0.0,
     };
     // Any control is sufficient; this one knows probing.
     let control = Control::LinuxCnc;

@@ -63,6 +63,7 @@ pub fn planned(plan: Plan, chosen: Option<Chosen>, control: Control) -> PlanRepo
             stations: chosen.stations.clone(),
             feed_mm_per_s: None,
             dwell_s: 1.0,
+            overrun: 0.0,
         });
     }
     let mut stations = Readings::default();

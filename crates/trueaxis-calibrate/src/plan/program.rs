@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!     clear of everything ─ rotary axes and X, Y ─ above the first station ─ stations, each with a
-//!     dwell ─ up ─ clear of everything
+//!     dwell, over an end to the next run ─ up ─ clear of everything
 //! ```
 
 mod check;
@@ -17,7 +17,7 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{AxisKind, Command, Travel};
 use trueaxis_machine::file::{read_direction, read_tool_shape};
 use trueaxis_machine::models::ToolSegment;
-use trueaxis_measure::measure::path::{Path, Placing, STAND_OFF_MM};
+use trueaxis_measure::measure::path::{Path, Placing, STAND_OFF_MM, before_station};
 use trueaxis_measure::measure::{Campaign, Kind};
 use trueaxis_nc::Control;
 use trueaxis_nc::moves::{Axis, Feed, FeedMode, Position};
@@ -257,10 +257,17 @@ impl Written<'_> {
             return Ok(());
         };
         let feed = path.feed_mm_per_s.map_or(self.settings.feed_mm_per_min, |f| f * 60.0);
-        self.arrive(first)?;
-        for command in commands {
+        let standing = path.feed_mm_per_s.is_none();
+        let overrun = if standing { path.overrun } else { 0.0 };
+        let machine = &self.campaign.machine;
+        let before = |i| before_station(machine, &path.stations, i, overrun);
+        self.arrive(&before(0).unwrap_or(*first))?;
+        for (i, command) in commands.iter().enumerate() {
+            if let Some(beyond) = before(i) {
+                self.line(&beyond, feed)?;
+            }
             self.line(command, feed)?;
-            if path.feed_mm_per_s.is_none() && path.dwell_s > 0.0 {
+            if standing && path.dwell_s > 0.0 {
                 self.writer.write(&Block::Dwell(path.dwell_s))?;
             }
         }

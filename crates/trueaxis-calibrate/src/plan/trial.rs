@@ -267,6 +267,7 @@ fn further_instrument(
         length_mm: if kind == Kind::BallBar { 150.0 } else { 0.0 },
         noise: [1e-3; 3],
         unknowns: trueaxis_measure::measure::usual_setup(kind),
+        material: None,
     }
 }
 

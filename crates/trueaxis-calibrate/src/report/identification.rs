@@ -34,13 +34,14 @@ const MOST_MAPPED: usize = 60;
 /// Correlations from here on are reported.
 const STRONG: f64 = 0.9;
 
-/// µm, µrad or ms of mm, rad or s.
+/// µm, µrad, ms or µm/m of mm, rad, s or 1.
 pub(super) fn shown(found: &Found, value: f64) -> f64 {
-    if found.is_angle { value * 1e6 } else { value * 1e3 }
+    if found.is_angle || found.is_share { value * 1e6 } else { value * 1e3 }
 }
 
 fn unit(found: &Found) -> &'static str {
     match (found.is_time, found.is_angle) {
+        _ if found.is_share => "µm/m",
         (true, _) => "ms",
         (_, true) => "µrad",
         _ => "µm",

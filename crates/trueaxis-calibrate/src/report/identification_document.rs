@@ -96,8 +96,8 @@ pub struct VerdictEntry {
 pub struct FoundEntry<'a> {
     /// Its name.
     pub name: &'a str,
-    /// `value_um` and its standard uncertainty `u_um`, `value_urad` and `u_urad`, or `value_ms`
-    /// and `u_ms` (lag); null if not observable.
+    /// `value_um` and its standard uncertainty `u_um`, `value_urad` and `u_urad`, `value_ms` and
+    /// `u_ms` (lag), or `value_um_per_m` and `u_um_per_m` (scale, material); null if not observable.
     #[serde(flatten)]
     pub value: Keyed<Option<f64>>,
     /// The standard uncertainty again. Unit: that of the value.
@@ -270,6 +270,7 @@ fn influence(report: &IdentificationReport<'_>, row: usize) -> InfluenceEntry {
 impl<'a> From<&'a Found> for FoundEntry<'a> {
     fn from(found: &'a Found) -> Self {
         let names = match (found.is_time, found.is_angle) {
+            _ if found.is_share => ["value_um_per_m", "u_um_per_m"],
             (true, _) => ["value_ms", "u_ms"],
             (_, true) => ["value_urad", "u_urad"],
             _ => ["value_um", "u_um"],

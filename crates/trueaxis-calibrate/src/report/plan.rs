@@ -16,10 +16,9 @@ const STROKE_MM: f64 = 40.0;
 
 /// µm, µrad or 1, with the factor from mm, rad or 1.
 pub(super) fn shown_unit(design: &Design, expected: &Expected) -> (&'static str, f64) {
-    use trueaxis_measure::instruments::instrument::SetupError;
     use trueaxis_measure::unknowns::design::Unknown;
     match design.unknown(expected.unknown) {
-        Some(Unknown::Setup(_, s)) if s.error == SetupError::Scale => ("µm/m", 1e6),
+        Some(Unknown::Setup(_, s)) if s.error.is_share() => ("µm/m", 1e6),
         _ if expected.is_angle => ("µrad", 1e6),
         _ => ("µm", 1e3),
     }

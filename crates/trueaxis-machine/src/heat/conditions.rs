@@ -184,7 +184,8 @@ fn hint_for(word: &str) -> &'static str {
     }
 }
 
-fn check_range(sensor: &str, celsius: f64, place: &Place, problems: &mut Diagnostics) -> bool {
+/// Whether a temperature is one of a workshop, °C; an impossible one is an error, a warm one a warning.
+pub fn check_range(sensor: &str, celsius: f64, place: &Place, problems: &mut Diagnostics) -> bool {
     if !POSSIBLE_CELSIUS.contains(&celsius) {
         let message = format!("`{sensor}` reads {celsius} °C, outside the range of machines");
         let hint = "check the unit and the column: °C = (°F − 32)/1.8 = K − 273.15";

@@ -8,6 +8,7 @@
 //!     δr = f · v + m · ω         (v, ω) the twist of the error            docs/model.md eq. 104
 //! ```
 
+use super::material::MaterialCompensation;
 use trueaxis_geometry::Vec3;
 use trueaxis_geometry::frame::Pose;
 use trueaxis_machine::Machine;
@@ -59,6 +60,15 @@ pub enum SetupError {
     Zero(usize),
     /// Readings are too long by this share: wavelength, scale of a sensor.
     Scale,
+    /// The material is longer by this share than its compensation assumes.
+    Material,
+}
+
+impl SetupError {
+    /// Whether it is a share of a length, a plain number.
+    pub fn is_share(self) -> bool {
+        matches!(self, Self::Scale | Self::Material)
+    }
 }
 
 /// An unknown of a set-up.
@@ -96,6 +106,8 @@ pub struct Instrument {
     pub noise: [f64; 3],
     /// What is not known of its set-up.
     pub unknowns: Vec<SetupUnknown>,
+    /// Lengths as a material of 20 °C has them, where it is set to that.
+    pub material: Option<MaterialCompensation>,
 }
 
 /// The tool at a station as the reference sees it.
@@ -132,6 +144,7 @@ struct Setup {
     shift_and_turn: SixErrors,
     zero: [f64; 3],
     scale: f64,
+    material: f64,
 }
 
 impl Instrument {
@@ -149,20 +162,31 @@ impl Instrument {
 
     /// reference_from_tool at a command of a machine with these errors.
     pub fn tool_seen(&self, machine: &Machine, command: &Command, errors: &ErrorValues) -> Link {
+        let errors = &self.errors_seen(errors);
         match self.reference {
             Reference::Workpiece => machine.pose(command, errors).relabel(),
             Reference::Bed => machine.tool_on_bed(command, errors).relabel(),
         }
     }
 
-    /// What it reads at a command of the nominal machine in the nominal set-up.
+    /// The errors that it reads: light does not see the growth of the workpiece.
+    pub fn errors_seen(&self, errors: &ErrorValues) -> ErrorValues {
+        match self.kind.measures_with_light() {
+            true => ErrorValues { workpiece_mm: Vec3::zeros(), ..*errors },
+            false => *errors,
+        }
+    }
+
+    /// What it reads at a command of the nominal machine in the nominal set-up, without compensation
+    /// of a material: the target.
     pub fn nominal_reading(
         &self,
         machine: &Machine,
         command: &Command,
         direction: Vec3,
     ) -> [f64; 3] {
-        self.read(&self.view(machine, command, &ErrorValues::default(), direction), &[])
+        let view = self.view(machine, command, &ErrorValues::default(), direction);
+        self.counted(&view, &Setup::default())
     }
 
     /// The reading at a station, with the unknowns of the set-up at these values.
@@ -170,6 +194,22 @@ impl Instrument {
     /// Lengths in mm, angles in rad; the channels that the sight does not have are 0.
     pub fn read(&self, view: &View, unknowns: &[f64]) -> [f64; 3] {
         let setup = self.setup(unknowns);
+        let mut reading = self.counted(view, &setup);
+        if let Some(material) = &self.material {
+            reading[0] -= (material.share() + setup.material) * self.material_length(view);
+        }
+        reading
+    }
+
+    /// n · (P₀ − F): how long the material is from its datum to the nominal tool point, mm.
+    fn material_length(&self, view: &View) -> f64 {
+        let Some(material) = &self.material else { return 0.0 };
+        let p = view.nominal.linear() * self.tool_point_mm + view.nominal.shift_mm();
+        view.direction.dot(&(p - material.datum_mm))
+    }
+
+    /// The reading before any material is taken into account.
+    fn counted(&self, view: &View, setup: &Setup) -> [f64; 3] {
         let seen_by_instrument = displaced_by(&setup.shift_and_turn).inverse() * view.actual;
         let p = seen_by_instrument.linear() * (self.tool_point_mm + setup.tool_point_mm)
             + seen_by_instrument.shift_mm();
@@ -242,7 +282,11 @@ impl Instrument {
             SetupError::ReferenceTurn(i) => -wrench.moment[i],
             SetupError::Zero(i) if i == channel => self.zero_sign(),
             SetupError::Zero(_) => 0.0,
-            SetupError::Scale => self.read(&View { actual: view.nominal, ..*view }, &[])[channel],
+            SetupError::Scale => {
+                let nominal = View { actual: view.nominal, ..*view };
+                self.counted(&nominal, &Setup::default())[channel]
+            }
+            SetupError::Material => -self.material_length(view),
         }
     }
 
@@ -260,6 +304,7 @@ impl Instrument {
                 SetupError::ReferenceTurn(i) => setup.shift_and_turn.0[3 + i] += value,
                 SetupError::Zero(i) => setup.zero[i] += self.zero_sign() * value,
                 SetupError::Scale => setup.scale += value,
+                SetupError::Material => setup.material += value,
             }
         }
         setup
@@ -289,6 +334,7 @@ mod tests {
             length_mm: 0.0,
             noise: [1e-3; 3],
             unknowns: Vec::new(),
+            material: None,
         }
     }
 

@@ -71,6 +71,12 @@ impl Kind {
         matches!(self, Self::TouchProbeBall | Self::TouchProbeFace)
     }
 
+    /// Whether it measures with light between two of its own optics: the material of the workpiece is
+    /// not part of what it reads, however warm it is.
+    pub fn measures_with_light(self) -> bool {
+        matches!(self, Self::LaserLine | Self::LaserAngle | Self::LengthTracker)
+    }
+
     /// Whether the tool stays on a ball, or one length away from it, while rotary axes turn.
     pub fn holds_a_ball(self) -> bool {
         matches!(self, Self::ProbeBall | Self::BallBar | Self::TouchProbeBall)
@@ -152,6 +158,7 @@ impl Kind {
             }
             SetupError::Zero(_) => self.zero().to_owned(),
             SetupError::Scale => "scale".to_owned(),
+            SetupError::Material => "material".to_owned(),
         }
     }
 }

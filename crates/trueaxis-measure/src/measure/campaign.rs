@@ -1,5 +1,6 @@
 //! The campaign file: on which machine, with which instruments, which unknowns.
 
+use super::material::{material_unknown, read_material};
 use super::servo::read_servo;
 use super::{Kind, Readings, fill_motion};
 use crate::instruments::instrument::{Instrument, SetupError, SetupUnknown};
@@ -93,8 +94,18 @@ pub fn read_campaign<T>(
     let file = path.display().to_string();
     let source = SourceText::from(files, &file, &text);
     let read = source.read(|root| {
-        const VERBS: [&str; 9] =
-            ["path", "limit", "want", "candidates", "program", "truth", "disturb", "fit", "accept"];
+        const VERBS: [&str; 10] = [
+            "path",
+            "limit",
+            "want",
+            "candidates",
+            "program",
+            "truth",
+            "disturb",
+            "fit",
+            "accept",
+            "compensation",
+        ];
         for verb in VERBS {
             root.get(verb);
         }
@@ -130,7 +141,8 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Campaign> {
     let mut tables = Vec::new();
     root.section("instrument", |section| {
         for (key, _, item) in section.entries().into_iter().take(MOST_INSTRUMENTS) {
-            let read = |s: &Section<'_>| read_instrument(s, key, &machine, folder);
+            let warm = (&machine, conditions.as_ref());
+            let read = |s: &Section<'_>| read_instrument(s, key, warm, folder);
             if let Some((instrument, files)) = item.section(&section.path(key), read).flatten() {
                 instruments.push(instrument);
                 tables.push(files);
@@ -265,7 +277,7 @@ fn read_prior(item: &Item<'_>, key: &str, terms: &mut [Term]) {
 fn read_instrument(
     section: &Section<'_>,
     name: &str,
-    machine: &Machine,
+    (machine, conditions): (&Machine, Option<&Conditions>),
     folder: &Path,
 ) -> Option<(Instrument, Vec<PathBuf>)> {
     let kinds = Kind::all().map(Kind::name).collect::<Vec<_>>().join(", ");
@@ -292,10 +304,13 @@ fn read_instrument(
         );
     }
     let reference = section.get("stands_on").and_then(|i| read_reference(&i));
-    let unknowns = match section.get("unknown") {
+    let material = read_material(section, kind, machine, conditions);
+    let mut unknowns = match section.get("unknown") {
         None => usual_setup(kind),
         Some(item) => item.section(&section.path("unknown"), |s| read_setup(s, kind))?,
     };
+    let material = material?;
+    unknowns.extend(material.as_ref().and_then(material_unknown));
     let tables = section.get("readings").map(|i| read_tables(&i, folder)).unwrap_or_default();
     Some((
         Instrument {
@@ -309,6 +324,7 @@ fn read_instrument(
             length_mm,
             noise: noise?,
             unknowns,
+            material,
         },
         tables,
     ))

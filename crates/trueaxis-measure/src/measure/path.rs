@@ -6,11 +6,13 @@
 
 mod kinematic;
 mod linear;
+mod overrun;
 mod placing;
 mod sphere;
 mod spread;
 mod touch;
 
+pub use overrun::before_station;
 pub use placing::turns_about;
 pub use placing::{Placing, Strayed, leaves_travel};
 pub use sphere::{directions_cone, directions_f, directions_s};
@@ -42,6 +44,8 @@ pub struct Path {
     pub feed_mm_per_s: Option<f64>,
     /// How long the machine stands before a reading, s.
     pub dwell_s: f64,
+    /// How far an axis goes beyond a station that it does not reach from the stated side. Unit: mm or rad.
+    pub overrun: f64,
 }
 
 /// `[[path]]`: the paths of a campaign.
@@ -89,6 +93,11 @@ pub fn read_path(section: &Section<'_>, campaign: &Campaign) -> Option<Vec<Path>
         return None;
     }
     let dwell_s = section.quantity("dwell", Dimension::Time).unwrap_or(1.0).max(0.0);
+    let Some(overrun) = overrun::read_overrun(section, kind.text()?, campaign) else {
+        // The other keys are of no use now.
+        section.entries();
+        return None;
+    };
     let parts = match kind.text()? {
         word if kinematic::is_test(word) => {
             kinematic::read_test(section, &kind, campaign, instrument)
@@ -107,7 +116,10 @@ pub fn read_path(section: &Section<'_>, campaign: &Campaign) -> Option<Vec<Path>
             return None;
         }
         come_from(&mut stations);
-        Some(Path { name, stations, feed_mm_per_s, dwell_s })
+        if !overrun::check_room(section, &campaign.machine, &stations, overrun) {
+            return None;
+        }
+        Some(Path { name, stations, feed_mm_per_s, dwell_s, overrun: overrun.amount })
     };
     parts?.into_iter().map(path).collect()
 }

@@ -10,8 +10,8 @@
 //!     r = read(true pose at q + δ, true set-up) + drift · t + noise            docs/model.md eq. 114
 //! ```
 //!
-//! q is what the control commands, δ where the axes are instead; errors follow the command, as in
-//! [`Machine::errors_at`].
+//! q is what the program commands, δ where the axes are instead, with what a compensation adds; errors
+//! follow the command, as in [`Machine::errors_at`].
 
 mod file;
 mod follow;
@@ -92,6 +92,8 @@ pub struct Truth {
     pub setups: Vec<Vec<f64>>,
     /// Temperatures during the campaign.
     pub log: Option<Arc<TemperatureLog>>,
+    /// What a compensation adds to the command of each station of each path, mm and rad; empty: nothing.
+    pub added: Vec<Vec<Command>>,
     /// The same seed gives the same readings to the bit.
     pub seed: u64,
 }
@@ -224,11 +226,11 @@ pub fn measure(campaign: &Campaign, real: &VirtualCampaign) -> Result<Measuremen
     }
     let (stands, time_s) = follow::follow(campaign, real);
     let step_s = TEMPERATURE_STEP_S.max(time_s / MOST_TEMPERATURES);
-    let machines = machines(real, time_s, step_s)?;
+    let moments = moments(real, time_s, step_s)?;
     let additions = additions(real, &stands);
     let read = |(stand, addition): (&Stand, &Addition)| {
         let at = (stand.reading.time_s / step_s).max(0.0) as usize;
-        read_one(campaign, real, &machines[at.min(machines.len() - 1)], stand, addition)
+        read_one(campaign, real, &moments[at.min(moments.len() - 1)], stand, addition)
     };
     let rows: Result<Vec<_>, _> = stands.par_iter().zip(&additions).map(read).collect();
     let mut lost = chance(real.truth.seed, Chance::Lost);
@@ -256,13 +258,18 @@ pub fn measure(campaign: &Campaign, real: &VirtualCampaign) -> Result<Measuremen
     Ok(measurement)
 }
 
-/// The true machine at every step of the time, or one for all times.
-fn machines(
-    real: &VirtualCampaign,
-    time_s: f64,
-    step_s: f64,
-) -> Result<Vec<Machine>, MeasureError> {
-    let Some(log) = &real.truth.log else { return Ok(vec![real.truth.machine.clone()]) };
+/// The true machine and the instruments at the temperatures of a time.
+struct Moment {
+    machine: Machine,
+    instruments: Vec<Instrument>,
+}
+
+/// Every step of the time, or one for all times.
+fn moments(real: &VirtualCampaign, time_s: f64, step_s: f64) -> Result<Vec<Moment>, MeasureError> {
+    let Some(log) = &real.truth.log else {
+        let (machine, instruments) = (real.truth.machine.clone(), real.truth.instruments.clone());
+        return Ok(vec![Moment { machine, instruments }]);
+    };
     let steps = (time_s / step_s) as usize;
     if let (Some(first), Some(last)) = (log.times_s().first(), log.times_s().last()) {
         // Said before thousands of machines are warmed.
@@ -274,10 +281,20 @@ fn machines(
         let at = ((k as f64 + 0.5) * step_s).min(time_s);
         let conditions = log.at(at).ok_or(MeasureError::Temperature(at))?;
         let mut problems = Diagnostics::new();
-        real.truth.machine.at(&conditions, &mut problems).ok_or_else(|| {
+        let machine = real.truth.machine.at(&conditions, &mut problems).ok_or_else(|| {
             let why = problems.iter().map(|d| d.message.clone()).collect::<Vec<_>>();
             MeasureError::Heat(why.join("; "))
-        })
+        })?;
+        let warm = |instrument: &Instrument| {
+            let unread = |sensor| {
+                let name = &instrument.name;
+                MeasureError::Heat(format!("the log has no `{sensor}` for the material of {name}"))
+            };
+            let material = instrument.material.as_ref().map(|m| m.at(&conditions)).transpose();
+            Ok(Instrument { material: material.map_err(unread)?, ..instrument.clone() })
+        };
+        let instruments = real.truth.instruments.iter().map(warm).collect::<Result<_, _>>()?;
+        Ok(Moment { machine, instruments })
     };
     (0..=steps).into_par_iter().map(warm).collect()
 }
@@ -316,12 +333,12 @@ fn additions(real: &VirtualCampaign, stands: &[Stand]) -> Vec<Addition> {
 fn read_one(
     campaign: &Campaign,
     real: &VirtualCampaign,
-    machine: &Machine,
+    moment: &Moment,
     stand: &Stand,
     addition: &Addition,
 ) -> Result<super::Reading, MeasureError> {
     let of = stand.reading.instrument as usize;
-    let instrument = &real.truth.instruments[of];
+    let (machine, instrument) = (&moment.machine, &moment.instruments[of]);
     let path = || real.paths.get(stand.path as usize).map_or(String::new(), |p| p.name.clone());
     let station = stand.station as usize + 1;
     let outside = |fault| MeasureError::Outside { path: path(), station, fault };
@@ -387,9 +404,14 @@ impl TrueTool<'_> {
             let u = self.machine.uncertainties_at(command, &drawn.quantities);
             errors = u.displaced(&errors, &drawn.factors);
         }
+        errors = self.instrument.errors_seen(&errors);
         let mut actual = *command;
         for (q, off) in actual.iter_mut().zip(stand.offset) {
             *q += off;
+        }
+        let added = self.real.truth.added.get(stand.path as usize);
+        if let Some(added) = added.and_then(|path| path.get(stand.station as usize)) {
+            actual.iter_mut().zip(added).for_each(|(q, more)| *q += more);
         }
         Ok(reference_from_tool(self.machine, self.instrument.reference, &actual, &errors))
     }

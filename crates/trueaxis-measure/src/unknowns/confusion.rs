@@ -79,7 +79,7 @@ fn amounts(unknowns: &[(Unknown<'_>, f64)]) -> String {
     let micro = |unknown: &Unknown<'_>, share: f64| {
         let plain = matches!(
             unknown,
-            Unknown::Setup(_, s) if s.error == crate::instruments::instrument::SetupError::Scale
+            Unknown::Setup(_, s) if s.error.is_share()
         );
         match (plain, unknown.is_angle()) {
             _ if unknown.is_time() => (share * 1e6, "µs"),
@@ -126,6 +126,7 @@ fn why(unknowns: &[(Unknown<'_>, f64)]) -> String {
                     format!("the {} of {}", instrument.kind.zero(), instrument.name)
                 }
                 SetupError::Scale => format!("the scale of {}", instrument.name),
+                SetupError::Material => format!("the material of {}", instrument.name),
             };
             let what = what.replace('_', " ");
             format!("{what} is not known better than by these readings themselves")

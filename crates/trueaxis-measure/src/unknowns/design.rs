@@ -65,6 +65,11 @@ impl Unknown<'_> {
         matches!(self, Self::Term(term) if term.basis.is_lag())
     }
 
+    /// Whether it is a share of a length, a plain number.
+    pub fn is_share(&self) -> bool {
+        matches!(self, Self::Setup(_, unknown) if unknown.error.is_share())
+    }
+
     /// Whether it is an angle (rad); the others are lengths (mm), times (s) or plain numbers.
     pub fn is_angle(&self) -> bool {
         use crate::instruments::instrument::SetupError;
@@ -195,7 +200,10 @@ impl Design {
         let errors = self.errors_in_motion(command, approach, motion, values)?;
         let actual = instrument.tool_seen(&self.machine, command, &errors);
         let nominal = match instrument.sight {
-            Sight::Turn => instrument.tool_seen(&self.machine, command, &ErrorValues::default()),
+            Sight::Along if instrument.material.is_none() => actual, // it does not ask for it
+            Sight::Along | Sight::Turn => {
+                instrument.tool_seen(&self.machine, command, &ErrorValues::default())
+            }
             _ => actual, // no other reading asks for it
         };
         let view = View { nominal, actual, direction: readings.directions[i] };

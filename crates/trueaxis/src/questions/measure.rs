@@ -188,7 +188,7 @@ fn truth_text(
         }
         for (unknown, value) in instrument.unknowns.iter().zip(values) {
             let angle = match unknown.error {
-                SetupError::ReferenceTurn(_) | SetupError::Scale => true,
+                SetupError::ReferenceTurn(_) | SetupError::Scale | SetupError::Material => true,
                 SetupError::Zero(_) => instrument.sight.is_angle(),
                 _ => false,
             };

@@ -23,6 +23,7 @@ mod page;
 mod probe_table;
 mod scan;
 mod shop;
+mod zhang_2019_laser;
 
 use claim::{Claim, Record, records};
 use std::collections::BTreeSet;
@@ -42,6 +43,7 @@ fn functions() -> Vec<(&'static str, Ours)> {
         hand::CLAIMS,
         oracles::CLAIMS,
         probe_table::CLAIMS,
+        zhang_2019_laser::CLAIMS,
     ];
     lists.concat()
 }

@@ -367,6 +367,7 @@ fn instrument(name: &str, tip_mm: Vec3, ball_mm: Vec3, noise_mm: f64) -> Instrum
         length_mm: 0.0,
         noise: [noise_mm; 3],
         unknowns: [0, 1, 2].map(free).to_vec(),
+        material: None,
     }
 }
 

@@ -5,7 +5,7 @@ use trueaxis_geometry::frame::Pose;
 use trueaxis_geometry::{Mat3, Vec3};
 use trueaxis_input::{Diagnostics, Severity};
 use trueaxis_machine::Machine;
-use trueaxis_machine::axis::Command;
+use trueaxis_machine::axis::{Approach, AxisKind, Command};
 use trueaxis_machine::chain::Link;
 use trueaxis_machine::models::{Shape, ToolSegment};
 use trueaxis_measure::measure::path::Path;
@@ -43,20 +43,85 @@ impl ProgramCheck {
     }
 }
 
-/// Watches how near the machine comes to its stations.
+/// A stand farther from its station than this is another one, mm or rad.
+const SAME_PLACE: f64 = 1e-3;
+/// Less is no motion, mm or rad.
+const REST: f64 = 1e-7;
+
+/// Watches how near the machine comes to its stations, and where it waits.
 struct Visits<'p> {
     /// Stations in order; nearest so far.
     nearest: Vec<(&'p Command, f64)>,
+    /// Where the axes were last, and from which side each has come.
+    last: Option<(Command, Approach)>,
+    /// Where the machine waited, and from which sides it had come.
+    waits: Vec<(Command, Approach)>,
 }
 
 impl Observer for Visits<'_> {
     fn path(&mut self, batch: &Batch<'_>) {
+        for node in batch.nodes {
+            let (before, mut came) = self.last.unwrap_or((node.command, Approach::default()));
+            for ((side, to), from) in came.iter_mut().zip(&node.command).zip(&before) {
+                if (to - from).abs() > REST {
+                    *side = (to - from).signum();
+                }
+            }
+            self.last = Some((node.command, came));
+            if node.dwell_s > 0.0 {
+                self.waits.push((node.command, came));
+            }
+        }
         for node in batch.nodes.iter().filter(|n| n.last) {
             for (station, nearest) in &mut self.nearest {
                 let off = station.iter().zip(&node.command).map(|(a, b)| (a - b).abs());
                 *nearest = nearest.min(off.fold(0.0, f64::max));
             }
         }
+    }
+}
+
+impl Visits<'_> {
+    /// How the stands differ from those that are planned, in their order: an error, and what is only less
+    /// good.
+    fn compare(&self, machine: &Machine, path: &Path) -> (Option<String>, Vec<String>) {
+        let stations = &path.stations;
+        let same = |(a, b): (&Command, &(Command, Approach))| {
+            a.iter().zip(&b.0).all(|(a, b)| (a - b).abs() < SAME_PLACE)
+        };
+        let met = stations.commands.iter().zip(&self.waits).filter(|pair| same(*pair)).count();
+        if self.waits.len() != stations.len() || met != stations.len() {
+            let message = format!(
+                "the program stands {} times, {met} of them where it is planned in that order; planned: {}",
+                self.waits.len(),
+                stations.len()
+            );
+            return (Some(message), Vec::new());
+        }
+        let mut wrong: Vec<String> = Vec::new();
+        let mut count = 0;
+        for (i, (command, came)) in self.waits.iter().enumerate() {
+            for (k, axis) in machine.axes().iter().enumerate() {
+                let stated = stations.approaches[i][k];
+                if stated != 0.0 && came[k] != stated {
+                    count += 1;
+                    let (unit, scale) = match axis.kind {
+                        AxisKind::Linear => ("mm", 1.0),
+                        AxisKind::Rotary => ("deg", 1f64.to_degrees()),
+                    };
+                    let place = format!("{} = {:.3} {unit}", axis.name, command[k] * scale);
+                    if !wrong.contains(&place) {
+                        wrong.push(place);
+                    }
+                }
+            }
+        }
+        let line = format!(
+            "{count} of {} stands are approached from the other side: there is no room for an overrun at {}",
+            stations.len(),
+            wrong.join(", ")
+        );
+        (None, if count > 0 { vec![line] } else { Vec::new() })
     }
 }
 
@@ -95,7 +160,15 @@ pub fn check(
         Kind::TouchProbeBall => &[][..],
         _ => &path.stations.commands[..],
     };
-    run(machine, &campaign.machine_path, &setup, &program, stations)
+    let (mut check, visits) = watch(machine, &campaign.machine_path, &setup, &program, stations);
+    // A program that ends early was reported already.
+    let waits = path.feed_mm_per_s.is_none() && path.dwell_s > 0.0 && !stations.is_empty();
+    if waits && check.errors.is_empty() {
+        let (error, minor) = visits.compare(machine, path);
+        check.errors.extend(error);
+        check.minor.extend(minor);
+    }
+    check
 }
 
 /// Runs a program with all that stands on the machine.
@@ -106,9 +179,24 @@ pub(in crate::plan) fn run(
     program: &Program,
     stations: &[Command],
 ) -> ProgramCheck {
+    watch(machine, machine_path, setup, program, stations).0
+}
+
+/// The same with where the machine stood.
+fn watch<'s>(
+    machine: &Machine,
+    machine_path: &std::path::Path,
+    setup: &SetUp,
+    program: &Program,
+    stations: &'s [Command],
+) -> (ProgramCheck, Visits<'s>) {
     let mut summary = Summary::of(machine);
     let mut watch = AxisWatch::on(machine);
-    let mut visits = Visits { nearest: stations.iter().map(|c| (c, f64::INFINITY)).collect() };
+    let mut visits = Visits {
+        nearest: stations.iter().map(|c| (c, f64::INFINITY)).collect(),
+        last: None,
+        waits: Vec::new(),
+    };
     let mut found = Diagnostics::new();
     let models = load_models(&setup.files, machine, machine_path, &mut found);
     let mut collisions = Collisions::watch(machine, models, setup);
@@ -130,13 +218,14 @@ pub(in crate::plan) fn run(
         texts
     };
     let errors = run.problems.iter().chain(found.iter()).filter(|d| d.severity == Severity::Error);
-    ProgramCheck {
+    let check = ProgramCheck {
         duration_s: summary.time_s,
         off_station: visits.nearest.iter().map(|(_, off)| *off).fold(0.0, f64::max),
         critical: told(true),
         minor: told(false),
         errors: errors.map(|d| d.message.clone()).collect(),
-    }
+    };
+    (check, visits)
 }
 
 /// The stated probe, or a slim one: stylus, body, holder.

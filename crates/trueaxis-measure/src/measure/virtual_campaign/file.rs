@@ -70,6 +70,7 @@ fn plain(campaign: &Campaign, seed: u64) -> Truth {
         instruments: campaign.instruments.iter().map(bare).collect(),
         setups: vec![Vec::new(); campaign.instruments.len()],
         log: None,
+        added: Vec::new(),
         seed,
     }
 }
@@ -190,13 +191,15 @@ fn drawn(
 }
 
 /// All that may be out of place at an instrument.
-fn possible(kind: Kind) -> Vec<(String, SetupError)> {
+fn possible(instrument: &Instrument) -> Vec<(String, SetupError)> {
+    let kind = instrument.kind;
     let three = [0, 1, 2];
     let zeros = (0..kind.sight().channels()).map(SetupError::Zero);
     let all = three.map(SetupError::ToolPoint).into_iter();
     let all = all.chain(three.map(SetupError::ReferencePoint));
     let all = all.chain(three.map(SetupError::ReferenceTurn));
     let all = all.chain(zeros).chain([SetupError::Scale]);
+    let all = all.chain(instrument.material.is_some().then_some(SetupError::Material));
     all.map(|error| (kind.unknown_name(error), error)).collect()
 }
 
@@ -242,15 +245,15 @@ fn read_setup(
     random: &mut rand_chacha::ChaCha8Rng,
 ) {
     let of = |i: &usize| {
-        let kind = campaign.instruments[*i].kind;
-        let (_, error) = possible(kind).into_iter().find(|(name, _)| name == key)?;
+        let (_, error) =
+            possible(&campaign.instruments[*i]).into_iter().find(|(name, _)| name == key)?;
         Some((*i, error))
     };
     let found: Vec<(usize, SetupError)> = among.iter().filter_map(of).collect();
     let (of, error) = match found[..] {
         [one] => one,
         [] => {
-            let known = among.first().map(|i| possible(campaign.instruments[*i].kind));
+            let known = among.first().map(|i| possible(&campaign.instruments[*i]));
             let names: Vec<String> =
                 known.unwrap_or_default().into_iter().map(|(name, _)| name).collect();
             let message = format!("`{key}` is nothing of a set-up");
@@ -263,7 +266,7 @@ fn read_setup(
         }
     };
     let dimension = match error {
-        SetupError::ReferenceTurn(_) | SetupError::Scale => Dimension::Angle,
+        SetupError::ReferenceTurn(_) | SetupError::Scale | SetupError::Material => Dimension::Angle,
         SetupError::Zero(_) if campaign.instruments[of].sight.is_angle() => Dimension::Angle,
         _ => Dimension::Length,
     };

@@ -65,7 +65,7 @@ pub fn follow(campaign: &Campaign, real: &VirtualCampaign) -> (Vec<Stand>, f64) 
             let next = of.stations.commands.get(station + 1);
             let moving = of.feed_mm_per_s.filter(|_| station > 0);
             match moving {
-                None => drives.stop_at(&reading.command, &reading.approach, of.dwell_s),
+                None => drives.stop_at(&reading.command, &reading.approach, of.overrun, of.dwell_s),
                 Some(feed) => {
                     let instrument = &campaign.instruments[reading.instrument as usize];
                     let before = &of.stations.commands[station - 1];
@@ -125,17 +125,19 @@ impl<'a> Drives<'a> {
 
     /// Goes there at the limits of the axes and stands still; a path may state the side from
     /// which an axis comes, if need be by going too far first.
-    fn stop_at(&mut self, target: &Command, stated: &Approach, dwell_s: f64) {
+    fn stop_at(&mut self, target: &Command, stated: &Approach, overrun: f64, dwell_s: f64) {
         let from = self.commanded.unwrap_or(*target);
         let mut longest: f64 = 0.0;
         for i in 0..self.count() {
             let l = &self.limits;
             let way = target[i] - from[i];
-            let time = move_time_s(way, l.velocity[i], l.acceleration[i], l.jerk[i]);
-            longest = longest.max(time);
+            let time = |way| move_time_s(way, l.velocity[i], l.acceleration[i], l.jerk[i]);
             let moves = way.abs() > REST;
             let came = if moves { way.signum() } else { self.approach[i] };
             let turned = stated[i] != 0.0 && stated[i] != came;
+            // Beyond the target and back.
+            let detour = if turned && self.commanded.is_some() { overrun } else { 0.0 };
+            longest = longest.max(time(way.abs() + detour) + time(detour));
             // Always drawn, so that the numbers of one axis do not depend on another.
             let missed = self.axes[i].repeatability * normal(&mut self.random);
             self.motor[i] = target[i];

@@ -139,6 +139,7 @@ fn tip_in_workpiece(machine: &Machine) -> Instrument {
         length_mm: 0.0,
         noise: [1.0; 3],
         unknowns: Vec::new(),
+        material: None,
     }
 }
 
