@@ -120,6 +120,7 @@ fn campaign(machine: &Machine, with_servo: bool) -> Campaign {
         terms,
         instruments: vec![probe(machine)],
         tables: vec![Vec::new()],
+        stages: Default::default(),
     }
 }
 

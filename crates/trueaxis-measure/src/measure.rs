@@ -8,7 +8,9 @@
 mod campaign;
 mod motion;
 pub mod path;
+pub mod prior;
 mod servo;
+pub mod stages;
 pub mod virtual_campaign;
 
 pub use crate::instruments::{Instrument, Kind, Motion, Reading, Readings, instrument};

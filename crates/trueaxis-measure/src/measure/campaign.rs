@@ -1,6 +1,8 @@
 //! The campaign file: on which machine, with which instruments, which unknowns.
 
+use super::prior::read_prior_file;
 use super::servo::read_servo;
+use super::stages::{Stages, read_stages};
 use super::{Kind, Readings, fill_motion};
 use crate::instruments::instrument::{Instrument, SetupError, SetupUnknown};
 use crate::unknowns::design::Design;
@@ -39,12 +41,15 @@ pub struct Campaign {
     pub instruments: Vec<Instrument>,
     /// The tables of readings of each instrument.
     pub tables: Vec<Vec<PathBuf>>,
+    /// What is calibrated in which order, and what an earlier campaign left.
+    pub stages: Stages,
 }
 
 impl Campaign {
     /// What follows what: the machine without the unknown errors.
     pub fn design(&self) -> Design {
-        Design::new(&self.machine, self.terms.clone(), self.instruments.clone())
+        let design = Design::new(&self.machine, self.terms.clone(), self.instruments.clone());
+        design.with_known(self.stages.prior.as_ref().map(|prior| &prior.known))
     }
 
     /// An instrument by its name.
@@ -137,6 +142,9 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Campaign> {
             }
         }
     });
+    let bare = Design::new(&machine, terms.clone(), instruments.clone());
+    let list = read_stages(root, &bare, path);
+    let prior = read_prior_file(root, &bare, folder);
     Some(Campaign {
         name: name?.to_owned(),
         files: root.files().clone(),
@@ -147,6 +155,7 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Campaign> {
         terms,
         instruments,
         tables,
+        stages: Stages { list, prior },
     })
 }
 
