@@ -138,6 +138,11 @@ impl Observability {
         self.vectors.columns(self.rank, n - self.rank).into_owned()
     }
 
+    /// Directions that the readings see, with every unknown in units of what is seen of it: one column each.
+    pub fn scaled_seen_space(&self) -> DMatrix<f64> {
+        self.vectors.columns(0, self.rank).into_owned()
+    }
+
     /// The part of these values that the readings see; the rest is 0.
     pub fn seen_part(&self, values: &[f64]) -> Vec<f64> {
         let scaled = DVector::from_column_slice(values).component_mul(&self.scale);
