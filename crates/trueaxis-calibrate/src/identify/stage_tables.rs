@@ -178,7 +178,7 @@ fn read_zero(
         if mean.abs() > FAR_MM && !angle {
             let message = format!("{name}: the zero is {mean:.3} mm away, more than {FAR_MM} mm");
             let hint = "is it the table of this probe, in the unit of its heading?";
-            problems.error("other-set-up", table.row_place(0), message, hint);
+            problems.error("stage-set-up", table.row_place(0), message, hint);
             return None;
         }
         if s > SCATTER * instrument.noise[c] && values.len() > 4 {
@@ -326,7 +326,7 @@ fn check_ball(
             off.norm()
         );
         let hint = "another ball, another place, or another frame: points are in that of the workpiece";
-        problems.error("other-set-up", whole, message, hint);
+        problems.error("stage-set-up", whole, message, hint);
         return None;
     }
     let u_point = s.max(stage.u_mm);
@@ -342,7 +342,7 @@ fn check_ball(
                 2.0 * both * 1e3
             );
             let hint = "another ball, or points that are not corrected for the stylus?";
-            problems.error("other-set-up", whole, message, hint);
+            problems.error("stage-set-up", whole, message, hint);
             return None;
         }
     }

@@ -7,7 +7,6 @@
 //! All stages have the unknowns of the campaign; what one of them measures, the later ones know.
 
 use super::prior::Prior;
-use crate::instruments::Instrument;
 use crate::instruments::instrument::SetupError;
 use crate::unknowns::design::{Design, Unknown};
 use std::path::{Path, PathBuf};
@@ -206,6 +205,11 @@ fn read_table(
     let of = of?;
     let instrument = context.instrument(&of)?;
     let own = &context.design.instruments[instrument];
+    if key == "readings" && own.kind.triggers() {
+        let message = format!("a {} has no zero that is read", own.kind.name());
+        of.error("nothing-to-calibrate", message, "values = { \"NAME.radius\" = \"0 ± 1 um\" }");
+        return None;
+    }
     if !own.unknowns.iter().any(|u| unknown(u.error)) {
         let kind = own.kind;
         let what = if key == "points" { kind.reference_point() } else { kind.zero() };
@@ -370,7 +374,7 @@ fn check_equipment(root: &Section<'_>, design: &Design, stages: &[Stage]) {
                     stage.name, first.name, there.line
                 );
                 let hint = "what is handed on holds for one set-up only: calibrate what is used";
-                root.error_at(place.clone(), "other-set-up", message, hint);
+                root.error_at(place.clone(), "stage-set-up", message, hint);
             }
         }
     }
@@ -393,19 +397,19 @@ fn is_date(text: &str) -> bool {
 }
 
 fn check_length(root: &Section<'_>, design: &Design, stage: &Stage, (text, place): (&str, &Place)) {
-    let Ok(length) = trueaxis_input::parse_quantity(text, Dimension::Length) else {
-        let message = format!("`{text}` is no length");
-        return root.error_at(place.clone(), "bad-length", message, "length = \"150 mm\"");
+    let length = match trueaxis_input::parse_quantity(text, Dimension::Length) {
+        Ok(length) => length,
+        Err(e) => return root.error_at(place.clone(), e.code(), e.to_string(), &e.hint()),
     };
     for of in stage.concerns() {
-        let Instrument { name, length_mm, .. } = &design.instruments[of];
+        let crate::instruments::Instrument { name, length_mm, .. } = &design.instruments[of];
         if (length_mm - length).abs() > 1e-9 {
             let message = format!(
                 "stage `{}` was done with a length of {length} mm, the `length` of {name} is {length_mm} mm",
                 stage.name
             );
             let hint = "what is handed on holds for one set-up only: measure with the same bar";
-            root.error_at(place.clone(), "other-set-up", message, hint);
+            root.error_at(place.clone(), "stage-set-up", message, hint);
         }
     }
 }
