@@ -289,7 +289,10 @@ fn law_lag_gain_friction_and_lost_motion_at_three_feeds_come_back_on_eight_machi
             let all = found.design.terms.len();
             assert_eq!(of_this[2] + unseen_of(&found), all, "{name}");
             for [truth, value, u] in mismatches(&found, &injected) {
-                assert!((value - truth).abs() < 4.0 * u, "{name}: mismatch {value:e} ± {u:e}, {truth:e}");
+                assert!(
+                    (value - truth).abs() < 4.0 * u,
+                    "{name}: mismatch {value:e} ± {u:e}, {truth:e}"
+                );
             }
             for (term, f) in found.design.terms.iter().zip(&found.found) {
                 let (true, Some((lag, u)), Some(axis)) = (term.basis.is_lag(), f.value, term.axis)
@@ -387,36 +390,38 @@ fn law_a_common_lag_on_the_paths_f_and_s_is_told_apart_or_named() {
     }
 }
 
-/// 95 % intervals of geometry with lag present; `--run-ignored` runs 400 campaigns in place of 40.
-fn coverage(campaigns: u64) -> f64 {
+/// 95 % intervals of geometry with lag present, on all machines in turn: the share that holds, of how many.
+fn coverage(campaigns: u64) -> (f64, u32) {
     let mut random = Random(77);
-    let campaign = campaign(&machine(MACHINES[0]), true);
+    let all_machines = MACHINES.map(|name| campaign(&machine(name), true));
     let (mut within, mut all) = (0, 0);
     for seed in 0..campaigns {
-        let injected = inject(&campaign, &mut random);
-        let found = found(&campaign, readings(&campaign, &injected, &[STILL, Some(150.0)], seed));
+        let campaign = &all_machines[seed as usize % MACHINES.len()];
+        let injected = inject(campaign, &mut random);
+        let found = found(campaign, readings(campaign, &injected, &[STILL, Some(150.0)], seed));
         for (term, f) in found.design.terms.iter().zip(&found.found) {
             let (false, Some((value, u))) = (term.basis.is_servo(), f.value) else { continue };
-            let off = (value - truth_of(&campaign, &injected, term)).abs();
-            within += usize::from(off < 1.96 * u);
+            let off = (value - truth_of(campaign, &injected, term)).abs();
+            within += u32::from(off < 1.96 * u);
             all += 1;
         }
     }
-    within as f64 / f64::from(all)
+    (f64::from(within) / f64::from(all), all)
 }
 
 #[test]
 fn law_geometry_is_covered_with_lag_present() {
-    let share = coverage(40);
-    assert!((0.90..=0.99).contains(&share), "{share}");
+    let (share, all) = coverage(40);
+    assert!((0.91..=0.985).contains(&share), "{share} of {all}");
 }
 
+/// On 24 November 2026, 100 campaigns on each of the eight machines: 94.5 % of 8200 intervals.
 #[test]
-#[ignore = "cargo nextest run -p trueaxis-calibrate --test servo_laws --run-ignored all"]
+#[ignore = "cargo nextest run -p trueaxis-calibrate --test servo_laws --run-ignored all covered_between"]
 fn law_geometry_is_covered_between_93_and_97_percent() {
-    let share = coverage(400);
-    println!("{share}");
-    assert!((0.93..=0.97).contains(&share), "{share}");
+    let (share, all) = coverage(800);
+    println!("{share} of {all}");
+    assert!((0.93..=0.97).contains(&share), "{share} of {all}");
 }
 
 #[test]

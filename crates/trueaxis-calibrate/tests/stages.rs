@@ -96,9 +96,11 @@ impl Study {
         let start = self.text.find("[[stage]]").expect("stages");
         let end = self.text.find("[fit]").expect("[fit]");
         let stages: Vec<&str> = self.text[start..end].split("[[stage]]").skip(1).collect();
-        let turned: Vec<String> = order.iter().map(|k| format!("[[stage]]{}", stages[*k])).collect();
+        let turned: Vec<String> =
+            order.iter().map(|k| format!("[[stage]]{}", stages[*k])).collect();
         // The dates would say that it is wrong.
-        let turned = turned.concat().replace("date = 2026-11-23", "").replace("date = 2026-11-24", "");
+        let turned =
+            turned.concat().replace("date = 2026-11-23", "").replace("date = 2026-11-24", "");
         let text = format!("{}{turned}{}", &self.text[..start], &self.text[end..]);
         Self { text, ..self.clone() }
     }
@@ -164,10 +166,7 @@ fn same(a: &BTreeMap<String, (f64, f64)>, b: &BTreeMap<String, (f64, f64)>, in_u
 #[test]
 fn law_stages_are_the_same_as_all_readings_at_once() {
     // Linear: to rounding. The machine itself: products of errors, far below the uncertainties.
-    for (study, allowed) in [
-        (Study::of(3).with(LINEAR.0, LINEAR.1), 1e-6),
-        (Study::of(3), 0.02),
-    ] {
+    for (study, allowed) in [(Study::of(3).with(LINEAR.0, LINEAR.1), 1e-6), (Study::of(3), 0.02)] {
         let (_, found, ..) = study.found();
         let sequence = found.sequence.as_ref().expect("stages");
         assert!(sequence.difference < allowed, "{}", sequence.difference);
@@ -250,7 +249,9 @@ fn law_values_come_back_within_their_uncertainty() {
     for seed in 100..120 {
         let (_, found, ..) = Study::of(seed).found();
         for f in &found.found {
-            let (Some(truth), Some((value, u))) = (truth.get(f.name.as_str()), f.value) else { continue };
+            let (Some(truth), Some((value, u))) = (truth.get(f.name.as_str()), f.value) else {
+                continue;
+            };
             assert!((value - truth).abs() < 4.2 * u, "{seed} {}: {value:e} ± {u:e}", f.name);
             within += usize::from((value - truth).abs() < 1.96 * u);
             all += 1;
@@ -267,7 +268,8 @@ fn law_stages_that_agree_are_seldom_said_to_disagree() {
     for seed in 200..230 {
         let (_, found, ..) = Study::of(seed).found();
         let results = &found.sequence.as_ref().expect("stages").results;
-        conflicts += results.iter().filter_map(|r| r.test.as_ref()).filter(|t| t.is_conflict()).count();
+        conflicts +=
+            results.iter().filter_map(|r| r.test.as_ref()).filter(|t| t.is_conflict()).count();
     }
     // 1 % of some 30 to 60 tests.
     assert!(conflicts <= 2, "{conflicts}");
@@ -295,13 +297,16 @@ fn a_plan_expects_what_is_found() {
             }
         }
     }
-    assert_eq!(compared, 3 + 6 + 13 + 24);
+    assert_eq!(compared, 3 + 6 + 16 + 27);
 }
 
 #[test]
 fn another_bar_or_ball_is_named_with_both_lines() {
     let study = Study::of(7);
-    let ball = study.with("bar = \"150 mm, no. 1\", ball = \"B 25-7\"", "bar = \"150 mm, no. 1\", ball = \"B 25-9\"");
+    let ball = study.with(
+        "bar = \"150 mm, no. 1\", ball = \"B 25-7\"",
+        "bar = \"150 mm, no. 1\", ball = \"B 25-9\"",
+    );
     let told = ball.told();
     let (_, place, message) = told.iter().find(|t| t.0 == "stage-set-up").expect("named");
     assert!(place.contains(&format!(":{}:", ball.line_of("B 25-9"))), "{place}");
@@ -327,7 +332,10 @@ fn a_ball_of_another_diameter_or_place_is_refused() {
         })
         .collect();
     let told = study.with_table("procedure-ball.csv", moved.join("\n") + "\n").told();
-    assert!(told.iter().any(|t| t.0 == "stage-set-up" && t.1.contains("procedure-ball.csv")), "{told:?}");
+    assert!(
+        told.iter().any(|t| t.0 == "stage-set-up" && t.1.contains("procedure-ball.csv")),
+        "{told:?}"
+    );
 }
 
 #[test]
@@ -335,11 +343,12 @@ fn stages_that_contradict_each_other_name_the_unknown_and_both_values() {
     // The machine was levelled between the ball-bar and the probe: EC0X is 60 µrad more for the probe.
     let study = Study::of(9);
     let moved = study.with("[truth]\n", "[truth]\nerrors = { EC0X = \"91 urad\" }\n").measured(9);
-    let mixed = study
-        .with_table("procedure-probe.csv", moved.table("procedure-probe.csv").to_owned());
+    let mixed =
+        study.with_table("procedure-probe.csv", moved.table("procedure-probe.csv").to_owned());
     let told = mixed.told();
     let (_, place, message) = told.iter().find(|t| t.0 == "conflicting-stages").expect("named");
-    let line = mixed.text[..mixed.text.find("rotary axes by").expect("stage")].matches('\n').count();
+    let line =
+        mixed.text[..mixed.text.find("rotary axes by").expect("stage")].matches('\n').count();
     assert!(place.contains(&format!(":{line}:")), "{place}: line {line}");
     assert!(message.contains("EC0X") && message.contains("p = less than 1e-6"), "{message}");
     assert!(message.contains("before and"), "{message}");
@@ -360,7 +369,10 @@ fn a_ball_that_was_moved_contradicts_the_machine() {
         .collect();
     let told = study.with_table("procedure-ball.csv", moved.join("\n") + "\n").told();
     let (_, _, message) = told.iter().find(|t| t.0 == "conflicting-stages").expect("named");
-    assert!(message.contains("probe.ball_y is -") || message.contains("probe.ball_y is 0"), "{message}");
+    assert!(
+        message.contains("probe.ball_y is -") || message.contains("probe.ball_y is 0"),
+        "{message}"
+    );
     assert!(message.contains("rotary axes by probe-ball"), "{message}");
 }
 
@@ -371,7 +383,10 @@ fn a_wrong_order_and_a_missing_stage_are_named() {
     let order: Vec<_> = late.iter().filter(|t| t.0 == "stage-order").collect();
     assert!(!order.is_empty() && order[0].2.contains("which comes after it"), "{late:?}");
     // By the dates alone.
-    let dates = study.with("name = \"rotary axes by probe-ball\"\ndate = 2026-11-24", "name = \"rotary axes by probe-ball\"\ndate = 2026-11-20");
+    let dates = study.with(
+        "name = \"rotary axes by probe-ball\"\ndate = 2026-11-24",
+        "name = \"rotary axes by probe-ball\"\ndate = 2026-11-20",
+    );
     assert!(dates.told().iter().any(|t| t.0 == "stage-order" && t.2.contains("2026-11-20")));
     let without = study.in_order(&[1, 2, 3]).told();
     let (_, _, message) = without.iter().find(|t| t.0 == "stage-missing").expect("named");
@@ -409,7 +424,8 @@ fn a_prior_of_another_machine_or_set_up_is_refused() {
     let (campaign, found, records, _) = study.found();
     let text = covariance_file(&campaign, &found, &records, None);
     // Without the readings that are in it: a study that only starts from it.
-    let mut other = study.with("name = \"calibration", "prior = \"left.toml\"\nname = \"calibration");
+    let mut other =
+        study.with("name = \"calibration", "prior = \"left.toml\"\nname = \"calibration");
     let (start, end) = (other.text.find("[[stage]]"), other.text.find("[fit]"));
     other.text.replace_range(start.expect("stage")..end.expect("fit"), "");
     let other = other.with_table("left.toml", text.clone()).measured(77);
@@ -420,16 +436,36 @@ fn a_prior_of_another_machine_or_set_up_is_refused() {
     let fine = codes(&other, text.clone());
     assert!(fine.iter().all(|t| !t.0.contains("prior")), "{fine:?}");
     let machine = codes(&other, text.replace("Lei-Hsu five-axis mill", "the mill next to it"));
-    assert!(machine.iter().any(|t| t.0 == "prior-of-another-machine" && t.1.contains("left.toml:5")), "{machine:?}");
+    assert!(
+        machine.iter().any(|t| t.0 == "prior-of-another-machine" && t.1.contains("left.toml:5")),
+        "{machine:?}"
+    );
     let mark = text.split("nominal = \"").nth(1).expect("a mark")[..16].to_owned();
     let nominal = codes(&other, text.replace(&mark, "0123456789abcdef"));
     assert!(nominal.iter().any(|t| t.0 == "prior-of-another-machine"), "{nominal:?}");
     let longer = other.with("socket = \"0 0 -330 mm\"", "socket = \"0 0 -380 mm\"");
     let longer = codes(&longer, text.clone());
-    assert!(longer.iter().any(|t| t.0 == "prior-of-another-set-up" && t.1.contains("-380")), "{longer:?}");
+    assert!(
+        longer.iter().any(|t| t.0 == "prior-of-another-set-up" && t.1.contains("-380")),
+        "{longer:?}"
+    );
+    // The machine was levelled since: the prior contradicts the new readings.
+    let moved = other.with("[truth]\n", "[truth]\nerrors = { EC0X = \"91 urad\" }\n").measured(78);
+    let since = codes(&moved, text.clone());
+    assert!(since.iter().any(|t| t.0 == "conflicting-stages" && t.1.contains("EC0X")), "{since:?}");
+    assert!(fine.iter().all(|t| t.0 != "conflicting-stages"), "{fine:?}");
+    // Its length of the bar is in the file already.
+    let again = study.with("name = \"calibration", "prior = \"left.toml\"\nname = \"calibration");
+    assert!(codes(&again, text.clone()).iter().any(|t| t.0 == "prior-twice"));
     let edited = text.replacen("\nu = ", "\nu = 1", 1);
     assert!(codes(&other, edited).iter().any(|t| t.0 == "bad-covariance"));
     assert!(codes(&other, "[covariance]\n".into()).iter().any(|t| t.0 == "missing-key"));
+}
+
+#[test]
+fn robust_losses_are_refused() {
+    let study = Study::of(15).with("[fit]\n", "[fit]\nloss = \"huber\"\n");
+    assert!(study.told().iter().any(|t| t.0 == "stages-need-squares"));
 }
 
 #[test]

@@ -25,11 +25,13 @@ pub fn covariance_file(
     date: Option<&str>,
 ) -> String {
     let machine = &campaign.machine;
-    let mut text = format!("{BEGINS}: a later campaign starts from it with prior = \"THIS FILE\"\n");
+    let mut text =
+        format!("{BEGINS}: a later campaign starts from it with prior = \"THIS FILE\"\n");
     text += "# in mm, rad and s; `covariance`: with all before it, its own variance last\n\n";
     // Writing to a String cannot fail.
     let _ = writeln!(text, "[covariance]\nmachine = {:?}", machine.name());
-    let _ = writeln!(text, "nominal = \"{}\"\ncampaign = {:?}", nominal_mark(machine), campaign.name);
+    let _ =
+        writeln!(text, "nominal = \"{}\"\ncampaign = {:?}", nominal_mark(machine), campaign.name);
     if let Some(date) = date {
         let _ = writeln!(text, "date = {date:?}");
     }
@@ -49,9 +51,9 @@ pub fn covariance_file(
     let names = found.design.names();
     for (i, row) in rows.row_iter().enumerate() {
         let members = row.iter().zip(&names).filter(|(share, _)| **share != 0.0);
-        let of: Vec<String> = members.map(|(share, name)| format!("{name:?} = {share:e}")).collect();
-        let variances: Vec<String> =
-            (0..=i).map(|j| format!("{:e}", covariance[(i, j)])).collect();
+        let of: Vec<String> =
+            members.map(|(share, name)| format!("{name:?} = {share:e}")).collect();
+        let variances: Vec<String> = (0..=i).map(|j| format!("{:e}", covariance[(i, j)])).collect();
         let _ = writeln!(
             text,
             "\n[[known]]\nof = {{ {} }}\nvalue = {:e}\nu = {:e}\ncovariance = [{}]",

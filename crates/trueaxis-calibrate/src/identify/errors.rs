@@ -186,15 +186,7 @@ pub fn identify(
     if problems.has_errors() {
         return None;
     }
-    let (sequence, whole, options) = match campaign.stages.list.is_empty() {
-        true => (None, whole, options.clone()),
-        false => {
-            // What one stage leaves out would be missing in the next: all unknowns stay in.
-            let options = Options { selection: false, ..options.clone() };
-            let (sequence, whole) = go_through(campaign, &whole, &options, records, problems)?;
-            (Some(sequence), whole, options)
-        }
-    };
+    let (sequence, whole, options) = through_stages(campaign, whole, options, records, problems)?;
     match Work::of(whole, records, &options, parts) {
         Ok(work) => {
             check_conflicts(&work.whole, readings, &work.z, &place, problems);
@@ -211,6 +203,35 @@ pub fn identify(
             None
         }
     }
+}
+
+/// The stages, what all readings at once start from, and how they are evaluated.
+fn through_stages(
+    campaign: &Campaign,
+    whole: Design,
+    options: &Options,
+    records: &Records,
+    problems: &mut Diagnostics,
+) -> Option<(Option<Sequence>, Design, Options)> {
+    if campaign.stages.list.is_empty() {
+        return Some((None, whole, options.clone()));
+    }
+    if options.loss != Loss::Squares {
+        let place = Place::whole(&campaign.path.display().to_string());
+        let message =
+            "what stages hand on are sums of squares; loss = \"huber\" has none".to_owned();
+        problems.error(
+            "stages-need-squares",
+            place,
+            message,
+            "loss = \"squares\"; delete wrong rows",
+        );
+        return None;
+    }
+    // What one stage leaves out would be missing in the next: all unknowns stay in.
+    let options = Options { selection: false, ..options.clone() };
+    let (sequence, whole) = go_through(campaign, &whole, &options, records, problems)?;
+    Some((Some(sequence), whole, options))
 }
 
 /// The fit of all candidates, the choice among them, and the fit of what was chosen.
@@ -366,7 +387,12 @@ pub fn huber_weights(design: &Design, readings: &Readings, found: &Fit) -> Vec<f
         .collect()
 }
 
-pub(super) fn tell_fault(fault: &FitError, records: &Records, place: &Place, problems: &mut Diagnostics) {
+pub(super) fn tell_fault(
+    fault: &FitError,
+    records: &Records,
+    place: &Place,
+    problems: &mut Diagnostics,
+) {
     let (place, hint) = match fault {
         FitError::Outside { row, .. } => {
             (records.place(*row), "correct the pose, or extend the table of the machine file")

@@ -1,8 +1,8 @@
 //! The readings of a campaign with the file that each came from.
 
-use trueaxis_input::{CsvTable, Diagnostics, Item, Place, Section};
 use super::stage_tables::{Calibrated, read_calibrations};
 use std::collections::BTreeMap;
+use trueaxis_input::{CsvTable, Diagnostics, Item, Place, Section};
 use trueaxis_measure::measure::prior::mark;
 use trueaxis_measure::measure::{Campaign, Readings, fill_motion};
 use trueaxis_measure::unknowns::fit::{Model, Rule};

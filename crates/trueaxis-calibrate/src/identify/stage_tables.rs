@@ -169,7 +169,12 @@ fn read_zero(
         let n = values.len() as f64;
         if values.is_empty() {
             let message = "the table of the zero has no rows".to_owned();
-            problems.error("too-few-readings", Place::whole(&table.file), message, "one row a reading");
+            problems.error(
+                "too-few-readings",
+                Place::whole(&table.file),
+                message,
+                "one row a reading",
+            );
             return None;
         }
         let mean = values.iter().sum::<f64>() / n;
@@ -241,9 +246,10 @@ fn fit_sphere(points: &[Vec3]) -> Option<Sphere> {
         let residuals: Vec<f64> =
             points.iter().map(|p| (p - centre).norm() - 0.5 * diameter).collect();
         let inverse = normal_of_sphere(&directions).try_inverse()?;
-        let gradient = directions.iter().zip(&residuals).fold(Vector4::zeros(), |sum, (n, r)| {
-            sum + Vector4::new(-n.x, -n.y, -n.z, -0.5) * *r
-        });
+        let gradient = directions
+            .iter()
+            .zip(&residuals)
+            .fold(Vector4::zeros(), |sum, (n, r)| sum + Vector4::new(-n.x, -n.y, -n.z, -0.5) * *r);
         let step = inverse * gradient;
         centre -= step.fixed_rows::<3>(0).into_owned();
         diameter -= step[3];
@@ -264,14 +270,18 @@ fn read_ball(
     found: &mut Calibrated,
     problems: &mut Diagnostics,
 ) -> Option<()> {
-    let [x, y, z] =
-        ["x", "y", "z"].map(|name| column(table, name, Dimension::Length, problems));
+    let [x, y, z] = ["x", "y", "z"].map(|name| column(table, name, Dimension::Length, problems));
     let (x, y, z) = (x?, y?, z?);
     let points: Vec<Vec3> = (0..x.len()).map(|i| Vec3::new(x[i], y[i], z[i])).collect();
     let whole = Place::whole(&table.file);
     if points.len() < LEAST_POINTS {
         let message = format!("{} points on the ball, {LEAST_POINTS} are the fewest", points.len());
-        problems.error("too-few-readings", whole, message, "touch it all over, also near its equator");
+        problems.error(
+            "too-few-readings",
+            whole,
+            message,
+            "touch it all over, also near its equator",
+        );
         return None;
     }
     let hint = "touch the ball all over, also near its equator; one row a point, in one frame";
@@ -325,7 +335,8 @@ fn check_ball(
             "the centre of the ball is {:.3} mm from the `ball` of {name}, more than {FAR_MM} mm",
             off.norm()
         );
-        let hint = "another ball, another place, or another frame: points are in that of the workpiece";
+        let hint =
+            "another ball, another place, or another frame: points are in that of the workpiece";
         problems.error("stage-set-up", whole, message, hint);
         return None;
     }
@@ -353,7 +364,12 @@ fn check_ball(
             stage.u_mm * 1e3
         );
         let place = worst_row(table, &sphere.residuals, 0.0);
-        problems.warn("ball-scatters", place, message, "dirt, a wrong point, or the form of the ball?");
+        problems.warn(
+            "ball-scatters",
+            place,
+            message,
+            "dirt, a wrong point, or the form of the ball?",
+        );
     }
     Some(())
 }

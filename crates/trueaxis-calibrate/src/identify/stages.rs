@@ -292,8 +292,11 @@ fn tell_order(
             let mut with = step.after.clone();
             with.add(&steps[j].own, 1.0);
             let seen = values(&with, threshold).1;
-            let gained: Vec<usize> = unseen.iter().copied().filter(|n| seen[*n].is_some()).collect();
-            if gained.is_empty() || list[j].instruments.iter().any(|i| list[k].instruments.contains(i)) {
+            let gained: Vec<usize> =
+                unseen.iter().copied().filter(|n| seen[*n].is_some()).collect();
+            if gained.is_empty()
+                || list[j].instruments.iter().any(|i| list[k].instruments.contains(i))
+            {
                 continue;
             }
             let message = format!(

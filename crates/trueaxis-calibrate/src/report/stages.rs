@@ -80,19 +80,25 @@ fn changed(stage: &StageResult) -> impl Iterator<Item = usize> {
 }
 
 /// What each stage of a plan will determine.
-pub(super) fn planned_section<'a>(design: &Design, stages: &[StageExpectation]) -> Option<Section<'a>> {
+pub(super) fn planned_section<'a>(
+    design: &Design,
+    stages: &[StageExpectation],
+) -> Option<Section<'a>> {
     if stages.is_empty() {
         return None;
     }
     let names = design.names();
     let rows = names.iter().enumerate().map(|(k, name)| {
         let (scale, unit) = shown_unit(design.unknown(k));
-        let shown = |s: &StageExpectation| s.u[k].map_or("–".to_owned(), |u| format!("{:.3}", 2.0 * u * scale));
+        let shown = |s: &StageExpectation| {
+            s.u[k].map_or("–".to_owned(), |u| format!("{:.3}", 2.0 * u * scale))
+        };
         let all = stages.iter().map(shown);
         std::iter::once(name.clone()).chain(all).chain([unit.to_owned()]).collect::<Vec<_>>()
     });
     let heads = stages.iter().zip(1..).map(|(s, n)| format!("{n}: {}", s.name));
-    let heads = std::iter::once("U (k = 2) after stage".to_owned()).chain(heads).chain([String::new()]);
+    let heads =
+        std::iter::once("U (k = 2) after stage".to_owned()).chain(heads).chain([String::new()]);
     let table = Table::new(heads).rows(rows).most_on_terminal(usize::MAX);
     let note = "Each stage knows what the stages before it hand on, with its covariance.";
     Some(Section::new("What each stage will determine").table(table.note(note)))

@@ -2,7 +2,7 @@
 
 use super::prior::read_prior_file;
 use super::servo::read_servo;
-use super::stages::{Stages, read_stages};
+use super::stages::{Stage, Stages, read_stages, warn_of_doubles};
 use super::{Kind, Readings, fill_motion};
 use crate::instruments::instrument::{Instrument, SetupError, SetupUnknown};
 use crate::unknowns::design::Design;
@@ -143,8 +143,16 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Campaign> {
         }
     });
     let bare = Design::new(&machine, terms.clone(), instruments.clone());
-    let list = read_stages(root, &bare, path);
+    let mut list = read_stages(root, &bare, path);
     let prior = read_prior_file(root, &bare, folder);
+    if let Some(prior) = &prior {
+        warn_of_doubles(root, &bare, prior, &list);
+        if list.is_empty() {
+            // What is read now is compared with what was known, as one stage with another.
+            let place = root.get("prior").map(|i| i.place()).unwrap_or_default();
+            list.push(Stage::of_all(instruments.len(), place));
+        }
+    }
     Some(Campaign {
         name: name?.to_owned(),
         files: root.files().clone(),

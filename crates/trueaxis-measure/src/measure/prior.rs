@@ -147,7 +147,8 @@ fn check_machine(section: &Section<'_>, machine: &Machine) {
     if let Some((item, name)) = name.and_then(|i| Some((i, i.text()?)))
         && name != machine.name()
     {
-        let message = format!("these values are of `{name}`, the campaign is on `{}`", machine.name());
+        let message =
+            format!("these values are of `{name}`, the campaign is on `{}`", machine.name());
         item.error(code, message, hint);
     }
     if let Some((item, found)) = nominal.and_then(|i| Some((i, i.text()?)))
@@ -186,7 +187,8 @@ fn read_row(section: &Section<'_>, before: usize) -> Option<Row> {
             entries.map(|(key, _, item)| Some((key.to_owned(), item.number()?))).collect()
         })?
     });
-    let number = |key| section.require(key, "in mm, rad, s or 1").and_then(|i: Item<'_>| i.number());
+    let number =
+        |key| section.require(key, "in mm, rad, s or 1").and_then(|i: Item<'_>| i.number());
     let (value, u) = (number("value"), number("u"));
     let item = section.require("covariance", "with all before it, and its own variance")?;
     let covariance: Vec<f64> = item.list()?.iter().map(Item::number).collect::<Option<_>>()?;
@@ -194,7 +196,11 @@ fn read_row(section: &Section<'_>, before: usize) -> Option<Row> {
     let variance = covariance.last().copied().unwrap_or(0.0);
     if covariance.len() != before + 1 {
         let message = format!("{} covariances, expected {}", covariance.len(), before + 1);
-        item.error("bad-covariance", message, "one with each [[known]] before it, its own variance last");
+        item.error(
+            "bad-covariance",
+            message,
+            "one with each [[known]] before it, its own variance last",
+        );
         return None;
     }
     if u <= 0.0 || (variance - u * u).abs() > SAME_U * u * u {
@@ -219,10 +225,12 @@ fn known(root: &Section<'_>, rows: &[(Row, Place)], design: &Design) -> Option<K
         let Some(name) = row.of.iter().map(|(name, _)| name).find(strange) else { continue };
         // Of an instrument that is not used any more nothing need be known.
         let instrument = name.split_once('.').map(|(i, _)| i);
-        let is_gone = instrument.is_some_and(|i| design.instruments.iter().all(|own| own.name != i));
+        let is_gone =
+            instrument.is_some_and(|i| design.instruments.iter().all(|own| own.name != i));
         if !is_gone {
-            let message =
-                format!("{name} is known from before, but is not among the unknowns: it is left out");
+            let message = format!(
+                "{name} is known from before, but is not among the unknowns: it is left out"
+            );
             let hint = "name it in [unknown] or the unknowns of the instrument; else the value of the \
                         machine file holds";
             let mut problems = trueaxis_input::Diagnostics::new();
@@ -233,7 +241,11 @@ fn known(root: &Section<'_>, rows: &[(Row, Place)], design: &Design) -> Option<K
     let kept: Vec<usize> = (0..rows.len()).filter(|k| is_ours(&rows[*k].0)).collect();
     let m = kept.len();
     if m == 0 {
-        root.error("prior-unused", "nothing of it is among the unknowns".into(), "is it the right file?");
+        root.error(
+            "prior-unused",
+            "nothing of it is among the unknowns".into(),
+            "is it the right file?",
+        );
         return None;
     }
     let mut factors = DMatrix::zeros(m, names.len());

@@ -92,6 +92,20 @@ pub struct StatedValue {
 }
 
 impl Stage {
+    /// All readings of a campaign that has no stages.
+    pub(super) fn of_all(instruments: usize, place: Place) -> Self {
+        Self {
+            name: "readings of this campaign".to_owned(),
+            place,
+            date: None,
+            instruments: (0..instruments).collect(),
+            zero: None,
+            ball: None,
+            values: Vec::new(),
+            with: Vec::new(),
+        }
+    }
+
     /// Whether it measures without the axes of the machine.
     pub fn is_calibration(&self) -> bool {
         self.zero.is_some() || self.ball.is_some() || !self.values.is_empty()
@@ -99,7 +113,8 @@ impl Stage {
 
     /// All instruments that it has to do with.
     pub fn concerns(&self) -> Vec<usize> {
-        let of = [self.zero.as_ref().map(|z| z.instrument), self.ball.as_ref().map(|b| b.instrument)];
+        let of =
+            [self.zero.as_ref().map(|z| z.instrument), self.ball.as_ref().map(|b| b.instrument)];
         self.instruments.iter().copied().chain(of.into_iter().flatten()).collect()
     }
 }
@@ -213,7 +228,8 @@ fn read_table(
     if !own.unknowns.iter().any(|u| unknown(u.error)) {
         let kind = own.kind;
         let what = if key == "points" { kind.reference_point() } else { kind.zero() };
-        let message = format!("`{what}` is not among the unknowns of {}: nothing to calibrate", own.name);
+        let message =
+            format!("`{what}` is not among the unknowns of {}: nothing to calibrate", own.name);
         let hint = format!("[instrument.{}] unknown = {{ {what} = \"free\", … }}", own.name);
         of.error("nothing-to-calibrate", message, &hint);
         return None;
@@ -224,9 +240,8 @@ fn read_table(
 fn read_zero(section: &Section<'_>, context: &Context<'_>) -> Option<ZeroStage> {
     let is_zero = |e| matches!(e, SetupError::Zero(_));
     let found = read_table(section, context, ("readings", is_zero));
-    let angle = found.as_ref().is_some_and(|(i, _)| {
-        context.design.instruments[*i].sight.is_angle()
-    });
+    let angle =
+        found.as_ref().is_some_and(|(i, _)| context.design.instruments[*i].sight.is_angle());
     let dimension = if angle { Dimension::Angle } else { Dimension::Length };
     let u = read_u(section, "u", dimension, "how well the ball joint was centred");
     let count = read_count(section, 10);
@@ -257,7 +272,11 @@ fn read_ball(section: &Section<'_>, context: &Context<'_>) -> Option<BallStage> 
 fn read_u(section: &Section<'_>, key: &str, dimension: Dimension, what: &str) -> Option<f64> {
     let Some(item) = section.get(key) else {
         let message = format!("`{key}` is missing ({what}): it is taken as exact");
-        section.warn("fixed-value", message, &format!("{key} = \"0.5 um\", its standard uncertainty"));
+        section.warn(
+            "fixed-value",
+            message,
+            &format!("{key} = \"0.5 um\", its standard uncertainty"),
+        );
         return Some(0.0);
     };
     let u = item.quantity(dimension)?;
@@ -305,8 +324,10 @@ fn read_value(item: &Item<'_>, key: &str, design: &Design) -> Option<StatedValue
 fn check_names(root: &Section<'_>, stages: &[Stage]) {
     for (k, stage) in stages.iter().enumerate() {
         if let Some(first) = stages[..k].iter().find(|s| s.name == stage.name) {
-            let message =
-                format!("two stages are called `{}`, the other in line {}", stage.name, first.place.line);
+            let message = format!(
+                "two stages are called `{}`, the other in line {}",
+                stage.name, first.place.line
+            );
             let hint = "name each stage once: what is done twice counts twice";
             root.error_at(stage.place.clone(), "duplicate-stage", message, hint);
         }
@@ -322,7 +343,8 @@ fn check_instruments(root: &Section<'_>, design: &Design, stages: &[Stage]) {
             [] if stages.is_empty() => {}
             [] => {
                 let message = format!("the readings of {name} are in no stage");
-                let hint = format!("instruments = [{name:?}] in the stage in which they were taken");
+                let hint =
+                    format!("instruments = [{name:?}] in the stage in which they were taken");
                 root.error("no-stage", message, &hint);
             }
             [first, second, ..] => {
@@ -387,7 +409,34 @@ fn check_equipment(root: &Section<'_>, design: &Design, stages: &[Stage]) {
                 "stage `{}` of {after} stands after stage `{}` of {before}",
                 pair[1].name, pair[0].name
             );
-            root.error_at(pair[1].place.clone(), "stage-order", message, "put the stages in the order of time");
+            root.error_at(
+                pair[1].place.clone(),
+                "stage-order",
+                message,
+                "put the stages in the order of time",
+            );
+        }
+    }
+}
+
+/// What an earlier campaign left contains what was known before it: stated again, it counts twice.
+pub(super) fn warn_of_doubles(
+    root: &Section<'_>,
+    design: &Design,
+    prior: &Prior,
+    stages: &[Stage],
+) {
+    let own = design.prior();
+    for (k, name) in own.names.iter().enumerate() {
+        let stated = |s: &Stage| s.values.iter().any(|v| v.name == *name);
+        let again = own.normal[(k, k)] > 0.0 || stages.iter().any(stated);
+        if again && prior.known.normal[(k, k)] > 0.0 {
+            let message = format!(
+                "{name} is stated here and known from {}: if that is the same knowledge, it counts twice",
+                prior.path.display()
+            );
+            let hint = "leave it out of [unknown.prior], `unknown` or `values`, or out of the file";
+            root.warn("prior-twice", message, hint);
         }
     }
 }

@@ -43,8 +43,7 @@ impl Known {
         }
         // mm and rad differ by powers of ten: correlations are inverted, not covariances.
         let m = scale.len();
-        let correlation =
-            DMatrix::from_fn(m, m, |i, j| covariance[(i, j)] / (scale[i] * scale[j]));
+        let correlation = DMatrix::from_fn(m, m, |i, j| covariance[(i, j)] / (scale[i] * scale[j]));
         let asymmetry = (&correlation - correlation.transpose()).amax();
         let half = correlation.cholesky().filter(|_| asymmetry < 1e-9)?;
         let in_u = DMatrix::from_fn(m, rows.ncols(), |i, j| rows[(i, j)] / scale[i]);
@@ -114,7 +113,8 @@ mod tests {
         let turned = known.on(&["b".to_owned(), "c".to_owned(), "a".to_owned()]);
         assert!((turned.normal[(2, 0)] + 2.0 / 3.0).abs() < 1e-15 && turned.normal[(1, 1)] == 0.0);
         let impossible = DMatrix::from_row_slice(2, 2, &[1.0, 2.0, 2.0, 1.0]);
-        let none = Known::of_rows(vec![String::new(); 2], &DMatrix::identity(2, 2), &g, &impossible);
+        let none =
+            Known::of_rows(vec![String::new(); 2], &DMatrix::identity(2, 2), &g, &impossible);
         assert!(none.is_none());
     }
 }

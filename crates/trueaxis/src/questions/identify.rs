@@ -5,8 +5,8 @@ use crate::files::output::{Kind, may_write_machine};
 use crate::report;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use trueaxis_calibrate::identify::covariance_file::{BEGINS, covariance_file};
 use trueaxis_calibrate::identify::convention::{ConventionCheck, check_conventions};
+use trueaxis_calibrate::identify::covariance_file::{BEGINS, covariance_file};
 use trueaxis_calibrate::identify::errors::{Identification, identify};
 use trueaxis_calibrate::identify::machine_file::{MachineFile, machine_file};
 use trueaxis_calibrate::identify::records::{
@@ -130,7 +130,9 @@ impl Question for Identify {
 
     fn outputs(&self, _: Option<&Self::Input>) -> Vec<(PathBuf, &'static Kind)> {
         // A folder that is missing is reported with the machine file.
-        let there = |output: &&PathBuf| output.parent().is_none_or(|f| f.as_os_str().is_empty() || f.is_dir());
+        let there = |output: &&PathBuf| {
+            output.parent().is_none_or(|f| f.as_os_str().is_empty() || f.is_dir())
+        };
         let output = self.output.iter().filter(there);
         output.map(|output| (covariance_path(output), &COVARIANCE)).collect()
     }

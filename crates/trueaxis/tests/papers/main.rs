@@ -21,6 +21,7 @@ mod oracles;
 mod page;
 mod scan;
 mod shop;
+mod stages;
 
 use claim::{Claim, Record, records};
 use std::collections::BTreeSet;
@@ -30,7 +31,7 @@ use std::fs;
 type Ours = fn() -> Vec<f64>;
 
 fn functions() -> Vec<(&'static str, Ours)> {
-    let lists: [&[(&str, Ours)]; 7] = [
+    let lists: [&[(&str, Ours)]; 8] = [
         document_000::CLAIMS,
         document_001::CLAIMS,
         document_002::CLAIMS,
@@ -38,6 +39,7 @@ fn functions() -> Vec<(&'static str, Ours)> {
         document_004::CLAIMS,
         hand::CLAIMS,
         oracles::CLAIMS,
+        stages::CLAIMS,
     ];
     lists.concat()
 }
