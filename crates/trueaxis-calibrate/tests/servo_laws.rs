@@ -354,7 +354,7 @@ fn law_at_one_feed_every_lag_is_named_on_eight_machines() {
 }
 
 #[test]
-fn law_a_common_lag_on_the_paths_f_and_s_is_told_apart_or_named() {
+fn law_a_common_lag_on_the_paths_f_and_s_is_separated_or_named() {
     // Lei and Hsu's own paths with 30 ms in every axis. On one path alone such a lag is a delay along it.
     let file = root().join("examples/05_identify/probe-ball-two-feeds.toml");
     let (read, problems) =
@@ -382,7 +382,7 @@ fn law_a_common_lag_on_the_paths_f_and_s_is_told_apart_or_named() {
             let is_named = found.feeds.not_separable.iter().any(|s| s.name == f.name)
                 || found.unobservable.iter().any(|o| names_it(&o.combination, &f.name));
             let seen = f.value.is_some_and(|(value, u)| 4.0 * u < value);
-            assert!(seen || is_named, "{case}: {} is neither told apart nor named", f.name);
+            assert!(seen || is_named, "{case}: {} is neither separated nor named", f.name);
             apart += usize::from(seen && !is_named);
         }
         let expected = if case == "150 mm/min alone" { 0 } else { 5 };
@@ -420,7 +420,6 @@ fn law_geometry_is_covered_with_lag_present() {
 #[ignore = "cargo nextest run -p trueaxis-calibrate --test servo_laws --run-ignored all covered_between"]
 fn law_geometry_is_covered_between_93_and_97_percent() {
     let (share, all) = coverage(800);
-    println!("{share} of {all}");
     assert!((0.93..=0.97).contains(&share), "{share} of {all}");
 }
 

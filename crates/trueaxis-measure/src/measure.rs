@@ -5,6 +5,7 @@
 //!     readings.csv  ──read_readings──> Readings {commands, values}      ──> identify
 //! ```
 
+pub mod calibration;
 mod campaign;
 mod motion;
 pub mod path;

@@ -7,12 +7,12 @@
 //! ```
 
 use super::records::{is_twin, table_mark};
-use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
+use nalgebra::{Matrix4, Vector4};
 use std::path::Path;
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{CsvTable, Diagnostics, Dimension, Place, Unit};
-use trueaxis_measure::instruments::instrument::SetupError;
 use trueaxis_measure::measure::Campaign;
+use trueaxis_measure::measure::calibration::{add_centre, normal_of_sphere, stated_values, zeros};
 use trueaxis_measure::measure::stages::{BallStage, Stage, ZeroStage};
 use trueaxis_measure::unknowns::design::Design;
 use trueaxis_measure::unknowns::known::Known;
@@ -47,7 +47,8 @@ pub(super) fn read_calibrations(
 ) -> Option<Vec<Calibrated>> {
     let design = campaign.design();
     let read = |stage: &Stage| {
-        let mut found = stated_values(&design, stage);
+        let known = stated_values(&design, stage);
+        let mut found = Calibrated { known, numbers: stage.values.len(), lines: Vec::new() };
         if let Some(zero) = &stage.zero {
             let table = table(campaign, &zero.table, texts, problems)?;
             read_zero(&design, zero, &table, &mut found, problems)?;
@@ -60,39 +61,6 @@ pub(super) fn read_calibrations(
     };
     let all: Vec<Option<Calibrated>> = campaign.stages.list.iter().map(read).collect();
     all.into_iter().collect()
-}
-
-/// What these stages will know before anything was read.
-pub fn planned_calibrations(campaign: &Campaign) -> Vec<Known> {
-    let design = campaign.design();
-    let plan = |stage: &Stage| {
-        let mut found = stated_values(&design, stage);
-        if let Some(zero) = &stage.zero {
-            let noise = design.instruments[zero.instrument].noise;
-            for (k, c) in zeros(&design, zero.instrument) {
-                let u = (noise[c] * noise[c] / zero.count as f64 + zero.u * zero.u).sqrt();
-                found.known.add_value(k, 0.0, u);
-            }
-        }
-        if let Some(ball) = &stage.ball
-            && let Some(inverse) = normal_of_sphere(&ball.directions()).try_inverse()
-        {
-            add_centre(&design, ball, Vec3::zeros(), (inverse, ball.u_mm), &mut found.known);
-        }
-        found.known
-    };
-    campaign.stages.list.iter().map(plan).collect()
-}
-
-fn stated_values(design: &Design, stage: &Stage) -> Calibrated {
-    let names = design.names();
-    let mut known = Known::nothing(names.clone());
-    for value in &stage.values {
-        if let Some(k) = names.iter().position(|name| *name == value.name) {
-            known.add_value(k, value.value, value.u);
-        }
-    }
-    Calibrated { known, numbers: stage.values.len(), lines: Vec::new() }
 }
 
 fn table(
@@ -130,26 +98,6 @@ fn column(
         return None;
     };
     table.in_unit(column, unit, problems)
-}
-
-/// The unknown zeros of an instrument: the unknown and its channel.
-fn zeros(design: &Design, instrument: usize) -> Vec<(usize, usize)> {
-    of_setup(design, instrument, |error| match error {
-        SetupError::Zero(c) => Some(c),
-        _ => None,
-    })
-}
-
-fn of_setup(
-    design: &Design,
-    instrument: usize,
-    wanted: impl Fn(SetupError) -> Option<usize>,
-) -> Vec<(usize, usize)> {
-    let own = &design.instruments[instrument];
-    let first: usize = design.terms.len()
-        + design.instruments[..instrument].iter().map(|i| i.unknowns.len()).sum::<usize>();
-    let unknowns = own.unknowns.iter().enumerate();
-    unknowns.filter_map(|(j, u)| Some((first + j, wanted(u.error)?))).collect()
 }
 
 fn read_zero(
@@ -225,14 +173,6 @@ struct Sphere {
     /// (JᵀJ)⁻¹ of centre and diameter.
     inverse: Matrix4<f64>,
     residuals: Vec<f64>,
-}
-
-/// JᵀJ of centre and diameter for points in these directions from the centre.
-fn normal_of_sphere(directions: &[Vec3]) -> Matrix4<f64> {
-    directions.iter().fold(Matrix4::zeros(), |sum, n| {
-        let row = Vector4::new(-n.x, -n.y, -n.z, -0.5);
-        sum + row * row.transpose()
-    })
 }
 
 fn fit_sphere(points: &[Vec3]) -> Option<Sphere> {
@@ -372,34 +312,6 @@ fn check_ball(
         );
     }
     Some(())
-}
-
-/// The centre with its covariance as knowledge of the unknown coordinates of the ball.
-fn add_centre(
-    design: &Design,
-    stage: &BallStage,
-    off: Vec3,
-    (inverse, u_point): (Matrix4<f64>, f64),
-    known: &mut Known,
-) {
-    let own = of_setup(design, stage.instrument, |error| match error {
-        SetupError::ReferencePoint(i) => Some(i),
-        _ => None,
-    });
-    let names = design.names();
-    let m = own.len();
-    let mut rows = DMatrix::zeros(m, names.len());
-    own.iter().enumerate().for_each(|(row, (k, _))| rows[(row, *k)] = 1.0);
-    let values = DVector::from_fn(m, |row, _| off[own[row].1]);
-    // Points and seat without any uncertainty would still be a value of 1 nm.
-    let seat = stage.seat_u_mm.powi(2) + trueaxis_measure::measure::stages::FIXED_U.powi(2);
-    let covariance = DMatrix::from_fn(m, m, |i, j| {
-        let (a, b) = (own[i].1, own[j].1);
-        inverse[(a, b)] * u_point * u_point + if a == b { seat } else { 0.0 }
-    });
-    if let Some(centre) = Known::of_rows(names, &rows, &values, &covariance) {
-        known.add(&centre, 1.0);
-    }
 }
 
 #[cfg(test)]

@@ -65,8 +65,26 @@ pub struct Test {
     pub degrees_of_freedom: usize,
     /// The probability of a larger χ² by chance. Unit: 1.
     pub p: f64,
-    /// The unknown that differs most: its number, its value before and by this stage.
-    pub worst: Option<(usize, (f64, f64), (f64, f64))>,
+    /// The unknown that differs most; none if none can be compared alone.
+    pub worst: Option<Contrast>,
+}
+
+/// An unknown by two sources, each with its value and standard uncertainty.
+#[derive(Debug, Clone, Copy)]
+pub struct Contrast {
+    /// Its number.
+    pub unknown: usize,
+    /// By the stages before. Unit: mm, rad, s or 1.
+    pub before: (f64, f64),
+    /// By this stage. Unit: mm, rad, s or 1.
+    pub here: (f64, f64),
+}
+
+impl Contrast {
+    /// The difference in its standard uncertainties.
+    fn off(&self) -> f64 {
+        (self.before.0 - self.here.0).abs() / self.before.1.hypot(self.here.1)
+    }
 }
 
 impl Test {
@@ -222,10 +240,11 @@ fn tested(before: &Known, own: &Known, threshold: f64) -> Option<Test> {
         let ((x, u), (after, u_after)) = (old[k]?, new[k]?);
         let (p, q) = (u.powi(-2), u_after.powi(-2));
         let own = q - p;
-        (own > NOTHING * q).then(|| (k, (x, u), ((after * q - x * p) / own, own.powf(-0.5))))
+        let here = || ((after * q - x * p) / own, own.powf(-0.5));
+        (own > NOTHING * q).then(|| Contrast { unknown: k, before: (x, u), here: here() })
     };
-    let off = |w: &(usize, (f64, f64), (f64, f64))| (w.1.0 - w.2.0).abs() / w.1.1.hypot(w.2.1);
-    let worst = (0..old.len()).filter_map(by_stage).max_by(|a, b| off(a).total_cmp(&off(b)));
+    let all = (0..old.len()).filter_map(by_stage);
+    let worst = all.max_by(|a, b| a.off().total_cmp(&b.off()));
     let p = chi_square_tail(chi_square, degrees_of_freedom);
     Some(Test { chi_square, degrees_of_freedom, p, worst })
 }
@@ -248,7 +267,7 @@ fn tell_conflicts(
 ) {
     for (stage, result) in campaign.stages.list.iter().zip(&sequence.results) {
         let Some(test) = result.test.as_ref().filter(|t| t.is_conflict()) else { continue };
-        let worst = test.worst.map_or(String::new(), |(k, before, here)| {
+        let worst = test.worst.map_or(String::new(), |Contrast { unknown: k, before, here }| {
             let (scale, unit) = shown_unit(design.unknown(k));
             let [a, b] = [before, here]
                 .map(|(v, u)| format!("{:.2} {unit} (U {:.2} {unit})", v * scale, 2.0 * u * scale));

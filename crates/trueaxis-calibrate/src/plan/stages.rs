@@ -1,6 +1,6 @@
 //! What each stage of a campaign will determine with what the stages before it hand on.
 
-use crate::identify::stage_tables::planned_calibrations;
+use trueaxis_measure::measure::calibration::planned_calibrations;
 use trueaxis_measure::measure::{Campaign, Readings};
 use trueaxis_measure::unknowns::design::Design;
 use trueaxis_measure::unknowns::fit::{Observability, normal_matrix};

@@ -166,7 +166,7 @@ pub(super) fn stage_entries<'a>(design: &Design, sequence: &'a Sequence) -> Vec<
             degrees_of_freedom: test.degrees_of_freedom,
             p: test.p,
             conflict: test.is_conflict(),
-            worst: test.worst.map(|(k, ..)| sequence.names[k].as_str()),
+            worst: test.worst.map(|c| sequence.names[c.unknown].as_str()),
         }),
         known: (0..sequence.names.len())
             .map(|k| {

@@ -178,7 +178,7 @@ fn warn_of_conventions(check: &ConventionCheck, campaign: &Path, problems: &mut 
 
 const COVARIANCE: Kind = Kind::file("-o", "values and covariance", &[BEGINS.as_bytes()]);
 
-/// `machine.toml` has `machine-covariance.toml` beside it.
+/// `machine-covariance.toml` for `machine.toml`.
 fn covariance_path(output: &Path) -> PathBuf {
     let stem = output.file_stem().unwrap_or_default().to_string_lossy();
     output.with_file_name(format!("{stem}-covariance.toml"))

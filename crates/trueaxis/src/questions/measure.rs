@@ -143,7 +143,10 @@ impl Question for Measure {
             }
         };
         let files = self.files(&campaign, &real, &measurement);
-        let tables = self.tables(&campaign).iter().map(|p| p.display().to_string()).collect();
+        let own = stage_tables(&campaign, &real);
+        let own = own.iter().filter_map(|(path, _)| self.stage_table(path));
+        let tables = self.tables(&campaign).into_iter().chain(own);
+        let tables = tables.map(|p| p.display().to_string()).collect();
         Some(MeasureAnswer { campaign, real, measurement, tables, files })
     }
 }
