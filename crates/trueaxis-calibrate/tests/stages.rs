@@ -352,6 +352,9 @@ fn stages_that_contradict_each_other_name_the_unknown_and_both_values() {
     assert!(place.contains(&format!(":{line}:")), "{place}: line {line}");
     assert!(message.contains("EC0X") && message.contains("p = less than 1e-6"), "{message}");
     assert!(message.contains("before and"), "{message}");
+    let (_, found, ..) = mixed.found();
+    assert_eq!(found.verdict.key(), "stages-contradict");
+    assert!(study.found().1.verdict.is_good());
 }
 
 #[test]
@@ -460,6 +463,27 @@ fn a_prior_of_another_machine_or_set_up_is_refused() {
     let edited = text.replacen("\nu = ", "\nu = 1", 1);
     assert!(codes(&other, edited).iter().any(|t| t.0 == "bad-covariance"));
     assert!(codes(&other, "[covariance]\n".into()).iter().any(|t| t.0 == "missing-key"));
+}
+
+#[test]
+fn a_zero_in_another_unit_and_points_on_a_cap_are_named() {
+    let study = Study::of(16);
+    let zero = study.table("procedure-zero.csv");
+    let small = study.with_table("procedure-zero.csv", zero.replace("_um", "_nm"));
+    assert!(small.told().iter().any(|t| t.0 == "zero-scatters" && t.2.contains("only")));
+    let large = study.with_table("procedure-zero.csv", zero.replace("_um", "_mm"));
+    assert!(
+        large.told().iter().any(|t| t.0 == "stage-set-up" && t.1.contains("procedure-zero.csv:"))
+    );
+    // A cap of 10 degrees about the pole.
+    let mut cap = "x_mm,y_mm,z_mm\n".to_owned();
+    for k in 0..12 {
+        let (lean, turn) = (f64::from(k % 3) * 0.08, f64::from(k));
+        let r = 12.5 * lean.sin();
+        cap += &format!("{},{},{}\n", r * turn.cos(), r * turn.sin(), 12.5 * lean.cos());
+    }
+    let told = study.with_table("procedure-ball.csv", cap).told();
+    assert!(told.iter().any(|t| t.0 == "no-sphere" && t.2.contains("cap")), "{told:?}");
 }
 
 #[test]

@@ -77,6 +77,8 @@ pub enum Verdict {
     TurnsWith(String, f64),
     /// The residual follows neither.
     Unexplained,
+    /// A stage contradicts the stages before it; its name.
+    StagesContradict(String),
 }
 
 impl Verdict {
@@ -103,6 +105,9 @@ impl Verdict {
                                   the linear nor the rotary axes: look at the instrument, at drift, \
                                   at conventions"
                 .to_owned(),
+            Self::StagesContradict(stage) => format!(
+                "stage `{stage}` contradicts what was known before: the result is a mean of two set-ups"
+            ),
         }
     }
 
@@ -114,6 +119,7 @@ impl Verdict {
             Self::FollowsPlaces(_) => "follows-xyz",
             Self::TurnsWith(..) => "turns-with-axis",
             Self::Unexplained => "unexplained",
+            Self::StagesContradict(_) => "stages-contradict",
         }
     }
 }
@@ -194,6 +200,9 @@ pub fn identify(
             found.sequence = sequence.map(|mut sequence| {
                 let values: Vec<Value> = found.found.iter().map(|f| f.value).collect();
                 compare(&mut sequence, &values, &place, problems);
+                if let Some(stage) = sequence.contradicting() {
+                    found.verdict = Verdict::StagesContradict(stage.to_owned());
+                }
                 sequence
             });
             Some(found)

@@ -25,6 +25,8 @@ const LEAST_SURE: f64 = 20.0;
 const FAR_MM: f64 = 2.0;
 /// A standard deviation this many times what is stated is no chance.
 const SCATTER: f64 = 2.0;
+/// A standard deviation this many times what is stated is none: a copy, or another unit.
+const QUIET: f64 = 0.02;
 /// Passes of the fit of a sphere.
 const PASSES: usize = 30;
 
@@ -143,6 +145,16 @@ fn read_zero(
             );
             let hint = "dirt, drift, another probe, or a unit? see the rows";
             problems.warn("zero-scatters", worst_row(table, &values, mean), message, hint);
+        }
+        if s < QUIET * instrument.noise[c] && values.len() > 4 {
+            let message = format!(
+                "{name} scatters by {:.4} {unit} only, the noise of {} is {:.3} {unit}",
+                s * scale,
+                instrument.name,
+                instrument.noise[c] * scale
+            );
+            let hint = "one reading copied, or another unit? x_um is not x_mm";
+            problems.warn("zero-scatters", table.row_place(0), message, hint);
         }
         let a = s.max(instrument.noise[c]) / n.sqrt();
         let u = a.hypot(stage.u);

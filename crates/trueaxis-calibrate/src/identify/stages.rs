@@ -25,6 +25,8 @@ use trueaxis_measure::unknowns::known::Known;
 
 /// Stages that agree are reported to disagree once in a hundred campaigns.
 const UNLIKELY: f64 = 0.01;
+/// Below this the result is no result.
+const NO_CHANCE: f64 = 1e-3;
 /// A value that loses less than this share of its variance says nothing of a stage.
 const NOTHING: f64 = 1e-6;
 /// Stages and all readings at once may differ by that many standard uncertainties: products of errors.
@@ -103,6 +105,14 @@ pub struct Sequence {
     pub results: Vec<StageResult>,
     /// The largest difference to all readings at once, in standard uncertainties. Unit: 1.
     pub difference: f64,
+}
+
+impl Sequence {
+    /// The first stage whose contradiction is no chance.
+    pub fn contradicting(&self) -> Option<&str> {
+        let bad = |r: &&StageResult| r.test.as_ref().is_some_and(|t| t.p < NO_CHANCE);
+        self.results.iter().find(bad).map(|r| r.name.as_str())
+    }
 }
 
 /// A stage while the sequence is worked out.

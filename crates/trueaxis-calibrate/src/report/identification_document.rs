@@ -89,7 +89,8 @@ pub struct IdentificationDocument<'a> {
 /// The result.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct VerdictEntry {
-    /// `explained`, `over-fitted`, `follows-xyz`, `turns-with-axis` or `unexplained`.
+    /// `explained`, `over-fitted`, `follows-xyz`, `turns-with-axis`, `unexplained` or
+    /// `stages-contradict`.
     pub key: &'static str,
     /// In words.
     pub words: String,

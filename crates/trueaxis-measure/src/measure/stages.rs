@@ -200,7 +200,13 @@ fn read_stage(section: &Section<'_>, context: &Context<'_>) -> Option<Stage> {
         values,
         with,
     };
+    let asked =
+        ["instruments", "zero", "ball", "values"].iter().any(|key| section.get(key).is_some());
     if stage.instruments.is_empty() && !stage.is_calibration() {
+        if asked {
+            // What is wrong with it was reported there, unless it is empty.
+            return None;
+        }
         let message = format!("stage `{}` measures nothing", stage.name);
         let hint = "instruments = [\"ball-bar\"], zero = { … }, ball = { … }, or values = { … }";
         section.error("missing-key", message, hint);
