@@ -24,6 +24,10 @@ $trueaxis identify examples/05_identify/probe-ball-two-feeds.toml --format json
 # Ball-bar, R-test and laser at once.
 $trueaxis identify examples/05_identify/mixed-instruments.toml
 $trueaxis identify examples/05_identify/mixed-instruments.toml --check-conventions
+# Zero of the probe, its ball, linear axes, rotary axes: each stage knows what the stages before it found.
+$trueaxis plan examples/05_identify/probe-ball-procedure.toml
+$trueaxis identify examples/05_identify/probe-ball-procedure.toml -o "${TMPDIR:-/tmp}/procedure.toml"
+$trueaxis identify examples/05_identify/probe-ball-procedure.toml --format json
 # Where are the rotary centres, and what must be entered in the control? Zhang et al. 2023, steps 1 to 4.
 $trueaxis identify rtcp examples/05_identify/rtcp-engraver.toml
 $trueaxis identify rtcp examples/05_identify/rtcp-engraver.toml --format json

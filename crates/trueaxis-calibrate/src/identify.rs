@@ -11,6 +11,7 @@
 pub mod checks;
 pub mod conflict;
 pub mod convention;
+pub mod covariance_file;
 pub mod errors;
 pub mod expansion;
 pub mod feeds;
@@ -23,6 +24,8 @@ pub mod records;
 pub mod rtcp;
 pub mod score;
 pub mod selection;
+pub mod stage_tables;
+pub mod stages;
 pub mod surface;
 pub mod thermal;
 pub mod tool_setting;

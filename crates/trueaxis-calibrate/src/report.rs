@@ -13,6 +13,7 @@ mod probe_document;
 mod probe_pictures;
 mod rtcp;
 mod rtcp_document;
+mod stages;
 mod surface;
 mod surface_document;
 mod thermal;

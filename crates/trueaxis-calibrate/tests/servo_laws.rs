@@ -121,6 +121,7 @@ fn campaign(machine: &Machine, with_servo: bool) -> Campaign {
         terms,
         instruments: vec![probe(machine)],
         tables: vec![Vec::new()],
+        stages: Default::default(),
     }
 }
 
@@ -235,55 +236,193 @@ fn score(campaign: &Campaign, injected: &Injected, found: &Identification) -> [u
     counts
 }
 
+/// The servo unknowns that are named as not observable, by their names.
+fn named(found: &Identification) -> Vec<String> {
+    let is_named = |name: &str| found.unobservable.iter().any(|u| names_it(&u.combination, name));
+    let unseen = found.design.terms.iter().zip(&found.found).filter(|(t, f)| {
+        // A servo unknown without a value that is named nowhere would be lost in silence.
+        let lost = t.basis.is_servo() && f.value.is_none();
+        assert!(!lost || is_named(&f.name), "{} is neither found nor named", f.name);
+        lost
+    });
+    unseen.map(|(_, f)| f.name.clone()).collect()
+}
+
+/// Whether a name stands in a sum such as `EX0C − 2 · lag X + lag Y`.
+fn names_it(sum: &str, name: &str) -> bool {
+    sum.split(['−', '+', '·']).any(|part| part.trim() == name)
+}
+
+/// The gain mismatch of every lag against the first that is seen, true and found with its u, s.
+fn mismatches(found: &Identification, injected: &Injected) -> Vec<[f64; 3]> {
+    let lags: Vec<(usize, f64)> = found
+        .design
+        .terms
+        .iter()
+        .enumerate()
+        .filter(|(k, t)| t.basis.is_lag() && found.found[*k].value.is_some())
+        .filter_map(|(k, t)| Some((k, injected.axes[t.axis?].lag_s)))
+        .collect();
+    let c = &found.fit.covariance;
+    let pairs = lags.iter().skip(1).map(|(k, truth)| {
+        let (first, first_truth) = lags[0];
+        let value = |k: usize| found.found[k].value.map_or(f64::NAN, |(v, _)| v);
+        let variance = c[(*k, *k)] + c[(first, first)] - 2.0 * c[(*k, first)];
+        let u = variance.max(0.0).sqrt() * found.birge;
+        [truth - first_truth, value(*k) - value(first), u]
+    });
+    pairs.collect()
+}
+
 #[test]
 fn law_lag_gain_friction_and_lost_motion_at_three_feeds_come_back_on_eight_machines() {
+    // Lag, lost motion and friction of every axis come back within 2 U; so do gain mismatch and velocity
+    // gain. What is not observable is named and not counted: C under a tool on its own axis turns nothing.
     let mut random = Random(2003);
-    for name in MACHINES.iter().take(8) {
+    let (mut counts, mut unseen) = ([0; 3], Vec::new());
+    for name in MACHINES {
+        let campaign = campaign(&machine(name), true);
+        for seed in 5..8 {
+            let injected = inject(&campaign, &mut random);
+            let feeds = [STILL, Some(30.0), Some(150.0)];
+            let found = found(&campaign, readings(&campaign, &injected, &feeds, seed));
+            let of_this = score(&campaign, &injected, &found);
+            let named = named(&found);
+            let all = found.design.terms.len();
+            assert_eq!(of_this[2] + unseen_of(&found), all, "{name}");
+            for [truth, value, u] in mismatches(&found, &injected) {
+                assert!(
+                    (value - truth).abs() < 4.0 * u,
+                    "{name}: mismatch {value:e} ± {u:e}, {truth:e}"
+                );
+            }
+            for (term, f) in found.design.terms.iter().zip(&found.found) {
+                let (true, Some((lag, u)), Some(axis)) = (term.basis.is_lag(), f.value, term.axis)
+                else {
+                    continue;
+                };
+                // Kv = 1/τ, u(Kv) = u/τ². A U as large as the lag would prove nothing.
+                let (kv, true_kv) = (1.0 / lag, 1.0 / injected.axes[axis].lag_s);
+                assert!((kv - true_kv).abs() < 4.0 * u * kv * true_kv, "{name}: Kv of {}", f.name);
+                assert!(2.0 * u < 0.3 * lag, "{name}: {} U {:e}", f.name, 2.0 * u);
+            }
+            (0..3).for_each(|k| counts[k] += of_this[k]);
+            if seed == 5 {
+                unseen.extend(named.iter().map(|n| format!("{name}: {n}")));
+            }
+        }
+    }
+    let share = counts[1] as f64 / counts[2] as f64;
+    assert!((0.93..=0.97).contains(&share), "U is stated properly: {share} within it");
+    assert_eq!(counts[2], 543, "all others, three times");
+    assert_eq!(unseen, UNSEEN);
+}
+
+/// The servo unknowns of all eight machines that these paths cannot show: C turns under a point on its own axis.
+/// B of nutating-head lies along no axis of the machine: a campaign refuses its servo (`inclined-axis`).
+const UNSEEN: [&str; 6] = [
+    "i5-engraver: lag C",
+    "i5-engraver: lost motion C",
+    "i5-engraver: friction C",
+    "nutating-head: lag C",
+    "nutating-head: lost motion C",
+    "nutating-head: friction C",
+];
+
+fn unseen_of(found: &Identification) -> usize {
+    found.design.terms.iter().zip(&found.found).filter(|(_, f)| f.value.is_none()).count()
+}
+
+#[test]
+fn law_at_one_feed_every_lag_is_named_on_eight_machines() {
+    let mut random = Random(30);
+    for name in MACHINES {
         let campaign = campaign(&machine(name), true);
         let injected = inject(&campaign, &mut random);
-        let feeds = [STILL, Some(30.0), Some(150.0)];
-        let found = found(&campaign, readings(&campaign, &injected, &feeds, 5));
-        let [_, _, all] = score(&campaign, &injected, &found);
-        let servo = found.design.terms.iter().zip(&found.found);
-        let seen = servo.filter(|(t, f)| t.basis.is_lag() && f.value.is_some()).count();
-        // C under a tool on its own axis moves nothing.
-        assert!(
-            seen + 1 >= campaign.terms.iter().filter(|t| t.basis.is_lag()).count(),
-            "{name}: the lags are seen"
-        );
-        assert!(all > 2 * seen, "{name}");
+        let one = found(&campaign, readings(&campaign, &injected, &[Some(150.0)], 5));
+        let lags = one.design.terms.iter().zip(&one.found).filter(|(t, _)| t.basis.is_lag());
+        for (_, lag) in lags {
+            let shared = one.feeds.not_separable.iter().find(|s| s.name == lag.name);
+            let words = shared.map(|s| s.words()).unwrap_or_default();
+            let unseen = one.unobservable.iter().any(|u| names_it(&u.combination, &lag.name));
+            assert!(unseen || words.contains(&lag.name), "{name}: {} is not named", lag.name);
+            // By name what it passes for, or that nothing shows it.
+            assert!(unseen || shared.is_some_and(|s| !s.passes_for.is_empty()), "{name}: {words}");
+        }
+        let three = [STILL, Some(30.0), Some(150.0)];
+        let all = found(&campaign, readings(&campaign, &injected, &three, 5));
+        assert!(all.feeds.not_separable.is_empty(), "{name}: {:?}", all.feeds.not_separable);
     }
 }
 
-/// 95 % intervals of geometry with lag present; `--ignored` runs 400 campaigns in place of 40.
-fn coverage(campaigns: u64) -> f64 {
+#[test]
+fn law_a_common_lag_on_the_paths_f_and_s_is_separated_or_named() {
+    // Lei and Hsu's own paths with 30 ms in every axis. On one path alone such a lag is a delay along it.
+    let file = root().join("examples/05_identify/probe-ball-two-feeds.toml");
+    let (read, problems) =
+        read_campaign(&disk(), &file, |root, campaign| read_virtual(root, campaign, None));
+    let (campaign, mut real) = read.unwrap_or_else(|| panic!("{problems:?}"));
+    const LAG_S: f64 = 0.03;
+    real.disturb.axes.iter_mut().for_each(|a| a.lag_s = LAG_S);
+    let made = measure(&campaign, &real).expect("no tables").readings;
+    let feed = |i: usize| made.motions[i].feed_mm_per_s.unwrap_or(0.0);
+    let cases: [(&str, Readings); 3] = [
+        ("three feeds", made.clone()),
+        ("150 mm/min alone", made.filtered(|i| feed(i) > 2.0)),
+        ("30 and 150 mm/min", made.filtered(|i| feed(i) > 0.1)),
+    ];
+    for (case, readings) in cases {
+        let found = found(&campaign, readings);
+        let mut apart = 0;
+        for (term, f) in found.design.terms.iter().zip(&found.found) {
+            if !term.basis.is_lag() {
+                continue;
+            }
+            if let Some((value, u)) = f.value {
+                assert!((value - LAG_S).abs() < 4.0 * u, "{case}: {} {value} ± {u}", f.name);
+            }
+            let is_named = found.feeds.not_separable.iter().any(|s| s.name == f.name)
+                || found.unobservable.iter().any(|o| names_it(&o.combination, &f.name));
+            let seen = f.value.is_some_and(|(value, u)| 4.0 * u < value);
+            assert!(seen || is_named, "{case}: {} is neither separated nor named", f.name);
+            apart += usize::from(seen && !is_named);
+        }
+        let expected = if case == "150 mm/min alone" { 0 } else { 5 };
+        assert_eq!(apart, expected, "{case}");
+    }
+}
+
+/// 95 % intervals of geometry with lag present, on all machines in turn: the share that holds, of how many.
+fn coverage(campaigns: u64) -> (f64, u32) {
     let mut random = Random(77);
-    let campaign = campaign(&machine(MACHINES[0]), true);
+    let all_machines = MACHINES.map(|name| campaign(&machine(name), true));
     let (mut within, mut all) = (0, 0);
     for seed in 0..campaigns {
-        let injected = inject(&campaign, &mut random);
-        let found = found(&campaign, readings(&campaign, &injected, &[STILL, Some(150.0)], seed));
+        let campaign = &all_machines[seed as usize % MACHINES.len()];
+        let injected = inject(campaign, &mut random);
+        let found = found(campaign, readings(campaign, &injected, &[STILL, Some(150.0)], seed));
         for (term, f) in found.design.terms.iter().zip(&found.found) {
             let (false, Some((value, u))) = (term.basis.is_servo(), f.value) else { continue };
-            let off = (value - truth_of(&campaign, &injected, term)).abs();
-            within += usize::from(off < 1.96 * u);
+            let off = (value - truth_of(campaign, &injected, term)).abs();
+            within += u32::from(off < 1.96 * u);
             all += 1;
         }
     }
-    within as f64 / f64::from(all)
+    (f64::from(within) / f64::from(all), all)
 }
 
 #[test]
 fn law_geometry_is_covered_with_lag_present() {
-    let share = coverage(40);
-    assert!((0.90..=0.99).contains(&share), "{share}");
+    let (share, all) = coverage(40);
+    assert!((0.91..=0.985).contains(&share), "{share} of {all}");
 }
 
+/// On 24 November 2026, 100 campaigns on each of the eight machines: 94.5 % of 8200 intervals.
 #[test]
-#[ignore = "cargo nextest run -p trueaxis-calibrate --test servo_laws --run-ignored all"]
+#[ignore = "cargo nextest run -p trueaxis-calibrate --test servo_laws --run-ignored all covered_between"]
 fn law_geometry_is_covered_between_93_and_97_percent() {
-    let share = coverage(400);
-    assert!((0.93..=0.97).contains(&share), "{share}");
+    let (share, all) = coverage(800);
+    assert!((0.93..=0.97).contains(&share), "{share} of {all}");
 }
 
 #[test]

@@ -14,7 +14,7 @@ const OTHER_WORDS: &str = "ball-bar cache-control content-security-policy conten
     follows-xyz four-hits four-hits-corrected gbt17421-2 head-head iso230-2 iso230-3 iso230-4 iso230-6 iso230-7 laser-angle \
     laser-line least-squares length-tracker linuxcnc-trims no-referrer no-store not-a-knot on-axis on-cone \
     over-fitted probe-ball referrer-policy ring-corrected ring-hits surface-hits z-datum z-datum-corrected same-origin sans-serif set-error set-up simulation-at \
-    simulation-block simulation-curves simulation-path simulation-source small-angle table-table \
+    simulation-block simulation-curves simulation-path simulation-source small-angle stages-contradict table-table \
     test-piece touch-probe-ball touch-probe-face turns-with-axis utf-8 utf-16 what-if w-offset \
     x-content-type-options x-rot x-rot-point x-www-browser x-www-form-urlencoded \
     kebab-case serve-socket-request xdg-open xyzac-trt-kins xyzbc-trt-kins y-rot y-rot-point z-offset z-rot-point numbers";

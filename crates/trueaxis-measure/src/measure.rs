@@ -5,11 +5,14 @@
 //!     readings.csv  ──read_readings──> Readings {commands, values}      ──> identify
 //! ```
 
+pub mod calibration;
 mod campaign;
 mod material;
 mod motion;
 pub mod path;
+pub mod prior;
 mod servo;
+pub mod stages;
 pub mod virtual_campaign;
 
 pub use crate::instruments::{Instrument, Kind, Motion, Reading, Readings, instrument};

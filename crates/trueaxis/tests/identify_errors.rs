@@ -91,6 +91,7 @@ fn campaign(name: &str, terms: Vec<Term>, kind: Kind) -> Campaign {
         terms,
         instruments,
         tables: vec![Vec::new()],
+        stages: Default::default(),
         machine,
     }
 }

@@ -59,6 +59,7 @@ fn campaign(machine: &Machine, instrument: Instrument) -> Campaign {
         terms: Vec::new(),
         instruments: vec![instrument],
         tables: vec![Vec::new()],
+        stages: Default::default(),
     }
 }
 

@@ -10,6 +10,7 @@ use trueaxis_machine::errors::{Component, ErrorIndex, ErrorKind, ErrorValues};
 use trueaxis_measure::instruments::instrument::Sight;
 use trueaxis_measure::measure::Readings;
 use trueaxis_measure::unknowns::design::Design;
+use trueaxis_measure::unknowns::fit::Observability;
 use trueaxis_measure::unknowns::term::Basis;
 
 /// An axis of rotation that passes so near to the ball says nothing by turning, mm.
@@ -55,7 +56,8 @@ pub fn check_records(
             .filter(|k| read[*k])
             .map(|k| design.instruments[k].unknowns.len())
             .sum::<usize>();
-    if numbers <= unknowns {
+    let known = design.known().map_or(0, |known| Observability::of(&known.normal).rank);
+    if numbers + known <= unknowns {
         let message = format!(
             "{numbers} numbers in {} readings cannot carry {unknowns} unknowns",
             readings.len()

@@ -15,6 +15,7 @@ use super::records::{Loss, Options, Records};
 use super::score::{Residuals, Score, repeatability};
 use super::selection;
 use super::selection::{Candidates, Selection, Sums, parts_by_place, select};
+use super::stages::{Sequence, Value, compare, go_through};
 use crate::plan::Unobservable;
 use nalgebra::DVector;
 use trueaxis_geometry::statistics::{chi_square_above, normal_quantile_above, robust_deviation};
@@ -78,6 +79,8 @@ pub enum Verdict {
     TurnsWith(String, f64),
     /// The residual follows neither.
     Unexplained,
+    /// A stage contradicts the stages before it; its name.
+    StagesContradict(String),
 }
 
 impl Verdict {
@@ -104,6 +107,9 @@ impl Verdict {
                                   the linear nor the rotary axes: look at the instrument, at drift, \
                                   at conventions"
                 .to_owned(),
+            Self::StagesContradict(stage) => format!(
+                "stage `{stage}` contradicts what was known before: the result is a mean of two set-ups"
+            ),
         }
     }
 
@@ -115,6 +121,7 @@ impl Verdict {
             Self::FollowsPlaces(_) => "follows-xyz",
             Self::TurnsWith(..) => "turns-with-axis",
             Self::Unexplained => "unexplained",
+            Self::StagesContradict(_) => "stages-contradict",
         }
     }
 }
@@ -158,6 +165,8 @@ pub struct Identification {
     pub conventions: Option<ConventionCheck>,
     /// At which feeds it was read, and what cannot be separated at them.
     pub feeds: Feeds,
+    /// The stages one after the other, if the campaign has any.
+    pub sequence: Option<Sequence>,
 }
 
 /// Identifies; `None` with errors in `problems`.
@@ -185,16 +194,55 @@ pub fn identify(
     if problems.has_errors() {
         return None;
     }
-    match Work::of(whole, records, options, parts) {
+    let (sequence, whole, options) = through_stages(campaign, whole, options, records, problems)?;
+    match Work::of(whole, records, &options, parts) {
         Ok(work) => {
             check_conflicts(&work.whole, readings, &work.z, &place, problems);
-            Some(work.identification(campaign, places))
+            let mut found = work.identification(campaign, places);
+            found.sequence = sequence.map(|mut sequence| {
+                let values: Vec<Value> = found.found.iter().map(|f| f.value).collect();
+                compare(&mut sequence, &values, &place, problems);
+                if let Some(stage) = sequence.contradicting() {
+                    found.verdict = Verdict::StagesContradict(stage.to_owned());
+                }
+                sequence
+            });
+            Some(found)
         }
         Err(fault) => {
             tell_fault(&fault, records, &place, problems);
             None
         }
     }
+}
+
+/// The stages, what all readings at once start from, and how they are evaluated.
+fn through_stages(
+    campaign: &Campaign,
+    whole: Design,
+    options: &Options,
+    records: &Records,
+    problems: &mut Diagnostics,
+) -> Option<(Option<Sequence>, Design, Options)> {
+    if campaign.stages.list.is_empty() {
+        return Some((None, whole, options.clone()));
+    }
+    if options.loss != Loss::Squares {
+        let place = Place::whole(&campaign.path.display().to_string());
+        let message =
+            "what stages hand on are sums of squares; loss = \"huber\" has none".to_owned();
+        problems.error(
+            "stages-need-squares",
+            place,
+            message,
+            "loss = \"squares\"; delete wrong rows",
+        );
+        return None;
+    }
+    // What one stage leaves out would be missing in the next: all unknowns stay in.
+    let options = Options { selection: false, ..options.clone() };
+    let (sequence, whole) = go_through(campaign, &whole, &options, records, problems)?;
+    Some((Some(sequence), whole, options))
 }
 
 /// The fit of all candidates, the choice among them, and the fit of what was chosen.
@@ -234,6 +282,7 @@ impl<'a> Work<'a> {
         let numbers: Vec<usize> = (0..whole.unknowns()).filter(chosen).collect();
         let terms = numbers.iter().filter_map(|k| whole.terms.get(*k).copied()).collect();
         let design = Design::new(&whole.machine, terms, whole.instruments.clone());
+        let design = design.with_known(whole.known());
         let fit = fit_by(options.rule(), &design, readings, &weights)?;
         let setup_only = setup_only(&whole, &sums, &priors);
         Ok(Self {
@@ -282,6 +331,7 @@ impl<'a> Work<'a> {
             influences: influences(design, readings, &self.weights, &self.fit),
             conventions: suspicious.then(|| check_conventions(&self.whole, readings)),
             feeds: feeds(campaign, readings),
+            sequence: None,
             reach: reach(readings),
             selection: self.selection,
             score,
@@ -348,7 +398,12 @@ pub fn huber_weights(design: &Design, readings: &Readings, found: &Fit) -> Vec<f
         .collect()
 }
 
-fn tell_fault(fault: &FitError, records: &Records, place: &Place, problems: &mut Diagnostics) {
+pub(super) fn tell_fault(
+    fault: &FitError,
+    records: &Records,
+    place: &Place,
+    problems: &mut Diagnostics,
+) {
     let (place, hint) = match fault {
         FitError::Outside { row, .. } => {
             (records.place(*row), "correct the pose, or extend the table of the machine file")
@@ -359,7 +414,7 @@ fn tell_fault(fault: &FitError, records: &Records, place: &Place, problems: &mut
 }
 
 /// Residual plus model, linear about the solution, mm or rad.
-fn linearised(design: &Design, readings: &Readings, first: &Fit) -> Vec<[f64; 3]> {
+pub(super) fn linearised(design: &Design, readings: &Readings, first: &Fit) -> Vec<[f64; 3]> {
     let values = DVector::from_column_slice(&first.values);
     by_rows(design, readings, |i, c, slopes| {
         first.residuals[i][c] + slopes.iter().zip(values.iter()).map(|(a, b)| a * b).sum::<f64>()
@@ -390,7 +445,8 @@ fn sums_of_parts(
 
 /// Error motions may be in; everything else is, the servo too.
 fn candidates(design: &Design) -> Candidates {
-    let is_motion = |k: &usize| matches!(design.unknown(*k), Some(Unknown::Term(t)) if t.error.kind == ErrorKind::Motion && !t.basis.is_servo());
+    let is_known = |k: usize| design.known().is_some_and(|known| known.normal[(k, k)] > 0.0);
+    let is_motion = |k: &usize| matches!(design.unknown(*k), Some(Unknown::Term(t)) if t.error.kind == ErrorKind::Motion && !t.basis.is_servo() && !is_known(*k));
     let (maybe, always) = (0..design.unknowns()).partition(is_motion);
     Candidates { always, maybe }
 }

@@ -157,14 +157,21 @@ pub(super) fn feeds(campaign: &Campaign, readings: &Readings) -> Feeds {
     Feeds { counts, not_separable }
 }
 
+/// Whether all was read at one feed. A row that stands where a pass begins is not a measurement standing: it
+/// has one after it that moves, and none before it that stands.
+fn is_one_feed(readings: &Readings) -> bool {
+    let motions = &readings.motions;
+    let stands = |i: usize| motions.get(i).is_some_and(|m| m.feed_mm_per_s == Some(0.0));
+    let begins = |i: usize| !(i > 0 && stands(i - 1)) && i + 1 < motions.len() && !stands(i + 1);
+    let mut feeds = (0..motions.len()).filter(|i| !begins(*i) || !stands(*i));
+    let first = feeds.next().map(|i| motions[i].feed_mm_per_s);
+    feeds.all(|i| Some(motions[i].feed_mm_per_s) == first)
+}
+
 fn shared_lags(campaign: &Campaign, readings: &Readings) -> Vec<SharedLag> {
     let made: Vec<Term> = campaign.terms.iter().filter(|t| !t.basis.is_servo()).copied().collect();
     // At one feed only the shape of the path separates a lag: all are named.
-    let moving = readings.motions.iter().filter(|m| m.is_moving());
-    let one_feed = moving
-        .clone()
-        .all(|m| m.feed_mm_per_s == moving.clone().next().and_then(|m| m.feed_mm_per_s))
-        && !readings.motions.iter().any(|m| m.feed_mm_per_s == Some(0.0));
+    let one_feed = is_one_feed(readings);
     let mut shared = Vec::new();
     for lag in lags(campaign, readings) {
         let mut terms = made.clone();

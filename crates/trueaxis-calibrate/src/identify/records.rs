@@ -1,6 +1,9 @@
 //! The readings of a campaign with the file that each came from.
 
+use super::stage_tables::{Calibrated, read_calibrations};
+use std::collections::BTreeMap;
 use trueaxis_input::{CsvTable, Diagnostics, Item, Place, Section};
+use trueaxis_measure::measure::prior::mark;
 use trueaxis_measure::measure::{Campaign, Readings, fill_motion};
 use trueaxis_measure::unknowns::fit::{Model, Rule};
 
@@ -9,6 +12,10 @@ use trueaxis_measure::unknowns::fit::{Model, Rule};
 pub struct Records {
     /// The rows of all tables, one table after the other.
     pub readings: Readings,
+    /// What each stage knows without the axes of the machine.
+    pub calibrated: Vec<Calibrated>,
+    /// Every table with its mark.
+    pub marks: Vec<(String, String)>,
     /// The first row of each table, and its file.
     tables: Vec<(usize, String)>,
 }
@@ -16,7 +23,7 @@ pub struct Records {
 impl Records {
     /// Readings that came from no file.
     pub fn bare(readings: Readings) -> Self {
-        Self { readings, tables: Vec::new() }
+        Self { readings, ..Self::default() }
     }
 
     /// File and line of a row.
@@ -73,20 +80,87 @@ pub fn read_records_with(
         }
         for (file, text) in read {
             sound &= text.is_some_and(|text| {
-                !is_twin(&file, &text, &texts, problems) && {
+                !is_twin(campaign, &file, &text, &texts, problems) && {
                     let table = CsvTable::parse(&file, &text, problems);
-                    texts.push((file, text));
+                    texts.push((file, table_mark(&text)));
                     records.add(campaign, index, &table, problems).is_some()
                 }
             });
         }
     }
+    records.calibrated = read_calibrations(campaign, &mut texts, problems).unwrap_or_default();
+    records.marks = texts;
+    check_copies(&records, problems);
     (sound && !problems.has_errors()).then_some(records)
 }
 
+/// The mark of a table: comments and ends of lines do not count.
+pub(super) fn table_mark(text: &str) -> String {
+    let lines = text.lines().map(str::trim).filter(|l| !l.is_empty() && !l.starts_with('#'));
+    mark(&lines.collect::<Vec<_>>().join("\n"))
+}
+
+/// Rows that stand in two tables, digit for digit, are one reading.
+fn check_copies(records: &Records, problems: &mut Diagnostics) {
+    let readings = &records.readings;
+    let mut first: BTreeMap<Vec<u64>, usize> = BTreeMap::new();
+    let mut copies: BTreeMap<(usize, usize), Vec<(usize, usize)>> = BTreeMap::new();
+    let table_of = |row: usize| records.tables.iter().rposition(|(start, _)| *start <= row);
+    let rows_of = |table: usize| {
+        let end = records.tables.get(table + 1).map_or(readings.len(), |(start, _)| *start);
+        end - records.tables[table].0
+    };
+    for row in 0..readings.len() {
+        let numbers = readings.commands[row].iter().chain(&readings.values[row]);
+        let key: Vec<u64> = numbers.map(|v| (v + 0.0).to_bits()).collect();
+        let Some(own) = table_of(row) else { continue };
+        match first.get(&key).map(|old| (*old, table_of(*old))) {
+            Some((old, Some(other))) if other != own => {
+                copies.entry((other, own)).or_default().push((old, row));
+            }
+            Some(_) => {}
+            None => {
+                first.insert(key, row);
+            }
+        }
+    }
+    for ((other, own), rows) in copies {
+        let least = rows_of(other).min(rows_of(own)).div_ceil(2).max(FEWEST_COPIES);
+        let Some((old, new)) = rows.first().filter(|_| rows.len() >= least) else { continue };
+        let there = records.place(*old);
+        let message = format!(
+            "{} rows stand in {} too, this one in line {}",
+            rows.len(),
+            there.file,
+            there.line
+        );
+        let hint = "readings that count twice look too sure: delete them in one of the files";
+        problems.error("duplicate-readings", records.place(*new), message, hint);
+    }
+}
+
+/// Fewer equal rows in two tables are chance.
+const FEWEST_COPIES: usize = 3;
+
 /// Whether the same readings came before, which is an error.
-fn is_twin(file: &str, text: &str, known: &[(String, String)], problems: &mut Diagnostics) -> bool {
-    let twin = known.iter().find(|(_, known)| known == text);
+pub(super) fn is_twin(
+    campaign: &Campaign,
+    file: &str,
+    text: &str,
+    known: &[(String, String)],
+    problems: &mut Diagnostics,
+) -> bool {
+    let mark = table_mark(text);
+    let prior = campaign.stages.prior.as_ref();
+    if let Some((prior, (was, _))) =
+        prior.and_then(|p| Some((p, p.readings.iter().find(|(_, known)| *known == mark)?)))
+    {
+        let message = format!("these readings are in {} already, as {was}", prior.path.display());
+        let hint = "readings that count twice look too sure: leave out the table or the prior";
+        problems.error("duplicate-file", Place::whole(file), message, hint);
+        return true;
+    }
+    let twin = known.iter().find(|(_, known)| *known == mark);
     if let Some((twin, _)) = twin {
         let message = format!("the same readings as in {twin}");
         let hint = "name every table once: readings that count twice look too sure";

@@ -19,6 +19,7 @@ use std::collections::BTreeMap;
 use trueaxis_geometry::statistics::SplitMix64;
 use trueaxis_measure::measure::Readings;
 use trueaxis_measure::unknowns::design::Design;
+use trueaxis_measure::unknowns::fit::Observability;
 
 /// Thresholds of z-scores; the first lets nothing in, the last everything.
 pub const THRESHOLDS: [f64; 11] = [f64::INFINITY, 8.0, 6.0, 5.0, 4.5, 4.0, 3.5, 3.0, 2.5, 2.0, 0.0];
@@ -110,16 +111,10 @@ impl Sums {
 
     /// What was known before, as if it had been read.
     pub fn of_priors(design: &Design) -> Self {
-        let mut sums = Self::zero(design.unknowns());
-        for k in 0..design.unknowns() {
-            if let Some((value, u)) = design.unknown(k).and_then(|u| u.prior()) {
-                sums.normal[(k, k)] += u.powi(-2);
-                sums.gradient[k] += value / (u * u);
-                sums.square += (value / u).powi(2);
-                sums.numbers += 1;
-            }
-        }
-        sums
+        let prior = design.prior();
+        let numbers = Observability::of(&prior.normal).rank;
+        let (normal, gradient, square) = (prior.normal, prior.gradient, prior.square);
+        Self { normal, gradient, square, numbers }
     }
 
     /// The squared error of these values on the readings.

@@ -2,6 +2,7 @@
 
 use super::expect::{Expectation, expect};
 use super::file::{Candidates, Plan};
+use super::planned_design;
 use super::program::{check, program};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -43,7 +44,7 @@ pub struct Chosen {
 /// # Errors
 /// Where nothing of what is wanted can be seen at all, or nothing fits the limit.
 pub fn choose(plan: &Plan, candidates: &Candidates) -> Result<Chosen, String> {
-    let design = plan.campaign.design();
+    let design = planned_design(&plan.campaign);
     let mut poses = poses_of(&candidates.stations);
     let all = poses.len();
     let mut fixed = Readings::default();

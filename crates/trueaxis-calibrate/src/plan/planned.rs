@@ -1,6 +1,7 @@
 //! What becomes of a plan: every path with its program, what that does, and what the path sees.
 
-use super::{Chosen, Expectation, Plan, choose, expect, seen};
+use super::{Chosen, Expectation, Plan, StageExpectation, choose, expect, seen};
+use super::{expect_stages, planned_design};
 use crate::plan::program::{ProgramCheck, check, program, program_files};
 use trueaxis_geometry::Vec3;
 use trueaxis_input::{Diagnostics, Place};
@@ -19,6 +20,8 @@ pub struct PlanReport {
     pub design: Design,
     /// What all paths together will determine.
     pub expectation: Expectation,
+    /// What each stage will determine, if the campaign has stages.
+    pub stages: Vec<StageExpectation>,
     /// The paths, the chosen poses last.
     pub paths: Vec<PlannedPath>,
     /// The choice, if one was asked for.
@@ -55,7 +58,7 @@ pub fn chosen(plan: &Plan, problems: &mut Diagnostics) -> Option<Chosen> {
 
 /// Plans all paths, the chosen poses last.
 pub fn planned(plan: Plan, chosen: Option<Chosen>, control: Control) -> PlanReport {
-    let design = plan.campaign.design();
+    let design = planned_design(&plan.campaign);
     let mut paths = plan.paths.clone();
     if let Some(chosen) = &chosen {
         paths.push(Path {
@@ -69,9 +72,10 @@ pub fn planned(plan: Plan, chosen: Option<Chosen>, control: Control) -> PlanRepo
     let mut stations = Readings::default();
     paths.iter().for_each(|path| stations.append(&path.stations));
     let expectation = expect(&plan.campaign, &design, &stations);
+    let stages = expect_stages(&plan.campaign, &stations);
     let numbered = paths.into_iter().zip(1..);
     let paths = numbered.map(|(path, n)| planned_path(&plan, &design, path, n, control)).collect();
-    PlanReport { plan, design, expectation, paths, chosen }
+    PlanReport { plan, design, expectation, stages, paths, chosen }
 }
 
 fn planned_path(

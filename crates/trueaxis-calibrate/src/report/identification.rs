@@ -2,6 +2,7 @@
 
 use super::identification_arrows::{Arrow, arrow_picture, longest, magnification};
 use super::identification_pictures::{Bar, bars, correlation_map};
+use super::stages::stage_sections;
 use crate::identify::convention::ConventionCheck;
 use crate::identify::errors::{Found, Identification};
 use crate::identify::records::{Options, Records};
@@ -155,6 +156,7 @@ pub fn identification_report(answer: IdentificationReport<'_>) -> Report<'_> {
             found.fit.sight.condition(),
         ))
         .verdict(standing, found.verdict.words(), "")
+        .sections(found.sequence.iter().flat_map(|s| stage_sections(&found.design, s)))
         .section(score_section(&answer))
         .sections(answer.conventions.map(conventions_section))
         .section(arrow_section(&answer))

@@ -1,6 +1,7 @@
 //! An identification for programs: `trueaxis/identify/1`.
 
 use super::identification::{IdentificationReport, shown};
+use super::stages::{StageEntry, stage_entries};
 use crate::identify::convention::ConventionCheck;
 use crate::identify::errors::Found;
 use crate::identify::feeds::Feeds;
@@ -26,6 +27,11 @@ pub struct IdentificationDocument<'a> {
     pub date: Option<&'a str>,
     /// Whether the model explains the readings.
     pub verdict: VerdictEntry,
+    /// The stages one after the other; empty if the campaign has none.
+    pub stages: Vec<StageEntry<'a>>,
+    /// The largest difference between the stages and all readings at once, in standard uncertainties; null
+    /// without stages. Unit: 1.
+    pub stages_differ_by_u: Option<f64>,
     /// The errors of the machine.
     pub errors: Vec<FoundEntry<'a>>,
     /// The errors of the set-up of the instruments.
@@ -83,7 +89,8 @@ pub struct IdentificationDocument<'a> {
 /// The result.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct VerdictEntry {
-    /// `explained`, `over-fitted`, `follows-xyz`, `turns-with-axis` or `unexplained`.
+    /// `explained`, `over-fitted`, `follows-xyz`, `turns-with-axis`, `unexplained` or
+    /// `stages-contradict`.
     pub key: &'static str,
     /// In words.
     pub words: String,
@@ -196,6 +203,11 @@ impl<'a> IdentificationDocument<'a> {
                 words: found.verdict.words(),
                 good: found.verdict.is_good(),
             },
+            stages: found
+                .sequence
+                .as_ref()
+                .map_or(Vec::new(), |sequence| stage_entries(&found.design, sequence)),
+            stages_differ_by_u: found.sequence.as_ref().map(|sequence| sequence.difference),
             errors: of(false),
             setup: of(true),
             unobservable: &found.unobservable,

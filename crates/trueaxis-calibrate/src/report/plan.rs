@@ -2,6 +2,7 @@
 
 use super::identification::unobservable_section;
 use super::identification_pictures::{Bar, bars};
+use super::stages::planned_section;
 use super::surface::issues;
 use crate::plan::{Chosen, Expected, PlanReport, PlannedPath, tools};
 use trueaxis_geometry::Vec3;
@@ -48,6 +49,7 @@ pub fn plan_report<'a>(answer: &'a PlanReport) -> Report<'a> {
         .line(format!("{}, {}", machine.name(), machine.chain_text()))
         .section(path_section(answer))
         .section(seen_section(answer))
+        .sections(planned_section(&answer.design, &answer.stages))
         .section(expected_section(answer))
         .sections(answer.chosen.as_ref().map(|chosen| chosen_section(answer, chosen)))
         .section(unobservable)

@@ -1,6 +1,7 @@
 //! A plan for programs: `trueaxis/plan/1`.
 
 use super::plan::shown_unit;
+use super::stages::{PlannedStageEntry, planned_entries};
 use crate::plan::program::ProgramCheck;
 use crate::plan::{Chosen, Expectation, Expected, PlanReport, PlannedPath, Seen, Unobservable};
 use schemars::JsonSchema;
@@ -21,6 +22,8 @@ pub struct PlanDocument<'a> {
     pub chain: String,
     /// The paths and their programs.
     pub paths: Vec<PathEntry<'a>>,
+    /// What each stage will determine; empty if the campaign has none.
+    pub stages: Vec<PlannedStageEntry<'a>>,
     /// The uncertainty to expect of each unknown.
     pub expected: Vec<ExpectedEntry<'a>>,
     /// Combinations of unknowns that change no reading.
@@ -142,6 +145,7 @@ impl<'a> PlanDocument<'a> {
             machine: campaign.machine.name(),
             chain: campaign.machine.chain_text(),
             paths: report.paths.iter().map(PathEntry::from).collect(),
+            stages: planned_entries(&report.design, &report.stages),
             expected: expected(design, expectation),
             unobservable: &expectation.unobservable,
             rank: expectation.rank,

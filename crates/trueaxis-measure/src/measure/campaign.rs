@@ -1,7 +1,9 @@
 //! The campaign file: on which machine, with which instruments, which unknowns.
 
 use super::material::{material_unknown, read_material};
+use super::prior::read_prior_file;
 use super::servo::read_servo;
+use super::stages::{Stage, Stages, read_stages, warn_of_doubles};
 use super::{Kind, Readings, fill_motion};
 use crate::instruments::instrument::{Instrument, SetupError, SetupUnknown};
 use crate::unknowns::design::Design;
@@ -40,12 +42,15 @@ pub struct Campaign {
     pub instruments: Vec<Instrument>,
     /// The tables of readings of each instrument.
     pub tables: Vec<Vec<PathBuf>>,
+    /// What is calibrated in which order, and what an earlier campaign left.
+    pub stages: Stages,
 }
 
 impl Campaign {
     /// What follows what: the machine without the unknown errors.
     pub fn design(&self) -> Design {
-        Design::new(&self.machine, self.terms.clone(), self.instruments.clone())
+        let design = Design::new(&self.machine, self.terms.clone(), self.instruments.clone());
+        design.with_known(self.stages.prior.as_ref().map(|prior| &prior.known))
     }
 
     /// An instrument by its name.
@@ -149,6 +154,17 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Campaign> {
             }
         }
     });
+    let bare = Design::new(&machine, terms.clone(), instruments.clone());
+    let mut list = read_stages(root, &bare, path);
+    let prior = read_prior_file(root, &bare, folder);
+    if let Some(prior) = &prior {
+        warn_of_doubles(root, &bare, prior, &list);
+        if list.is_empty() {
+            // What is read now is compared with what was known, as one stage with another.
+            let place = root.get("prior").map(|i| i.place()).unwrap_or_default();
+            list.push(Stage::of_all(instruments.len(), place));
+        }
+    }
     Some(Campaign {
         name: name?.to_owned(),
         files: root.files().clone(),
@@ -159,6 +175,7 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Campaign> {
         terms,
         instruments,
         tables,
+        stages: Stages { list, prior },
     })
 }
 

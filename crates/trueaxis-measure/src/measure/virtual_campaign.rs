@@ -16,10 +16,12 @@
 mod file;
 mod follow;
 mod hit;
+mod stage_tables;
 mod summary;
 
 pub use file::read_virtual;
 pub use follow::{Stand, move_time_s};
+pub use stage_tables::stage_tables;
 pub use summary::{ChannelSummary, Summary, shown_unit, summarise};
 
 use super::motion::{fill_motion, reference_from_tool};
@@ -192,6 +194,7 @@ pub(super) enum Chance {
     Outliers,
     Lost,
     Touches,
+    Stages,
 }
 
 pub(super) fn chance(seed: u64, of: Chance) -> ChaCha8Rng {

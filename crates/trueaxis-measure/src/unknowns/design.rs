@@ -4,6 +4,7 @@
 //!     J = ∂reading/∂unknown at the nominal machine;   row = (f·v + m·ω) φ      docs/model.md eq. 107
 //! ```
 
+use super::known::Known;
 use super::term::{Basis, Term};
 use crate::instruments::instrument::{SetupUnknown, Sight, View};
 use crate::instruments::{Instrument, Motion, Readings};
@@ -32,6 +33,8 @@ pub struct Design {
     functions: Vec<(Option<usize>, Basis)>,
     /// Which of them each term is.
     function_of: Vec<usize>,
+    /// What was known of several unknowns together.
+    known: Option<Known>,
 }
 
 /// An unknown by its place in the list.
@@ -117,7 +120,30 @@ impl Design {
             next += instrument.unknowns.len();
         }
         offsets.push(next);
-        Self { machine, terms, instruments, offsets, runs, functions, function_of }
+        Self { machine, terms, instruments, offsets, runs, functions, function_of, known: None }
+    }
+
+    /// The same with what was known before of several unknowns together; of other unknowns it says nothing.
+    pub fn with_known(mut self, known: Option<&Known>) -> Self {
+        self.known = known.map(|known| known.on(&self.names()));
+        self
+    }
+
+    /// What was known before of several unknowns together.
+    pub fn known(&self) -> Option<&Known> {
+        self.known.as_ref()
+    }
+
+    /// All that was known before: of each unknown and of several together.
+    pub fn prior(&self) -> Known {
+        let names = self.names();
+        let mut prior = self.known.clone().unwrap_or_else(|| Known::nothing(names));
+        for k in 0..self.unknowns() {
+            if let Some((value, u)) = self.unknown(k).and_then(|u| u.prior()) {
+                prior.add_value(k, value, u);
+            }
+        }
+        prior
     }
 
     /// How many unknowns.

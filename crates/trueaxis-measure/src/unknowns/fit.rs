@@ -1,7 +1,7 @@
 //! Weighted least squares on the full nonlinear machine.
 //!
 //! ```text
-//!     min Σ w ((y − f(x))/u)² + Σ ((x − x₀)/u₀)²                           docs/model.md eq. 108
+//!     min Σ w ((y − f(x))/u)² + Σ ((x − x₀)/u₀)² + (x − x₀)ᵀ Λ (x − x₀)     docs/model.md eq. 108, 201
 //!     x ← x + (JᵀWJ)⁺ JᵀW (y − f(x))         J of the nominal machine: the chord method
 //! ```
 //!
@@ -10,6 +10,7 @@
 //! of the plan, not of the noise).
 
 use super::design::Design;
+use super::known::Known;
 use crate::instruments::{Instrument, Readings};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rayon::prelude::*;
@@ -137,6 +138,11 @@ impl Observability {
         self.vectors.columns(self.rank, n - self.rank).into_owned()
     }
 
+    /// Directions that the readings see, with every unknown in units of what is seen of it: one column each.
+    pub fn scaled_seen_space(&self) -> DMatrix<f64> {
+        self.vectors.columns(0, self.rank).into_owned()
+    }
+
     /// The part of these values that the readings see; the rest is 0.
     pub fn seen_part(&self, values: &[f64]) -> Vec<f64> {
         let scaled = DVector::from_column_slice(values).component_mul(&self.scale);
@@ -179,11 +185,13 @@ struct Rows<'a> {
     readings: &'a Readings,
     weights: &'a [f64],
     kept: Vec<DMatrix<f64>>,
+    prior: Known,
 }
 
 impl<'a> Rows<'a> {
     fn new(design: &'a Design, readings: &'a Readings, weights: &'a [f64]) -> Self {
-        let mut rows = Self { design, readings, weights, kept: Vec::new() };
+        let prior = design.prior();
+        let mut rows = Self { design, readings, weights, kept: Vec::new(), prior };
         if 3 * readings.len() * design.unknowns() <= MOST_KEPT {
             rows.kept = (0..rows.chunks()).into_par_iter().map(|c| rows.made(c)).collect();
         }
@@ -240,10 +248,7 @@ impl<'a> Rows<'a> {
                 normal += part;
             }
         }
-        for (k, _, u) in priors(self.design) {
-            normal[(k, k)] += u.powi(-2);
-        }
-        normal
+        normal + &self.prior.normal
     }
 
     /// Residuals at these values, and `JᵀW r`.
@@ -266,9 +271,8 @@ impl<'a> Rows<'a> {
         for part in parts {
             gradient += part?;
         }
-        for (k, value, u) in priors(self.design) {
-            gradient[k] += (value - values[k]) / (u * u);
-        }
+        gradient += &self.prior.gradient;
+        gradient -= &self.prior.normal * DVector::from_column_slice(values);
         Ok(gradient)
     }
 
@@ -283,7 +287,8 @@ impl<'a> Rows<'a> {
         Fit {
             values: values.as_slice().to_vec(),
             covariance: sight.covariance(),
-            degrees_of_freedom: (numbers + priors(self.design).count()).saturating_sub(sight.rank),
+            degrees_of_freedom: (numbers + Observability::of(&self.prior.normal).rank)
+                .saturating_sub(sight.rank),
             sight,
             residuals,
             chi_square,
@@ -306,17 +311,9 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// The unknowns of which something was known before: value and standard uncertainty.
-fn priors(design: &Design) -> impl Iterator<Item = (usize, f64, f64)> + '_ {
-    (0..design.unknowns()).filter_map(|k| {
-        let (value, u) = design.unknown(k)?.prior()?;
-        Some((k, value, u))
-    })
-}
-
 /// JᵀWJ of these readings and the priors; `weights` of the readings, empty for 1.
 pub fn normal_matrix(design: &Design, readings: &Readings, weights: &[f64]) -> DMatrix<f64> {
-    Rows { design, readings, weights, kept: Vec::new() }.normal()
+    Rows { design, readings, weights, kept: Vec::new(), prior: design.prior() }.normal()
 }
 
 /// The unknowns from the readings; `weights` of the readings (robust losses), empty for 1.

@@ -1,11 +1,12 @@
 //! Which errors does the machine have?
 
 use super::{Answer, NewFile, Question, Tell, with_diagnostics};
-use crate::files::output::may_write_machine;
+use crate::files::output::{Kind, may_write_machine};
 use crate::report;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use trueaxis_calibrate::identify::convention::{ConventionCheck, check_conventions};
+use trueaxis_calibrate::identify::covariance_file::{BEGINS, covariance_file};
 use trueaxis_calibrate::identify::errors::{Identification, identify};
 use trueaxis_calibrate::identify::machine_file::{MachineFile, machine_file};
 use trueaxis_calibrate::identify::records::{
@@ -127,6 +128,15 @@ impl Question for Identify {
         Some((campaign, options, records))
     }
 
+    fn outputs(&self, _: Option<&Self::Input>) -> Vec<(PathBuf, &'static Kind)> {
+        // A folder that is missing is reported with the machine file.
+        let there = |output: &&PathBuf| {
+            output.parent().is_none_or(|f| f.as_os_str().is_empty() || f.is_dir())
+        };
+        let output = self.output.iter().filter(there);
+        output.map(|output| (covariance_path(output), &COVARIANCE)).collect()
+    }
+
     fn answer(
         &self,
         (campaign, options, records): Self::Input,
@@ -166,6 +176,14 @@ fn warn_of_conventions(check: &ConventionCheck, campaign: &Path, problems: &mut 
     }
 }
 
+const COVARIANCE: Kind = Kind::file("-o", "values and covariance", &[BEGINS.as_bytes()]);
+
+/// `machine-covariance.toml` for `machine.toml`.
+fn covariance_path(output: &Path) -> PathBuf {
+    let stem = output.file_stem().unwrap_or_default().to_string_lossy();
+    output.with_file_name(format!("{stem}-covariance.toml"))
+}
+
 /// The machine file with the errors found, and the tables that it names.
 fn machine_files(
     identified: &Identified,
@@ -183,6 +201,9 @@ fn machine_files(
         |(name, text): (String, String)| NewFile::of("table", output.with_file_name(name), text);
     let mut files: Vec<NewFile> = made.tables.into_iter().map(table).collect();
     files.push(NewFile::of("machine file", output, made.text));
+    let Identified { campaign, options, records, found, .. } = identified;
+    let text = covariance_file(campaign, found, records, options.date.as_deref());
+    files.push(NewFile::of("covariance", covariance_path(output), text));
     Some(files)
 }
 

@@ -5,11 +5,11 @@ use crate::files::output::Kind;
 use crate::report;
 use serde_json::Value;
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_measure::measure::instrument::SetupError;
 use trueaxis_measure::measure::virtual_campaign::{
-    Measurement, VirtualCampaign, measure, read_virtual,
+    Measurement, VirtualCampaign, measure, read_virtual, stage_tables,
 };
 use trueaxis_measure::measure::{Campaign, read_campaign};
 use trueaxis_measure::report::MeasuredReport;
@@ -67,6 +67,11 @@ impl Measure {
         campaign.instruments.iter().map(|i| path(&i.name)).collect()
     }
 
+    /// Where the table of a stage goes.
+    fn stage_table(&self, path: &Path) -> Option<PathBuf> {
+        Some(self.output.as_ref()?.join(path.file_name()?))
+    }
+
     fn name(&self) -> String {
         self.campaign.file_name().unwrap_or_default().display().to_string()
     }
@@ -89,6 +94,11 @@ impl Measure {
             let rows = measurement.readings.table(&campaign.machine, instrument, index);
             files.push(NewFile::of("readings", path, head + &rows));
         }
+        for (path, rows) in stage_tables(campaign, real) {
+            let Some(path) = self.stage_table(&path) else { continue };
+            let head = format!("{READINGS_BEGIN}: a stage of {name}, seed {}\n", real.truth.seed);
+            files.push(NewFile::of("readings", path, head + &rows));
+        }
         if let Some(path) = &self.truth {
             let text = truth_text(&name, campaign, real, measurement);
             files.push(NewFile::of("truth", path, text));
@@ -108,7 +118,11 @@ impl Question for Measure {
     }
 
     fn outputs(&self, input: Option<&Self::Input>) -> Vec<(PathBuf, &'static Kind)> {
-        let tables = input.map(|(campaign, _)| self.tables(campaign)).unwrap_or_default();
+        let mut tables = input.map(|(campaign, _)| self.tables(campaign)).unwrap_or_default();
+        if let Some((campaign, real)) = input {
+            let own = stage_tables(campaign, real);
+            tables.extend(own.iter().filter_map(|(path, _)| self.stage_table(path)));
+        }
         let tables = tables.into_iter().map(|path| (path, &READINGS));
         tables.chain(self.truth.clone().map(|path| (path, &TRUTH))).collect()
     }
@@ -129,7 +143,10 @@ impl Question for Measure {
             }
         };
         let files = self.files(&campaign, &real, &measurement);
-        let tables = self.tables(&campaign).iter().map(|p| p.display().to_string()).collect();
+        let own = stage_tables(&campaign, &real);
+        let own = own.iter().filter_map(|(path, _)| self.stage_table(path));
+        let tables = self.tables(&campaign).into_iter().chain(own);
+        let tables = tables.map(|p| p.display().to_string()).collect();
         Some(MeasureAnswer { campaign, real, measurement, tables, files })
     }
 }

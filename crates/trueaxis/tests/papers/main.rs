@@ -23,6 +23,7 @@ mod page;
 mod probe_table;
 mod scan;
 mod shop;
+mod stages;
 mod zhang_2019_laser;
 
 use claim::{Claim, Record, records};
@@ -43,6 +44,7 @@ fn functions() -> Vec<(&'static str, Ours)> {
         hand::CLAIMS,
         oracles::CLAIMS,
         probe_table::CLAIMS,
+        stages::CLAIMS,
         zhang_2019_laser::CLAIMS,
     ];
     lists.concat()

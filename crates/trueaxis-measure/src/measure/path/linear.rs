@@ -10,7 +10,7 @@ use trueaxis_geometry::statistics::SplitMix64;
 use trueaxis_input::{Dimension, Item, Section};
 use trueaxis_machine::axis::{AxisKind, Command};
 
-/// A circle of a bar about its table ball in a plane of the workpiece, first counter-clockwise,
+/// A circle or an arc of a bar about its table ball in a plane of the workpiece, first counter-clockwise,
 /// then clockwise.
 pub(super) fn read_circle(
     section: &Section<'_>,
@@ -39,9 +39,10 @@ pub(super) fn read_circle(
         section.error("bad-radius", message, "radius = \"150 mm\", or `length` of the instrument");
         return None;
     }
-    let step = std::f64::consts::TAU / count as f64;
-    let there = (0..=count).map(|k| k as f64 * step);
-    let back = (0..if both { count + 1 } else { 0 }).rev().map(|k| k as f64 * step);
+    let (from, to) = read_arc(section)?;
+    let step = (to - from) / count as f64;
+    let there = (0..=count).map(|k| from + k as f64 * step);
+    let back = (0..if both { count + 1 } else { 0 }).rev().map(|k| from + k as f64 * step);
     let mut stations = Readings::default();
     for (i, angle) in there.chain(back).enumerate() {
         let (sin, cos) = angle.sin_cos();
@@ -52,6 +53,20 @@ pub(super) fn read_circle(
         stations.push(station(command, campaign, instrument, i));
     }
     Some(stations)
+}
+
+/// `from` and `to` of an arc: in a vertical plane the bar does not pass under its table ball.
+fn read_arc(section: &Section<'_>) -> Option<(f64, f64)> {
+    const WHOLE: f64 = std::f64::consts::TAU;
+    let bound = |key: &str| section.get(key).map(|i| i.quantity(Dimension::Angle));
+    let (from, to) = (bound("from"), bound("to"));
+    let (from, to) = (from.unwrap_or(Some(0.0))?, to.unwrap_or(Some(WHOLE))?);
+    if (to - from).abs() < 1e-6 || (to - from).abs() > WHOLE + 1e-9 {
+        let message = "an arc is longer than 0 and at most 360 deg".to_owned();
+        section.error("bad-arc", message, "from = \"-20 deg\" and to = \"200 deg\"");
+        return None;
+    }
+    Some((from, to))
 }
 
 /// A body or face diagonal of the travel: `diagonal = "++-"` (X, Y, Z) or `"+X-Y"`.

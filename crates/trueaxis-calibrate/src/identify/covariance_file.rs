@@ -1,0 +1,112 @@
+//! Values and covariance of an identification as a file: a later campaign starts from it (`prior = "FILE"`).
+//!
+//! ```text
+//!     g = F x̂,  V = b² F Λ⁺ Fᵀ     rows of F: unknowns that are seen alone, then combinations   docs/model.md eq. 206
+//! ```
+
+use super::errors::Identification;
+use super::records::Records;
+use nalgebra::{DMatrix, DVector};
+use std::fmt::Write as _;
+use trueaxis_measure::measure::Campaign;
+use trueaxis_measure::measure::prior::{nominal_mark, set_up};
+
+/// A share of a combination that is rounding, against its greatest.
+const NOTHING: f64 = 1e-7;
+
+/// The first words of the file.
+pub const BEGINS: &str = "# values and covariance of trueaxis identify";
+
+/// The file as text.
+pub fn covariance_file(
+    campaign: &Campaign,
+    found: &Identification,
+    records: &Records,
+    date: Option<&str>,
+) -> String {
+    let machine = &campaign.machine;
+    let mut text =
+        format!("{BEGINS}: a later campaign starts from it with prior = \"THIS FILE\"\n");
+    text += "# in mm, rad and s; `covariance`: with all before it, its own variance last\n\n";
+    // Writing to a String cannot fail.
+    let _ = writeln!(text, "[covariance]\nmachine = {:?}", machine.name());
+    let _ =
+        writeln!(text, "nominal = \"{}\"\ncampaign = {:?}", nominal_mark(machine), campaign.name);
+    if let Some(date) = date {
+        let _ = writeln!(text, "date = {date:?}");
+    }
+    for instrument in &found.design.instruments {
+        let _ = writeln!(text, "\n[setup.{:?}]", instrument.name);
+        for (key, value) in set_up(instrument) {
+            let _ = writeln!(text, "{key} = {value:?}");
+        }
+    }
+    let before = campaign.stages.prior.iter().flat_map(|prior| &prior.readings);
+    for (file, mark) in before.chain(&records.marks) {
+        let _ = writeln!(text, "\n[[readings]]\nfile = {file:?}\nmark = \"{mark}\"");
+    }
+    let rows = rows(found);
+    let values = &rows * DVector::from_column_slice(&found.fit.values);
+    let covariance = &rows * &found.fit.covariance * rows.transpose() * found.birge.powi(2);
+    let names = found.design.names();
+    for (i, row) in rows.row_iter().enumerate() {
+        let members = row.iter().zip(&names).filter(|(share, _)| **share != 0.0);
+        let of: Vec<String> =
+            members.map(|(share, name)| format!("{name:?} = {share:e}")).collect();
+        let variances: Vec<String> = (0..=i).map(|j| format!("{:e}", covariance[(i, j)])).collect();
+        let _ = writeln!(
+            text,
+            "\n[[known]]\nof = {{ {} }}\nvalue = {:e}\nu = {:e}\ncovariance = [{}]",
+            of.join(", "),
+            values[i],
+            covariance[(i, i)].max(0.0).sqrt(),
+            variances.join(", ")
+        );
+    }
+    text
+}
+
+/// What is known: one row for each unknown that is seen alone, then combinations with few members.
+fn rows(found: &Identification) -> DMatrix<f64> {
+    let sight = &found.fit.sight;
+    let mut rows = sight.scaled_seen_space().transpose();
+    let n = rows.ncols();
+    let alone = |k: &usize| sight.is_seen[*k];
+    let order: Vec<usize> =
+        (0..n).filter(alone).chain((0..n).filter(|k| !sight.is_seen[*k])).collect();
+    let pivots = reduce(&mut rows, &order);
+    for (mut row, pivot) in rows.row_iter_mut().zip(pivots) {
+        let greatest = row.amax();
+        for k in 0..n {
+            let alone = sight.is_seen[pivot] && k != pivot;
+            let share = row[k] * sight.column_length(k) / sight.column_length(pivot);
+            row[k] = if alone || row[k].abs() < NOTHING * greatest { 0.0 } else { share };
+        }
+    }
+    rows
+}
+
+/// Gauss and Jordan with the greatest pivot of each column in this order; the pivot of each row.
+fn reduce(rows: &mut DMatrix<f64>, order: &[usize]) -> Vec<usize> {
+    let mut pivots = Vec::new();
+    for &k in order {
+        let next = pivots.len();
+        if next == rows.nrows() {
+            break;
+        }
+        let size = |row: usize| rows[(row, k)].abs();
+        let best = (next..rows.nrows()).max_by(|a, b| size(*a).total_cmp(&size(*b)));
+        let Some(best) = best.filter(|b| size(*b) > 1e-4) else { continue };
+        rows.swap_rows(next, best);
+        let by = rows[(next, k)];
+        rows.row_mut(next).unscale_mut(by);
+        let own = rows.row(next).into_owned();
+        for other in (0..rows.nrows()).filter(|r| *r != next) {
+            let factor = rows[(other, k)];
+            let mut target = rows.row_mut(other);
+            target -= &own * factor;
+        }
+        pivots.push(k);
+    }
+    pivots
+}
