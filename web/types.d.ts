@@ -600,6 +600,7 @@ export type ServeWhatIf =
  * All documents by name.
  */
 export interface Documents {
+  "before-after": BeforeAfter;
   certificate: Certificate;
   check: Check;
   "compensate-adapt": CompensateAdapt;
@@ -614,13 +615,19 @@ export interface Documents {
   explain: Explain;
   "identify-errors": IdentifyErrors;
   "identify-expansion": IdentifyExpansion;
+  "identify-expansions": IdentifyExpansions;
+  "identify-probe-programs": IdentifyProbePrograms;
   "identify-probe": IdentifyProbe;
   "identify-rtcp-programs": IdentifyRtcpPrograms;
   "identify-rtcp": IdentifyRtcp;
   "identify-surface": IdentifySurface;
+  "identify-tables": IdentifyTables;
   "identify-thermal": IdentifyThermal;
+  "identify-tools": IdentifyTools;
+  "measure-part": MeasurePart;
   measure: Measure;
   "plan-probe-surface": PlanProbeSurface;
+  "plan-tool-setting": PlanToolSetting;
   plan: Plan;
   "pose-rows": PoseRows;
   pose: Pose;
@@ -676,7 +683,193 @@ export interface Documents {
   "solve-path": SolvePath;
   solve: Solve;
   trace: Trace;
+  "verify-part": VerifyPart;
   verify: Verify;
+}
+/**
+ * Virtual lasers before and after compensation.
+ */
+export interface BeforeAfter {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/before-after/1";
+  /**
+   * Name of the campaign.
+   */
+  name: string;
+  /**
+   * Name of the machine file.
+   */
+  machine: string;
+  /**
+   * Name of the machine that was measured.
+   */
+  measured: string;
+  /**
+   * Seed of the random numbers; each compensation has the next one.
+   */
+  seed: number;
+  /**
+   * `values`, or `tables` of a control.
+   */
+  added_by: string;
+  /**
+   * The least increment of a value of a linear axis, µm.
+   */
+  increment_um: number;
+  /**
+   * The lasers.
+   */
+  lasers: LaserEntry[];
+  /**
+   * The readings, axis by axis.
+   */
+  curves: CurveEntry[];
+  /**
+   * The files that were written.
+   */
+  files: string[];
+  /**
+   * The problems found in the input; the command line prints them on standard error, too.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * A laser.
+ */
+export interface LaserEntry {
+  /**
+   * Its name in the campaign.
+   */
+  name: string;
+  /**
+   * What it is set to; null if it reads the machine alone.
+   */
+  material: MaterialEntry | null;
+}
+/**
+ * The compensation of a material in a laser.
+ */
+export interface MaterialEntry {
+  /**
+   * Coefficient of expansion, 1e-6/K.
+   */
+  expansion_um_per_m_k: number;
+  /**
+   * Temperature of the material, °C.
+   */
+  celsius: number;
+  /**
+   * The sensor that it is read from; null if it was typed in.
+   */
+  sensor: string | null;
+  /**
+   * How much longer the material is than at 20 °C, µm/m.
+   */
+  share_um_per_m: number;
+  /**
+   * Standard uncertainty of that, µm/m.
+   */
+  u_um_per_m: number;
+}
+/**
+ * One laser on one axis under one compensation.
+ */
+export interface CurveEntry {
+  /**
+   * The axis.
+   */
+  axis: string;
+  /**
+   * The laser.
+   */
+  laser: string;
+  /**
+   * The path.
+   */
+  path: string;
+  /**
+   * `none`, `machine` or `comprehensive`.
+   */
+  compensation: string;
+  /**
+   * The mean of the runs that is farthest from 0, with its sign, µm.
+   */
+  largest_um: number;
+  /**
+   * The target of it, mm.
+   */
+  at_mm: number;
+  /**
+   * Standard uncertainty of this reading, µm.
+   */
+  u_um: number;
+  /**
+   * Standard uncertainty of the error there by the machine file; null if it states none, µm.
+   */
+  file_u_um: number | null;
+  /**
+   * Their expanded uncertainties (k = 2), by the same keys.
+   */
+  U_um: {
+    [k: string]: number | null;
+  };
+  /**
+   * Every target.
+   */
+  targets: TargetEntry[];
+  [k: string]: number | null;
+}
+/**
+ * A target.
+ */
+export interface TargetEntry {
+  /**
+   * Its position, mm.
+   */
+  target_mm: number;
+  /**
+   * What was added to the command, mean of both directions, µm.
+   */
+  added_um: number;
+  /**
+   * Mean deviation, rising; null if it was not approached so, µm.
+   */
+  up_um: number | null;
+  /**
+   * Mean deviation, falling; null if it was not approached so, µm.
+   */
+  down_um: number | null;
 }
 /**
  * The certificate of a volumetric compensation.
@@ -1540,6 +1733,10 @@ export interface FieldEntry {
    * The standard deviation of a reading, µm.
    */
   noise_um: number;
+  /**
+   * The standard uncertainty that all readings share, in full part of that of the field, µm.
+   */
+  common_um: number;
   /**
    * Each point predicted by all others: root mean square of the difference, µm.
    */
@@ -2702,7 +2899,7 @@ export interface ErrorEntry {
   /**
    * Its curve, sampled over the travel.
    */
-  curve: CurveEntry | null;
+  curve: ServeDescribeCurveEntry | null;
   /**
    * How it was measured.
    */
@@ -2711,7 +2908,7 @@ export interface ErrorEntry {
 /**
  * The curve of an error motion.
  */
-export interface CurveEntry {
+export interface ServeDescribeCurveEntry {
   /**
    * Positions of the axis. Unit: that of `at_unit`.
    */
@@ -3590,6 +3787,15 @@ export interface IdentifyErrors {
    */
   verdict: VerdictEntry;
   /**
+   * The stages one after the other; empty if the campaign has none.
+   */
+  stages: StageEntry[];
+  /**
+   * The largest difference between the stages and all readings at once, in standard uncertainties; null
+   * without stages. Unit: 1.
+   */
+  stages_differ_by_u: number | null;
+  /**
    * The errors of the machine.
    */
   errors: FoundEntry[];
@@ -3732,7 +3938,8 @@ export interface IdentifyErrors {
  */
 export interface VerdictEntry {
   /**
-   * `explained`, `over-fitted`, `follows-xyz`, `turns-with-axis` or `unexplained`.
+   * `explained`, `over-fitted`, `follows-xyz`, `turns-with-axis`, `unexplained` or
+   * `stages-contradict`.
    */
   key: string;
   /**
@@ -3743,6 +3950,89 @@ export interface VerdictEntry {
    * Whether the model may be trusted.
    */
   good: boolean;
+}
+/**
+ * A stage for programs.
+ */
+export interface StageEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * When it was done, as written; null if none is stated.
+   */
+  date: string | null;
+  /**
+   * How many numbers were read.
+   */
+  numbers: number;
+  /**
+   * What was found without the axes of the machine, in words.
+   */
+  found: string[];
+  /**
+   * By how much its readings scatter more than stated, 1 or more. Unit: 1.
+   */
+  birge_ratio: number;
+  /**
+   * Whether it agrees with the stages before it; null if they say nothing of the same.
+   */
+  agreement: ServeIdentifyAgreementEntry | null;
+  /**
+   * Every unknown after this stage.
+   */
+  known: StageValue[];
+}
+/**
+ * The test of a stage against the stages before it.
+ */
+export interface ServeIdentifyAgreementEntry {
+  /**
+   * χ². Unit: 1.
+   */
+  chi_square: number;
+  /**
+   * Its degrees of freedom.
+   */
+  degrees_of_freedom: number;
+  /**
+   * Probability of a larger χ² by chance. Unit: 1.
+   */
+  p: number;
+  /**
+   * Whether they contradict each other.
+   */
+  conflict: boolean;
+  /**
+   * The unknown that differs most; null if none can be compared alone.
+   */
+  worst: string | null;
+}
+/**
+ * An unknown after a stage.
+ */
+export interface StageValue {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * `um`, `urad`, `ms` or `um/m`.
+   */
+  unit: string;
+  /**
+   * Its value; null if it is not known yet. Unit: that of `unit`.
+   */
+  value: number | null;
+  /**
+   * Its standard uncertainty. Unit: that of `unit`.
+   */
+  u: number | null;
+  /**
+   * Its standard uncertainty before this stage; null if it was not known. Unit: that of `unit`.
+   */
+  u_before: number | null;
 }
 /**
  * One unknown.
@@ -4009,7 +4299,7 @@ export interface Convention {
   after_times_noise: number;
 }
 /**
- * The coefficient of expansion of a scale.
+ * The coefficient of expansion and the error table of a scale.
  */
 export interface IdentifyExpansion {
   /**
@@ -4020,6 +4310,10 @@ export interface IdentifyExpansion {
    * The name of the study.
    */
   name: string;
+  /**
+   * The letter of its axis, where it is stated.
+   */
+  axis?: string | null;
   /**
    * The coefficient of expansion by least squares over all runs, µm/(m·K).
    */
@@ -4044,6 +4338,18 @@ export interface IdentifyExpansion {
    * The runs.
    */
   runs: RunEntry[];
+  /**
+   * The temperature of the scale at which the error table holds, °C.
+   */
+  table_temperature_celsius: number;
+  /**
+   * The error table: actual − nominal, as the laser reads it.
+   */
+  table: TableRow[];
+  /**
+   * The cubic spline through the table (not-a-knot), piece by piece.
+   */
+  spline: PieceRow[];
   /**
    * What the reader should know.
    */
@@ -4098,6 +4404,251 @@ export interface RunEntry {
    * The slope of its straight line, µm/m.
    */
   slope_um_per_m: number;
+}
+/**
+ * A row of the error table.
+ */
+export interface TableRow {
+  /**
+   * The position, mm.
+   */
+  position_mm: number;
+  /**
+   * The positioning error, µm.
+   */
+  error_um: number;
+  /**
+   * Its standard uncertainty, µm.
+   */
+  u_um: number;
+}
+/**
+ * A piece of the spline: with h = position − from, e = ((a·h + b)·h + c)·h + d, µm.
+ */
+export interface PieceRow {
+  /**
+   * Where it begins, mm.
+   */
+  from_mm: number;
+  /**
+   * Where it ends, mm.
+   */
+  to_mm: number;
+  /**
+   * a, µm/mm³.
+   */
+  a_um_per_mm3: number;
+  /**
+   * b, µm/mm².
+   */
+  b_um_per_mm2: number;
+  /**
+   * c, µm/mm.
+   */
+  c_um_per_mm: number;
+  /**
+   * d, µm.
+   */
+  d_um: number;
+}
+/**
+ * Several scales.
+ */
+export interface IdentifyExpansions {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/identify-expansions/1";
+  /**
+   * Each of them.
+   */
+  scales: ExpansionDocument[];
+  /**
+   * The problems found in the input; the command line prints them on standard error, too.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * The coefficient of expansion and the error table of a scale.
+ */
+export interface ExpansionDocument {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/identify/1";
+  /**
+   * The name of the study.
+   */
+  name: string;
+  /**
+   * The letter of its axis, where it is stated.
+   */
+  axis?: string | null;
+  /**
+   * The coefficient of expansion by least squares over all runs, µm/(m·K).
+   */
+  expansion_um_per_m_k: number;
+  /**
+   * Its standard uncertainty, µm/(m·K).
+   */
+  u_um_per_m_k: number;
+  /**
+   * The coefficient from the slopes of the coldest and the warmest run alone, µm/(m·K).
+   */
+  slope_difference_um_per_m_k: number;
+  /**
+   * Standard deviation of the residual error, µm.
+   */
+  residual_um: number;
+  /**
+   * Materials of scales that the coefficient allows within ± 2 u.
+   */
+  materials: string[];
+  /**
+   * The runs.
+   */
+  runs: RunEntry[];
+  /**
+   * The temperature of the scale at which the error table holds, °C.
+   */
+  table_temperature_celsius: number;
+  /**
+   * The error table: actual − nominal, as the laser reads it.
+   */
+  table: TableRow[];
+  /**
+   * The cubic spline through the table (not-a-knot), piece by piece.
+   */
+  spline: PieceRow[];
+  /**
+   * What the reader should know.
+   */
+  warnings: string[];
+}
+/**
+ * `trueaxis/identify-probe-programs/1`.
+ */
+export interface IdentifyProbePrograms {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/identify-probe-programs/1";
+  /**
+   * Programs, subprograms and masks.
+   */
+  files: ProbeProgramEntry[];
+  /**
+   * The table of corrections that the control applies; null: hits as they are.
+   */
+  table: IdentifyProbeProgramsTableEntry | null;
+  /**
+   * The problems found in the input; the command line prints them on standard error, too.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * One file.
+ */
+export interface ProbeProgramEntry {
+  /**
+   * Its name in the folder.
+   */
+  file: string;
+  /**
+   * What it is for.
+   */
+  purpose: string;
+  /**
+   * How many hits it makes; null: it is no program of its own.
+   */
+  hits: number | null;
+  /**
+   * How far its stations, read back, lie from those that are wanted, µm; null: it is not run alone.
+   */
+  off_stations_um: number | null;
+}
+/**
+ * The table inside the control.
+ */
+export interface IdentifyProbeProgramsTableEntry {
+  /**
+   * Directions.
+   */
+  directions: number;
+  /**
+   * Greatest less smallest correction, µm.
+   */
+  range_um: number;
+  /**
+   * What the straight lines between the directions leave at most of the calibration, µm.
+   */
+  interpolation_um: number;
+  /**
+   * The largest standard uncertainty of a correction, µm.
+   */
+  u_um: number;
+  /**
+   * The length of the probe that is subtracted on the plane face, mm; null: it is not known.
+   */
+  length_mm: number | null;
 }
 /**
  * The calibration of a touch probe.
@@ -4752,6 +5303,22 @@ export interface IdentifyRtcp {
    */
   offsets: OffsetEntry[];
   /**
+   * Whether the directions of the rotary axes were unknowns beside the offsets.
+   */
+  angles_found: boolean;
+  /**
+   * The angle errors of the rotary axes.
+   */
+  angles: AngleEntry[];
+  /**
+   * What the segments of a path with tool-centre point keep; null if the file has no [segments].
+   */
+  segments: SegmentsEntry | null;
+  /**
+   * The RTCP screen of the i5 control, field by field; empty for other controls.
+   */
+  screen: ScreenEntry[];
+  /**
    * The control whose numbers follow; null if none is stated.
    */
   control: string | null;
@@ -4857,6 +5424,109 @@ export interface OffsetEntry {
    * Its standard uncertainty, µm.
    */
   u_um: number | null;
+}
+/**
+ * One angle error of a rotary axis.
+ */
+export interface AngleEntry {
+  /**
+   * Its ISO 230-1 name.
+   */
+  name: string;
+  /**
+   * The same in words.
+   */
+  words: string;
+  /**
+   * Its value, µrad; null where it was not asked for or is not observable.
+   */
+  value_urad: number | null;
+  /**
+   * Its expanded uncertainty (k = 2), µrad.
+   */
+  U_urad: number | null;
+  /**
+   * Whether these readings determine it.
+   */
+  observable: boolean;
+  /**
+   * The expanded uncertainty (k = 2) that these readings give by their stated noise, µrad; null: none.
+   */
+  U_expected_urad: number | null;
+  /**
+   * Which further reading would determine it; null where these do.
+   */
+  further_reading: string | null;
+}
+/**
+ * What the segments of a path keep.
+ */
+export interface SegmentsEntry {
+  /**
+   * The largest chord error, µm.
+   */
+  chord_error_um: number;
+  /**
+   * The largest distance of the path from a rotary axis, mm.
+   */
+  distance_mm: number;
+  /**
+   * The largest step of one rotary axis while the tip stands still, degrees.
+   */
+  largest_step_deg: number;
+  /**
+   * By how much the rotary axes together turn for each mm where the path turns most, deg/mm. Unit: deg/mm.
+   */
+  sharpest_deg_per_mm: number | null;
+  /**
+   * The longest segment there, mm.
+   */
+  longest_segment_mm: number | null;
+  /**
+   * The shortest segment of the control, mm, if stated.
+   */
+  shortest_segment_mm: number | null;
+  /**
+   * The turning that it allows, deg/mm. Unit: deg/mm.
+   */
+  shortest_allows_deg_per_mm: number | null;
+  /**
+   * The first segment of the control, mm, if stated.
+   */
+  first_segment_mm: number | null;
+  /**
+   * The turning that it allows, deg/mm. Unit: deg/mm.
+   */
+  first_allows_deg_per_mm: number | null;
+}
+/**
+ * One field of the RTCP screen.
+ */
+export interface ScreenEntry {
+  /**
+   * Its name in English.
+   */
+  name: string;
+  /**
+   * Its name as it is printed.
+   */
+  printed: string;
+  /**
+   * Its unit; `--` where the screen states none.
+   */
+  unit: string;
+  /**
+   * What the picture of the paper shows.
+   */
+  picture: string;
+  /**
+   * What to enter; null where neither paper nor readings determine it.
+   */
+  enter: string | null;
+  /**
+   * Why, or why not.
+   */
+  words: string;
 }
 /**
  * One number of the control.
@@ -5123,6 +5793,171 @@ export interface DeviationEntry {
   line: number;
 }
 /**
+ * Error tables of a machine.
+ */
+export interface IdentifyTables {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/identify-tables/1";
+  /**
+   * The name of the study.
+   */
+  name: string;
+  /**
+   * The tables of error motions, axis by axis.
+   */
+  tables: FoundTable[];
+  /**
+   * The squarenesses from circles.
+   */
+  squarenesses: FoundSquareness[];
+  /**
+   * The problems found in the input; the command line prints them on standard error, too.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * The table of one error motion; of the body, as in the machine file.
+ */
+export interface FoundTable {
+  /**
+   * The error by its name of ISO 230-1.
+   */
+  error: string;
+  /**
+   * `um` or `urad`: the unit of its values.
+   */
+  unit: string;
+  /**
+   * How many runs in each direction.
+   */
+  runs: number;
+  /**
+   * Standard deviation of a single reading, µm or µrad; null where each target was read once.
+   */
+  scatter: number | null;
+  /**
+   * What the set-up of the instrument hides, and was taken off.
+   */
+  removed: string;
+  /**
+   * What the angles of the axis did to the readings over the arm of the optics.
+   */
+  arms: ArmEntry[];
+  /**
+   * Largest − least of the mean of both directions, µm or µrad.
+   */
+  range: number;
+  /**
+   * How far the instrument would read otherwise on the new machine, µm or µrad.
+   */
+  read_back: number;
+  /**
+   * Its rows.
+   */
+  rows: FoundRow[];
+}
+/**
+ * What an angle did over the arm.
+ */
+export interface ArmEntry {
+  /**
+   * The angular error.
+   */
+  error: string;
+  /**
+   * At most, µm.
+   */
+  most_um: number;
+}
+/**
+ * A row of a table.
+ */
+export interface FoundRow {
+  /**
+   * The position, mm or deg.
+   */
+  position: number;
+  /**
+   * Reached upwards, µm or µrad.
+   */
+  up: number;
+  /**
+   * Reached downwards, µm or µrad; equal to `up` where one direction was read.
+   */
+  down: number;
+  /**
+   * Standard uncertainty, µm or µrad.
+   */
+  u: number;
+}
+/**
+ * A squareness.
+ */
+export interface FoundSquareness {
+  /**
+   * The location error that states it.
+   */
+  error: string;
+  /**
+   * Its value, µrad.
+   */
+  value_urad: number;
+  /**
+   * Its standard uncertainty, µrad.
+   */
+  u_urad: number;
+  /**
+   * The two axes.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  axes: [string, string];
+  /**
+   * The angle by which the axes are closer than 90°, as read, µrad.
+   */
+  read_urad: number;
+  /**
+   * The same on the machine with its new tables and its old location error, µrad.
+   */
+  before_urad: number;
+  /**
+   * The first axis longer than the second over the diameter, read − tables, µm.
+   */
+  scale_difference_um: number;
+}
+/**
  * A thermal model of one error, from logs of temperatures and displacements.
  */
 export interface IdentifyThermal {
@@ -5368,6 +6203,208 @@ export interface CycleEntry {
   held_out_um: number;
 }
 /**
+ * Tools as they were measured.
+ */
+export interface IdentifyTools {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/identify-tools/1";
+  /**
+   * Whether a virtual machine wrote the log.
+   */
+  is_virtual: boolean;
+  /**
+   * The tools in the order in which they were measured.
+   */
+  tools: MeasuredToolEntry[];
+  /**
+   * How far spindle and setter have drifted since the face was calibrated, µm; null without a gauge.
+   */
+  drift_um: number | null;
+  /**
+   * Its expanded uncertainty (k = 2), µm.
+   */
+  U_drift_um: number | null;
+  /**
+   * What the uncertainties do not cover.
+   */
+  missing: string[];
+  /**
+   * The problems found in the input; the command line prints them on standard error, too.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * A tool as it was measured.
+ */
+export interface MeasuredToolEntry {
+  /**
+   * Its number.
+   */
+  tool: number;
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * `fit`, `not decided`, `worn` or `broken`.
+   */
+  state: string;
+  /**
+   * Its length, mm.
+   */
+  length_mm: number;
+  /**
+   * Its expanded uncertainty (k = 2), µm.
+   */
+  U_length_um: number;
+  /**
+   * Measured − nominal length, µm.
+   */
+  length_off_um: number;
+  /**
+   * Its diameter, mm; null if it was not measured.
+   */
+  diameter_mm: number | null;
+  /**
+   * Its expanded uncertainty (k = 2), µm.
+   */
+  U_diameter_um: number | null;
+  /**
+   * What stands against it.
+   */
+  faults: string[];
+  /**
+   * What cannot be decided.
+   */
+  doubts: string[];
+}
+/**
+ * A test piece that was cut and measured virtually.
+ */
+export interface MeasurePart {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/measure-part/1";
+  /**
+   * The name of the study.
+   */
+  name: string;
+  /**
+   * The random seed.
+   */
+  seed: number;
+  /**
+   * Whether the errors of the machine were drawn within their uncertainties.
+   */
+  drawn: boolean;
+  /**
+   * Standard uncertainty of a point along the normal, mm.
+   */
+  point_u_mm: number;
+  /**
+   * The true indices of the part, in the order of the test piece.
+   */
+  indices: TrueIndexEntry[];
+  /**
+   * The points.
+   */
+  points: PointEntry[];
+  /**
+   * The problems found in the input; the command line prints them on standard error, too.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * A true index of a virtual part.
+ */
+export interface TrueIndexEntry {
+  /**
+   * Its key.
+   */
+  index: string;
+  /**
+   * Its value without the noise of the points, mm.
+   */
+  value_mm: number;
+}
+/**
+ * A point of a virtual part.
+ */
+export interface PointEntry {
+  /**
+   * The number of its section, from 1 at the base.
+   */
+  section: number;
+  /**
+   * The point in the frame of the datum, mm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  place_mm: [number, number, number];
+}
+/**
  * The readings of a virtual machine.
  */
 export interface Measure {
@@ -5507,7 +6544,7 @@ export interface PlanProbeSurface {
   /**
    * The points that the probe touches, in their order.
    */
-  points: PointEntry[];
+  points: PlanProbeSurfacePointEntry[];
   /**
    * Least distance of two points, mm.
    */
@@ -5569,7 +6606,7 @@ export interface PlanProbeSurface {
 /**
  * A point that the probe touches.
  */
-export interface PointEntry {
+export interface PlanProbeSurfacePointEntry {
   /**
    * Where it is, workpiece frame, mm.
    *
@@ -5588,6 +6625,103 @@ export interface PointEntry {
    * Its line in the file of the surface.
    */
   line: number;
+}
+/**
+ * Touches at a tool setter.
+ */
+export interface PlanToolSetting {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/plan-tool-setting/1";
+  /**
+   * The name of the machine.
+   */
+  machine: string;
+  /**
+   * The touches in their order.
+   */
+  touches: TouchEntry[];
+  /**
+   * How long the program runs, s.
+   */
+  duration_s: number;
+  /**
+   * Whether the program has neither errors nor critical issues.
+   */
+  sound: boolean;
+  /**
+   * Errors of the program itself.
+   */
+  errors: string[];
+  /**
+   * Critical issues, such as collisions.
+   */
+  troubles: string[];
+  /**
+   * Minor issues, such as lost time.
+   */
+  notes: string[];
+  /**
+   * The problems found in the input; the command line prints them on standard error, too.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * One touch.
+ */
+export interface TouchEntry {
+  /**
+   * The tool.
+   */
+  tool: number;
+  /**
+   * What it measures: `length`, `plus` or `minus` (the sides of the diameter).
+   */
+  of: string;
+  /**
+   * X, Y and Z where the nominal tool touches, mm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  expected_mm: [number, number, number];
+  /**
+   * X, Y and Z where the touch ends at the latest, mm.
+   *
+   * @minItems 3
+   * @maxItems 3
+   */
+  beyond_mm: [number, number, number];
 }
 /**
  * What a campaign will show before anybody measures.
@@ -5613,6 +6747,10 @@ export interface Plan {
    * The paths and their programs.
    */
   paths: PlanPathEntry[];
+  /**
+   * What each stage will determine; empty if the campaign has none.
+   */
+  stages: PlannedStageEntry[];
   /**
    * The uncertainty to expect of each unknown.
    */
@@ -5716,6 +6854,36 @@ export interface SeenEntry {
    * The largest reading of each channel. Unit: that of the path.
    */
   largest: number[];
+}
+/**
+ * A stage of a plan for programs.
+ */
+export interface PlannedStageEntry {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * The uncertainty of each unknown after it.
+   */
+  expected: PlannedValue[];
+}
+/**
+ * What is expected of an unknown after a stage.
+ */
+export interface PlannedValue {
+  /**
+   * Its name.
+   */
+  name: string;
+  /**
+   * `um`, `urad`, `ms` or `um/m`.
+   */
+  unit: string;
+  /**
+   * Expanded uncertainty (k = 2); null if it is not known then. Unit: that of `unit`.
+   */
+  expanded_k2: number | null;
 }
 /**
  * The uncertainty to expect of an unknown.
@@ -6491,6 +7659,10 @@ export interface Predict {
    */
   temperature_log: string | null;
   /**
+   * The part at the feed of every cutting condition; absent without `[servo]`.
+   */
+  conditions?: ConditionEntry[];
+  /**
    * What to know of this prediction.
    */
   warnings: string[];
@@ -6730,6 +7902,63 @@ export interface SamplingEntry {
    * The random seed.
    */
   seed: number;
+}
+/**
+ * The part at the feed of one cutting condition.
+ */
+export interface ConditionEntry {
+  /**
+   * Its name.
+   */
+  condition: string;
+  /**
+   * The feed of the tip, mm/min.
+   */
+  feed_mm_per_min: number;
+  /**
+   * The lowest and the highest speed of the tip that the axes allow, mm/min.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  tip_mm_per_min: [number, number];
+  /**
+   * Index after index.
+   */
+  indices: ConditionIndexEntry[];
+  /**
+   * `pass`, `fail` or `undecided`.
+   */
+  verdict: string;
+}
+/**
+ * An index at the feed of a cutting condition.
+ */
+export interface ConditionIndexEntry {
+  /**
+   * Its key.
+   */
+  index: string;
+  /**
+   * Its value, mm.
+   */
+  value_mm: number;
+  /**
+   * Its standard uncertainty, mm.
+   */
+  u_mm: number;
+  /**
+   * The part of it that comes from the servo alone, mm.
+   */
+  u_servo_mm: number;
+  /**
+   * The value less that without following errors, mm.
+   */
+  added_mm: number;
+  /**
+   * The value with the servo alone, on a machine without errors, mm.
+   */
+  servo_alone_mm: number;
 }
 /**
  * The answer of a command that cannot use its input; the exit status is 2.
@@ -7103,6 +8332,15 @@ export interface ServeIdentifyDiagnosed {
    */
   verdict: VerdictEntry;
   /**
+   * The stages one after the other; empty if the campaign has none.
+   */
+  stages: StageEntry[];
+  /**
+   * The largest difference between the stages and all readings at once, in standard uncertainties; null
+   * without stages. Unit: 1.
+   */
+  stages_differ_by_u: number | null;
+  /**
    * The errors of the machine.
    */
   errors: FoundEntry[];
@@ -7431,6 +8669,10 @@ export interface PlanDocument {
    * The paths and their programs.
    */
   paths: ServePlanPathEntry[];
+  /**
+   * What each stage will determine; empty if the campaign has none.
+   */
+  stages: PlannedStageEntry[];
   /**
    * The uncertainty to expect of each unknown.
    */
@@ -7771,6 +9013,10 @@ export interface PredictionDocument {
    * The log that the temperatures follow; null if there is none.
    */
   temperature_log: string | null;
+  /**
+   * The part at the feed of every cutting condition; absent without `[servo]`.
+   */
+  conditions?: ConditionEntry[];
   /**
    * What to know of this prediction.
    */
@@ -8666,6 +9912,55 @@ export interface ToolEntry {
    * How many moves it makes.
    */
   moves: number;
+  /**
+   * How long it moves with feed, s.
+   */
+  with_feed_s: number;
+  /**
+   * How far its tip moves with feed in the workpiece, mm.
+   */
+  with_feed_mm: number;
+  /**
+   * What is known of its wear and its life; null if the set-up states nothing.
+   */
+  state: ToolStateEntry | null;
+}
+/**
+ * The state of a tool.
+ */
+export interface ToolStateEntry {
+  /**
+   * In one or two words: `fit`, `not decided`, `worn`, `broken` or `life spent`.
+   */
+  word: string;
+  /**
+   * Measured − nominal length, µm; null if it was not measured.
+   */
+  length_off_um: number | null;
+  /**
+   * Its expanded uncertainty (k = 2), µm.
+   */
+  U_length_um: number | null;
+  /**
+   * Measured − nominal radius, µm; null if it was not measured.
+   */
+  radius_off_um: number | null;
+  /**
+   * Its expanded uncertainty (k = 2), µm.
+   */
+  U_radius_um: number | null;
+  /**
+   * The life that remains after this program, s; null if it does not count by time.
+   */
+  life_after_s: number | null;
+  /**
+   * The life that remains after this program, mm; null if it does not count by distance.
+   */
+  life_after_mm: number | null;
+  /**
+   * The tool that takes its place.
+   */
+  sister: number | null;
 }
 /**
  * Temperatures during the program, and the drift that they cause.
@@ -9793,6 +11088,225 @@ export interface TimeEntry {
    * The speed of the tip at its end, mm/min.
    */
   speed_mm_per_min: number;
+}
+/**
+ * Measured test pieces against their tolerances and their prediction.
+ */
+export interface VerifyPart {
+  /**
+   * Which document this is.
+   */
+  schema: "trueaxis/verify-part/1";
+  /**
+   * The name of the file.
+   */
+  name: string;
+  /**
+   * The test piece.
+   */
+  test_piece: string;
+  /**
+   * What the prediction is.
+   */
+  prediction: string;
+  /**
+   * How many parts were measured.
+   */
+  parts: number;
+  /**
+   * The coverage factor k of U = k·u. Unit: 1.
+   */
+  coverage_factor: number;
+  /**
+   * The decision rule in words.
+   */
+  rule: string;
+  /**
+   * `pass`, `fail` or `undecided`: the parts against their tolerances.
+   */
+  verdict: string;
+  /**
+   * Why, in a sentence.
+   */
+  reason: string;
+  /**
+   * Whether the parts were measured in the frame of the best fit.
+   */
+  best_fit: boolean;
+  /**
+   * Index after index.
+   */
+  indices: PartIndexEntry[];
+  /**
+   * The circles of every section of every part that was measured by points.
+   */
+  sections: PartSectionEntry[];
+  /**
+   * What the reader of the numbers should know.
+   */
+  warnings: string[];
+  /**
+   * The problems found in the input; the command line prints them on standard error, too.
+   */
+  diagnostics?: {
+    /**
+     * The code, such as `table-too-short`; `trueaxis explain CODE` has its meaning and its remedy.
+     */
+    code: string;
+    /**
+     * `error`: the input cannot be used; `warning`: it should be checked; `note`: information.
+     */
+    severity: string;
+    /**
+     * The file as the user named it, or an argument such as `--at`.
+     */
+    file: string;
+    /**
+     * The line, from 1; 0 for the file as a whole.
+     */
+    line: number;
+    /**
+     * The column in characters, from 1; 0 for the file as a whole.
+     */
+    column: number;
+    /**
+     * The problem in one sentence.
+     */
+    message: string;
+    /**
+     * What to do; empty if it follows from the message.
+     */
+    hint: string;
+  }[];
+}
+/**
+ * One index.
+ */
+export interface PartIndexEntry {
+  /**
+   * Its key.
+   */
+  index: string;
+  /**
+   * Whether it decides.
+   */
+  decisive: boolean;
+  /**
+   * The predicted value, mm.
+   */
+  predicted_mm: number | null;
+  /**
+   * Its standard uncertainty, mm; null if not stated.
+   */
+  u_predicted_mm: number | null;
+  /**
+   * What the noise of the points adds to the predicted index on average, mm; 0 if not known.
+   */
+  noise_mm: number;
+  /**
+   * Part after part, mm.
+   */
+  measured_mm: number[];
+  /**
+   * Their standard uncertainties, mm; null if not stated.
+   */
+  u_measured_mm: number[] | null;
+  /**
+   * Mean of the parts, mm.
+   */
+  mean_mm: number | null;
+  /**
+   * Its standard uncertainty with the spread of the parts, mm.
+   */
+  u_mean_mm: number | null;
+  /**
+   * Predicted over measured mean (Fig 20 of Wu et al. 2022), %.
+   */
+  ratio_percent: number | null;
+  /**
+   * The same with the mean that the sheet prints, %; null if it prints none.
+   */
+  printed_ratio_percent: number | null;
+  /**
+   * |measured mean − predicted| over its expanded uncertainty; null where that is 0. Unit: 1.
+   */
+  e_n: number | null;
+  /**
+   * Whether both agree within their uncertainties.
+   */
+  agrees: boolean | null;
+  /**
+   * Its limit, mm.
+   */
+  tolerance_mm: number | null;
+  /**
+   * Part after part `pass`, `fail` or `undecided`, where there is a limit.
+   */
+  verdicts: string[];
+  /**
+   * What else is said about it.
+   */
+  note: string;
+}
+/**
+ * One section of one part.
+ */
+export interface PartSectionEntry {
+  /**
+   * The number of the part, from 1.
+   */
+  part: number;
+  /**
+   * The file of its points.
+   */
+  file: string;
+  /**
+   * Height in the workpiece frame, mm.
+   */
+  z_mm: number;
+  /**
+   * Height above the base, mm.
+   */
+  height_mm: number;
+  /**
+   * Number of points.
+   */
+  points: number;
+  /**
+   * Nominal radius, mm.
+   */
+  nominal_radius_mm: number;
+  /**
+   * Radius of the least-squares circle, mm.
+   */
+  radius_mm: number;
+  /**
+   * Centre of the least-squares circle, mm.
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  centre_mm: [number, number];
+  /**
+   * Roundness about it, mm.
+   */
+  roundness_lsc_mm: number;
+  /**
+   * Width of the minimum zone, mm.
+   */
+  roundness_mzc_mm: number;
+  /**
+   * Width of the predicted minimum zone, mm; null without a study.
+   */
+  predicted_roundness_mzc_mm: number | null;
+  /**
+   * Azimuth of each point, deg.
+   */
+  azimuth_deg: number[];
+  /**
+   * E of each point, mm; positive: material left.
+   */
+  e_mm: number[];
 }
 /**
  * Readings compared with a prediction, or with other readings.

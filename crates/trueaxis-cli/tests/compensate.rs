@@ -311,3 +311,28 @@ fn nothing_is_compensated_twice() {
     let written = std::fs::read_to_string(out).expect("the program");
     assert!(written.contains("X199.988") || written.contains("X200.012"), "{written}");
 }
+
+/// HEIDENHAIN's and ISG's tables hold errors of axes alone: for a warm part they are refused, not written without it.
+#[test]
+fn tables_that_would_leave_the_workpiece_out_are_refused() {
+    let folder = Folder::new("warm-part-tables");
+    let gantry = "machines/gantry-001/machine.toml";
+    let warm = "scale_x=30.5 scale_y=30.5 scale_z=30.5 workpiece=30.5";
+    for target in ["heidenhain", "isg"] {
+        let out = folder.path(target);
+        let words =
+            ["compensate", "tables", gantry, "--target", target, "--temperature", warm, "-o", &out];
+        let ran = trueaxis(&words);
+        assert!(ran.status == 2 && ran.err.contains("workpiece-left-out"), "{target}: {}", ran.err);
+        assert!(!std::path::Path::new(&out).exists());
+        let machine = trueaxis(&[&words[..], &["--machine-only"]].concat());
+        assert_eq!(machine.status, 0, "{target}: {}", machine.err);
+    }
+    for target in ["sinumerik", "fanuc", "linuxcnc", "csv"] {
+        let out = folder.path(target);
+        let words =
+            ["compensate", "tables", gantry, "--target", target, "--temperature", warm, "-o", &out];
+        let ran = trueaxis(&[&words[..], &["--format", "json"]].concat());
+        assert_eq!(ran.status, 0, "{target}: {}", ran.err);
+    }
+}

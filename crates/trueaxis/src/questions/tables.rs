@@ -79,6 +79,21 @@ impl CompensateTables {
     }
 }
 
+impl CompensateTables {
+    /// The tables of some controls hold errors of axes alone: without the growth of the workpiece they make a warm part
+    /// worse (Zhang et al. 2019, section 3.2.1).
+    fn can_hold_growth(&self, machine: &Machine, problems: &mut Diagnostics) {
+        let is_of_axes_alone = matches!(self.target, Target::Heidenhain | Target::Isg);
+        if is_of_axes_alone && machine.growth().is_some() {
+            let message = "the tables of this control hold errors of axes alone: the growth of the \
+                           workpiece would stay on the part, and compensating the machine alone makes it worse"
+                .to_owned();
+            let hint = "compensate program, or another --target; --machine-only for the machine without a part";
+            problems.error("workpiece-left-out", argument("--target"), message, hint);
+        }
+    }
+}
+
 impl Question for CompensateTables {
     type Input = (Machine, Order, Files, Option<String>);
     type Answer = TablesAnswer;
@@ -90,6 +105,7 @@ impl Question for CompensateTables {
         let order = self.order(&machine, problems);
         let only = self.machine_only;
         let (machine, price) = machine_or_part(machine, &self.machine, files, only, problems)?;
+        self.can_hold_growth(&machine, problems);
         Some((machine, order?, files.clone(), price))
     }
 

@@ -34,7 +34,7 @@ use std::fs;
 type Ours = fn() -> Vec<f64>;
 
 fn functions() -> Vec<(&'static str, Ours)> {
-    let lists: [&[(&str, Ours)]; 8] = [
+    let lists: [&[(&str, Ours)]; 11] = [
         document_000::CLAIMS,
         document_001::CLAIMS,
         document_002::CLAIMS,

@@ -125,5 +125,7 @@ fn expansion(axis: Axis) -> Expansion {
         name: axis.0.to_owned(),
         positions_mm,
         runs: axis.3.map(run).to_vec(),
+        scale: Default::default(),
+        laser: Default::default(),
     })
 }
