@@ -5863,11 +5863,11 @@ export interface FoundTable {
    */
   runs: number;
   /**
-   * Standard deviation of a single reading, µm or µrad; null where each target was read once.
+   * Standard deviation of a single reading, µm or µrad; null where each target was read once. Unit: that of `unit`.
    */
   scatter: number | null;
   /**
-   * What the set-up of the instrument hides, and was taken off.
+   * What the set-up of the instrument hides, and was subtracted.
    */
   removed: string;
   /**
@@ -5875,11 +5875,11 @@ export interface FoundTable {
    */
   arms: ArmEntry[];
   /**
-   * Largest − least of the mean of both directions, µm or µrad.
+   * Largest − least of the mean of both directions, µm or µrad. Unit: that of `unit`.
    */
   range: number;
   /**
-   * How far the instrument would read otherwise on the new machine, µm or µrad.
+   * How far the instrument would read otherwise on the new machine, µm or µrad. Unit: that of `unit`.
    */
   read_back: number;
   /**
@@ -5905,19 +5905,19 @@ export interface ArmEntry {
  */
 export interface FoundRow {
   /**
-   * The position, mm or deg.
+   * The position. Unit: mm or deg.
    */
   position: number;
   /**
-   * Reached upwards, µm or µrad.
+   * Reached upwards, µm or µrad. Unit: that of `unit`.
    */
   up: number;
   /**
-   * Reached downwards, µm or µrad; equal to `up` where one direction was read.
+   * Reached downwards, µm or µrad; equal to `up` where one direction was read. Unit: that of `unit`.
    */
   down: number;
   /**
-   * Standard uncertainty, µm or µrad.
+   * Standard uncertainty, µm or µrad. Unit: that of `unit`.
    */
   u: number;
 }

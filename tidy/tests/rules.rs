@@ -177,7 +177,7 @@ fn large_crates() -> Vec<String> {
 }
 
 /// Every crate, and which of the others it may use. An arrow that is not here needs a decision record.
-const CRATES: [(&str, &[&str]); 22] = [
+const CRATES: [(&str, &[&str]); 23] = [
     ("trueaxis-input", &[]),
     ("trueaxis-geometry", &[]),
     ("trueaxis-report", &[]),
@@ -191,6 +191,7 @@ const CRATES: [(&str, &[&str]); 22] = [
     ("trueaxis-cl", &["input", "nc"]),
     ("trueaxis-part", &["input", "geometry"]),
     ("trueaxis-standards", &["input", "geometry", "part", "report"]),
+    ("trueaxis-thermal", &["input", "geometry", "machine", "report"]),
     ("trueaxis-motion", &["input", "geometry", "machine", "nc", "report"]),
     ("trueaxis-measure", &["input", "geometry", "machine", "motion", "report"]),
     (
@@ -213,6 +214,7 @@ const CRATES: [(&str, &[&str]); 22] = [
             "nc",
             "part",
             "standards",
+            "thermal",
             "motion",
             "measure",
             "calibrate",

@@ -14,7 +14,7 @@ pub mod report;
 
 use report::{
     HitsDocument, IdentificationDocument, MeasuredToolsDocument, PlanDocument, ProbeDocument,
-    RtcpDocument, SurfaceDocument, ThermalDocument, ToolSettingDocument,
+    RtcpDocument, SurfaceDocument, ToolSettingDocument,
 };
 use trueaxis_report::{NamedSchema, named_schema};
 
@@ -25,7 +25,6 @@ pub fn schemas() -> Vec<NamedSchema> {
         named_schema::<ProbeDocument<'_>>("identify-probe"),
         named_schema::<RtcpDocument<'_>>("identify-rtcp"),
         named_schema::<HitsDocument<'_>>("identify-surface"),
-        named_schema::<ThermalDocument<'_>>("identify-thermal"),
         named_schema::<MeasuredToolsDocument<'_>>("identify-tools"),
         named_schema::<PlanDocument<'_>>("plan"),
         named_schema::<SurfaceDocument<'_>>("plan-probe-surface"),

@@ -16,9 +16,6 @@ mod rtcp_document;
 mod stages;
 mod surface;
 mod surface_document;
-mod thermal;
-mod thermal_document;
-mod thermal_pictures;
 mod tool_setting;
 mod tool_setting_document;
 
@@ -35,7 +32,5 @@ pub use rtcp::{RtcpReport, rtcp_report};
 pub use rtcp_document::RtcpDocument;
 pub use surface::surface_report;
 pub use surface_document::SurfaceDocument;
-pub use thermal::{thermal_lines, thermal_report};
-pub use thermal_document::ThermalDocument;
 pub use tool_setting::{setting_report, tools_report};
 pub use tool_setting_document::{MeasuredToolsDocument, ToolSettingDocument};

@@ -301,7 +301,7 @@ fn scales_that_do_not_fit_are_refused() {
         (format!("machine = {machine:?}\n"), runs, "missing-key"),
         (on("Q"), runs, "unwritable-file"),
         (on("Z"), runs, "unwritable-file"),
-        (on("Y"), swapped, "impossible-expansion"),
+        (on("Y"), swapped, "impossible-scale"),
         (on("Y"), none, "missing-key"),
     ] {
         let text = format!("name = \"y\"\ntable = \"t.csv\"\n{head}{runs}");

@@ -118,6 +118,7 @@ const ANSWERS: &[(&str, &str)] = &[
         "trace machines/wyxzcat-gantry/machine.toml examples/02_simulate/impeller-840d.mpf --block 120",
     ),
     ("verify", "verify examples/07_verify/probe-ball.toml"),
+    ("before-after", "verify --before-after examples/07_verify/laser-before-after-x.toml"),
     ("verify-part", "verify --part examples/07_verify/nas979-measured.toml"),
     ("verify-part", "verify --part examples/07_verify/nas979-points.toml"),
 ];

@@ -39,7 +39,7 @@ pub mod verify;
 
 pub use schemas::schemas;
 
-pub use trueaxis_calibrate::{identify, plan};
+pub use trueaxis_calibrate::plan;
 pub use trueaxis_cl as cl;
 pub use trueaxis_correct::compensate;
 pub use trueaxis_geometry as geometry;
@@ -55,6 +55,12 @@ pub use trueaxis_predict::predict;
 pub use trueaxis_writer as writer;
 
 pub use trueaxis_report::{NamedSchema, VERSION};
+
+/// What is the machine like: errors from readings, and how they follow temperatures.
+pub mod identify {
+    pub use trueaxis_calibrate::identify::*;
+    pub use trueaxis_thermal::{expansion, thermal};
+}
 
 /// A JSON Schema.
 pub use schemars::Schema;

@@ -68,3 +68,4 @@ pub use trueaxis_report::{
     numbers,
 };
 pub use trueaxis_standards::report::*;
+pub use trueaxis_thermal::report::*;

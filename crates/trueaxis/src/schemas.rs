@@ -47,6 +47,7 @@ pub fn schemas() -> Vec<NamedSchema> {
     ];
     all.extend(trueaxis_measure::schemas());
     all.extend(trueaxis_calibrate::schemas());
+    all.extend(trueaxis_thermal::schemas());
     all.extend(trueaxis_predict::schemas());
     all.extend(trueaxis_correct::schemas());
     all.extend(trueaxis_motion::schemas());

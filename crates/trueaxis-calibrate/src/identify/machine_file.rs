@@ -180,8 +180,7 @@ pub fn with_locations(
     Ok(text)
 }
 
-/// The machine of a text; `Err` is its first error.
-pub(super) fn machine_of(text: &str, beside: &dyn Tables) -> Result<Machine, String> {
+fn machine_of(text: &str, beside: &dyn Tables) -> Result<Machine, String> {
     let (machine, problems) = Machine::check("the new machine file", text, beside);
     machine.filter(|_| !problems.has_errors()).ok_or_else(|| {
         let first = problems.iter().find(|d| d.severity == Severity::Error);

@@ -1,10 +1,62 @@
 //! Errors of a machine file replaced by others: their lines, and their columns in the tables of axes.
 
 use super::lines::{Lines, header};
+use crate::Machine;
 use crate::errors::{Curve, ErrorName, Harmonic, StatedError};
 use crate::file::Tables;
+use std::cell::RefCell;
 use std::fmt::Write as _;
 use std::path::Path;
+use trueaxis_input::Severity;
+
+/// The tables of a new machine file: those that were made, else those beside the old one. It keeps which were read.
+pub struct NewTables<'a> {
+    made: &'a [(String, String)],
+    beside: &'a dyn Tables,
+    read: RefCell<Vec<(String, String)>>,
+}
+
+impl<'a> NewTables<'a> {
+    /// Tables by name and text, before those beside the old file.
+    pub fn of(made: &'a [(String, String)], beside: &'a dyn Tables) -> Self {
+        Self { made, beside, read: RefCell::default() }
+    }
+
+    /// Name and text of every table that was read.
+    pub fn read(self) -> Vec<(String, String)> {
+        self.read.into_inner()
+    }
+}
+
+impl Tables for NewTables<'_> {
+    fn text(&self, name: &str) -> Result<String, String> {
+        let text = match self.made.iter().find(|(n, _)| n == name) {
+            Some((_, text)) => text.clone(),
+            None => self.beside.text(name)?,
+        };
+        let mut read = self.read.borrow_mut();
+        if !read.iter().any(|(n, _)| n == name) {
+            read.push((name.to_owned(), text.clone()));
+        }
+        Ok(text)
+    }
+
+    fn display(&self, name: &str) -> String {
+        self.beside.display(name)
+    }
+}
+
+/// The machine of a text that was made.
+///
+/// # Errors
+/// The first error of the text.
+pub fn machine_of_text(text: &str, tables: &dyn Tables) -> Result<Machine, String> {
+    let (machine, problems) = Machine::check("the new machine file", text, tables);
+    machine.filter(|_| !problems.has_errors()).ok_or_else(|| {
+        let first = problems.iter().find(|d| d.severity == Severity::Error);
+        first.map_or("it would not be read".to_owned(), |d| format!("{}: {}", d.place, d.message))
+    })
+}
 
 /// What the file states of an error.
 #[derive(Debug, Clone, PartialEq, Eq)]

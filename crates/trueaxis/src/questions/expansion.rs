@@ -6,12 +6,13 @@ use crate::files::output::may_fill;
 use crate::report::{self, ScaleFound};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use trueaxis_calibrate::identify::expansion::{
+use trueaxis_input::{Diagnostics, Files, Place};
+use trueaxis_machine::describe::replacement::NewTables;
+use trueaxis_machine::file::Folder;
+use trueaxis_report::Report;
+use trueaxis_thermal::expansion::{
     Runs, ScaleFiles, geometric_table, identify_expansion, read_runs, scale_files,
 };
-use trueaxis_input::{Diagnostics, Files, Place};
-use trueaxis_machine::file::{Folder, Tables};
-use trueaxis_report::Report;
 
 /// The coefficient of expansion and the error table of scales, each from runs at two or more temperatures.
 #[derive(Debug, Clone, Default)]
@@ -69,7 +70,7 @@ impl Question for IdentifyExpansion {
                 let message = "no machine file is written with a coefficient that no scale has";
                 let hint =
                     "correct the runs: temperatures, columns, units, [laser] material_expansion";
-                problems.error("impossible-expansion", place(), message.to_owned(), hint);
+                problems.error("impossible-scale", place(), message.to_owned(), hint);
             }
             match geometric_table(&runs, &found) {
                 Ok(table) => scales.push(ScaleFound { runs, found, table }),
@@ -124,7 +125,7 @@ impl IdentifyExpansion {
         let mut tables: Vec<(String, String)> = Vec::new();
         let (mut splines, mut models) = (Vec::new(), Vec::new());
         for (scale, path) in answer.scales.iter().zip(&self.runs) {
-            let made = Made { tables: &tables, beside: &beside };
+            let made = NewTables::of(&tables, &beside);
             match scale_files(&scale.runs, &scale.found, &scale.table, &text, &made) {
                 Ok(ScaleFiles { text: new, tables: read, models: named, .. }) => {
                     (text, tables, models) = (new, read, named);
@@ -144,25 +145,6 @@ impl IdentifyExpansion {
         answer.files.push(file);
         answer.notes = notes;
         Some(())
-    }
-}
-
-/// Tables that were made, before those beside the machine file.
-struct Made<'a> {
-    tables: &'a [(String, String)],
-    beside: &'a Folder,
-}
-
-impl Tables for Made<'_> {
-    fn text(&self, name: &str) -> Result<String, String> {
-        match self.tables.iter().find(|(made, _)| made == name) {
-            Some((_, text)) => Ok(text.clone()),
-            None => self.beside.text(name),
-        }
-    }
-
-    fn display(&self, name: &str) -> String {
-        self.beside.display(name)
     }
 }
 

@@ -4,9 +4,9 @@ use super::{Answer, Question, Tell, with_diagnostics};
 use crate::report;
 use serde_json::Value;
 use std::path::PathBuf;
-use trueaxis_calibrate::identify::thermal::{Logs, ThermalModel, identify_thermal, read_logs};
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_report::Report;
+use trueaxis_thermal::thermal::{Logs, ThermalModel, identify_thermal, read_logs};
 
 /// A linear model of an error that drifts with temperatures, from logs of whole cycles.
 #[derive(Debug, Clone, Default)]

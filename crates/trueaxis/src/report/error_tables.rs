@@ -60,15 +60,15 @@ fn overview(found: &TablesFound) -> Table {
         ]
     });
     let headings =
-        ["error", "range", "U (k = 2)", "unit", "runs", "scatter", "taken off", "arm, at most"];
+        ["error", "range", "U (k = 2)", "unit", "runs", "scatter", "subtracted", "arm, at most"];
     let worst = |is_angle: bool| {
         let of_kind =
             found.read_back.iter().filter(|(name, _)| name.component.is_rotation() == is_angle);
         of_kind.map(|(name, worst)| worst * scale_of(*name).0).fold(0.0, f64::max)
     };
     Table::new(headings).rows(rows).note(format!(
-        "range: largest − least of the mean; taken off: what the set-up of the instrument hides; arm: what the angles \
-         of the axis did between the optics and the axis, taken off as well. Read back through the whole chain of \
+        "range: largest − least of the mean; subtracted: what the set-up of the instrument hides; arm: what the angles \
+         of the axis did between the optics and the axis, subtracted as well. Read back through the whole chain of \
          the new machine file the means differ by {:.3} µm and {:.3} µrad at most",
         worst(false),
         worst(true)

@@ -42,15 +42,15 @@ pub struct FoundTable {
     pub unit: &'static str,
     /// How many runs in each direction.
     pub runs: usize,
-    /// Standard deviation of a single reading, µm or µrad; null where each target was read once.
+    /// Standard deviation of a single reading, µm or µrad; null where each target was read once. Unit: that of `unit`.
     pub scatter: Option<f64>,
-    /// What the set-up of the instrument hides, and was taken off.
+    /// What the set-up of the instrument hides, and was subtracted.
     pub removed: &'static str,
     /// What the angles of the axis did to the readings over the arm of the optics.
     pub arms: Vec<ArmEntry>,
-    /// Largest − least of the mean of both directions, µm or µrad.
+    /// Largest − least of the mean of both directions, µm or µrad. Unit: that of `unit`.
     pub range: f64,
-    /// How far the instrument would read otherwise on the new machine, µm or µrad.
+    /// How far the instrument would read otherwise on the new machine, µm or µrad. Unit: that of `unit`.
     pub read_back: f64,
     /// Its rows.
     pub rows: Vec<FoundRow>,
@@ -68,13 +68,13 @@ pub struct ArmEntry {
 /// A row of a table.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct FoundRow {
-    /// The position, mm or deg.
+    /// The position. Unit: mm or deg.
     pub position: f64,
-    /// Reached upwards, µm or µrad.
+    /// Reached upwards, µm or µrad. Unit: that of `unit`.
     pub up: f64,
-    /// Reached downwards, µm or µrad; equal to `up` where one direction was read.
+    /// Reached downwards, µm or µrad; equal to `up` where one direction was read. Unit: that of `unit`.
     pub down: f64,
-    /// Standard uncertainty, µm or µrad.
+    /// Standard uncertainty, µm or µrad. Unit: that of `unit`.
     pub u: f64,
 }
 
@@ -97,7 +97,7 @@ pub struct FoundSquareness<'a> {
     pub scale_difference_um: f64,
 }
 
-/// Words for what was taken off.
+/// Words for what was subtracted.
 pub(super) fn removed_words(removed: Removed) -> &'static str {
     match removed {
         Removed::Zero => "zero",

@@ -1,9 +1,9 @@
 //! The coefficient of expansion and the error table of a scale, as text and page.
 
 use super::ScaleFound;
-use trueaxis_calibrate::identify::expansion::GeometricTable;
 use trueaxis_report::plots::{Curve, Labels, curves};
 use trueaxis_report::{DrawingError, Figure, Report, Section, Table};
+use trueaxis_thermal::expansion::GeometricTable;
 
 /// The coefficient and the error table of one scale, or of several.
 pub fn expansion_report(scales: &[ScaleFound]) -> Report<'_> {
@@ -94,7 +94,7 @@ fn picture(scale: &ScaleFound) -> Figure<'_> {
 fn draw(scale: &ScaleFound) -> Result<String, DrawingError> {
     /// Of the spline, between the first and the last position.
     const STEPS: u32 = 200;
-    let run_curve = |run: &trueaxis_calibrate::identify::expansion::Run| Curve {
+    let run_curve = |run: &trueaxis_thermal::expansion::Run| Curve {
         label: format!("{}, {:.1} °C", run.name, run.celsius.value),
         points: scale
             .runs

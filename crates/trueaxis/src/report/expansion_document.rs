@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::Serialize;
-use trueaxis_calibrate::identify::expansion::{Expansion, GeometricTable, Runs};
+use trueaxis_thermal::expansion::{Expansion, GeometricTable, Runs};
 
 /// A scale: its runs, and what was found from them.
 #[derive(Debug)]

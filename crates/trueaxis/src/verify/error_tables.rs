@@ -2,12 +2,13 @@
 //! straightness, angles, run-out of rotary axes, averaged over runs; squareness from circles.
 //!
 //! An instrument sees the tool against the workpiece where its optics are, not the error of the body: what the
-//! angles of the axis do over that arm is taken off, by the chain of the machine file (docs/model.md eq. 181).
+//! angles of the axis do over that arm is subtracted, by the chain of the machine file (docs/model.md eq. 181).
 //! What the set-up of the instrument hides (its zero, the line of a straightedge, the eccentricity of a
-//! ball) is taken off, too, and stated.
+//! ball) is subtracted, too, and stated.
 
 mod file;
 mod machine_file;
+mod means;
 mod reduce;
 mod squareness;
 
@@ -24,7 +25,7 @@ use trueaxis_machine::axis::Command;
 use trueaxis_machine::errors::{ErrorIndex, ErrorName};
 use trueaxis_machine::twist::Reference;
 
-/// The straight line that is taken off the readings of straightness: how the reference lies is not an error.
+/// The straight line that is subtracted the readings of straightness: how the reference lies is not an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ReferenceLine {
     /// The least-squares line of both directions.
@@ -67,11 +68,11 @@ pub struct ErrorReadings {
     pub stands_on: Reference,
     /// Whether the readings are of the workpiece against the tool: the opposite sign.
     pub of_workpiece: bool,
-    /// Which line of a straightness is taken off.
+    /// Which line of a straightness is subtracted.
     pub line: ReferenceLine,
     /// Where the table is zero. Unit: mm or rad.
     pub zero: Option<f64>,
-    /// Whether the eccentricity of the artefact is taken off the run-out of a rotary axis.
+    /// Whether the eccentricity of the artefact is subtracted the run-out of a rotary axis.
     pub centred: bool,
 }
 

@@ -7,14 +7,14 @@ use super::reduce::{Role, directions, role, side};
 use super::{ErrorReadings, ErrorTable, ReferenceLine, Squareness, TableStudy};
 use crate::verify::iso230_2::Direction;
 use nalgebra::{DMatrix, DVector};
-use std::cell::RefCell;
 use std::fmt::Write as _;
 use trueaxis_geometry::{AxisKind, Vec3};
-use trueaxis_input::Severity;
 use trueaxis_machine::Machine;
 use trueaxis_machine::chain::Link;
 use trueaxis_machine::describe::lines::{Lines, header};
-use trueaxis_machine::describe::replacement::{Entry, plain, put, take_out_of_table};
+use trueaxis_machine::describe::replacement::{
+    Entry, NewTables, machine_of_text, plain, put, take_out_of_table,
+};
 use trueaxis_machine::errors::{ErrorName, ErrorValues};
 use trueaxis_machine::file::Tables;
 use trueaxis_machine::models::Shape;
@@ -71,9 +71,9 @@ pub fn machine_files(
         put(&mut file, found.name, &Entry::Value(value), &origin);
     }
     let text = file.text();
-    let seen = Seen { new: &written, beside, read: RefCell::default() };
-    let machine = machine_of(&text, &seen)?;
-    let tables_read = seen.read.into_inner();
+    let seen = NewTables::of(&written, beside);
+    let machine = machine_of_text(&text, &seen)?;
+    let tables_read = seen.read();
     let mut read_back = Vec::new();
     for readings in &study.readings {
         read_back.push((readings.name, difference(&machine, readings)?));
@@ -92,46 +92,12 @@ impl MachineFiles {
     /// # Errors
     /// In words, why it cannot be read.
     pub fn machine(&self, beside: &dyn Tables) -> Result<Machine, String> {
-        machine_of(&self.text, &Seen { new: &self.tables, beside, read: RefCell::default() })
+        machine_of_text(&self.text, &NewTables::of(&self.tables, beside))
     }
 }
 
 fn one_line(text: &str) -> String {
     text.replace(['\n', '\r'], " ")
-}
-
-/// The machine of a text; `Err` is its first error.
-pub(super) fn machine_of(text: &str, beside: &dyn Tables) -> Result<Machine, String> {
-    let (machine, problems) = Machine::check("the new machine file", text, beside);
-    machine.filter(|_| !problems.has_errors()).ok_or_else(|| {
-        let first = problems.iter().find(|d| d.severity == Severity::Error);
-        first.map_or("it would not be read".to_owned(), |d| format!("{}: {}", d.place, d.message))
-    })
-}
-
-/// The tables of the new file: those that were made, else those beside the old one; which of them are read.
-struct Seen<'a> {
-    new: &'a [(String, String)],
-    beside: &'a dyn Tables,
-    read: RefCell<Vec<(String, String)>>,
-}
-
-impl Tables for Seen<'_> {
-    fn text(&self, name: &str) -> Result<String, String> {
-        let text = match self.new.iter().find(|(n, _)| n == name) {
-            Some((_, text)) => text.clone(),
-            None => self.beside.text(name)?,
-        };
-        let mut read = self.read.borrow_mut();
-        if !read.iter().any(|(n, _)| n == name) {
-            read.push((name.to_owned(), text.clone()));
-        }
-        Ok(text)
-    }
-
-    fn display(&self, name: &str) -> String {
-        self.beside.display(name)
-    }
 }
 
 fn measured(table: &ErrorTable) -> String {
@@ -213,7 +179,7 @@ fn difference(machine: &Machine, readings: &ErrorReadings) -> Result<f64, String
     }
 }
 
-/// What is left of the differences when the set-up of the instrument is fitted again.
+/// What remains of the differences when the set-up of the instrument is fitted again.
 fn left(places: &[f64], differences: &[f64], role: Role, readings: &ErrorReadings) -> f64 {
     let row = |q: f64| match role {
         Role::Straightness if readings.line != ReferenceLine::None => vec![1.0, q],

@@ -1,7 +1,7 @@
 //! From readings to the error of the body: averages, arms, zero.
 
+use super::means::Means;
 use super::{ErrorReadings, ReferenceLine, TableStudy};
-use crate::verify::iso230_2::{Direction, Target};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::PI;
 use trueaxis_geometry::frame::rotation;
@@ -12,10 +12,10 @@ use trueaxis_machine::axis::{Axis, AxisKind};
 use trueaxis_machine::chain::ErrorFrame;
 use trueaxis_machine::errors::{Component, ErrorIndex, ErrorName, Interpolation, Spline};
 
-/// An arm shorter than this matters to nobody, mm.
+/// An arm shorter than this does not matter, mm.
 const SHORT_ARM_MM: f64 = 1.0;
 
-/// What the set-up of the instrument hides, and was taken off.
+/// What the set-up of the instrument hides, and was subtracted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Removed {
     /// The zero.
@@ -51,7 +51,7 @@ pub struct ErrorTable {
     pub runs: usize,
     /// Standard deviation of a single reading; `None` where each was taken once. Unit: mm or rad.
     pub scatter: Option<f64>,
-    /// What was taken off.
+    /// What was subtracted.
     pub removed: Removed,
     /// What the angles of the axis did over the arm, at most, with the standard uncertainty of that: by error, mm.
     pub arms: Vec<(ErrorName, f64)>,
@@ -189,7 +189,7 @@ struct Angle {
 }
 
 impl Angles<'_> {
-    /// `None` where nobody knows it.
+    /// `None` where it is not known.
     fn at(&self, index: ErrorIndex, q: f64) -> Option<Angle> {
         if let Some(table) = self.tables.iter().find(|t| t.index == index) {
             let between = |values: &[f64]| {
@@ -332,80 +332,7 @@ fn reduce(
     })
 }
 
-/// The averages at the targets.
-struct Means {
-    positions: Vec<f64>,
-    up: Vec<f64>,
-    down: Vec<f64>,
-    both: bool,
-    runs: usize,
-    scatter: Option<f64>,
-    u_arms: Vec<f64>,
-}
-
-impl Means {
-    fn of(targets: &[Target], file: &str, problems: &mut Diagnostics) -> Option<Self> {
-        let place = || Place::whole(file);
-        if targets.len() < 3 {
-            let message = format!("{} targets make no table", targets.len());
-            problems.error("too-few-positions", place(), message, "three targets or more");
-            return None;
-        }
-        let has = |d: Direction| targets.iter().filter(|t| !t.of(d).is_empty()).count();
-        let (up, down) = (has(Direction::Up), has(Direction::Down));
-        let all = targets.len();
-        if (up != all && up != 0) || (down != all && down != 0) {
-            let message = "some targets were reached from one side only".to_owned();
-            let hint = "a table holds both directions or one; measure or leave out those targets";
-            problems.error("missing-side", place(), message, hint);
-            return None;
-        }
-        let mean = |d: Direction| -> Vec<f64> {
-            let of = |t: &Target| {
-                t.of(d).iter().map(|r| r.deviation).sum::<f64>() / t.of(d).len() as f64
-            };
-            targets.iter().map(of).collect()
-        };
-        let sides: Vec<Direction> = [(Direction::Up, up), (Direction::Down, down)]
-            .into_iter()
-            .filter(|(_, n)| *n > 0)
-            .map(|(d, _)| d)
-            .collect();
-        let means: Vec<Vec<f64>> = sides.iter().map(|d| mean(*d)).collect();
-        let (first, last) = (means.first()?.clone(), means.last()?.clone());
-        let counts = || targets.iter().flat_map(|t| sides.iter().map(|d| t.of(*d).len()));
-        Some(Self {
-            positions: targets.iter().map(|t| t.position).collect(),
-            up: first,
-            down: last,
-            both: sides.len() == 2,
-            runs: counts().min().unwrap_or(0),
-            scatter: scatter(targets, &sides),
-            u_arms: vec![0.0; targets.len()],
-        })
-    }
-
-    /// Standard uncertainty of a mean by the scatter.
-    fn u_mean(&self) -> f64 {
-        self.scatter.map_or(0.0, |s| s / (self.runs.max(1) as f64).sqrt())
-    }
-}
-
-/// The standard deviation of a reading, from all targets and both directions together.
-fn scatter(targets: &[Target], sides: &[Direction]) -> Option<f64> {
-    let (mut squares, mut freedom) = (0.0, 0_usize);
-    for target in targets {
-        for side in sides {
-            let readings = target.of(*side);
-            let mean = readings.iter().map(|r| r.deviation).sum::<f64>() / readings.len() as f64;
-            squares += readings.iter().map(|r| (r.deviation - mean).powi(2)).sum::<f64>();
-            freedom += readings.len().saturating_sub(1);
-        }
-    }
-    (freedom > 0).then(|| (squares / freedom as f64).sqrt())
-}
-
-/// Takes off what the angles do over the arm, and names the angles that nobody knows.
+/// Subtracts what the angles do over the arm, and names the angles that are not known.
 fn take_off_arms(
     sight: &Sight<'_>,
     means: &mut Means,
@@ -473,7 +400,7 @@ fn removed_of(readings: &ErrorReadings, role: Role, off_axis: bool) -> Removed {
     }
 }
 
-/// Takes it off; the eccentricity later, with its partner.
+/// Subtracts it; the eccentricity later, with its partner.
 fn take_off_set_up(
     readings: &ErrorReadings,
     removed: Removed,
@@ -546,7 +473,7 @@ fn fitted(rows: &[Vec<f64>], values: &[f64]) -> Option<Vec<f64>> {
     Some((a * x).as_slice().to_vec())
 }
 
-/// Takes off the means and the eccentricity of the artefact of run-out and tilt of rotary axes.
+/// Subtracts the means and the eccentricity of the artefact of run-out and tilt of rotary axes.
 ///
 /// ```text
 ///     u = a + e₁ cos θ − e₂ sin θ        v = b + e₁ sin θ + e₂ cos θ        docs/model.md eq. 182

@@ -124,7 +124,7 @@ fn squareness(
     Some(found)
 }
 
-/// A ball-bar and a laser see the same axes: where they differ, one of them was told a wrong temperature or material.
+/// A ball-bar and a laser see the same axes: where they differ, one of them was given a wrong temperature or material.
 fn compare_scales(found: &Squareness, u_mm: f64, place: &Place, problems: &mut Diagnostics) {
     let limit_mm = APART * 4.0 * u_mm + 1e-3;
     if found.scale_difference_mm.abs() > limit_mm {

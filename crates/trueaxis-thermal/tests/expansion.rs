@@ -1,15 +1,15 @@
 //! The expansion of a scale from runs at several temperatures.
 
 use std::path::Path;
-use trueaxis_calibrate::identify::expansion::{
-    GeometricTable, LaserKeys, Run, Runs, ScaleKeys, geometric_table, identify_expansion,
-    parse_runs, scale_files,
-};
 use trueaxis_input::{Diagnostics, Files, MeasuredValue, Source};
 use trueaxis_machine::Machine;
 use trueaxis_machine::describe::axis_index;
 use trueaxis_machine::file::{NoTables, Tables};
 use trueaxis_machine::heat::Conditions;
+use trueaxis_thermal::expansion::{
+    GeometricTable, LaserKeys, Run, Runs, ScaleKeys, geometric_table, identify_expansion,
+    parse_runs, scale_files,
+};
 
 fn made(alpha: f64, celsius: &[f64], noise: impl Fn(usize, usize) -> f64) -> Runs {
     let positions_mm: Vec<f64> = (0..=10).map(|i| 230.0 * f64::from(i)).collect();
@@ -143,7 +143,7 @@ fn law_the_written_coefficients_are_the_spline() {
     assert!((rows[8][2] - rows[9][2]).abs() <= 1e-9 * rows[8][2].abs());
 }
 
-/// A laser that was told 8.6 µm/(m·K) of the material has subtracted the expansion, and it is added again.
+/// A laser that was given 8.6 µm/(m·K) of the material has subtracted the expansion, and it is added again.
 #[test]
 fn material_compensation_of_the_laser_is_undone() {
     struct Memory(String);

@@ -1,7 +1,7 @@
 //! A thermal model in text and on a page.
 
 use super::thermal_pictures::{cycle_picture, scores_picture};
-use crate::identify::thermal::{Logs, Score, ThermalModel, Zero};
+use crate::thermal::{Logs, Score, ThermalModel, Zero};
 use std::fmt::Write as _;
 use trueaxis_machine::errors::ErrorName;
 use trueaxis_report::{Columns, Figure, Report, Section, Standing, Table};

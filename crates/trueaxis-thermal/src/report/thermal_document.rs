@@ -1,6 +1,6 @@
 //! A thermal model for programs: `trueaxis/identify/1` with `what` = `thermal`.
 
-use crate::identify::thermal::{Coefficient, Logs, Score, Term, ThermalModel};
+use crate::thermal::{Coefficient, Logs, Score, Term, ThermalModel};
 use schemars::JsonSchema;
 use serde::Serialize;
 

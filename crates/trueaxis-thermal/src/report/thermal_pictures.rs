@@ -1,6 +1,6 @@
 //! Pictures of a thermal model.
 
-use crate::identify::thermal::{Cycle, Score, ThermalModel};
+use crate::thermal::{Cycle, Score, ThermalModel};
 use trueaxis_report::DrawingError;
 use trueaxis_report::plots::{Curve, Labels, curves};
 

@@ -4,15 +4,15 @@
 //! temperatures at which they were measured.
 
 use super::{Expansion, GeometricTable, Runs};
-use crate::identify::machine_file::machine_of;
-use std::cell::RefCell;
 use std::fmt::Write as _;
 use trueaxis_input::Diagnostics;
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::{Axis, AxisKind, Command, Travel, iso_841_direction};
 use trueaxis_machine::describe::axis_index;
 use trueaxis_machine::describe::lines::Lines;
-use trueaxis_machine::describe::replacement::{Entry, plain, put, take_out_of_table};
+use trueaxis_machine::describe::replacement::{
+    Entry, NewTables, machine_of_text, plain, put, take_out_of_table,
+};
 use trueaxis_machine::errors::{Component, ErrorKind, ErrorName};
 use trueaxis_machine::file::Tables;
 use trueaxis_machine::heat::Conditions;
@@ -48,7 +48,7 @@ pub fn scale_files(
     old: &str,
     beside: &dyn Tables,
 ) -> Result<ScaleFiles, String> {
-    let machine = machine_of(old, beside)?;
+    let machine = machine_of_text(old, beside)?;
     let letter = data.scale.axis.as_deref().unwrap_or_default();
     let index = axis_index(&machine, letter).ok_or_else(|| {
         format!("it has no axis `{letter}` (its chain: {})", machine.chain_text())
@@ -75,9 +75,9 @@ pub fn scale_files(
     put_scale(&mut file, &machine, index, (data, found, table), &origin);
 
     let text = file.text();
-    let seen = Seen { new: &tables, beside, read: RefCell::default() };
-    let read = machine_of(&text, &seen)?;
-    let tables = seen.read.into_inner();
+    let seen = NewTables::of(&tables, beside);
+    let read = machine_of_text(&text, &seen)?;
+    let tables = seen.read();
     let worst_mm = check(&read, index, data, found)?;
     let model = |m: &Model| match &m.shape {
         Shape::Stl { path, .. } => Some(path.clone()),
@@ -85,31 +85,6 @@ pub fn scale_files(
     };
     let models = read.models().iter().filter_map(model).collect();
     Ok(ScaleFiles { text, tables, models, worst_mm })
-}
-
-/// The tables of the new file: those that were made, else those beside the old one; which of them are read.
-struct Seen<'a> {
-    new: &'a [(String, String)],
-    beside: &'a dyn Tables,
-    read: RefCell<Vec<(String, String)>>,
-}
-
-impl Tables for Seen<'_> {
-    fn text(&self, name: &str) -> Result<String, String> {
-        let text = match self.new.iter().find(|(n, _)| n == name) {
-            Some((_, text)) => text.clone(),
-            None => self.beside.text(name)?,
-        };
-        let mut read = self.read.borrow_mut();
-        if !read.iter().any(|(n, _)| n == name) {
-            read.push((name.to_owned(), text.clone()));
-        }
-        Ok(text)
-    }
-
-    fn display(&self, name: &str) -> String {
-        self.beside.display(name)
-    }
 }
 
 /// EXX of an axis along X.
