@@ -36,7 +36,7 @@ pub struct Arguments {
     #[arg(long, value_name = "CAMPAIGN.toml", conflicts_with_all = ["file", "diff", "certificate", "part"])]
     before_after: Option<PathBuf>,
     /// With --before-after: write one table of readings per path and compensation into this folder
-    #[arg(short, long, value_name = "FOLDER", requires = "before_after")]
+    #[arg(short, long, value_name = "FOLDER", requires = "before_after", conflicts_with_all = ["file", "diff", "certificate", "part"])]
     output: Option<PathBuf>,
     /// Write an HTML report to this file
     #[arg(long, value_name = "FILE")]

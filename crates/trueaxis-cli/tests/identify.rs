@@ -311,6 +311,16 @@ fn scales_that_do_not_fit_are_refused() {
         assert!(!std::path::Path::new(&out).exists(), "{code}");
     }
     let file = folder.file("y.toml", format!("name = \"y\"\ntable = \"t.csv\"\n{}{runs}", on("Y")));
+    let copied: String = std::fs::read_to_string(folder.path("t.csv"))
+        .expect("written")
+        .lines()
+        .map(|l| if l.starts_with("230,") { format!("{l}\n{l}\n") } else { format!("{l}\n") })
+        .collect();
+    let table = std::fs::read_to_string(folder.path("t.csv")).expect("written");
+    folder.file("t.csv", copied);
+    let ran = trueaxis(&["identify", "expansion", &file]);
+    assert!(ran.status == 2 && ran.err.contains("reading-twice"), "{}", ran.err);
+    folder.file("t.csv", table);
     let twice = trueaxis(&["identify", "expansion", &file, &file, "-o", &out]);
     assert!(twice.status == 2 && twice.err.contains("axis-twice"), "{}", twice.err);
 }
@@ -371,6 +381,60 @@ fn error_tables_name_what_is_wrong() {
     }
     let file = folder.file("t.toml", format!("name = \"t\"\nmachine = {machine:?}\n"));
     assert!(trueaxis(&["identify", "tables", &file]).err.contains("nothing-read"));
+}
+
+/// A circle that is not the stated one, and what only looks like a table.
+#[test]
+fn circles_and_targets_that_mislead_are_refused() {
+    let folder = Folder::new("identify-bad-circles");
+    let machine = root().join("machines/xkas2525/machine.toml").display().to_string();
+    let example = root().join("examples/05_identify/error-tables/circle-XY.csv");
+    let circle = std::fs::read_to_string(example).expect("the example");
+    folder.file("xy.csv", &circle);
+    let ccw: Vec<&str> = circle.lines().filter(|l| !l.ends_with(",cw")).collect();
+    folder.file("ccw.csv", ccw.join("\n"));
+    let third: Vec<&str> = circle
+        .lines()
+        .enumerate()
+        .filter(|(i, _)| *i < 3 || i % 360 > 120)
+        .map(|(_, l)| l)
+        .collect();
+    folder.file("arc.csv", third.join("\n"));
+    for (table, centre, radius, status, words) in [
+        ("xy.csv", "3100 1250", "300", 0, ""),
+        ("xy.csv", "1250 3100", "300", 2, "the stated centre"),
+        ("xy.csv", "0 0", "300", 2, "the stated centre"),
+        ("xy.csv", "3100 1250", "150", 2, "a radius of"),
+        ("ccw.csv", "3100 1250", "300", 2, "in one direction"),
+        ("arc.csv", "3100 1250", "300", 2, "have no points"),
+    ] {
+        let text = format!(
+            "name = \"t\"\nmachine = {machine:?}\n[circle.XY]\ntable = \"{table}\"\ncentre = \"{centre} mm\"\n\
+             radius = \"{radius} mm\"\nat = \"Z=-500\"\nu = \"0.3 um\"\n"
+        );
+        let file = folder.file("t.toml", text);
+        let ran = trueaxis(&["identify", "tables", &file]);
+        assert!(ran.status == status && ran.err.contains(words), "{table} {centre}: {}", ran.err);
+    }
+    // Measured positions instead of targets, and the same quantity twice.
+    let row = |q: f64| format!("{q},up,1\n{q},down,1\n");
+    let jitter: String = (0..=10)
+        .flat_map(|i| [0.0, 0.001].map(|d| row(620.0 * f64::from(i) - d * f64::from(i.min(1)))))
+        .collect();
+    folder.file("jitter.csv", format!("target_mm,direction,deviation_um\n{jitter}"));
+    folder.file(
+        "double.csv",
+        "target_mm,direction,deviation_um,deviation_mm\n0,up,1,1\n10,up,1,1\n20,up,1,1\n",
+    );
+    for (table, code) in [("jitter.csv", "targets-too-close"), ("double.csv", "duplicate-column")] {
+        let text = format!(
+            "name = \"t\"\nmachine = {machine:?}\n[readings.EXX]\ntable = \"{table}\"\nu = \"1 um\"\n"
+        );
+        let file = folder.file("t.toml", text);
+        let ran = trueaxis(&["identify", "tables", &file]);
+        assert!(ran.status == 2 && ran.err.contains(code), "{table}: {}", ran.err);
+        assert!(!ran.err.contains("nothing-read"), "{}", ran.err);
+    }
 }
 
 fn number(value: &serde_json::Value) -> f64 {

@@ -183,6 +183,16 @@ fn residuals(data: &Runs, p: &[f64], t: &[f64], per_k: f64) -> Vec<Vec<f64>> {
     left.iter().zip(&of_run).map(centred).collect()
 }
 
+impl Runs {
+    /// Where the laser was set to zero: the end of the table at which the runs read less, mm.
+    pub fn zero_mm(&self) -> f64 {
+        let ends = [0, self.positions_mm.len().saturating_sub(1)];
+        let size = |i: usize| self.runs.iter().map(|run| run.errors_mm[i].abs()).sum::<f64>();
+        let zero = if size(ends[0]) <= size(ends[1]) { ends[0] } else { ends[1] };
+        self.positions_mm.get(zero).copied().unwrap_or(0.0)
+    }
+}
+
 impl Expansion {
     /// Whether a scale can have this coefficient.
     pub fn is_possible(&self) -> bool {

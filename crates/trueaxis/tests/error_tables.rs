@@ -374,8 +374,11 @@ fn oracle_tables_of_the_example() {
     assert!(made.text.contains("EC0Y = \"32.5"), "{}", made.text);
 }
 
+/// An error and its function of the position.
+type Truth = (&'static str, fn(f64) -> f64);
+
 /// The functions of oracles/error_tables.py.
-fn truths() -> [(&'static str, fn(f64) -> f64); 12] {
+fn truths() -> [Truth; 12] {
     [
         ("EXX", |x| 1e-3 * (18.0 * x / 6200.0 + 4.0 * (7.0 * x / 6200.0).sin())),
         ("EYX", |x| 1e-3 * (6.0 * (4.0 * x / 6200.0).sin() - 2.0 * x / 6200.0)),

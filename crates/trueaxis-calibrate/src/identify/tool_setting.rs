@@ -13,6 +13,7 @@
 use super::surface::{HitsLog, LoggedHit};
 use crate::plan::tool_setting::{SetTool, SettingTouch, ToolSetting, TouchOf};
 use trueaxis_input::{Diagnostics, Place};
+use trueaxis_machine::describe::replacement::quoted;
 use trueaxis_motion::{MeasuredSize, SetUpTool, ToolStanding, ToolUse, standing};
 
 /// A log belongs to another place if its axes are off by more, mm.
@@ -217,7 +218,7 @@ pub fn setup_lines(readings: &ToolReadings, date: Option<&str>) -> String {
     for tool in &readings.tools {
         let size = |s: &MeasuredSize| format!("\"{:.4} mm ± {:.4} mm\"", s.mm, s.u_mm);
         let diameter = tool.diameter.as_ref().map(|d| format!(", diameter = {}", size(d)));
-        let date = date.map(|d| format!(", date = \"{d}\"")).unwrap_or_default();
+        let date = date.map(|d| format!(", date = {}", quoted(d))).unwrap_or_default();
         text += &format!(
             "[tool.{}]\nmeasured = {{ length = {}{}{date} }}\n",
             tool.number,

@@ -24,7 +24,7 @@ pub struct Arguments {
     #[arg(value_name = "FILE.toml")]
     file: PathBuf,
     /// Write one NC program for each set of readings into this folder; the tables then need poses only
-    #[arg(long, value_name = "FOLDER")]
+    #[arg(long, value_name = "FOLDER", conflicts_with = "output")]
     programs: Option<PathBuf>,
     /// The control of the programs: sinumerik, fanuc, haas, linuxcnc or heidenhain
     #[arg(

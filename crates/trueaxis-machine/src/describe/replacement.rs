@@ -197,6 +197,28 @@ pub fn curve_text(
     text
 }
 
+/// A text as TOML writes it, with its quotes.
+///
+/// ```
+/// use trueaxis_machine::describe::replacement::quoted;
+/// assert_eq!(quoted("laser \"XL\"\n"), "\"laser \\\"XL\\\"\\u000A\"");
+/// ```
+pub fn quoted(text: &str) -> String {
+    let mut out = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => out.extend(['\\', c]),
+            c if c.is_control() => {
+                // Writing into a text cannot fail.
+                let _ = write!(out, "\\u{:04X}", u32::from(c));
+            }
+            c => out.push(c),
+        }
+    }
+    out.push('"');
+    out
+}
+
 /// A value in µm or µrad without idle zeros: six decimals of µm or µrad are a picometre.
 pub fn plain(value: f64) -> String {
     let text = format!("{value:.6}");

@@ -146,6 +146,14 @@ fn of_dimension(
         problems.error("missing-column", sheet.headings_place(), message, hint);
         return None;
     };
+    for role in ["target", "actual", "deviation"] {
+        let of_role = sheet.columns.iter().filter(|c| c.role() == role).nth(1);
+        if let Some(second) = of_role {
+            let message = format!("column `{}`: there is another column of the same", second.name);
+            problems.error("duplicate-column", second.place.clone(), message, "leave one of them");
+            return None;
+        }
+    }
     let kind = match Unit::find(target.unit(), Dimension::Angle) {
         Ok(_) => AxisKind::Rotary,
         Err(_) => AxisKind::Linear,

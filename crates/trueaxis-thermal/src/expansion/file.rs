@@ -96,6 +96,10 @@ fn read_scale(root: &Section<'_>, path: &Path) -> ScaleKeys {
         reference_celsius: root.quantity("reference_temperature", Dimension::Temperature),
         date: root.get("date").and_then(|d| d.date_or_text()),
     };
+    if keys.reference_celsius.is_some_and(|c| !(-40.0..=150.0).contains(&c)) {
+        let message = "no machine has this reference_temperature".to_owned();
+        root.error("impossible-temperature", message, "°C = (°F − 32)/1.8");
+    }
     if keys.machine.is_some() && keys.axis.is_none() {
         let message = "which axis of the machine this scale belongs to is not stated".to_owned();
         root.error("missing-key", message, "write axis = \"Y\"");
@@ -130,11 +134,11 @@ fn read_laser(root: &Section<'_>) -> LaserKeys {
 /// ```
 fn undo_compensation(data: &mut Runs) {
     let Some(per_k) = data.laser.material_per_k else { return };
-    let Some(first) = data.positions_mm.first().copied() else { return };
+    let zero_mm = data.zero_mm();
     for run in &mut data.runs {
         let warm = run.celsius.value - REFERENCE_CELSIUS;
         for (e, p) in run.errors_mm.iter_mut().zip(&data.positions_mm) {
-            *e += per_k * (p - first) * warm;
+            *e += per_k * (p - zero_mm) * warm;
         }
     }
 }
@@ -177,6 +181,7 @@ fn check(root: &Section<'_>, positions_mm: &[f64], runs: &[Run]) {
         root.error("too-few-runs", message, "measure at two temperatures or more");
         return;
     }
+    check_repeats(root, positions_mm, runs);
     let celsius: Vec<f64> = runs.iter().map(|r| r.celsius.value).collect();
     match spread(&celsius) {
         d if d <= 0.0 => {
@@ -198,5 +203,23 @@ fn check(root: &Section<'_>, positions_mm: &[f64], runs: &[Run]) {
     for run in runs.iter().filter(|r| !(-40.0..=150.0).contains(&r.celsius.value)) {
         let message = format!("`{}`: {} °C has no machine", run.name, run.celsius.value);
         root.error("impossible-temperature", message, "°C = (°F − 32)/1.8");
+    }
+}
+
+/// The same row twice is a copy, not a second reading: it would make the coefficient look more certain.
+fn check_repeats(root: &Section<'_>, positions_mm: &[f64], runs: &[Run]) {
+    let row = |i: usize| {
+        let numbers = runs.iter().filter_map(move |r| r.errors_mm.get(i).copied());
+        std::iter::once(positions_mm[i]).chain(numbers).map(f64::to_bits).collect::<Vec<u64>>()
+    };
+    let mut seen = std::collections::HashSet::new();
+    if let Some(i) = (0..positions_mm.len()).find(|i| !seen.insert(row(*i))) {
+        let message =
+            format!("the row of {} mm stands there twice with the same readings", positions_mm[i]);
+        root.error(
+            "reading-twice",
+            message,
+            "remove the copy; readings that were taken again differ",
+        );
     }
 }

@@ -11,7 +11,7 @@ use trueaxis_machine::axis::{Axis, AxisKind, Command, Travel, iso_841_direction}
 use trueaxis_machine::describe::axis_index;
 use trueaxis_machine::describe::lines::Lines;
 use trueaxis_machine::describe::replacement::{
-    Entry, NewTables, machine_of_text, plain, put, take_out_of_table,
+    Entry, NewTables, machine_of_text, plain, put, quoted, take_out_of_table,
 };
 use trueaxis_machine::errors::{Component, ErrorKind, ErrorName};
 use trueaxis_machine::file::Tables;
@@ -134,7 +134,7 @@ fn measured(data: &Runs, table: &GeometricTable) -> String {
     let mut parts = vec![format!("temperature = \"{} degC\"", plain(table.reference_celsius))];
     let texts = [("instrument", &data.laser.instrument), ("date", &data.scale.date)];
     for (key, text) in texts {
-        parts.extend(text.as_ref().map(|text| format!("{key} = {text:?}")));
+        parts.extend(text.as_ref().map(|text| format!("{key} = {}", quoted(text))));
     }
     format!("{{ {} }}", parts.join(", "))
 }
@@ -183,7 +183,7 @@ fn put_scale(
     let sensor = data.scale.sensor.clone();
     if !is_heated && (scale.is_none() || sensor.is_some()) {
         let sensor = sensor.unwrap_or(usual);
-        set("sensors", &format!("{{ {sensor:?} = \"{fixed_mm} mm\" }}"), true);
+        set("sensors", &format!("{{ {} = \"{fixed_mm} mm\" }}", quoted(&sensor)), true);
     }
 }
 

@@ -26,7 +26,7 @@ pub struct GeometricTable {
 ///     u² = s²/m + u_L² + (p_i − p_0)² ((T − T̄)² u_α² + α² Σ u_j²/m²)
 /// ```
 ///
-/// p_0 is the first position of the table: there the laser is set to zero. At T̄, the mean temperature of
+/// p_0 is the end of the table at which the laser was set to zero: where the runs read less. At T̄, the mean temperature of
 /// the runs, table and coefficient are independent of each other. Rows at one position are averaged.
 ///
 /// # Errors
@@ -43,11 +43,19 @@ pub fn geometric_table(data: &Runs, found: &Expansion) -> Result<GeometricTable,
     let mut rows: Vec<(f64, f64)> =
         data.positions_mm.iter().enumerate().map(|(i, p)| (*p, mean_of_row(i))).collect();
     rows.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let first_mm = data.positions_mm.first().copied().unwrap_or(0.0);
+    let zero_mm = data.zero_mm();
     let (mut positions_mm, mut errors_mm, mut u_mm) = (Vec::new(), Vec::new(), Vec::new());
+    let widest = rows.windows(2).map(|w| w[1].0 - w[0].0).fold(0.0, f64::max);
+    let close = rows.windows(2).find(|w| w[1].0 > w[0].0 && w[1].0 - w[0].0 < 1e-3 * widest);
+    if let Some(pair) = close {
+        let (a, b) = (pair[0].0, pair[1].0);
+        return Err(format!(
+            "the positions {a} and {b} mm are so close that a curve between them would be noise"
+        ));
+    }
     for same in rows.chunk_by(|a, b| a.0 == b.0) {
         let (p, count) = (same[0].0, same.len() as f64);
-        let along = p - first_mm;
+        let along = p - zero_mm;
         let mean = same.iter().map(|(_, e)| e).sum::<f64>() / count;
         let scatter = found.residual_mm / (m * count).sqrt();
         let heat = along * (moved_k * found.u_per_k).hypot(found.per_k * u_mean_k);

@@ -172,7 +172,7 @@ impl Question for IdentifyTools {
 }
 
 const LINES: crate::files::output::Kind =
-    crate::files::output::Kind::file("-o", "measured tools", &[b"# Measured tools"]);
+    crate::files::output::Kind::file("-o", "measured tools", &[b"# measured tools"]);
 
 impl Answer for ToolsAnswer {
     fn document(&self, problems: &Diagnostics) -> Value {

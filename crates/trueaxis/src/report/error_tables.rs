@@ -112,7 +112,7 @@ fn rows(found: &TablesFound, table: &ErrorTable) -> Table {
                     / 1e6
             ),
             format!("{:.2}", table.up[i] * scale),
-            format!("{:.2}", table.down[i] * scale),
+            if table.both { format!("{:.2}", table.down[i] * scale) } else { "–".to_owned() },
             format!("{:.2}", 2.0 * table.u[i] * scale),
         ]
     });

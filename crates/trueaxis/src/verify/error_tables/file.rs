@@ -43,9 +43,11 @@ fn read(root: &Section<'_>, path: &Path) -> Option<TableStudy> {
     let (machine_path, machine) = machine_of(root, path)?;
     let mut readings = Vec::new();
     let mut circles = Vec::new();
+    let mut stated = 0;
     let beside = Beside { machine: &machine, path, date: date.as_deref() };
     root.section("readings", |section| {
         for (key, place, item) in section.entries() {
+            stated += 1;
             let Some(error) = ErrorName::parse(key).filter(|e| e.kind == ErrorKind::Motion) else {
                 let message = format!("`{key}` is not an error motion");
                 let hint = "[readings.EYX]: the error of ISO 230-1 that was read";
@@ -59,10 +61,11 @@ fn read(root: &Section<'_>, path: &Path) -> Option<TableStudy> {
     });
     root.section("circle", |section| {
         for (key, _, item) in section.entries() {
+            stated += 1;
             circles.extend(item.section(&section.path(key), |s| beside.circle(s)).flatten());
         }
     });
-    if readings.is_empty() && circles.is_empty() {
+    if stated == 0 {
         let hint = "[readings.EXX] table = \"exx.csv\", or [circle.XY] table = \"xy.csv\"";
         root.error("nothing-read", "the file names no readings".to_owned(), hint);
     }
@@ -110,6 +113,15 @@ impl Beside<'_> {
         let (instrument, optics_mm) = (text("instrument"), self.point(s, "optics"));
         let own_date = s.get("date").and_then(|d| d.date_or_text());
         let ((index, axis), (file, table)) = error.zip(table)?;
+        if at.is_some_and(|at| at[axis] != 0.0) {
+            let message =
+                format!("at: the position of {} itself is that of each target", name.body);
+            s.warn("idle-key", message, "leave it out of `at`");
+        }
+        if celsius.is_some_and(|c| !(-40.0..=150.0).contains(&c)) {
+            let message = "no machine has this temperature".to_owned();
+            s.error("impossible-temperature", message, "°C = (°F − 32)/1.8");
+        }
         idle_keys(s, role(&self.machine.axes()[axis], name.component));
         let mut problems = Diagnostics::new();
         let measurement = read_deviations(&file, &table, dimension, &mut problems);
@@ -338,8 +350,12 @@ fn read_pair(item: &Item<'_>) -> Option<[f64; 2]> {
 
 /// Straightness alone has a reference line, run-out alone an artefact.
 fn idle_keys(s: &Section<'_>, role: Role) {
-    for (key, of) in [("line", Role::Straightness), ("eccentricity", Role::RunOut)] {
-        if role != of && s.get(key).is_some() {
+    let uses = [
+        ("line", role == Role::Straightness),
+        ("eccentricity", matches!(role, Role::RunOut | Role::Axial)),
+    ];
+    for (key, is_used) in uses {
+        if !is_used && s.get(key).is_some() {
             let message = format!("`{key}` has no meaning for this error");
             s.warn(
                 "idle-key",

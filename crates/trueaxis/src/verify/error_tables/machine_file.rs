@@ -4,7 +4,7 @@
 //! instruments read.
 
 use super::reduce::{Role, directions, role, side};
-use super::{ErrorReadings, ErrorTable, ReferenceLine, Squareness, TableStudy};
+use super::{ErrorReadings, ErrorTable, ReferenceLine, Removed, Squareness, TableStudy};
 use crate::verify::iso230_2::Direction;
 use nalgebra::{DMatrix, DVector};
 use std::fmt::Write as _;
@@ -13,9 +13,9 @@ use trueaxis_machine::Machine;
 use trueaxis_machine::chain::Link;
 use trueaxis_machine::describe::lines::{Lines, header};
 use trueaxis_machine::describe::replacement::{
-    Entry, NewTables, machine_of_text, plain, put, take_out_of_table,
+    Entry, NewTables, machine_of_text, plain, put, quoted, take_out_of_table,
 };
-use trueaxis_machine::errors::{ErrorName, ErrorValues};
+use trueaxis_machine::errors::{Component, ErrorIndex, ErrorName, ErrorValues};
 use trueaxis_machine::file::Tables;
 use trueaxis_machine::models::Shape;
 use trueaxis_machine::twist::Reference;
@@ -76,7 +76,9 @@ pub fn machine_files(
     let tables_read = seen.read();
     let mut read_back = Vec::new();
     for readings in &study.readings {
-        read_back.push((readings.name, difference(&machine, readings)?));
+        let table = tables.iter().find(|t| t.name == readings.name);
+        let removed = table.map_or(Removed::Zero, |t| t.removed);
+        read_back.push((readings.name, difference(&machine, readings, removed)?));
     }
     let model = |shape: &Shape| match shape {
         Shape::Stl { path, .. } => Some(path.clone()),
@@ -103,7 +105,7 @@ fn one_line(text: &str) -> String {
 fn measured(table: &ErrorTable) -> String {
     let mut parts = Vec::new();
     for (key, text) in [("instrument", &table.instrument), ("date", &table.date)] {
-        parts.extend(text.as_ref().map(|text| format!("{key} = {text:?}")));
+        parts.extend(text.as_ref().map(|text| format!("{key} = {}", quoted(text))));
     }
     parts.extend(table.celsius.map(|c| format!("temperature = \"{} degC\"", plain(c))));
     match parts.is_empty() {
@@ -143,10 +145,13 @@ fn csv_text(study: &TableStudy, table: &ErrorTable) -> String {
 
 /// How far the instrument would read otherwise on the new machine.
 ///
-/// It goes through the whole chain, with all errors of the machine: the point of the tool for a length, the turn of the
-/// tool for an angle.
-fn difference(machine: &Machine, readings: &ErrorReadings) -> Result<f64, String> {
-    let axis = &machine.axes()[readings.axis];
+/// It goes through the whole chain, with all error motions of the axis: the point of the tool for a length, the turn of
+/// the tool for an angle.
+fn difference(
+    machine: &Machine,
+    readings: &ErrorReadings,
+    removed: Removed,
+) -> Result<f64, String> {
     let mut differences = Vec::new();
     let mut places = Vec::new();
     let mut largest: f64 = 0.0;
@@ -162,7 +167,7 @@ fn difference(machine: &Machine, readings: &ErrorReadings) -> Result<f64, String
             largest = largest.max(mean.abs());
         }
     }
-    let worst = left(&places, &differences, role(axis, readings.name.component), readings);
+    let worst = left(&places, &differences, removed);
     match worst <= ROUNDING + PRODUCTS * largest {
         true => Ok(worst),
         false => {
@@ -180,10 +185,10 @@ fn difference(machine: &Machine, readings: &ErrorReadings) -> Result<f64, String
 }
 
 /// What remains of the differences when the set-up of the instrument is fitted again.
-fn left(places: &[f64], differences: &[f64], role: Role, readings: &ErrorReadings) -> f64 {
-    let row = |q: f64| match role {
-        Role::Straightness if readings.line != ReferenceLine::None => vec![1.0, q],
-        Role::RunOut if readings.centred => vec![1.0, q.cos(), q.sin()],
+fn left(places: &[f64], differences: &[f64], removed: Removed) -> f64 {
+    let row = |q: f64| match removed {
+        Removed::Line(line) if line != ReferenceLine::None => vec![1.0, q],
+        Removed::Eccentricity => vec![1.0, q.cos(), q.sin()],
         _ => vec![1.0],
     };
     let rows: Vec<Vec<f64>> = places.iter().map(|q| row(*q)).collect();
@@ -193,7 +198,7 @@ fn left(places: &[f64], differences: &[f64], role: Role, readings: &ErrorReading
     (b - a * x).amax()
 }
 
-/// What the instrument reads on a machine, with all its errors.
+/// What the instrument reads on a machine with the error motions of this axis.
 fn shown(
     machine: &Machine,
     readings: &ErrorReadings,
@@ -205,7 +210,12 @@ fn shown(
     command[readings.axis] = q;
     let mut from = [0.0; 6];
     from[readings.axis] = approach;
-    let errors = machine.errors_at(&command, &from).map_err(|fault| fault.to_string())?;
+    let all = machine.errors_at(&command, &from).map_err(|fault| fault.to_string())?;
+    let mut errors = ErrorValues::default();
+    for component in Component::ALL {
+        let index = ErrorIndex { component, ..readings.index };
+        errors.set(index, all.get(index));
+    }
     let (actual, nominal) = match readings.stands_on {
         Reference::Workpiece => {
             let pose = |e: &ErrorValues| -> Link { machine.pose(&command, e).relabel() };

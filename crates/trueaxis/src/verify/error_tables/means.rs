@@ -22,6 +22,15 @@ impl Means {
             problems.error("too-few-positions", place(), message, "three targets or more");
             return None;
         }
+        if let Some(pair) = too_close(targets) {
+            let message = format!(
+                "the targets {} and {} are so close that a curve between them would be noise",
+                pair[0].position, pair[1].position
+            );
+            let hint = "write each target as it was planned, the same in every run (mm, rad)";
+            problems.error("targets-too-close", place(), message, hint);
+            return None;
+        }
         let has = |d: Direction| targets.iter().filter(|t| !t.of(d).is_empty()).count();
         let (up, down) = (has(Direction::Up), has(Direction::Down));
         let all = targets.len();
@@ -60,6 +69,13 @@ impl Means {
     pub fn u_mean(&self) -> f64 {
         self.scatter.map_or(0.0, |s| s / (self.runs.max(1) as f64).sqrt())
     }
+}
+
+/// Two targets nearer to each other than a thousandth of the widest gap.
+fn too_close(targets: &[Target]) -> Option<&[Target]> {
+    let gap = |pair: &[Target]| pair[1].position - pair[0].position;
+    let widest = targets.windows(2).map(gap).fold(0.0, f64::max);
+    targets.windows(2).find(|pair| gap(pair) < 1e-3 * widest)
 }
 
 /// The standard deviation of a reading, from all targets and both directions together.

@@ -12,6 +12,8 @@ use trueaxis_machine::axis::{Axis, AxisKind};
 use trueaxis_machine::chain::ErrorFrame;
 use trueaxis_machine::errors::{Component, ErrorIndex, ErrorName, Interpolation, Spline};
 
+/// What an angle does over an arm is not listed below this, mm.
+const SHOWN_MM: f64 = 5e-6;
 /// An arm shorter than this does not matter, mm.
 const SHORT_ARM_MM: f64 = 1.0;
 
@@ -357,7 +359,7 @@ fn take_off_arms(
                 None => unknown_mm = unknown_mm.max(arm_mm.abs()),
             }
         }
-        if largest_mm > 0.0 {
+        if largest_mm > SHOWN_MM {
             arms.push((name, largest_mm));
         }
         if unknown_mm > SHORT_ARM_MM {

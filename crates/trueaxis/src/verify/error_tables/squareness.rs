@@ -3,12 +3,13 @@
 use super::{CircleReadings, TableStudy};
 use crate::verify::conditions::Circle;
 use crate::verify::iso230_4::{self, Causes, Circular};
+use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use trueaxis_geometry::Mat3;
 use trueaxis_input::{Diagnostics, Place};
 use trueaxis_machine::Machine;
 use trueaxis_machine::axis::Command;
-use trueaxis_machine::errors::{Component, ErrorName};
+use trueaxis_machine::errors::{Component, ErrorKind, ErrorName};
 use trueaxis_machine::twist::Reference;
 use trueaxis_measure::unknowns::minimal::minimal_location_errors;
 
@@ -16,6 +17,12 @@ use trueaxis_measure::unknowns::minimal::minimal_location_errors;
 const POINTS: u32 = 360;
 /// A squareness for the derivative, rad.
 const STEP_RAD: f64 = 1e-5;
+/// A centre or radius that differs by more than this share of the radius is that of another circle. Unit: 1.
+const WRONG_SHARE: f64 = 0.02;
+/// A circle with a wider gap does not determine the squareness well, rad.
+const WIDEST_GAP_RAD: f64 = 0.5;
+/// No two axes are so far out of square, rad.
+const IMPOSSIBLE_RAD: f64 = 0.02;
 /// Further apart than this many standard uncertainties two instruments do not agree.
 const APART: f64 = 3.0;
 
@@ -77,6 +84,9 @@ fn squareness(
     let place = || Place::whole(&circle.file);
     let nominal = Circle { centre_mm: Some(circle.centre_mm), radius_mm: Some(circle.radius_mm) };
     let read = iso230_4::evaluate(&circle.file, &circle.text, nominal, problems)?;
+    if !is_as_stated(circle, &read, &place(), problems) {
+        return None;
+    }
     let Some(causes) = read.causes.clone() else {
         let message = "the causes of the deviations cannot be separated".to_owned();
         problems.error("no-squareness", place(), message, "points all around, in both directions");
@@ -111,6 +121,16 @@ fn squareness(
     let points: usize = read.paths.iter().map(|p| p.path.points_mm.len()).sum();
     let u_fit = causes.residual_rms_mm * (2.0 / points.max(1) as f64).sqrt();
     let u_rad = 2.0 * u_fit.hypot(circle.u_mm) / circle.radius_mm;
+    if read_rad.abs() > IMPOSSIBLE_RAD {
+        let message = format!("a squareness of {:.0} µrad cannot be", read_rad * 1e6);
+        problems.error(
+            "impossible-error",
+            place(),
+            message,
+            "are columns, units, centre and radius right?",
+        );
+        return None;
+    }
     let found = Squareness {
         name,
         value_rad: old + (read_rad - before_rad) / slope,
@@ -122,6 +142,48 @@ fn squareness(
     };
     compare_scales(&found, u_fit.hypot(circle.u_mm), &place(), problems);
     Some(found)
+}
+
+/// Whether the points lie about the stated circle, all around: otherwise the squareness is that of another circle.
+fn is_as_stated(
+    circle: &CircleReadings,
+    read: &Circular,
+    place: &Place,
+    problems: &mut Diagnostics,
+) -> bool {
+    let mut fault = None;
+    for path in &read.paths {
+        let [x, y] = path.circle.center_mm;
+        let [cx, cy] = circle.centre_mm;
+        let radius_mm = path.circle.radius_mm;
+        let gap = widest_gap_rad(&path.path.points_mm, [x, y]);
+        if (radius_mm - circle.radius_mm).abs() > WRONG_SHARE * circle.radius_mm {
+            fault = Some(format!(
+                "the points have a radius of {radius_mm:.3} mm, stated are {} mm",
+                circle.radius_mm
+            ));
+        } else if (x - cx).hypot(y - cy) > WRONG_SHARE * circle.radius_mm {
+            fault = Some(format!(
+                "the points lie about {x:.3}, {y:.3} mm, the stated centre is {cx}, {cy} mm"
+            ));
+        } else if gap > WIDEST_GAP_RAD {
+            fault = Some(format!("{:.0} deg of the circle have no points", gap.to_degrees()));
+        }
+    }
+    if let Some(message) = &fault {
+        let hint =
+            "centre and radius as commanded, the columns x, y, z in this order, points all around";
+        problems.error("no-squareness", place.clone(), message.clone(), hint);
+    }
+    fault.is_none()
+}
+
+fn widest_gap_rad(points_mm: &[[f64; 2]], [x, y]: [f64; 2]) -> f64 {
+    let mut angles: Vec<f64> = points_mm.iter().map(|p| (p[1] - y).atan2(p[0] - x)).collect();
+    angles.sort_by(f64::total_cmp);
+    let Some((first, last)) = angles.first().zip(angles.last()) else { return TAU };
+    let around = first + TAU - last;
+    angles.windows(2).map(|w| w[1] - w[0]).fold(around, f64::max)
 }
 
 /// A ball-bar and a laser see the same axes: where they differ, one of them was given a wrong temperature or material.
@@ -169,9 +231,17 @@ fn location_error(machine: &Machine, axes: [usize; 2]) -> Option<ErrorName> {
         .into_iter()
         .find(|c| normal[*c as usize % 3].abs() > 0.5)?;
     let names = [first.name, second.name];
-    let terms = minimal_location_errors(machine);
     let is_theirs = |name: &ErrorName| name.component == component && names.contains(&name.body);
-    terms.iter().map(|t| t.error).find(is_theirs)
+    // The one that the machine file states is replaced; a second one beside it would add to it.
+    let stated = machine.stated_errors().into_iter().map(|(_, name)| name);
+    let location = |name: &ErrorName| name.kind == ErrorKind::Location && is_theirs(name);
+    let of_machine: Vec<ErrorName> = stated.filter(location).collect();
+    let terms = minimal_location_errors(machine);
+    let minimal = terms.iter().map(|t| t.error).find(is_theirs);
+    match minimal {
+        Some(name) if of_machine.is_empty() || of_machine.contains(&name) => Some(name),
+        _ => of_machine.first().copied().or(minimal),
+    }
 }
 
 /// The circle on a virtual machine.
@@ -226,7 +296,7 @@ impl Virtual<'_> {
         for (word, sign) in [("ccw", 1.0), ("cw", -1.0)] {
             for i in 0..POINTS {
                 // Half a step from the reversals, which are left out.
-                let angle = sign * (f64::from(i) + 0.5) * std::f64::consts::TAU / f64::from(POINTS);
+                let angle = sign * (f64::from(i) + 0.5) * TAU / f64::from(POINTS);
                 let mut command = self.centre();
                 let offset = [angle.cos(), angle.sin()].map(|v| v * self.circle.radius_mm);
                 for (axis, d) in self.axes.iter().zip(offset) {
