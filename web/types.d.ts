@@ -5311,7 +5311,7 @@ export interface IdentifyRtcp {
    */
   angles: AngleEntry[];
   /**
-   * What the segments of a path with tool-centre point keep; null if the file has no [segments].
+   * What the segments of a path with tool-centre point keep; null if the file has no `[segments]`.
    */
   segments: SegmentsEntry | null;
   /**

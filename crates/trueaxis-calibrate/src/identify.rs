@@ -1,7 +1,5 @@
 //! Identify: what the machine is like, from measurements.
 //!
-//! - [`expansion`]: the coefficient of expansion of a scale or a screw;
-//! - [`thermal`]: linear models of errors that drift with temperatures;
 //! - [`rtcp`]: the rotary centres for the tool-centre-point control;
 //! - [`probe`]: the offset of a stylus ball and its pre-travel by direction;
 //! - [`surface`](mod@surface): deviations of a surface from the hits of a probing program;

@@ -26,7 +26,7 @@ pub struct RtcpDocument<'a> {
     pub angles_found: bool,
     /// The angle errors of the rotary axes.
     pub angles: Vec<AngleEntry<'a>>,
-    /// What the segments of a path with tool-centre point keep; null if the file has no [segments].
+    /// What the segments of a path with tool-centre point keep; null if the file has no `[segments]`.
     pub segments: Option<SegmentsEntry>,
     /// The RTCP screen of the i5 control, field by field; empty for other controls.
     pub screen: Vec<ScreenEntry>,
