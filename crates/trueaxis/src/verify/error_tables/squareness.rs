@@ -232,7 +232,7 @@ fn location_error(machine: &Machine, axes: [usize; 2]) -> Option<ErrorName> {
         .find(|c| normal[*c as usize % 3].abs() > 0.5)?;
     let names = [first.name, second.name];
     let is_theirs = |name: &ErrorName| name.component == component && names.contains(&name.body);
-    // The one that the machine file states is replaced; a second one beside it would add to it.
+    // The one that the machine file states is replaced; a second one would add to it.
     let stated = machine.stated_errors().into_iter().map(|(_, name)| name);
     let location = |name: &ErrorName| name.kind == ErrorKind::Location && is_theirs(name);
     let of_machine: Vec<ErrorName> = stated.filter(location).collect();
