@@ -4,7 +4,8 @@ use crate::testpiece::cone::{Cone, ConeSize, INDICES};
 use crate::testpiece::{IndexName, NasMounting, TestPiece};
 use crate::tolerance::{Tolerance, Tolerances};
 use std::f64::consts::PI;
-use trueaxis_input::{Dimension, Item, Section};
+use std::path::Path;
+use trueaxis_input::{Diagnostics, Dimension, Files, Item, Section, SourceText};
 
 /// The shapes that a file can describe; a new test piece is a new variant.
 #[derive(Debug, Clone)]
@@ -85,6 +86,23 @@ pub struct CuttingCondition {
 const DEFAULT_POSITIONS: usize = 72;
 
 impl TestPieceFile {
+    /// A file by its path.
+    pub fn of_file(files: &Files, path: &Path, problems: &mut Diagnostics) -> Option<Self> {
+        let text = files.text(path, "a test piece file (TOML)", problems)?;
+        let name = path.display().to_string();
+        let source = SourceText::new(&name, &text);
+        let piece = source.read(Self::read);
+        problems.keep((piece, source.finish()))
+    }
+
+    /// The file that another file names; every problem is kept in the source of `root`.
+    pub fn named_in(root: &Section<'_>, path: &Path) -> Option<Self> {
+        let mut problems = Diagnostics::new();
+        let piece = Self::of_file(root.files(), path, &mut problems);
+        root.take_over(problems);
+        piece
+    }
+
     /// Reads and checks the root of a file; every problem is kept in its `SourceText`.
     ///
     /// `None` if the test piece cannot be used; the source then holds at least one error.

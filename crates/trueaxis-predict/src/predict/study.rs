@@ -164,7 +164,7 @@ fn read(root: &Section<'_>, path: &Path) -> Option<Study> {
     let machine = machine.and_then(|m| temperatures.warm(root, m));
     let hint = "the file of the test piece, relative to the study file";
     let piece_path = root.require("test_piece", hint).and_then(|i| i.text());
-    let test_piece = piece_path.and_then(|p| read_piece(root, &folder.join(p)));
+    let test_piece = piece_path.and_then(|p| TestPieceFile::named_in(root, &folder.join(p)));
     let decision = root.section("decision", read_decision);
     let sampling = root.section("monte_carlo", read_sampling);
     let published = root.section("published", |s| read_published(s, test_piece.as_ref()));
@@ -277,20 +277,6 @@ fn read_tolerance_file(root: &Section<'_>, path: &Path) -> Option<Tolerances> {
     });
     root.take_over(problems);
     tolerances
-}
-
-fn read_piece(root: &Section<'_>, path: &Path) -> Option<TestPieceFile> {
-    let mut problems = Diagnostics::new();
-    let text = root.files().text(path, "a test piece file (TOML)", &mut problems);
-    let piece = text.and_then(|text| {
-        let file = path.display().to_string();
-        let source = SourceText::new(&file, &text);
-        let piece = source.read(TestPieceFile::read);
-        problems.append(source.finish());
-        piece
-    });
-    root.take_over(problems);
-    piece
 }
 
 /// `[tool] name = "…"` or `length = "…"`; without it the tool of the machine file.

@@ -65,7 +65,7 @@ impl Question for IdentifyTables {
             .and_then(|made| made.machine(&beside))
             .map_err(|reason| refuse(reason, problems))
             .ok()?;
-        let (_, squarenesses) = squarenesses(&study, &with_tables, problems);
+        let squarenesses = squarenesses(&study, &with_tables, problems);
         if problems.has_errors() {
             return None;
         }

@@ -13,6 +13,7 @@ use trueaxis_calibrate::plan::extension;
 use trueaxis_cl::{ClFile, Reading};
 use trueaxis_input::{Diagnostics, Files, Place};
 use trueaxis_machine::Machine;
+use trueaxis_part::TestPieceFile;
 use trueaxis_post::{FeedRule, PostOptions, Posted, Verification, post, verify};
 use trueaxis_report::{Report, document};
 use trueaxis_writer::{BUILT_IN, Decimals, MOST_DECIMALS, Templates, TipWords, WriteError};
@@ -173,7 +174,7 @@ impl Post {
             return None;
         }
         // What is wrong with the file was reported when it was read for its own path.
-        let piece = test_piece::piece(&self.file, files, &mut Diagnostics::new())?;
+        let piece = TestPieceFile::of_file(files, &self.file, &mut Diagnostics::new())?;
         let Some(set_up) = &piece.set_up else {
             let hint =
                 "[set_up] feed = \"15 mm/min\", spindle = \"600 rpm\", hole_depth = \"40 mm\"";

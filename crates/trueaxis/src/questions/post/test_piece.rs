@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::fmt::Write;
 use std::path::Path;
 use trueaxis_geometry::Vec3;
-use trueaxis_input::{Diagnostics, Files, SourceText};
+use trueaxis_input::{Diagnostics, Files};
 use trueaxis_part::testpiece::cone::{Cone, ConeSize};
 use trueaxis_part::testpiece::{TestPiece, ToolPosition};
 use trueaxis_part::{CuttingCondition, Shape, TestPieceFile};
@@ -25,16 +25,7 @@ pub fn read(
     tolerance_mm: f64,
     problems: &mut Diagnostics,
 ) -> Option<String> {
-    Some(cutter_locations(&piece(path, files, problems)?, tolerance_mm))
-}
-
-/// The test piece of a file.
-pub fn piece(path: &Path, files: &Files, problems: &mut Diagnostics) -> Option<TestPieceFile> {
-    let text = files.text(path, "a test piece", problems)?;
-    let name = path.display().to_string();
-    let source = SourceText::new(&name, &text);
-    let piece = source.read(TestPieceFile::read);
-    problems.keep((piece, source.finish()))
+    Some(cutter_locations(&TestPieceFile::of_file(files, path, problems)?, tolerance_mm))
 }
 
 /// One turn about the piece for each condition, as an APT file in the workpiece frame.

@@ -57,7 +57,7 @@ pub fn squarenesses(
     study: &TableStudy,
     machine: &Machine,
     problems: &mut Diagnostics,
-) -> (Machine, Vec<Squareness>) {
+) -> Vec<Squareness> {
     let mut machine = machine.clone();
     let mut found: Vec<Squareness> = Vec::new();
     for circle in &study.circles {
@@ -73,7 +73,7 @@ pub fn squarenesses(
         }
         found.push(one);
     }
-    (machine, found)
+    found
 }
 
 fn squareness(

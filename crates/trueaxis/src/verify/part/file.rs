@@ -103,7 +103,7 @@ fn read_prediction(root: &Section<'_>, folder: &Path) -> Option<(TestPieceFile, 
             Some((study.test_piece.clone(), PredictionSource::Study(Box::new(study))))
         }
         (None, Some(item)) => {
-            let piece = read_piece(root, &folder.join(item.text()?))?;
+            let piece = TestPieceFile::named_in(root, &folder.join(item.text()?))?;
             let typed = root.section("predicted", |s| read_predicted(s, &piece));
             let none = || (String::new(), vec![None; piece.piece().index_names().len()]);
             let (source, values_mm) = typed.unwrap_or_else(none);
@@ -121,20 +121,6 @@ fn read_prediction(root: &Section<'_>, folder: &Path) -> Option<(TestPieceFile, 
             None
         }
     }
-}
-
-fn read_piece(root: &Section<'_>, path: &Path) -> Option<TestPieceFile> {
-    let mut problems = Diagnostics::new();
-    let text = root.files().text(path, "a test piece file (TOML)", &mut problems);
-    let piece = text.and_then(|text| {
-        let file = path.display().to_string();
-        let source = SourceText::new(&file, &text);
-        let piece = source.read(TestPieceFile::read);
-        problems.append(source.finish());
-        piece
-    });
-    root.take_over(problems);
-    piece
 }
 
 /// The position of an index among those of the test piece.
