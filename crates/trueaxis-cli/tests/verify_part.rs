@@ -213,3 +213,16 @@ fn typed_values_with_a_mistake_are_refused() {
     let ran = ask(simple);
     assert_eq!(ran.status, 0, "{}", ran.err);
 }
+
+/// Points of one section: the part is counted, and what was not measured does not pass.
+#[test]
+fn one_section_is_a_part_that_is_not_decided() {
+    let part = Part::new("verify-part-one-section");
+    let first = |_, (section, [x, y, z]): (usize, [f64; 3])| match section {
+        1 => vec![format!("{section},{x},{y},{z}")],
+        _ => Vec::new(),
+    };
+    let (status, err, out) = part.table(CORRECTED, "section,x_mm,y_mm,z_mm", &first);
+    assert_eq!(status, 1, "{err}");
+    assert!(out.contains("measured: 1 part,") && out.contains("not measured:"), "{out}");
+}

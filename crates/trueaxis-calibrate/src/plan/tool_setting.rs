@@ -153,8 +153,8 @@ fn tools(
 ) -> Option<Vec<SetTool>> {
     let all: Vec<u32> = setup.tools.keys().copied().collect();
     let mut wanted: Vec<u32> = if numbers.is_empty() { all } else { numbers.to_vec() };
-    wanted.retain(|n| Some(*n) != setter.reference);
-    wanted.dedup();
+    let mut seen = std::collections::HashSet::new();
+    wanted.retain(|n| Some(*n) != setter.reference && seen.insert(*n));
     let mut found = Vec::new();
     let mut sound = true;
     for number in setter.reference.into_iter().chain(wanted) {

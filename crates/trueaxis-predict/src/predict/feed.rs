@@ -263,10 +263,13 @@ pub(super) fn conditions(study: &Study) -> Result<Vec<ConditionResult>, Error> {
             cut.judged(servo, &|judge| propagate(machine, &|change| judge.once(change)))?;
         let mut squares = vec![0.0; indices_mm.len()];
         for quantity in servo.uncertain() {
-            let at = |z: f64| cut.indices(&servo.displaced(quantity, z), &as_stated);
-            let (above, below) = (at(1.0)?, at(-1.0)?);
+            let ((above, up), (below, down)) =
+                (servo.displaced(quantity, 1.0), servo.displaced(quantity, -1.0));
+            let (above, below) =
+                (cut.indices(&above, &as_stated)?, cut.indices(&below, &as_stated)?);
+            // A value below its u can be moved up only: the step is then shorter than 2 u.
             for ((sum, a), b) in squares.iter_mut().zip(above).zip(below) {
-                *sum += (0.5 * (a - b)).powi(2);
+                *sum += ((a - b) / (up - down)).powi(2);
             }
         }
         let machine_u = |i: usize| of_machine.get(i).copied().unwrap_or(0.0);

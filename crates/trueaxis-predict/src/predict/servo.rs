@@ -58,8 +58,9 @@ impl Servo {
         (0..MAX_AXES).flat_map(|i| (0..3).map(move |k| (i, k))).filter(has).collect()
     }
 
-    /// With one number moved by so many standard uncertainties.
-    pub(super) fn displaced(&self, (axis, which): ServoQuantity, z: f64) -> Self {
+    /// With one number moved by that many of its standard uncertainties, and how many it really was: neither a lag nor a
+    /// play is negative.
+    pub(super) fn displaced(&self, (axis, which): ServoQuantity, z: f64) -> (Self, f64) {
         let mut servo = *self;
         let of = &mut servo.0[axis];
         let number = match which {
@@ -67,9 +68,10 @@ impl Servo {
             1 => &mut of.lost_motion,
             _ => &mut of.friction,
         };
-        // Neither a lag nor a play is negative; the step is then one-sided.
-        number.value = (number.value + z * number.u).max(0.0);
-        servo
+        let before = number.value;
+        number.value = (before + z * number.u).max(0.0);
+        let moved = (number.value - before) / number.u;
+        (servo, moved)
     }
 
     /// Where the axes are after one turn of a closed path that was gone before, at every node.
@@ -238,7 +240,7 @@ fn read_axis(section: &Section<'_>, linear: bool) -> Option<AxisServo> {
     Some(AxisServo { lag, feedforward, lost_motion, friction, friction_time_s })
 }
 
-/// Kv = 1 1/s is 1 m/min in m/min per mm · 16.7: no drive is slower.
+/// Kv = 1/s, 0.06 m/min for each mm: no drive is slower.
 const LONGEST_LAG_S: f64 = 1.0;
 
 fn share(item: &Item<'_>) -> Option<f64> {

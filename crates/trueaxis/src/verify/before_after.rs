@@ -283,8 +283,8 @@ fn shares(laser: &Instrument, length_mm: f64) -> Vec<Share> {
 /// The drift of a virtual laser is known: anywhere within what it comes to in the whole time.
 fn drift_u(study: &BeforeAfter, laser: usize) -> Option<f64> {
     let per_hour = study.real.disturb.drift_per_hour[laser][0].abs();
-    let hours: f64 = study.real.paths.iter().map(|p| p.stations.len() as f64 * p.dwell_s).sum();
-    Some(per_hour * hours / 3600.0 / 12f64.sqrt())
+    let whole_s: f64 = study.real.paths.iter().map(|p| p.stations.len() as f64 * p.dwell_s).sum();
+    Some(per_hour * whole_s / 3600.0 / 12f64.sqrt())
 }
 
 /// Of the means of all targets and directions the one that is farthest from 0.

@@ -210,7 +210,8 @@ pub fn verify_part(task: &PartStudy) -> Result<PartResult, PartError> {
             values.noise_mm = noise_mm;
         }
     }
-    let count = measured.iter().map(|m| m.values.len()).max().unwrap_or(0);
+    let typed = measured.iter().map(|m| m.values.len()).max().unwrap_or(0);
+    let count = if parts.is_empty() { typed } else { parts.len() };
     let mut indices = Vec::new();
     for (i, name) in names.iter().enumerate() {
         let index = compared(task, name, predicted[i], &measured[i]);
