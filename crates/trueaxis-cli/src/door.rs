@@ -7,7 +7,7 @@ use std::path::Path;
 use trueaxis::files::disk;
 use trueaxis::files::output::{REPORT, may_write, no_file_twice};
 use trueaxis::input::Diagnostics;
-use trueaxis::questions::{Answer, Content, NewFile, Question, complete};
+use trueaxis::questions::{Answer, Content, NewFile, Question, complete, may_put};
 use trueaxis::report::refused_json;
 
 /// The form of the answer.
@@ -47,10 +47,20 @@ impl Door<'_> {
             }
             return Err(Outcome::Unusable);
         };
+        let files = answer.files();
+        let mut taken = Diagnostics::new();
+        may_put(&files, &mut taken);
+        if taken.has_errors() {
+            report_and(taken.clone(), "nothing was written");
+            if self.format == Format::Json {
+                show(&Shown::Json(refused_json(&taken)));
+            }
+            return Err(Outcome::Unusable);
+        }
         if let Some(path) = self.report {
             write_report(path, answer.page())?;
         }
-        answer.files().into_iter().try_for_each(write)?;
+        files.into_iter().try_for_each(write)?;
         answer.notes().iter().for_each(|note| tell(note));
         let shown = show(&match self.format {
             Format::Json => Shown::Json(complete(answer.document(&found), &found)),

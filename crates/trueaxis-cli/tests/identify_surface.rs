@@ -250,7 +250,7 @@ fn u_holds_on_machines_whose_errors_are_drawn() {
         let line =
             text.lines().find(|l| l.starts_with("machine = ")).expect("a machine").to_owned();
         let text = text.replace(&line, "machine = \"machine.toml\"").replace("[virtual]\n", &drawn);
-        let out = folder.path("out");
+        let out = folder.path(&format!("out-{seed}"));
         let ran = plan(&folder.file("drawn.toml", text), "fanuc", &out);
         assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
         let document = identify(&format!("{out}/hits.toml")).json();

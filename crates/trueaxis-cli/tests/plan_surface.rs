@@ -148,3 +148,25 @@ fn a_box_is_touched_from_above_on_a_machine_without_rotary_axes() {
         assert!(ran.has_no_answer());
     }
 }
+
+/// What a person has filled in is not replaced by the plan that is made again; the same plan may be.
+#[test]
+fn a_table_that_was_filled_in_stays() {
+    let folder = Folder::new("surface-filled-in");
+    let out = folder.path("out");
+    let words = ["plan", "probe-surface", STUDY, "--control", "fanuc", "-o", &out];
+    assert_eq!(trueaxis(&words).status, 0);
+    assert_eq!(trueaxis(&words).status, 0);
+    let path = format!("{out}/surface.csv");
+    let table = std::fs::read_to_string(&path).expect("a table");
+    let filled: String = table
+        .lines()
+        .map(|l| if l.ends_with(',') { format!("{l}12.5\n") } else { format!("{l}\n") })
+        .collect();
+    assert_ne!(filled, table);
+    std::fs::write(&path, &filled).expect("written");
+    let again = trueaxis(&[&words[..], &["--format", "json"]].concat());
+    assert!(again.status == 2 && again.err.contains("filled in"), "{}", again.err);
+    assert_eq!(again.json()["schema"], "trueaxis/refused/1");
+    assert_eq!(std::fs::read_to_string(&path).expect("a table"), filled);
+}

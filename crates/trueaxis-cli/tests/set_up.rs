@@ -173,3 +173,34 @@ fn readings_with_a_mistake_are_refused() {
     let empty = fs::read_to_string(folder.path("set-up/set-up.toml")).expect("the readings");
     refused(&empty, &["no-readings", "not filled in"]);
 }
+
+/// A program that a person edited stays, and nothing else is written either.
+#[test]
+fn an_edited_program_of_the_set_up_stays() {
+    let folder = Folder::new("set-up-edited");
+    fs::create_dir(folder.path("set-up")).expect("a folder");
+    let path = folder.path("set-up/1-length.mpf");
+    fs::write(&path, "; mine").expect("written");
+    let (status, err) = post(&folder, "sinumerik");
+    assert!(
+        status == 2 && err.contains("1-length.mpf") && err.contains("another content"),
+        "{err}"
+    );
+    assert_eq!(fs::read_to_string(&path).expect("a file"), "; mine");
+    assert!(!std::path::Path::new(&folder.path("cone.nc")).exists());
+    // One name for the program and for the folder.
+    let both = folder.path("both");
+    let ran = trueaxis(&[
+        "post",
+        MACHINE,
+        PIECE,
+        "--control",
+        "sinumerik",
+        "-o",
+        &both,
+        "--set-up",
+        &both,
+    ]);
+    assert!(ran.status == 2 && ran.err.contains("one-file-twice"), "{}", ran.err);
+    assert!(!std::path::Path::new(&both).exists());
+}

@@ -126,8 +126,8 @@ fn spoilt_states() {
 #[test]
 fn programs_of_all_controls_and_their_log() {
     let folder = Folder::new("tool-setting");
-    let programs = folder.path("nc");
     for control in ["fanuc", "haas", "sinumerik", "linuxcnc", "heidenhain"] {
+        let programs = folder.path(control);
         let ran = trueaxis(&[
             "plan",
             "tool-setting",

@@ -177,6 +177,8 @@ pub struct NewFile {
 pub enum Content {
     /// These bytes.
     Bytes(Vec<u8>),
+    /// These bytes, where nothing else stands: a person may have filled in or edited what was written before.
+    Kept(Vec<u8>),
     /// What was written beside its place during the work.
     Part(Part),
     /// It is a folder, new or empty: its files by name, all or none.
@@ -188,15 +190,38 @@ impl NewFile {
         Self { name, path: path.into(), content: Content::Bytes(content.into()) }
     }
 
+    /// As one that does not replace a file with another content.
+    fn kept(name: &'static str, path: impl Into<PathBuf>, content: impl Into<Vec<u8>>) -> Self {
+        Self { name, path: path.into(), content: Content::Kept(content.into()) }
+    }
+
     /// Puts it in its place.
     ///
     /// # Errors
     /// What the disk says.
     pub fn write(self) -> io::Result<()> {
         match self.content {
-            Content::Bytes(bytes) => files::write_in_folder(&self.path, &bytes),
+            Content::Bytes(bytes) | Content::Kept(bytes) => {
+                files::write_in_folder(&self.path, &bytes)
+            }
             Content::Part(part) => part.put_in_place(),
             Content::Folder(written) => files::write_folder(&self.path, &written),
+        }
+    }
+}
+
+/// Whether files may be put in their places, all of them: what keeps them out goes to `problems`.
+pub fn may_put(new: &[NewFile], problems: &mut Diagnostics) {
+    for file in new {
+        if let Content::Kept(bytes) = &file.content {
+            files::output::same_or_nothing(&file.path, bytes, problems);
+        }
+        let inside =
+            |other: &NewFile| other.path != file.path && other.path.starts_with(&file.path);
+        if !matches!(file.content, Content::Folder(_)) && new.iter().any(inside) {
+            let place = Place::whole(&file.path.display().to_string());
+            let message = "is named as a file and as the folder of others".to_owned();
+            problems.error("one-file-twice", place, message, "name a folder of its own");
         }
     }
 }
@@ -234,7 +259,7 @@ fn in_folder(
     files: impl IntoIterator<Item = (String, Vec<u8>)>,
 ) -> Vec<NewFile> {
     let Some(folder) = folder else { return Vec::new() };
-    let file = |(name, content)| NewFile::of("written", folder.join(name), content);
+    let file = |(name, content)| NewFile::kept("written", folder.join(name), content);
     files.into_iter().map(file).collect()
 }
 

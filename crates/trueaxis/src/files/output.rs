@@ -70,6 +70,21 @@ fn replaceable(path: &Path, kind: &Kind) -> bool {
     read.is_ok() && (head.is_empty() || is_kind || !kind.contains.is_empty() && marked())
 }
 
+/// Whether nothing stands there, or the same: what was written once may have been filled in or edited since.
+pub fn same_or_nothing(path: &Path, content: &[u8], problems: &mut Diagnostics) {
+    let (message, hint) = match fs::metadata(path) {
+        Err(_) => return,
+        Ok(found) if !found.is_file() => ("is no ordinary file", "name another folder"),
+        Ok(_) if fs::read(path).is_ok_and(|there| there == content) => return,
+        Ok(_) => (
+            "is there with another content",
+            "it may have been filled in or edited: it is not overwritten; remove it or name another folder",
+        ),
+    };
+    let place = Place::whole(&path.display().to_string());
+    problems.error("unwritable-file", place, message.to_owned(), hint);
+}
+
 /// Whether the folder is new or empty, and the one that it stands in is there.
 pub fn may_fill(folder: &Path, problems: &mut Diagnostics) {
     let above = folder.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));

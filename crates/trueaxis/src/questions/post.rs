@@ -203,7 +203,7 @@ impl Post {
             let posted = problems.keep(post(machine, path, &options))?;
             is_sound &= verify(machine, &posted, &options).is_within(&options);
             let file = format!("{name}.{}", extension(options.control));
-            files.push(NewFile::of("set-up", folder.join(file), posted.text));
+            files.push(NewFile::kept("set-up", folder.join(file), posted.text));
         }
         let readings = folder.join(set_up::READINGS);
         files.push(NewFile::of("readings to fill in", readings, set_up.readings.clone()));
