@@ -15,6 +15,7 @@ use trueaxis::machine::twist::Reference;
 use trueaxis::verify::error_tables::{
     ErrorTable, error_tables, machine_files, parse_tables, read_tables, squarenesses,
 };
+use trueaxis::verify::iso230_2;
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..")
@@ -372,6 +373,44 @@ fn oracle_tables_of_the_example() {
     let made = machine_files(&study, &tables, &found, &old, &beside).expect("writable");
     assert_eq!(made.read_back.len(), 12);
     assert!(made.text.contains("EC0Y = \"32.5"), "{}", made.text);
+}
+
+/// Of a positioning test the range of the table is M of ISO 230-2, the mean bidirectional positioning error; also of reports
+/// of others, where they are at hand.
+#[test]
+fn law_the_range_of_positioning_is_m_of_iso_230_2() {
+    let mut files = vec![root().join("examples/07_verify/x-axis-laser.csv")];
+    let outside = root().join("../shared/data/outside/measure");
+    let reports = [
+        "anderssandstrom__ecmccomgui/example_report_ISO230_2.md",
+        "anderssandstrom__ecmc_target_muts_logger/b02_x_x_iso230_2_report.md",
+        "anderssandstrom__ecmc_target_muts_logger/b02_z_report_z.md",
+    ];
+    match outside.is_dir() {
+        true => files.extend(reports.map(|r| outside.join(r))),
+        false => println!("skipped: the reports of others are not here"),
+    }
+    for file in files {
+        let machine =
+            "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n[motion.X]\noutside = \"clamp\"\n";
+        let memory = BTreeMap::from([(PathBuf::from("m.toml"), machine.to_owned())]);
+        let text = format!(
+            "name = \"t\"\nmachine = \"m.toml\"\n[readings.EXX]\ntable = {:?}\nu = \"1 um\"\n",
+            file.display().to_string()
+        );
+        let files = Files::new(Memory(memory));
+        let (study, problems) = parse_tables(&files, Path::new("study.toml"), &text);
+        let study = study.unwrap_or_else(|| panic!("{:?}", problems.sorted()));
+        let tables = error_tables(&study, &mut Diagnostics::new());
+        let result = iso230_2::evaluate(&study.readings[0].measurement, None);
+        let m = result.value(iso230_2::Quantity::M).expect("both directions");
+        assert!(
+            (tables[0].range() - m).abs() < 1e-12,
+            "{}: {} {m}",
+            file.display(),
+            tables[0].range()
+        );
+    }
 }
 
 /// An error and its function of the position.

@@ -29,6 +29,12 @@ impl Kind {
     ) -> Self {
         Self { argument, name, begins, contains: "", makes_folder: false }
     }
+
+    /// Tables of virtual readings in a folder that is made where there is none.
+    pub const fn readings(begins: &'static [&'static [u8]]) -> Self {
+        let file = Self::file("-o", "a table of virtual readings", begins);
+        Self { makes_folder: true, ..file }
+    }
 }
 
 /// The HTML report.

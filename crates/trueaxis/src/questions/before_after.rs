@@ -29,13 +29,7 @@ pub struct BeforeAfterAnswer {
 }
 
 const READINGS_BEGIN: &str = "# virtual readings of trueaxis verify --before-after";
-const READINGS: Kind = Kind {
-    argument: "-o",
-    name: "a table of virtual readings",
-    begins: &[READINGS_BEGIN.as_bytes()],
-    contains: "",
-    makes_folder: true,
-};
+const READINGS: Kind = Kind::readings(&[READINGS_BEGIN.as_bytes()]);
 
 impl LaserBeforeAfter {
     /// Where the readings of a path under a compensation go.

@@ -39,13 +39,7 @@ pub struct MeasureAnswer {
 }
 
 const READINGS_BEGIN: &str = "# virtual readings of trueaxis measure";
-const READINGS: Kind = Kind {
-    argument: "-o",
-    name: "a table of virtual readings",
-    begins: &[READINGS_BEGIN.as_bytes()],
-    contains: "",
-    makes_folder: true,
-};
+const READINGS: Kind = Kind::readings(&[READINGS_BEGIN.as_bytes()]);
 const TRUTH_BEGIN: &str = "# true values of virtual readings";
 /// The first line of older files.
 const OLD_TRUTH_BEGIN: &[u8] = b"# the truth ";

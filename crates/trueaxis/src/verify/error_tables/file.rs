@@ -2,7 +2,9 @@
 
 use super::reduce::{Role, role};
 use super::{CircleReadings, ErrorReadings, ReferenceLine, TableStudy};
+use crate::verify::Standard;
 use crate::verify::certificate::read_at;
+use crate::verify::import::Import;
 use crate::verify::iso230_2::{Direction, Measurement, read_deviations};
 use std::path::Path;
 use trueaxis_geometry::AxisKind;
@@ -124,7 +126,11 @@ impl Beside<'_> {
         }
         idle_keys(s, role(&self.machine.axes()[axis], name.component));
         let mut problems = Diagnostics::new();
-        let measurement = read_deviations(&file, &table, dimension, &mut problems);
+        // Reports of others say where the axis was, which is positioning.
+        let form = Import::of(Path::new(&file));
+        let read = form.read(Standard::Iso230_2, &file, &table, None, &mut problems);
+        let measurement =
+            read.and_then(|r| read_deviations(&file, r.table(), dimension, &mut problems));
         s.take_over(problems);
         let readings = ErrorReadings {
             name,
