@@ -376,7 +376,7 @@ fn oracle_tables_of_the_example() {
 }
 
 /// Of a positioning test the range of the table is M of ISO 230-2, the mean bidirectional positioning error; also of reports
-/// of others, where they are at hand.
+/// of others, where they are available.
 #[test]
 #[allow(clippy::print_stdout, reason = "a skipped comparison is reported")]
 fn law_the_range_of_positioning_is_m_of_iso_230_2() {
